@@ -1,0 +1,12 @@
+# scumble_sources(FILES...): adds a room's sources to the library; files named *_test.cpp go to the test program.
+function(scumble_sources)
+  foreach(file ${ARGN})
+    if(file MATCHES "_test\\.cpp$")
+      if(SCUMBLE_TESTS)
+        target_sources(scumble_tests PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+      endif()
+    else()
+      target_sources(scumble PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+    endif()
+  endforeach()
+endfunction()
