@@ -1,0 +1,158 @@
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfMultiView.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+
+#include "film/test_folder.h"
+#include "scumble/image.h"
+
+namespace scumble {
+namespace {
+
+using film::TestFolder;
+
+Image pattern(uint32_t width, uint32_t height, std::vector<std::string> channels, float first = 0) {
+  Image image{width, height, std::move(channels), {}};
+  image.pixels.resize(size_t(width) * height * image.channels.size());
+  for (size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = first + float(i) * 0.37f;
+  return image;
+}
+
+std::vector<std::string> channelNames(const Imf::ChannelList& list) {
+  std::vector<std::string> names;
+  for (auto i = list.begin(); i != list.end(); ++i) {
+    EXPECT_EQ(i.channel().type, Imf::FLOAT);
+    names.push_back(i.name());
+  }
+  return names;
+}
+std::vector<std::string> channelNames(const std::string& path) {
+  return channelNames(Imf::InputFile(path.c_str()).header().channels());
+}
+
+std::vector<float> channelOf(const std::string& path, const std::string& name) {
+  Imf::InputFile file(path.c_str());
+  const auto window = file.header().dataWindow();
+  const size_t width = size_t(window.max.x + 1), height = size_t(window.max.y + 1);
+  std::vector<float> values(width * height, -1);
+  Imf::FrameBuffer frame;
+  frame.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(values.data()), 4, 4 * width));
+  file.setFrameBuffer(frame);
+  file.readPixels(0, int(height) - 1);
+  return values;
+}
+
+TEST(Exr, layersAreNamedAndComeBackExactly) {
+  TestFolder folder;
+  const std::string path = folder.file("a.exr");
+  const Image beauty = pattern(33, 21, {"R", "G", "B", "A"}), shadow = pattern(33, 21, {"R", "G", "B"}, 100);
+  const Status status = writeExr(path, {{"", "", &beauty}, {"final-shadow", "", &shadow}});
+  ASSERT_TRUE(status.ok()) << status.error().message();
+  EXPECT_EQ(channelNames(path), (std::vector<std::string>{"A", "B", "G", "R", "final-shadow.B",
+                                                          "final-shadow.G", "final-shadow.R"}));
+  const std::vector<float> alpha = channelOf(path, "A"), green = channelOf(path, "final-shadow.G");
+  for (uint32_t y = 0; y < 21; ++y)
+    for (uint32_t x = 0; x < 33; ++x) {
+      ASSERT_EQ(alpha[y * 33 + x], beauty.at(x, y, 3));
+      ASSERT_EQ(green[y * 33 + x], shadow.at(x, y, 1));
+    }
+  const Imf::InputFile file(path.c_str());
+  EXPECT_EQ(file.header().compression(), Imf::ZIP_COMPRESSION);
+  EXPECT_FALSE(Imf::hasMultiView(file.header()));
+  EXPECT_TRUE(file.isComplete());
+  EXPECT_EQ(folder.count(), 1u);
+}
+
+TEST(Exr, whatIsNoColourSurvivesBitByBit) {
+  TestFolder folder;
+  const std::string path = folder.file("a.exr");
+  const float infinity = std::numeric_limits<float>::infinity();
+  const std::vector<float> values = {
+      0.0f,        -0.0f,    1.0f,      16777215.0f, 16777216.0f, -16777216.0f,
+      12345677.0f, infinity, -infinity, 1e-42f,      3.4e38f,     std::numeric_limits<float>::quiet_NaN()};
+  const Image ids{uint32_t(values.size()), 1, {"R"}, values};
+  ASSERT_TRUE(writeExr(path, {{"id", "", &ids}}).ok());
+  const std::vector<float> back = channelOf(path, "id.R");
+  EXPECT_EQ(std::memcmp(back.data(), values.data(), values.size() * sizeof(float)), 0);
+}
+
+TEST(Exr, anySizeAndManyChannels) {
+  TestFolder folder;
+  const std::string path = folder.file("a.exr");
+  std::vector<std::string> many;
+  for (int i = 0; i < 64; ++i) many.push_back("c" + std::to_string(100 + i));
+  const uint32_t sizes[][2] = {{1, 1}, {1, 50}, {50, 1}, {17, 16}, {16, 17}, {500, 300}};
+  for (const auto& size : sizes) {
+    const Image image = pattern(size[0], size[1], many);
+    ASSERT_TRUE(writeExr(path, {{"", "", &image}}).ok());
+    EXPECT_EQ(channelNames(path), many);
+    EXPECT_EQ(channelOf(path, "c163").back(), image.pixels.back());
+  }
+}
+
+// OpenEXR's own functions must find every channel in the right view.
+TEST(Exr, stereoFollowsTheMultiViewConvention) {
+  TestFolder folder;
+  const std::string path = folder.file("a.exr");
+  const Image left = pattern(5, 4, {"R", "G", "B"}), right = pattern(5, 4, {"R", "G", "B"}, 50);
+  const Image map = pattern(5, 4, {"R"}, 90);
+  ASSERT_TRUE(writeExr(path, {{"", "right", &right},
+                              {"", "left", &left},
+                              {"warp", "left", &left},
+                              {"warp", "right", &right},
+                              {"shadow-map", "", &map}})
+                  .ok());
+  const Imf::InputFile file(path.c_str());
+  ASSERT_TRUE(Imf::hasMultiView(file.header()));
+  const Imf::StringVector views = Imf::multiView(file.header());
+  EXPECT_EQ(views, (Imf::StringVector{"left", "right"}));
+  const Imf::ChannelList& all = file.header().channels();
+  EXPECT_EQ(channelNames(Imf::channelsInView("left", all, views)),
+            (std::vector<std::string>{"B", "G", "R", "warp.left.B", "warp.left.G", "warp.left.R"}));
+  EXPECT_EQ(channelNames(Imf::channelsInView("right", all, views)),
+            (std::vector<std::string>{"right.B", "right.G", "right.R", "warp.right.B", "warp.right.G",
+                                      "warp.right.R"}));
+  EXPECT_EQ(channelNames(Imf::channelsInNoView(all, views)), (std::vector<std::string>{"shadow-map.R"}));
+  EXPECT_EQ(channelOf(path, "G")[0], left.pixels[1]);
+  EXPECT_EQ(channelOf(path, "warp.right.G")[0], right.pixels[1]);
+}
+
+TEST(Exr, aFileOfOneViewSaysWhichAndKeepsPlainNames) {
+  TestFolder folder;
+  const std::string path = folder.file("a.right.exr");
+  const Image right = pattern(5, 4, {"R"});
+  ASSERT_TRUE(writeExr(path, {{"", "right", &right}, {"warp", "right", &right}}).ok());
+  const Imf::InputFile file(path.c_str());
+  EXPECT_EQ(Imf::multiView(file.header()), (Imf::StringVector{"right"}));
+  EXPECT_EQ(file.header().view(), "right");
+  EXPECT_EQ(channelNames(path), (std::vector<std::string>{"R", "warp.R"}));
+}
+
+TEST(Exr, layersThatDoNotFitTogetherAreRefused) {
+  TestFolder folder;
+  const std::string path = folder.file("a.exr");
+  const Image a = pattern(5, 4, {"R"}), b = pattern(4, 5, {"R"}), unnamed = pattern(5, 4, {""}),
+              twice = pattern(5, 4, {"R", "R"});
+  const std::vector<std::vector<ImageLayer>> cases = {{},
+                                                      {{"", "", nullptr}},
+                                                      {{"", "", &a}, {"x", "", &b}},
+                                                      {{"", "", &a}, {"", "", &a}},
+                                                      {{"", "", &unnamed}},
+                                                      {{"", "", &twice}},
+                                                      {{"", "le.ft", &a}}};
+  for (const auto& layers : cases) {
+    const Status status = writeExr(path, layers);
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(status.error().kind, ErrorKind::usage) << status.error().message();
+  }
+  EXPECT_EQ(folder.count(), 0u);
+}
+
+}  // namespace
+}  // namespace scumble

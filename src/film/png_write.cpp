@@ -1,0 +1,214 @@
+// PNG files, written fast: after rendering, this is what a still picture waits for. Rows are cut into stripes
+// that are encoded, filtered and deflated side by side; the stripes depend on the picture's size only, so the
+// file's bytes do not depend on the number of threads.
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstring>
+#include <functional>
+#include <new>
+#include <system_error>
+#include <thread>
+
+#include "film/checks.h"
+#include "film/srgb.h"
+#include "film/whole_file.h"
+#include "scumble/image.h"
+
+namespace scumble {
+namespace {
+
+using film::SrgbEncoder;
+
+constexpr size_t kStripeBytes = 256 << 10;  // large enough that cutting costs no compression to speak of
+constexpr int kLevel = 1;                   // higher levels: a third smaller for three times the time
+
+uint8_t alphaCode(float alpha) {
+  if (!(alpha > 0)) return 0;
+  return alpha >= 1 ? 255 : uint8_t(alpha * 255 + 0.5f);
+}
+
+// Runs work(0) ... work(count - 1) on all processors. `work` must not throw.
+void forEachStripe(uint32_t count, const std::function<void(uint32_t)>& work) {
+  std::atomic<uint32_t> next{0};
+  const auto loop = [&] {
+    for (uint32_t stripe; (stripe = next.fetch_add(1)) < count;) work(stripe);
+  };
+  std::vector<std::thread> helpers;
+  const uint32_t wanted = std::min(count, std::max(1u, std::thread::hardware_concurrency()));
+  try {
+    helpers.reserve(wanted);
+    for (uint32_t i = 1; i < wanted; ++i) helpers.emplace_back(loop);
+  } catch (const std::exception&) {
+    // The system gives no more threads (or memory for them): those that run, and this one, do the work.
+  }
+  loop();
+  for (std::thread& helper : helpers) helper.join();
+}
+
+// RGBA, 8 bit. One channel is grey, two are red and green; channels after the third are not colours, but the
+// fourth of exactly four is alpha.
+void encodeRows(const Image& image, uint32_t begin, uint32_t end, uint8_t* out, bool* opaque) {
+  const SrgbEncoder& encode = SrgbEncoder::instance();
+  const size_t channels = image.channels.size();
+  const float* in = image.pixels.data() + size_t(begin) * image.width * channels;
+  out += size_t(begin) * image.width * 4;
+  uint8_t leastAlpha = 255;
+  for (size_t left = size_t(end - begin) * image.width; left > 0; --left, in += channels, out += 4) {
+    out[0] = encode(in[0]);
+    out[1] = channels > 1 ? encode(in[1]) : out[0];
+    out[2] = channels > 2 ? encode(in[2]) : (channels == 1 ? out[0] : 0);
+    out[3] = channels == 4 ? alphaCode(in[3]) : 255;
+    leastAlpha = std::min(leastAlpha, out[3]);
+  }
+  *opaque = leastAlpha == 255;
+}
+
+// Filter type 2, "Up": the cheapest, and on painted areas as good as a choice per row.
+void filterRow(const uint8_t* row, const uint8_t* above, uint32_t width, uint32_t samples, uint8_t* out) {
+  *out++ = 2;
+  for (uint32_t x = 0; x < width; ++x, row += 4) {
+    for (uint32_t s = 0; s < samples; ++s) *out++ = uint8_t(row[s] - (above ? above[s] : 0));
+    if (above) above += 4;
+  }
+}
+
+struct Stripe {
+  std::vector<uint8_t> filtered, deflated;
+  uint32_t firstRow = 0, endRow = 0;
+  uLong checksum = 0;
+  bool opaque = true;
+  bool failed = false;
+};
+
+// A piece of one deflate stream: pieces end on a byte (sync flush) and look back at nothing before their
+// start, so they can be made apart and joined.
+void deflateStripe(Stripe& stripe, bool last) {
+  z_stream stream = {};
+  stripe.failed = deflateInit2(&stream, kLevel, Z_DEFLATED, -15, 9, Z_DEFAULT_STRATEGY) != Z_OK;
+  if (stripe.failed) return;
+  stream.next_in = stripe.filtered.data();
+  stream.avail_in = uInt(stripe.filtered.size());
+  stream.next_out = stripe.deflated.data();
+  stream.avail_out = uInt(stripe.deflated.size());
+  const int result = deflate(&stream, last ? Z_FINISH : Z_SYNC_FLUSH);
+  stripe.failed = result != (last ? Z_STREAM_END : Z_OK) || stream.avail_in != 0;
+  stripe.deflated.resize(stripe.deflated.size() - stream.avail_out);
+  deflateEnd(&stream);
+  stripe.checksum = adler32(adler32(0, nullptr, 0), stripe.filtered.data(), uInt(stripe.filtered.size()));
+}
+
+void putBigEndian(uint8_t* out, uint32_t value) {
+  for (int i = 0; i < 4; ++i) out[i] = uint8_t(value >> (24 - 8 * i));
+}
+
+// A chunk from up to three parts, so that nothing is copied together first.
+struct Part {
+  const void* bytes;
+  size_t size;
+};
+void writeChunk(film::WholeFile& file, const char* type, std::initializer_list<Part> parts) {
+  size_t size = 0;
+  uLong crc = crc32(0, reinterpret_cast<const Bytef*>(type), 4);
+  for (const Part& part : parts) {
+    size += part.size;
+    if (part.size) crc = crc32(crc, static_cast<const Bytef*>(part.bytes), uInt(part.size));
+  }
+  uint8_t length[4], check[4];
+  putBigEndian(length, uint32_t(size));
+  putBigEndian(check, uint32_t(crc));
+  file.write(length, 4);
+  file.write(type, 4);
+  for (const Part& part : parts) file.write(part.bytes, part.size);
+  file.write(check, 4);
+}
+
+Error failure(const std::string& path, ErrorKind kind, const std::string& problem) {
+  Error error;
+  error.kind = kind;
+  error.file = path;
+  error.problem = problem;
+  return error;
+}
+
+Status writePngThrowing(const std::string& path, const Image& image) {
+  if (const std::string problem = film::problemWith(image); !problem.empty())
+    return failure(path, ErrorKind::usage, problem);
+  // A place that cannot be written to is found before any work is done.
+  film::WholeFile file(path);
+  if (!file.ok()) return file.commit();
+
+  // Encode, and learn whether alpha is needed.
+  const uint32_t width = image.width, height = image.height;
+  const size_t rowBytes = size_t(width) * 4;
+  const uint32_t stripeRows = uint32_t(std::clamp<size_t>(kStripeBytes / rowBytes, 1, height));
+  std::vector<Stripe> stripes((height + stripeRows - 1) / stripeRows);
+  std::vector<uint8_t> encoded(rowBytes * height);
+  for (size_t i = 0; i < stripes.size(); ++i) {
+    stripes[i].firstRow = uint32_t(i) * stripeRows;
+    stripes[i].endRow = std::min(height, stripes[i].firstRow + stripeRows);
+  }
+  forEachStripe(uint32_t(stripes.size()), [&](uint32_t i) {
+    encodeRows(image, stripes[i].firstRow, stripes[i].endRow, encoded.data(), &stripes[i].opaque);
+  });
+  const bool opaque = std::all_of(stripes.begin(), stripes.end(), [](const Stripe& s) { return s.opaque; });
+
+  // Filter and deflate. All memory is taken here, where running out of it can be reported.
+  const uint32_t samples = opaque ? 3 : 4;
+  const size_t filteredRow = 1 + size_t(width) * samples;
+  for (Stripe& stripe : stripes) {
+    stripe.filtered.resize(filteredRow * (stripe.endRow - stripe.firstRow));
+    stripe.deflated.resize(compressBound(uLong(stripe.filtered.size())) +
+                           64);  // 64: the flush and its marker
+  }
+  forEachStripe(uint32_t(stripes.size()), [&](uint32_t i) {
+    Stripe& stripe = stripes[i];
+    for (uint32_t y = stripe.firstRow; y < stripe.endRow; ++y) {
+      const uint8_t* row = encoded.data() + rowBytes * y;
+      filterRow(row, y ? row - rowBytes : nullptr, width, samples,
+                stripe.filtered.data() + filteredRow * (y - stripe.firstRow));
+    }
+    deflateStripe(stripe, i + 1 == stripes.size());
+  });
+  if (std::any_of(stripes.begin(), stripes.end(), [](const Stripe& s) { return s.failed; }))
+    throw std::bad_alloc();
+
+  // The container: signature, header, the note that values are sRGB (perceptual intent), data, end.
+  file.write("\x89PNG\r\n\x1a\n", 8);
+  uint8_t header[13] = {};
+  putBigEndian(header, width);
+  putBigEndian(header + 4, height);
+  header[8] = 8;
+  header[9] = opaque ? 2 : 6;
+  writeChunk(file, "IHDR", {{header, sizeof header}});
+  writeChunk(file, "sRGB", {{"\0", 1}});
+  uLong checksum = adler32(0, nullptr, 0);
+  for (size_t i = 0; i < stripes.size(); ++i) {
+    const Stripe& stripe = stripes[i];
+    checksum = adler32_combine(checksum, stripe.checksum, z_off_t(stripe.filtered.size()));
+    uint8_t trailer[4];
+    putBigEndian(trailer, uint32_t(checksum));
+    writeChunk(file, "IDAT",
+               {{"\x78\x01", i == 0 ? size_t(2) : 0},
+                {stripe.deflated.data(), stripe.deflated.size()},
+                {trailer, i + 1 == stripes.size() ? sizeof trailer : 0}});
+  }
+  writeChunk(file, "IEND", {});
+  return file.commit();
+}
+
+}  // namespace
+
+Status writePng(const std::string& path, const Image& image) {
+  try {
+    return writePngThrowing(path, image);
+  } catch (const std::exception&) {
+    Error error = failure(path, ErrorKind::outputNotWritten, "cannot be written: not enough memory");
+    error.advice = "choose a smaller size";
+    return error;
+  }
+}
+
+}  // namespace scumble
