@@ -17,6 +17,7 @@ namespace {
 
 // 2 GiB of floats; the largest power-of-two panorama (16384 x 8192) still fits.
 constexpr uint64_t kMostPixels = uint64_t(1) << 27;
+constexpr png_alloc_size_t kMostChunkBytes = 1 << 20;  // all chunks that are kept are far smaller
 // Deflate cannot make data more than 1032 times smaller; the rest is for tiny files.
 constexpr uint64_t kMostRatio = 1032, kSlack = 4096;
 
@@ -58,6 +59,9 @@ bool decode(FILE* file, uint64_t fileSize, Decoded* decoded) {
     return false;
   }
   png_init_io(png, file);
+  // Notes, profiles and the like are passed over: libpng would first take the memory that they claim to need.
+  png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
+  png_set_chunk_malloc_max(png, kMostChunkBytes);
   png_read_info(png, info);
   decoded->width = png_get_image_width(png, info);
   decoded->height = png_get_image_height(png, info);

@@ -23,7 +23,7 @@ namespace {
 using film::SrgbEncoder;
 
 constexpr size_t kStripeBytes = 256 << 10;  // large enough that cutting costs no compression to speak of
-constexpr int kLevel = 1;                   // higher levels: a third smaller for three times the time
+constexpr int kLevel = 1;                   // zlib's usual 6: 10 to 17 percent smaller, five times the time
 
 uint8_t alphaCode(float alpha) {
   if (!(alpha > 0)) return 0;
@@ -66,7 +66,7 @@ void encodeRows(const Image& image, uint32_t begin, uint32_t end, uint8_t* out, 
   *opaque = leastAlpha == 255;
 }
 
-// Filter type 2, "Up": the cheapest, and on painted areas as good as a choice per row.
+// Filter type 2, "Up": one for all rows, as trying several takes longer than it saves.
 void filterRow(const uint8_t* row, const uint8_t* above, uint32_t width, uint32_t samples, uint8_t* out) {
   *out++ = 2;
   for (uint32_t x = 0; x < width; ++x, row += 4) {
