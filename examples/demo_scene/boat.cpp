@@ -1,0 +1,30 @@
+// The boat as a whole: hull, rig, sails, and the sailor who steers her.
+#include "hull_form.h"
+#include "parts.h"
+
+namespace demo {
+
+int addBoat(Document& document, int parent) {
+  using meshkit::kPi;
+  // She heads to the left and a little away, heeled to leeward, towards the viewer, so that the deck shows.
+  constexpr float kYaw = 0.17f, kHeel = 0.13f, kTrim = 0.012f;  // radians
+  const glm::vec2 place = {2.75f, 0.0f};
+  const glm::quat rotation = glm::angleAxis(kPi - kYaw, glm::vec3(0, 1, 0)) *
+                             glm::angleAxis(kTrim, glm::vec3(0, 0, 1)) *
+                             glm::angleAxis(-kHeel, glm::vec3(1, 0, 0));
+  const int boat = document.addNode({"Boat", parent, {place.x, 0.03f, place.y}, rotation});
+  addHull(document, boat);
+  addRig(document, boat);
+  addSails(document, boat);
+
+  // He sits on the starboard coaming, to windward, faces to leeward and looks ahead.
+  constexpr float kTurn = 0.42f, kScale = 1.12f;
+  const glm::vec3 seat = {-1.72f, 0.71f, 0.57f};
+  const glm::quat facing = glm::angleAxis(kPi - kTurn, glm::vec3(0, 1, 0));
+  const glm::vec3 tiller = {-1.66f, 1.025f, 0.095f};
+  const glm::vec3 hand = glm::inverse(facing) * (tiller - seat) / kScale;
+  addSailor(document, boat, seat, facing, kScale, hand);
+  return boat;
+}
+
+}  // namespace demo

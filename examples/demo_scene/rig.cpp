@@ -1,0 +1,143 @@
+// Spars and rigging: mast, boom, gaff, bowsprit, stays, shrouds, halyards, sheet, pennant and lantern.
+#include "parts.h"
+#include "rig_form.h"
+
+namespace demo {
+namespace {
+
+using namespace meshkit;
+constexpr float kRopeRadius = 0.0135f;  // thinner ropes would flicker at 720 lines
+
+void rope(MeshBuilder& mesh, glm::vec3 from, glm::vec3 to, float sag = 0.0f, float radius = kRopeRadius) {
+  mesh.tube(hangingRope(from, to, sag, sag > 0.0f ? 8 : 3), {radius}, 5);
+}
+
+void spar(MeshBuilder& mesh, glm::vec3 from, glm::vec3 to, float start, float middle, float end,
+          int sides = 10) {
+  const glm::vec3 along = glm::normalize(to - from) * 0.02f;
+  mesh.tube({from, glm::mix(from, to, 0.25f), glm::mix(from, to, 0.6f), to - along, to},
+            {start, middle, middle * 0.96f, end, end * 0.5f}, sides);
+}
+
+Mesh makeMast() {
+  MeshBuilder mesh("Mast");
+  mesh.setMaterial(kMast);
+  spar(mesh, mastPoint(kSole), mastPoint(kMastTop), 0.078f, 0.074f, 0.04f, 12);
+  // Truck, and the band where the shrouds meet.
+  mesh.tube({mastPoint(kMastTop - 0.01f), mastPoint(kMastTop + 0.05f)}, {0.055f, 0.045f}, 8, Shading::flat);
+  mesh.setMaterial(kIron);
+  mesh.tube({mastPoint(4.50f), mastPoint(4.58f)}, {0.085f}, 10, Shading::flat);
+  mesh.tube({mastPoint(1.42f), mastPoint(1.50f)}, {0.092f}, 10, Shading::flat);
+  return mesh.take();
+}
+
+Mesh makeBoom() {
+  MeshBuilder mesh("Boom");
+  mesh.setMaterial(kMast);
+  spar(mesh, boomPoint(-0.01f), boomPoint(1.03f), 0.045f, 0.052f, 0.04f);
+  return mesh.take();
+}
+
+Mesh makeGaff() {
+  MeshBuilder mesh("Gaff");
+  mesh.setMaterial(kMast);
+  spar(mesh, gaffPoint(-0.01f), gaffPoint(1.04f), 0.05f, 0.05f, 0.034f);
+  // Jaws around the mast.
+  const glm::vec3 throat = gaffPoint(0.0f);
+  mesh.box(throat + glm::vec3(0.06f, -0.02f, 0.09f), {0.26f, 0.07f, 0.04f});
+  mesh.box(throat + glm::vec3(0.06f, -0.02f, -0.09f), {0.26f, 0.07f, 0.04f});
+  return mesh.take();
+}
+
+Mesh makeBowsprit() {
+  MeshBuilder mesh("Bowsprit");
+  mesh.setMaterial(kMast);
+  spar(mesh, bowspritPoint(0.0f), bowspritPoint(1.0f), 0.05f, 0.05f, 0.034f, 8);
+  return mesh.take();
+}
+
+Mesh makeStandingRigging() {
+  MeshBuilder mesh("StandingRigging");
+  mesh.setMaterial(kRope);
+  const glm::vec3 hounds = mastPoint(4.54f);
+  rope(mesh, hounds, bowspritPoint(0.95f), 0.0f, 0.016f);
+  const glm::vec3 cutwater = hullPoint(1.0f, 0.52f);
+  rope(mesh, bowspritPoint(0.95f), cutwater + glm::vec3(0.03f, 0, 0));
+  for (float side : {-1.0f, 1.0f}) {
+    for (float x : {0.82f, 0.42f}) {
+      const float s = stationAt(x);
+      const glm::vec3 chain = {x, sheerHeight(s) - 0.02f, side * (halfBeam(s) + 0.03f)};
+      mesh.setMaterial(kRope);
+      rope(mesh, hounds + glm::vec3(0, 0, side * 0.05f), chain, 0.0f, 0.016f);
+      mesh.setMaterial(kIron);
+      mesh.box(chain + glm::vec3(0, -0.03f, 0), {0.05f, 0.16f, 0.04f});
+    }
+  }
+  return mesh.take();
+}
+
+Mesh makeRunningRigging() {
+  MeshBuilder mesh("RunningRigging");
+  mesh.setMaterial(kRope);
+  // Peak halyard in two parts, topping lift, and the sheet from the boom to the deck at the stern.
+  rope(mesh, mastPoint(kMastTop - 0.25f), gaffPoint(0.92f));
+  rope(mesh, mastPoint(kMastTop - 0.55f), gaffPoint(0.52f));
+  const glm::vec3 block = boomPoint(0.82f);
+  const glm::vec3 horse = {-2.08f, deckHeight(-2.08f, 0.3f) + 0.05f, -0.34f};
+  rope(mesh, block, horse, 0.0f);
+  rope(mesh, boomPoint(0.90f), horse + glm::vec3(-0.06f, 0, 0.02f), 0.0f);
+  // Halyard falls along the mast down to a pin.
+  rope(mesh, mastPoint(4.4f) + glm::vec3(0.09f, 0, 0.06f), mastPoint(0.95f) + glm::vec3(0.12f, 0, 0.08f));
+  mesh.setMaterial(kTrim);
+  mesh.box(block + glm::vec3(-0.02f, -0.1f, 0), {0.07f, 0.12f, 0.05f});
+  mesh.box(horse + glm::vec3(0, 0.02f, 0), {0.08f, 0.12f, 0.05f});
+  mesh.box(mastPoint(kMastTop - 0.27f) + glm::vec3(-0.08f, 0, 0), {0.06f, 0.11f, 0.05f});
+  return mesh.take();
+}
+
+// Streams to leeward and aft in two slow waves, and ends in a swallowtail.
+Mesh makePennant() {
+  MeshBuilder mesh("Pennant");
+  mesh.setMaterial(kPennant);
+  constexpr size_t kColumns = 16;
+  Grid cloth(5, kColumns);
+  for (size_t c = 0; c < kColumns; ++c) {
+    const float u = float(c) / float(kColumns - 1);
+    const float wave = 0.07f * std::sin(u * 7.5f + 0.6f) * (0.3f + u);
+    for (size_t r = 0; r < 5; ++r) {
+      const float v = float(r) / 4.0f;
+      const float width = glm::mix(0.30f, 0.15f, u);
+      const float tail = 0.20f * (1.0f - std::abs(2.0f * v - 1.0f)) * u;  // the notch of the swallowtail
+      const float length = 0.95f * u - tail * u;
+      cloth.at(r, c) = glm::vec3(-length * 0.93f, (v - 0.5f) * width - 0.10f * u * u + 0.3f * wave,
+                                 -0.36f * length + wave);
+    }
+  }
+  mesh.grid(cloth, {.shading = Shading::smooth, .flip = true});
+  return mesh.take();
+}
+
+Mesh makeLantern() {
+  MeshBuilder mesh("Lantern");
+  mesh.setMaterial(kIron);
+  mesh.lathe({{0, -0.09f}, {0.06f, -0.09f}, {0.06f, -0.06f}, {0.0f, -0.06f}}, 8);
+  mesh.lathe({{0, 0.08f}, {0.065f, 0.08f}, {0.03f, 0.13f}, {0.0f, 0.13f}}, 8);
+  mesh.setMaterial(kLantern);
+  mesh.lathe({{0, -0.06f}, {0.045f, -0.06f}, {0.05f, 0.01f}, {0.04f, 0.08f}, {0.0f, 0.08f}}, 8);
+  return mesh.take();
+}
+
+}  // namespace
+
+void addRig(Document& document, int boat) {
+  const int mast = document.addMesh(makeMast(), boat);
+  document.addMesh(makeBoom(), mast);
+  document.addMesh(makeGaff(), mast);
+  document.addMesh(makeBowsprit(), boat);
+  document.addMesh(makeStandingRigging(), mast);
+  document.addMesh(makeRunningRigging(), mast);
+  document.addMesh(makePennant(), mast, mastPoint(kMastTop - 0.12f) + glm::vec3(-0.04f, 0, 0));
+  document.addMesh(makeLantern(), boat, {-2.36f, deckHeight(-2.36f, 0.36f) + 0.09f, 0.40f});
+}
+
+}  // namespace demo

@@ -1,0 +1,35 @@
+// Where the spars are; the sails and the ropes ask here. Boat space, metres.
+#pragma once
+
+#include <cmath>
+#include <glm/glm.hpp>
+
+#include "hull_form.h"
+
+namespace demo {
+
+// The sheets are eased to port, to leeward; the gaff sags off further than the boom.
+constexpr float kBoomAngle = 0.20f, kGaffAngle = 0.34f;                       // radians off the centre line
+constexpr float kBoomLength = 2.62f, kGaffLength = 2.35f, kGaffRise = 0.86f;  // metres, metres, radians
+
+inline glm::vec3 mastPoint(float y) {
+  return {kMastFoot - 0.035f * (y - 0.6f), y, 0};
+}
+constexpr float kMastTop = 5.55f;
+
+// Along the boom and the gaff, 0 at the mast, 1 at the end.
+inline glm::vec3 boomPoint(float u) {
+  const float r = 0.10f + u * kBoomLength;
+  return mastPoint(1.50f) + glm::vec3(-r * std::cos(kBoomAngle), 0.22f * u, -r * std::sin(kBoomAngle));
+}
+inline glm::vec3 gaffPoint(float u) {
+  const float r = 0.10f + u * kGaffLength, level = r * std::cos(kGaffRise);
+  return mastPoint(3.72f) +
+         glm::vec3(-level * std::cos(kGaffAngle), r * std::sin(kGaffRise), -level * std::sin(kGaffAngle));
+}
+
+inline glm::vec3 bowspritPoint(float u) {
+  return glm::mix(glm::vec3(2.0f, 1.06f, 0), glm::vec3(3.72f, 1.42f, 0), u);
+}
+
+}  // namespace demo

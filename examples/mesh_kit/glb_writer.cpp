@@ -1,0 +1,204 @@
+#include "mesh_kit/glb_writer.h"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace meshkit {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// glTF's numbers for what a buffer view is bound as, and for component types.
+constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
+constexpr int kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
+
+static_assert(std::endian::native == std::endian::little, "GLB is little-endian");
+
+std::array<double, 3> srgbHexToLinear(const std::string& hex) {
+  std::array<double, 3> color{};
+  for (size_t i = 0; i < 3; ++i) {
+    const double s = std::stoi(hex.substr(1 + 2 * i, 2), nullptr, 16) / 255.0;
+    const double linear = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+    color[i] = std::round(linear * 1e6) / 1e6;  // six digits say all that eight bits hold
+  }
+  return color;
+}
+
+class Writer {
+ public:
+  explicit Writer(const Document& document) : document_(document) {}
+
+  Json json(const std::string& generator) {
+    root_["asset"] = {{"version", "2.0"}, {"generator", generator}};
+    root_["extensionsUsed"] = {"KHR_lights_punctual"};
+    for (const Material& m : document_.materials) addMaterial(m);
+    for (const Mesh& m : document_.meshes) addMesh(m);
+    for (const Camera& c : document_.cameras) {
+      root_["cameras"].push_back(
+          {{"name", c.name},
+           {"type", "perspective"},
+           {"perspective",
+            {{"yfov", c.verticalFov}, {"aspectRatio", c.aspect}, {"znear", c.near}, {"zfar", c.far}}}});
+    }
+    addNodes();
+    root_["buffers"] = Json::array({{{"byteLength", bytes_.size()}}});
+    return root_;
+  }
+
+  const std::vector<char>& bytes() const { return bytes_; }
+
+ private:
+  void addMaterial(const Material& m) {
+    const auto lit = srgbHexToLinear(m.lit);
+    Json material = {{"name", m.name},
+                     {"pbrMetallicRoughness",
+                      {{"baseColorFactor", {lit[0], lit[1], lit[2], 1.0}},
+                       {"metallicFactor", 0.0},
+                       {"roughnessFactor", 1.0}}}};
+    if (!m.emissive.empty()) material["emissiveFactor"] = srgbHexToLinear(m.emissive);
+    if (m.doubleSided) material["doubleSided"] = true;
+    material["extras"] = {{"scumble_shadowed", m.shadowed}};
+    root_["materials"].push_back(material);
+  }
+
+  // Appends to the buffer, returns the index of the new buffer view.
+  size_t addView(const void* data, size_t size, int target) {
+    const size_t offset = bytes_.size();
+    bytes_.insert(bytes_.end(), static_cast<const char*>(data), static_cast<const char*>(data) + size);
+    bytes_.resize((bytes_.size() + 3) & ~size_t(3));
+    root_["bufferViews"].push_back(
+        {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", size}, {"target", target}});
+    return root_["bufferViews"].size() - 1;
+  }
+
+  size_t addAccessor(size_t view, int componentType, size_t count, const char* type) {
+    root_["accessors"].push_back(
+        {{"bufferView", view}, {"componentType", componentType}, {"count", count}, {"type", type}});
+    return root_["accessors"].size() - 1;
+  }
+
+  template <class T>
+  size_t addAttribute(const Primitive& p, T Vertex::*member, const char* type) {
+    std::vector<T> values;
+    values.reserve(p.vertices.size());
+    for (const Vertex& v : p.vertices) values.push_back(v.*member);
+    const size_t view = addView(values.data(), values.size() * sizeof(T), kArrayBuffer);
+    return addAccessor(view, kFloat, values.size(), type);
+  }
+
+  size_t addIndices(const Primitive& p) {
+    // 65535 would be the primitive restart value.
+    if (p.vertices.size() < 65535) {
+      const std::vector<uint16_t> small(p.indices.begin(), p.indices.end());
+      return addAccessor(addView(small.data(), small.size() * 2, kElementArrayBuffer), kUnsignedShort,
+                         small.size(), "SCALAR");
+    }
+    return addAccessor(addView(p.indices.data(), p.indices.size() * 4, kElementArrayBuffer), kUnsignedInt,
+                       p.indices.size(), "SCALAR");
+  }
+
+  void addMesh(const Mesh& mesh) {
+    Json primitives = Json::array();
+    for (const Primitive& p : mesh.primitives) {
+      if (p.indices.empty()) continue;
+      glm::vec3 low = p.vertices.front().position, high = low;
+      for (const Vertex& v : p.vertices) {
+        low = glm::min(low, v.position);
+        high = glm::max(high, v.position);
+      }
+      const size_t position = addAttribute(p, &Vertex::position, "VEC3");
+      root_["accessors"][position]["min"] = {low.x, low.y, low.z};
+      root_["accessors"][position]["max"] = {high.x, high.y, high.z};
+      const size_t normal = addAttribute(p, &Vertex::normal, "VEC3");
+      const size_t uv = addAttribute(p, &Vertex::uv, "VEC2");
+      primitives.push_back({{"attributes", {{"POSITION", position}, {"NORMAL", normal}, {"TEXCOORD_0", uv}}},
+                            {"indices", addIndices(p)},
+                            {"material", p.material}});
+    }
+    root_["meshes"].push_back({{"name", mesh.name}, {"primitives", primitives}});
+  }
+
+  void addNodes() {
+    Json roots = Json::array();
+    std::vector<Json> children(document_.nodes.size(), Json::array());
+    for (size_t i = 0; i < document_.nodes.size(); ++i) {
+      const int parent = document_.nodes[i].parent;
+      (parent < 0 ? roots : children[size_t(parent)]).push_back(i);
+    }
+    for (size_t i = 0; i < document_.nodes.size(); ++i) {
+      const Node& n = document_.nodes[i];
+      Json node = {{"name", n.name}};
+      if (n.translation != glm::vec3(0.0f))
+        node["translation"] = {n.translation.x, n.translation.y, n.translation.z};
+      if (n.rotation != glm::quat(1, 0, 0, 0))
+        node["rotation"] = {n.rotation.x, n.rotation.y, n.rotation.z, n.rotation.w};
+      if (n.scale != glm::vec3(1.0f)) node["scale"] = {n.scale.x, n.scale.y, n.scale.z};
+      if (n.mesh >= 0) node["mesh"] = n.mesh;
+      if (n.camera >= 0) node["camera"] = n.camera;
+      if (n.sun) node["extensions"]["KHR_lights_punctual"]["light"] = 0;
+      if (!children[i].empty()) node["children"] = children[i];
+      root_["nodes"].push_back(node);
+    }
+    root_["extensions"]["KHR_lights_punctual"]["lights"] =
+        Json::array({{{"name", "Sun"},
+                      {"type", "directional"},
+                      {"color", {document_.sunColor.x, document_.sunColor.y, document_.sunColor.z}},
+                      {"intensity", document_.sunIntensity}}});
+    root_["scenes"] = Json::array({{{"nodes", roots}}});
+    root_["scene"] = 0;
+  }
+
+  const Document& document_;
+  Json root_;
+  std::vector<char> bytes_;
+};
+
+void append32(std::vector<char>& out, uint32_t value) {
+  const char* bytes = reinterpret_cast<const char*>(&value);
+  out.insert(out.end(), bytes, bytes + 4);
+}
+
+}  // namespace
+
+std::string writeGlb(const Document& document, const std::string& path, const std::string& generator) {
+  Writer writer(document);
+  std::string json = writer.json(generator).dump();
+  json.resize((json.size() + 3) & ~size_t(3), ' ');
+  const std::vector<char>& binary = writer.bytes();
+
+  std::vector<char> head;
+  append32(head, 0x46546C67);  // "glTF"
+  append32(head, 2);
+  append32(head, uint32_t(12 + 8 + json.size() + 8 + binary.size()));
+  append32(head, uint32_t(json.size()));
+  append32(head, 0x4E4F534A);  // "JSON"
+  head.insert(head.end(), json.begin(), json.end());
+  append32(head, uint32_t(binary.size()));
+  append32(head, 0x004E4942);  // "BIN"
+
+  const std::string beside = path + ".part";
+  {
+    std::ofstream file(beside, std::ios::binary);
+    file.write(head.data(), std::streamsize(head.size()));
+    file.write(binary.data(), std::streamsize(binary.size()));
+    file.close();
+    if (!file) {
+      std::remove(beside.c_str());
+      return path + ": cannot be written";
+    }
+  }
+  std::error_code error;
+  std::filesystem::rename(beside, path, error);
+  if (error) {
+    std::remove(beside.c_str());
+    return path + ": " + error.message();
+  }
+  return {};
+}
+
+}  // namespace meshkit
