@@ -1,0 +1,62 @@
+// The bytes behind a glTF: buffers and buffer views as spans, loaded when first asked for. May be asked from
+// several threads.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/file_bytes.h"
+#include "scene/gltf_document.h"
+#include "scene/import_budget.h"
+
+namespace scumble::scene {
+
+class GltfBuffers {
+ public:
+  GltfBuffers(const GltfDocument& document, std::string folder, bool allowOutside, ImportBudget& budget);
+
+  // Bytes of buffers[i], exactly its byteLength. Fails when they cannot be had.
+  Bytes buffer(size_t i);
+
+  // Bytes of bufferViews[i], decompressed where EXT_meshopt_compression says so.
+  Bytes view(size_t i);
+  size_t viewStride(size_t i) const;  // 0: not given
+  size_t viewCount() const { return views_.size(); }
+
+  // The bytes of an image's URI. `holder` keeps what is not part of the file itself.
+  struct Holder {
+    std::vector<uint8_t> data;
+    FileBytes file;
+  };
+  Bytes imageFile(const std::string& uri, const std::string& jsonPath, Holder& holder) const;
+
+ private:
+  struct Buffer {
+    std::mutex mutex;
+    bool loaded = false;
+    Bytes bytes;
+    Holder holder;
+  };
+  struct View {
+    std::mutex mutex;
+    bool decoded = false;
+    std::vector<uint8_t> bytes;
+  };
+  void load(size_t i, Buffer& buffer);
+  Bytes viewBytes(const JsonView& view);
+  std::vector<uint8_t> decodeMeshopt(const JsonView& view, const JsonView& compression);
+
+  const GltfDocument& document_;
+  std::string folder_;
+  bool allowOutside_;
+  ImportBudget& budget_;
+  JsonView bufferList_, viewList_;
+  std::deque<Buffer> buffers_;  // deques, because a mutex does not move
+  std::deque<View> views_;
+};
+
+}  // namespace scumble::scene

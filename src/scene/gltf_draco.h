@@ -1,0 +1,23 @@
+// KHR_draco_mesh_compression: one compressed primitive, decoded into plain arrays.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "scene/gltf_accessor.h"
+
+namespace scumble::scene {
+
+struct DracoPrimitive {
+  std::vector<uint32_t> indices;
+  std::map<std::string, Accessor> attributes;  // by semantic; they point into `storage`
+  std::deque<std::vector<uint8_t>> storage;
+};
+
+// `compression` is the extension's object in `primitive`. Fails when the data is damaged.
+DracoPrimitive decodeDraco(const JsonView& primitive, const JsonView& compression,
+                           const GltfAccessors& accessors, GltfBuffers& buffers, ImportBudget& budget);
+
+}  // namespace scumble::scene

@@ -1,0 +1,97 @@
+#include <filesystem>
+
+#include "scene/gltf_import.h"
+#include "scene/image_decode.h"
+#include "scene/parallel.h"
+
+namespace scumble::scene {
+
+namespace {
+
+// Pixels that images may have without bytes to show for them (a plain colour compresses to nothing), shared
+// by all of a file, and those that every byte allows.
+constexpr uint64_t kFreePixels = 64ull << 20, kPixelsPerByte = 1024;
+
+struct Task {
+  Image* image;
+  Bytes bytes;
+  GltfBuffers::Holder holder;
+  std::string path, problem;
+  bool usable = false;
+};
+
+void findBytes(const GltfImport& import, Task& task) {
+  const JsonView images = import.document.list("images");
+  const int64_t number = std::stoll(task.image->name);
+  task.image->name.clear();
+  if (number < 0) return;  // the warning is out already
+  const JsonView json = images.at(static_cast<size_t>(number));
+  task.path = json.path();
+  task.image->name = json.text("name");
+  const int64_t view = json.index("bufferView", import.buffers.viewCount(), "buffer view");
+  if (view >= 0) {
+    task.bytes = import.buffers.view(view);
+  } else {
+    task.path = json.pathOf("uri");
+    if (!json.has("uri")) fail(task.path, "is missing");
+    const Json& uri = json.json()["uri"];
+    if (!uri.is_string()) fail(task.path, "is not a string");
+    const std::string& text = uri.get_ref<const std::string&>();
+    task.bytes = import.buffers.imageFile(text, task.path, task.holder);
+    if (task.image->name.empty() && text.size() < 300)
+      task.image->name = std::filesystem::path(text).filename().string();
+  }
+  task.usable = true;
+}
+
+// A remote or outside URI makes the whole file unusable, as a rule of the house; a file that is not there
+// does not. The two differ in their advice: only the first has one.
+void rethrowIfUnusable(const ImportFailure& failure) {
+  if (!failure.error.advice.empty() && failure.error.jsonPath.ends_with(".uri")) throw failure;
+}
+
+}  // namespace
+
+void readImages(const GltfImport& import, SceneData& scene) {
+  std::vector<Task> tasks(scene.images.size());
+  uint64_t freePixels = kFreePixels;
+  for (size_t i = 0; i < tasks.size(); ++i) {
+    Task& task = tasks[i];
+    task.image = &scene.images[i];
+    try {
+      findBytes(import, task);
+    } catch (const ImportFailure& failure) {
+      rethrowIfUnusable(failure);
+      task.path = failure.error.jsonPath;
+      task.problem = failure.error.problem;
+    }
+    uint32_t width = 0, height = 0;
+    if (!task.usable || !readImageSize(task.bytes, width, height, task.problem)) {
+      task.usable = false;
+      continue;
+    }
+    const uint64_t pixels = uint64_t(width) * height, backed = kPixelsPerByte * task.bytes.size();
+    if (pixels > backed && pixels - backed > freePixels) {
+      task.usable = false;
+      task.problem = "it claims to be " + std::to_string(width) + " x " + std::to_string(height) +
+                     " pixels, far more than its bytes can hold";
+    } else if (pixels > backed) {
+      freePixels -= pixels - backed;
+    }
+  }
+
+  parallelFor(tasks.size(), import.threads, [&](size_t i) {
+    Task& task = tasks[i];
+    if (!task.usable || !decodeImage(task.bytes, *task.image, task.problem)) makeStandIn(*task.image);
+    task.holder = {};
+  });
+
+  for (const Task& task : tasks) {
+    if (task.problem.empty()) continue;
+    const char* outcome = task.image->standIn ? "an image is drawn as a magenta checker: "
+                                              : "an image is shown as far as it goes: ";
+    import.warnings.add(task.path, outcome + task.problem);
+  }
+}
+
+}  // namespace scumble::scene

@@ -1,0 +1,45 @@
+// What every part of the importer needs at hand, and the parts. Scene::load calls them in this order.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "scene/gltf_accessor.h"
+#include "scene/scene_data.h"
+#include "scumble/scene.h"
+
+namespace scumble::scene {
+
+struct GltfImport {
+  const GltfDocument& document;
+  GltfBuffers& buffers;
+  GltfAccessors& accessors;
+  ImportBudget& budget;
+  ImportWarnings& warnings;
+  int threads = 1;
+};
+
+// From the file's indices to ours; -1 where something is not part of the scene, or could not be used.
+struct GltfMaps {
+  std::vector<int> nodes, meshes, cameras, lights, skins;
+};
+
+// The nodes of the chosen scene, parents first, with all that they carry. Meshes, cameras, lights and skins
+// are numbered in the file's order, those in use only.
+void readNodes(const GltfImport& import, int wantedScene, SceneData& scene, GltfMaps& maps);
+
+// The meshes that nodes use, ready to draw.
+void readMeshes(const GltfImport& import, const GltfMaps& maps, SceneData& scene);
+
+// All materials, and the images that materials in use name, decoded.
+void readMaterials(const GltfImport& import, SceneData& scene);
+void readImages(const GltfImport& import, SceneData& scene);
+
+void readCamerasAndLights(const GltfImport& import, SceneData& scene, GltfMaps& maps);
+void readSkins(const GltfImport& import, SceneData& scene, GltfMaps& maps);
+void readClips(const GltfImport& import, const GltfMaps& maps, SceneData& scene);
+
+// Says what an optional thing ended with: "the camera is ignored: its yfov is not a number".
+void warnIgnored(ImportWarnings& warnings, const ImportFailure& failure, const char* what);
+
+}  // namespace scumble::scene

@@ -1,0 +1,80 @@
+#include <algorithm>
+#include <cmath>
+
+#include "scene/gltf_import.h"
+#include "scene/gltf_primitive.h"
+#include "scene/parallel.h"
+#include "scene/prepare_mesh.h"
+
+namespace scumble::scene {
+
+namespace {
+
+// Every primitive of a mesh must have the same morph targets; those with fewer get empty ones.
+void alignMorphTargets(Mesh& mesh) {
+  size_t count = 0;
+  for (const Primitive& p : mesh.primitives) count = std::max(count, p.morphTargets.size());
+  for (Primitive& p : mesh.primitives) p.morphTargets.resize(count);
+  mesh.morphWeights.resize(count, 0.0f);
+}
+
+void readMorphWeights(const JsonView& json, Mesh& mesh, ImportWarnings& warnings) {
+  const JsonView weights = json.list("weights");
+  if (!weights) return;
+  std::vector<float> values(weights.size());
+  try {
+    json.numbers("weights", values.data(), values.size());
+    mesh.morphWeights = std::move(values);
+  } catch (const ImportFailure& failure) {
+    warnIgnored(warnings, failure, "morph weights");
+  }
+}
+
+}  // namespace
+
+void readMeshes(const GltfImport& import, const GltfMaps& maps, SceneData& scene) {
+  const JsonView list = import.document.list("meshes");
+  struct Task {
+    size_t mesh, primitive;
+    JsonView json;
+    ImportWarnings warnings;
+  };
+  std::vector<Task> tasks;
+  for (size_t i = 0; i < maps.meshes.size(); ++i) {
+    if (maps.meshes[i] < 0) continue;
+    const JsonView json = list.at(i), primitives = json.list("primitives");
+    const size_t index = static_cast<size_t>(maps.meshes[i]);
+    Mesh& mesh = scene.meshes[index];
+    mesh.name = json.text("name");
+    mesh.primitives.resize(primitives.size());
+    readMorphWeights(json, mesh, import.warnings);
+    for (size_t k = 0; k < primitives.size(); ++k) tasks.push_back({index, k, primitives.at(k), {}});
+  }
+
+  parallelFor(tasks.size(), import.threads, [&](size_t i) {
+    Task& task = tasks[i];
+    Primitive& primitive = scene.meshes[task.mesh].primitives[task.primitive];
+    primitive = readPrimitive(import, task.json, task.warnings);
+    if (!primitive.indices.empty()) cleanPrimitive(primitive, task.json.path(), task.warnings);
+  });
+  for (const Task& task : tasks) import.warnings.merge(task.warnings);
+
+  std::vector<float> radii(scene.meshes.size());
+  parallelFor(scene.meshes.size(), import.threads, [&](size_t i) {
+    Mesh& mesh = scene.meshes[i];
+    std::erase_if(mesh.primitives, [](const Primitive& p) { return p.indices.empty(); });
+    alignMorphTargets(mesh);
+    weldSmoothNormals(mesh);
+    radii[i] = boundingRadius(mesh);
+  });
+
+  std::vector<std::pair<size_t, size_t>> finishing;
+  for (size_t i = 0; i < scene.meshes.size(); ++i)
+    for (size_t k = 0; k < scene.meshes[i].primitives.size(); ++k) finishing.emplace_back(i, k);
+  parallelFor(finishing.size(), import.threads, [&](size_t i) {
+    const auto [mesh, primitive] = finishing[i];
+    finishPrimitive(scene.meshes[mesh].primitives[primitive], radii[mesh]);
+  });
+}
+
+}  // namespace scumble::scene

@@ -1,0 +1,46 @@
+// Finds vertices that share a position, to the bit.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+namespace scumble::scene {
+
+// An open-addressing hash table of positions; values are the caller's vertex numbers.
+class PositionTable {
+ public:
+  explicit PositionTable(size_t capacity)
+      : mask_(std::bit_ceil(capacity * 2 + 2) - 1), slots_(mask_ + 1, kEmpty) {}
+
+  // The number that was stored first for this position, or `number`, which is then stored. `positionOf` maps
+  // a stored number to its position.
+  template <class PositionOf>
+  uint32_t findOrAdd(const glm::vec3& position, uint32_t number, const PositionOf& positionOf) {
+    for (size_t slot = hash(position) & mask_;; slot = (slot + 1) & mask_) {
+      if (slots_[slot] == kEmpty) {
+        slots_[slot] = number;
+        return number;
+      }
+      if (positionOf(slots_[slot]) == position) return slots_[slot];
+    }
+  }
+
+ private:
+  static constexpr uint32_t kEmpty = 0xffffffffu;
+
+  static size_t hash(const glm::vec3& p) {
+    // Adding zero turns -0 into +0, which compares equal.
+    const uint64_t x = std::bit_cast<uint32_t>(p.x + 0.0f), y = std::bit_cast<uint32_t>(p.y + 0.0f),
+                   z = std::bit_cast<uint32_t>(p.z + 0.0f);
+    uint64_t h = (x << 32 | y) * 0x9e3779b97f4a7c15ull;
+    h = (h ^ (h >> 29) ^ z) * 0xbf58476d1ce4e5b9ull;
+    return static_cast<size_t>(h ^ (h >> 32));
+  }
+
+  size_t mask_;
+  std::vector<uint32_t> slots_;
+};
+
+}  // namespace scumble::scene

@@ -1,0 +1,257 @@
+#include "scene/prepare_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <limits>
+
+#include "scene/position_weld.h"
+
+namespace scumble::scene {
+
+namespace {
+
+bool isDrawable(const glm::vec3& p) {
+  // Written so that NaN fails.
+  return std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate &&
+         std::abs(p.z) <= kMaxCoordinate;
+}
+
+// Abramowitz and Stegun 4.4.45, within 7e-5: the angles are only weights.
+float fastAcos(float x) {
+  const float a = std::min(std::abs(x), 1.0f);
+  const float r = std::sqrt(1.0f - a) * (1.5707288f + a * (-0.2121144f + a * (0.0742610f - a * 0.0187293f)));
+  return x < 0.0f ? glm::pi<float>() - r : r;
+}
+
+// Triangles thinner than this, measured where the mesh is of size one, have no direction that means anything.
+constexpr float kMinCrossSquared = 1e-30f;
+
+template <class T>
+void gather(std::vector<T>& values, const std::vector<uint32_t>& source, size_t perVertex = 1) {
+  if (values.empty()) return;
+  std::vector<T> kept(source.size() * perVertex);
+  for (size_t i = 0; i < source.size(); ++i)
+    for (size_t k = 0; k < perVertex; ++k) kept[i * perVertex + k] = values[source[i] * perVertex + k];
+  values = std::move(kept);
+}
+
+void dropUnusedVertices(Primitive& p) {
+  constexpr uint32_t kUnused = 0xffffffffu;
+  std::vector<uint32_t> target(p.vertexCount(), kUnused), source;
+  for (uint32_t& index : p.indices) {
+    if (target[index] == kUnused) {
+      target[index] = static_cast<uint32_t>(source.size());
+      source.push_back(index);
+    }
+    index = target[index];
+  }
+  gatherVertices(p, source);
+}
+
+// Removes the triangles that touch a vertex outside of the drawable range.
+size_t dropUndrawable(Primitive& p) {
+  std::vector<uint8_t> bad(p.vertexCount(), 0);
+  bool any = false;
+  for (size_t i = 0; i < p.vertexCount(); ++i)
+    if (!isDrawable(p.positions[i])) bad[i] = 1, any = true;
+  if (!any) return 0;
+  size_t out = 0;
+  for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
+    if (bad[p.indices[i]] || bad[p.indices[i + 1]] || bad[p.indices[i + 2]]) continue;
+    for (size_t k = 0; k < 3; ++k) p.indices[out++] = p.indices[i + k];
+  }
+  const size_t dropped = (p.indices.size() - out) / 3;
+  p.indices.resize(out);
+  dropUnusedVertices(p);
+  return dropped;
+}
+
+float inverseExtent(const std::vector<glm::vec3>& positions) {
+  glm::vec3 low(std::numeric_limits<float>::max()), high(-std::numeric_limits<float>::max());
+  for (const glm::vec3& p : positions) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  const glm::vec3 size = high - low;
+  const float extent = std::max({size.x, size.y, size.z});
+  return extent > 1e-30f ? 1.0f / extent : 0.0f;
+}
+
+// representatives[v]: the first vertex at v's position. Empty when all positions differ.
+std::vector<uint32_t> findRepresentatives(const std::vector<glm::vec3>& positions) {
+  std::vector<uint32_t> representatives(positions.size());
+  PositionTable table(positions.size());
+  const auto positionOf = [&](uint32_t i) { return positions[i]; };
+  bool anyShared = false;
+  for (uint32_t i = 0; i < positions.size(); ++i) {
+    representatives[i] = table.findOrAdd(positions[i], i, positionOf);
+    anyShared |= representatives[i] != i;
+  }
+  if (!anyShared) representatives.clear();
+  return representatives;
+}
+
+// Adds every face's normal to the sums at its corners, and drops triangles without area.
+size_t sumFaces(Primitive& p, const std::vector<uint32_t>& representatives) {
+  const float scale = inverseExtent(p.positions);
+  p.smoothNormals.assign(p.vertexCount(), glm::vec3(0.0f));
+  size_t out = 0;
+  for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
+    const uint32_t a = p.indices[i], b = p.indices[i + 1], c = p.indices[i + 2];
+    const glm::vec3 ab = (p.positions[b] - p.positions[a]) * scale,
+                    bc = (p.positions[c] - p.positions[b]) * scale,
+                    ca = (p.positions[a] - p.positions[c]) * scale;
+    const glm::vec3 cross = glm::cross(ab, bc);
+    const float crossSquared = glm::dot(cross, cross);
+    const float abab = glm::dot(ab, ab), bcbc = glm::dot(bc, bc), caca = glm::dot(ca, ca);
+    if (!(crossSquared > kMinCrossSquared)) continue;
+    const glm::vec3 normal = cross / std::sqrt(crossSquared);
+    const float angleA = fastAcos(-glm::dot(ab, ca) / std::sqrt(abab * caca));
+    const float angleB = fastAcos(-glm::dot(ab, bc) / std::sqrt(abab * bcbc));
+    const float angleC = std::max(0.0f, glm::pi<float>() - angleA - angleB);
+    const bool welded = !representatives.empty();
+    p.smoothNormals[welded ? representatives[a] : a] += normal * angleA;
+    p.smoothNormals[welded ? representatives[b] : b] += normal * angleB;
+    p.smoothNormals[welded ? representatives[c] : c] += normal * angleC;
+    p.indices[out] = a;
+    p.indices[out + 1] = b;
+    p.indices[out + 2] = c;
+    out += 3;
+  }
+  const size_t dropped = (p.indices.size() - out) / 3;
+  p.indices.resize(out);
+  return dropped;
+}
+
+// Normals of unit length; those that have none get the sum of the faces around them. Returns how many.
+size_t mendNormals(Primitive& p, const std::vector<uint32_t>& representatives) {
+  size_t mended = 0;
+  for (size_t i = 0; i < p.vertexCount(); ++i) {
+    glm::vec3& normal = p.normals[i];
+    float squared = glm::dot(normal, normal);
+    if (std::abs(squared - 1.0f) < 1e-5f) continue;
+    if (!(squared > 1e-12f && squared < 1e12f)) {
+      ++mended;
+      normal = p.smoothNormals[representatives.empty() ? i : representatives[i]];
+      squared = glm::dot(normal, normal);
+      if (!(squared > 1e-12f)) {
+        normal = glm::vec3(0.0f, 1.0f, 0.0f);
+        continue;
+      }
+    }
+    normal /= std::sqrt(squared);
+  }
+  return mended;
+}
+
+// glTF: without normals, faces are flat. Every corner becomes a vertex of its own.
+void makeFlat(Primitive& p) {
+  const std::vector<uint32_t> source = p.indices;
+  gatherVertices(p, source);
+  const float scale = inverseExtent(p.positions);
+  p.normals.resize(source.size());
+  for (uint32_t i = 0; i + 2 < source.size(); i += 3) {
+    const glm::vec3 ab = (p.positions[i + 1] - p.positions[i]) * scale,
+                    bc = (p.positions[i + 2] - p.positions[i + 1]) * scale;
+    const glm::vec3 cross = glm::cross(ab, bc);
+    const float squared = glm::dot(cross, cross);
+    const glm::vec3 normal = squared > 0.0f ? cross / std::sqrt(squared) : glm::vec3(0.0f, 1.0f, 0.0f);
+    for (uint32_t k = 0; k < 3; ++k) {
+      p.normals[i + k] = normal;
+      p.indices[i + k] = i + k;
+    }
+  }
+  p.generatedNormals = true;
+}
+
+}  // namespace
+
+void gatherVertices(Primitive& p, const std::vector<uint32_t>& source) {
+  gather(p.positions, source);
+  gather(p.normals, source);
+  gather(p.smoothNormals, source);
+  gather(p.uv0, source);
+  gather(p.uv1, source);
+  gather(p.colors, source);
+  gather(p.dPdu, source);
+  gather(p.dPdv, source);
+  gather(p.joints, source, static_cast<size_t>(p.influences));
+  gather(p.weights, source, static_cast<size_t>(p.influences));
+  for (MorphTarget& target : p.morphTargets) {
+    gather(target.positions, source);
+    gather(target.normals, source);
+  }
+}
+
+void cleanPrimitive(Primitive& p, const std::string& path, ImportWarnings& warnings) {
+  if (dropUndrawable(p) > 0)
+    warnings.add(path, "triangles with positions that are not finite or absurdly far away are left out");
+
+  const std::vector<uint32_t> representatives = findRepresentatives(p.positions);
+  const size_t degenerate = sumFaces(p, representatives);
+  if (p.indices.empty()) {
+    p = Primitive{.material = p.material};
+    return;
+  }
+  if (!p.normals.empty() && mendNormals(p, representatives) > 0)
+    warnings.add(path, "normals that are zero or not finite are replaced");
+
+  // Where the faces around a position cancel out (both sides of a sheet), any direction is as good: that of
+  // the first vertex. It is short, so that it yields to other primitives at the same place.
+  for (size_t i = 0; i < p.vertexCount(); ++i) {
+    const size_t first = representatives.empty() ? i : representatives[i];
+    glm::vec3& sum = p.smoothNormals[first];
+    if (glm::dot(sum, sum) < 1e-8f) sum = 1e-3f * (p.normals.empty() ? glm::vec3(0, 1, 0) : p.normals[first]);
+    p.smoothNormals[i] = sum;
+  }
+  if (p.normals.empty())
+    makeFlat(p);
+  else if (degenerate > 0)
+    dropUnusedVertices(p);
+}
+
+void weldSmoothNormals(Mesh& mesh) {
+  if (mesh.primitives.size() < 2) return;
+  size_t count = 0;
+  for (const Primitive& p : mesh.primitives) count += p.vertexCount();
+
+  // One entry a position; a primitive's sum is the same at all its vertices there, and counts once.
+  struct Entry {
+    glm::vec3 position, sum;
+    size_t lastPrimitive;
+  };
+  std::vector<Entry> entries;
+  entries.reserve(count);
+  PositionTable table(count);
+  const auto positionOf = [&](uint32_t i) { return entries[i].position; };
+  std::vector<uint32_t> entryOf;
+  entryOf.reserve(count);
+  for (size_t k = 0; k < mesh.primitives.size(); ++k) {
+    const Primitive& p = mesh.primitives[k];
+    for (size_t i = 0; i < p.vertexCount(); ++i) {
+      const uint32_t fresh = static_cast<uint32_t>(entries.size());
+      const uint32_t found = table.findOrAdd(p.positions[i], fresh, positionOf);
+      if (found == fresh) {
+        entries.push_back({p.positions[i], p.smoothNormals[i], k});
+      } else if (entries[found].lastPrimitive != k) {
+        entries[found].lastPrimitive = k;
+        const glm::vec3 sum = entries[found].sum + p.smoothNormals[i];
+        if (glm::dot(sum, sum) > 1e-8f) entries[found].sum = sum;
+      }
+      entryOf.push_back(found);
+    }
+  }
+  size_t at = 0;
+  for (Primitive& p : mesh.primitives)
+    for (glm::vec3& sum : p.smoothNormals) sum = entries[entryOf[at++]].sum;
+}
+
+float boundingRadius(const Mesh& mesh) {
+  Bounds bounds;
+  for (const Primitive& p : mesh.primitives)
+    for (const glm::vec3& position : p.positions) bounds.add(position);
+  return bounds.radius();
+}
+
+}  // namespace scumble::scene

@@ -1,0 +1,38 @@
+// From the triangles of a file to what the renderer draws: whole, with unit normals, normals shared across
+// seams, texture coordinates and their tangent vectors.
+//
+// The steps, in order:
+//   cleanPrimitive      on every primitive (independent of each other)
+//   weldSmoothNormals   on every mesh
+//   finishPrimitive     on every primitive
+#pragma once
+
+#include <string>
+
+#include "scene/import_warnings.h"
+#include "scene/scene_data.h"
+
+namespace scumble::scene {
+
+// Beyond this a coordinate counts as not finite: a light year is 1e16 metres, and squares still fit a float.
+constexpr float kMaxCoordinate = 1e15f;
+
+// Drops triangles that cannot be drawn and vertices that nothing uses; makes flat normals where there are
+// none and mends broken ones. Leaves in smoothNormals the sum of the faces around every position, weighted by
+// their angles, not yet of unit length.
+void cleanPrimitive(Primitive& primitive, const std::string& path, ImportWarnings& warnings);
+
+// Adds up the sums of primitives that meet at the same positions, so that a seam between two materials does
+// not open either.
+void weldSmoothNormals(Mesh& mesh);
+
+// Half the diagonal of the mesh's box.
+float boundingRadius(const Mesh& mesh);
+
+// Unit smooth normals; uv0 where there is none (one unit of uv is `radius` metres); dPdu and dPdv.
+void finishPrimitive(Primitive& primitive, float radius);
+
+// Keeps the given vertices only, in this order, in all arrays but the indices.
+void gatherVertices(Primitive& primitive, const std::vector<uint32_t>& source);
+
+}  // namespace scumble::scene

@@ -1,0 +1,122 @@
+// The second half of prepare_mesh.h: texture coordinates and their tangent vectors.
+#include <algorithm>
+#include <cmath>
+
+#include "scene/prepare_mesh.h"
+
+namespace scumble::scene {
+
+namespace {
+
+// A box projection without seams: the three axis projections, mixed by the smooth normal. Everything in it is
+// continuous over the surface, so the coordinates are too; where two faces of the box meet the texture is
+// stretched a little instead of torn.
+void generateUvs(Primitive& p, float radius) {
+  const float scale = 1.0f / std::max(radius, 1e-20f);
+  p.uv0.resize(p.vertexCount());
+  for (size_t i = 0; i < p.vertexCount(); ++i) {
+    const glm::vec3 q = p.positions[i] * scale;
+    glm::vec3 w = p.smoothNormals[i] * p.smoothNormals[i];
+    w *= w;  // the fourth power keeps the faces of a box almost free of the others
+    w /= w.x + w.y + w.z;
+    p.uv0[i] = w.x * glm::vec2(q.z, q.y) + w.y * glm::vec2(q.x, q.z) + w.z * glm::vec2(q.x, q.y);
+  }
+  p.generatedUvs = true;
+}
+
+bool isFinite(const glm::vec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// One triangle's mapping. With e1 = du1 P_u + dv1 P_v and e2 = du2 P_u + dv2 P_v, Cramer's rule gives
+// P_u = (dv2 e1 - dv1 e2) / det and P_v = (du1 e2 - du2 e1) / det.
+struct Mapping {
+  glm::vec3 dPdu, dPdv;
+  float area = 0.0f;  // 0: no usable mapping
+  bool mirrored = false;
+};
+
+// `scale` brings the mesh to size one, so that areas neither overflow nor vanish.
+Mapping mappingOf(const Primitive& p, size_t i, float scale) {
+  const uint32_t a = p.indices[i], b = p.indices[i + 1], c = p.indices[i + 2];
+  const glm::vec2 d1 = p.uv0[b] - p.uv0[a], d2 = p.uv0[c] - p.uv0[a];
+  const float det = d1.x * d2.y - d1.y * d2.x;
+  Mapping mapping;
+  // A triangle whose corners lie on a line in uv says nothing about one direction, and huge things by
+  // rounding.
+  if (!(std::abs(det) > 1e-6f * (glm::dot(d1, d1) + glm::dot(d2, d2)))) return mapping;
+  const glm::vec3 e1 = p.positions[b] - p.positions[a], e2 = p.positions[c] - p.positions[a];
+  const float area = 0.5f * glm::length(glm::cross(e1 * scale, e2 * scale));
+  mapping.dPdu = (d2.y * e1 - d1.y * e2) / det;
+  mapping.dPdv = (d1.x * e2 - d2.x * e1) / det;
+  mapping.mirrored = det < 0.0f;
+  if (std::isfinite(area) && isFinite(mapping.dPdu) && isFinite(mapping.dPdv)) mapping.area = area;
+  return mapping;
+}
+
+void makeTangents(Primitive& p, float scale) {
+  const size_t count = p.vertexCount();
+  p.dPdu.assign(count, glm::vec3(0.0f));
+  p.dPdv.assign(count, glm::vec3(0.0f));
+  std::vector<float> areas(count, 0.0f);
+  bool anyPlain = false, anyMirrored = false;
+  for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
+    const Mapping mapping = mappingOf(p, i, scale);
+    if (mapping.area <= 0.0f) continue;
+    (mapping.mirrored ? anyMirrored : anyPlain) = true;
+    for (size_t k = 0; k < 3; ++k) {
+      const uint32_t v = p.indices[i + k];
+      p.dPdu[v] += mapping.area * mapping.dPdu;
+      p.dPdv[v] += mapping.area * mapping.dPdv;
+      areas[v] += mapping.area;
+    }
+  }
+
+  // On the seam of a mirrored mapping the two sides point against each other and would cancel: there the
+  // larger side alone decides.
+  if (anyPlain && anyMirrored) {
+    std::vector<float> balance(count, 0.0f);
+    for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
+      const Mapping mapping = mappingOf(p, i, scale);
+      for (size_t k = 0; k < 3; ++k)
+        balance[p.indices[i + k]] += mapping.mirrored ? -mapping.area : mapping.area;
+    }
+    const auto isSeam = [&](uint32_t v) { return std::abs(balance[v]) < 0.999f * areas[v]; };
+    std::vector<float> seamAreas(count, 0.0f);
+    for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
+      const Mapping mapping = mappingOf(p, i, scale);
+      if (mapping.area <= 0.0f) continue;
+      for (size_t k = 0; k < 3; ++k) {
+        const uint32_t v = p.indices[i + k];
+        if (!isSeam(v) || mapping.mirrored != (balance[v] < 0.0f)) continue;
+        if (seamAreas[v] == 0.0f) p.dPdu[v] = p.dPdv[v] = glm::vec3(0.0f);
+        p.dPdu[v] += mapping.area * mapping.dPdu;
+        p.dPdv[v] += mapping.area * mapping.dPdv;
+        seamAreas[v] += mapping.area;
+      }
+    }
+    for (size_t v = 0; v < count; ++v)
+      if (seamAreas[v] > 0.0f) areas[v] = seamAreas[v];
+  }
+
+  for (size_t v = 0; v < count; ++v) {
+    const float share = areas[v] > 0.0f ? 1.0f / areas[v] : 0.0f;
+    p.dPdu[v] *= share;
+    p.dPdv[v] *= share;
+    if (!isFinite(p.dPdu[v]) || !isFinite(p.dPdv[v])) p.dPdu[v] = p.dPdv[v] = glm::vec3(0.0f);
+  }
+}
+
+}  // namespace
+
+void finishPrimitive(Primitive& p, float radius) {
+  for (size_t i = 0; i < p.vertexCount(); ++i) {
+    glm::vec3& normal = p.smoothNormals[i];
+    const float length = glm::length(normal);
+    normal = length > 1e-12f ? normal / length : p.normals[i];
+  }
+  if (p.uv0.empty() && p.vertexCount() > 0) generateUvs(p, radius);
+  makeTangents(p, 1.0f / std::max(radius, 1e-20f));
+}
+
+}  // namespace scumble::scene

@@ -1,0 +1,13 @@
+// Where everything is in the rest pose.
+#pragma once
+
+#include "scene/import_warnings.h"
+#include "scene/scene_data.h"
+
+namespace scumble::scene {
+
+// Fills SceneData::bounds. What lies so far out that it could not be drawn is taken off its node with a
+// warning; fails when a transformation is not finite, or more is drawn than any machine could.
+void placeScene(SceneData& scene, ImportWarnings& warnings);
+
+}  // namespace scumble::scene
