@@ -1,0 +1,106 @@
+#!/usr/bin/env python3
+"""The include table's own test: what it must catch, and what it must let pass."""
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tools"))
+import include_table  # noqa: E402
+
+# Files that exist in the little tree that each case is tried in.
+TREE = """include/scumble/image.h src/base/files.h src/gpu/device.h src/scene/scene_data.h src/look/look_data.h
+src/frame/pass.h src/frame/view.h src/frame/renderer.h src/frame/cache.h src/passes/blur/blur.h src/passes/blur/blur.shared.h
+src/passes/warp/warp.h src/passes/warp/warp.glsl src/shading/frame.glsl src/film/srgb.h tests/support/pictures.h
+examples/mesh_kit/mesh.h""".split()
+
+ALLOWED = [
+    ("include/scumble/scene.h", '"scumble/image.h"'),
+    ("include/scumble/scene.h", "<scumble/image.h>"),
+    ("include/scumble/scene.h", "<vector>"),
+    ("include/scumble/scene.h", "<glm/mat4x4.hpp>"),
+    ("include/scumble/vulkan.h", "<vulkan/vulkan.h>"),
+    ("src/base/files.cpp", "<fcntl.h>"),
+    ("src/gpu/device.cpp", '"base/files.h"'),
+    ("src/gpu/device.cpp", "<vulkan/vulkan.h>"),
+    ("src/frame/pass.cpp", '"scene/scene_data.h"'),
+    ("src/frame/renderer.cpp", '"passes/blur/blur.h"'),
+    ("src/frame/renderer_record.cpp", '"passes/blur/blur.h"'),
+    ("src/frame/pass_list.h", '"passes/warp/warp.h"'),
+    ("src/passes/blur/blur.cpp", '"frame/pass.h"'),
+    ("src/passes/blur/blur.cpp", '"passes/blur/blur.shared.h"'),
+    ("src/passes/blur/blur.frag", '"blur.shared.h"'),
+    ("src/passes/blur/blur.frag", '"../../shading/frame.glsl"'),
+    ("src/passes/blur/blur_test.cpp", '"tests/support/pictures.h"'),
+    ("src/passes/blur/blur_test.cpp", '"support/pictures.h"'),
+    ("src/film/png.cpp", "<png.h>"),
+    ("src/film/png.cpp", '"scumble/image.h"'),
+    ("src/film/png.cpp", '"generated_by_the_build.h"'),
+    ("apps/scumble/main.cpp", "<CLI/CLI.hpp>"),
+    ("apps/scumble/main.cpp", "<unistd.h>"),
+    ("examples/demo_scene/main.cpp", '"mesh_kit/mesh.h"'),
+    ("bench/many/main.cpp", '"mesh_kit/mesh.h"'),
+    ("tests/golden_test.cpp", '"film/srgb.h"'),
+]
+FORBIDDEN = [
+    ("include/scumble/scene.h", '"scene/scene_data.h"'),
+    ("include/scumble/scene.h", "<vulkan/vulkan.h>"),
+    ("include/scumble/scene.h", "<nlohmann/json.hpp>"),
+    ("src/base/files.cpp", '"gpu/device.h"'),
+    ("src/gpu/device.cpp", '"scene/scene_data.h"'),
+    ("src/scene/import.cpp", '"gpu/device.h"'),
+    ("src/scene/import.cpp", '"../gpu/device.h"'),
+    ("src/scene/import_test.cpp", '"gpu/device.h"'),
+    ("src/look/look.cpp", '"frame/view.h"'),
+    ("src/frame/pass.cpp", '"passes/blur/blur.h"'),
+    ("src/frame/pass.cpp", '"film/srgb.h"'),
+    ("src/passes/blur/blur.cpp", '"passes/warp/warp.h"'),
+    ("src/passes/blur/blur.cpp", '"../warp/warp.h"'),
+    ("src/passes/blur/blur.cpp", '"frame/renderer.h"'),
+    ("src/passes/blur/blur.cpp", '"frame/cache.h"'),
+    ("src/passes/blur/blur.cpp", '"film/srgb.h"'),
+    ("src/passes/blur/blur.cpp", '"passes/warp/generated_by_the_build.h"'),
+    ("src/passes/blur/blur.frag", '"../warp/warp.glsl"'),
+    ("src/shading/grade.glsl", '"../passes/warp/warp.glsl"'),
+    ("src/film/png.cpp", '"scene/scene_data.h"'),
+    ("src/film/png.cpp", '"gpu/device.h"'),
+    ("apps/scumble/main.cpp", '"base/files.h"'),
+    ("apps/scumble/main.cpp", "<vulkan/vulkan.h>"),
+    ("examples/demo_scene/main.cpp", '"base/files.h"'),
+    ("src/nowhere/file.cpp", "<vector>"),
+]
+
+
+def problems_of(file, include, indent=""):
+    with tempfile.TemporaryDirectory(prefix="include table ") as folder:
+        root = Path(folder)
+        for name in [*TREE, file]:
+            (root / name).parent.mkdir(parents=True, exist_ok=True)
+            (root / name).touch()
+        (root / file).write_text(f"// {include}\n{indent}#include {include}\n")
+        return include_table.check(root)[0]
+
+
+class IncludeTable(unittest.TestCase):
+    def test_allowed(self):
+        for file, include in ALLOWED:
+            with self.subTest(file=file, include=include):
+                self.assertEqual(problems_of(file, include), [])
+
+    def test_forbidden(self):
+        for file, include in FORBIDDEN:
+            with self.subTest(file=file, include=include):
+                problems = problems_of(file, include)
+                self.assertEqual(len(problems), 1)
+                self.assertTrue(problems[0].startswith(file + ":"))
+
+    def test_names_the_line(self):
+        self.assertIn("src/film/png.cpp:2: includes gpu/device.h;", problems_of("src/film/png.cpp", '"gpu/device.h"')[0])
+
+    def test_spaces_do_not_hide(self):
+        self.assertEqual(len(problems_of("src/film/png.cpp", '"gpu/device.h"', "  ")), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
