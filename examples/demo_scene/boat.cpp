@@ -17,12 +17,14 @@ int addBoat(Document& document, int parent) {
   addRig(document, boat);
   addSails(document, boat);
 
-  // He sits on the starboard coaming, to windward, faces to leeward and looks ahead.
-  constexpr float kTurn = 0.42f, kScale = 1.12f;
-  const glm::vec3 seat = {-1.72f, 0.71f, 0.57f};
-  const glm::quat facing = glm::angleAxis(kPi - kTurn, glm::vec3(0, 1, 0));
-  const glm::vec3 tiller = {-1.66f, 1.025f, 0.095f};
+  // He sits on the after deck, a little to windward, and faces ahead: out of the sails' shadow, in clear
+  // profile.
+  constexpr float kTurn = 0.26f, kScale = 1.14f;
+  const glm::vec3 seat = {-2.06f, 0.75f, 0.27f};
+  const glm::quat facing = glm::angleAxis(0.5f * kPi + kTurn, glm::vec3(0, 1, 0));
+  const glm::vec3 tiller = {-1.50f, 1.045f, -0.20f};
   const glm::vec3 hand = glm::inverse(facing) * (tiller - seat) / kScale;
+  addWake(document, parent, document.worldMatrix(boat));
   addSailor(document, boat, seat, facing, kScale, hand);
   return boat;
 }

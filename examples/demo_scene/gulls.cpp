@@ -60,9 +60,9 @@ int addGulls(Document& document, int parent) {
     glm::vec3 at;
     float heading, bank, beat;  // radians; heading 0 flies towards the viewer
   };
-  const Flight flights[] = {{{-2.9f, 5.9f, 1.0f}, -2.05f, 0.38f, 0.25f},
-                            {{-5.6f, 7.5f, -9.0f}, -2.3f, -0.30f, -0.05f},
-                            {{9.5f, 7.0f, -14.0f}, -1.2f, 0.30f, 0.40f}};
+  const Flight flights[] = {{{-2.5f, 7.0f, 1.0f}, -2.05f, 0.38f, 0.25f},
+                            {{-6.1f, 6.9f, -12.0f}, -2.3f, -0.30f, -0.05f},
+                            {{11.2f, 9.6f, -14.0f}, -1.2f, 0.30f, 0.40f}};
   int number = 1;
   for (const Flight& f : flights) {
     const glm::quat turn =

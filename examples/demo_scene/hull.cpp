@@ -6,7 +6,7 @@ namespace demo {
 namespace {
 
 using namespace meshkit;
-constexpr int kStations = 34, kStrakes = 8;
+constexpr int kStations = 34, kStrakes = 7;
 constexpr float kLap = 0.024f;  // how far a plank's lower edge stands off the one below
 
 float stationOf(int i) {
@@ -27,7 +27,7 @@ glm::vec3 plankPoint(float s, float t, float out, float side) {
 void addPlanks(MeshBuilder& mesh, float side) {
   for (int strake = 0; strake < kStrakes; ++strake) {
     const float t0 = float(strake) / kStrakes, t1 = float(strake + 1) / kStrakes;
-    mesh.setMaterial(strake == kStrakes - 1 ? kHullTop : strake < 4 ? kHullBottom : kHull);
+    mesh.setMaterial(strake == kStrakes - 1 ? kHullTop : strake < 3 ? kHullBottom : kHull);
     Grid plank(3, kStations + 1), ledge(2, kStations + 1);
     for (int i = 0; i <= kStations; ++i) {
       const float s = stationOf(i);
@@ -162,11 +162,6 @@ Mesh makeHull() {
     addBulwark(mesh, side);
     mesh.setMaterial(kTrim);
     mesh.bar(sheerLine(side, 0.0f, 0.0f), 0.075f, 0.055f, {0, 1, 0});
-    // A rubbing strake where the top plank begins.
-    std::vector<glm::vec3> rub;
-    for (int i = 0; i <= kStations; ++i)
-      rub.push_back(plankPoint(stationOf(i), float(kStrakes - 1) / kStrakes, kLap, side));
-    mesh.bar(rub, 0.04f, 0.045f, {0, 1, 0});
   }
   addTransom(mesh);
   // Stem post and keel.
@@ -209,7 +204,7 @@ Mesh makeTiller() {
   MeshBuilder mesh("Tiller");
   mesh.setMaterial(kMast);
   const auto path = smoothCurve(
-      {{-2.78f, 0.93f, 0.0f}, {-2.4f, 0.97f, 0.0f}, {-2.0f, 0.98f, 0.04f}, {-1.60f, 1.02f, 0.10f}}, 4);
+      {{-2.78f, 0.93f, 0.0f}, {-2.4f, 0.97f, -0.04f}, {-2.0f, 0.98f, -0.11f}, {-1.44f, 1.05f, -0.215f}}, 4);
   std::vector<float> radii;
   for (size_t i = 0; i < path.size(); ++i)
     radii.push_back(glm::mix(0.042f, 0.028f, float(i) / float(path.size())));

@@ -61,6 +61,6 @@ inline float cockpitHalfWidth(float x) {
 
 constexpr float kSole = 0.16f;      // the cockpit's floor
 constexpr float kBench = 0.46f;     // the seats along its sides
-constexpr float kMastFoot = 0.95f;  // the mast's x
+constexpr float kMastFoot = 1.10f;  // the mast's x
 
 }  // namespace demo

@@ -10,7 +10,7 @@ using namespace demo;
 
 // Degrees: the sun stands low, to the left and a bit in front, so that jib, mast and gaff draw on the
 // mainsail.
-constexpr float kSunElevation = 21.0f, kSunAzimuth = 30.0f;  // azimuth from the left towards the viewer
+constexpr float kSunElevation = 21.0f, kSunAzimuth = 23.0f;  // azimuth from the left towards the viewer
 
 Document makeScene() {
   Document document;
@@ -28,10 +28,10 @@ Document makeScene() {
   document.addSun({-std::cos(azimuth) * std::cos(elevation), std::sin(elevation),
                    std::sin(azimuth) * std::cos(elevation)},
                   {1.0f, 0.86f, 0.66f}, 3.0f);
-  document.addCamera({"Hero", 0.52f}, {0.0f, 3.3f, 18.6f}, {0.0f, 4.75f, 0.0f});
-  document.addCamera({"Sailor", 0.50f}, {2.4f, 2.1f, 5.6f}, {3.9f, 1.25f, 0.0f});
-  document.addCamera({"Pier", 0.62f}, {-2.2f, 3.0f, -1.6f}, {-9.2f, 1.75f, -12.5f});
-  document.addCamera({"Wide", 0.70f}, {16.0f, 9.0f, 34.0f}, {-4.0f, 2.6f, -12.0f});
+  document.addCamera({"Hero", 0.50f}, {0.0f, 3.4f, 19.4f}, {0.0f, 4.25f, 0.0f});
+  document.addCamera({"Sailor", 0.46f}, {2.6f, 1.9f, 5.2f}, {4.3f, 1.30f, 0.0f});
+  document.addCamera({"Pier", 0.56f}, {-12.5f, 3.1f, -0.5f}, {-10.2f, 2.2f, -13.0f});
+  document.addCamera({"Wide", 0.62f}, {12.5f, 7.6f, 26.0f}, {-3.0f, 3.1f, -6.0f});
   return document;
 }
 

@@ -111,7 +111,7 @@ inline std::vector<meshkit::Material> palette() {
       {"Sea2", "#3F8F96", "#1F4A63"},
       {"Sea3", "#2F7787", "#1A4058"},
       {"Sea4", "#7DB5B4", "#4E8796"},
-      {"Foam", "#E4ECE2", "#9DB6C4"},
+      {"Foam", "#CFE2D8", "#7FA3B4"},
   };
 }
 

@@ -15,6 +15,8 @@ int addBoat(Document& document, int parent);
 void addHull(Document& document, int boat);
 void addRig(Document& document, int boat);
 void addSails(Document& document, int boat);
+// The foam where the hull meets the water, in the space of `parent`.
+void addWake(Document& document, int parent, const glm::mat4& boat);
 
 // Faces +Z, sits with the hip at the origin; `handOnTiller` and `kneeHeight` are in his own space, metres.
 int addSailor(Document& document, int parent, glm::vec3 position, glm::quat rotation, float scale,

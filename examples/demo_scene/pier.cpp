@@ -20,12 +20,12 @@ Mesh makeDeck(float length) {
   constexpr float kPitch = 0.36f;
   const int count = int(length / kPitch);
   for (int i = 0; i < count; ++i) {
-    mesh.setMaterial(random.unit() < 0.16f ? kPierDark : kPier);
+    mesh.setMaterial(random.unit() < 0.10f ? kPierDark : kPier);
     const float x = (float(i) + 0.5f) * kPitch;
     mesh.setTransform(
         placed({x, kDeckTop - 0.035f + random.between(-0.008f, 0.008f), random.between(-0.05f, 0.05f)},
                random.between(-0.012f, 0.012f)));
-    mesh.box({0, 0, 0}, {kPitch - 0.035f, 0.07f, kWidth + random.between(-0.06f, 0.10f)});
+    mesh.box({0, 0, 0}, {kPitch - 0.014f, 0.07f, kWidth + random.between(-0.06f, 0.10f)});
   }
   mesh.setTransform(glm::mat4(1.0f));
   mesh.setMaterial(kPierDark);
@@ -165,7 +165,7 @@ Mesh makeLampPost() {
   mesh.setTransform(placed({0.56f, 2.42f, 0}, 0));
   mesh.lathe({{0, 0}, {0.10f, 0}, {0.10f, 0.04f}, {0.0f, 0.04f}}, 6);
   mesh.lathe({{0, 0.30f}, {0.15f, 0.30f}, {0.05f, 0.42f}, {0.03f, 0.50f}, {0.0f, 0.50f}}, 6);
-  mesh.setMaterial(kLantern);
+  mesh.setMaterial(kLighthouseWhite);
   mesh.lathe({{0, 0.04f}, {0.08f, 0.04f}, {0.11f, 0.30f}, {0.0f, 0.30f}}, 6);
   return mesh.take();
 }

@@ -64,7 +64,7 @@ Mesh makeStandingRigging() {
   const glm::vec3 cutwater = hullPoint(1.0f, 0.52f);
   rope(mesh, bowspritPoint(0.95f), cutwater + glm::vec3(0.03f, 0, 0));
   for (float side : {-1.0f, 1.0f}) {
-    for (float x : {0.82f, 0.42f}) {
+    for (float x : {0.95f, 0.55f}) {
       const float s = stationAt(x);
       const glm::vec3 chain = {x, sheerHeight(s) - 0.02f, side * (halfBeam(s) + 0.03f)};
       mesh.setMaterial(kRope);
@@ -82,10 +82,10 @@ Mesh makeRunningRigging() {
   // Peak halyard in two parts, topping lift, and the sheet from the boom to the deck at the stern.
   rope(mesh, mastPoint(kMastTop - 0.25f), gaffPoint(0.92f));
   rope(mesh, mastPoint(kMastTop - 0.55f), gaffPoint(0.52f));
-  const glm::vec3 block = boomPoint(0.82f);
-  const glm::vec3 horse = {-2.08f, deckHeight(-2.08f, 0.3f) + 0.05f, -0.34f};
+  const glm::vec3 block = boomPoint(0.70f);
+  const glm::vec3 horse = {-0.55f, kSole + 0.03f, -0.06f};
   rope(mesh, block, horse, 0.0f);
-  rope(mesh, boomPoint(0.90f), horse + glm::vec3(-0.06f, 0, 0.02f), 0.0f);
+  rope(mesh, boomPoint(0.78f), horse + glm::vec3(-0.06f, 0, 0.02f), 0.0f);
   // Halyard falls along the mast down to a pin.
   rope(mesh, mastPoint(4.4f) + glm::vec3(0.09f, 0, 0.06f), mastPoint(0.95f) + glm::vec3(0.12f, 0, 0.08f));
   mesh.setMaterial(kTrim);
@@ -137,7 +137,7 @@ void addRig(Document& document, int boat) {
   document.addMesh(makeStandingRigging(), mast);
   document.addMesh(makeRunningRigging(), mast);
   document.addMesh(makePennant(), mast, mastPoint(kMastTop - 0.12f) + glm::vec3(-0.04f, 0, 0));
-  document.addMesh(makeLantern(), boat, {-2.36f, deckHeight(-2.36f, 0.36f) + 0.09f, 0.40f});
+  document.addMesh(makeLantern(), boat, {-2.38f, deckHeight(-2.38f, 0.36f) + 0.09f, -0.40f});
 }
 
 }  // namespace demo

@@ -9,8 +9,8 @@
 namespace demo {
 
 // The sheets are eased to port, to leeward; the gaff sags off further than the boom.
-constexpr float kBoomAngle = 0.20f, kGaffAngle = 0.34f;                       // radians off the centre line
-constexpr float kBoomLength = 2.62f, kGaffLength = 2.35f, kGaffRise = 0.86f;  // metres, metres, radians
+constexpr float kBoomAngle = 0.09f, kGaffAngle = 0.26f;                       // radians off the centre line
+constexpr float kBoomLength = 2.16f, kGaffLength = 2.30f, kGaffRise = 0.88f;  // metres, metres, radians
 
 inline glm::vec3 mastPoint(float y) {
   return {kMastFoot - 0.035f * (y - 0.6f), y, 0};
@@ -20,7 +20,7 @@ constexpr float kMastTop = 5.55f;
 // Along the boom and the gaff, 0 at the mast, 1 at the end.
 inline glm::vec3 boomPoint(float u) {
   const float r = 0.10f + u * kBoomLength;
-  return mastPoint(1.50f) + glm::vec3(-r * std::cos(kBoomAngle), 0.22f * u, -r * std::sin(kBoomAngle));
+  return mastPoint(1.54f) + glm::vec3(-r * std::cos(kBoomAngle), 0.30f * u, -r * std::sin(kBoomAngle));
 }
 inline glm::vec3 gaffPoint(float u) {
   const float r = 0.10f + u * kGaffLength, level = r * std::cos(kGaffRise);

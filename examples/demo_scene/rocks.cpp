@@ -19,7 +19,7 @@ void addRock(meshkit::MeshBuilder& mesh, const RockShape& shape,
     }
   }
   // A little unevenness, so that large cuts still break into facets.
-  for (glm::vec3& p : points) p *= 1.0f + random.between(-0.025f, 0.025f);
+  for (glm::vec3& p : points) p *= 1.0f + random.between(-0.008f, 0.008f);
   const float c = std::cos(shape.turn), s = std::sin(shape.turn);
   for (glm::vec3& p : points) {
     p *= shape.halfSize;

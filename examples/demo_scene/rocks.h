@@ -13,7 +13,7 @@ struct RockShape {
   float turn = 0.0f;  // radians around +Y
   float top = 1e9f;   // nothing rises above this height: a platform
   int levels = 3;     // how fine the ball is
-  int cuts = 16;      // how many planes
+  int cuts = 13;      // how many planes
   uint64_t seed = 1;
 };
 

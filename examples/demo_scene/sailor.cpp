@@ -78,7 +78,7 @@ Mesh makeCoat(glm::vec3 tillerHand) {
                    {0.60f, 0.10f, 0.09f, 0.05f}},
                   12, 0.9f),
             {.shading = Shading::flat});
-  addArm(mesh, {0.215f, 0.485f, 0.02f}, tillerHand, {0.8f, -0.5f, -0.5f});
+  addArm(mesh, {0.215f, 0.485f, 0.02f}, tillerHand, {0.9f, -0.1f, -0.3f});
   addArm(mesh, {-0.215f, 0.485f, 0.02f}, {-0.145f, 0.135f, 0.36f}, {-0.9f, -0.3f, -0.25f});
   return mesh.take();
 }
@@ -158,7 +158,7 @@ Mesh makeCap() {
   MeshBuilder mesh("Cap");
   mesh.setMaterial(kCap);
   // Band, then a soft crown wider than the band, pulled down to the front.
-  mesh.loft(rings({{0.158f, 0.094f, 0.114f, 0.006f},
+  mesh.loft(rings({{0.146f, 0.095f, 0.117f, 0.002f},
                    {0.205f, 0.096f, 0.116f, 0.004f},
                    {0.235f, 0.132f, 0.148f, 0.010f},
                    {0.262f, 0.130f, 0.146f, 0.002f},

@@ -41,7 +41,7 @@ Mesh makeMainsail() {
       // Deepest at 40 percent of the chord and below the middle; the head is laced straight to the gaff.
       const float draft = std::pow(std::sin(kPi * std::pow(u, 0.76f)), 1.0f);
       const float height = std::pow(std::sin(kPi * std::pow(glm::mix(0.16f, 1.0f, v), 0.85f)), 0.8f);
-      const float belly = 0.44f * draft * std::max(height, 0.0f);
+      const float belly = 0.56f * draft * std::max(height, 0.0f);
       p += glm::vec3(-0.22f, 0.0f, -0.97f) * belly;
       // The foot hangs in a curve, the leech is cut slightly hollow.
       p.y -= 0.10f * std::sin(kPi * u) * (1.0f - v) * (1.0f - v);
@@ -61,7 +61,7 @@ Mesh makeMainsail() {
   mesh.setMaterial(kRope);
   for (size_t c = 3; c < kColumns - 2; c += 4) {
     const glm::vec3 p = sail.at(9, c) + glm::vec3(0, 0, -0.012f);
-    mesh.tube({p, p + glm::vec3(0.0f, -0.10f, -0.035f), p + glm::vec3(0.01f, -0.22f, -0.03f)}, {0.013f}, 5);
+    mesh.tube({p, p + glm::vec3(0.0f, -0.07f, -0.02f), p + glm::vec3(0.01f, -0.14f, -0.012f)}, {0.012f}, 5);
   }
   // Hoops hold the luff to the mast.
   for (size_t r = 3; r < kRows; r += 6) {
@@ -82,7 +82,7 @@ Mesh makeJib() {
   constexpr size_t kColumns = 19, kRows = 25;
   const glm::vec3 stayFoot = bowspritPoint(0.95f), stayHead = mastPoint(4.54f);
   const glm::vec3 tack = glm::mix(stayFoot, stayHead, 0.05f), head = glm::mix(stayFoot, stayHead, 0.90f);
-  const glm::vec3 clew = {1.14f, 1.42f, -0.62f};
+  const glm::vec3 clew = {1.06f, 1.42f, -0.60f};
   Grid sail(kRows, kColumns);
   for (size_t r = 0; r < kRows; ++r) {
     const float v = float(r) / float(kRows - 1);

@@ -14,15 +14,15 @@ struct Wave {
 
 // The crests lie roughly across the picture, so that they read as long, quiet strokes.
 const Wave kWaves[] = {{{0.35f, 0.94f}, 17.0f, 0.13f, 0.4f},
-                       {{-0.25f, 0.97f}, 9.5f, 0.085f, 2.1f},
-                       {{0.62f, 0.78f}, 5.6f, 0.045f, 4.4f},
-                       {{-0.55f, 0.83f}, 3.5f, 0.022f, 1.3f}};
+                       {{-0.25f, 0.97f}, 9.5f, 0.075f, 2.1f},
+                       {{0.62f, 0.78f}, 5.6f, 0.034f, 4.4f},
+                       {{-0.55f, 0.83f}, 3.5f, 0.014f, 1.3f}};
 
 // Waves shorter than a few facets are left out, or they would alias in the mesh itself.
 float height(glm::vec2 p, float cell) {
   float y = 0.0f;
   for (const Wave& w : kWaves) {
-    const float keep = glm::smoothstep(2.0f, 4.0f, w.length / cell);
+    const float keep = glm::smoothstep(2.5f, 5.0f, w.length / cell);
     y += keep * w.height * std::sin(2.0f * kPi * glm::dot(p, w.direction) / w.length + w.phase);
   }
   return y;
@@ -44,43 +44,45 @@ float seaHeight(glm::vec2 place) {
 int addSea(Document& document, int parent, glm::vec2 nearCenter) {
   MeshBuilder mesh("Sea");
   Random random(5);
-  constexpr size_t kSectors = 144;
-  constexpr float kReach = 650.0f;
-  std::vector<float> radii{0.0f};
-  while (radii.back() < kReach) radii.push_back(radii.back() + 0.55f + 0.042f * radii.back());
-  Grid water(radii.size(), kSectors);
-  for (size_t r = 0; r < radii.size(); ++r) {
-    const float cell = 0.55f + 0.042f * radii[r];
-    const bool edge = r == 0 || r + 1 == radii.size();
-    for (size_t c = 0; c < kSectors; ++c) {
-      // Uneven rings: an even pattern of facets would show as rays.
-      const float jitter = edge ? 0.0f : 0.34f;
-      const float radius = radii[r] + cell * random.between(-jitter, jitter);
-      const float angle =
-          2.0f * kPi * (float(c) + random.between(-jitter, jitter) + 0.5f * float(r % 2)) / kSectors;
-      const glm::vec2 p = nearCenter + radius * glm::vec2(std::cos(angle), -std::sin(angle));
-      water.at(r, c) = {p.x, edge && r > 0 ? 0.0f : height(p, std::max(cell, 0.04f * radii[r])), p.y};
+  // Square rings around the near centre, each wider than the one within: no pinch in the middle, no long
+  // slivers.
+  constexpr int kRings = 52;
+  constexpr size_t kSide = 2 * kRings + 1;
+  constexpr float kCell = 0.62f, kGrowth = 0.087f;  // metres; and more for every metre further out
+  auto ringRadius = [](float ring) { return kCell / kGrowth * (std::exp(kGrowth * ring) - 1.0f); };
+  Grid water(kSide, kSide);
+  for (int r = -kRings; r <= kRings; ++r) {
+    for (int c = -kRings; c <= kRings; ++c) {
+      const int ring = std::max(std::abs(r), std::abs(c));
+      const bool edge = ring == kRings;
+      // Uneven, because an even pattern of facets would show.
+      const float jitter = edge ? 0.0f : 0.25f;
+      const glm::vec2 place = {float(c) + random.between(-jitter, jitter),
+                               float(r) + random.between(-jitter, jitter)};
+      const float reach = std::max({std::abs(place.x), std::abs(place.y), 1e-3f});
+      const float scale = ringRadius(reach) / reach;
+      const glm::vec2 p = nearCenter + place * scale;
+      const float cell = kCell + kGrowth * ringRadius(reach);
+      water.at(size_t(r + kRings), size_t(c + kRings)) = {p.x, edge ? 0.0f : height(p, cell), p.y};
     }
   }
   auto paint = [&](size_t r, size_t c) -> int {
-    const glm::vec3 a = water.at(r, c), b = water.at(r, (c + 1) % kSectors), d = water.at(r + 1, c),
-                    e = water.at(r + 1, (c + 1) % kSectors);
+    const glm::vec3 a = water.at(r, c), b = water.at(r, c + 1), d = water.at(r + 1, c),
+                    e = water.at(r + 1, c + 1);
     const glm::vec3 middle = 0.25f * (a + b + d + e);
-    const glm::vec3 across = glm::cross(e - a, d - b);
-    if (glm::length(across) < 1e-9f) return kSea2;
-    const glm::vec3 normal = glm::normalize(across);
+    const glm::vec3 normal = glm::normalize(glm::cross(d - b, e - a));
     // Facets that lean towards the viewer show the depth, those that lean away mirror the sky.
     const float lean = -normal.z * 7.0f;
     const float distance = glm::length(glm::vec2(middle.x, middle.z) - nearCenter);
-    const float far = glm::smoothstep(40.0f, 320.0f, distance);
+    const float far = glm::smoothstep(40.0f, 240.0f, distance);
     const float tone =
-        lean * (1.0f - far) + 0.55f * windPatch({middle.x, middle.z}) * (1.0f - 0.5f * far) + 1.25f * far;
+        lean * (1.0f - far) + 0.55f * windPatch({middle.x, middle.z}) * (1.0f - far) + 1.25f * far;
     if (tone > 0.92f) return kSea4;
     if (tone > 0.42f) return kSea1;
     if (tone > -0.42f) return kSea2;
     return kSea3;
   };
-  mesh.grid(water, {.closed = true, .cellMaterial = paint});
+  mesh.grid(water, {.flip = true, .cellMaterial = paint});
   return document.addMesh(mesh.take(), parent);
 }
 

@@ -24,7 +24,7 @@ Mesh makeRocks(const char* name, const std::vector<RockPlace>& places, Paint roc
                     .seed = seed++};
     addRock(mesh, shape, [&](glm::vec3 normal, glm::vec3 center) -> int {
       if (center.y < -0.8f) return -1;  // never seen
-      if (normal.y > 0.74f && center.y > grassFrom) return grass;
+      if (normal.y > 0.80f && center.y > grassFrom) return grass;
       return center.y < 0.55f ? kRockWet : rock;
     });
   }
@@ -141,24 +141,24 @@ int addShore(Document& document, int parent) {
   const int shore = document.addNode({"Shore", parent});
   constexpr float kPlatform = 4.3f;
   document.addMesh(makeRocks("RockyPoint",
-                             {{-66, -74, 20, 9.0f, 12, 0.2f, 1e9f, 4},
-                              {-50, -78, 14, 7.5f, 10, -0.3f, 1e9f, 4},
-                              {-38, -79, 11, 6.4f, 9, 0.4f, kPlatform + 0.6f, 4},
-                              {-26, -80, 10, 6.2f, 8, 0.1f, kPlatform, 4},
-                              {-16.5f, -80, 5.5f, 3.6f, 5, 0.7f, 1e9f, 3},
+                             {{-66, -74, 20, 9.0f, 12, 0.2f, 1e9f, 3},
+                              {-50, -78, 14, 7.5f, 10, -0.3f, 1e9f, 3},
+                              {-38, -79, 11, 6.4f, 9, 0.4f, kPlatform + 0.6f, 3},
+                              {-26, -80, 10, 6.2f, 8, 0.1f, kPlatform, 3},
+                              {-16.5f, -80, 5.5f, 3.6f, 5, 0.7f, 1e9f, 2},
                               {-20, -73.5f, 5, 3.0f, 3.5f, -0.4f, 1e9f, 3},
                               {-31, -71.5f, 6, 3.4f, 4, 0.3f, 1e9f, 3},
-                              {-43, -70, 7, 4.2f, 4, -0.2f, 1e9f, 3},
-                              {-10.5f, -79, 2.6f, 1.6f, 2.4f, 0.5f, 1e9f, 3},
+                              {-43, -70, 7, 4.2f, 4, -0.2f, 1e9f, 2},
+                              {-10.5f, -79, 2.6f, 1.6f, 2.4f, 0.5f, 1e9f, 2},
                               {-12.6f, -75, 1.4f, 0.9f, 1.2f, 1.1f, 1e9f, 2}},
                              kRockFar, kRockFarGrass, 1.6f, 40),
                    shore);
   document.addMesh(makeRocks("PierRocks",
-                             {{-33, -40, 9, 5.0f, 7, 0.3f, 1e9f, 4},
+                             {{-33, -40, 9, 5.0f, 7, 0.3f, 1e9f, 3},
                               {-27.5f, -37.5f, 4.0f, 2.6f, 3.4f, 0.8f, 1.42f, 3},
-                              {-25.5f, -41.5f, 3.6f, 2.2f, 3.0f, -0.5f, 1e9f, 3},
+                              {-25.5f, -41.5f, 3.6f, 2.2f, 3.0f, -0.5f, 1e9f, 2},
                               {-22.6f, -39.8f, 1.5f, 1.0f, 1.3f, 0.2f, 1e9f, 2},
-                              {-28, -33.2f, 2.4f, 1.6f, 2.0f, 0.2f, 1e9f, 3}},
+                              {-28, -33.2f, 2.4f, 1.6f, 2.0f, 0.2f, 1e9f, 2}},
                              kRock, kRockGrass, 2.2f, 60),
                    shore);
   const int horizon = document.addNode({"Horizon", parent});

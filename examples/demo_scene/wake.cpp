@@ -1,0 +1,75 @@
+// The foam along the hull and the wake behind it: flat, ragged shapes that lie on the water.
+#include "hull_form.h"
+#include "mesh_kit/random.h"
+#include "parts.h"
+
+namespace demo {
+namespace {
+
+using namespace meshkit;
+constexpr float kAbove = 0.045f;  // metres over the water: its facets lie a little above or below its waves
+
+// Where the hull's side at a station goes through the water, in the world.
+glm::vec3 waterline(const glm::mat4& boat, float s, float side) {
+  glm::vec3 below{0.0f};
+  for (int i = 0; i <= 100; ++i) {
+    glm::vec3 p = hullPoint(s, float(i) / 100.0f);
+    p.z *= side;
+    p = glm::vec3(boat * glm::vec4(p, 1.0f));
+    below = p;
+    if (p.y > seaHeight({p.x, p.z}) + kAbove) break;
+  }
+  return below;
+}
+
+glm::vec3 onWater(glm::vec2 p) {
+  return {p.x, seaHeight(p) + kAbove, p.y};
+}
+
+}  // namespace
+
+void addWake(Document& document, int parent, const glm::mat4& boat) {
+  MeshBuilder mesh("Wake");
+  mesh.setMaterial(kFoam);
+  Random random(21);
+  const glm::vec2 ahead = glm::normalize(glm::vec2(boat[0].x, boat[0].z));
+  for (float side : {-1.0f, 1.0f}) {
+    const glm::vec2 abeam = side * glm::normalize(glm::vec2(boat[2].x, boat[2].z));
+    constexpr size_t kPieces = 22;
+    Grid strip(2, kPieces + 1);
+    for (size_t i = 0; i <= kPieces; ++i) {
+      // From the stem aft; widest where the bow wave curls away, ragged all along.
+      const float s = glm::mix(0.995f, 0.02f, float(i) / float(kPieces));
+      const glm::vec3 hull = waterline(boat, s, side);
+      const glm::vec2 at = {hull.x, hull.z};
+      const float curl = std::exp(-18.0f * (s - 0.80f) * (s - 0.80f));
+      const float width = (0.06f + 0.34f * curl) * random.between(0.45f, 1.25f) + 0.02f;
+      strip.at(0, i) = onWater(at - 0.10f * abeam);
+      strip.at(1, i) = onWater(at + width * abeam - 0.6f * width * ahead);
+    }
+    mesh.grid(strip, {.flip = side < 0});
+    // Streaks that the bow wave and the stern leave behind, thinner and further apart with distance.
+    const glm::vec3 stern = waterline(boat, 0.0f, side);
+    for (int k = 0; k < 2; ++k) {
+      const float back = 0.15f + 0.95f * float(k) + random.between(0.0f, 0.5f);
+      const float length = random.between(0.5f, 0.9f), width = 0.10f - 0.012f * float(k);
+      const glm::vec2 middle = glm::vec2(stern.x, stern.z) - back * ahead + (0.10f + 0.13f * back) * abeam;
+      const glm::vec2 along = glm::normalize(-ahead + 0.13f * abeam), across = {-along.y, along.x};
+      std::vector<glm::vec3> streak;
+      constexpr int kPoints = 10;
+      for (int i = 0; i < kPoints; ++i) {
+        const float angle = 2.0f * kPi * float(i) / kPoints;
+        const glm::vec2 p = middle + along * (length * (0.5f + 0.5f * std::cos(angle))) +
+                            across * (width * std::sin(angle) * random.between(0.5f, 1.4f));
+        streak.push_back(onWater(p));
+      }
+      // Wind it so that it looks up.
+      if (glm::cross(streak[2] - streak[0], streak[5] - streak[0]).y < 0)
+        std::reverse(streak.begin(), streak.end());
+      mesh.polygon(streak);
+    }
+  }
+  document.addMesh(mesh.take(), parent);
+}
+
+}  // namespace demo
