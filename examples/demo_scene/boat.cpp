@@ -24,7 +24,7 @@ int addBoat(Document& document, int parent) {
   const glm::quat facing = glm::angleAxis(0.5f * kPi + kTurn, glm::vec3(0, 1, 0));
   const glm::vec3 tiller = {-1.50f, 1.045f, -0.20f};
   const glm::vec3 hand = glm::inverse(facing) * (tiller - seat) / kScale;
-  addWake(document, parent, document.worldMatrix(boat));
+  addFoam(document, parent, document.worldMatrix(boat));
   addSailor(document, boat, seat, facing, kScale, hand);
   return boat;
 }

@@ -61,7 +61,7 @@ int addGulls(Document& document, int parent) {
     float heading, bank, beat;  // radians; heading 0 flies towards the viewer
   };
   const Flight flights[] = {{{-2.5f, 7.0f, 1.0f}, -2.05f, 0.38f, 0.25f},
-                            {{-6.1f, 6.9f, -12.0f}, -2.3f, -0.30f, -0.05f},
+                            {{-1.5f, 8.5f, -12.0f}, -2.3f, -0.30f, -0.05f},
                             {{11.2f, 9.6f, -14.0f}, -1.2f, 0.30f, 0.40f}};
   int number = 1;
   for (const Flight& f : flights) {

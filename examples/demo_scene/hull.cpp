@@ -91,7 +91,7 @@ void addDeck(MeshBuilder& mesh, float side) {
       deck.at(r, i) = {xs[i], deckHeight(xs[i], z), side * z};
     }
   }
-  mesh.grid(deck, {.shading = Shading::smooth, .flip = side < 0});
+  mesh.grid(deck, {.shading = Shading::smooth, .flip = side < 0, .projectAlong = {0, 1, 0}});
 }
 
 // The cockpit's outline, once round, counter-clockwise seen from above.

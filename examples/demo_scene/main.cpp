@@ -16,11 +16,14 @@ Document makeScene() {
   Document document;
   document.materials = palette();
   const int world = document.addNode({"World"});
-  addBoat(document, world);
+  const int boat = addBoat(document, world);
   addPier(document, world, {-27.0f, 0, -37.0f}, {-7.4f, 0, -9.5f});
   addShore(document, world);
   addLighthouse(document, world, {-25.5f, 4.15f, -79.5f});
-  addSea(document, world, {1.0f, 5.0f});
+  const glm::mat4 boatMatrix = document.worldMatrix(boat);
+  const glm::vec4 stern = boatMatrix * glm::vec4(-2.6f, 0, 0, 1);
+  addSea(document, world, {1.0f, 5.0f},
+         {{stern.x, stern.z}, -glm::normalize(glm::vec2(boatMatrix[0].x, boatMatrix[0].z)), 7.0f});
   addGulls(document, world);
   addClouds(document, world);
 
@@ -31,7 +34,7 @@ Document makeScene() {
   document.addCamera({"Hero", 0.50f}, {0.0f, 3.4f, 19.4f}, {0.0f, 4.25f, 0.0f});
   document.addCamera({"Sailor", 0.46f}, {2.6f, 1.9f, 5.2f}, {4.3f, 1.30f, 0.0f});
   document.addCamera({"Pier", 0.56f}, {-12.5f, 3.1f, -0.5f}, {-10.2f, 2.2f, -13.0f});
-  document.addCamera({"Wide", 0.62f}, {12.5f, 7.6f, 26.0f}, {-3.0f, 3.1f, -6.0f});
+  document.addCamera({"Wide", 0.62f}, {12.5f, 7.6f, 26.0f}, {-2.6f, 4.1f, -6.0f});
   return document;
 }
 

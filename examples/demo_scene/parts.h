@@ -16,7 +16,7 @@ void addHull(Document& document, int boat);
 void addRig(Document& document, int boat);
 void addSails(Document& document, int boat);
 // The foam where the hull meets the water, in the space of `parent`.
-void addWake(Document& document, int parent, const glm::mat4& boat);
+void addFoam(Document& document, int parent, const glm::mat4& boat);
 
 // Faces +Z, sits with the hip at the origin; `handOnTiller` and `kneeHeight` are in his own space, metres.
 int addSailor(Document& document, int parent, glm::vec3 position, glm::quat rotation, float scale,
@@ -25,7 +25,12 @@ int addSailor(Document& document, int parent, glm::vec3 position, glm::quat rota
 int addPier(Document& document, int parent, glm::vec3 root, glm::vec3 head);
 int addShore(Document& document, int parent);
 int addLighthouse(Document& document, int parent, glm::vec3 position);
-int addSea(Document& document, int parent, glm::vec2 nearCenter);
+// The broken water that a boat leaves behind, in the plane of X and Z, metres.
+struct Wake {
+  glm::vec2 stern, astern;
+  float length;
+};
+int addSea(Document& document, int parent, glm::vec2 nearCenter, const Wake& wake);
 int addGulls(Document& document, int parent);
 int addClouds(Document& document, int parent);
 

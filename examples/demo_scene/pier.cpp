@@ -56,7 +56,8 @@ Mesh makePosts(float length) {
     }
     mesh.setMaterial(kPierDark);
     mesh.box({x, kDeckTop - 0.38f, 0}, {0.2f, 0.2f, kWidth + 0.3f});
-    mesh.bar({{x, -0.4f, -0.5f * kWidth}, {x, kDeckTop - 0.4f, 0.5f * kWidth}}, 0.08f, 0.14f, {1, 0, 0});
+    if (i % 2 == 0)
+      mesh.bar({{x, -0.4f, -0.5f * kWidth}, {x, kDeckTop - 0.4f, 0.5f * kWidth}}, 0.08f, 0.14f, {1, 0, 0});
   }
   return mesh.take();
 }
@@ -194,7 +195,7 @@ int addPier(Document& document, int parent, glm::vec3 root, glm::vec3 head) {
   document.addMesh(makeCrates(), pier, {length, kDeckTop, 0});
   document.addMesh(makeBarrel(), pier, {length - 1.35f, kDeckTop, -0.72f});
   document.addMesh(makeCoil(), pier, {length - 2.0f, kDeckTop, 0.62f});
-  document.addMesh(makeLampPost(), pier, {length - 8.2f, kDeckTop, -1.12f});
+  document.addMesh(makeLampPost(), pier, {length - 13.8f, kDeckTop, -1.12f});
   return pier;
 }
 

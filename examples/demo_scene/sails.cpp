@@ -15,12 +15,14 @@ struct Patch {
 };
 
 GridOptions cloth(const std::vector<Patch>& patches, bool flip) {
-  return {
-      .shading = Shading::smooth, .flip = flip, .cellMaterial = [patches](size_t row, size_t column) -> int {
-        for (const Patch& p : patches)
-          if (row >= p.row0 && row < p.row1 && column >= p.column0 && column < p.column1) return p.paint;
-        return kSail;
-      }};
+  return {.shading = Shading::smooth,
+          .flip = flip,
+          .projectAlong = {0, 0, 1},
+          .cellMaterial = [patches](size_t row, size_t column) -> int {
+            for (const Patch& p : patches)
+              if (row >= p.row0 && row < p.row1 && column >= p.column0 && column < p.column1) return p.paint;
+            return kSail;
+          }};
 }
 
 // u from luff to leech, v from foot to head.

@@ -13,8 +13,8 @@ struct Wave {
 };
 
 // The crests lie roughly across the picture, so that they read as long, quiet strokes.
-const Wave kWaves[] = {{{0.35f, 0.94f}, 17.0f, 0.13f, 0.4f},
-                       {{-0.25f, 0.97f}, 9.5f, 0.075f, 2.1f},
+const Wave kWaves[] = {{{0.35f, 0.94f}, 17.0f, 0.115f, 0.4f},
+                       {{-0.25f, 0.97f}, 9.5f, 0.065f, 2.1f},
                        {{0.62f, 0.78f}, 5.6f, 0.034f, 4.4f},
                        {{-0.55f, 0.83f}, 3.5f, 0.014f, 1.3f}};
 
@@ -41,7 +41,7 @@ float seaHeight(glm::vec2 place) {
   return height(place, 0.5f);
 }
 
-int addSea(Document& document, int parent, glm::vec2 nearCenter) {
+int addSea(Document& document, int parent, glm::vec2 nearCenter, const Wake& wake) {
   MeshBuilder mesh("Sea");
   Random random(5);
   // Square rings around the near centre, each wider than the one within: no pinch in the middle, no long
@@ -77,12 +77,18 @@ int addSea(Document& document, int parent, glm::vec2 nearCenter) {
     const float far = glm::smoothstep(40.0f, 240.0f, distance);
     const float tone =
         lean * (1.0f - far) + 0.55f * windPatch({middle.x, middle.z}) * (1.0f - far) + 1.25f * far;
+    // Broken, paler water behind the boat.
+    const glm::vec2 behind = glm::vec2(middle.x, middle.z) - wake.stern;
+    const float along = glm::dot(behind, wake.astern),
+                across = std::abs(wake.astern.x * behind.y - wake.astern.y * behind.x);
+    if (along > -0.3f && along < wake.length && across < 0.45f + 0.10f * along)
+      return along < 2.2f ? kSea4 : kSea1;
     if (tone > 0.92f) return kSea4;
     if (tone > 0.42f) return kSea1;
     if (tone > -0.42f) return kSea2;
     return kSea3;
   };
-  mesh.grid(water, {.flip = true, .cellMaterial = paint});
+  mesh.grid(water, {.flip = true, .projectAlong = {0, 1, 0}, .cellMaterial = paint});
   return document.addMesh(mesh.take(), parent);
 }
 

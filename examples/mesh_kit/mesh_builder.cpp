@@ -103,7 +103,9 @@ void MeshBuilder::grid(const Grid& grid, const GridOptions& options) {
   auto vertex = [&](int material, size_t r, size_t c, glm::vec3 flatNormal) -> uint32_t {
     Primitive& p = primitive(material);
     const glm::vec3 world = glm::vec3(transform_ * glm::vec4(point(r, c), 1.0f));
-    const glm::vec2 uv = kTexelDensity * glm::vec2(u[c], v[r]);
+    const glm::vec2 uv = options.projectAlong == glm::vec3(0.0f)
+                             ? kTexelDensity * glm::vec2(u[c], v[r])
+                             : planarUv(point(r, c), options.projectAlong);
     if (options.shading == Shading::flat) {
       p.vertices.push_back({world, flatNormal, uv});
       return uint32_t(p.vertices.size() - 1);

@@ -33,6 +33,9 @@ struct GridOptions {
   Shading shading = Shading::flat;
   bool closed = false;  // the last column joins the first
   bool flip = false;    // look to the other side
+  // UVs are unrolled by arc length, which suits tubes and bands; sheets whose cells differ much in size are
+  // better projected along an axis.
+  glm::vec3 projectAlong{0.0f};
   // The material of a cell; the builder's current one where there is none.
   std::function<int(size_t row, size_t column)> cellMaterial;
 };

@@ -1,4 +1,4 @@
-// The foam along the hull and the wake behind it: flat, ragged shapes that lie on the water.
+// The foam along the hull: one flat, ragged shape that lies on the water.
 #include "hull_form.h"
 #include "mesh_kit/random.h"
 #include "parts.h"
@@ -28,8 +28,8 @@ glm::vec3 onWater(glm::vec2 p) {
 
 }  // namespace
 
-void addWake(Document& document, int parent, const glm::mat4& boat) {
-  MeshBuilder mesh("Wake");
+void addFoam(Document& document, int parent, const glm::mat4& boat) {
+  MeshBuilder mesh("Foam");
   mesh.setMaterial(kFoam);
   Random random(21);
   const glm::vec2 ahead = glm::normalize(glm::vec2(boat[0].x, boat[0].z));
@@ -48,26 +48,6 @@ void addWake(Document& document, int parent, const glm::mat4& boat) {
       strip.at(1, i) = onWater(at + width * abeam - 0.6f * width * ahead);
     }
     mesh.grid(strip, {.flip = side < 0});
-    // Streaks that the bow wave and the stern leave behind, thinner and further apart with distance.
-    const glm::vec3 stern = waterline(boat, 0.0f, side);
-    for (int k = 0; k < 2; ++k) {
-      const float back = 0.15f + 0.95f * float(k) + random.between(0.0f, 0.5f);
-      const float length = random.between(0.5f, 0.9f), width = 0.10f - 0.012f * float(k);
-      const glm::vec2 middle = glm::vec2(stern.x, stern.z) - back * ahead + (0.10f + 0.13f * back) * abeam;
-      const glm::vec2 along = glm::normalize(-ahead + 0.13f * abeam), across = {-along.y, along.x};
-      std::vector<glm::vec3> streak;
-      constexpr int kPoints = 10;
-      for (int i = 0; i < kPoints; ++i) {
-        const float angle = 2.0f * kPi * float(i) / kPoints;
-        const glm::vec2 p = middle + along * (length * (0.5f + 0.5f * std::cos(angle))) +
-                            across * (width * std::sin(angle) * random.between(0.5f, 1.4f));
-        streak.push_back(onWater(p));
-      }
-      // Wind it so that it looks up.
-      if (glm::cross(streak[2] - streak[0], streak[5] - streak[0]).y < 0)
-        std::reverse(streak.begin(), streak.end());
-      mesh.polygon(streak);
-    }
   }
   document.addMesh(mesh.take(), parent);
 }
