@@ -18,7 +18,7 @@ void addSails(Document& document, int boat);
 // The foam where the hull meets the water, in the space of `parent`.
 void addFoam(Document& document, int parent, const glm::mat4& boat);
 
-// Faces +Z, sits with the hip at the origin; `handOnTiller` and `kneeHeight` are in his own space, metres.
+// Faces +Z, sits with the hip at the origin; `handOnTiller` is in his own space, metres.
 int addSailor(Document& document, int parent, glm::vec3 position, glm::quat rotation, float scale,
               glm::vec3 handOnTiller);
 

@@ -87,7 +87,7 @@ Mesh makeCrates() {
   crate(mesh, {-2.3f, 0, -0.45f}, 0.15f, {0.95f, 0.75f, 0.8f}, kCrate, kCrateLight);
   crate(mesh, {-3.25f, 0, -0.35f}, -0.2f, {0.8f, 0.65f, 0.7f}, kCrateLight, kCrate);
   crate(mesh, {-2.45f, 0.75f, -0.4f}, 0.5f, {0.68f, 0.55f, 0.6f}, kCrateLight, kCrate);
-  crate(mesh, {-4.3f, 0, 0.55f}, 0.35f, {0.7f, 0.5f, 0.6f}, kCrate, kCrateLight);
+  crate(mesh, {-3.9f, 0, 0.62f}, 0.35f, {0.7f, 0.5f, 0.6f}, kCrate, kCrateLight);
   return mesh.take();
 }
 
@@ -127,7 +127,7 @@ Mesh makeCoil() {
 
 Mesh makeBollards(float length) {
   MeshBuilder mesh("Bollards");
-  for (glm::vec2 at : {glm::vec2(length - 0.75f, 0.75f), glm::vec2(length - 6.4f, 0.85f),
+  for (glm::vec2 at : {glm::vec2(length - 1.15f, 0.72f), glm::vec2(length - 6.4f, 0.85f),
                        glm::vec2(length - 6.4f, -0.85f)}) {
     mesh.setTransform(placed({at.x, kDeckTop, at.y}, 0.2f));
     mesh.setMaterial(kIron);
@@ -148,8 +148,8 @@ Mesh makeBollards(float length) {
   std::vector<glm::vec3> turn;
   for (int i = 0; i <= 24; ++i) {
     const float a = 2.0f * kPi * float(i) / 10.0f;
-    turn.push_back({length - 0.75f + 0.16f * std::cos(a), kDeckTop + 0.15f + 0.004f * float(i),
-                    0.75f + 0.16f * std::sin(a)});
+    turn.push_back({length - 1.15f + 0.16f * std::cos(a), kDeckTop + 0.15f + 0.004f * float(i),
+                    0.72f + 0.16f * std::sin(a)});
   }
   mesh.tube(turn, {0.032f}, 6);
   return mesh.take();
@@ -175,9 +175,9 @@ Mesh makeLadder(float length) {
   MeshBuilder mesh("PierLadder");
   mesh.setMaterial(kPier);
   const float z = 0.5f * kWidth + 0.12f;
-  for (float x : {-1.9f, -1.45f}) mesh.box({length + x, 0.55f, z}, {0.07f, 2.6f, 0.07f});
+  for (float x : {-5.15f, -4.7f}) mesh.box({length + x, 0.55f, z}, {0.07f, 2.6f, 0.07f});
   for (int i = 0; i < 6; ++i)
-    mesh.box({length - 1.675f, -0.45f + 0.36f * float(i), z}, {0.45f, 0.05f, 0.06f});
+    mesh.box({length - 4.925f, -0.45f + 0.36f * float(i), z}, {0.45f, 0.05f, 0.06f});
   return mesh.take();
 }
 
@@ -194,7 +194,7 @@ int addPier(Document& document, int parent, glm::vec3 root, glm::vec3 head) {
   document.addMesh(makeLadder(length), pier);
   document.addMesh(makeCrates(), pier, {length, kDeckTop, 0});
   document.addMesh(makeBarrel(), pier, {length - 1.35f, kDeckTop, -0.72f});
-  document.addMesh(makeCoil(), pier, {length - 2.0f, kDeckTop, 0.62f});
+  document.addMesh(makeCoil(), pier, {length - 2.35f, kDeckTop, 0.55f});
   document.addMesh(makeLampPost(), pier, {length - 13.8f, kDeckTop, -1.12f});
   return pier;
 }

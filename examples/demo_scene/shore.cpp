@@ -59,8 +59,7 @@ Mesh makeTower() {
   const std::vector<float> heights = {0.0f, 0.5f, 2.5f, 4.3f, 6.1f, 7.6f};
   auto radius = [](float y) { return glm::mix(1.55f, 0.98f, std::pow(y / 7.6f, 0.8f)); };
   for (size_t i = 0; i + 1 < heights.size(); ++i) {
-    mesh.setMaterial(i == 0 ? kLighthouseDark : i == 3 || i == 1 ? kLighthouseWhite : kLighthouseWhite);
-    if (i == 2 || i == 4) mesh.setMaterial(kLighthouseRed);
+    mesh.setMaterial(i == 0 ? kLighthouseDark : i % 2 == 0 ? kLighthouseRed : kLighthouseWhite);
     const float base = i == 0 ? 0.15f : 0.0f;
     mesh.lathe({{radius(heights[i]) + base, heights[i]}, {radius(heights[i + 1]) + base, heights[i + 1]}},
                kSides);
@@ -105,12 +104,10 @@ Mesh makeCottage() {
   MeshBuilder mesh("KeepersCottage");
   mesh.setMaterial(kLighthouseWhite);
   const std::vector<glm::vec2> gable = {
-      {-1.5f, -0.6f}, {1.5f, -0.6f}, {1.5f, 1.8f}, {0.0f, 3.0f}, {-1.5f, 1.8f}};
+      {-1.5f, -1.8f}, {1.5f, -1.8f}, {1.5f, 1.8f}, {0.0f, 3.0f}, {-1.5f, 1.8f}};
   mesh.setTransform(glm::rotate(glm::mat4(1.0f), 0.5f * kPi, glm::vec3(0, 1, 0)));
   mesh.extrude(gable, -2.4f, 2.4f);
   mesh.setMaterial(kCottageRoof);
-  const std::vector<glm::vec2> roof = {{-1.75f, 1.65f}, {0.0f, 3.05f}, {1.75f, 1.65f},
-                                       {1.75f, 1.85f},  {0.0f, 3.3f},  {-1.75f, 1.85f}};
   for (float side : {-1.0f, 1.0f}) {
     const std::vector<glm::vec2> slope =
         side < 0 ? std::vector<glm::vec2>{{-1.75f, 1.6f}, {0, 3.0f}, {0, 3.25f}, {-1.75f, 1.8f}}
@@ -132,7 +129,7 @@ Mesh makeCottage() {
 int addLighthouse(Document& document, int parent, glm::vec3 position) {
   const int lighthouse = document.addNode({"Lighthouse", parent, position});
   document.addMesh(makeTower(), lighthouse);
-  document.addMesh(makeCottage(), lighthouse, {-5.2f, 0.25f, -0.5f},
+  document.addMesh(makeCottage(), lighthouse, {-4.6f, 0.05f, -0.2f},
                    glm::angleAxis(0.25f, glm::vec3(0, 1, 0)));
   return lighthouse;
 }
