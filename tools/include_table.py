@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Holds the table of docs "Rooms, and who may look into which" and fails where a file includes what its room may not.
+"""Holds the table "Rooms, and who may look into which" of the design and fails where a file includes what its room may not.
 
     tools/include_table.py [ROOT]     checks the tree at ROOT (default: this checkout); exit code 1 with a list if it fails
 
@@ -111,7 +111,7 @@ def problem_with(root, file, bracket, name):
         allowed = LIBRARIES_OF_FILE.get(file, LIBRARIES.get(room))
         if allowed is None or library_of(name) in allowed or TEST_FILE.search(file):
             return None
-        return f"{room} may use these libraries only: {', '.join(allowed)}"
+        return f"{room} may use these libraries: {', '.join(allowed)}"
 
     allowed = list(TABLE[room])
     for pattern, also in WIDER:
@@ -121,11 +121,11 @@ def problem_with(root, file, bracket, name):
         allowed += TEST_ALSO
     if target.startswith(place + "/") or any(matches(target, a) for a in allowed):
         return None
-    return f"{place} may look into: {', '.join(allowed) or 'nothing but itself'}"
+    return f"{room} may look into: {', '.join(allowed) or 'nothing but itself'}"
 
 
 def check(root):
-    """All forbidden includes below root, as lines of text, and the number of files looked at."""
+    """All forbidden includes below root as (line of text, the rule that it breaks), and the number of files looked at."""
     problems, count = [], 0
     for top in FOLDERS:
         for path in sorted((root / top).rglob("*")):
@@ -134,13 +134,13 @@ def check(root):
             file = path.relative_to(root).as_posix()
             count += 1
             if room_of(file) is None:
-                problems.append(f"{file}: lies in no room; move it, or give tools/include_table.py a line for it")
+                problems.append((f"{file}: lies in no room", "a new room needs a line in tools/include_table.py"))
                 continue
             for number, line in enumerate(path.read_text(encoding="utf-8", errors="replace").splitlines(), 1):
                 match = INCLUDE.match(line)
                 reason = match and problem_with(root, file, match.group(1), match.group(2))
                 if reason:
-                    problems.append(f"{file}:{number}: includes {match.group(2)}; {reason}")
+                    problems.append((f"{file}:{number}: includes {match.group(2)}", reason))
     return problems, count
 
 
@@ -149,8 +149,10 @@ def main():
     problems, count = check(root)
     if problems:
         print(f"{len(problems)} includes that the table of rooms does not allow:", file=sys.stderr)
-        for problem in problems:
-            print("  " + problem, file=sys.stderr)
+        for rule in sorted({rule for _, rule in problems}):
+            print("  " + rule, file=sys.stderr)
+            for problem in [text for text, broken in problems if broken == rule]:
+                print("    " + problem, file=sys.stderr)
         return 1
     if count == 0:
         print(f"there are no sources below {root}", file=sys.stderr)
