@@ -84,6 +84,7 @@ void readVectors(const Accessor& a, std::span<const uint32_t> gather, Out* out) 
 template <class T, class Out>
 void readAll(const Accessor& a, std::span<const uint32_t> gather, int components, Out* out) {
   const size_t count = gather.empty() ? a.count : gather.size();
+  if (count == 0) return;
   if (!a.data) {
     const int n = std::min(components, a.components());
     for (size_t i = 0; i < count; ++i, out += components) std::fill(out, out + n, Out(0));

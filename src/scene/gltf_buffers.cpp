@@ -43,7 +43,8 @@ void GltfBuffers::load(size_t i, Buffer& buffer) {
       if (!buffer.holder.file.open(file, problem))
         fail(path, "the buffer \"" + file + "\" " + problem, "put it where the scene expects it");
       bytes = buffer.holder.file.bytes();
-      budget_.addBacking(bytes.size());
+      const std::lock_guard lock(filesMutex_);
+      if (files_.insert(file).second) budget_.addBacking(bytes.size());
     }
   } else if (i == 0 && document_.hasBinaryChunk()) {
     bytes = document_.binaryChunk();
@@ -117,8 +118,8 @@ std::vector<uint8_t> GltfBuffers::decodeMeshopt(const JsonView& view, const Json
   if ((octahedral && stride != 4 && stride != 8) || (quaternion && stride != 8))
     compression.failAt("filter", "does not fit the byteStride");
 
+  budget_.takeBytes(count * stride, compression.path());
   std::vector<uint8_t> bytes(count * stride);
-  budget_.addBacking(bytes.size());
   int status = 0;
   if (attributes)
     status = meshopt_decodeVertexBuffer(bytes.data(), count, stride, source.data(), source.size());
@@ -135,15 +136,37 @@ std::vector<uint8_t> GltfBuffers::decodeMeshopt(const JsonView& view, const Json
   return bytes;
 }
 
-Bytes GltfBuffers::imageFile(const std::string& uri, const std::string& jsonPath, Holder& holder) const {
-  if (isDataUri(uri)) {
-    holder.data = decodeDataUri(uri, jsonPath);
-    return holder.data;
+void GltfBuffers::checkUris() const {
+  for (const char* name : {"buffers", "images"}) {
+    const JsonView list = document_.list(name);
+    for (size_t i = 0; i < list.size(); ++i) {
+      const JsonView json = list.at(i);
+      if (!json.has("uri") || !json.json()["uri"].is_string()) continue;
+      const std::string& uri = json.json()["uri"].get_ref<const std::string&>();
+      if (!uri.empty() && !isDataUri(uri)) resolveFileUri(uri, ".", allowOutside_, json.pathOf("uri"));
+    }
   }
-  std::string problem;
-  const std::string file = resolveFileUri(uri, folder_, allowOutside_, jsonPath);
-  if (!holder.file.open(file, problem)) fail(jsonPath, "the image \"" + file + "\" " + problem);
-  return holder.file.bytes();
+}
+
+bool GltfBuffers::imageFile(const std::string& uri, const std::string& jsonPath, Holder& holder, Bytes& bytes,
+                            std::string& problem) const {
+  try {
+    if (isDataUri(uri)) {
+      holder.data = decodeDataUri(uri, jsonPath);
+      bytes = holder.data;
+      return true;
+    }
+    const std::string file = resolveFileUri(uri, folder_, allowOutside_, jsonPath);
+    if (!holder.file.open(file, problem)) {
+      problem = "the image \"" + file + "\" " + problem;
+      return false;
+    }
+    bytes = holder.file.bytes();
+    return true;
+  } catch (const ImportFailure& failure) {
+    problem = failure.error.problem;
+    return false;
+  }
 }
 
 }  // namespace scumble::scene

@@ -6,6 +6,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,12 +28,17 @@ class GltfBuffers {
   size_t viewStride(size_t i) const;  // 0: not given
   size_t viewCount() const { return views_.size(); }
 
-  // The bytes of an image's URI. `holder` keeps what is not part of the file itself.
+  // Fails when any URI of the file is remote or leads out of its folder, used or not.
+  void checkUris() const;
+
+  // The bytes of an image's URI. `holder` keeps what is not part of the file itself. False when they cannot
+  // be had, and `problem` says why.
   struct Holder {
     std::vector<uint8_t> data;
     FileBytes file;
   };
-  Bytes imageFile(const std::string& uri, const std::string& jsonPath, Holder& holder) const;
+  bool imageFile(const std::string& uri, const std::string& jsonPath, Holder& holder, Bytes& bytes,
+                 std::string& problem) const;
 
  private:
   struct Buffer {
@@ -57,6 +63,8 @@ class GltfBuffers {
   JsonView bufferList_, viewList_;
   std::deque<Buffer> buffers_;  // deques, because a mutex does not move
   std::deque<View> views_;
+  std::mutex filesMutex_;
+  std::set<std::string> files_;  // that are part of the budget already
 };
 
 }  // namespace scumble::scene

@@ -12,9 +12,11 @@ namespace {
 constexpr uint32_t kGlbMagic = 0x46546c67;  // "glTF"
 constexpr uint32_t kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 
+// FB_ngon_encoding only says how triangles once were polygons: there is nothing to do for it.
 constexpr std::string_view kSupported[] = {"EXT_mesh_gpu_instancing",
                                            "EXT_meshopt_compression",
                                            "EXT_texture_webp",
+                                           "FB_ngon_encoding",
                                            "KHR_draco_mesh_compression",
                                            "KHR_lights_punctual",
                                            "KHR_materials_emissive_strength",
@@ -151,6 +153,8 @@ void GltfDocument::checkExtensions(ImportWarnings& warnings) {
     extensionsUsed_.push_back(name);
     if (isSupported(name)) return;
     extensionsNotSupported_.push_back(name);
+    // Every image that needs it gets a warning of its own.
+    if (name == "KHR_texture_basisu") return;
     warnings.add(path, "the extension \"" + name.substr(0, 80) + "\" is ignored");
   };
   for (size_t i = 0; i < used.size(); ++i) note(used[i], "extensionsUsed[" + std::to_string(i) + "]");

@@ -97,7 +97,7 @@ DracoPrimitive decodeDraco(const JsonView& primitive, const JsonView& compressio
   const size_t points = mesh->num_points(), faces = mesh->num_faces();
 
   DracoPrimitive result;
-  budget.takeBytes(faces * 12 + points * 64, compression.path());
+  budget.takeBytes(faces * 12, compression.path());
   result.indices.resize(faces * 3);
   for (size_t i = 0; i < faces; ++i) {
     const draco::Mesh::Face& face = mesh->face(draco::FaceIndex(static_cast<uint32_t>(i)));
@@ -120,6 +120,7 @@ DracoPrimitive decodeDraco(const JsonView& primitive, const JsonView& compressio
     if (!attribute) ids.failAt(semantic, "names an attribute that the Draco data does not hold");
     Accessor shape = GltfAccessors::describe(accessors.json(index));
     if (shape.columns != 1) ids.failAt(semantic, "has an accessor of matrices");
+    budget.takeBytes(points * shape.elementSize(), compression.path());
     // The mapping of points to values comes from the stream; ConvertValue does not check it.
     for (size_t i = 0; i < points; ++i)
       if (attribute->mapped_index(draco::PointIndex(static_cast<uint32_t>(i))).value() >= attribute->size())

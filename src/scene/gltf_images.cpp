@@ -37,17 +37,11 @@ void findBytes(const GltfImport& import, Task& task) {
     const Json& uri = json.json()["uri"];
     if (!uri.is_string()) fail(task.path, "is not a string");
     const std::string& text = uri.get_ref<const std::string&>();
-    task.bytes = import.buffers.imageFile(text, task.path, task.holder);
     if (task.image->name.empty() && text.size() < 300)
       task.image->name = std::filesystem::path(text).filename().string();
+    if (!import.buffers.imageFile(text, task.path, task.holder, task.bytes, task.problem)) return;
   }
   task.usable = true;
-}
-
-// A remote or outside URI makes the whole file unusable, as a rule of the house; a file that is not there
-// does not. The two differ in their advice: only the first has one.
-void rethrowIfUnusable(const ImportFailure& failure) {
-  if (!failure.error.advice.empty() && failure.error.jsonPath.ends_with(".uri")) throw failure;
 }
 
 }  // namespace
@@ -61,7 +55,6 @@ void readImages(const GltfImport& import, SceneData& scene) {
     try {
       findBytes(import, task);
     } catch (const ImportFailure& failure) {
-      rethrowIfUnusable(failure);
       task.path = failure.error.jsonPath;
       task.problem = failure.error.problem;
     }

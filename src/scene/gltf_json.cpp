@@ -125,9 +125,7 @@ size_t JsonView::indexAt(size_t i, size_t limit, const char* what) const {
   const std::string path = path_ + "[" + std::to_string(i) + "]";
   const uint64_t number = unsignedOf((*value_)[i], path);
   if (number >= limit)
-    fail(path,
-         "names " + std::string(what) + " " + std::to_string(number) + ", but there are " +
-             std::to_string(limit),
+    fail(path, "names " + std::string(what) + " " + std::to_string(number) + " of " + std::to_string(limit),
          "export the scene again");
   return static_cast<size_t>(number);
 }
@@ -137,9 +135,7 @@ int64_t JsonView::index(const char* key, size_t limit, const char* what) const {
   if (!value) return -1;
   const uint64_t number = unsignedOf(*value, pathOf(key));
   if (number >= limit)
-    failAt(key,
-           "names " + std::string(what) + " " + std::to_string(number) + ", but there are " +
-               std::to_string(limit),
+    failAt(key, "names " + std::string(what) + " " + std::to_string(number) + " of " + std::to_string(limit),
            "export the scene again");
   return static_cast<int64_t>(number);
 }

@@ -68,6 +68,10 @@ void readMeshes(const GltfImport& import, const GltfMaps& maps, SceneData& scene
     radii[i] = boundingRadius(mesh);
   });
 
+  for (Node& node : scene.nodes)
+    if (!node.morphWeights.empty())
+      node.morphWeights.resize(scene.meshes[node.mesh].morphWeights.size(), 0.0f);
+
   std::vector<std::pair<size_t, size_t>> finishing;
   for (size_t i = 0; i < scene.meshes.size(); ++i)
     for (size_t k = 0; k < scene.meshes[i].primitives.size(); ++k) finishing.emplace_back(i, k);

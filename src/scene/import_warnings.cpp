@@ -35,9 +35,10 @@ std::vector<std::string> ImportWarnings::lines(const std::string& file) const {
   std::vector<std::string> lines;
   for (const Entry& entry : entries_) {
     std::string line = file;
-    if (!entry.path.empty()) line += " (" + entry.path.substr(0, kMaxLength) + ")";
-    line += ": " + entry.text.substr(0, kMaxLength);
-    if (entry.count > 1) line += " (and " + std::to_string(entry.count - 1) + " more like it)";
+    if (!entry.path.empty()) line.append(" (").append(entry.path, 0, kMaxLength).append(")");
+    line.append(": ").append(entry.text, 0, kMaxLength);
+    if (entry.count > 1)
+      line.append(" (and ").append(std::to_string(entry.count - 1)).append(" more like it)");
     for (char& c : line)
       if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
     lines.push_back(std::move(line));

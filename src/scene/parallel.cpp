@@ -5,7 +5,6 @@
 #include <exception>
 #include <limits>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -41,7 +40,7 @@ void parallelFor(size_t count, int threads, const std::function<void(size_t)>& b
   const size_t wanted = std::min<size_t>(count, static_cast<size_t>(std::max(1, threads)));
   try {
     for (size_t i = 1; i < wanted; ++i) helpers.emplace_back(work);
-  } catch (const std::system_error&) {
+  } catch (const std::exception&) {
     // No more threads to be had: those that started, and this one, do the work.
   }
   work();

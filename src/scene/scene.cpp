@@ -39,6 +39,7 @@ std::shared_ptr<SceneData> import(Bytes bytes, const std::string& name, const st
   budget.addBacking(bytes.size());
   const GltfDocument document(bytes, warnings);
   GltfBuffers buffers(document, folder, options.allowOutside, budget);
+  buffers.checkUris();
   GltfAccessors accessors(document, buffers, budget);
   const GltfImport import{document, buffers, accessors, budget, warnings, threadCount(options.threads)};
   data->extensionsUsed = document.extensionsUsed();

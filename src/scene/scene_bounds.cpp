@@ -1,7 +1,9 @@
 #include "scene/scene_bounds.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
+#include <map>
 
 #include "scene/import_budget.h"
 #include "scene/prepare_mesh.h"
@@ -21,24 +23,31 @@ bool isDrawable(const glm::mat4& m) {
   return true;
 }
 
-// The object's box with its morph targets at their default weights. Each is added at its extremes, so the box
-// may be a little large, never too small.
-Bounds boxOf(const Mesh& mesh, const std::vector<float>& weights) {
-  Bounds bounds;
+// A mesh's box, and how far each of its morph targets can move it.
+struct MeshBox {
+  Bounds box;
+  std::vector<Bounds> offsets;
+};
+
+MeshBox measure(const Mesh& mesh, bool withTargets) {
+  MeshBox result;
+  result.offsets.resize(withTargets ? mesh.morphWeights.size() : 0);
   for (const Primitive& p : mesh.primitives) {
-    Bounds box;
-    for (const glm::vec3& position : p.positions) box.add(position);
-    for (size_t t = 0; t < p.morphTargets.size() && t < weights.size(); ++t) {
-      if (weights[t] == 0.0f || p.morphTargets[t].positions.empty()) continue;
-      Bounds offsets;
-      for (const glm::vec3& d : p.morphTargets[t].positions) offsets.add(weights[t] * d);
-      box.min += glm::min(offsets.min, glm::vec3(0.0f));
-      box.max += glm::max(offsets.max, glm::vec3(0.0f));
-    }
-    if (!box.empty) {
-      bounds.add(box.min);
-      bounds.add(box.max);
-    }
+    for (const glm::vec3& position : p.positions) result.box.add(position);
+    for (size_t t = 0; t < p.morphTargets.size() && t < result.offsets.size(); ++t)
+      for (const glm::vec3& d : p.morphTargets[t].positions) result.offsets[t].add(d);
+  }
+  return result;
+}
+
+// Every target is added at its extremes, so the box may be a little large, never too small.
+Bounds morphed(const MeshBox& mesh, const std::vector<float>& weights) {
+  Bounds bounds = mesh.box;
+  for (size_t t = 0; t < mesh.offsets.size() && t < weights.size(); ++t) {
+    if (mesh.offsets[t].empty) continue;
+    const glm::vec3 a = weights[t] * mesh.offsets[t].min, b = weights[t] * mesh.offsets[t].max;
+    bounds.min += glm::min(glm::min(a, b), glm::vec3(0.0f));
+    bounds.max += glm::max(glm::max(a, b), glm::vec3(0.0f));
   }
   return bounds;
 }
@@ -57,26 +66,31 @@ bool addBox(const Bounds& box, const glm::mat4& matrix, Bounds& bounds) {
   return true;
 }
 
-// Vertices where their joints put them; the node's own place does not count then.
-bool addSkinned(const SceneData& scene, const Node& node, const std::vector<glm::mat4>& world,
-                Bounds& bounds) {
-  const Skin& skin = scene.skins[node.skin];
+// The box of the vertices where their joints put them (the node's own place does not count then); empty when
+// it is not drawable. `morphedOwn` is the mesh's own box with its morph targets.
+Bounds skinnedBox(const Mesh& mesh, const Skin& skin, const std::vector<glm::mat4>& world, const Bounds& own,
+                  const Bounds& morphedOwn) {
   std::vector<glm::mat4> joints(skin.joints.size());
   for (size_t i = 0; i < joints.size(); ++i) joints[i] = world[skin.joints[i]] * skin.inverseBindMatrices[i];
-  for (const Primitive& p : scene.meshes[node.mesh].primitives)
+  Bounds bounds;
+  for (const Primitive& p : mesh.primitives)
     for (size_t i = 0; i < p.vertexCount(); ++i) {
-      glm::vec3 position(0.0f);
+      glm::vec3 position = p.influences == 0 ? p.positions[i] : glm::vec3(0.0f);
       for (int k = 0; k < p.influences; ++k) {
         const float weight = p.weights[i * p.influences + k];
         if (weight > 0.0f)
           position +=
               weight * glm::vec3(joints[p.joints[i * p.influences + k]] * glm::vec4(p.positions[i], 1.0f));
       }
-      if (p.influences == 0) position = p.positions[i];
-      if (!isDrawable(position)) return false;
+      if (!isDrawable(position)) return Bounds();
       bounds.add(position);
     }
-  return true;
+  // Rotations may turn a displacement anywhere: its largest reach counts in all directions.
+  const glm::vec3 low = own.min - morphedOwn.min, high = morphedOwn.max - own.max;
+  const glm::vec3 growth(glm::length(glm::max(low, high)));
+  bounds.min -= growth;
+  bounds.max += growth;
+  return isDrawable(bounds.min) && isDrawable(bounds.max) ? bounds : Bounds();
 }
 
 size_t trianglesOf(const Mesh& mesh) {
@@ -96,40 +110,56 @@ void placeScene(SceneData& scene, ImportWarnings& warnings) {
                "\" leads out of what numbers can hold",
            "check the scales in the scene");
 
-  std::vector<Bounds> boxes(scene.meshes.size());
-  for (size_t i = 0; i < boxes.size(); ++i) boxes[i] = boxOf(scene.meshes[i], scene.meshes[i].morphWeights);
+  std::vector<bool> morphs(scene.meshes.size(), false);
+  const auto anyWeight = [](const std::vector<float>& w) {
+    return std::any_of(w.begin(), w.end(), [](float x) { return x != 0.0f; });
+  };
+  for (size_t i = 0; i < morphs.size(); ++i) morphs[i] = anyWeight(scene.meshes[i].morphWeights);
+  for (const Node& node : scene.nodes)
+    if (node.mesh >= 0 && anyWeight(node.morphWeights)) morphs[node.mesh] = true;
+  std::vector<MeshBox> boxes(scene.meshes.size());
+  for (size_t i = 0; i < boxes.size(); ++i) boxes[i] = measure(scene.meshes[i], morphs[i]);
+
+  std::map<std::pair<int, int>, Bounds> skinned;  // by mesh and skin: the node's place does not matter
   uint64_t drawn = 0;
-  for (size_t i = 0; i < scene.nodes.size(); ++i) {
-    Node& node = scene.nodes[i];
+  for (Node& node : scene.nodes) {
     if (node.mesh < 0) continue;
     const Mesh& mesh = scene.meshes[node.mesh];
-    if (mesh.primitives.empty()) {
-      node.mesh = node.skin = -1;
-      node.instances.clear();
-      continue;
-    }
-    Bounds bounds = scene.bounds;
-    bool good = true;
-    if (node.skin >= 0) {
-      good = addSkinned(scene, node, world, bounds);
-    } else {
-      const Bounds box = node.morphWeights.empty() ? boxes[node.mesh] : boxOf(mesh, node.morphWeights);
-      if (node.instances.empty()) good = addBox(box, world[i], bounds);
-      for (const glm::mat4& instance : node.instances)
-        good = good && addBox(box, world[i] * instance, bounds);
-    }
-    if (!good) {
-      warnings.add("nodes", "a mesh that lies absurdly far away is left out");
-      node.mesh = node.skin = -1;
-      node.instances.clear();
-      continue;
-    }
-    scene.bounds = bounds;
     drawn += trianglesOf(mesh) * std::max<uint64_t>(1, node.instances.size());
     if (drawn > ImportBudget::kMaxDrawnTriangles)
       fail("nodes",
            "more than " + std::to_string(ImportBudget::kMaxDrawnTriangles) + " triangles would be drawn",
            "reduce the instances or the meshes");
+
+    Bounds bounds = scene.bounds;
+    bool good = !mesh.primitives.empty();
+    if (good) {
+      const MeshBox& own = boxes[node.mesh];
+      const Bounds box = morphed(own, node.morphWeights.empty() ? mesh.morphWeights : node.morphWeights);
+      const size_t index = static_cast<size_t>(&node - scene.nodes.data());
+      if (node.skin >= 0) {
+        const auto [entry, isNew] = skinned.try_emplace({node.mesh, node.skin});
+        if (isNew) entry->second = skinnedBox(mesh, scene.skins[node.skin], world, own.box, box);
+        good = !entry->second.empty;
+        if (good) {
+          bounds.add(entry->second.min);
+          bounds.add(entry->second.max);
+        }
+      } else if (node.instances.empty()) {
+        good = addBox(box, world[index], bounds);
+      } else {
+        for (const glm::mat4& instance : node.instances)
+          good = good && addBox(box, world[index] * instance, bounds);
+      }
+      if (!good) warnings.add("nodes", "a mesh that lies absurdly far away is left out");
+    }
+    if (good) {
+      scene.bounds = bounds;
+    } else {
+      node.mesh = node.skin = -1;
+      node.instances.clear();
+      node.morphWeights.clear();
+    }
   }
   if (scene.bounds.empty)
     fail({}, "holds nothing to draw", "a scene needs at least one node with a mesh of triangles");

@@ -1,0 +1,160 @@
+// Properties of prepared meshes: normals, generated texture coordinates, tangent vectors.
+#include "scene/prepare_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+
+#include "scene/test_gltf.h"
+#include "scumble/scene.h"
+
+namespace scumble::scene {
+namespace {
+
+Scene loaded(const TestGltf& g) {
+  const std::string text = g.glb();
+  const Result<Scene> scene = Scene::loadFromMemory(text.data(), text.size(), "test.glb", "");
+  EXPECT_TRUE(scene.ok()) << scene.error().message();
+  return scene.ok() ? scene.value() : Scene::combine({});
+}
+
+// A cube of eight vertices, without normals or texture coordinates.
+TestGltf cube(float scale = 1.0f) {
+  TestGltf g;
+  std::vector<float> p;
+  for (int i = 0; i < 8; ++i)
+    for (const int bit : {1, 2, 4}) p.push_back((i & bit ? 1.0f : -1.0f) * scale);
+  g.addMesh({{"POSITION", g.addFloats(p, 3)}},
+            g.addIndices({0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                          2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5}));
+  return g;
+}
+
+TEST(PrepareMesh, quadHasExactTangents) {
+  TestGltf g;
+  g.addQuad();
+  const Scene scene = loaded(g);
+  const Primitive& p = scene.data().meshes[0].primitives[0];
+  for (size_t i = 0; i < p.vertexCount(); ++i) {
+    EXPECT_LT(glm::length(p.dPdu[i] - glm::vec3(1, 0, 0)), 1e-6f);
+    EXPECT_LT(glm::length(p.dPdv[i] - glm::vec3(0, -1, 0)), 1e-6f);
+  }
+}
+
+TEST(PrepareMesh, tangentsScaleWithTheMapping) {
+  TestGltf g;
+  const int position = g.addFloats({0, 0, 0, 4, 0, 0, 4, 0, -2, 0, 0, -2}, 3);
+  const int uv = g.addFloats({0, 0, 0.5f, 0, 0.5f, 8, 0, 8}, 2);
+  g.addMesh({{"POSITION", position}, {"TEXCOORD_0", uv}}, g.addIndices({0, 1, 2, 0, 2, 3}));
+  const Scene scene = loaded(g);
+  const Primitive& p = scene.data().meshes[0].primitives[0];
+  ASSERT_EQ(p.vertexCount(), 6u);  // flat: every corner its own
+  for (size_t i = 0; i < p.vertexCount(); ++i) {
+    EXPECT_LT(glm::length(p.dPdu[i] - glm::vec3(8, 0, 0)), 1e-5f);
+    EXPECT_LT(glm::length(p.dPdv[i] - glm::vec3(0, 0, -0.25f)), 1e-6f);
+  }
+}
+
+// A strip mirrored about x = 0, sharing the vertices there.
+TEST(PrepareMesh, mirroredMappingKeepsItsLengthAtTheSeam) {
+  TestGltf g;
+  const int position = g.addFloats({-1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 1, 0, 0, 1, 0, 1, 1, 0}, 3);
+  const int uv = g.addFloats({1, 0, 0, 0, 1, 0, 1, 1, 0, 1, 1, 1}, 2);
+  const int normal = g.addFloats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, 3);
+  g.addMesh({{"POSITION", position}, {"TEXCOORD_0", uv}, {"NORMAL", normal}},
+            g.addIndices({0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4}));
+  const Scene scene = loaded(g);
+  for (const glm::vec3& dPdu : scene.data().meshes[0].primitives[0].dPdu)
+    EXPECT_NEAR(glm::length(dPdu), 1.0f, 1e-5f);
+}
+
+TEST(PrepareMesh, degenerateMappingGivesZero) {
+  TestGltf g;
+  const int position = g.addFloats({0, 0, 0, 1, 0, 0, 0, 1, 0}, 3), uv = g.addFloats({0, 0, 1, 1, 2, 2}, 2);
+  g.addMesh({{"POSITION", position}, {"TEXCOORD_0", uv}});
+  const Scene scene = loaded(g);
+  for (const glm::vec3& dPdu : scene.data().meshes[0].primitives[0].dPdu) EXPECT_EQ(dPdu, glm::vec3(0));
+}
+
+TEST(PrepareMesh, missingNormalsAreFlatAndSmoothNormalsShared) {
+  const Scene scene = loaded(cube());
+  const Primitive& p = scene.data().meshes[0].primitives[0];
+  EXPECT_TRUE(p.generatedNormals);
+  ASSERT_EQ(p.vertexCount(), 36u);
+  for (size_t i = 0; i < p.vertexCount(); ++i) {
+    const glm::vec3 n = glm::abs(p.normals[i]);
+    EXPECT_NEAR(std::max({n.x, n.y, n.z}), 1.0f, 1e-6f);
+    EXPECT_GT(glm::dot(p.normals[i], p.positions[i]), 0.0f);
+    // Angle weights make the corner of a cube symmetric, however its faces are cut into triangles.
+    EXPECT_LT(glm::length(p.smoothNormals[i] - glm::normalize(p.positions[i])), 1e-3f);
+  }
+}
+
+TEST(PrepareMesh, smoothNormalsAreSharedBetweenPrimitives) {
+  TestGltf g;
+  const int a = g.addFloats({0, 0, 0, 1, 0, 0, 0, 0, -1}, 3),
+            b = g.addFloats({0, 0, 0, 0, -1, 0, 1, 0, 0}, 3);
+  g.addMesh({{"POSITION", a}});
+  g.json["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", b}}}});
+  const Scene scene = loaded(g);
+  const Mesh& mesh = scene.data().meshes[0];
+  ASSERT_EQ(mesh.primitives.size(), 2u);
+  for (const glm::vec3& shared : {glm::vec3(0, 0, 0), glm::vec3(1, 0, 0)}) {
+    std::vector<glm::vec3> found;
+    for (const Primitive& p : mesh.primitives)
+      for (size_t i = 0; i < p.vertexCount(); ++i)
+        if (p.positions[i] == shared) found.push_back(p.smoothNormals[i]);
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_EQ(found[0], found[1]);
+    EXPECT_NEAR(std::abs(found[0].y), std::abs(found[0].z), 1e-3f);
+  }
+}
+
+TEST(PrepareMesh, generatedUvsAreContinuousAndScaleFree) {
+  std::vector<glm::vec2> before;
+  for (const float scale : {1.0f, 1e-6f, 1e6f}) {
+    const Scene scene = loaded(cube(scale));
+    const Primitive& p = scene.data().meshes[0].primitives[0];
+    EXPECT_TRUE(p.generatedUvs);
+    std::map<std::tuple<float, float, float>, glm::vec2> at;
+    for (size_t i = 0; i < p.vertexCount(); ++i) {
+      const glm::vec3& v = p.positions[i];
+      const auto [entry, isNew] = at.emplace(std::tuple(v.x, v.y, v.z), p.uv0[i]);
+      EXPECT_TRUE(isNew || glm::length(entry->second - p.uv0[i]) < 1e-6f);
+    }
+    if (before.empty()) before = p.uv0;
+    for (size_t i = 0; i < p.vertexCount(); ++i) EXPECT_LT(glm::length(before[i] - p.uv0[i]), 1e-4f);
+  }
+}
+
+TEST(PrepareMesh, brokenNormalsAreMended) {
+  const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+  TestGltf g;
+  const int position = g.addFloats({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, 3);
+  const int normal = g.addFloats({nan, 0, 0, 0, 0, 0, 0, inf, 0, 0, 0, 7}, 3);
+  g.addMesh({{"POSITION", position}, {"NORMAL", normal}}, g.addIndices({0, 1, 2, 2, 1, 3}));
+  const Scene scene = loaded(g);
+  for (const glm::vec3& n : scene.data().meshes[0].primitives[0].normals)
+    EXPECT_LT(glm::length(n - glm::vec3(0, 0, 1)), 1e-5f);
+  EXPECT_EQ(scene.warnings().size(), 1u);
+}
+
+TEST(PrepareMesh, undrawableTrianglesAreLeftOut) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  TestGltf g;
+  const int position = g.addFloats({0, 0, 0, 1, 0, 0, 0, 1, 0, nan, 0, 0, 1e30f, 1, 1, 9, 9, 9}, 3);
+  const int normal = g.addFloats(std::vector<float>(18, 0.57735f), 3);
+  g.addMesh({{"POSITION", position}, {"NORMAL", normal}},
+            g.addIndices({0, 1, 2, 0, 1, 3, 1, 2, 4, 5, 5, 5, 0, 1, 1}));
+  const Scene scene = loaded(g);
+  EXPECT_EQ(scene.summary().triangles, 1u);
+  EXPECT_EQ(scene.summary().vertices, 3u);
+  EXPECT_LE(scene.summary().max[0], 1.0);
+  EXPECT_EQ(scene.warnings().size(), 1u);
+}
+
+}  // namespace
+}  // namespace scumble::scene
