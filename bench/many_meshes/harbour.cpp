@@ -64,17 +64,28 @@ Mesh makeGround(const std::vector<Terrace>& rows) {
 }  // namespace
 
 std::vector<Material> palette() {
-  return {{"Granite", "#B3A594", "#63688A"},   {"Sandstone", "#CDAE84", "#7B6C80"},
-          {"Basalt", "#7E7C7A", "#454C6C"},    {"Moss", "#A3A77A", "#566C82"},
-          {"HullRed", "#A9503E", "#5E2E48"},   {"HullBlue", "#4F7FA0", "#2A3F6B"},
-          {"HullGreen", "#5E8F72", "#2F5468"}, {"HullCream", "#EBD9B4", "#868CA8"},
-          {"Planks", "#D9AE74", "#7C6272"},    {"Spar", "#B8743F", "#5A3B48"},
-          {"Oak", "#96684A", "#4A3A50"},       {"Hoop", "#5A5C66", "#34344C"},
-          {"WallWhite", "#F3E9D8", "#9DA6C0"}, {"WallOchre", "#DDB878", "#85708A"},
-          {"WallRose", "#D9A793", "#84637F"},  {"RoofSlate", "#7F8C96", "#4A5578"},
-          {"RoofTile", "#B9705F", "#6E4A66"},  {"Window", "#4C6172", "#2F3C5C"},
-          {"Leaf", "#9DAE6A", "#4B6E76"},      {"LeafDark", "#7C9660", "#3C5C6C"},
-          {"Water", "#3F8F96", "#1F4A63"},     {"Quay", "#C2B29A", "#6E6F8E"}};
+  return {{"Granite", "#B3A594", "#63688A"},
+          {"Sandstone", "#CDAE84", "#7B6C80"},
+          {"Basalt", "#7E7C7A", "#454C6C"},
+          {"Moss", "#A3A77A", "#566C82"},
+          {"HullRed", "#A9503E", "#5E2E48", true},
+          {"HullBlue", "#4F7FA0", "#2A3F6B", true},
+          {"HullGreen", "#5E8F72", "#2F5468", true},
+          {"HullCream", "#EBD9B4", "#868CA8", true},
+          {"Planks", "#D9AE74", "#7C6272"},
+          {"Spar", "#B8743F", "#5A3B48"},
+          {"Oak", "#96684A", "#4A3A50"},
+          {"Hoop", "#5A5C66", "#34344C"},
+          {"WallWhite", "#F3E9D8", "#9DA6C0"},
+          {"WallOchre", "#DDB878", "#85708A"},
+          {"WallRose", "#D9A793", "#84637F"},
+          {"RoofSlate", "#7F8C96", "#4A5578"},
+          {"RoofTile", "#B9705F", "#6E4A66"},
+          {"Window", "#4C6172", "#2F3C5C"},
+          {"Leaf", "#9DAE6A", "#4B6E76"},
+          {"LeafDark", "#7C9660", "#3C5C6C"},
+          {"Water", "#3F8F96", "#1F4A63"},
+          {"Quay", "#C2B29A", "#6E6F8E"}};
 }
 
 Document makeHarbour(size_t triangles, size_t meshes) {

@@ -104,7 +104,7 @@ Mesh makeHull(const std::string& name, size_t triangles, Random& random) {
                        glm::mix(-1.0f, 1.0f + 0.10f * up, s)};
     }
   }
-  mesh.grid(skin, {.shading = Shading::smooth, .flip = true, .cellMaterial = [&](size_t, size_t c) -> int {
+  mesh.grid(skin, {.shading = Shading::smooth, .cellMaterial = [&](size_t, size_t c) -> int {
                      const float up = std::abs(2.0f * (float(c) + 0.5f) / float(cells.columns) - 1.0f);
                      return up > 1.0f - 1.0f / strakes ? kHullCream : paint;
                    }});

@@ -51,7 +51,8 @@ void addBulwark(MeshBuilder& mesh, float side) {
     glm::vec3 p = hullPoint(stationOf(i), 1.0f);
     p.z = std::max(p.z - 0.03f, 0.0f);
     inside.at(1, i) = {p.x, p.y, side * p.z};
-    inside.at(0, i) = {p.x, p.y - 0.1f, side * p.z};
+    // Leaning in below, or it would show through the planks, which draw in there too.
+    inside.at(0, i) = {p.x, p.y - 0.1f, side * std::max(0.93f * p.z - 0.01f, 0.0f)};
   }
   mesh.grid(inside, {.flip = side > 0});
 }
@@ -84,7 +85,7 @@ void addDeck(MeshBuilder& mesh, float side) {
   constexpr size_t kAcross = 4;
   Grid deck(kAcross + 1, xs.size());
   for (size_t i = 0; i < xs.size(); ++i) {
-    const float outer = std::max(halfBeam(stationAt(xs[i])) - 0.02f, 0.0f);
+    const float outer = std::max(0.93f * halfBeam(stationAt(xs[i])) - 0.02f, 0.0f);
     const float inner = std::min(cockpitHalfWidth(xs[i]), outer);
     for (size_t r = 0; r <= kAcross; ++r) {
       const float z = glm::mix(outer, inner, float(r) / float(kAcross));
@@ -125,13 +126,13 @@ void addCockpit(MeshBuilder& mesh) {
     outer.at(0, i) = {q.x, deck - 0.03f, q.y};
   }
   mesh.setMaterial(kCockpit);
-  mesh.grid(inner, {.closed = true});
+  mesh.grid(inner, {.closed = true, .flip = true});
   mesh.setMaterial(kTrim);
-  mesh.grid(top, {.closed = true, .flip = true});
-  mesh.grid(outer, {.closed = true, .flip = true});
+  mesh.grid(top, {.closed = true});
+  mesh.grid(outer, {.closed = true});
   mesh.setMaterial(kCockpit);
   std::vector<glm::vec3> sole;
-  for (size_t i = count; i-- > 0;) sole.push_back({outline[i].x, kSole, outline[i].y});
+  for (size_t i = 0; i < count; ++i) sole.push_back({outline[i].x, kSole, outline[i].y});
   mesh.polygon(sole);
   // Benches and a thwart.
   mesh.setMaterial(kDeck);
@@ -149,6 +150,8 @@ void addTransom(MeshBuilder& mesh) {
   }
   mesh.setMaterial(kTrim);
   const glm::vec3 corner = hullPoint(0.0f, 1.0f);
+  const float inside = corner.x + 0.03f, deck = corner.y - 0.13f, half = 0.97f * corner.z;
+  mesh.quad({inside, deck, half}, {inside, deck, -half}, {inside, corner.y, -half}, {inside, corner.y, half});
   mesh.bar({{corner.x, corner.y, -corner.z - 0.03f},
             {corner.x - 0.01f, corner.y + 0.03f, 0},
             {corner.x, corner.y, corner.z + 0.03f}},
@@ -195,8 +198,7 @@ Mesh makeRudder() {
   mesh.setMaterial(kTrim);
   const std::vector<glm::vec2> blade = {{-2.47f, -0.42f}, {-2.53f, 0.2f}, {-2.66f, 0.98f}, {-2.84f, 0.98f},
                                         {-2.84f, 0.62f},  {-2.82f, 0.3f}, {-2.92f, 0.0f},  {-3.0f, -0.42f}};
-  const std::vector<glm::vec2> outline(blade.rbegin(), blade.rend());
-  mesh.extrude(outline, -0.03f, 0.03f);
+  mesh.extrude(blade, -0.03f, 0.03f);
   return mesh.take();
 }
 

@@ -113,7 +113,7 @@ Mesh makePennant() {
                                  -0.36f * length + wave);
     }
   }
-  mesh.grid(cloth, {.shading = Shading::smooth, .flip = true, .projectAlong = {0, 0, 1}});
+  mesh.grid(cloth, {.shading = Shading::smooth, .projectAlong = {0, 0, 1}});
   return mesh.take();
 }
 

@@ -188,6 +188,10 @@ Mesh makeCap() {
     rim.at(1, c) = top.at(2, c);
   }
   mesh.grid(rim, {});
+  for (size_t r = 0; r < 2; ++r) {
+    mesh.quad(bottom.at(r, 0), bottom.at(r + 1, 0), top.at(r + 1, 0), top.at(r, 0));
+    mesh.quad(bottom.at(r + 1, 8), bottom.at(r, 8), top.at(r, 8), top.at(r + 1, 8));
+  }
   return mesh.take();
 }
 

@@ -58,7 +58,7 @@ Mesh makeMainsail() {
                          {9, 10, 0, 28, kSailBand},
                          {0, 3, 25, 28, kSailBand},
                          {31, 34, 25, 28, kSailBand}},
-                        true));
+                        false));
   // Reef points: short ends of rope along the band.
   mesh.setMaterial(kRope);
   for (size_t c = 3; c < kColumns - 2; c += 4) {
@@ -103,7 +103,7 @@ Mesh makeJib() {
                          {0, 2, 15, 18, kSailBand},
                          {0, 2, 0, 3, kSailBand},
                          {14, 17, 3, 8, kSailPatch1}},
-                        true));
+                        false));
   // The sheet runs aft inside the shrouds to the coaming.
   mesh.setMaterial(kRope);
   mesh.tube(hangingRope(clew, {-0.3f, deckHeight(-0.3f, 0.72f) + 0.03f, -0.74f}, 0.05f, 8), {0.0135f}, 5);
