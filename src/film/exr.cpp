@@ -55,7 +55,7 @@ Imf::StringVector viewsOf(const std::vector<ImageLayer>& layers) {
 }
 
 std::string channelName(const ImageLayer& layer, const std::string& channel, const Imf::StringVector& views) {
-  const std::string name = layer.name.empty() ? channel : layer.name + "." + channel;
+  std::string name = layer.name.empty() ? channel : layer.name + "." + channel;
   if (layer.view.empty() || views.size() < 2) return name;
   const auto view = std::find(views.begin(), views.end(), layer.view);
   return Imf::insertViewName(name, views, int(view - views.begin()));
@@ -65,7 +65,7 @@ std::string problemWith(const std::vector<ImageLayer>& layers) {
   if (layers.empty()) return "there is no layer to write";
   for (const ImageLayer& layer : layers) {
     if (!layer.image) return "the layer '" + layer.name + "' has no picture";
-    if (const std::string problem = film::problemWith(*layer.image); !problem.empty()) return problem;
+    if (std::string problem = film::problemWith(*layer.image); !problem.empty()) return problem;
     if (layer.image->width != layers[0].image->width || layer.image->height != layers[0].image->height)
       return "the layer '" + layer.name + "' differs in size from the first one";
     if (layer.view.find_first_of(". ") != std::string::npos)

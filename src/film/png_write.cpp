@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <new>
@@ -27,7 +28,7 @@ constexpr int kLevel = 1;                   // zlib's usual 6: 10 to 17 percent 
 
 uint8_t alphaCode(float alpha) {
   if (!(alpha > 0)) return 0;
-  return alpha >= 1 ? 255 : uint8_t(alpha * 255 + 0.5f);
+  return alpha >= 1 ? 255 : uint8_t(std::lround(alpha * 255.0));
 }
 
 // Runs work(0) ... work(count - 1) on all processors. `work` must not throw.
