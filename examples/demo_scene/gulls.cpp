@@ -61,14 +61,14 @@ int addGulls(Document& document, int parent) {
     float heading, bank, beat;  // radians; heading 0 flies towards the viewer
   };
   const Flight flights[] = {{{-2.5f, 7.0f, 1.0f}, -2.05f, 0.38f, 0.25f},
-                            {{-1.5f, 8.5f, -12.0f}, -2.3f, -0.30f, -0.05f},
+                            {{-2.2f, 12.4f, -31.0f}, -2.3f, -0.30f, -0.05f},
                             {{11.2f, 9.6f, -14.0f}, -1.2f, 0.30f, 0.40f}};
   int number = 1;
   for (const Flight& f : flights) {
     const glm::quat turn =
         glm::angleAxis(f.heading, glm::vec3(0, 1, 0)) * glm::angleAxis(f.bank, glm::vec3(0, 0, 1));
     const int gull = document.addMesh(makeGull("Gull" + std::to_string(number++), f.beat), gulls, f.at, turn);
-    document.nodes[size_t(gull)].scale = glm::vec3(1.1f);
+    document.nodes[size_t(gull)].scale = glm::vec3(1.2f);
   }
   return gulls;
 }

@@ -195,7 +195,7 @@ int addPier(Document& document, int parent, glm::vec3 root, glm::vec3 head) {
   document.addMesh(makeCrates(), pier, {length, kDeckTop, 0});
   document.addMesh(makeBarrel(), pier, {length - 1.35f, kDeckTop, -0.72f});
   document.addMesh(makeCoil(), pier, {length - 2.35f, kDeckTop, 0.55f});
-  document.addMesh(makeLampPost(), pier, {length - 13.8f, kDeckTop, -1.12f});
+  document.addMesh(makeLampPost(), pier, {length - 17.2f, kDeckTop, -1.12f});
   return pier;
 }
 

@@ -73,8 +73,8 @@ Mesh makeCoat(glm::vec3 tillerHand) {
   mesh.setMaterial(kCoatDark);
   mesh.loft(rings({{0.555f, 0.165f, 0.135f, 0.035f},
                    {0.62f, 0.135f, 0.125f, 0.045f},
-                   {0.70f, 0.142f, 0.128f, 0.03f},
-                   {0.695f, 0.118f, 0.105f, 0.03f},
+                   {0.675f, 0.142f, 0.128f, 0.03f},
+                   {0.67f, 0.118f, 0.105f, 0.03f},
                    {0.60f, 0.10f, 0.09f, 0.05f}},
                   12, 0.9f),
             {.shading = Shading::flat});

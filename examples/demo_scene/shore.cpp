@@ -129,7 +129,7 @@ Mesh makeCottage() {
 int addLighthouse(Document& document, int parent, glm::vec3 position) {
   const int lighthouse = document.addNode({"Lighthouse", parent, position});
   document.addMesh(makeTower(), lighthouse);
-  document.addMesh(makeCottage(), lighthouse, {-4.6f, 0.05f, -0.2f},
+  document.addMesh(makeCottage(), lighthouse, {-4.95f, 0.05f, -0.2f},
                    glm::angleAxis(0.25f, glm::vec3(0, 1, 0)));
   return lighthouse;
 }
