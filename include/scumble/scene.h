@@ -44,7 +44,8 @@ class Scene {
   // Reads .gltf or .glb. Fails with ErrorKind::unusableFile.
   static Result<Scene> load(const std::string& path, const SceneOptions& options = {});
 
-  // The same from a glTF or GLB in memory; URIs are resolved relative to `folder`.
+  // The same from a glTF or GLB in memory; URIs are resolved relative to `folder`. With an empty `folder` no file
+  // is ever opened: the scene must hold everything itself. `name` is what messages call it.
   static Result<Scene> loadFromMemory(const void* bytes, size_t size, const std::string& name,
                                       const std::string& folder, const SceneOptions& options = {});
 

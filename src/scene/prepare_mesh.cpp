@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
-#include <limits>
 
 #include "scene/position_weld.h"
 
@@ -68,12 +67,8 @@ size_t dropUndrawable(Primitive& p) {
 }
 
 float inverseExtent(const std::vector<glm::vec3>& positions) {
-  glm::vec3 low(std::numeric_limits<float>::max()), high(-std::numeric_limits<float>::max());
-  for (const glm::vec3& p : positions) {
-    low = glm::min(low, p);
-    high = glm::max(high, p);
-  }
-  const glm::vec3 size = high - low;
+  const Bounds box = boxOf(positions);
+  const glm::vec3 size = box.max - box.min;
   const float extent = std::max({size.x, size.y, size.z});
   return extent > 1e-30f ? 1.0f / extent : 0.0f;
 }
@@ -247,10 +242,26 @@ void weldSmoothNormals(Mesh& mesh) {
     for (glm::vec3& sum : p.smoothNormals) sum = entries[entryOf[at++]].sum;
 }
 
+Bounds boxOf(const std::vector<glm::vec3>& points) {
+  Bounds box;
+  if (points.empty()) return box;
+  box.min = box.max = points[0];
+  box.empty = false;
+  for (const glm::vec3& p : points) {
+    box.min = glm::min(box.min, p);
+    box.max = glm::max(box.max, p);
+  }
+  return box;
+}
+
 float boundingRadius(const Mesh& mesh) {
   Bounds bounds;
-  for (const Primitive& p : mesh.primitives)
-    for (const glm::vec3& position : p.positions) bounds.add(position);
+  for (const Primitive& p : mesh.primitives) {
+    const Bounds box = boxOf(p.positions);
+    if (box.empty) continue;
+    bounds.add(box.min);
+    bounds.add(box.max);
+  }
   return bounds.radius();
 }
 

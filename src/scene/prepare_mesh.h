@@ -26,6 +26,9 @@ void cleanPrimitive(Primitive& primitive, const std::string& path, ImportWarning
 // not open either.
 void weldSmoothNormals(Mesh& mesh);
 
+// The box around points; all of them must be finite.
+Bounds boxOf(const std::vector<glm::vec3>& points);
+
 // Half the diagonal of the mesh's box.
 float boundingRadius(const Mesh& mesh);
 

@@ -33,7 +33,11 @@ MeshBox measure(const Mesh& mesh, bool withTargets) {
   MeshBox result;
   result.offsets.resize(withTargets ? mesh.morphWeights.size() : 0);
   for (const Primitive& p : mesh.primitives) {
-    for (const glm::vec3& position : p.positions) result.box.add(position);
+    const Bounds box = boxOf(p.positions);
+    if (!box.empty) {
+      result.box.add(box.min);
+      result.box.add(box.max);
+    }
     for (size_t t = 0; t < p.morphTargets.size() && t < result.offsets.size(); ++t)
       for (const glm::vec3& d : p.morphTargets[t].positions) result.offsets[t].add(d);
   }
@@ -125,7 +129,7 @@ void placeScene(SceneData& scene, ImportWarnings& warnings) {
   for (Node& node : scene.nodes) {
     if (node.mesh < 0) continue;
     const Mesh& mesh = scene.meshes[node.mesh];
-    drawn += trianglesOf(mesh) * std::max<uint64_t>(1, node.instances.size());
+    drawn += trianglesOf(mesh) * (node.skin >= 0 ? 1 : std::max<uint64_t>(1, node.instances.size()));
     if (drawn > ImportBudget::kMaxDrawnTriangles)
       fail("nodes",
            "more than " + std::to_string(ImportBudget::kMaxDrawnTriangles) + " triangles would be drawn",
@@ -138,6 +142,7 @@ void placeScene(SceneData& scene, ImportWarnings& warnings) {
       const Bounds box = morphed(own, node.morphWeights.empty() ? mesh.morphWeights : node.morphWeights);
       const size_t index = static_cast<size_t>(&node - scene.nodes.data());
       if (node.skin >= 0) {
+        node.instances.clear();  // joints place the vertices; the extension has no say then
         const auto [entry, isNew] = skinned.try_emplace({node.mesh, node.skin});
         if (isNew) entry->second = skinnedBox(mesh, scene.skins[node.skin], world, own.box, box);
         good = !entry->second.empty;
