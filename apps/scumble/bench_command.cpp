@@ -1,0 +1,122 @@
+// scumble bench: milliseconds of each pass, beside the yardstick (the scene once, plain) in the same run.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "options.h"
+#include "report.h"
+
+namespace scumble::app {
+
+namespace {
+
+struct BenchArguments {
+  SceneArguments scene;
+  LookArguments look;
+  PictureArguments picture;
+  std::string json;
+  int runs = 9;
+};
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+int run(const BenchArguments& args) {
+  if (args.runs < 1 || args.runs > 1000) return failUsage("--runs is out of range", "use 1 to 1000");
+  const Result<RenderOptions> options = args.picture.renderOptions();
+  if (!options) return fail(options.error());
+  const Result<Look> look = args.look.load(args.scene.files[0]);
+  if (!look) return fail(look.error());
+  const Result<Scene> scene = args.scene.load(false);
+  if (!scene) return fail(scene.error());
+  const Result<std::vector<View>> views = args.picture.views(*scene);
+  if (!views) return fail(views.error());
+  // One renderer each, so that both keep their images and pipelines while they take turns.
+  Result<std::unique_ptr<Renderer>> painter = Renderer::create(args.picture.rendererOptions());
+  if (!painter) return fail(painter.error());
+  Result<std::unique_ptr<Renderer>> yardstick = Renderer::create(args.picture.rendererOptions());
+  if (!yardstick) return fail(yardstick.error());
+  RenderOptions plain = *options;
+  plain.plain = true;
+
+  std::vector<double> frame, plainFrame, ratios;
+  std::map<std::string, std::vector<double>> passes;
+  std::vector<std::string> order;
+  uint64_t triangles = 0;
+  // The first turn compiles pipelines and is not counted.
+  for (int i = 0; i <= args.runs; ++i) {
+    const Result<Frame> painted = (*painter)->render(*scene, *look, 0, *views, *options);
+    if (!painted) return fail(painted.error());
+    const Result<Frame> drawn = (*yardstick)->render(*scene, *look, 0, *views, plain);
+    if (!drawn) return fail(drawn.error());
+    if (painted->stats.passes.empty())
+      return fail(Error{ErrorKind::noUsableGpu, "", 0, "", "this device has no timestamps", "choose another --device"});
+    if (i == 0) continue;
+    // The yardstick is its draw alone: deform is the painter's own work.
+    double once = 0, all = 0;
+    for (const PassTime& pass : drawn->stats.passes)
+      if (pass.name == "plain") once = pass.milliseconds;
+    for (const PassTime& pass : painted->stats.passes) {
+      if (pass.name == "readback") continue;
+      if (!passes.count(pass.name)) order.push_back(pass.name);
+      passes[pass.name].push_back(pass.milliseconds);
+      all += pass.milliseconds;
+    }
+    frame.push_back(all);
+    plainFrame.push_back(once);
+    ratios.push_back(all / once);
+    triangles = painted->stats.triangles;
+  }
+
+  nlohmann::json passReport = nlohmann::json::array();
+  std::printf("%s, %s\n", (*painter)->gpu().name.c_str(), (*painter)->gpu().driver.c_str());
+  std::printf("%u x %u, %u samples, %zu views, %llu triangles, medians of %d\n", options->width, options->height,
+              options->samples, views->size(), static_cast<unsigned long long>(triangles), args.runs);
+  for (const std::string& name : order) {
+    std::printf("  %-14s %9.2f ms\n", name.c_str(), median(passes[name]));
+    passReport.push_back({{"name", name}, {"milliseconds", median(passes[name])}});
+  }
+  std::printf("  %-14s %9.2f ms\n  %-14s %9.2f ms\n  %-14s %9.2f\n", "frame", median(frame), "yardstick",
+              median(plainFrame), "ratio", median(ratios));
+  if (!args.json.empty()) {
+    const nlohmann::json report{{"device", (*painter)->gpu().name},
+                                {"driver", (*painter)->gpu().driver},
+                                {"scene", args.scene.files},
+                                {"size", {options->width, options->height}},
+                                {"samples", options->samples},
+                                {"views", views->size()},
+                                {"triangles", triangles},
+                                {"runs", args.runs},
+                                {"passes", passReport},
+                                {"frameMilliseconds", median(frame)},
+                                {"yardstickMilliseconds", median(plainFrame)},
+                                {"ratio", median(ratios)}};
+    std::ofstream file(args.json);
+    if (!(file << report.dump(2) << '\n').flush())
+      return fail(Error{ErrorKind::outputNotWritten, args.json, 0, "", "the report cannot be written", "check the path"});
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void addBench(CLI::App& program, int& exitCode) {
+  auto args = std::make_shared<BenchArguments>();
+  CLI::App* command = program.add_subcommand("bench", "Milliseconds of each pass, and the yardstick");
+  args->scene.addTo(*command);
+  args->look.addTo(*command);
+  args->picture.addTo(*command);
+  command->add_option("--runs", args->runs, "Frames to take the median of")->capture_default_str();
+  command->add_option("--json", args->json, "Also write the result here")->type_name("FILE");
+  command->footer("Example: scumble bench boat.glb --samples 1 --json boat.json");
+  command->callback([args, &exitCode] { exitCode = run(*args); });
+}
+
+}  // namespace scumble::app

@@ -1,0 +1,12 @@
+// The subcommands. Each adds itself to the command line and leaves its exit code in `exitCode` when it ran.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace scumble::app {
+
+void addRender(CLI::App& program, int& exitCode);
+void addBench(CLI::App& program, int& exitCode);
+void addDescriptions(CLI::App& program, int& exitCode);  // info, looks, params, schema, devices
+
+}  // namespace scumble::app

@@ -1,0 +1,144 @@
+// The commands that only tell: info, looks, params, schema, devices.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "options.h"
+#include "report.h"
+
+namespace scumble::app {
+
+namespace {
+
+void print(const std::string& text) { std::fputs(text.c_str(), stdout); }
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text.empty() ? "-" : text;
+}
+
+int info(const SceneArguments& args, bool asJson) {
+  const Result<Scene> scene = args.load(asJson);
+  if (!scene) return fail(scene.error());
+  const SceneSummary s = scene->summary();
+  if (asJson) {
+    nlohmann::json clips = nlohmann::json::array();
+    for (const auto& clip : s.clips) clips.push_back({{"name", clip.name}, {"duration", clip.duration}});
+    const nlohmann::json report{{"meshes", s.meshes},
+                                {"primitives", s.primitives},
+                                {"triangles", s.triangles},
+                                {"vertices", s.vertices},
+                                {"nodes", s.nodes},
+                                {"materials", s.materialNames},
+                                {"images", s.images},
+                                {"skins", s.skins},
+                                {"morphTargets", s.morphTargets},
+                                {"clips", clips},
+                                {"cameras", s.cameras},
+                                {"lights", s.lights},
+                                {"extensionsUsed", s.extensionsUsed},
+                                {"extensionsNotSupported", s.extensionsNotSupported},
+                                {"bounds", {{"min", s.min}, {"max", s.max}}},
+                                {"warnings", scene->warnings()}};
+    print(report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    return kDone;
+  }
+  print(fmt::format("meshes      {} ({} primitives, {} triangles, {} vertices)\n", s.meshes, s.primitives, s.triangles,
+                    s.vertices));
+  print(fmt::format("nodes       {}\nmaterials   {}: {}\nimages      {}\nskins       {}\nmorphs      {}\n", s.nodes,
+                    s.materialNames.size(), joined(s.materialNames), s.images, s.skins, s.morphTargets));
+  std::vector<std::string> clips;
+  for (const auto& clip : s.clips) clips.push_back(fmt::format("{} ({:.2f} s)", clip.name, clip.duration));
+  print(fmt::format("clips       {}\ncameras     {}\nlights      {}\n", joined(clips), joined(s.cameras), joined(s.lights)));
+  print(fmt::format("extensions  {}\n", joined(s.extensionsUsed)));
+  if (!s.extensionsNotSupported.empty())
+    print(fmt::format("not supported: {}\n", joined(s.extensionsNotSupported)));
+  print(fmt::format("bounds      {:g} {:g} {:g} to {:g} {:g} {:g} metres\n", s.min[0], s.min[1], s.min[2], s.max[0],
+                    s.max[1], s.max[2]));
+  return kDone;
+}
+
+int params(const std::string& prefix) {
+  bool any = false;
+  std::string block;
+  for (const Knob& knob : Look::knobs()) {
+    if (knob.path.compare(0, prefix.size(), prefix) != 0) continue;
+    any = true;
+    const std::string own = knob.path.substr(0, knob.path.rfind('.'));
+    if (own != block) {
+      print(fmt::format("{}{}{}\n", block.empty() ? "" : "\n", own,
+                        knob.perMaterial ? "  (also materials.PATTERN." + own + ")" : ""));
+      block = own;
+    }
+    const bool ranged = knob.type == "number" || knob.type == "integer";
+    const std::string range = ranged ? fmt::format("{} .. {} {}", knob.min, knob.max, knob.unit)
+                              : knob.type == "choice" ? knob.unit
+                              : knob.type == "toggle" ? "true|false"
+                                                      : "#RRGGBB";
+    print(fmt::format("  {:<24} {:<12} {}\n      {}\n", knob.path.substr(own.size() + 1), knob.defaultValue, range,
+                      knob.meaning));
+  }
+  if (!any) return failUsage("no knob's path begins with '" + prefix + "'", "`scumble params` lists them all");
+  return kDone;
+}
+
+int devices() {
+  const Result<std::vector<GpuInfo>> gpus = listGpus();
+  if (!gpus) return fail(gpus.error());
+  bool any = false;
+  for (size_t i = 0; i < gpus->size(); ++i) {
+    const GpuInfo& gpu = (*gpus)[i];
+    print(fmt::format("{} {} {}  Vulkan {}  {}{}\n", gpu.wouldBeUsed ? "*" : " ", i, gpu.name, gpu.apiVersion, gpu.driver,
+                      gpu.unusableBecause.empty() ? "" : "  cannot be used: " + gpu.unusableBecause));
+    any |= gpu.wouldBeUsed;
+  }
+  if (!any)
+    return fail(Error{ErrorKind::noUsableGpu, "", 0, "", "no usable Vulkan 1.3 device was found",
+                      "the package mesa-vulkan-drivers has a driver that runs on any CPU"});
+  return kDone;
+}
+
+}  // namespace
+
+void addDescriptions(CLI::App& program, int& exitCode) {
+  struct Arguments {
+    SceneArguments scene;
+    bool json = false;
+    std::string prefix;
+  };
+  auto args = std::make_shared<Arguments>();
+
+  CLI::App* infoCommand = program.add_subcommand("info", "What is in a file");
+  args->scene.addTo(*infoCommand);
+  infoCommand->add_flag("--json", args->json, "As JSON");
+  infoCommand->footer("Example: scumble info boat.glb --json");
+  infoCommand->callback([args, &exitCode] { exitCode = info(args->scene, args->json); });
+
+  CLI::App* looksCommand = program.add_subcommand("looks", "The looks that ship");
+  looksCommand->footer("Example: scumble looks");
+  looksCommand->callback([&exitCode] {
+    for (const ShippedLook& look : Look::shipped()) print(fmt::format("{:<16} {}\n", look.name, look.description));
+    exitCode = kDone;
+  });
+
+  CLI::App* paramsCommand = program.add_subcommand("params", "Every knob: default, range, unit and meaning");
+  paramsCommand->add_option("PATH", args->prefix, "Only knobs whose path begins with this");
+  paramsCommand->footer("Example: scumble params shadow");
+  paramsCommand->callback([args, &exitCode] { exitCode = params(args->prefix); });
+
+  CLI::App* schemaCommand = program.add_subcommand("schema", "The look file's JSON schema");
+  schemaCommand->footer("Example: scumble schema > look.schema.json");
+  schemaCommand->callback([&exitCode] {
+    print(Look::jsonSchema() + "\n");
+    exitCode = kDone;
+  });
+
+  CLI::App* devicesCommand = program.add_subcommand("devices", "The GPUs found, and which one would be used");
+  devicesCommand->footer("Example: scumble devices");
+  devicesCommand->callback([&exitCode] { exitCode = devices(); });
+}
+
+}  // namespace scumble::app

@@ -1,0 +1,50 @@
+// The program: reads the command line and hands over to a subcommand.
+#include <cstdio>
+#include <exception>
+
+#include "commands.h"
+#include "report.h"
+#include "scumble/renderer.h"
+
+using namespace scumble;
+
+int main(int argc, char** argv) {
+  try {
+    CLI::App program{"scumble: glTF scenes become moving paintings", "scumble"};
+    program.require_subcommand(0, 1);
+    program.failure_message(CLI::FailureMessage::simple);
+    program.set_help_flag("-h,--help", "Show this help");
+    program.set_help_all_flag("--help-all", "Show the help of every command");
+    bool version = false;
+    program.add_flag("--version", version, "Name the build and the device");
+    int exitCode = app::kDone;
+    app::addRender(program, exitCode);
+    app::addDescriptions(program, exitCode);
+    app::addBench(program, exitCode);
+    program.footer("Example: scumble render boat.glb -o boat.png\n`scumble COMMAND --help` shows a command's options.");
+
+    try {
+      program.parse(argc, argv);
+    } catch (const CLI::Success& done) {
+      return program.exit(done);
+    } catch (const CLI::ParseError& error) {
+      std::string what = error.what();
+      return app::failUsage(what, "`scumble --help` and `scumble COMMAND --help` show what there is");
+    }
+    if (version) {
+      std::printf("scumble %s\n", SCUMBLE_VERSION);
+      const Result<std::vector<GpuInfo>> gpus = listGpus();
+      if (!gpus) return app::fail(gpus.error());
+      for (const GpuInfo& gpu : *gpus)
+        if (gpu.wouldBeUsed) std::printf("device: %s (%s)\n", gpu.name.c_str(), gpu.driver.c_str());
+      return app::kDone;
+    }
+    if (program.get_subcommands().empty()) {
+      std::fputs(program.help().c_str(), stdout);
+      return app::kWrongUsage;
+    }
+    return exitCode;
+  } catch (const std::exception& error) {
+    return app::fail(Error{ErrorKind::internal, "", 0, "", error.what(), "please report this"});
+  }
+}

@@ -1,0 +1,173 @@
+#include "options.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "report.h"
+
+namespace scumble::app {
+
+namespace {
+
+Error usage(std::string problem, std::string advice) {
+  return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
+}
+
+// $XDG_CACHE_HOME/scumble or ~/.cache/scumble; empty where neither is known.
+std::string cacheFolder() {
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) return std::string(cache) + "/scumble";
+  if (const char* home = std::getenv("HOME"); home && *home) return std::string(home) + "/.cache/scumble";
+  return "";
+}
+
+}  // namespace
+
+std::optional<std::vector<float>> parseNumbers(const std::string& text) {
+  std::vector<float> numbers;
+  const char* at = text.c_str();
+  while (true) {
+    char* end = nullptr;
+    const float number = std::strtof(at, &end);
+    if (end == at || !std::isfinite(number)) return std::nullopt;
+    numbers.push_back(number);
+    if (*end == '\0') return numbers;
+    if (*end != ',') return std::nullopt;
+    at = end + 1;
+  }
+}
+
+std::optional<std::pair<uint32_t, uint32_t>> parseSize(const std::string& text) {
+  const size_t cross = text.find('x');
+  const auto number = [](const std::string& digits) -> std::optional<uint32_t> {
+    if (digits.empty() || digits.size() > 6 || digits.find_first_not_of("0123456789") != std::string::npos)
+      return std::nullopt;
+    return uint32_t(std::stoul(digits));
+  };
+  if (cross == std::string::npos) return std::nullopt;
+  const auto width = number(text.substr(0, cross)), height = number(text.substr(cross + 1));
+  if (!width || !height) return std::nullopt;
+  return std::pair{*width, *height};
+}
+
+void SceneArguments::addTo(CLI::App& command) {
+  command.add_option("SCENE", files, "glTF 2.0 files (.gltf or .glb); several are placed in one world")->required();
+  command.add_option("--scene", sceneNumber, "Which of the file's scenes, by number (default: the file's own choice)");
+  command.add_flag("--allow-outside", allowOutside, "Let paths in the scene lead out of its folder");
+}
+
+Result<Scene> SceneArguments::load(bool quiet) const {
+  SceneOptions options;
+  options.scene = sceneNumber;
+  options.allowOutside = allowOutside;
+  std::vector<Scene> scenes;
+  for (const std::string& file : files) {
+    Result<Scene> scene = Scene::load(file, options);
+    if (!scene) return scene.error();
+    if (!quiet) warn(scene->warnings());
+    scenes.push_back(std::move(scene).value());
+  }
+  return scenes.size() == 1 ? scenes[0] : Scene::combine(scenes);
+}
+
+void LookArguments::addTo(CLI::App& command) {
+  command.add_option("--look", look,
+                     "A look that ships or a JSON file (default: SCENE.look.json beside the scene, else age-of-sail)");
+  command.add_option("--set", settings, "Any knob, e.g. shadow.threshold=0.4; repeatable; wins over the look")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+}
+
+Result<Look> LookArguments::load(const std::string& sceneFile) const {
+  std::string name = look;
+  if (name.empty()) {
+    std::filesystem::path beside(sceneFile);
+    beside.replace_extension(".look.json");
+    std::error_code ignored;
+    name = std::filesystem::exists(beside, ignored) ? std::filesystem::absolute(beside).string() : "age-of-sail";
+  }
+  Result<Look> result = Look::load(name);
+  if (!result) return result.error();
+  for (const std::string& setting : settings) {
+    const size_t equals = setting.find('=');
+    if (equals == std::string::npos)
+      return usage("'" + setting + "' sets nothing", "write it like shadow.threshold=0.4");
+    const Status status = result->set(setting.substr(0, equals), setting.substr(equals + 1));
+    if (!status) return status.error();
+  }
+  return result;
+}
+
+void PictureArguments::addTo(CLI::App& command) {
+  command.add_option("--camera", camera, "A camera of the scene, by name or number (default: the first, or a framing of everything)");
+  command.add_option("--orbit", orbit, "Degrees around the scene's centre, and the distance in scene radii")
+      ->type_name("AZ,EL[,DIST]");
+  command.add_option("--eye", eye, "Where the camera stands, metres")->type_name("X,Y,Z");
+  command.add_option("--target", target, "What it looks at, metres")->type_name("X,Y,Z");
+  command.add_option("--roll", roll, "Degrees, clockwise")->capture_default_str();
+  command.add_option("--fov", fov, "Vertical field of view, degrees");
+  command.add_option("--size", size, "Width and height in pixels")->type_name("WxH")->capture_default_str();
+  command.add_option("--samples", samples, "Anti-aliasing: 1 or 4")->capture_default_str();
+  command.add_option("--stereo", stereo, "Two views: side-by-side, over-under or separate");
+  command.add_option("--ipd", ipd, "Distance between the eyes, metres")->capture_default_str();
+  command.add_option("--device", device, "A GPU by name or number, or cpu (`scumble devices` lists them)");
+  command.add_option("--seed", seed, "Moves every pattern; the same seed gives the same picture")->capture_default_str();
+  command.add_flag("--validate", validate, "Run under the Vulkan validation layers; a message from them is an error");
+}
+
+Result<RenderOptions> PictureArguments::renderOptions() const {
+  RenderOptions options;
+  const auto parsed = parseSize(size);
+  if (!parsed) return usage("'" + size + "' is no size", "write it like 1280x720");
+  options.width = parsed->first;
+  options.height = parsed->second;
+  if (samples != 1 && samples != 4)
+    return usage("--samples " + std::to_string(samples) + " is neither 1 nor 4", "use --samples 4");
+  options.samples = uint32_t(samples);
+  options.seed = seed;
+  if (isStereo() && stereo != "side-by-side" && stereo != "over-under" && stereo != "separate")
+    return usage("'" + stereo + "' is no stereo layout", "use side-by-side, over-under or separate");
+  return options;
+}
+
+Result<std::vector<View>> PictureArguments::views(const Scene& scene) const {
+  Viewpoint viewpoint;
+  viewpoint.camera = camera;
+  viewpoint.roll = roll;
+  viewpoint.verticalFov = fov;
+  if (!orbit.empty()) {
+    const auto numbers = parseNumbers(orbit);
+    if (!numbers || numbers->size() < 2 || numbers->size() > 3)
+      return usage("--orbit " + orbit + " is no orbit", "write it like 30,15 or 30,15,3");
+    viewpoint.orbit = true;
+    viewpoint.azimuth = (*numbers)[0];
+    viewpoint.elevation = (*numbers)[1];
+    if (numbers->size() == 3) viewpoint.distance = (*numbers)[2];
+  }
+  const auto point = [](const std::string& text) -> std::optional<glm::vec3> {
+    const auto numbers = parseNumbers(text);
+    if (!numbers || numbers->size() != 3) return std::nullopt;
+    return glm::vec3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
+  };
+  if (!eye.empty() && !(viewpoint.eye = point(eye)))
+    return usage("--eye " + eye + " is no point", "write it like 2,1.5,4");
+  if (!target.empty() && !(viewpoint.target = point(target)))
+    return usage("--target " + target + " is no point", "write it like 0,1,0");
+  if (!std::isfinite(roll) || !std::isfinite(ipd) || ipd < 0)
+    return usage("--roll or --ipd is out of range", "use degrees, and metres from 0 on");
+  const Result<RenderOptions> options = renderOptions();
+  if (!options) return options.error();
+  if (options->width == 0 || options->height == 0) return usage("'" + size + "' has no area", "write it like 1280x720");
+  return makeViews(scene, viewpoint, float(options->width) / float(options->height),
+                   isStereo() ? Stereo::stereo : Stereo::mono, ipd);
+}
+
+RendererOptions PictureArguments::rendererOptions() const {
+  RendererOptions options;
+  options.device = device;
+  options.validation = validate;
+  options.cacheFolder = cacheFolder();
+  return options;
+}
+
+}  // namespace scumble::app

@@ -1,0 +1,53 @@
+// Options that several commands share, and what they mean.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scumble/renderer.h"
+
+namespace scumble::app {
+
+struct SceneArguments {
+  std::vector<std::string> files;
+  bool allowOutside = false;
+  int sceneNumber = -1;
+
+  void addTo(CLI::App& command);
+  // All files in one world; warnings go to stderr.
+  Result<Scene> load(bool quiet) const;
+};
+
+struct LookArguments {
+  std::string look;  // empty: SCENE.look.json if there is one, else the default look
+  std::vector<std::string> settings;
+
+  void addTo(CLI::App& command);
+  Result<Look> load(const std::string& sceneFile) const;
+};
+
+struct PictureArguments {
+  std::string camera, orbit, eye, target, size = "1280x720", stereo;
+  float roll = 0;
+  std::optional<float> fov;
+  int samples = 4;
+  float ipd = 0.063f;
+  std::string device;
+  uint32_t seed = 0;
+  bool validate = false;
+
+  void addTo(CLI::App& command);
+  bool isStereo() const { return !stereo.empty(); }
+  Result<RenderOptions> renderOptions() const;
+  Result<std::vector<View>> views(const Scene& scene) const;
+  RendererOptions rendererOptions() const;
+};
+
+// "1280x720" and the like; nothing when it is not of that form.
+std::optional<std::pair<uint32_t, uint32_t>> parseSize(const std::string& text);
+// Numbers separated by commas, all finite.
+std::optional<std::vector<float>> parseNumbers(const std::string& text);
+
+}  // namespace scumble::app

@@ -1,0 +1,27 @@
+#include "report.h"
+
+#include <cstdio>
+
+namespace scumble::app {
+
+int fail(const Error& error) {
+  std::fprintf(stderr, "scumble: error: %s\n", error.message().c_str());
+  switch (error.kind) {
+    case ErrorKind::usage: return kWrongUsage;
+    case ErrorKind::unusableFile: return kUnusableFile;
+    case ErrorKind::noUsableGpu: return kNoGpu;
+    case ErrorKind::outputNotWritten: return kNotWritten;
+    case ErrorKind::internal: break;
+  }
+  return kOurFault;
+}
+
+int failUsage(const std::string& problem, const std::string& advice) {
+  return fail(Error{ErrorKind::usage, "", 0, "", problem, advice});
+}
+
+void warn(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) std::fprintf(stderr, "scumble: warning: %s\n", warning.c_str());
+}
+
+}  // namespace scumble::app

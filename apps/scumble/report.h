@@ -1,0 +1,19 @@
+// How the program speaks: one line for an error, warnings once, and the exit codes that scripts rely on.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scumble/result.h"
+
+namespace scumble::app {
+
+enum ExitCode { kDone = 0, kOurFault = 1, kWrongUsage = 2, kUnusableFile = 3, kNoGpu = 4, kNotWritten = 5 };
+
+// "scumble: error: ..." on stderr; returns the exit code of the error's kind.
+int fail(const Error& error);
+int failUsage(const std::string& problem, const std::string& advice);
+
+void warn(const std::vector<std::string>& warnings);
+
+}  // namespace scumble::app

@@ -1,0 +1,58 @@
+// Looks: art direction as one JSON file that sets knobs. `scumble params` lists the knobs, `scumble schema` prints the
+// file's JSON schema.
+//
+//   { "description": "Low sun, torn edges.",
+//     "shadow": { "threshold": 0.4 },
+//     "materials": { "Sail*": { "warp": { "amount": 2 } } } }
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scumble/result.h"
+
+namespace scumble {
+
+namespace look {
+struct LookData;
+}
+
+struct ShippedLook {
+  std::string name, description;
+};
+
+// A knob as `scumble params` shows it; numbers as text in the form that set() reads.
+struct Knob {
+  std::string path, type, defaultValue, min, max, unit, meaning;
+  bool perMaterial = false;
+};
+
+// Values for knobs; what is not set has its default. Copies are cheap.
+class Look {
+ public:
+  Look();  // all defaults
+
+  // A look that ships (by name), or a JSON file (by a path with '/' or ending in .json). Fails with unusableFile for
+  // files and with usage for unknown names.
+  static Result<Look> load(const std::string& nameOrFile);
+  static Result<Look> fromJson(const std::string& text, const std::string& file);
+
+  // Sets one knob, e.g. ("shadow.threshold", "0.4") or ("materials.Sail*.warp.amount", "2"). A setting for some
+  // materials wins over one for the whole scene; of two alike the later one wins. Fails with ErrorKind::usage.
+  Status set(const std::string& path, const std::string& value);
+
+  const std::string& description() const;
+
+  static std::vector<ShippedLook> shipped();
+  static std::vector<Knob> knobs();
+  static std::string jsonSchema();
+
+  // For the library's own rooms.
+  const look::LookData& data() const { return *data_; }
+
+ private:
+  std::shared_ptr<const look::LookData> data_;
+};
+
+}  // namespace scumble

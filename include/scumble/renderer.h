@@ -1,0 +1,99 @@
+// The renderer: a frame is a pure function of scene, look, time and views. The same call gives the same bytes.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scumble/image.h"
+#include "scumble/look.h"
+#include "scumble/result.h"
+#include "scumble/scene.h"
+#include "scumble/view.h"
+
+namespace scumble {
+
+struct GpuInfo {
+  std::string name, driver, apiVersion;
+  bool isCpu = false;
+  std::string unusableBecause;  // empty when scumble can use it
+  bool wouldBeUsed = false;
+};
+
+// Every Vulkan device found, and which one the given choice (as in RendererOptions::device) means.
+Result<std::vector<GpuInfo>> listGpus(const std::string& choice = "");
+
+enum class ImagePassKind { automatic, fragment, compute };
+
+struct RendererOptions {
+  std::string device;          // part of a name, a number of listGpus(), "cpu", or empty: the best one
+  bool validation = false;     // Vulkan validation layers; messages go to stderr and are counted
+  std::string cacheFolder;     // compiled pipelines are kept here between runs; empty: nowhere
+  ImagePassKind imagePasses = ImagePassKind::automatic;  // how image passes run; automatic measures nothing, it
+                                                         // chooses by the kind of device (docs/gpu.md)
+};
+
+struct RenderOptions {
+  uint32_t width = 1280, height = 720;  // pixels, 1 to 16384
+  uint32_t samples = 4;                 // 1 or 4
+  std::vector<std::string> aovs;        // names of Renderer::aovNames()
+  bool transparent = false;             // leave the background out: alpha 0 where nothing is
+  double framesPerSecond = 24;          // of the motion AOV and the look's frame grid
+  uint32_t seed = 0;
+  bool plain = false;                   // the yardstick: the scene once, unlit, one pass, nothing else
+  // The views one frame earlier, for the motion AOV; empty: the same as now.
+  std::vector<View> previousViews;
+};
+
+struct PassTime {
+  std::string name;
+  double milliseconds = 0;  // on the GPU
+};
+
+struct FrameStats {
+  std::vector<PassTime> passes;  // in order; empty where the device has no timestamps
+  double gpuMilliseconds = 0;    // first to last timestamp
+  double cpuMilliseconds = 0;    // preparing and recording
+  double readbackMilliseconds = 0;
+  double uploadMilliseconds = 0;  // building the scene's GPU data; 0 once it is there
+  double setupMilliseconds = 0;   // images and pipelines; 0 once they are there
+  uint64_t triangles = 0, drawCalls = 0;
+  uint64_t deviceBytes = 0, uploadedBytes = 0;
+};
+
+// A finished frame: for each view the picture and the AOVs that were asked for.
+struct Frame {
+  struct Layer {
+    std::string name;  // empty for the picture itself, else the AOV's name
+    std::vector<Image> views;  // one a view; shadow-map has one for all
+  };
+  std::vector<Layer> layers;
+  FrameStats stats;
+};
+
+class Renderer {
+ public:
+  static Result<std::unique_ptr<Renderer>> create(const RendererOptions& options = {});
+  ~Renderer();
+  Renderer(const Renderer&) = delete;
+  Renderer& operator=(const Renderer&) = delete;
+
+  // Renders one frame: `time` in seconds, one view or two (left, right). Uploads the scene at its first use.
+  // Fails with usage for options out of range, noUsableGpu when the device is lost or out of memory.
+  Result<Frame> render(const Scene& scene, const Look& look, double time, const std::vector<View>& views,
+                       const RenderOptions& options);
+
+  // Names of everything that can be saved beside the picture.
+  static std::vector<std::string> aovNames();
+
+  GpuInfo gpu() const;
+  int validationMessages() const;  // since the start
+
+ private:
+  Renderer();
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace scumble

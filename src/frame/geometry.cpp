@@ -1,0 +1,130 @@
+#include "frame/geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "frame/tessellate.h"
+#include "scene/pose.h"
+
+namespace scumble::frame {
+
+namespace {
+
+// Longest edge relative to the scene's radius. A sigmoid of moderate strength bends an edge of this length by less
+// than a texel of the shadow map (half its length squared times the sigmoid's curvature, over 4).
+constexpr float kMaxEdge = 0.05f;
+constexpr size_t kMaxNewTriangles = 1 << 18;
+
+// A disc around and a little below the scene: rings that widen, so that it is fine near the scene and reaches far.
+scene::Primitive makeGround(const scene::Bounds& bounds) {
+  constexpr int kSectors = 48, kRings = 9;
+  constexpr float kReach = 40.0f;  // scene radii
+  const float radius = std::max(bounds.radius(), 1e-6f);
+  const glm::vec3 center(bounds.center().x, bounds.min.y - 0.002f * radius, bounds.center().z);
+  scene::Primitive ground;
+  const auto addVertex = [&](float x, float z) {
+    ground.positions.push_back(center + glm::vec3(x, 0, z));
+    ground.uv0.push_back(glm::vec2(x, z) / radius);
+  };
+  addVertex(0, 0);
+  for (int ring = 1; ring <= kRings; ++ring) {
+    const float r = radius * kReach * std::pow(float(ring) / kRings, 2.5f);
+    for (int s = 0; s < kSectors; ++s) {
+      const float angle = 6.2831853f * float(s) / kSectors;
+      addVertex(r * std::cos(angle), -r * std::sin(angle));
+    }
+  }
+  const auto at = [&](int ring, int s) { return ring == 0 ? 0u : uint32_t(1 + (ring - 1) * kSectors + s % kSectors); };
+  for (int ring = 0; ring < kRings; ++ring)
+    for (int s = 0; s < kSectors; ++s) {
+      ground.indices.insert(ground.indices.end(), {at(ring, s), at(ring + 1, s), at(ring + 1, s + 1)});
+      if (ring > 0) ground.indices.insert(ground.indices.end(), {at(ring, s), at(ring + 1, s + 1), at(ring, s + 1)});
+    }
+  const size_t count = ground.vertexCount();
+  ground.normals.assign(count, {0, 1, 0});
+  ground.smoothNormals.assign(count, {0, 1, 0});
+  ground.dPdu.assign(count, {radius, 0, 0});
+  ground.dPdv.assign(count, {0, 0, radius});
+  return ground;
+}
+
+// The rest pose of morph targets, with the given weights.
+scene::Primitive morphed(const scene::Primitive& primitive, const std::vector<float>& weights) {
+  scene::Primitive result = primitive;
+  for (size_t t = 0; t < primitive.morphTargets.size() && t < weights.size(); ++t) {
+    const scene::MorphTarget& target = primitive.morphTargets[t];
+    for (size_t v = 0; v < target.positions.size(); ++v) result.positions[v] += weights[t] * target.positions[v];
+    for (size_t v = 0; v < target.normals.size(); ++v) result.normals[v] += weights[t] * target.normals[v];
+  }
+  for (glm::vec3& n : result.normals) n = glm::length(n) > 1e-6f ? glm::normalize(n) : glm::vec3(0, 1, 0);
+  return result;
+}
+
+float largestScale(const glm::mat4& m) {
+  return std::max({glm::length(glm::vec3(m[0])), glm::length(glm::vec3(m[1])), glm::length(glm::vec3(m[2]))});
+}
+
+}  // namespace
+
+Geometry collectGeometry(const scene::SceneData& scene, int groundMaterial) {
+  Geometry geometry;
+  const std::vector<glm::mat4> world = scene::worldMatrices(scene);
+  geometry.joints = scene::jointMatrices(scene, world);
+
+  // One item for each primitive of each node, and for each of its instances.
+  std::map<std::pair<const scene::Primitive*, std::vector<float>>, const scene::Primitive*> morphs;
+  for (size_t n = 0; n < scene.nodes.size(); ++n) {
+    const scene::Node& node = scene.nodes[n];
+    if (node.mesh < 0) continue;
+    const scene::Mesh& mesh = scene.meshes[size_t(node.mesh)];
+    const std::vector<float>& weights = node.morphWeights.empty() ? mesh.morphWeights : node.morphWeights;
+    const bool morphs_ = std::any_of(weights.begin(), weights.end(), [](float w) { return w != 0; });
+    for (const scene::Primitive& primitive : mesh.primitives) {
+      if (primitive.indices.empty()) continue;
+      GeometryItem item{&primitive, world[n], -1, uint32_t(primitive.material), uint32_t(n + 1), {}};
+      if (morphs_ && !primitive.morphTargets.empty()) {
+        const scene::Primitive*& known = morphs[{&primitive, weights}];
+        if (!known) known = &geometry.made.emplace_back(morphed(primitive, weights));
+        item.primitive = known;
+      }
+      if (node.skin >= 0 && primitive.influences > 0) item.skin = node.skin;
+      const std::vector<glm::mat4> one{glm::mat4(1.0f)};
+      for (const glm::mat4& instance : node.instances.empty() || item.skin >= 0 ? one : node.instances) {
+        item.model = world[n] * instance;
+        scene::Node alone;
+        alone.skin = item.skin;
+        item.bounds = scene::posedBounds(*item.primitive, alone, item.model, geometry.joints);
+        geometry.bounds.add(item.bounds.min);
+        geometry.bounds.add(item.bounds.max);
+        geometry.items.push_back(item);
+      }
+    }
+  }
+
+  // Split what is too long for the shadow map's sigmoid: by the largest scale at which a primitive is drawn.
+  std::map<const scene::Primitive*, float> scales;
+  for (const GeometryItem& item : geometry.items) {
+    float& scale = scales[item.primitive];
+    scale = std::max(scale, largestScale(item.model));
+  }
+  std::map<const scene::Primitive*, const scene::Primitive*> split;
+  const float maxEdge = kMaxEdge * std::max(geometry.bounds.radius(), 1e-6f);
+  for (const auto& [primitive, scale] : scales)
+    if (scale > 0)
+      if (auto result = tessellate(*primitive, maxEdge / scale, kMaxNewTriangles))
+        split[primitive] = &geometry.made.emplace_back(std::move(*result));
+  for (GeometryItem& item : geometry.items)
+    if (const auto it = split.find(item.primitive); it != split.end()) item.primitive = it->second;
+
+  if (groundMaterial >= 0) {
+    GeometryItem item{&geometry.made.emplace_back(makeGround(geometry.bounds)), glm::mat4(1.0f), -1,
+                      uint32_t(groundMaterial), 0, {}};
+    for (const glm::vec3& p : item.primitive->positions) item.bounds.add(p);
+    item.id = uint32_t(scene.nodes.size() + 1);
+    geometry.items.push_back(item);
+  }
+  return geometry;
+}
+
+}  // namespace scumble::frame

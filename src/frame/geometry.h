@@ -1,0 +1,29 @@
+// From scene nodes to what is drawn: one item for each primitive and instance, with a ground if there is to be one.
+#pragma once
+
+#include <deque>
+
+#include "frame/scene_on_gpu.h"
+
+namespace scumble::frame {
+
+struct GeometryItem {
+  const scene::Primitive* primitive;
+  glm::mat4 model{1.0f};  // ignored where `skin` is set
+  int skin = -1;
+  uint32_t material = 0;
+  uint32_t id = 0;        // whole number from 1, one a node
+  scene::Bounds bounds;   // world
+};
+
+struct Geometry {
+  std::vector<GeometryItem> items;
+  std::deque<scene::Primitive> made;  // primitives that the scene does not have: subdivided ones, the ground
+  std::vector<std::vector<glm::mat4>> joints;  // matrices of each skin
+  scene::Bounds bounds;                        // without the ground
+};
+
+// `groundMaterial`: the material index of the ground, or -1 for none.
+Geometry collectGeometry(const scene::SceneData& scene, int groundMaterial);
+
+}  // namespace scumble::frame

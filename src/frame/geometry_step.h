@@ -1,0 +1,48 @@
+// What the geometry passes share: the vertex streams, and one pipeline for each kind of material.
+#pragma once
+
+#include <array>
+#include <functional>
+
+#include "frame/pass.h"
+
+namespace scumble::frame {
+
+// Vertex attributes by shader location.
+enum VertexInput : uint32_t {
+  kPosition = 1 << 0,
+  kNormal = 1 << 1,
+  kUv0 = 1 << 2,
+  kUv1 = 1 << 3,
+  kColor = 1 << 4,
+  kDPdu = 1 << 5,
+  kSmoothNormal = 1 << 6,
+  kDPdv = 1 << 7,
+};
+
+struct GeometryStepDesc {
+  gpu::Shader vertex, fragment;
+  uint32_t inputs = 0;               // VertexInput bits that `vertex` reads
+  gpu::Shader depthOnlyVertex;       // instead of both for opaque surfaces: position in, depth out; may be empty
+  std::vector<VkFormat> colorFormats;
+  VkCompareOp depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
+  uint32_t samples = 1, viewMask = 0;
+  bool blends = false;               // blended surfaces are composited; else they are drawn like masked ones
+  const gpu::SetLayout* passLayout = nullptr;  // set 1; null: the textures are set 1
+};
+
+class GeometryStep {
+ public:
+  void create(gpu::Device& device, const FrameResources& resources, const SceneOnGpu& scene,
+              const GeometryStepDesc& desc);
+  // Draws what `includes` lets through: opaque, then masked, then blended surfaces from far to near as `eye` sees them.
+  void draw(VkCommandBuffer commands, const FrameResources& resources, const SceneOnGpu& scene, VkDescriptorSet passSet,
+            const glm::vec3& eye, const std::function<bool(const Draw&)>& includes = {}) const;
+
+ private:
+  // By alpha mode and by whether textures are read.
+  std::array<std::array<gpu::Pipeline, 2>, 3> pipelines_;
+  bool hasPassSet_ = false;
+};
+
+}  // namespace scumble::frame

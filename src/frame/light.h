@@ -1,0 +1,25 @@
+// The key light: where it comes from, and the light space of its shadow map.
+#pragma once
+
+#include <functional>
+
+#include "frame/scene_on_gpu.h"
+#include "look/look_data.h"
+
+namespace scumble::frame {
+
+#define PARAMS_STRUCT LightParams
+#define PARAMS_FILE "frame/light.params"
+#define PARAMS_PATH "light"
+#define PARAMS_PER_MATERIAL false
+#include "look/define_params.h"
+
+// Unit vector towards the key light, in the world. Depends on the scene and the look, not on the views.
+glm::vec3 keyLightDirection(const scene::SceneData& scene, const LightParams& params);
+
+// Fills the light's part of the frame's uniforms. `casts`: whether a draw casts shadows; `viewer`: where the map is to
+// be finest (world).
+void setLightSpace(shared::FrameUniforms& uniforms, const SceneOnGpu& scene, const LightParams& params,
+                   const std::function<bool(const Draw&)>& casts, const glm::vec3& viewer);
+
+}  // namespace scumble::frame

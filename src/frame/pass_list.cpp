@@ -1,0 +1,65 @@
+#include "frame/pass_list.h"
+
+#include "frame/light.h"
+#include "frame/palette.h"
+#include "passes/blur/blur.h"
+#include "passes/color/color.h"
+#include "passes/deform/deform.h"
+#include "passes/facts/facts.h"
+#include "passes/final_color/final_color.h"
+#include "passes/final_shadow/final_shadow.h"
+#include "passes/plain/plain.h"
+#include "passes/shadow_map/shadow_map.h"
+#include "passes/surface/surface.h"
+#include "passes/warp/warp.h"
+#include "shading/metatexture_params.h"
+
+namespace scumble {
+
+namespace look {
+
+const std::vector<const ParamBlock*>& allBlocks() {
+  static const std::vector<const ParamBlock*> blocks{
+      &frame::LightParams::block(),       &passes::ShadowMapParams::block(),
+      &frame::PaletteParams::block(),     &passes::SurfaceParams::block(),
+      &passes::BlurParams::block(),       &passes::FinalShadowParams::block(),
+      &passes::WarpParams::block(),       &shading::WarpMetaTextureParams::block(),
+      &passes::BackgroundParams::block(), &frame::GroundParams::block(),
+      &passes::FinalColorParams::block()};
+  return blocks;
+}
+
+}  // namespace look
+
+namespace frame {
+
+std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration) {
+  std::vector<std::unique_ptr<Pass>> list;
+  list.push_back(passes::makeDeform());
+  if (configuration.plain) {
+    list.push_back(passes::makePlain());
+    return list;
+  }
+  list.push_back(passes::makeShadowMap());
+  list.push_back(passes::makeWarp());
+  list.push_back(passes::makeSurface());
+  list.push_back(passes::makeBlur());
+  list.push_back(passes::makeFinalShadow([](const look::LookData& look, float pixelScale) {
+    return passes::planBlur(look.get<passes::BlurParams>().radius * pixelScale).amount;
+  }));
+  list.push_back(passes::makeColor());
+  list.push_back(passes::makeFinalColor());
+  if (configuration.facts) list.push_back(passes::makeFacts());
+  return list;
+}
+
+std::vector<bool> shadowCasters(const SceneOnGpu& scene, const look::LookData& look) {
+  std::vector<bool> casts;
+  for (size_t m = 0; m < scene.materialCount(); ++m)
+    casts.push_back(int(m) != scene.groundMaterial() &&
+                    look.getForMaterial<passes::ShadowMapParams>(scene.materialName(m)).cast);
+  return casts;
+}
+
+}  // namespace frame
+}  // namespace scumble

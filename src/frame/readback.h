@@ -1,0 +1,25 @@
+// From device memory to pictures of floats.
+#pragma once
+
+#include "frame/pass.h"
+#include "scumble/image.h"
+
+namespace scumble::frame {
+
+// One slot's image on its way back: declares the copy, and converts when the frame is done.
+class Readback {
+ public:
+  void declare(FrameBuilder& frame, Slot slot);
+  void create(FrameBuilder& frame, const FrameResources& resources);
+  // One image a view (or one, for what is drawn once). Linear, straight alpha. What is drawn at a fraction of the
+  // frame's size (blur) is enlarged by linear interpolation.
+  std::vector<scumble::Image> images(uint32_t width, uint32_t height) const;
+
+ private:
+  Slot slot_ = Slot::finalColor;
+  gpu::ResourceId image_ = 0;
+  const FrameResources* resources_ = nullptr;
+  gpu::Buffer buffer_;
+};
+
+}  // namespace scumble::frame

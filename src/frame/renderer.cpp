@@ -1,0 +1,343 @@
+#include "scumble/renderer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include "frame/framing.h"
+#include "frame/light.h"
+#include "frame/palette.h"
+#include "frame/pass_list.h"
+#include "frame/readback.h"
+#include "frame/uniforms.h"
+
+namespace scumble {
+
+using namespace frame;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double millisecondsSince(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+constexpr uint32_t kMaxSize = 16384;
+
+Error usage(std::string problem, std::string advice) {
+  return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
+}
+
+bool isAov(Slot slot) { return slot != Slot::depth && slot != Slot::plain; }
+bool isFact(Slot slot) { return slot >= Slot::factDepth && slot <= Slot::id; }
+
+std::optional<Slot> slotOfAov(const std::string& name) {
+  for (size_t i = 0; i < size_t(Slot::count); ++i)
+    if (isAov(Slot(i)) && name == slotInfo(Slot(i)).aov) return Slot(i);
+  return std::nullopt;
+}
+
+bool isFinite(const glm::mat4& m) {
+  for (int i = 0; i < 16; ++i)
+    if (!std::isfinite(m[i / 4][i % 4])) return false;
+  return true;
+}
+
+GpuInfo toPublic(const gpu::DeviceInfo& info) {
+  GpuInfo result;
+  result.name = info.name;
+  result.driver = info.driver;
+  result.apiVersion = std::to_string(VK_API_VERSION_MAJOR(info.apiVersion)) + "." +
+                      std::to_string(VK_API_VERSION_MINOR(info.apiVersion)) + "." +
+                      std::to_string(VK_API_VERSION_PATCH(info.apiVersion));
+  result.isCpu = info.isCpu;
+  result.unusableBecause = info.unusableBecause;
+  return result;
+}
+
+// Everything that lives as long as scene and configuration stay the same.
+struct Setup {
+  Configuration configuration;
+  gpu::Buffer uniformBuffer;
+  UniformSlice frameSlice, materialSlice;
+  std::optional<FrameBuilder> builder;
+  gpu::SetLayout frameLayout;
+  gpu::DescriptorSets frameSet;
+  std::optional<FrameResources> resources;
+  std::vector<std::unique_ptr<Pass>> passes;
+  std::vector<std::unique_ptr<Readback>> readbacks;  // in the order of configuration.readBack
+  std::vector<std::vector<gpu::Barrier>> barriers;
+  VkQueryPool queries = VK_NULL_HANDLE;
+  VkDevice device = VK_NULL_HANDLE;
+  ~Setup() {
+    if (queries) vkDestroyQueryPool(device, queries, nullptr);
+  }
+};
+
+}  // namespace
+
+struct Renderer::Impl {
+  std::unique_ptr<gpu::Device> device;
+  std::optional<gpu::Samplers> samplers;
+  ImagePassKind imagePasses = ImagePassKind::automatic;
+  std::optional<Scene> scene;  // keeps the data alive that sceneOnGpu refers to
+  std::optional<SceneOnGpu> sceneOnGpu;
+  std::unique_ptr<Setup> setup;
+
+  ~Impl() {
+    setup.reset();
+    sceneOnGpu.reset();
+    samplers.reset();
+  }
+
+  void useScene(const Scene& wanted, bool withGround) {
+    if (sceneOnGpu && &scene->data() == &wanted.data() && sceneOnGpu->hasGround() == withGround) return;
+    setup.reset();
+    sceneOnGpu.reset();
+    scene = wanted;
+    sceneOnGpu.emplace(*device, *samplers, scene->data(), withGround);
+  }
+
+  void useConfiguration(const Configuration& configuration);
+  void record(VkCommandBuffer commands);
+  void readTimes(FrameStats& stats);
+};
+
+void Renderer::Impl::useConfiguration(const Configuration& configuration) {
+  if (setup && setup->configuration == configuration) return;
+  setup.reset();
+  auto next = std::make_unique<Setup>();
+  next->device = device->handle();
+  next->configuration = configuration;
+
+  // Uniform memory: what holds for the frame, then what each material has in each pass.
+  const uint64_t size = (64 << 10) + sceneOnGpu->materialCount() * 2048;
+  next->uniformBuffer = gpu::Buffer(*device, size,
+                                    VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                    gpu::MemoryKind::upload);
+  next->builder.emplace(*device, *samplers, configuration, *sceneOnGpu,
+                        UniformSlice{next->uniformBuffer.handle(), 0, size, next->uniformBuffer.mapped()});
+  next->frameSlice = next->builder->uniform(sizeof(shared::FrameUniforms));
+  next->materialSlice = next->builder->uniform(sceneOnGpu->materialCount() * sizeof(shared::MaterialData));
+
+  // Passes declare what they read and write; then images, and with them pipelines and descriptor sets, can be made.
+  next->passes = makePasses(configuration);
+  for (const auto& pass : next->passes) pass->declare(*next->builder);
+  for (const Slot slot : configuration.readBack)
+    next->readbacks.emplace_back(std::make_unique<Readback>())->declare(*next->builder, slot);
+  next->frameLayout = gpu::SetLayout(*device, {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_ALL},
+                                               {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_ALL},
+                                               {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_ALL}});
+  next->frameSet = gpu::DescriptorSets(*device, next->frameLayout);
+  next->frameSet.writeBuffer(0, 0, next->frameSlice.buffer, next->frameSlice.offset, next->frameSlice.size);
+  next->frameSet.writeBuffer(0, 1, sceneOnGpu->objects().handle());
+  next->frameSet.writeBuffer(0, 2, next->materialSlice.buffer, next->materialSlice.offset, next->materialSlice.size);
+  next->resources.emplace(*device, *next->builder, next->frameLayout, next->frameSet[0]);
+  for (const auto& pass : next->passes) pass->create(*next->builder, *next->resources);
+  for (const auto& readback : next->readbacks) readback->create(*next->builder, *next->resources);
+  next->barriers = next->builder->graph().planBarriers();
+
+  if (device->hasTimestamps()) {
+    VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+    info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+    info.queryCount = uint32_t(next->barriers.size() + 1);
+    SCUMBLE_VK(vkCreateQueryPool(device->handle(), &info, nullptr, &next->queries));
+  }
+  setup = std::move(next);
+}
+
+void Renderer::Impl::record(VkCommandBuffer commands) {
+  const gpu::FrameGraph& graph = setup->builder->graph();
+  const auto stamp = [&](uint32_t query) {
+    if (setup->queries)
+      vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, setup->queries, query);
+  };
+  if (setup->queries) vkCmdResetQueryPool(commands, setup->queries, 0, uint32_t(setup->barriers.size() + 1));
+  stamp(0);
+  for (size_t s = 0; s < graph.steps().size(); ++s) {
+    std::vector<VkImageMemoryBarrier2> images;
+    VkMemoryBarrier2 memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+    for (const gpu::Barrier& barrier : setup->barriers[s]) {
+      if (!graph.resources()[barrier.resource].isImage) {
+        memory.srcStageMask |= barrier.sourceStages, memory.srcAccessMask |= barrier.sourceAccess;
+        memory.dstStageMask |= barrier.targetStages, memory.dstAccessMask |= barrier.targetAccess;
+        continue;
+      }
+      const gpu::Image& image = setup->resources->image(barrier.resource);
+      VkImageMemoryBarrier2 out{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+      out.srcStageMask = barrier.sourceStages, out.srcAccessMask = barrier.sourceAccess;
+      out.dstStageMask = barrier.targetStages, out.dstAccessMask = barrier.targetAccess;
+      out.oldLayout = barrier.oldLayout, out.newLayout = barrier.newLayout;
+      out.srcQueueFamilyIndex = out.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+      out.image = image.handle();
+      out.subresourceRange = {VkImageAspectFlags(gpu::isDepthFormat(image.desc().format) ? VK_IMAGE_ASPECT_DEPTH_BIT
+                                                                                         : VK_IMAGE_ASPECT_COLOR_BIT),
+                              0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
+      images.push_back(out);
+    }
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.imageMemoryBarrierCount = uint32_t(images.size());
+    dependency.pImageMemoryBarriers = images.data();
+    dependency.memoryBarrierCount = memory.dstStageMask != 0;
+    dependency.pMemoryBarriers = &memory;
+    if (!images.empty() || memory.dstStageMask != 0) vkCmdPipelineBarrier2(commands, &dependency);
+    setup->builder->records()[s](commands);
+    stamp(uint32_t(s + 1));
+  }
+}
+
+void Renderer::Impl::readTimes(FrameStats& stats) {
+  if (!setup->queries) return;
+  const auto& steps = setup->builder->graph().steps();
+  std::vector<uint64_t> stamps(steps.size() + 1);
+  SCUMBLE_VK(vkGetQueryPoolResults(device->handle(), setup->queries, 0, uint32_t(stamps.size()), stamps.size() * 8,
+                                   stamps.data(), 8, VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
+  const double unit = double(device->limits().timestampPeriod) * 1e-6;
+  for (size_t s = 0; s < steps.size(); ++s) {
+    const double time = double(stamps[s + 1] - stamps[s]) * unit;
+    if (!stats.passes.empty() && stats.passes.back().name == steps[s].name)
+      stats.passes.back().milliseconds += time;
+    else
+      stats.passes.push_back({steps[s].name, time});
+  }
+  stats.gpuMilliseconds = double(stamps.back() - stamps.front()) * unit;
+}
+
+Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
+Renderer::~Renderer() = default;
+
+Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& options) {
+  gpu::DeviceOptions deviceOptions;
+  deviceOptions.choice = options.device;
+  deviceOptions.validation = options.validation;
+  deviceOptions.cacheFolder = options.cacheFolder;
+  Result<std::unique_ptr<gpu::Device>> device = gpu::Device::create(deviceOptions);
+  if (!device) return device.error();
+  std::unique_ptr<Renderer> renderer(new Renderer);
+  renderer->impl_->device = std::move(device).value();
+  renderer->impl_->samplers.emplace(*renderer->impl_->device);
+  renderer->impl_->imagePasses = options.imagePasses;
+  return renderer;
+}
+
+Result<Frame> Renderer::render(const Scene& scene, const Look& look, double time, const std::vector<View>& views,
+                               const RenderOptions& options) {
+  // Check what the caller wants.
+  const uint32_t largest = std::min(kMaxSize, impl_->device->limits().maxImageDimension2D);
+  if (options.width < 1 || options.height < 1 || options.width > largest || options.height > largest)
+    return usage("a picture of " + std::to_string(options.width) + "x" + std::to_string(options.height) +
+                     " is out of range",
+                 "use 1x1 to " + std::to_string(largest) + "x" + std::to_string(largest));
+  if (options.samples != 1 && options.samples != 4) return usage("the number of samples is neither 1 nor 4", "use 4");
+  if (options.samples == 4 && !impl_->device->supports4Samples())
+    return usage("this device has no 4 samples a pixel", "use --samples 1");
+  if (views.empty() || views.size() > size_t(shared::kMaxViews) ||
+      (!options.previousViews.empty() && options.previousViews.size() != views.size()))
+    return usage("the number of views is neither one nor two", "give one, or a left and a right one");
+  for (const View& view : views)
+    if (!isFinite(view.worldToEye) || !isFinite(view.eyeToClip)) return usage("a view is not finite", "check the camera");
+  if (!std::isfinite(time)) return usage("the time is not finite", "give it in seconds");
+
+  Configuration configuration;
+  configuration.width = options.width;
+  configuration.height = options.height;
+  configuration.samples = options.samples;
+  configuration.viewCount = uint32_t(views.size());
+  configuration.plain = options.plain;
+  configuration.computeImagePasses = impl_->imagePasses == ImagePassKind::compute ||
+                                     (impl_->imagePasses == ImagePassKind::automatic &&
+                                      impl_->device->prefersCompute());
+  configuration.readBack.push_back(options.plain ? Slot::plain : Slot::finalColor);
+  for (const std::string& aov : options.aovs) {
+    const std::optional<Slot> slot = slotOfAov(aov);
+    if (!slot || options.plain) {
+      const std::string suggestion = look::nearest(aov, aovNames());
+      return usage("there is no AOV '" + aov + "'",
+                   suggestion.empty() ? "`scumble render --help` lists them" : "did you mean '" + suggestion + "'?");
+    }
+    configuration.facts |= isFact(*slot);
+    if (*slot != Slot::finalColor) configuration.readBack.push_back(*slot);
+  }
+
+  try {
+    Frame frame;
+    auto start = Clock::now();
+    const auto lap = [&] {
+      const double elapsed = millisecondsSince(start);
+      start = Clock::now();
+      return elapsed;
+    };
+    impl_->useScene(scene, hasGround(scene.data(), look.data()) && !options.transparent);
+    frame.stats.uploadMilliseconds = lap();
+    impl_->useConfiguration(configuration);
+    frame.stats.setupMilliseconds = lap();
+
+    // Write the uniforms.
+    Setup& setup = *impl_->setup;
+    const SceneOnGpu& sceneOnGpu = *impl_->sceneOnGpu;
+    const shared::FrameUniforms uniforms = frameUniforms(sceneOnGpu, look.data(), views, options.previousViews, time,
+                                                         configuration, options.seed);
+    setup.frameSlice.write(uniforms);
+    for (size_t m = 0; m < sceneOnGpu.materialCount(); ++m) {
+      const shared::MaterialData data = materialData(sceneOnGpu, m, look.data());
+      std::memcpy(setup.materialSlice.mapped + m * sizeof(data), &data, sizeof(data));
+    }
+    const FrameInput input{look.data(), uniforms, sceneOnGpu, options.transparent, options.seed};
+    for (const auto& pass : setup.passes) pass->update(input);
+    frame.stats.cpuMilliseconds = lap();
+
+    impl_->device->runOnce([&](VkCommandBuffer commands) { impl_->record(commands); });
+    impl_->readTimes(frame.stats);
+    impl_->device->savePipelineCache();
+
+    // Bring the pictures back.
+    start = Clock::now();
+    for (size_t i = 0; i < setup.readbacks.size(); ++i)
+      frame.layers.push_back({i == 0 ? "" : slotInfo(configuration.readBack[i]).aov,
+                              setup.readbacks[i]->images(options.width, options.height)});
+    for (const std::string& aov : options.aovs)
+      if (slotOfAov(aov) == Slot::finalColor) frame.layers.push_back({aov, frame.layers.front().views});
+    frame.stats.readbackMilliseconds = lap();
+    frame.stats.triangles = sceneOnGpu.triangleCount();
+    frame.stats.drawCalls = sceneOnGpu.draws().size();
+    frame.stats.deviceBytes = impl_->device->memory().bytesInUse();
+    frame.stats.uploadedBytes = sceneOnGpu.uploadedBytes();
+    return frame;
+  } catch (const gpu::VulkanError& error) {
+    impl_->setup.reset();
+    const bool internal = error.result == VK_ERROR_UNKNOWN || error.result == VK_ERROR_VALIDATION_FAILED_EXT;
+    return Error{internal ? ErrorKind::internal : ErrorKind::noUsableGpu, "", 0, "", error.message(),
+                 "use a smaller picture or scene, or another --device"};
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorKind::noUsableGpu, "", 0, "", "there is not enough memory", "use a smaller picture or scene"};
+  }
+}
+
+std::vector<std::string> Renderer::aovNames() {
+  std::vector<std::string> names;
+  for (size_t i = 0; i < size_t(Slot::count); ++i)
+    if (isAov(Slot(i))) names.emplace_back(slotInfo(Slot(i)).aov);
+  return names;
+}
+
+GpuInfo Renderer::gpu() const {
+  GpuInfo info = toPublic(impl_->device->info());
+  info.wouldBeUsed = true;
+  return info;
+}
+
+int Renderer::validationMessages() const { return impl_->device->validationMessages(); }
+
+Result<std::vector<GpuInfo>> listGpus(const std::string& choice) {
+  const Result<std::vector<gpu::DeviceInfo>> devices = gpu::listDevices();
+  if (!devices) return devices.error();
+  std::vector<GpuInfo> gpus;
+  for (const gpu::DeviceInfo& device : *devices) gpus.push_back(toPublic(device));
+  const Result<size_t> chosen = gpu::chooseDevice(*devices, choice);
+  if (chosen) gpus[*chosen].wouldBeUsed = true;
+  if (!chosen && !choice.empty()) return chosen.error();
+  return gpus;
+}
+
+}  // namespace scumble

@@ -1,0 +1,285 @@
+#include "frame/scene_on_gpu.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "frame/geometry.h"
+#include "scene/parallel.h"
+
+namespace scumble::frame {
+
+namespace {
+
+uint32_t encodeNormal(glm::vec3 n) {
+  n /= std::max(std::abs(n.x) + std::abs(n.y) + std::abs(n.z), 1e-20f);
+  glm::vec2 oct(n.x, n.y);
+  if (n.z < 0)
+    oct = {(1 - std::abs(n.y)) * (n.x >= 0 ? 1.0f : -1.0f), (1 - std::abs(n.x)) * (n.y >= 0 ? 1.0f : -1.0f)};
+  const auto snorm = [](float v) { return uint32_t(uint16_t(int16_t(std::lround(std::clamp(v, -1.0f, 1.0f) * 32767)))); };
+  return snorm(oct.x) | snorm(oct.y) << 16;
+}
+
+AlphaMode alphaMode(const scene::Material& material) {
+  switch (material.alphaMode) {
+    case scene::AlphaMode::mask: return AlphaMode::mask;
+    case scene::AlphaMode::blend: return AlphaMode::blend;
+    default: return AlphaMode::opaque;
+  }
+}
+
+VkSamplerAddressMode addressMode(scene::Wrap wrap) {
+  switch (wrap) {
+    case scene::Wrap::mirroredRepeat: return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+    case scene::Wrap::clampToEdge: return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    default: return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+  }
+}
+
+constexpr size_t kDeformRow = 32768;  // a row of deform's workgroups at most
+
+// Where a primitive's data lies in the rest buffers.
+struct RestRange {
+  uint32_t vertex = 0, index = 0, skin = 0;
+};
+
+// A buffer that is filled in place: in device memory where the CPU sees it, else by way of staging.
+template <class T>
+struct Stream {
+  gpu::Buffer buffer;
+  T* data = nullptr;
+};
+
+template <class T>
+Stream<T> reserve(gpu::Uploader& uploader, uint64_t count, VkBufferUsageFlags usage, uint64_t& bytes) {
+  Stream<T> stream;
+  const uint64_t size = std::max<uint64_t>(1, count) * sizeof(T);
+  std::byte* target = nullptr;
+  stream.buffer = uploader.reserve(size, usage, &target);
+  stream.data = reinterpret_cast<T*>(target);
+  bytes += size;
+  return stream;
+}
+
+}  // namespace
+
+SceneOnGpu::SceneOnGpu(gpu::Device& device, gpu::Samplers& samplers, const scene::SceneData& scene, bool withGround)
+    : data_(&scene) {
+  for (const scene::Material& material : scene.materials) materialNames_.push_back(material.name);
+  if (withGround) {
+    groundMaterial_ = int(materialNames_.size());
+    materialNames_.push_back("Ground");
+  }
+  gpu::Uploader uploader(device);
+  const Geometry geometry = collectGeometry(scene, groundMaterial_);
+  bounds_ = geometry.bounds;
+  buildGeometry(device, uploader, geometry);
+  measureColors(geometry);
+  buildTextures(device, samplers, uploader);
+  uploader.flush();
+}
+
+void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, const Geometry& geometry) {
+  // Lay out: rest data once for each primitive, final and static vertices once for each item.
+  std::map<const scene::Primitive*, RestRange> ranges;
+  std::vector<const scene::Primitive*> primitives;
+  uint64_t restVertices = 0, indexCount = 0, skinEntries = 0, finalVertices = 0;
+  for (const GeometryItem& item : geometry.items) {
+    const scene::Primitive& primitive = *item.primitive;
+    if (ranges.try_emplace(&primitive, RestRange{uint32_t(restVertices), uint32_t(indexCount), uint32_t(skinEntries)})
+            .second) {
+      primitives.push_back(&primitive);
+      restVertices += primitive.vertexCount();
+      indexCount += primitive.indices.size();
+      skinEntries += primitive.vertexCount() * size_t(primitive.influences / 4);
+    }
+    finalVertices += primitive.vertexCount();
+  }
+  const uint64_t largest = std::max(restVertices, finalVertices) * sizeof(shared::VertexFrame);
+  if (largest > device.limits().maxStorageBufferRange || indexCount > (1ull << 31))
+    throw gpu::VulkanError{"the scene's vertices", VK_ERROR_OUT_OF_DEVICE_MEMORY};
+
+  constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+  constexpr VkBufferUsageFlags kVertex = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
+  auto core = reserve<shared::VertexCore>(uploader, restVertices, kStorage, uploadedBytes_);
+  auto around = reserve<shared::VertexFrame>(uploader, restVertices, kStorage, uploadedBytes_);
+  auto skins = reserve<shared::VertexSkin>(uploader, skinEntries, kStorage, uploadedBytes_);
+  auto surface = reserve<shared::VertexSurface>(uploader, finalVertices, kVertex, uploadedBytes_);
+  auto indices = reserve<uint32_t>(uploader, indexCount, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, uploadedBytes_);
+
+  scene::parallelFor(primitives.size(), scene::threadCount(0), [&](size_t p) {
+    const scene::Primitive& primitive = *primitives[p];
+    const RestRange range = ranges.at(&primitive);
+    for (size_t v = 0; v < primitive.vertexCount(); ++v) {
+      core.data[range.vertex + v] = {primitive.positions[v], encodeNormal(primitive.normals[v])};
+      around.data[range.vertex + v] = {primitive.dPdu[v], encodeNormal(primitive.smoothNormals[v]), primitive.dPdv[v]};
+    }
+    std::copy(primitive.indices.begin(), primitive.indices.end(), indices.data + range.index);
+    const size_t groups = size_t(primitive.influences / 4);
+    for (size_t g = 0; g < primitive.vertexCount() * groups; ++g) {
+      const uint16_t* j = &primitive.joints[4 * g];
+      const float* w = &primitive.weights[4 * g];
+      skins.data[range.skin + g] = {{uint32_t(j[0]) | uint32_t(j[1]) << 16, uint32_t(j[2]) | uint32_t(j[3]) << 16},
+                                    {w[0], w[1], w[2], w[3]}};
+    }
+  });
+
+  // Objects, draws and deform's work.
+  std::vector<uint32_t> firstJoints;
+  std::vector<glm::mat4> joints;
+  for (const auto& matrices : geometry.joints) {
+    firstJoints.push_back(uint32_t(joints.size()));
+    joints.insert(joints.end(), matrices.begin(), matrices.end());
+  }
+  if (joints.empty()) joints.emplace_back(1.0f);
+  std::vector<shared::ObjectData> objects;
+  std::vector<shared::DeformChunk> chunks;
+  uint32_t finalVertex = 0;
+  for (const GeometryItem& item : geometry.items) {
+    const scene::Primitive& primitive = *item.primitive;
+    const RestRange range = ranges.at(&primitive);
+    const bool isGround = int(item.material) == groundMaterial_;
+    static const scene::Material kGroundMaterial{};
+    const scene::Material& material = isGround ? kGroundMaterial : data_->materials[item.material];
+    const glm::mat3 linear(item.model);
+
+    Draw draw;
+    draw.firstIndex = range.index;
+    draw.indexCount = uint32_t(primitive.indices.size());
+    draw.vertexOffset = int32_t(finalVertex);
+    draw.object = uint32_t(objects.size());
+    draw.material = item.material;
+    draw.alpha = alphaMode(material);
+    draw.cullsBack = !material.doubleSided;
+    draw.mirrored = item.skin < 0 && glm::determinant(linear) < 0;
+    draw.textured = material.baseColorTexture.image >= 0 || material.emissiveTexture.image >= 0;
+    draw.bounds = item.bounds;
+    draws_.push_back(draw);
+    triangleCount_ += draw.indexCount / 3;
+
+    shared::ObjectData object{};
+    object.model = item.model;
+    // The cofactor matrix is the inverse transpose times the determinant, and exists for flat matrices too.
+    object.normal = glm::mat3(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                              glm::cross(linear[0], linear[1]));
+    // Its entries are products of two lengths; divide by the largest, so that tiny and huge scales keep precision.
+    float most = 0;
+    for (int i = 0; i < 9; ++i) most = std::max(most, std::abs(object.normal[i / 3][i % 3]));
+    object.normal *= (draw.mirrored ? -1.0f : 1.0f) / (most > 0 && std::isfinite(most) ? most : 1.0f);
+    object.material = item.material;
+    object.id = item.id;
+    object.influences = item.skin >= 0 ? uint32_t(primitive.influences) : 0;
+    object.firstJoint = item.skin >= 0 ? firstJoints[size_t(item.skin)] : 0;
+    objects.push_back(object);
+
+    const uint32_t count = uint32_t(primitive.vertexCount());
+    for (uint32_t v = 0; v < count; v += shared::kDeformChunk)
+      chunks.push_back({draw.object, range.vertex + v, finalVertex + v, std::min(count - v, uint32_t(shared::kDeformChunk)),
+                        range.skin + v * uint32_t(primitive.influences / 4)});
+    finalVertex += count;
+  }
+  scene::parallelFor(geometry.items.size(), scene::threadCount(0), [&](size_t i) {
+    const scene::Primitive& primitive = *geometry.items[i].primitive;
+    shared::VertexSurface* out = surface.data + draws_[i].vertexOffset;
+    for (size_t v = 0; v < primitive.vertexCount(); ++v) {
+      uint32_t color = 0xFFFFFFFFu;
+      if (!primitive.colors.empty()) std::memcpy(&color, &primitive.colors[v], 4);
+      out[v] = {primitive.uv0[v], primitive.uv1.empty() ? primitive.uv0[v] : primitive.uv1[v], color};
+    }
+  });
+
+  restCore_ = std::move(core.buffer);
+  restFrame_ = std::move(around.buffer);
+  restSkin_ = std::move(skins.buffer);
+  surface_ = std::move(surface.buffer);
+  indices_ = std::move(indices.buffer);
+  // `deform` dispatches whole rows: pad with empty chunks.
+  chunkCount_ = uint32_t(chunks.size());
+  if (chunks.size() > kDeformRow) chunks.resize((chunks.size() + kDeformRow - 1) / kDeformRow * kDeformRow);
+  const auto upload = [&](const auto& array) {
+    auto stream = reserve<std::remove_cvref_t<decltype(array[0])>>(uploader, array.size(), kStorage, uploadedBytes_);
+    std::copy(array.begin(), array.end(), stream.data);
+    return std::move(stream.buffer);
+  };
+  objects_ = upload(objects);
+  chunks_ = upload(chunks);
+  joints_ = upload(joints);
+  const uint64_t finals = std::max<uint64_t>(1, finalVertices);
+  finalCore_ = gpu::Buffer(device, finals * sizeof(shared::VertexCore), kStorage | kVertex, gpu::MemoryKind::device);
+  finalFrame_ = gpu::Buffer(device, finals * sizeof(shared::VertexFrame), kStorage | kVertex, gpu::MemoryKind::device);
+}
+
+void SceneOnGpu::buildTextures(gpu::Device& device, gpu::Samplers& samplers, gpu::Uploader& uploader) {
+  const uint32_t white = 0xFFFFFFFFu;
+  images_.push_back(uploader.texture(&white, VK_FORMAT_R8G8B8A8_SRGB, 1, 1, false));
+  for (const scene::Image& image : data_->images) {
+    if (image.width > device.limits().maxImageDimension2D || image.height > device.limits().maxImageDimension2D)
+      throw gpu::VulkanError{"a texture's size", VK_ERROR_OUT_OF_DEVICE_MEMORY};
+    images_.push_back(uploader.texture(image.rgba.data(), VK_FORMAT_R8G8B8A8_SRGB, image.width, image.height, true));
+    uploadedBytes_ += image.rgba.size();
+  }
+
+  constexpr VkDescriptorType kTexture = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+  textureLayout_ = gpu::SetLayout(
+      device, {{kTexture, VK_SHADER_STAGE_FRAGMENT_BIT}, {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT}});
+  textureSets_ = gpu::DescriptorSets(device, textureLayout_, uint32_t(materialNames_.size()));
+  const auto write = [&](size_t set, uint32_t binding, const scene::TextureUse& use) {
+    gpu::SamplerDesc desc;
+    desc.wrapU = addressMode(use.sampler.wrapU);
+    desc.wrapV = addressMode(use.sampler.wrapV);
+    desc.mipmaps = use.sampler.mipmaps;
+    if (use.sampler.nearest) desc.filter = VK_FILTER_NEAREST;
+    textureSets_.writeTexture(set, binding, images_[size_t(use.image + 1)].view(), samplers.get(desc));
+  };
+  for (size_t m = 0; m < materialNames_.size(); ++m) {
+    const scene::Material material = m < data_->materials.size() ? data_->materials[m] : scene::Material{};
+    write(m, 0, material.baseColorTexture);
+    write(m, 1, material.emissiveTexture);
+  }
+}
+
+void SceneOnGpu::measureColors(const Geometry& geometry) {
+  // Mean of each image, from a grid of its pixels.
+  constexpr uint32_t kGrid = 16;
+  std::vector<glm::vec3> imageMeans;
+  for (const scene::Image& image : data_->images) {
+    glm::vec3 sum(0.0f);
+    float weight = 1e-6f;
+    for (uint32_t i = 0; i < kGrid * kGrid; ++i) {
+      const uint32_t x = (2 * (i % kGrid) + 1) * image.width / (2 * kGrid);
+      const uint32_t y = (2 * (i / kGrid) + 1) * image.height / (2 * kGrid);
+      const uint8_t* p = &image.rgba[4 * (size_t(y) * image.width + x)];
+      sum += glm::vec3(p[0], p[1], p[2]) / 255.0f * float(p[3]);  // sRGB is close to a square root
+      weight += float(p[3]);
+    }
+    imageMeans.push_back(sum / weight);
+  }
+
+  // Mean over the scene's surface, by the area of up to so many triangles of each item.
+  constexpr size_t kTriangles = 64;
+  glm::dvec3 sum(0.0);
+  double total = 0;
+  for (const GeometryItem& item : geometry.items) {
+    if (int(item.material) == groundMaterial_) continue;
+    const scene::Primitive& primitive = *item.primitive;
+    const scene::Material& material = data_->materials[item.material];
+    glm::vec3 root = glm::sqrt(glm::clamp(glm::vec3(material.baseColor), 0.0f, 1.0f));
+    if (material.baseColorTexture.image >= 0) root *= imageMeans[size_t(material.baseColorTexture.image)];
+    const size_t triangles = primitive.indices.size() / 3, step = std::max<size_t>(1, triangles / kTriangles);
+    for (size_t t = 0; t < triangles; t += step) {
+      const uint32_t* v = &primitive.indices[3 * t];
+      const glm::mat3 m(item.model);
+      const glm::dvec3 normal = glm::cross(glm::dvec3(m * (primitive.positions[v[1]] - primitive.positions[v[0]])),
+                                           glm::dvec3(m * (primitive.positions[v[2]] - primitive.positions[v[0]])));
+      const double area = glm::length(normal) * double(step);
+      if (!std::isfinite(area)) continue;
+      glm::vec3 c = root;
+      if (!primitive.colors.empty()) c *= glm::sqrt(glm::vec3(primitive.colors[v[0]]) / 255.0f);
+      sum += area * glm::dvec3(c);
+      total += area;
+    }
+  }
+  if (total > 0) colors_.meanRootRgb = glm::vec3(sum / total);
+}
+
+}  // namespace scumble::frame

@@ -1,0 +1,46 @@
+// Slots: the images that passes exchange and that can be saved as AOVs. A pass names a slot, never another pass.
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <cstdint>
+
+namespace scumble::frame {
+
+enum class Slot : uint8_t {
+  shadowMap,    // depth from the light in sigmoid-warped light space
+  warp,         // R, G: warp vector in pixels (x right, y down); B: 1 where inflated geometry is; A: its eye depth
+  shadow,       // R: Lambert x cast shadow; G: lens; B: breakup; A: coverage
+  lit,          // colour in full light, linear; A: coverage
+  shadowed,     // colour in shadow, linear; A: coverage
+  depth,        // depth buffer of the surface pass
+  blur,         // the shadow channels, blurred, at a quarter of the size
+  finalShadow,  // R: light after threshold and inner glow; G: lens; B: where indication acts; A: coverage
+  color,        // lit and shadowed mixed, over the background
+  finalColor,   // warped, with bloom: the picture
+  // Facts, drawn only when asked for.
+  factDepth,
+  position,
+  normal,
+  uv,
+  uvGradient,
+  metatexture,
+  motion,
+  id,
+  plain,        // the yardstick's picture
+  count
+};
+
+enum class Rate : uint8_t { once, perView };
+
+struct SlotInfo {
+  const char* aov;       // name outside
+  VkFormat format;
+  Rate rate;
+  bool multisampled;     // drawn with the frame's samples and resolved
+  uint8_t channels;      // how many of the format's channels mean something, from R on
+};
+
+const SlotInfo& slotInfo(Slot slot);
+
+}  // namespace scumble::frame

@@ -1,0 +1,110 @@
+#include "frame/uniforms.h"
+
+#include <algorithm>
+
+#include "base/tileable_noise.h"
+#include "frame/light.h"
+#include "frame/palette.h"
+#include "frame/pass_list.h"
+#include "passes/color/color.h"
+
+namespace scumble::frame {
+
+shared::ViewUniforms viewUniforms(const View& view, const View& previous) {
+  const glm::mat4& p = view.eyeToClip;
+  shared::ViewUniforms u{};
+  u.worldToClip = p * view.worldToEye;
+  u.worldToEye = view.worldToEye;
+  u.previousWorldToClip = previous.eyeToClip * previous.worldToEye;
+  u.eye = glm::vec3(glm::inverse(view.worldToEye)[3]);
+  u.orthographic = p[2][3] == 0 ? 1.0f : 0.0f;
+  // Clip x is P00 x + P02 z with z = -w: ndc = P00 (x / -z) - P02, so x / -z = (ndc + P02) / P00; parallel projections
+  // have their shift in the last column instead.
+  const glm::vec2 shift = u.orthographic != 0 ? glm::vec2(-p[3][0], -p[3][1]) : glm::vec2(p[2][0], p[2][1]);
+  u.ndcToEyeRay = {1 / p[0][0], 1 / p[1][1], shift.x / p[0][0], shift.y / p[1][1]};
+  // Depth value d = (A z + B) / w with z = -distance; w = distance, or 1.
+  const float a = p[2][2], b = p[3][2];
+  u.depthToEye = u.orthographic != 0 ? glm::vec4(b / a, -1 / a, 1, 0) : glm::vec4(b, 0, a, 1);
+  return u;
+}
+
+shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const look::LookData& look,
+                                    const std::vector<View>& views, const std::vector<View>& previousViews, double time,
+                                    const Configuration& configuration, uint32_t seed) {
+  shared::FrameUniforms u{};
+  glm::vec3 viewer(0.0f);
+  for (size_t i = 0; i < views.size(); ++i) {
+    u.views[i] = viewUniforms(views[i], previousViews.empty() ? views[i] : previousViews[i]);
+    viewer += u.views[i].eye / float(views.size());
+  }
+  u.time = float(time);
+  u.imageSize = {float(configuration.width), float(configuration.height)};
+  u.pixelScale = float(configuration.height) / 1080.0f;
+  u.sceneCenter = scene.bounds().center();
+  u.sceneRadius = std::max(scene.bounds().radius(), 1e-6f);
+  if (seed != 0) u.patternShift = glm::vec2(float(hash(seed) & 0xFFFF), float(hash(seed + 1) & 0xFFFF)) / 65536.0f;
+
+  const LightParams light = look.get<LightParams>();
+  u.toLight = keyLightDirection(scene.data(), light);
+  const std::vector<bool> casts = shadowCasters(scene, look);
+  setLightSpace(u, scene, light, [&](const Draw& draw) { return casts[draw.material]; }, viewer);
+  return u;
+}
+
+shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const look::LookData& look) {
+  const bool isGround = int(index) == scene.groundMaterial();
+  const scene::Material material = isGround ? scene::Material{} : scene.data().materials[index];
+  const PaletteParams palette = look.getForMaterial<PaletteParams>(scene.materialName(index));
+  shared::MaterialData data{};
+  data.baseColor = material.baseColor;
+  data.emissive = material.emissive;
+  data.alphaCutoff = material.alphaCutoff;
+  data.unlit = material.unlit;
+  const auto transform = [](const scene::TextureUse& use, glm::vec3& rowU, glm::vec3& rowV, uint32_t& set) {
+    const glm::mat3 rows = glm::transpose(use.transform);
+    rowU = rows[0], rowV = rows[1];
+    set = uint32_t(use.uvSet);
+  };
+  transform(material.baseColorTexture, data.baseUvRowU, data.baseUvRowV, data.baseUvSet);
+  transform(material.emissiveTexture, data.emissiveUvRowU, data.emissiveUvRowV, data.emissiveUvSet);
+
+  const auto setMap = [](const AffineColorMap& map, glm::mat3& matrix, glm::vec3& offset) {
+    matrix = map.matrix, offset = map.offset;
+  };
+  const auto constant = [](const glm::vec3& linear) { return AffineColorMap{glm::mat3(0.0f), glm::sqrt(linear)}; };
+  if (isGround) {
+    // The ground belongs to the background, not to the scene's palette.
+    const glm::vec3 ground = look.get<passes::BackgroundParams>().mode == 0
+                                 ? automaticBackground(scene.colors()).ground
+                                 : glm::vec3(look.get<GroundParams>().tint);
+    PaletteParams plain = palette;
+    plain.darkest = 0, plain.lightest = 1, plain.litTintAmount = 0;
+    setMap(constant(ground), data.litMap, data.litOffset);
+    setMap(constant(glm::vec3(shadowedColor(plain, glm::dvec3(ground)))), data.shadowedMap, data.shadowedOffset);
+    return data;
+  }
+  const auto lit = [&](const glm::dvec3& c) { return litColor(palette, c); };
+  const auto shadowed = [&](const glm::dvec3& c) { return shadowedColor(palette, c); };
+  bool coloured = material.baseColorTexture.image >= 0;
+  for (const scene::Mesh& mesh : scene.data().meshes)
+    for (const scene::Primitive& primitive : mesh.primitives)
+      coloured |= primitive.material == int(index) && !primitive.colors.empty();
+  if (coloured) {
+    setMap(fitColorMap(lit), data.litMap, data.litOffset);
+    setMap(fitColorMap(shadowed), data.shadowedMap, data.shadowedOffset);
+  } else {
+    // A single colour needs no fit: it goes through the rule itself.
+    const glm::dvec3 base = glm::clamp(glm::dvec3(material.baseColor), 0.0, 1.0);
+    setMap(constant(glm::vec3(lit(base))), data.litMap, data.litOffset);
+    setMap(constant(glm::vec3(shadowed(base))), data.shadowedMap, data.shadowedOffset);
+  }
+  if (material.shadowedColor) {
+    // A scene that brings its own colours for shadow has chosen those for light as well.
+    data.shadowedColor = *material.shadowedColor;
+    data.hasShadowedColor = palette.ownShadow;
+    if (palette.ownShadow >= 1) data.litMap = glm::mat3(1.0f), data.litOffset = glm::vec3(0.0f);
+  }
+  return data;
+}
+
+}  // namespace scumble::frame

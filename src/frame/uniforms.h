@@ -1,0 +1,18 @@
+// What set 0 holds, computed from views, scene and look.
+#pragma once
+
+#include "frame/pass.h"
+#include "scumble/view.h"
+
+namespace scumble::frame {
+
+shared::ViewUniforms viewUniforms(const View& view, const View& previous);
+
+shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const look::LookData& look,
+                                    const std::vector<View>& views, const std::vector<View>& previousViews, double time,
+                                    const Configuration& configuration, uint32_t seed);
+
+// The material's facts, its texture transforms and its colour maps under a look.
+shared::MaterialData materialData(const SceneOnGpu& scene, size_t material, const look::LookData& look);
+
+}  // namespace scumble::frame

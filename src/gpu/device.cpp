@@ -1,0 +1,334 @@
+#include "gpu/device.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+namespace scumble::gpu {
+
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
+// All feature structures that are queried or asked for, chained.
+struct Features {
+  VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+  VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+  VkPhysicalDeviceVulkan11Features v11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES};
+  VkPhysicalDeviceFeatures2 core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+  Features() {
+    core.pNext = &v11;
+    v11.pNext = &v12;
+    v12.pNext = &v13;
+  }
+  Features(const Features&) = delete;
+};
+
+// Calls visit(feature, name) for every feature that scumble requires.
+template <class Visit>
+void forEachRequired(Features& f, Visit visit) {
+  visit(f.v13.dynamicRendering, "dynamicRendering");
+  visit(f.v13.synchronization2, "synchronization2");
+  visit(f.v13.maintenance4, "maintenance4");
+  visit(f.v12.scalarBlockLayout, "scalarBlockLayout");
+  visit(f.v12.timelineSemaphore, "timelineSemaphore");
+  visit(f.v11.multiview, "multiview");
+  visit(f.core.features.fragmentStoresAndAtomics, "fragmentStoresAndAtomics");
+  visit(f.core.features.independentBlend, "independentBlend");
+  visit(f.core.features.samplerAnisotropy, "samplerAnisotropy");
+}
+
+bool hasGraphicsQueue(VkPhysicalDevice physical, uint32_t* family) {
+  uint32_t count = 0;
+  vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+  constexpr VkQueueFlags kNeeded = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+  for (uint32_t i = 0; i < count; ++i)
+    if ((families[i].queueFlags & kNeeded) == kNeeded) {
+      *family = i;
+      return true;
+    }
+  return false;
+}
+
+DeviceInfo describe(VkPhysicalDevice physical) {
+  VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver};
+  vkGetPhysicalDeviceProperties2(physical, &properties);
+  DeviceInfo info;
+  info.name = properties.properties.deviceName;
+  info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
+  info.apiVersion = properties.properties.apiVersion;
+  info.isCpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+  info.discrete = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU;
+
+  uint32_t family;
+  if (info.apiVersion < VK_API_VERSION_1_3) {
+    info.unusableBecause = "it offers less than Vulkan 1.3";
+  } else if (!hasGraphicsQueue(physical, &family)) {
+    info.unusableBecause = "it has no queue for graphics and compute";
+  } else {
+    Features features;
+    vkGetPhysicalDeviceFeatures2(physical, &features.core);
+    forEachRequired(features, [&](VkBool32 present, const char* name) {
+      if (!present && info.unusableBecause.empty()) info.unusableBecause = std::string("it lacks ") + name;
+    });
+  }
+  return info;
+}
+
+Result<VkInstance> createInstance(bool validation) {
+  std::vector<const char*> layers, extensions;
+  const VkValidationFeatureEnableEXT enabled[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+  VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
+  if (validation) {
+    uint32_t count = 0;
+    vkEnumerateInstanceLayerProperties(&count, nullptr);
+    std::vector<VkLayerProperties> available(count);
+    vkEnumerateInstanceLayerProperties(&count, available.data());
+    if (std::none_of(available.begin(), available.end(),
+                     [](const VkLayerProperties& layer) { return !strcmp(layer.layerName, kValidationLayer); }))
+      return Error{ErrorKind::noUsableGpu, "", 0, "", "the Vulkan validation layer is not installed",
+                   "install the package vulkan-validationlayers"};
+    layers.push_back(kValidationLayer);
+    extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    features.enabledValidationFeatureCount = 1;
+    features.pEnabledValidationFeatures = enabled;
+  }
+  VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
+  application.pApplicationName = "scumble";
+  application.apiVersion = VK_API_VERSION_1_3;
+  VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
+  info.pNext = validation ? &features : nullptr;
+  info.pApplicationInfo = &application;
+  info.enabledLayerCount = uint32_t(layers.size());
+  info.ppEnabledLayerNames = layers.data();
+  info.enabledExtensionCount = uint32_t(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
+  VkInstance instance;
+  const VkResult result = vkCreateInstance(&info, nullptr, &instance);
+  if (result != VK_SUCCESS)
+    return Error{ErrorKind::noUsableGpu, "", 0, "", std::string("Vulkan cannot start (") + resultName(result) + ")",
+                 "install a Vulkan 1.3 driver, e.g. the package mesa-vulkan-drivers"};
+  return instance;
+}
+
+std::vector<VkPhysicalDevice> physicalDevices(VkInstance instance) {
+  uint32_t count = 0;
+  vkEnumeratePhysicalDevices(instance, &count, nullptr);
+  std::vector<VkPhysicalDevice> devices(count);
+  vkEnumeratePhysicalDevices(instance, &count, devices.data());
+  devices.resize(count);
+  return devices;
+}
+
+bool containsIgnoringCase(const std::string& text, const std::string& part) {
+  return std::search(text.begin(), text.end(), part.begin(), part.end(), [](char a, char b) {
+           return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+         }) != text.end();
+}
+
+VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                         const VkDebugUtilsMessengerCallbackDataEXT* data, void* counter) {
+  ++*static_cast<std::atomic<int>*>(counter);
+  std::fprintf(stderr, "scumble: validation: %s\n", data->pMessage);
+  return VK_FALSE;
+}
+
+}  // namespace
+
+const char* resultName(VkResult result) {
+  switch (result) {
+    case VK_ERROR_OUT_OF_HOST_MEMORY: return "out of memory";
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY: return "out of device memory";
+    case VK_ERROR_DEVICE_LOST: return "the device was lost";
+    case VK_ERROR_INITIALIZATION_FAILED: return "initialisation failed";
+    case VK_ERROR_INCOMPATIBLE_DRIVER: return "no driver was found";
+    case VK_ERROR_FEATURE_NOT_PRESENT: return "a feature is missing";
+    case VK_ERROR_FORMAT_NOT_SUPPORTED: return "a format is not supported";
+    default: return "unexpected result";
+  }
+}
+
+std::string VulkanError::message() const {
+  return std::string(call) + ": " + resultName(result) + " (" + std::to_string(int(result)) + ")";
+}
+
+Result<std::vector<DeviceInfo>> listDevices() {
+  Result<VkInstance> instance = createInstance(false);
+  if (!instance) return instance.error();
+  std::vector<DeviceInfo> infos;
+  for (VkPhysicalDevice physical : physicalDevices(*instance)) infos.push_back(describe(physical));
+  vkDestroyInstance(*instance, nullptr);
+  return infos;
+}
+
+Result<size_t> chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& choice) {
+  const auto fail = [](const std::string& problem) {
+    return Error{ErrorKind::noUsableGpu, "", 0, "", problem,
+                 "see `scumble devices`; the package mesa-vulkan-drivers has a driver that runs on any CPU"};
+  };
+  const bool isNumber = !choice.empty() && choice.size() < 6 &&
+                        std::all_of(choice.begin(), choice.end(), [](char c) { return c >= '0' && c <= '9'; });
+  std::optional<size_t> best;
+  for (size_t i = 0; i < devices.size(); ++i) {
+    const DeviceInfo& device = devices[i];
+    const bool wanted = choice.empty()    ? true
+                        : isNumber        ? size_t(std::stoi(choice)) == i
+                        : choice == "cpu" ? device.isCpu
+                                          : containsIgnoringCase(device.name, choice);
+    if (!wanted) continue;
+    if (!device.unusableBecause.empty()) {
+      if (!choice.empty()) return fail("the device '" + device.name + "' cannot be used: " + device.unusableBecause);
+      continue;
+    }
+    const auto rank = [&](const DeviceInfo& d) { return d.discrete ? 2 : d.isCpu ? 0 : 1; };
+    if (!best || rank(device) > rank(devices[*best])) best = i;
+  }
+  if (best) return *best;
+  return fail(choice.empty() ? "no usable Vulkan 1.3 device was found" : "no device is called '" + choice + "'");
+}
+
+Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
+  Result<VkInstance> instance = createInstance(options.validation);
+  if (!instance) return instance.error();
+  std::unique_ptr<Device> device(new Device);
+  device->instance_ = *instance;
+
+  // Choose the GPU.
+  const std::vector<VkPhysicalDevice> candidates = physicalDevices(device->instance_);
+  std::vector<DeviceInfo> infos;
+  for (VkPhysicalDevice physical : candidates) infos.push_back(describe(physical));
+  const Result<size_t> choice = chooseDevice(infos, options.choice);
+  if (!choice) return choice.error();
+  device->physical_ = candidates[*choice];
+  device->info_ = infos[*choice];
+  VkPhysicalDeviceProperties properties;
+  vkGetPhysicalDeviceProperties(device->physical_, &properties);
+  device->limits_ = properties.limits;
+  device->supports4Samples_ = properties.limits.framebufferColorSampleCounts &
+                              properties.limits.framebufferDepthSampleCounts & VK_SAMPLE_COUNT_4_BIT;
+
+  try {
+    if (options.validation) {
+      VkDebugUtilsMessengerCreateInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
+      info.messageSeverity =
+          VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+      info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
+                         VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+      info.pfnUserCallback = onMessage;
+      info.pUserData = &device->validationMessages_;
+      const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+          vkGetInstanceProcAddr(device->instance_, "vkCreateDebugUtilsMessengerEXT"));
+      if (create) create(device->instance_, &info, nullptr, &device->messenger_);
+    }
+
+    // Create the logical device with exactly the required features.
+    hasGraphicsQueue(device->physical_, &device->queueFamily_);
+    const float priority = 1.0f;
+    VkDeviceQueueCreateInfo queueInfo{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
+    queueInfo.queueFamilyIndex = device->queueFamily_;
+    queueInfo.queueCount = 1;
+    queueInfo.pQueuePriorities = &priority;
+    Features features;
+    forEachRequired(features, [](VkBool32& feature, const char*) { feature = VK_TRUE; });
+    VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
+    info.pNext = &features.core;
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queueInfo;
+    SCUMBLE_VK(vkCreateDevice(device->physical_, &info, nullptr, &device->device_));
+    vkGetDeviceQueue(device->device_, device->queueFamily_, 0, &device->queue_);
+
+    const VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr,
+                                           VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, device->queueFamily_};
+    SCUMBLE_VK(vkCreateCommandPool(device->device_, &poolInfo, nullptr, &device->pool_));
+    device->memory_ = std::make_unique<MemoryPool>(device->physical_, device->device_);
+    device->openPipelineCache(options.cacheFolder);
+  } catch (const VulkanError& error) {
+    return Error{ErrorKind::noUsableGpu, "", 0, "", error.message(), "choose another device with --device"};
+  }
+  return device;
+}
+
+Device::~Device() {
+  if (device_) {
+    vkDeviceWaitIdle(device_);
+    if (pipelineCache_) vkDestroyPipelineCache(device_, pipelineCache_, nullptr);
+    if (pool_) vkDestroyCommandPool(device_, pool_, nullptr);
+    memory_.reset();
+    vkDestroyDevice(device_, nullptr);
+  }
+  if (messenger_) {
+    const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+        vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"));
+    destroy(instance_, messenger_, nullptr);
+  }
+  if (instance_) vkDestroyInstance(instance_, nullptr);
+}
+
+void Device::openPipelineCache(const std::string& folder) {
+  std::vector<char> data;
+  if (!folder.empty()) {
+    // One file a driver build: the driver itself rejects foreign data, the name only keeps them apart.
+    VkPhysicalDeviceProperties properties;
+    vkGetPhysicalDeviceProperties(physical_, &properties);
+    char name[2 * VK_UUID_SIZE + 1];
+    for (uint32_t i = 0; i < VK_UUID_SIZE; ++i)
+      std::snprintf(name + 2 * i, 3, "%02x", properties.pipelineCacheUUID[i]);
+    cacheFile_ = folder + "/pipelines-" + name + ".bin";
+    if (std::ifstream file{cacheFile_, std::ios::binary})
+      data.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+  }
+  cacheSizeOnDisk_ = data.size();
+  VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+  info.initialDataSize = data.size();
+  info.pInitialData = data.data();
+  SCUMBLE_VK(vkCreatePipelineCache(device_, &info, nullptr, &pipelineCache_));
+}
+
+void Device::savePipelineCache() {
+  if (cacheFile_.empty()) return;
+  size_t size = 0;
+  if (vkGetPipelineCacheData(device_, pipelineCache_, &size, nullptr) != VK_SUCCESS || size == cacheSizeOnDisk_) return;
+  std::vector<char> data(size);
+  if (vkGetPipelineCacheData(device_, pipelineCache_, &size, data.data()) != VK_SUCCESS) return;
+  // A cache that cannot be written only costs time at the next start, so failure is silent.
+  std::error_code ignored;
+  const std::filesystem::path file(cacheFile_);
+  std::filesystem::create_directories(file.parent_path(), ignored);
+  const std::filesystem::path temporary = file.string() + "." + std::to_string(getpid()) + ".tmp";
+  const bool written =
+      std::ofstream(temporary, std::ios::binary).write(data.data(), std::streamsize(size)).flush().good();
+  if (written) std::filesystem::rename(temporary, file, ignored);
+  if (!written || ignored) std::filesystem::remove(temporary, ignored);
+  cacheSizeOnDisk_ = size;
+}
+
+void Device::runOnce(const std::function<void(VkCommandBuffer)>& record) {
+  const VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool_,
+                                         VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+  VkCommandBuffer commands;
+  SCUMBLE_VK(vkAllocateCommandBuffers(device_, &info, &commands));
+  const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr,
+                                       VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
+  SCUMBLE_VK(vkBeginCommandBuffer(commands, &begin));
+  record(commands);
+  SCUMBLE_VK(vkEndCommandBuffer(commands));
+  const VkCommandBufferSubmitInfo submitted{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, nullptr, commands, 0};
+  VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+  submit.commandBufferInfoCount = 1;
+  submit.pCommandBufferInfos = &submitted;
+  SCUMBLE_VK(vkQueueSubmit2(queue_, 1, &submit, VK_NULL_HANDLE));
+  SCUMBLE_VK(vkQueueWaitIdle(queue_));
+  vkFreeCommandBuffers(device_, pool_, 1, &commands);
+}
+
+}  // namespace scumble::gpu

@@ -1,0 +1,141 @@
+// Pipelines, descriptor sets and samplers: the parts of Vulkan that passes touch.
+#pragma once
+
+#include <initializer_list>
+#include <span>
+#include <vector>
+
+#include "gpu/resources.h"
+
+namespace scumble::gpu {
+
+// SPIR-V that the build compiled and validated.
+struct Shader {
+  std::span<const uint32_t> words;
+};
+
+// One entry of a descriptor set's layout; the binding number is the position in the list.
+struct Binding {
+  VkDescriptorType type;
+  VkShaderStageFlags stages;
+};
+
+class SetLayout {
+ public:
+  SetLayout() = default;
+  SetLayout(Device& device, std::vector<Binding> bindings);
+  ~SetLayout();
+  SetLayout(SetLayout&& other) noexcept { swap(other); }
+  SetLayout& operator=(SetLayout&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  VkDescriptorSetLayout handle() const { return layout_; }
+  const std::vector<Binding>& bindings() const { return bindings_; }
+
+ private:
+  void swap(SetLayout& other);
+  Device* device_ = nullptr;
+  VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
+  std::vector<Binding> bindings_;
+};
+
+// `count` descriptor sets of one layout.
+class DescriptorSets {
+ public:
+  DescriptorSets() = default;
+  DescriptorSets(Device& device, const SetLayout& layout, uint32_t count = 1);
+  ~DescriptorSets();
+  DescriptorSets(DescriptorSets&& other) noexcept { swap(other); }
+  DescriptorSets& operator=(DescriptorSets&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  VkDescriptorSet operator[](size_t index) const { return sets_[index]; }
+  void writeBuffer(size_t set, uint32_t binding, VkBuffer buffer, uint64_t offset = 0, uint64_t size = VK_WHOLE_SIZE);
+  void writeTexture(size_t set, uint32_t binding, VkImageView view, VkSampler sampler);
+  void writeStorageImage(size_t set, uint32_t binding, VkImageView view);
+
+ private:
+  void swap(DescriptorSets& other);
+  void write(size_t set, uint32_t binding, const VkDescriptorBufferInfo* buffer, const VkDescriptorImageInfo* image);
+  Device* device_ = nullptr;
+  VkDescriptorPool pool_ = VK_NULL_HANDLE;
+  std::vector<VkDescriptorSet> sets_;
+  std::vector<Binding> bindings_;
+};
+
+enum class Blend : uint8_t { none, over };
+
+struct GraphicsPipelineDesc {
+  Shader vertex, fragment;                      // no fragment shader: depth only
+  std::vector<uint32_t> constants;              // specialisation constants 0, 1, ... of both shaders
+  std::vector<VkVertexInputBindingDescription> vertexBindings;
+  std::vector<VkVertexInputAttributeDescription> vertexAttributes;
+  std::vector<VkFormat> colorFormats;
+  Blend blend = Blend::none;                    // of all targets
+  VkFormat depthFormat = VK_FORMAT_UNDEFINED;   // undefined: no depth test
+  VkCompareOp depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
+  bool depthWrite = true;
+  uint32_t samples = 1;
+  uint32_t viewMask = 0;                        // 0: no multiview
+  bool dynamicCulling = false;                  // cull mode and front face are set while recording
+  std::vector<VkDescriptorSetLayout> sets;
+  uint32_t pushConstantBytes = 0;               // seen by all stages
+};
+
+struct ComputePipelineDesc {
+  Shader shader;
+  std::vector<uint32_t> constants;
+  std::vector<VkDescriptorSetLayout> sets;
+  uint32_t pushConstantBytes = 0;
+};
+
+class Pipeline {
+ public:
+  Pipeline() = default;
+  Pipeline(Device& device, const GraphicsPipelineDesc& desc);
+  Pipeline(Device& device, const ComputePipelineDesc& desc);
+  ~Pipeline();
+  Pipeline(Pipeline&& other) noexcept { swap(other); }
+  Pipeline& operator=(Pipeline&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  VkPipelineLayout layout() const { return layout_; }
+  void bind(VkCommandBuffer commands) const { vkCmdBindPipeline(commands, bindPoint_, pipeline_); }
+  void bindSet(VkCommandBuffer commands, uint32_t index, VkDescriptorSet set) const {
+    vkCmdBindDescriptorSets(commands, bindPoint_, layout_, index, 1, &set, 0, nullptr);
+  }
+  explicit operator bool() const { return pipeline_ != VK_NULL_HANDLE; }
+
+ private:
+  void swap(Pipeline& other);
+  void createLayout(const std::vector<VkDescriptorSetLayout>& sets, uint32_t pushConstantBytes);
+  Device* device_ = nullptr;
+  VkPipelineLayout layout_ = VK_NULL_HANDLE;
+  VkPipeline pipeline_ = VK_NULL_HANDLE;
+  VkPipelineBindPoint bindPoint_ = VK_PIPELINE_BIND_POINT_GRAPHICS;
+};
+
+struct SamplerDesc {
+  VkFilter filter = VK_FILTER_LINEAR;
+  VkSamplerAddressMode wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+  bool mipmaps = false;
+  bool compareLess = false;  // depth comparison, for shadow maps
+  bool operator==(const SamplerDesc&) const = default;
+};
+
+// Samplers, each made once.
+class Samplers {
+ public:
+  explicit Samplers(Device& device) : device_(device) {}
+  ~Samplers();
+  VkSampler get(const SamplerDesc& desc);
+
+ private:
+  Device& device_;
+  std::vector<std::pair<SamplerDesc, VkSampler>> samplers_;
+};
+
+}  // namespace scumble::gpu

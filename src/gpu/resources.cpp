@@ -1,0 +1,196 @@
+#include "gpu/resources.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <cstring>
+
+namespace scumble::gpu {
+
+namespace {
+// More staged than this and the uploader flushes by itself, so that staging never doubles the memory of a large scene.
+constexpr uint64_t kMaxStaged = 64ull << 20;
+
+VkImageMemoryBarrier2 mipBarrier(VkImage image, uint32_t level, uint32_t count, VkImageLayout from, VkImageLayout to) {
+  VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+  barrier.srcStageMask = from == VK_IMAGE_LAYOUT_UNDEFINED ? VK_PIPELINE_STAGE_2_NONE : VK_PIPELINE_STAGE_2_TRANSFER_BIT;
+  barrier.srcAccessMask = from == VK_IMAGE_LAYOUT_UNDEFINED ? VK_ACCESS_2_NONE : VK_ACCESS_2_TRANSFER_WRITE_BIT;
+  barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+  barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+  barrier.oldLayout = from;
+  barrier.newLayout = to;
+  barrier.image = image;
+  barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, level, count, 0, 1};
+  return barrier;
+}
+
+void recordBarrier(VkCommandBuffer commands, const VkImageMemoryBarrier2& barrier) {
+  VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+  dependency.imageMemoryBarrierCount = 1;
+  dependency.pImageMemoryBarriers = &barrier;
+  vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+void recordTextureUpload(VkCommandBuffer commands, VkBuffer source, VkImage image, const ImageDesc& desc) {
+  constexpr auto kSource = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, kTarget = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+  recordBarrier(commands, mipBarrier(image, 0, desc.mipLevels, VK_IMAGE_LAYOUT_UNDEFINED, kTarget));
+  VkBufferImageCopy copy{};
+  copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+  copy.imageExtent = {desc.width, desc.height, 1};
+  vkCmdCopyBufferToImage(commands, source, image, kTarget, 1, &copy);
+
+  // Each level is the filtered half of the one above.
+  for (uint32_t level = 1; level < desc.mipLevels; ++level) {
+    recordBarrier(commands, mipBarrier(image, level - 1, 1, kTarget, kSource));
+    const auto side = [&](uint32_t size, uint32_t l) { return int32_t(std::max(1u, size >> l)); };
+    VkImageBlit blit{};
+    blit.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level - 1, 0, 1};
+    blit.srcOffsets[1] = {side(desc.width, level - 1), side(desc.height, level - 1), 1};
+    blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 0, 1};
+    blit.dstOffsets[1] = {side(desc.width, level), side(desc.height, level), 1};
+    vkCmdBlitImage(commands, image, kSource, image, kTarget, 1, &blit, VK_FILTER_LINEAR);
+  }
+  constexpr auto kFinal = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+  recordBarrier(commands, mipBarrier(image, desc.mipLevels - 1, 1, kTarget, kFinal));
+  if (desc.mipLevels > 1) recordBarrier(commands, mipBarrier(image, 0, desc.mipLevels - 1, kSource, kFinal));
+}
+}  // namespace
+
+Buffer::Buffer(Device& device, uint64_t size, VkBufferUsageFlags usage, MemoryKind kind)
+    : device_(&device), size_(size) {
+  assert(size > 0);
+  VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+  info.size = size;
+  info.usage = usage;
+  SCUMBLE_VK(vkCreateBuffer(device.handle(), &info, nullptr, &buffer_));
+  VkMemoryRequirements needs;
+  vkGetBufferMemoryRequirements(device.handle(), buffer_, &needs);
+  try {
+    allocation_ = device.memory().allocate(needs, kind, true);
+    SCUMBLE_VK(vkBindBufferMemory(device.handle(), buffer_, allocation_.memory, allocation_.offset));
+  } catch (...) {
+    vkDestroyBuffer(device.handle(), buffer_, nullptr);
+    throw;
+  }
+}
+
+Buffer::~Buffer() {
+  if (!buffer_) return;
+  vkDestroyBuffer(device_->handle(), buffer_, nullptr);
+  device_->memory().release(allocation_);
+}
+
+void Buffer::swap(Buffer& other) {
+  std::swap(device_, other.device_);
+  std::swap(buffer_, other.buffer_);
+  std::swap(allocation_, other.allocation_);
+  std::swap(size_, other.size_);
+}
+
+Image::Image(Device& device, const ImageDesc& desc, VkImageUsageFlags usage) : device_(&device), desc_(desc) {
+  VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
+  info.imageType = VK_IMAGE_TYPE_2D;
+  info.format = desc.format;
+  info.extent = {desc.width, desc.height, 1};
+  info.mipLevels = desc.mipLevels;
+  info.arrayLayers = desc.layers;
+  info.samples = VkSampleCountFlagBits(desc.samples);
+  info.usage = usage;
+  SCUMBLE_VK(vkCreateImage(device.handle(), &info, nullptr, &image_));
+  VkMemoryRequirements needs;
+  vkGetImageMemoryRequirements(device.handle(), image_, &needs);
+  try {
+    allocation_ = device.memory().allocate(needs, MemoryKind::device, false);
+    SCUMBLE_VK(vkBindImageMemory(device.handle(), image_, allocation_.memory, allocation_.offset));
+    VkImageViewCreateInfo viewInfo{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+    viewInfo.image = image_;
+    viewInfo.viewType = desc.arrayView ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+    viewInfo.format = desc.format;
+    viewInfo.subresourceRange = {
+        VkImageAspectFlags(isDepthFormat(desc.format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT), 0,
+        desc.mipLevels, 0, desc.layers};
+    SCUMBLE_VK(vkCreateImageView(device.handle(), &viewInfo, nullptr, &view_));
+  } catch (...) {
+    vkDestroyImage(device.handle(), image_, nullptr);
+    throw;
+  }
+}
+
+Image::~Image() {
+  if (!image_) return;
+  vkDestroyImageView(device_->handle(), view_, nullptr);
+  vkDestroyImage(device_->handle(), image_, nullptr);
+  device_->memory().release(allocation_);
+}
+
+void Image::swap(Image& other) {
+  std::swap(device_, other.device_);
+  std::swap(image_, other.image_);
+  std::swap(view_, other.view_);
+  std::swap(allocation_, other.allocation_);
+  std::swap(desc_, other.desc_);
+}
+
+bool isDepthFormat(VkFormat format) { return format == VK_FORMAT_D32_SFLOAT || format == VK_FORMAT_D16_UNORM; }
+
+uint32_t bytesPerPixel(VkFormat format) {
+  switch (format) {
+    case VK_FORMAT_R8G8B8A8_UNORM:
+    case VK_FORMAT_R8G8B8A8_SRGB:
+    case VK_FORMAT_D32_SFLOAT:
+    case VK_FORMAT_R32_SFLOAT: return 4;
+    case VK_FORMAT_R16G16B16A16_SFLOAT: return 8;
+    case VK_FORMAT_R32G32B32A32_SFLOAT: return 16;
+    default: assert(!"a format without a size"); return 0;
+  }
+}
+
+Uploader::~Uploader() { assert(buffers_.empty() && textures_.empty() && "flush() was forgotten"); }
+
+size_t Uploader::stage(uint64_t size) {
+  staging_.emplace_back(device_, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::upload);
+  stagedBytes_ += size;
+  return staging_.size() - 1;
+}
+
+Buffer Uploader::reserve(uint64_t size, VkBufferUsageFlags usage, std::byte** target) {
+  Buffer buffer(device_, size, usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::device);
+  *target = buffer.mapped();
+  if (!*target) {
+    buffers_.push_back({stage(size), buffer.handle(), size});
+    *target = staging_.back().mapped();
+  }
+  return buffer;
+}
+
+Image Uploader::texture(const void* pixels, VkFormat format, uint32_t width, uint32_t height, bool mipmaps) {
+  ImageDesc desc{format, width, height};
+  desc.arrayView = false;
+  if (mipmaps) desc.mipLevels = uint32_t(std::bit_width(std::max(width, height)));
+  Image image(device_, desc,
+              VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+  const uint64_t size = uint64_t(width) * height * bytesPerPixel(format);
+  const size_t staged = stage(size);
+  std::memcpy(staging_[staged].mapped(), pixels, size);
+  textures_.push_back({staged, image.handle(), desc});
+  if (stagedBytes_ > kMaxStaged) flush();
+  return image;
+}
+
+void Uploader::flush() {
+  if (buffers_.empty() && textures_.empty()) return;
+  const auto buffers = std::exchange(buffers_, {});
+  const auto textures = std::exchange(textures_, {});
+  device_.runOnce([&](VkCommandBuffer commands) {
+    for (const BufferCopy& copy : buffers) {
+      const VkBufferCopy region{0, 0, copy.size};
+      vkCmdCopyBuffer(commands, staging_[copy.staging].handle(), copy.target, 1, &region);
+    }
+    for (const TextureCopy& copy : textures)
+      recordTextureUpload(commands, staging_[copy.staging].handle(), copy.target, copy.desc);
+  });
+  staging_.clear();
+  stagedBytes_ = 0;
+}
+
+}  // namespace scumble::gpu

@@ -1,0 +1,103 @@
+// Buffers and images that own their memory, and the way data gets into them.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "gpu/device.h"
+
+namespace scumble::gpu {
+
+class Buffer {
+ public:
+  Buffer() = default;
+  Buffer(Device& device, uint64_t size, VkBufferUsageFlags usage, MemoryKind kind);
+  ~Buffer();
+  Buffer(Buffer&& other) noexcept { swap(other); }
+  Buffer& operator=(Buffer&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  VkBuffer handle() const { return buffer_; }
+  uint64_t size() const { return size_; }
+  // Null where the CPU cannot see the memory.
+  std::byte* mapped() const { return static_cast<std::byte*>(allocation_.mapped); }
+
+ private:
+  void swap(Buffer& other);
+  Device* device_ = nullptr;
+  VkBuffer buffer_ = VK_NULL_HANDLE;
+  Allocation allocation_;
+  uint64_t size_ = 0;
+};
+
+struct ImageDesc {
+  VkFormat format = VK_FORMAT_UNDEFINED;
+  uint32_t width = 1, height = 1, layers = 1, mipLevels = 1;
+  uint32_t samples = 1;
+  bool arrayView = true;  // seen as a 2D array; textures are plain 2D
+  bool operator==(const ImageDesc&) const = default;
+};
+
+class Image {
+ public:
+  Image() = default;
+  Image(Device& device, const ImageDesc& desc, VkImageUsageFlags usage);
+  ~Image();
+  Image(Image&& other) noexcept { swap(other); }
+  Image& operator=(Image&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  VkImage handle() const { return image_; }
+  VkImageView view() const { return view_; }  // of all layers and levels
+  const ImageDesc& desc() const { return desc_; }
+
+ private:
+  void swap(Image& other);
+  Device* device_ = nullptr;
+  VkImage image_ = VK_NULL_HANDLE;
+  VkImageView view_ = VK_NULL_HANDLE;
+  Allocation allocation_;
+  ImageDesc desc_;
+};
+
+bool isDepthFormat(VkFormat format);
+uint32_t bytesPerPixel(VkFormat format);
+
+// Gathers uploads and sends them in few submissions. Memory that the CPU sees is written directly.
+class Uploader {
+ public:
+  explicit Uploader(Device& device) : device_(device) {}
+  ~Uploader();
+  // A new buffer on the device; the caller writes its contents to *target before the next flush().
+  Buffer reserve(uint64_t size, VkBufferUsageFlags usage, std::byte** target);
+  // A sampled image with a full mip chain if `mipmaps`, from tightly packed pixels of layer 0. Flushes by itself when
+  // much is staged.
+  Image texture(const void* pixels, VkFormat format, uint32_t width, uint32_t height, bool mipmaps);
+  // Ends when all data is on the device.
+  void flush();
+
+ private:
+  struct BufferCopy {
+    size_t staging;
+    VkBuffer target;
+    uint64_t size;
+  };
+  struct TextureCopy {
+    size_t staging;
+    VkImage target;
+    ImageDesc desc;
+  };
+  size_t stage(uint64_t size);
+
+  Device& device_;
+  std::vector<Buffer> staging_;
+  uint64_t stagedBytes_ = 0;
+  std::vector<BufferCopy> buffers_;
+  std::vector<TextureCopy> textures_;
+};
+
+}  // namespace scumble::gpu

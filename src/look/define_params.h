@@ -1,0 +1,42 @@
+// Included once for each .params file, with PARAMS_STRUCT (the struct's name), PARAMS_FILE (quoted) and PARAMS_PATH
+// (quoted) defined, and PARAMS_PER_MATERIAL as true or false. Defines the struct and its table of rows:
+//
+//   #define PARAMS_STRUCT BlurParams
+//   #define PARAMS_FILE "passes/blur/blur.params"
+//   #define PARAMS_PATH "blur"
+//   #define PARAMS_PER_MATERIAL false
+//   #include "look/define_params.h"
+//
+// No include guard: it is a template.
+
+struct PARAMS_STRUCT {
+  using toggle = ::scumble::look::Toggle;
+  using choice = ::scumble::look::Choice;
+  using srgb = ::scumble::look::Color;
+
+#define PARAM(type, name, defaultValue, min, max, unit, meaning) type name = defaultValue;
+#include PARAMS_FILE
+#undef PARAM
+
+  static const ::scumble::look::ParamBlock& block();
+};
+
+inline const ::scumble::look::ParamBlock& PARAMS_STRUCT::block() {
+  static const ::scumble::look::ParamBlock table{
+      PARAMS_PATH,
+      PARAMS_PER_MATERIAL,
+      {
+#define PARAM(type, name, defaultValue, min, max, unit, meaning)                            \
+  {#name, ::scumble::look::kindOf<type>(), double(defaultValue), double(min), double(max),  \
+   unit,  meaning,                         offsetof(PARAMS_STRUCT, name)},
+#include PARAMS_FILE
+#undef PARAM
+      },
+      sizeof(PARAMS_STRUCT)};
+  return table;
+}
+
+#undef PARAMS_STRUCT
+#undef PARAMS_FILE
+#undef PARAMS_PATH
+#undef PARAMS_PER_MATERIAL

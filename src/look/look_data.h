@@ -1,0 +1,64 @@
+// A look as the rooms behind it read it: a list of assignments to rows, evaluated block by block.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "look/param.h"
+#include "scumble/result.h"
+
+namespace scumble::look {
+
+struct Value {
+  double number = 0;        // all kinds but color
+  glm::vec3 linear{0.0f};   // color
+};
+
+struct Assignment {
+  std::string materialPattern;  // '*' and '?' match; empty: the whole scene
+  const ParamBlock* block;
+  const ParamRow* row;
+  Value value;
+};
+
+struct LookData {
+  std::string description;
+  std::vector<Assignment> assignments;
+
+  // Fills a block's struct with what holds for the whole scene.
+  void fill(const ParamBlock& block, void* out) const;
+  // With what holds for one material.
+  void fillForMaterial(const ParamBlock& block, const std::string& material, void* out) const;
+
+  template <class Params>
+  Params get() const {
+    Params params;
+    fill(Params::block(), &params);
+    return params;
+  }
+  template <class Params>
+  Params getForMaterial(const std::string& material) const {
+    Params params;
+    fillForMaterial(Params::block(), material, &params);
+    return params;
+  }
+};
+
+// Whether `name` matches a pattern of literal characters, '*' and '?'.
+bool matches(const std::string& pattern, const std::string& name);
+
+// Resolves "a.b.row"; fails with a suggestion when there is no such knob.
+struct KnobRef {
+  const ParamBlock* block;
+  const ParamRow* row;
+};
+Result<KnobRef> findKnob(const std::string& path);
+
+// The candidate nearest to `word`, or empty when none is near.
+std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
+
+// Reads a value as text ("0.4", "true", "exact", "#EADFC8"); the problem is in Error::problem.
+Result<Value> parseValue(const ParamRow& row, const std::string& text);
+std::string formatValue(const ParamRow& row, double number);
+
+}  // namespace scumble::look

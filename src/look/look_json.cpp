@@ -1,0 +1,268 @@
+// Reading looks: JSON files, --set, the looks that ship; and describing the knobs as a list and as a JSON schema.
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "look/look_data.h"
+#include "look/shipped_looks.h"
+#include "scumble/look.h"
+
+namespace scumble {
+
+using look::Assignment;
+using look::KnobRef;
+using look::LookData;
+using look::ParamBlock;
+using look::ParamKind;
+using look::ParamRow;
+using nlohmann::json;
+
+namespace {
+
+constexpr size_t kMaxLookFile = 16 << 20;
+
+// Splits "materials.Sail*.warp.amount" into pattern and knob. Material names may contain dots, so the knob is the
+// shortest tail that is one.
+Result<Assignment> resolve(const std::string& path) {
+  const std::string prefix = "materials.";
+  if (path.compare(0, prefix.size(), prefix) != 0) {
+    const Result<KnobRef> knob = look::findKnob(path);
+    if (!knob) return knob.error();
+    return Assignment{"", knob->block, knob->row, {}};
+  }
+  const std::string rest = path.substr(prefix.size());
+  for (size_t dot = rest.rfind('.'); dot != std::string::npos && dot > 0; dot = rest.rfind('.', dot - 1)) {
+    const Result<KnobRef> knob = look::findKnob(rest.substr(dot + 1));
+    if (!knob) continue;
+    if (!knob->block->perMaterial)
+      return Error{ErrorKind::usage, "", 0, "", "'" + rest.substr(dot + 1) + "' holds for the whole scene",
+                   "set it without 'materials.'"};
+    return Assignment{rest.substr(0, dot), knob->block, knob->row, {}};
+  }
+  const size_t dot = rest.find('.');
+  if (dot == std::string::npos)
+    return Error{ErrorKind::usage, "", 0, "", "'" + path + "' names no knob",
+                 "write it like materials.Sail*.warp.amount"};
+  return look::findKnob(rest.substr(dot + 1)).error();
+}
+
+// Walks a look's JSON; the first mistake ends it.
+class Reader {
+ public:
+  Reader(LookData& out, std::string file) : out_(out), file_(std::move(file)) {}
+
+  Status readRoot(const json& root) {
+    if (!root.is_object()) return fail("", "a look is a JSON object", "see `scumble schema`");
+    for (const auto& [key, value] : root.items()) {
+      if (key == "$schema") continue;
+      if (key == "description") {
+        if (!value.is_string()) return fail(key, "the description is no string", "write it in quotes");
+        out_.description = value.get<std::string>();
+      } else if (key == "materials") {
+        if (!value.is_object()) return fail(key, "it is no object", "its keys are material names or patterns");
+        for (const auto& [pattern, knobs] : value.items()) {
+          const Status status = readGroup(knobs, "", pattern, "materials." + pattern);
+          if (!status) return status;
+        }
+      } else {
+        const Status status = readGroup(value, key, "", key);
+        if (!status) return status;
+      }
+    }
+    return Done{};
+  }
+
+ private:
+  Error fail(const std::string& path, std::string problem, std::string advice) const {
+    return {ErrorKind::unusableFile, file_, 0, path, std::move(problem), std::move(advice)};
+  }
+
+  Status readGroup(const json& value, const std::string& knobPath, const std::string& pattern,
+                   const std::string& jsonPath) {
+    if (value.is_object()) {
+      for (const auto& [key, child] : value.items()) {
+        const Status status =
+            readGroup(child, knobPath.empty() ? key : knobPath + "." + key, pattern, jsonPath + "." + key);
+        if (!status) return status;
+      }
+      return Done{};
+    }
+    const Result<KnobRef> knob = look::findKnob(knobPath);
+    if (!knob) return fail(jsonPath, knob.error().problem, knob.error().advice);
+    if (!pattern.empty() && !knob->block->perMaterial)
+      return fail(jsonPath, "this knob holds for the whole scene", "move it out of 'materials'");
+    const bool wantsText = knob->row->kind == ParamKind::color || knob->row->kind == ParamKind::choice;
+    const bool fits = wantsText                                  ? value.is_string()
+                      : knob->row->kind == ParamKind::toggle     ? value.is_boolean()
+                                                                 : value.is_number();
+    if (!fits)
+      return fail(jsonPath, "the value has the wrong type",
+                  knob->row->kind == ParamKind::color    ? "write a colour as \"#RRGGBB\""
+                  : knob->row->kind == ParamKind::choice ? std::string("choose one of ") + knob->row->unit
+                  : knob->row->kind == ParamKind::toggle ? "write true or false"
+                                                         : "write a number");
+    const Result<look::Value> parsed =
+        look::parseValue(*knob->row, value.is_string() ? value.get<std::string>() : value.dump());
+    if (!parsed) return fail(jsonPath, parsed.error().problem, parsed.error().advice);
+    out_.assignments.push_back({pattern, knob->block, knob->row, *parsed});
+    return Done{};
+  }
+
+  LookData& out_;
+  std::string file_;
+};
+
+}  // namespace
+
+Look::Look() : data_(std::make_shared<LookData>()) {}
+
+const std::string& Look::description() const { return data_->description; }
+
+Result<Look> Look::fromJson(const std::string& text, const std::string& file) {
+  auto data = std::make_shared<LookData>();
+  try {
+    const json root = json::parse(text);
+    const Status status = Reader(*data, file).readRoot(root);
+    if (!status) return status.error();
+  } catch (const json::parse_error& error) {
+    const size_t end = std::min(error.byte, text.size());
+    const int line = 1 + int(std::count(text.begin(), text.begin() + long(end), '\n'));
+    return Error{ErrorKind::unusableFile, file, line, "", "this is no JSON", "mind commas, quotes and brackets there"};
+  } catch (const json::exception&) {
+    return Error{ErrorKind::unusableFile, file, 0, "", "this JSON cannot be read", "see `scumble schema`"};
+  }
+  Look look;
+  look.data_ = std::move(data);
+  return look;
+}
+
+Result<Look> Look::load(const std::string& nameOrFile) {
+  const bool isFile = nameOrFile.find('/') != std::string::npos ||
+                      (nameOrFile.size() > 5 && nameOrFile.compare(nameOrFile.size() - 5, 5, ".json") == 0);
+  if (!isFile) {
+    std::vector<std::string> names;
+    for (const look::ShippedLookFile& file : look::shippedLookFiles()) {
+      if (file.name == nameOrFile) return fromJson(std::string(file.text), nameOrFile);
+      names.emplace_back(file.name);
+    }
+    const std::string suggestion = look::nearest(nameOrFile, names);
+    return Error{ErrorKind::usage, "", 0, "", "no look is called '" + nameOrFile + "'",
+                 suggestion.empty() ? "`scumble looks` lists them; a file's name ends in .json"
+                                    : "did you mean '" + suggestion + "'?"};
+  }
+  std::ifstream file(nameOrFile, std::ios::binary | std::ios::ate);
+  const auto size = file ? file.tellg() : std::streampos(-1);
+  if (!file || size < 0)
+    return Error{ErrorKind::unusableFile, nameOrFile, 0, "", "the look cannot be opened", "check the path"};
+  if (size_t(size) > kMaxLookFile)
+    return Error{ErrorKind::unusableFile, nameOrFile, 0, "", "this is too large for a look", "check the path"};
+  std::string text(size_t(size), '\0');
+  file.seekg(0);
+  if (!file.read(text.data(), size) && size > 0)
+    return Error{ErrorKind::unusableFile, nameOrFile, 0, "", "the look cannot be read", "check the path"};
+  return fromJson(text, nameOrFile);
+}
+
+Status Look::set(const std::string& path, const std::string& value) {
+  Result<Assignment> assignment = resolve(path);
+  if (!assignment) return assignment.error();
+  const Result<look::Value> parsed = look::parseValue(*assignment->row, value);
+  if (!parsed) {
+    Error error = parsed.error();
+    error.problem = path + ": " + error.problem;
+    return error;
+  }
+  assignment->value = *parsed;
+  auto changed = std::make_shared<LookData>(*data_);
+  changed->assignments.push_back(*assignment);
+  data_ = std::move(changed);
+  return Done{};
+}
+
+std::vector<ShippedLook> Look::shipped() {
+  std::vector<ShippedLook> looks;
+  for (const look::ShippedLookFile& file : look::shippedLookFiles()) {
+    const Result<Look> look = load(std::string(file.name));
+    looks.push_back({std::string(file.name), look ? look->description() : look.error().message()});
+  }
+  return looks;
+}
+
+std::vector<Knob> Look::knobs() {
+  static constexpr const char* kTypes[] = {"number", "integer", "toggle", "choice", "color"};
+  std::vector<Knob> knobs;
+  for (const ParamBlock* block : look::allBlocks())
+    for (const ParamRow& row : block->rows) {
+      Knob knob;
+      knob.path = std::string(block->path) + "." + row.name;
+      knob.type = kTypes[size_t(row.kind)];
+      knob.defaultValue = look::formatValue(row, row.defaultValue);
+      knob.min = look::formatValue(row, row.min);
+      knob.max = look::formatValue(row, row.max);
+      knob.unit = row.unit;
+      knob.meaning = row.meaning;
+      knob.perMaterial = block->perMaterial;
+      knobs.push_back(std::move(knob));
+    }
+  return knobs;
+}
+
+std::string Look::jsonSchema() {
+  // Blocks with dotted paths nest; per-material blocks appear a second time under "materials".
+  const auto rowSchema = [](const ParamRow& row) {
+    json schema{{"description", std::string(row.meaning)}};
+    switch (row.kind) {
+      case ParamKind::color:
+        schema["type"] = "string";
+        schema["pattern"] = "^#[0-9A-Fa-f]{6}$";
+        break;
+      case ParamKind::choice:
+        schema["enum"] = look::choiceNames(row);
+        break;
+      case ParamKind::toggle:
+        schema["type"] = "boolean";
+        break;
+      default:
+        schema["type"] = row.kind == ParamKind::integer ? "integer" : "number";
+        schema["minimum"] = row.min;
+        schema["maximum"] = row.max;
+        if (*row.unit) schema["description"] = std::string(row.meaning) + " [" + row.unit + "]";
+    }
+    if (row.kind == ParamKind::toggle)
+      schema["default"] = row.defaultValue != 0;
+    else if (row.kind == ParamKind::number || row.kind == ParamKind::integer)
+      schema["default"] = row.defaultValue;
+    else
+      schema["default"] = look::formatValue(row, row.defaultValue);
+    return schema;
+  };
+  const auto group = [] {
+    return json{{"type", "object"}, {"additionalProperties", false}, {"properties", json::object()}};
+  };
+  const auto addBlock = [&](json& root, const ParamBlock& block) {
+    json* at = &root;
+    std::string path = block.path;
+    while (!path.empty()) {
+      const size_t dot = std::min(path.find('.'), path.size());
+      json& child = (*at)["properties"][path.substr(0, dot)];
+      if (child.is_null()) child = group();
+      at = &child;
+      path = dot < path.size() ? path.substr(dot + 1) : "";
+    }
+    for (const ParamRow& row : block.rows) (*at)["properties"][row.name] = rowSchema(row);
+  };
+  json root = group(), material = group();
+  root["$schema"] = "https://json-schema.org/draft/2020-12/schema";
+  root["title"] = "scumble look";
+  root["properties"]["$schema"] = {{"type", "string"}};
+  root["properties"]["description"] = {{"type", "string"}};
+  for (const ParamBlock* block : look::allBlocks()) {
+    addBlock(root, *block);
+    if (block->perMaterial) addBlock(material, *block);
+  }
+  root["properties"]["materials"] = {{"type", "object"}, {"additionalProperties", material}};
+  return root.dump(2);
+}
+
+}  // namespace scumble

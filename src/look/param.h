@@ -1,0 +1,75 @@
+// The parameter mechanism: every knob is one row of a .params file,
+//
+//   PARAM(float, radius, 12.0, 0.0, 128.0, "px at 1080 lines", "Roundness of the shadow shapes.")
+//         type   name    default min  max   unit                meaning
+//
+// that C++ (through look/define_params.h) and GLSL (with PARAM defined as `type name;`) both include.
+// Types: float; int; toggle (0 or 1); choice (a number; the unit column lists the names: "off|approximate|exact");
+// srgb (0xRRGGBB in the row, linear in the struct).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace scumble::look {
+
+enum class ParamKind : uint8_t { number, integer, toggle, choice, color };
+
+struct ParamRow {
+  const char* name;
+  ParamKind kind;
+  double defaultValue, min, max;
+  const char* unit;
+  const char* meaning;
+  size_t offset;  // in the block's struct
+};
+
+// The rows of one .params file under their common path.
+struct ParamBlock {
+  const char* path;  // e.g. "shadow" or "warp.metatexture"
+  bool perMaterial;  // whether `materials.PATTERN.path.row` may set them for some materials only
+  std::vector<ParamRow> rows;
+  size_t structSize;
+};
+
+glm::vec3 linearFromSrgb(uint32_t rrggbb);
+uint32_t srgbFromLinear(const glm::vec3& linear);
+
+// The C++ faces of the row types; scalar layout gives the GLSL ones the same size.
+struct Toggle {
+  uint32_t on = 0;
+  Toggle(double v = 0) : on(v != 0) {}
+  operator bool() const { return on != 0; }
+};
+struct Choice {
+  int32_t index = 0;
+  Choice(double v = 0) : index(int32_t(v)) {}
+  operator int() const { return index; }
+};
+struct Color {
+  glm::vec3 linear{0.0f};
+  Color(double rrggbb = 0) : linear(linearFromSrgb(uint32_t(rrggbb))) {}
+  operator glm::vec3() const { return linear; }
+};
+
+template <class T>
+constexpr ParamKind kindOf() {
+  if constexpr (std::is_same_v<T, float>) return ParamKind::number;
+  if constexpr (std::is_same_v<T, int>) return ParamKind::integer;
+  if constexpr (std::is_same_v<T, Toggle>) return ParamKind::toggle;
+  if constexpr (std::is_same_v<T, Choice>) return ParamKind::choice;
+  if constexpr (std::is_same_v<T, Color>) return ParamKind::color;
+}
+
+// Every block of the program, in the order of the documentation. Defined by the pass list (src/frame), because
+// this room knows no pass.
+const std::vector<const ParamBlock*>& allBlocks();
+
+// The names of a choice row, split at '|'.
+std::vector<std::string> choiceNames(const ParamRow& row);
+
+}  // namespace scumble::look

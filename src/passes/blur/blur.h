@@ -1,0 +1,25 @@
+// The shadow channels, blurred and at a quarter of the size (paper 000, "Blur Pass").
+#pragma once
+
+#include "frame/pass.h"
+
+namespace scumble::passes {
+
+#define PARAMS_STRUCT BlurParams
+#define PARAMS_FILE "passes/blur/blur.params"
+#define PARAMS_PATH "blur"
+#define PARAMS_PER_MATERIAL false
+#include "look/define_params.h"
+
+// How the blur's variance is shared among its steps; pixels of the full-size image.
+struct BlurPlan {
+  float halvingSigma[2];  // of the two halvings, in texels of their sources
+  float fullSigma;        // of the last two steps, in texels at a quarter of the size; 0: they only copy
+  float amount;           // how much of the blurred image counts: less than 1 for tiny radii
+};
+// `radius`: twice the standard deviation wanted, in pixels.
+BlurPlan planBlur(float radius);
+
+std::unique_ptr<frame::Pass> makeBlur();
+
+}  // namespace scumble::passes

@@ -1,0 +1,13 @@
+#ifndef SCUMBLE_BLUR_SHARED_H
+#define SCUMBLE_BLUR_SHARED_H
+#include "../../shading/shared_types.h"
+
+SHARED_BEGIN
+struct BlurStep {
+  uint vertical;
+  int halving;    // 1: the output is half as large along the axis
+  int reach;      // taps on each side, source texels
+  float falloff;  // 1 / (2 sigma^2), source texels
+};
+SHARED_END
+#endif

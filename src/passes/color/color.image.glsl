@@ -1,0 +1,38 @@
+#version 460
+// The image half of the Color Pass: lit and shadowed colours mixed by the final shadow, in the air, over the sky.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_multiview : require
+#include "../../shading/frame.glsl"
+#include "color.shared.h"
+
+layout(set = 1, binding = 0, scalar) uniform Block { ColorUniforms u; };
+layout(set = 1, binding = 1) uniform sampler2DArray finalShadow;
+layout(set = 1, binding = 2) uniform sampler2DArray lit;
+layout(set = 1, binding = 3) uniform sampler2DArray shadowed;
+layout(set = 1, binding = 4) uniform sampler2DArray depth;
+
+vec3 sky(vec2 ndc, int layer) {
+  ViewUniforms view = frame.views[layer];
+  vec2 ray = ndc * view.ndcToEyeRay.xy + view.ndcToEyeRay.zw;
+  vec3 direction = normalize(transpose(mat3(view.worldToEye)) * vec3(ray * (1.0 - view.orthographic), -1.0));
+  float elevation = asin(clamp(direction.y, -1.0, 1.0));
+  return mix(u.horizon, u.zenith, smoothstep(0.0, 1.0, elevation / u.height));
+}
+
+vec4 shade(ivec2 pixel, int layer) {
+  ivec3 at = ivec3(pixel, layer);
+  vec4 light = texelFetch(finalShadow, at, 0);
+  vec4 litColor = texelFetch(lit, at, 0), shadowedColor = texelFetch(shadowed, at, 0);
+  float coverage = litColor.a;
+  // Resolved colours are premultiplied by their coverage.
+  vec3 color = mix(shadowedColor.rgb, litColor.rgb, light.r);
+
+  float distance = eyeDepth(texelFetch(depth, at, 0).r, layer);
+  float air = u.air * smoothstep(u.airStart, u.airEnd, distance) * coverage;
+  color = mix(color, u.horizon * coverage, air / max(coverage, 1e-4));
+  if (u.transparent != 0.0) return vec4(color, coverage);
+  vec2 ndc = (vec2(pixel) + 0.5) / frame.imageSize * 2.0 - 1.0;
+  return vec4(color + sky(ndc, layer) * (1.0 - coverage), 1.0);
+}
+
+#include "../../shading/image_pass.glsl"

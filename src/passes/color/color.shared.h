@@ -1,0 +1,15 @@
+#ifndef SCUMBLE_COLOR_SHARED_H
+#define SCUMBLE_COLOR_SHARED_H
+#include "../../shading/shared_types.h"
+
+SHARED_BEGIN
+struct ColorUniforms {
+  vec3 horizon;
+  float height;  // radians
+  vec3 zenith;
+  float air;
+  float airStart, airEnd;  // metres along the view axis
+  float transparent;       // 1: alpha 0 where nothing is
+};
+SHARED_END
+#endif

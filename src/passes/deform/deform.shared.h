@@ -1,0 +1,9 @@
+#ifndef SCUMBLE_DEFORM_SHARED_H
+#define SCUMBLE_DEFORM_SHARED_H
+#include "../../shading/shared_types.h"
+
+SHARED_BEGIN
+const int kDeformThreads = 64;
+const int kMaxGroupsX = 32768;
+SHARED_END
+#endif

@@ -1,0 +1,88 @@
+#include "passes/facts/facts.h"
+
+#include <array>
+#include <limits>
+
+#include "frame/geometry_step.h"
+#include "frame/material_params.h"
+#include "shaders/facts_frag.h"
+#include "shaders/facts_vert.h"
+#include "shading/metatexture_params.h"
+
+namespace scumble::passes {
+
+using namespace frame;
+
+namespace {
+
+constexpr std::array kFacts{Slot::factDepth,   Slot::position, Slot::normal, Slot::uv,
+                            Slot::uvGradient,  Slot::metatexture, Slot::motion,
+                            Slot::id};
+
+class Facts : public Pass {
+ public:
+  const char* name() const override { return "facts"; }
+
+  void declare(FrameBuilder& frame) override {
+    const Configuration& c = frame.configuration();
+    depth_ = frame.transient("facts depth", {VK_FORMAT_D32_SFLOAT, c.width, c.height, c.viewCount});
+    std::vector<gpu::ResourceUse> uses{{frame.finalVertices(), gpu::Use::vertexBuffer},
+                                       {depth_, gpu::Use::depthTarget}};
+    for (const Slot fact : kFacts) uses.push_back({frame.slot(fact), gpu::Use::colorTarget});
+    for (size_t i = 0; i < kFacts.size(); ++i) targets_[i] = frame.slot(kFacts[i]);
+    metaTextureParams_.declare(frame);
+    viewMask_ = c.viewMask();
+    frame.addStep("facts", std::move(uses), [this](VkCommandBuffer commands) { record(commands); });
+  }
+
+  void create(FrameBuilder& frame, const FrameResources& resources) override {
+    resources_ = &resources;
+    scene_ = &frame.scene();
+    layout_ = gpu::SetLayout(frame.device(), {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_FRAGMENT_BIT}});
+    set_ = gpu::DescriptorSets(frame.device(), layout_);
+    metaTextureParams_.bind(set_, 0);
+    GeometryStepDesc desc;
+    desc.vertex = {shaders::facts_vert};
+    desc.fragment = {shaders::facts_frag};
+    desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor | kDPdu | kDPdv;
+    for (const Slot fact : kFacts) desc.colorFormats.push_back(slotInfo(fact).format);
+    desc.viewMask = viewMask_;
+    desc.passLayout = &layout_;
+    step_.create(frame.device(), resources, frame.scene(), desc);
+  }
+
+  void update(const FrameInput& input) override {
+    metaTextureParams_.update(input);
+    eye_ = input.uniforms.views[0].eye;
+  }
+
+ private:
+  void record(VkCommandBuffer commands) const {
+    std::array<Target, kFacts.size()> colors;
+    for (size_t i = 0; i < kFacts.size(); ++i) colors[i].image = &resources_->image(targets_[i]);
+    const float infinity = std::numeric_limits<float>::infinity();
+    static_assert(kFacts[0] == Slot::factDepth);
+    colors[0].clear.color = {{infinity, infinity, infinity, infinity}};
+    const Target depth{&resources_->image(depth_), nullptr, {}};
+    const gpu::ImageDesc& size = colors[0].image->desc();
+    const RenderingScope scope(commands, size.width, size.height, viewMask_, colors, &depth);
+    step_.draw(commands, *resources_, *scene_, set_[0], eye_);
+  }
+
+  std::array<gpu::ResourceId, kFacts.size()> targets_{};
+  gpu::ResourceId depth_ = 0;
+  uint32_t viewMask_ = 1;
+  MaterialParams<shading::WarpMetaTextureParams> metaTextureParams_;
+  const FrameResources* resources_ = nullptr;
+  const SceneOnGpu* scene_ = nullptr;
+  glm::vec3 eye_{0.0f};
+  gpu::SetLayout layout_;
+  gpu::DescriptorSets set_;
+  GeometryStep step_;
+};
+
+}  // namespace
+
+std::unique_ptr<Pass> makeFacts() { return std::make_unique<Facts>(); }
+
+}  // namespace scumble::passes

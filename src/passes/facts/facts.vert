@@ -1,0 +1,40 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_multiview : require
+#include "../../shading/frame.glsl"
+
+layout(constant_id = 0) const int kAlphaMode = 0;
+
+layout(location = 0) in vec3 inPosition;
+layout(location = 1) in vec2 inNormal;
+layout(location = 2) in vec2 inUv0;
+layout(location = 3) in vec2 inUv1;
+layout(location = 4) in vec4 inColor;
+layout(location = 5) in vec3 inDPdu;
+layout(location = 7) in vec3 inDPdv;
+
+layout(location = 0) out vec3 outPosition;
+layout(location = 1) out vec3 outNormal;
+layout(location = 2) out vec2 outUv;
+layout(location = 3) out vec3 outTangentU;
+layout(location = 4) out vec3 outTangentV;
+layout(location = 5) out vec4 outPrevious;
+layout(location = 6) flat out uint outObject;
+layout(location = 7) out vec3 outBaseUvAlpha;
+
+void main() {
+  ViewUniforms view = frame.views[gl_ViewIndex];
+  gl_Position = view.worldToClip * vec4(inPosition, 1.0);
+  outPosition = inPosition;
+  outNormal = decodeNormal(inNormal);
+  outUv = inUv0;
+  outTangentU = (view.worldToClip * vec4(inDPdu, 0.0)).xyw;
+  outTangentV = (view.worldToClip * vec4(inDPdv, 0.0)).xyw;
+  outPrevious = view.previousWorldToClip * vec4(inPosition, 1.0);
+  outObject = gl_InstanceIndex;
+  if (kAlphaMode != 0) {
+    MaterialData material = materials[objects[gl_InstanceIndex].material];
+    vec3 uv = vec3(material.baseUvSet == 1 ? inUv1 : inUv0, 1.0);
+    outBaseUvAlpha = vec3(dot(material.baseUvRowU, uv), dot(material.baseUvRowV, uv), inColor.a);
+  }
+}

@@ -1,0 +1,44 @@
+#include "passes/final_color/final_color.h"
+
+#include "frame/image_step.h"
+#include "passes/final_color/final_color.shared.h"
+#include "shaders/final_color_image_comp.h"
+#include "shaders/final_color_image_frag.h"
+
+namespace scumble::passes {
+
+using namespace frame;
+
+namespace {
+
+class FinalColor : public Pass {
+ public:
+  const char* name() const override { return "final-color"; }
+
+  void declare(FrameBuilder& frame) override {
+    step_.declare(frame, "final-color", {{shaders::final_color_image_frag}, {shaders::final_color_image_comp}},
+                  {{frame.slot(Slot::color), true},
+                   {frame.slot(Slot::warp)},
+                   {frame.slot(Slot::depth)},
+                   {frame.slot(Slot::blur), true}},
+                  frame.slot(Slot::finalColor), sizeof(shared::FinalColorUniforms));
+  }
+  void create(FrameBuilder& frame, const FrameResources& resources) override { step_.create(frame, resources); }
+
+  void update(const FrameInput& input) override {
+    const FinalColorParams params = input.look.get<FinalColorParams>();
+    shared::FinalColorUniforms uniforms{};
+    uniforms.bloom = params.bloom * glm::vec3(params.bloomTint);
+    uniforms.ripple = params.ripple;
+    step_.update(uniforms);
+  }
+
+ private:
+  ImageStep step_;
+};
+
+}  // namespace
+
+std::unique_ptr<Pass> makeFinalColor() { return std::make_unique<FinalColor>(); }
+
+}  // namespace scumble::passes

@@ -1,0 +1,16 @@
+// The picture: the colour pass warped by the warp pass, with bloom (paper 000, Final Color).
+#pragma once
+
+#include "frame/pass.h"
+
+namespace scumble::passes {
+
+#define PARAMS_STRUCT FinalColorParams
+#define PARAMS_FILE "passes/final_color/final_color.params"
+#define PARAMS_PATH "final"
+#define PARAMS_PER_MATERIAL false
+#include "look/define_params.h"
+
+std::unique_ptr<frame::Pass> makeFinalColor();
+
+}  // namespace scumble::passes

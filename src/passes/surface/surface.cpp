@@ -1,0 +1,137 @@
+#include "passes/surface/surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/tileable_noise.h"
+#include "frame/geometry_step.h"
+#include "frame/light.h"
+#include "frame/material_params.h"
+#include "shaders/surface_frag.h"
+#include "shaders/surface_vert.h"
+
+namespace scumble::passes {
+
+using namespace frame;
+
+namespace {
+
+constexpr uint32_t kKnifeSize = 256;
+
+// Mirrors SurfaceUniforms in surface.glsl.
+struct SurfaceUniforms {
+  float terminator, terminatorSharpness;
+  glm::vec3 skyTint, groundTint;
+};
+
+// The breakup map: palette-knife marks, longer than wide, with flat tops and sharp sides; mean 0.5.
+std::vector<uint8_t> makeKnifeMarks() {
+  const std::vector<float> noise = selfSimilarNoise(kKnifeSize, 32, 3, 0.6f, 5, 4.0f);
+  std::vector<uint8_t> texels(size_t(kKnifeSize) * kKnifeSize * 4, 255);
+  for (size_t i = 0; i < noise.size(); ++i) {
+    const float mark = 0.5f + 0.5f * std::tanh(1.6f * noise[i]);
+    texels[4 * i] = uint8_t(std::lround(mark * 255));
+  }
+  return texels;
+}
+
+class Surface : public Pass {
+ public:
+  const char* name() const override { return "surface"; }
+
+  void declare(FrameBuilder& frame) override {
+    const Configuration& c = frame.configuration();
+    samples_ = c.samples;
+    viewMask_ = c.viewMask();
+    std::vector<gpu::ResourceUse> uses{{frame.finalVertices(), gpu::Use::vertexBuffer},
+                                       {shadowMap_ = frame.slot(Slot::shadowMap), gpu::Use::sampledByFragment}};
+    for (size_t i = 0; i < kTargets.size(); ++i) {
+      const bool isDepth = kTargets[i] == Slot::depth;
+      resolved_[i] = frame.slot(kTargets[i]);
+      drawn_[i] = samples_ > 1 ? frame.multisampled(kTargets[i]) : resolved_[i];
+      uses.push_back({drawn_[i], isDepth ? gpu::Use::depthTarget : gpu::Use::colorTarget});
+      if (samples_ > 1)
+        uses.push_back({resolved_[i], isDepth ? gpu::Use::depthResolveTarget : gpu::Use::resolveTarget});
+    }
+    uniforms_ = frame.uniform(sizeof(SurfaceUniforms));
+    params_.declare(frame);
+    frame.addStep("surface", std::move(uses), [this](VkCommandBuffer commands) { record(commands); });
+  }
+
+  void create(FrameBuilder& frame, const FrameResources& resources) override {
+    resources_ = &resources;
+    scene_ = &frame.scene();
+    gpu::Uploader uploader(frame.device());
+    knife_ = uploader.texture(makeKnifeMarks().data(), VK_FORMAT_R8G8B8A8_UNORM, kKnifeSize, kKnifeSize, false);
+    uploader.flush();
+    layout_ = gpu::SetLayout(frame.device(),
+                             {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_FRAGMENT_BIT},
+                              {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_FRAGMENT_BIT},
+                              {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT},
+                              {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}});
+    set_ = gpu::DescriptorSets(frame.device(), layout_);
+    set_.writeBuffer(0, 0, uniforms_.buffer, uniforms_.offset, uniforms_.size);
+    params_.bind(set_, 1);
+    gpu::SamplerDesc compare;
+    compare.compareLess = true;
+    set_.writeTexture(0, 2, resources.image(shadowMap_).view(), frame.samplers().get(compare));
+    gpu::SamplerDesc repeating;
+    repeating.wrapU = repeating.wrapV = VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    set_.writeTexture(0, 3, knife_.view(), frame.samplers().get(repeating));
+
+    GeometryStepDesc desc;
+    desc.vertex = {shaders::surface_vert};
+    desc.fragment = {shaders::surface_frag};
+    desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor | kDPdu | kDPdv;
+    for (const Slot slot : kTargets)
+      if (slot != Slot::depth) desc.colorFormats.push_back(slotInfo(slot).format);
+    desc.samples = samples_;
+    desc.viewMask = viewMask_;
+    desc.blends = true;
+    desc.passLayout = &layout_;
+    step_.create(frame.device(), resources, frame.scene(), desc);
+  }
+
+  void update(const FrameInput& input) override {
+    params_.update(input);
+    eye_ = input.uniforms.views[0].eye;
+    const LightParams light = input.look.get<LightParams>();
+    // The sky is cooler than the shadow colour, the ground warmer; both at equal brightness.
+    const float amount = input.look.get<SurfaceParams>().skyTint;
+    const glm::vec3 cool(-0.6f, 0.1f, 1.0f), warm(1.0f, 0.0f, -0.8f);
+    uniforms_.write(SurfaceUniforms{light.terminator, light.terminatorSharpness, 1.0f + amount * cool + 0.6f * amount,
+                                    1.0f + amount * warm - 0.4f * amount});
+  }
+
+ private:
+  static constexpr std::array kTargets{Slot::shadow, Slot::lit, Slot::shadowed, Slot::depth};
+
+  void record(VkCommandBuffer commands) const {
+    const auto target = [&](size_t i) {
+      return Target{&resources_->image(drawn_[i]), samples_ > 1 ? &resources_->image(resolved_[i]) : nullptr, {}};
+    };
+    const Target colors[] = {target(0), target(1), target(2)}, depth = target(3);
+    const gpu::ImageDesc& size = colors[0].image->desc();
+    const RenderingScope scope(commands, size.width, size.height, viewMask_, colors, &depth);
+    step_.draw(commands, *resources_, *scene_, set_[0], eye_);
+  }
+
+  gpu::ResourceId shadowMap_ = 0;
+  std::array<gpu::ResourceId, kTargets.size()> drawn_{}, resolved_{};
+  uint32_t samples_ = 1, viewMask_ = 1;
+  UniformSlice uniforms_;
+  MaterialParams<SurfaceParams> params_;
+  const FrameResources* resources_ = nullptr;
+  const SceneOnGpu* scene_ = nullptr;
+  glm::vec3 eye_{0.0f};
+  gpu::Image knife_;
+  gpu::SetLayout layout_;
+  gpu::DescriptorSets set_;
+  GeometryStep step_;
+};
+
+}  // namespace
+
+std::unique_ptr<Pass> makeSurface() { return std::make_unique<Surface>(); }
+
+}  // namespace scumble::passes

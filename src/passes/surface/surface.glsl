@@ -1,0 +1,11 @@
+struct SurfaceParams {
+#define PARAM(type, name, defaultValue, low, high, unit, meaning) type name;
+#include "surface.params"
+#undef PARAM
+};
+struct SurfaceUniforms {
+  float terminator;
+  float terminatorSharpness;
+  vec3 skyTint;     // factors on colours in shadow that look up, and down
+  vec3 groundTint;
+};

@@ -1,0 +1,17 @@
+// The shadow channels and both colours of every surface, in one geometry pass (paper 000, Shadow Pass and the geometry
+// half of the Color Pass; FORMULAS 14).
+#pragma once
+
+#include "frame/pass.h"
+
+namespace scumble::passes {
+
+#define PARAMS_STRUCT SurfaceParams
+#define PARAMS_FILE "passes/surface/surface.params"
+#define PARAMS_PATH "surface"
+#define PARAMS_PER_MATERIAL true
+#include "look/define_params.h"
+
+std::unique_ptr<frame::Pass> makeSurface();
+
+}  // namespace scumble::passes

@@ -1,0 +1,52 @@
+#version 460
+// The inflated surface: each vertex moves outward along its screen-space projected normal (paper 000, section 4.1).
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_multiview : require
+#include "../../shading/frame.glsl"
+#include "../../shading/metatexture.glsl"
+#include "warp.glsl"
+
+layout(constant_id = 0) const int kAlphaMode = 0;
+
+layout(location = 0) in vec3 inPosition;
+layout(location = 2) in vec2 inUv0;
+layout(location = 3) in vec2 inUv1;
+layout(location = 4) in vec4 inColor;
+layout(location = 5) in vec3 inDPdu;
+layout(location = 6) in vec2 inSmoothNormal;
+layout(location = 7) in vec3 inDPdv;
+
+layout(location = 0) out vec2 outUv;
+layout(location = 1) out vec3 outTangentU;  // clip-space x, y, w of dP/du
+layout(location = 2) out vec3 outTangentV;
+layout(location = 3) flat out uint outMaterial;
+layout(location = 4) out vec3 outBaseUvAlpha;
+
+void main() {
+  ViewUniforms view = frame.views[gl_ViewIndex];
+  uint material = objects[gl_InstanceIndex].material;
+  vec4 clip = view.worldToClip * vec4(inPosition, 1.0);
+
+  // Outward on the screen, in pixels per metre. Its length tells how far the normal is turned from the viewer:
+  // vertices that face the viewer stay, since their direction on the screen means nothing.
+  vec3 normal = decodeNormal(inSmoothNormal);
+  vec4 normalClip = view.worldToClip * vec4(normal, 0.0);
+  vec2 outward = (normalClip.xy - clip.xy / clip.w * normalClip.w) / clip.w * 0.5 * frame.imageSize;
+  float pixelsPerMetre = 0.5 * frame.imageSize.y / (view.ndcToEyeRay.y * clip.w);
+  float size = length(outward);
+  float turned = smoothstep(0.05, 0.35, abs(size / pixelsPerMetre));
+  if (clip.w > 0.0 && size > 0.0) {
+    float pixels = warpParams[material].inflation * frame.pixelScale * turned;
+    clip.xy += outward / size * pixels / (0.5 * frame.imageSize) * clip.w;
+  }
+  gl_Position = clip;
+
+  outUv = inUv0;
+  outTangentU = (view.worldToClip * vec4(inDPdu, 0.0)).xyw;
+  outTangentV = (view.worldToClip * vec4(inDPdv, 0.0)).xyw;
+  outMaterial = material;
+  if (kAlphaMode != 0) {
+    vec3 uv = vec3(materials[material].baseUvSet == 1 ? inUv1 : inUv0, 1.0);
+    outBaseUvAlpha = vec3(dot(materials[material].baseUvRowU, uv), dot(materials[material].baseUvRowV, uv), inColor.a);
+  }
+}

@@ -1,0 +1,97 @@
+// What every pass knows of a frame (descriptor set 0): the views, the light, the objects and the materials.
+#ifndef SCUMBLE_FRAME_SHARED_H
+#define SCUMBLE_FRAME_SHARED_H
+#include "shared_types.h"
+
+SHARED_BEGIN
+
+const int kMaxViews = 2;
+
+struct ViewUniforms {
+  mat4 worldToClip;          // reversed depth: 1 at the near plane, 0 at infinity; y down
+  mat4 worldToEye;           // eye space: x right, y up, -z forward
+  mat4 previousWorldToClip;  // one frame (1 / fps) earlier
+  // x, y: eye-space (x/-z, y/-z) = ndc * xy + zw, for any, also off-centre, projection (FORMULAS 4)
+  vec4 ndcToEyeRay;
+  vec4 depthToEye;           // metres along the axis = (x + y d) / (z + w d) for a depth-buffer value d
+  vec3 eye;                  // world
+  float orthographic;        // 1 for a parallel projection, else 0
+};
+
+struct FrameUniforms {
+  ViewUniforms views[kMaxViews];
+  mat4 worldToLight;   // x, y in [-1, 1] over everything that casts shadows; z in [0, 1], growing away from the light
+  vec3 toLight;        // unit, world
+  float time;          // seconds
+  vec2 shadowCenter;   // light-space x, y near the viewer, where the shadow map is finest
+  float shadowWarp;    // strength of the sigmoid; 0: none
+  float shadowTexel;   // size of a shadow-map texel in unwarped light space
+  vec3 lightToWorldScale;  // metres per unit of light-space x, y, z
+  float pixelScale;    // pixels per knob pixel: image height / 1080
+  vec2 imageSize;      // pixels
+  vec2 patternShift;   // of all patterns, by the seed; in copies of the pattern
+  float sceneRadius;   // metres
+  vec3 sceneCenter;    // world
+};
+
+// One drawn instance of a primitive.
+struct ObjectData {
+  mat4 model;   // object to world
+  mat3 normal;  // inverse transpose of its linear part, up to a positive factor
+  uint material;
+  uint id;      // from 1; the `id` AOV
+  uint influences;  // joints a vertex: 0 (rigid), 4 or 8
+  uint firstJoint;  // in the joint matrices
+};
+
+// A chunk of vertices for `deform`: up to kDeformChunk vertices of one object.
+const int kDeformChunk = 256;
+struct DeformChunk {
+  uint object;
+  uint restVertex;   // first vertex in the rest buffers
+  uint finalVertex;  // first vertex in the final buffers
+  uint count;
+  uint skinVertex;   // first entry in the skin buffer
+};
+
+// A vertex as deform reads and writes it; two streams, so that depth-only passes fetch 16 bytes.
+struct VertexCore {
+  vec3 position;
+  uint normal;  // octahedral, 2 x snorm16
+};
+struct VertexFrame {
+  vec3 dPdu;          // metres per unit of u
+  uint smoothNormal;  // octahedral
+  vec3 dPdv;
+};
+// Four influences of a vertex.
+struct VertexSkin {
+  uvec2 joints;  // 4 x 16 bits
+  vec4 weights;
+};
+// What never deforms.
+struct VertexSurface {
+  vec2 uv0, uv1;
+  uint color;  // unorm8 RGBA, linear
+};
+
+// A material's facts; knobs lie in the passes' own per-material buffers, under the same index.
+struct MaterialData {
+  vec4 baseColor;
+  vec3 emissive;
+  float alphaCutoff;
+  // Affine maps of the square root of linear RGB: from albedo to lit and to shadowed colour (docs/palette.md).
+  mat3 litMap;
+  vec3 litOffset;
+  mat3 shadowedMap;
+  vec3 shadowedOffset;
+  vec3 shadowedColor;      // the material's own; used where hasShadowedColor is 1
+  float hasShadowedColor;
+  vec3 baseUvRowU, baseUvRowV;          // KHR_texture_transform: u' = dot(row, (u, v, 1))
+  vec3 emissiveUvRowU, emissiveUvRowV;
+  uint baseUvSet, emissiveUvSet;
+  uint unlit;
+};
+
+SHARED_END
+#endif

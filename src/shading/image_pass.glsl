@@ -1,0 +1,20 @@
+// An image pass is one function, vec4 shade(ivec2 pixel, int layer). This wrapper makes it a full-screen fragment
+// shader or, with SCUMBLE_COMPUTE defined, a compute shader; the build compiles both.
+#ifdef SCUMBLE_COMPUTE
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(set = 2, binding = 0, rgba16f) writeonly uniform image2DArray outputImage;
+
+void main() {
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(pixel, imageSize(outputImage).xy))) return;
+  int layer = int(gl_GlobalInvocationID.z);
+  imageStore(outputImage, ivec3(pixel, layer), shade(pixel, layer));
+}
+
+#else
+
+layout(location = 0) out vec4 outputColor;
+void main() { outputColor = shade(ivec2(gl_FragCoord.xy), gl_ViewIndex); }
+
+#endif

@@ -1,0 +1,36 @@
+# scumble_shaders(FILES...): compiles GLSL to SPIR-V, validates it, and makes for each FOO.vert a header
+# shaders/FOO_vert.h with the array scumble::shaders::FOO_vert. NAME.image.glsl is compiled twice, as
+# NAME_image_frag and NAME_image_comp (src/shading/image_pass.glsl).
+function(scumble_compile_shader source name stage defines)
+  set(dir ${CMAKE_BINARY_DIR}/generated/shaders)
+  set(spirv ${dir}/${name}.spv)
+  set(header ${dir}/${name}.h)
+  add_custom_command(
+    OUTPUT ${header}
+    COMMAND ${Vulkan_GLSLC_EXECUTABLE} --target-env=vulkan1.3 -O -fshader-stage=${stage} ${defines} -MD -MF ${spirv}.d
+            -MT ${header} -o ${spirv} ${source}
+    COMMAND ${SPIRV_VAL} --target-env vulkan1.3 --scalar-block-layout ${spirv}
+    COMMAND ${CMAKE_COMMAND} -DIN=${spirv} -DOUT=${header} -DNAME=${name}
+            -P ${CMAKE_SOURCE_DIR}/tools/cmake/embed_spirv.cmake
+    DEPENDS ${source} ${CMAKE_SOURCE_DIR}/tools/cmake/embed_spirv.cmake
+    DEPFILE ${spirv}.d
+    COMMENT "Shader ${name}" VERBATIM)
+  # A target of its own, because a custom command's output is known in its own folder only.
+  add_custom_target(shader_${name} DEPENDS ${header})
+  add_dependencies(scumble shader_${name})
+endfunction()
+
+function(scumble_shaders)
+  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/generated/shaders)
+  foreach(file ${ARGN})
+    set(source ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+    get_filename_component(name ${file} NAME)
+    if(name MATCHES "^(.*)\\.image\\.glsl$")
+      scumble_compile_shader(${source} ${CMAKE_MATCH_1}_image_frag fragment "")
+      scumble_compile_shader(${source} ${CMAKE_MATCH_1}_image_comp compute -DSCUMBLE_COMPUTE)
+    elseif(name MATCHES "^(.*)\\.(vert|frag|comp)$")
+      set(base ${CMAKE_MATCH_1}_${CMAKE_MATCH_2})
+      scumble_compile_shader(${source} ${base} ${CMAKE_MATCH_2} "")
+    endif()
+  endforeach()
+endfunction()
