@@ -41,7 +41,9 @@ TEST(GltfErrors, jsonMistakesHaveALine) {
   ASSERT_FALSE(scene.ok());
   EXPECT_EQ(scene.error().line, 4);
   EXPECT_EQ(scene.error().message().substr(0, 12), "test.gltf:4:");
-  EXPECT_FALSE(load("{\"a\":" + std::string(100000, '[')).ok());
+  std::string deep = "{\"a\":";
+  deep.append(100000, '[');
+  EXPECT_FALSE(load(deep).ok());
   EXPECT_FALSE(load("").ok());
   EXPECT_FALSE(load("solid cube").ok());
   EXPECT_FALSE(load("{\"asset\":{\"version\":\"2.0\"},\"x\":1e999}").ok());
