@@ -41,9 +41,10 @@ Mesh makeMainsail() {
       const glm::vec3 foot = glm::mix(tack, clew, u), head = glm::mix(throat, peak, u);
       glm::vec3 p = glm::mix(foot, head, v);
       // Deepest at 40 percent of the chord and below the middle; the head is laced straight to the gaff.
-      const float draft = std::pow(std::sin(kPi * std::pow(u, 0.76f)), 1.0f);
-      const float height = std::pow(std::sin(kPi * std::pow(glm::mix(0.16f, 1.0f, v), 0.85f)), 0.8f);
-      const float belly = 0.56f * draft * std::max(height, 0.0f);
+      const float draft = std::max(std::sin(kPi * std::pow(u, 0.76f)), 0.0f);
+      // The sine of pi is a hair below zero in floats, and a power of that is not a number.
+      const float swell = std::max(std::sin(kPi * std::pow(glm::mix(0.16f, 1.0f, v), 0.85f)), 0.0f);
+      const float belly = 0.56f * draft * std::pow(swell, 0.8f);
       p += glm::vec3(-0.22f, 0.0f, -0.97f) * belly;
       // The foot hangs in a curve, the leech is cut slightly hollow.
       p.y -= 0.10f * std::sin(kPi * u) * (1.0f - v) * (1.0f - v);

@@ -252,6 +252,7 @@ void MeshBuilder::indexed(const std::vector<glm::vec3>& points, const std::vecto
     if (degenerate(a, b, c)) continue;
     const glm::vec3 n = glm::normalize(glm::cross(b - a, c - a));
     const int material = faceMaterial ? faceMaterial(n, (a + b + c) / 3.0f) : material_;
+    if (material < 0) continue;
     emit(material, a, b, c);
     if (shading == Shading::smooth) {
       Primitive& p = primitive(material);
