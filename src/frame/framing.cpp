@@ -15,7 +15,7 @@ namespace frame {
 namespace {
 constexpr float kDefaultAzimuth = 32, kDefaultElevation = 14;  // degrees: three-quarter view, slightly from above
 constexpr float kDefaultFov = 34;                              // degrees, vertical
-constexpr float kFill = 0.74f;                                 // of the frame that the subject may take
+constexpr float kFill = 0.82f;                                 // of the frame that the subject may take
 }  // namespace
 
 glm::mat4 cameraWorld(const SceneData& scene, size_t camera) {

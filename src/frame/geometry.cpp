@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "frame/tessellate.h"
@@ -11,9 +12,6 @@ namespace scumble::frame {
 
 namespace {
 
-// Longest edge relative to the scene's radius. A sigmoid of moderate strength bends an edge of this length by less
-// than a texel of the shadow map (half its length squared times the sigmoid's curvature, over 4).
-constexpr float kMaxEdge = 0.05f;
 constexpr size_t kMaxNewTriangles = 1 << 18;
 
 // A disc around and a little below the scene: rings that widen, so that it is fine near the scene and reaches far.
@@ -67,7 +65,16 @@ float largestScale(const glm::mat4& m) {
 
 }  // namespace
 
-Geometry collectGeometry(const scene::SceneData& scene, int groundMaterial) {
+float longestEdge(float shadowWarp) {
+  if (shadowWarp <= 0) return std::numeric_limits<float>::infinity();
+  // The algebraic sigmoid's second derivative is at most 0.858; the warp scales t by the strength and its range to 2.
+  const float range = 2 * shadowWarp / std::sqrt(1 + shadowWarp * shadowWarp);
+  const float curvature = 2 * shadowWarp * shadowWarp * 0.858f / range;
+  const float tolerance = 3 * 2.0f / float(kShadowMapSize);
+  return std::sqrt(8 * tolerance / curvature);
+}
+
+Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& options, int groundMaterial) {
   Geometry geometry;
   const std::vector<glm::mat4> world = scene::worldMatrices(scene);
   geometry.joints = scene::jointMatrices(scene, world);
@@ -82,7 +89,7 @@ Geometry collectGeometry(const scene::SceneData& scene, int groundMaterial) {
     const bool morphs_ = std::any_of(weights.begin(), weights.end(), [](float w) { return w != 0; });
     for (const scene::Primitive& primitive : mesh.primitives) {
       if (primitive.indices.empty()) continue;
-      GeometryItem item{&primitive, world[n], -1, uint32_t(primitive.material), uint32_t(n + 1), {}};
+      GeometryItem item{&primitive, world[n], -1, uint32_t(primitive.material), uint32_t(n + 1), true, {}};
       if (morphs_ && !primitive.morphTargets.empty()) {
         const scene::Primitive*& known = morphs[{&primitive, weights}];
         if (!known) known = &geometry.made.emplace_back(morphed(primitive, weights));
@@ -97,19 +104,24 @@ Geometry collectGeometry(const scene::SceneData& scene, int groundMaterial) {
         item.bounds = scene::posedBounds(*item.primitive, alone, item.model, geometry.joints);
         geometry.bounds.add(item.bounds.min);
         geometry.bounds.add(item.bounds.max);
+        item.casts = options.casts[item.material];
         geometry.items.push_back(item);
       }
     }
   }
 
-  // Split what is too long for the shadow map's sigmoid: by the largest scale at which a primitive is drawn.
+  // Split casters that are too long for the shadow map's sigmoid: by the largest scale at which a primitive is drawn.
   std::map<const scene::Primitive*, float> scales;
+  scene::Bounds casters;
   for (const GeometryItem& item : geometry.items) {
+    if (!item.casts) continue;
+    casters.add(item.bounds.min);
+    casters.add(item.bounds.max);
     float& scale = scales[item.primitive];
     scale = std::max(scale, largestScale(item.model));
   }
   std::map<const scene::Primitive*, const scene::Primitive*> split;
-  const float maxEdge = kMaxEdge * std::max(geometry.bounds.radius(), 1e-6f);
+  const float maxEdge = longestEdge(options.shadowWarp) * std::max(casters.radius(), 1e-6f);
   for (const auto& [primitive, scale] : scales)
     if (scale > 0)
       if (auto result = tessellate(*primitive, maxEdge / scale, kMaxNewTriangles))
@@ -119,9 +131,10 @@ Geometry collectGeometry(const scene::SceneData& scene, int groundMaterial) {
 
   if (groundMaterial >= 0) {
     GeometryItem item{&geometry.made.emplace_back(makeGround(geometry.bounds)), glm::mat4(1.0f), -1,
-                      uint32_t(groundMaterial), 0, {}};
+                      uint32_t(groundMaterial), 0, false, {}};
     for (const glm::vec3& p : item.primitive->positions) item.bounds.add(p);
     item.id = uint32_t(scene.nodes.size() + 1);
+    item.casts = false;
     geometry.items.push_back(item);
   }
   return geometry;

@@ -13,6 +13,7 @@ struct GeometryItem {
   int skin = -1;
   uint32_t material = 0;
   uint32_t id = 0;        // whole number from 1, one a node
+  bool casts = true;      // shadows
   scene::Bounds bounds;   // world
 };
 
@@ -24,6 +25,10 @@ struct Geometry {
 };
 
 // `groundMaterial`: the material index of the ground, or -1 for none.
-Geometry collectGeometry(const scene::SceneData& scene, int groundMaterial);
+Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& options, int groundMaterial);
+
+// Longest edge, as a part of the shadow map's half width, that a sigmoid of this strength bends by less than three
+// texels: an edge of length L strays from its curve by L^2 f'' / 8.
+float longestEdge(float shadowWarp);
 
 }  // namespace scumble::frame

@@ -41,6 +41,7 @@ void addVertexInput(gpu::GraphicsPipelineDesc& pipeline, uint32_t inputs) {
 void GeometryStep::create(gpu::Device& device, const FrameResources& resources, const SceneOnGpu& scene,
                           const GeometryStepDesc& desc) {
   hasPassSet_ = desc.passLayout != nullptr;
+  materialStrides_ = desc.materialStrides;
   bool needed[3][2] = {};
   for (const Draw& draw : scene.draws()) needed[size_t(draw.alpha)][draw.textured] = true;
   for (size_t alpha = 0; alpha < 3; ++alpha) {
@@ -62,9 +63,8 @@ void GeometryStep::create(gpu::Device& device, const FrameResources& resources, 
       pipeline.samples = desc.samples;
       pipeline.viewMask = desc.viewMask;
       pipeline.dynamicCulling = true;
-      pipeline.sets = {resources.frameLayout().handle()};
+      pipeline.sets = {resources.frameLayout().handle(), scene.materialLayout().handle()};
       if (hasPassSet_) pipeline.sets.push_back(desc.passLayout->handle());
-      pipeline.sets.push_back(scene.textureLayout().handle());
       pipelines_[alpha][textured] = gpu::Pipeline(device, pipeline);
     }
   }
@@ -93,19 +93,19 @@ void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resource
   const gpu::Pipeline* bound = nullptr;
   uint32_t boundMaterial = ~0u;
   int cull = -1, front = -1;
-  const uint32_t textureSet = hasPassSet_ ? 2 : 1;
+  std::vector<uint32_t> offsetsOfMaterial(materialStrides_.size());
   for (const Draw* draw : order) {
     const gpu::Pipeline& pipeline = pipelines_[size_t(draw->alpha)][draw->textured];
     if (bound != &pipeline) {
       pipeline.bind(commands);
       pipeline.bindSet(commands, 0, resources.frameSet());
-      if (hasPassSet_) pipeline.bindSet(commands, 1, passSet);
       bound = &pipeline;
       boundMaterial = ~0u;
     }
-    // Without textures every material's set is as good as any.
-    if (boundMaterial == ~0u || (boundMaterial != draw->material && draw->textured)) {
-      pipeline.bindSet(commands, textureSet, scene.textures(draw->material));
+    if (boundMaterial != draw->material) {
+      pipeline.bindSet(commands, 1, scene.materialSet(draw->material));
+      for (size_t i = 0; i < materialStrides_.size(); ++i) offsetsOfMaterial[i] = draw->material * materialStrides_[i];
+      if (hasPassSet_) pipeline.bindSet(commands, 2, passSet, offsetsOfMaterial);
       boundMaterial = draw->material;
     }
     if (cull != int(draw->cullsBack))

@@ -28,7 +28,10 @@ struct GeometryStepDesc {
   VkCompareOp depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
   uint32_t samples = 1, viewMask = 0;
   bool blends = false;               // blended surfaces are composited; else they are drawn like masked ones
-  const gpu::SetLayout* passLayout = nullptr;  // set 1; null: the textures are set 1
+  // Set 2, or null for none. Its first bindings are dynamic uniforms, one for each of `materialStrides`: the step from
+  // one material's knobs to the next one's, in bytes.
+  const gpu::SetLayout* passLayout = nullptr;
+  std::vector<uint32_t> materialStrides;
 };
 
 class GeometryStep {
@@ -43,6 +46,7 @@ class GeometryStep {
   // By alpha mode and by whether textures are read.
   std::array<std::array<gpu::Pipeline, 2>, 3> pipelines_;
   bool hasPassSet_ = false;
+  std::vector<uint32_t> materialStrides_;
 };
 
 }  // namespace scumble::frame

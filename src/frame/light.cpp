@@ -25,7 +25,7 @@ glm::vec3 keyLightDirection(const scene::SceneData& scene, const LightParams& pa
 }
 
 void setLightSpace(shared::FrameUniforms& uniforms, const SceneOnGpu& scene, const LightParams& params,
-                   const std::function<bool(const Draw&)>& casts, const glm::vec3& viewer) {
+                   const glm::vec3& viewer) {
   const glm::vec3 away = -uniforms.toLight;
   const glm::vec3 up = std::abs(away.y) > 0.99f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
   const glm::vec3 right = glm::normalize(glm::cross(away, up)), above = glm::cross(right, away);
@@ -33,7 +33,7 @@ void setLightSpace(shared::FrameUniforms& uniforms, const SceneOnGpu& scene, con
 
   scene::Bounds box;
   for (const Draw& draw : scene.draws()) {
-    if (!casts(draw)) continue;
+    if (!draw.casts) continue;
     for (int corner = 0; corner < 8; ++corner)
       box.add(toLightAxes * glm::vec3(corner & 1 ? draw.bounds.max.x : draw.bounds.min.x,
                                       corner & 2 ? draw.bounds.max.y : draw.bounds.min.y,

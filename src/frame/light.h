@@ -1,8 +1,6 @@
 // The key light: where it comes from, and the light space of its shadow map.
 #pragma once
 
-#include <functional>
-
 #include "frame/scene_on_gpu.h"
 #include "look/look_data.h"
 
@@ -17,9 +15,8 @@ namespace scumble::frame {
 // Unit vector towards the key light, in the world. Depends on the scene and the look, not on the views.
 glm::vec3 keyLightDirection(const scene::SceneData& scene, const LightParams& params);
 
-// Fills the light's part of the frame's uniforms. `casts`: whether a draw casts shadows; `viewer`: where the map is to
-// be finest (world).
+// Fills the light's part of the frame's uniforms. `viewer`: where the map is to be finest (world).
 void setLightSpace(shared::FrameUniforms& uniforms, const SceneOnGpu& scene, const LightParams& params,
-                   const std::function<bool(const Draw&)>& casts, const glm::vec3& viewer);
+                   const glm::vec3& viewer);
 
 }  // namespace scumble::frame

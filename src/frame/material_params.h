@@ -1,4 +1,5 @@
-// A pass's knobs for every material: a storage buffer with one struct of a per-material block each.
+// A pass's knobs for every material: uniforms with one struct of a per-material block each, at a dynamic offset that
+// follows the material being drawn.
 #pragma once
 
 #include "frame/pass.h"
@@ -8,14 +9,17 @@ namespace scumble::frame {
 template <class Params>
 class MaterialParams {
  public:
-  void declare(FrameBuilder& frame) { slice_ = frame.uniform(frame.scene().materialCount() * sizeof(Params)); }
+  // No device wants dynamic offsets at larger steps than this.
+  static constexpr uint32_t kStride = (sizeof(Params) + 255) / 256 * 256;
+
+  void declare(FrameBuilder& frame) { slice_ = frame.uniform(frame.scene().materialCount() * kStride); }
   void bind(gpu::DescriptorSets& sets, uint32_t binding) const {
-    sets.writeBuffer(0, binding, slice_.buffer, slice_.offset, slice_.size);
+    sets.writeBuffer(0, binding, slice_.buffer, slice_.offset, sizeof(Params));
   }
   void update(const FrameInput& input) const {
     for (size_t m = 0; m < input.scene.materialCount(); ++m) {
       const Params params = input.look.getForMaterial<Params>(input.scene.materialName(m));
-      std::memcpy(slice_.mapped + m * sizeof(Params), &params, sizeof(Params));
+      std::memcpy(slice_.mapped + m * kStride, &params, sizeof(Params));
     }
   }
 

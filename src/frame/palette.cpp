@@ -1,6 +1,8 @@
 #include "frame/palette.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "base/oklab.h"
 
@@ -52,14 +54,85 @@ glm::dvec3 shadowedColor(const PaletteParams& params, const glm::dvec3& albedo) 
   glm::dvec3 lab = litLab(params, albedo);
   const glm::dvec2 shift = tintShift(params.shadowTint) * double(params.shadowTintAmount);
   lab.x *= params.shadowValue;
-  lab.y = lab.y * params.shadowSaturation + shift.x;
+  // Warm colours pass through red on their way to violet; straight across they would turn olive.
+  lab.y = lab.y * params.shadowSaturation + shift.x + params.shadowRedden * std::max(lab.z, 0.0);
   lab.z = lab.z * params.shadowSaturation + shift.y;
   return toGamut(lab);
 }
 
-glm::vec3 AffineColorMap::apply(const glm::vec3& linear) const {
-  const glm::vec3 c = glm::max(matrix * glm::sqrt(glm::clamp(linear, 0.0f, 1.0f)) + offset, 0.0f);
-  return c * c;
+namespace {
+
+constexpr int kTerms = shared::kColorMapTerms;
+using Terms = std::array<double, kTerms>;
+
+Terms termsOf(const glm::dvec3& r) {
+  return {1, r.r, r.g, r.b, r.r * r.r, r.g * r.g, r.b * r.b, r.r * r.g, r.g * r.b, r.b * r.r};
+}
+
+// Solves the symmetric positive definite system in place (Cholesky).
+void solve(std::array<Terms, kTerms> a, Terms& x) {
+  for (int i = 0; i < kTerms; ++i) {
+    for (int j = 0; j <= i; ++j) {
+      double sum = a[i][j];
+      for (int k = 0; k < j; ++k) sum -= a[i][k] * a[j][k];
+      a[i][j] = i == j ? std::sqrt(sum) : sum / a[j][j];
+    }
+  }
+  for (int i = 0; i < kTerms; ++i) {
+    for (int k = 0; k < i; ++k) x[i] -= a[i][k] * x[k];
+    x[i] /= a[i][i];
+  }
+  for (int i = kTerms - 1; i >= 0; --i) {
+    for (int k = i + 1; k < kTerms; ++k) x[i] -= a[k][i] * x[k];
+    x[i] /= a[i][i];
+  }
+}
+
+}  // namespace
+
+shared::ColorMap fitColorMap(const std::function<glm::dvec3(const glm::dvec3&)>& rule) {
+  // Normal equations over a grid of roots.
+  constexpr int kGrid = 7;
+  std::array<Terms, kTerms> normal{};
+  Terms right[3] = {};
+  for (int i = 0; i < kGrid * kGrid * kGrid; ++i) {
+    const glm::dvec3 root = glm::dvec3(i % kGrid, i / kGrid % kGrid, i / (kGrid * kGrid)) / double(kGrid - 1);
+    const Terms x = termsOf(root);
+    // Greys and soft colours are what scenes are made of; pure primaries count less.
+    const double spread = std::max({root.r, root.g, root.b}) - std::min({root.r, root.g, root.b});
+    const double weight = 1.0 / (0.3 + spread);
+    const glm::dvec3 y = glm::sqrt(rule(root * root));
+    for (int j = 0; j < kTerms; ++j) {
+      for (int k = 0; k < kTerms; ++k) normal[j][k] += weight * x[j] * x[k];
+      for (int c = 0; c < 3; ++c) right[c][j] += weight * y[c] * x[j];
+    }
+  }
+  shared::ColorMap map{};
+  for (int c = 0; c < 3; ++c) {
+    solve(normal, right[c]);
+    for (int k = 0; k < kTerms; ++k) map.terms[k][c] = float(right[c][k]);
+  }
+  return map;
+}
+
+shared::ColorMap constantColorMap(const glm::vec3& linear) {
+  shared::ColorMap map{};
+  map.terms[0] = glm::sqrt(linear);
+  return map;
+}
+
+shared::ColorMap identityColorMap() {
+  shared::ColorMap map{};
+  for (int c = 0; c < 3; ++c) map.terms[1 + c][c] = 1;
+  return map;
+}
+
+glm::vec3 apply(const shared::ColorMap& map, const glm::vec3& linear) {
+  const Terms terms = termsOf(glm::sqrt(glm::clamp(glm::dvec3(linear), 0.0, 1.0)));
+  glm::vec3 root(0.0f);
+  for (int k = 0; k < kTerms; ++k) root += float(terms[k]) * map.terms[k];
+  root = glm::max(root, 0.0f);
+  return root * root;
 }
 
 bool hasGround(const scene::SceneData& scene, const look::LookData& look) {
@@ -70,41 +143,21 @@ bool hasGround(const scene::SceneData& scene, const look::LookData& look) {
   return size.y > 0.12f * std::max(size.x, size.z);
 }
 
-AffineColorMap fitColorMap(const std::function<glm::dvec3(const glm::dvec3&)>& rule) {
-  // Normal equations over a grid of roots: unknowns are three coefficients and an offset for each output channel.
-  constexpr int kGrid = 5;
-  glm::dmat4 normal(0.0);
-  glm::dvec4 right[3] = {};
-  for (int i = 0; i < kGrid * kGrid * kGrid; ++i) {
-    const glm::dvec3 root = glm::dvec3(i % kGrid, i / kGrid % kGrid, i / (kGrid * kGrid)) / double(kGrid - 1);
-    const glm::dvec4 x(root, 1.0);
-    // Greys and soft colours are what scenes are made of; pure primaries count less.
-    const double spread = std::max({root.r, root.g, root.b}) - std::min({root.r, root.g, root.b});
-    const double weight = 1.0 / (0.1 + spread * spread);
-    const glm::dvec3 y = glm::sqrt(rule(root * root));
-    normal += weight * glm::outerProduct(x, x);
-    for (int c = 0; c < 3; ++c) right[c] += weight * y[c] * x;
-  }
-  const glm::dmat4 inverse = glm::inverse(normal);
-  AffineColorMap map;
-  for (int c = 0; c < 3; ++c) {
-    const glm::dvec4 row = inverse * right[c];
-    for (int k = 0; k < 3; ++k) map.matrix[k][c] = float(row[k]);
-    map.offset[c] = float(row[3]);
-  }
-  return map;
-}
-
 BackgroundColors automaticBackground(const SceneColors& colors) {
   const glm::dvec3 scene = oklabFromLinear(glm::dvec3(colors.meanRootRgb * colors.meanRootRgb));
-  // Light scenes stand before a middle value, dark ones before a light one; hue leans away from the scene's own.
-  const double lightness = scene.x > 0.62 ? std::clamp(scene.x - 0.26, 0.55, 0.66) : std::clamp(scene.x + 0.34, 0.76, 0.88);
-  const glm::dvec2 own(scene.y, scene.z);
-  const glm::dvec2 away = glm::length(own) > 0.02 ? -own / glm::length(own) : glm::dvec2(0.0);
-  const auto color = [&](double l, glm::dvec2 ab) { return glm::vec3(toGamut({l, ab.x, ab.y})); };
-  const glm::dvec2 warm(0.012, 0.040), cool(-0.028, -0.018);
-  return {color(lightness, 0.8 * warm + 0.010 * away), color(lightness - 0.07, cool + 0.012 * away),
-          color(lightness - 0.035, warm + 0.004 * away)};
+  // Light scenes stand before a middle value and cool air; dark ones before a light value, warm cream unless they are
+  // warm themselves.
+  const bool light = scene.x > 0.60;
+  const double lightness = light ? std::clamp(scene.x - 0.19, 0.60, 0.69) : std::clamp(scene.x + 0.36, 0.78, 0.89);
+  const double warmth = std::clamp((scene.y + scene.z) / 0.08, -1.0, 1.0);
+  const double coolness = light ? 0.80 + 0.20 * warmth : 0.38 + 0.40 * warmth;
+  const glm::dvec2 warm(0.018, 0.050), cool(-0.030, -0.036);
+  const auto color = [&](double l, double mix) {
+    const glm::dvec2 ab = glm::mix(warm, cool, glm::clamp(mix, 0.0, 1.0));
+    return glm::vec3(toGamut({l, ab.x, ab.y}));
+  };
+  return {color(lightness + 0.035, coolness - 0.10), color(lightness - 0.045, coolness + 0.10),
+          color(lightness, coolness - 0.22)};
 }
 
 }  // namespace scumble::frame

@@ -25,16 +25,15 @@ namespace scumble::frame {
 glm::dvec3 litColor(const PaletteParams& params, const glm::dvec3& albedo);
 glm::dvec3 shadowedColor(const PaletteParams& params, const glm::dvec3& albedo);
 
-// An affine map of the square root of linear RGB.
-struct AffineColorMap {
-  glm::mat3 matrix{1.0f};
-  glm::vec3 offset{0.0f};
-  glm::vec3 apply(const glm::vec3& linear) const;
-};
-
-// The affine map nearest to a rule over the colours of sRGB (least squares): what shaders evaluate, since a cube root
-// each for three channels at every fragment would cost more than the rest of the surface pass.
-AffineColorMap fitColorMap(const std::function<glm::dvec3(const glm::dvec3&)>& rule);
+// A rule carried to the GPU: its quadratic polynomial in the square root of linear RGB, nearest by least squares over
+// the colours of sRGB. Shaders evaluate this, since the rule itself needs a cube root for each channel and a search for
+// the gamut.
+shared::ColorMap fitColorMap(const std::function<glm::dvec3(const glm::dvec3&)>& rule);
+// The map that gives one colour for everything.
+shared::ColorMap constantColorMap(const glm::vec3& linear);
+shared::ColorMap identityColorMap();
+// What a shader makes of it (src/shading/color_map.glsl).
+glm::vec3 apply(const shared::ColorMap& map, const glm::vec3& linear);
 
 // Whether a ground is put under this scene.
 bool hasGround(const scene::SceneData& scene, const look::LookData& look);

@@ -45,7 +45,8 @@ std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration
   list.push_back(passes::makeSurface());
   list.push_back(passes::makeBlur());
   list.push_back(passes::makeFinalShadow([](const look::LookData& look, float pixelScale) {
-    return passes::planBlur(look.get<passes::BlurParams>().radius * pixelScale).amount;
+    const passes::BlurParams blur = look.get<passes::BlurParams>();
+    return passes::BlurFacts{passes::planBlur(blur.radius * pixelScale).amount, passes::depthFalloff(blur.depthEdge)};
   }));
   list.push_back(passes::makeColor());
   list.push_back(passes::makeFinalColor());
@@ -53,11 +54,10 @@ std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration
   return list;
 }
 
-std::vector<bool> shadowCasters(const SceneOnGpu& scene, const look::LookData& look) {
+std::vector<bool> shadowCasters(const scene::SceneData& scene, const look::LookData& look) {
   std::vector<bool> casts;
-  for (size_t m = 0; m < scene.materialCount(); ++m)
-    casts.push_back(int(m) != scene.groundMaterial() &&
-                    look.getForMaterial<passes::ShadowMapParams>(scene.materialName(m)).cast);
+  for (const scene::Material& material : scene.materials)
+    casts.push_back(look.getForMaterial<passes::ShadowMapParams>(material.name).cast);
   return casts;
 }
 

@@ -10,7 +10,7 @@ namespace scumble::frame {
 
 std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration);
 
-// Whether a draw casts shadows under a look; the light fits its shadow map to those.
-std::vector<bool> shadowCasters(const SceneOnGpu& scene, const look::LookData& look);
+// Which materials cast shadows under a look; the ground, if there is one, is no material of the scene's.
+std::vector<bool> shadowCasters(const scene::SceneData& scene, const look::LookData& look);
 
 }  // namespace scumble::frame

@@ -60,7 +60,7 @@ GpuInfo toPublic(const gpu::DeviceInfo& info) {
 struct Setup {
   Configuration configuration;
   gpu::Buffer uniformBuffer;
-  UniformSlice frameSlice, materialSlice;
+  UniformSlice frameSlice;
   std::optional<FrameBuilder> builder;
   gpu::SetLayout frameLayout;
   gpu::DescriptorSets frameSet;
@@ -91,12 +91,12 @@ struct Renderer::Impl {
     samplers.reset();
   }
 
-  void useScene(const Scene& wanted, bool withGround) {
-    if (sceneOnGpu && &scene->data() == &wanted.data() && sceneOnGpu->hasGround() == withGround) return;
+  void useScene(const Scene& wanted, const GeometryOptions& options) {
+    if (sceneOnGpu && &scene->data() == &wanted.data() && sceneOnGpu->options() == options) return;
     setup.reset();
     sceneOnGpu.reset();
     scene = wanted;
-    sceneOnGpu.emplace(*device, *samplers, scene->data(), withGround);
+    sceneOnGpu.emplace(*device, *samplers, scene->data(), options);
   }
 
   void useConfiguration(const Configuration& configuration);
@@ -119,7 +119,6 @@ void Renderer::Impl::useConfiguration(const Configuration& configuration) {
   next->builder.emplace(*device, *samplers, configuration, *sceneOnGpu,
                         UniformSlice{next->uniformBuffer.handle(), 0, size, next->uniformBuffer.mapped()});
   next->frameSlice = next->builder->uniform(sizeof(shared::FrameUniforms));
-  next->materialSlice = next->builder->uniform(sceneOnGpu->materialCount() * sizeof(shared::MaterialData));
 
   // Passes declare what they read and write; then images, and with them pipelines and descriptor sets, can be made.
   next->passes = makePasses(configuration);
@@ -127,12 +126,10 @@ void Renderer::Impl::useConfiguration(const Configuration& configuration) {
   for (const Slot slot : configuration.readBack)
     next->readbacks.emplace_back(std::make_unique<Readback>())->declare(*next->builder, slot);
   next->frameLayout = gpu::SetLayout(*device, {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_ALL},
-                                               {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_ALL},
                                                {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_ALL}});
   next->frameSet = gpu::DescriptorSets(*device, next->frameLayout);
   next->frameSet.writeBuffer(0, 0, next->frameSlice.buffer, next->frameSlice.offset, next->frameSlice.size);
   next->frameSet.writeBuffer(0, 1, sceneOnGpu->objects().handle());
-  next->frameSet.writeBuffer(0, 2, next->materialSlice.buffer, next->materialSlice.offset, next->materialSlice.size);
   next->resources.emplace(*device, *next->builder, next->frameLayout, next->frameSet[0]);
   for (const auto& pass : next->passes) pass->create(*next->builder, *next->resources);
   for (const auto& readback : next->readbacks) readback->create(*next->builder, *next->resources);
@@ -268,21 +265,23 @@ Result<Frame> Renderer::render(const Scene& scene, const Look& look, double time
       start = Clock::now();
       return elapsed;
     };
-    impl_->useScene(scene, hasGround(scene.data(), look.data()) && !options.transparent);
+    GeometryOptions geometry;
+    geometry.ground = hasGround(scene.data(), look.data()) && !options.transparent;
+    geometry.shadowWarp = look.data().get<LightParams>().shadowWarp;
+    geometry.casts = shadowCasters(scene.data(), look.data());
+    impl_->useScene(scene, geometry);
     frame.stats.uploadMilliseconds = lap();
     impl_->useConfiguration(configuration);
     frame.stats.setupMilliseconds = lap();
 
     // Write the uniforms.
     Setup& setup = *impl_->setup;
-    const SceneOnGpu& sceneOnGpu = *impl_->sceneOnGpu;
+    SceneOnGpu& sceneOnGpu = *impl_->sceneOnGpu;
     const shared::FrameUniforms uniforms = frameUniforms(sceneOnGpu, look.data(), views, options.previousViews, time,
                                                          configuration, options.seed);
     setup.frameSlice.write(uniforms);
-    for (size_t m = 0; m < sceneOnGpu.materialCount(); ++m) {
-      const shared::MaterialData data = materialData(sceneOnGpu, m, look.data());
-      std::memcpy(setup.materialSlice.mapped + m * sizeof(data), &data, sizeof(data));
-    }
+    for (size_t m = 0; m < sceneOnGpu.materialCount(); ++m)
+      sceneOnGpu.setMaterial(m, materialData(sceneOnGpu, m, look.data()));
     const FrameInput input{look.data(), uniforms, sceneOnGpu, options.transparent, options.seed};
     for (const auto& pass : setup.passes) pass->update(input);
     frame.stats.cpuMilliseconds = lap();

@@ -36,6 +36,8 @@ VkSamplerAddressMode addressMode(scene::Wrap wrap) {
   }
 }
 
+// From one material's data to the next: no device wants uniforms at larger steps than 256.
+constexpr uint64_t kMaterialStride = (sizeof(shared::MaterialData) + 255) / 256 * 256;
 constexpr size_t kDeformRow = 32768;  // a row of deform's workgroups at most
 
 // Where a primitive's data lies in the rest buffers.
@@ -63,19 +65,20 @@ Stream<T> reserve(gpu::Uploader& uploader, uint64_t count, VkBufferUsageFlags us
 
 }  // namespace
 
-SceneOnGpu::SceneOnGpu(gpu::Device& device, gpu::Samplers& samplers, const scene::SceneData& scene, bool withGround)
-    : data_(&scene) {
+SceneOnGpu::SceneOnGpu(gpu::Device& device, gpu::Samplers& samplers, const scene::SceneData& scene,
+                       const GeometryOptions& options)
+    : data_(&scene), options_(options) {
   for (const scene::Material& material : scene.materials) materialNames_.push_back(material.name);
-  if (withGround) {
+  if (options.ground) {
     groundMaterial_ = int(materialNames_.size());
     materialNames_.push_back("Ground");
   }
   gpu::Uploader uploader(device);
-  const Geometry geometry = collectGeometry(scene, groundMaterial_);
+  const Geometry geometry = collectGeometry(scene, options, groundMaterial_);
   bounds_ = geometry.bounds;
   buildGeometry(device, uploader, geometry);
   measureColors(geometry);
-  buildTextures(device, samplers, uploader);
+  buildMaterials(device, samplers, uploader);
   uploader.flush();
 }
 
@@ -153,6 +156,7 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
     draw.cullsBack = !material.doubleSided;
     draw.mirrored = item.skin < 0 && glm::determinant(linear) < 0;
     draw.textured = material.baseColorTexture.image >= 0 || material.emissiveTexture.image >= 0;
+    draw.casts = item.casts;
     draw.bounds = item.bounds;
     draws_.push_back(draw);
     triangleCount_ += draw.indexCount / 3;
@@ -209,7 +213,7 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
   finalFrame_ = gpu::Buffer(device, finals * sizeof(shared::VertexFrame), kStorage | kVertex, gpu::MemoryKind::device);
 }
 
-void SceneOnGpu::buildTextures(gpu::Device& device, gpu::Samplers& samplers, gpu::Uploader& uploader) {
+void SceneOnGpu::buildMaterials(gpu::Device& device, gpu::Samplers& samplers, gpu::Uploader& uploader) {
   const uint32_t white = 0xFFFFFFFFu;
   images_.push_back(uploader.texture(&white, VK_FORMAT_R8G8B8A8_SRGB, 1, 1, false));
   for (const scene::Image& image : data_->images) {
@@ -220,22 +224,31 @@ void SceneOnGpu::buildTextures(gpu::Device& device, gpu::Samplers& samplers, gpu
   }
 
   constexpr VkDescriptorType kTexture = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-  textureLayout_ = gpu::SetLayout(
-      device, {{kTexture, VK_SHADER_STAGE_FRAGMENT_BIT}, {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT}});
-  textureSets_ = gpu::DescriptorSets(device, textureLayout_, uint32_t(materialNames_.size()));
+  constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+  materialLayout_ = gpu::SetLayout(device, {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kStages},
+                                            {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
+                                            {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT}});
+  materialSets_ = gpu::DescriptorSets(device, materialLayout_, uint32_t(materialNames_.size()));
+  materialData_ = gpu::Buffer(device, materialNames_.size() * kMaterialStride, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                              gpu::MemoryKind::upload);
   const auto write = [&](size_t set, uint32_t binding, const scene::TextureUse& use) {
     gpu::SamplerDesc desc;
     desc.wrapU = addressMode(use.sampler.wrapU);
     desc.wrapV = addressMode(use.sampler.wrapV);
     desc.mipmaps = use.sampler.mipmaps;
     if (use.sampler.nearest) desc.filter = VK_FILTER_NEAREST;
-    textureSets_.writeTexture(set, binding, images_[size_t(use.image + 1)].view(), samplers.get(desc));
+    materialSets_.writeTexture(set, binding, images_[size_t(use.image + 1)].view(), samplers.get(desc));
   };
   for (size_t m = 0; m < materialNames_.size(); ++m) {
     const scene::Material material = m < data_->materials.size() ? data_->materials[m] : scene::Material{};
-    write(m, 0, material.baseColorTexture);
-    write(m, 1, material.emissiveTexture);
+    materialSets_.writeBuffer(m, 0, materialData_.handle(), m * kMaterialStride, sizeof(shared::MaterialData));
+    write(m, 1, material.baseColorTexture);
+    write(m, 2, material.emissiveTexture);
   }
+}
+
+void SceneOnGpu::setMaterial(size_t material, const shared::MaterialData& data) {
+  std::memcpy(materialData_.mapped() + material * kMaterialStride, &data, sizeof(data));
 }
 
 void SceneOnGpu::measureColors(const Geometry& geometry) {

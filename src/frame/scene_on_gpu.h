@@ -27,6 +27,7 @@ struct Draw {
   bool cullsBack = true;  // single-sided
   bool mirrored = false;  // the object's matrix turns triangles inside out
   bool textured = false;
+  bool casts = true;      // shadows
   scene::Bounds bounds;   // world, rest pose
 };
 
@@ -35,19 +36,29 @@ struct SceneColors {
   glm::vec3 meanRootRgb{0.5f};  // square root of linear RGB, averaged over the surface
 };
 
+// What of the look goes into a scene's geometry; when it changes, the scene is built anew.
+struct GeometryOptions {
+  bool ground = false;
+  float shadowWarp = 0;               // strength of the shadow map's sigmoid, which long triangles cannot follow
+  std::vector<bool> casts;            // by material: whether it casts shadows
+  bool operator==(const GeometryOptions&) const = default;
+};
+
 struct Geometry;
 
 class SceneOnGpu {
  public:
   // Throws gpu::VulkanError when it does not fit.
-  SceneOnGpu(gpu::Device& device, gpu::Samplers& samplers, const scene::SceneData& scene, bool withGround);
+  SceneOnGpu(gpu::Device& device, gpu::Samplers& samplers, const scene::SceneData& scene,
+             const GeometryOptions& options);
+
+  const GeometryOptions& options() const { return options_; }
 
   const scene::SceneData& data() const { return *data_; }
   const std::vector<Draw>& draws() const { return draws_; }
   // Materials by index: the scene's, then (with a ground) the ground's.
   size_t materialCount() const { return materialNames_.size(); }
   const std::string& materialName(size_t material) const { return materialNames_[material]; }
-  bool hasGround() const { return groundMaterial_ >= 0; }
   int groundMaterial() const { return groundMaterial_; }
   const SceneColors& colors() const { return colors_; }
   const scene::Bounds& bounds() const { return bounds_; }  // without the ground
@@ -63,18 +74,22 @@ class SceneOnGpu {
   const gpu::Buffer& finalFrame() const { return finalFrame_; }
   const gpu::Buffer& surface() const { return surface_; }
   const gpu::Buffer& indices() const { return indices_; }
-  const gpu::SetLayout& textureLayout() const { return textureLayout_; }
-  VkDescriptorSet textures(uint32_t material) const { return textureSets_[material]; }
+  // Set 1 of geometry passes: a material's facts and its textures.
+  const gpu::SetLayout& materialLayout() const { return materialLayout_; }
+  VkDescriptorSet materialSet(uint32_t material) const { return materialSets_[material]; }
+  // Called before each frame, since the colours follow the look.
+  void setMaterial(size_t material, const shared::MaterialData& data);
 
   uint64_t triangleCount() const { return triangleCount_; }
   uint64_t uploadedBytes() const { return uploadedBytes_; }
 
  private:
   void buildGeometry(gpu::Device& device, gpu::Uploader& uploader, const Geometry& geometry);
-  void buildTextures(gpu::Device& device, gpu::Samplers& samplers, gpu::Uploader& uploader);
+  void buildMaterials(gpu::Device& device, gpu::Samplers& samplers, gpu::Uploader& uploader);
   void measureColors(const Geometry& geometry);
 
   const scene::SceneData* data_;
+  GeometryOptions options_;
   std::vector<std::string> materialNames_;
   int groundMaterial_ = -1;
   std::vector<Draw> draws_;
@@ -83,8 +98,9 @@ class SceneOnGpu {
   gpu::Buffer objects_, chunks_, restCore_, restFrame_, restSkin_, joints_, finalCore_, finalFrame_, surface_, indices_;
   uint32_t chunkCount_ = 0;
   std::vector<gpu::Image> images_;
-  gpu::SetLayout textureLayout_;
-  gpu::DescriptorSets textureSets_;
+  gpu::Buffer materialData_;
+  gpu::SetLayout materialLayout_;
+  gpu::DescriptorSets materialSets_;
   uint64_t triangleCount_ = 0, uploadedBytes_ = 0;
 };
 

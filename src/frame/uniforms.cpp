@@ -5,7 +5,6 @@
 #include "base/tileable_noise.h"
 #include "frame/light.h"
 #include "frame/palette.h"
-#include "frame/pass_list.h"
 #include "passes/color/color.h"
 
 namespace scumble::frame {
@@ -46,8 +45,7 @@ shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const look::LookDat
 
   const LightParams light = look.get<LightParams>();
   u.toLight = keyLightDirection(scene.data(), light);
-  const std::vector<bool> casts = shadowCasters(scene, look);
-  setLightSpace(u, scene, light, [&](const Draw& draw) { return casts[draw.material]; }, viewer);
+  setLightSpace(u, scene, light, viewer);
   return u;
 }
 
@@ -68,10 +66,6 @@ shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const l
   transform(material.baseColorTexture, data.baseUvRowU, data.baseUvRowV, data.baseUvSet);
   transform(material.emissiveTexture, data.emissiveUvRowU, data.emissiveUvRowV, data.emissiveUvSet);
 
-  const auto setMap = [](const AffineColorMap& map, glm::mat3& matrix, glm::vec3& offset) {
-    matrix = map.matrix, offset = map.offset;
-  };
-  const auto constant = [](const glm::vec3& linear) { return AffineColorMap{glm::mat3(0.0f), glm::sqrt(linear)}; };
   if (isGround) {
     // The ground belongs to the background, not to the scene's palette.
     const glm::vec3 ground = look.get<passes::BackgroundParams>().mode == 0
@@ -79,8 +73,8 @@ shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const l
                                  : glm::vec3(look.get<GroundParams>().tint);
     PaletteParams plain = palette;
     plain.darkest = 0, plain.lightest = 1, plain.litTintAmount = 0;
-    setMap(constant(ground), data.litMap, data.litOffset);
-    setMap(constant(glm::vec3(shadowedColor(plain, glm::dvec3(ground)))), data.shadowedMap, data.shadowedOffset);
+    data.lit = constantColorMap(ground);
+    data.shadowed = constantColorMap(glm::vec3(shadowedColor(plain, glm::dvec3(ground))));
     return data;
   }
   const auto lit = [&](const glm::dvec3& c) { return litColor(palette, c); };
@@ -90,19 +84,19 @@ shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const l
     for (const scene::Primitive& primitive : mesh.primitives)
       coloured |= primitive.material == int(index) && !primitive.colors.empty();
   if (coloured) {
-    setMap(fitColorMap(lit), data.litMap, data.litOffset);
-    setMap(fitColorMap(shadowed), data.shadowedMap, data.shadowedOffset);
+    data.lit = fitColorMap(lit);
+    data.shadowed = fitColorMap(shadowed);
   } else {
     // A single colour needs no fit: it goes through the rule itself.
     const glm::dvec3 base = glm::clamp(glm::dvec3(material.baseColor), 0.0, 1.0);
-    setMap(constant(glm::vec3(lit(base))), data.litMap, data.litOffset);
-    setMap(constant(glm::vec3(shadowed(base))), data.shadowedMap, data.shadowedOffset);
+    data.lit = constantColorMap(glm::vec3(lit(base)));
+    data.shadowed = constantColorMap(glm::vec3(shadowed(base)));
   }
   if (material.shadowedColor) {
     // A scene that brings its own colours for shadow has chosen those for light as well.
     data.shadowedColor = *material.shadowedColor;
     data.hasShadowedColor = palette.ownShadow;
-    if (palette.ownShadow >= 1) data.litMap = glm::mat3(1.0f), data.litOffset = glm::vec3(0.0f);
+    if (palette.ownShadow >= 1) data.lit = identityColorMap();
   }
   return data;
 }

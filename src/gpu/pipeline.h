@@ -104,8 +104,10 @@ class Pipeline {
   }
   VkPipelineLayout layout() const { return layout_; }
   void bind(VkCommandBuffer commands) const { vkCmdBindPipeline(commands, bindPoint_, pipeline_); }
-  void bindSet(VkCommandBuffer commands, uint32_t index, VkDescriptorSet set) const {
-    vkCmdBindDescriptorSets(commands, bindPoint_, layout_, index, 1, &set, 0, nullptr);
+  void bindSet(VkCommandBuffer commands, uint32_t index, VkDescriptorSet set,
+               std::span<const uint32_t> dynamicOffsets = {}) const {
+    vkCmdBindDescriptorSets(commands, bindPoint_, layout_, index, 1, &set, uint32_t(dynamicOffsets.size()),
+                            dynamicOffsets.data());
   }
   explicit operator bool() const { return pipeline_ != VK_NULL_HANDLE; }
 

@@ -6,7 +6,6 @@
 
 layout(set = 0, binding = 0, scalar) uniform FrameBlock { FrameUniforms frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer ObjectBlock { ObjectData objects[]; };
-layout(set = 0, binding = 2, scalar) readonly buffer MaterialBlock { MaterialData materials[]; };
 
 // Unit vectors in 2 x snorm16, by the octahedral map (Cigolle et al. 2014).
 vec3 decodeNormal(vec2 oct) {

@@ -75,16 +75,19 @@ struct VertexSurface {
   uint color;  // unorm8 RGBA, linear
 };
 
-// A material's facts; knobs lie in the passes' own per-material buffers, under the same index.
+// Square root of a colour as a polynomial of the square root (r, g, b) of another; terms in the order
+// 1, r, g, b, rr, gg, bb, rg, gb, br.
+const int kColorMapTerms = 10;
+struct ColorMap {
+  vec3 terms[kColorMapTerms];
+};
+
+// A material's facts; its knobs lie in the passes' own uniforms.
 struct MaterialData {
   vec4 baseColor;
   vec3 emissive;
   float alphaCutoff;
-  // Affine maps of the square root of linear RGB: from albedo to lit and to shadowed colour (docs/palette.md).
-  mat3 litMap;
-  vec3 litOffset;
-  mat3 shadowedMap;
-  vec3 shadowedOffset;
+  ColorMap lit, shadowed;  // from albedo to the colours in light and in shadow (docs/palette.md)
   vec3 shadowedColor;      // the material's own; used where hasShadowedColor is 1
   float hasShadowedColor;
   vec3 baseUvRowU, baseUvRowV;          // KHR_texture_transform: u' = dot(row, (u, v, 1))

@@ -31,10 +31,14 @@ struct MetaTextureScale {
   vec2 blend;     // eq. 7
 };
 
-// `size`: edge of the example texture on the screen, pixels.
-MetaTextureScale metaTextureScale(vec2 gradU, vec2 gradV, float size) {
+// `size`: edge of the example texture on the screen, pixels. Where the surface is seen edge-on and u and v run askew,
+// both gradients point across the silhouette, and a scale chosen by them would stretch the texture along it. Their
+// magnitudes are therefore bounded by twice what they would be without skew, 1 / |dS/du| and 1 / |dS/dv|.
+MetaTextureScale metaTextureScale(vec2 gradU, vec2 gradV, vec2 dSdu, vec2 dSdv, float size) {
   MetaTextureScale s;
-  vec2 magnitude = max(vec2(length(gradU), length(gradV)), vec2(1e-20));
+  vec2 magnitude = vec2(length(gradU), length(gradV));
+  vec2 bound = 2.0 / max(vec2(length(dSdu), length(dSdv)), vec2(1e-20));
+  magnitude = max(min(magnitude, bound), vec2(1e-20));
   s.exponent = clamp(-log2(size * magnitude), vec2(-60.0), vec2(60.0));
   vec2 t = s.exponent - floor(s.exponent);
   s.blend = t * t * (3.0 - 2.0 * t);

@@ -27,6 +27,8 @@ BlurPlan planBlur(float radius) {
   return plan;
 }
 
+float depthFalloff(float depthEdge) { return depthEdge > 0 ? 0.5f / (depthEdge * depthEdge) : 0.0f; }
+
 namespace {
 
 class Blur : public Pass {
@@ -50,7 +52,8 @@ class Blur : public Pass {
                                      frame.slot(Slot::blur)};
     const ImageShader shader{{shaders::blur_image_frag}, {shaders::blur_image_comp}};
     for (size_t i = 0; i < steps_.size(); ++i)
-      steps_[i].declare(frame, "blur", shader, {{chain[i]}}, chain[i + 1], sizeof(shared::BlurStep));
+      steps_[i].declare(frame, "blur", shader, {{chain[i]}, {frame.slot(Slot::depth)}}, chain[i + 1],
+                        sizeof(shared::BlurStep));
   }
 
   void create(FrameBuilder& frame, const FrameResources& resources) override {
@@ -58,7 +61,8 @@ class Blur : public Pass {
   }
 
   void update(const FrameInput& input) override {
-    const BlurPlan plan = planBlur(input.look.get<BlurParams>().radius * input.uniforms.pixelScale);
+    const BlurParams params = input.look.get<BlurParams>();
+    const BlurPlan plan = planBlur(params.radius * input.uniforms.pixelScale);
     for (size_t i = 0; i < steps_.size(); ++i) {
       const bool halves = i < 4;
       const float sigma = halves ? plan.halvingSigma[i / 2] : plan.fullSigma;
@@ -67,6 +71,8 @@ class Blur : public Pass {
       step.halving = halves;
       step.reach = int(std::ceil(2.5f * sigma));
       step.falloff = sigma > 0 ? 0.5f / (sigma * sigma) : 1.0f;
+      step.depthFalloff = depthFalloff(params.depthEdge);
+      step.first = i == 0;
       steps_[i].update(step);
     }
   }

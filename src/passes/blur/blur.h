@@ -20,6 +20,9 @@ struct BlurPlan {
 // `radius`: twice the standard deviation wanted, in pixels.
 BlurPlan planBlur(float radius);
 
+// 1 / (2 sigma^2) for a depth edge of sigma; 0 for none.
+float depthFalloff(float depthEdge);
+
 std::unique_ptr<frame::Pass> makeBlur();
 
 }  // namespace scumble::passes

@@ -38,7 +38,7 @@ class Facts : public Pass {
   void create(FrameBuilder& frame, const FrameResources& resources) override {
     resources_ = &resources;
     scene_ = &frame.scene();
-    layout_ = gpu::SetLayout(frame.device(), {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_FRAGMENT_BIT}});
+    layout_ = gpu::SetLayout(frame.device(), {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VK_SHADER_STAGE_FRAGMENT_BIT}});
     set_ = gpu::DescriptorSets(frame.device(), layout_);
     metaTextureParams_.bind(set_, 0);
     GeometryStepDesc desc;
@@ -48,6 +48,7 @@ class Facts : public Pass {
     for (const Slot fact : kFacts) desc.colorFormats.push_back(slotInfo(fact).format);
     desc.viewMask = viewMask_;
     desc.passLayout = &layout_;
+    desc.materialStrides = {metaTextureParams_.kStride};
     step_.create(frame.device(), resources, frame.scene(), desc);
   }
 

@@ -2,12 +2,11 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
 #include "../../shading/frame.glsl"
-#include "../../shading/alpha.glsl"
+#include "../../shading/material.glsl"
 #include "../../shading/metatexture.glsl"
 
 layout(constant_id = 0) const int kAlphaMode = 0;
-layout(set = 1, binding = 0, scalar) readonly buffer MetaTextureBlock { MetaTextureParams metaTextureParams[]; };
-layout(set = 2, binding = 0) uniform sampler2D baseTexture;
+layout(set = 2, binding = 0, scalar) uniform MetaTextureBlock { MetaTextureParams meta; };
 
 layout(location = 0) in vec3 inPosition;
 layout(location = 1) in vec3 inNormal;
@@ -28,19 +27,14 @@ layout(location = 6) out vec4 outMotion;
 layout(location = 7) out vec4 outId;
 
 void main() {
-  ObjectData object = objects[inObject];
-  if (kAlphaMode != 0) {
-    MaterialData material = materials[object.material];
-    discardHoles(material, material.baseColor.a * inBaseUvAlpha.z * texture(baseTexture, inBaseUvAlpha.xy).a,
-                 kAlphaMode);
-  }
+  if (kAlphaMode != 0 && isHole(inBaseUvAlpha.xy, inBaseUvAlpha.z, kAlphaMode)) discard;
   float w = 1.0 / gl_FragCoord.w;
   vec2 ndc = gl_FragCoord.xy / frame.imageSize * 2.0 - 1.0;
+  vec2 dSdu = projectTangent(inTangentU, ndc, w, frame.imageSize);
+  vec2 dSdv = projectTangent(inTangentV, ndc, w, frame.imageSize);
   vec2 gradU, gradV;
-  uvGradients(projectTangent(inTangentU, ndc, w, frame.imageSize), projectTangent(inTangentV, ndc, w, frame.imageSize),
-              gradU, gradV);
-  MetaTextureParams meta = metaTextureParams[object.material];
-  MetaTextureScale scale = metaTextureScale(gradU, gradV, meta.size * frame.pixelScale);
+  uvGradients(dSdu, dSdv, gradU, gradV);
+  MetaTextureScale scale = metaTextureScale(gradU, gradV, dSdu, dSdv, meta.size * frame.pixelScale);
 
   outDepth = vec4(eyeDepth(gl_FragCoord.z, gl_ViewIndex));
   outPosition = vec4(inPosition, 1.0);
@@ -50,5 +44,5 @@ void main() {
   outMetaTexture = vec4(scale.exponent, 0.0, meta.contrast != 0 ? inversesqrt(metaTextureVariance(scale)) : 1.0);
   vec2 previous = (inPrevious.xy / inPrevious.w * 0.5 + 0.5) * frame.imageSize;
   outMotion = vec4(gl_FragCoord.xy - previous, 0.0, 1.0);
-  outId = vec4(float(object.id));
+  outId = vec4(float(objects[inObject].id));
 }

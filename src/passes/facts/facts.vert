@@ -2,6 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
 #include "../../shading/frame.glsl"
+#include "../../shading/material.glsl"
 
 layout(constant_id = 0) const int kAlphaMode = 0;
 
@@ -32,9 +33,5 @@ void main() {
   outTangentV = (view.worldToClip * vec4(inDPdv, 0.0)).xyw;
   outPrevious = view.previousWorldToClip * vec4(inPosition, 1.0);
   outObject = gl_InstanceIndex;
-  if (kAlphaMode != 0) {
-    MaterialData material = materials[objects[gl_InstanceIndex].material];
-    vec3 uv = vec3(material.baseUvSet == 1 ? inUv1 : inUv0, 1.0);
-    outBaseUvAlpha = vec3(dot(material.baseUvRowU, uv), dot(material.baseUvRowV, uv), inColor.a);
-  }
+  if (kAlphaMode != 0) outBaseUvAlpha = vec3(baseUv(inUv0, inUv1), inColor.a);
 }

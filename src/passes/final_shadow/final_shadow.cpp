@@ -13,12 +13,12 @@ namespace {
 
 class FinalShadow : public Pass {
  public:
-  explicit FinalShadow(BlurAmount blurAmount) : blurAmount_(blurAmount) {}
+  explicit FinalShadow(BlurFactsOf blurFacts) : blurFacts_(blurFacts) {}
   const char* name() const override { return "final-shadow"; }
 
   void declare(FrameBuilder& frame) override {
     step_.declare(frame, "final-shadow", {{shaders::final_shadow_image_frag}, {shaders::final_shadow_image_comp}},
-                  {{frame.slot(Slot::blur), true}, {frame.slot(Slot::shadow)}}, frame.slot(Slot::finalShadow),
+                  {{frame.slot(Slot::blur), true}, {frame.slot(Slot::shadow)}, {frame.slot(Slot::depth)}}, frame.slot(Slot::finalShadow),
                   sizeof(shared::FinalShadowUniforms));
   }
   void create(FrameBuilder& frame, const FrameResources& resources) override { step_.create(frame, resources); }
@@ -31,17 +31,19 @@ class FinalShadow : public Pass {
     uniforms.innerGlow = params.innerGlow;
     uniforms.indication = params.indication;
     uniforms.indicationSteps = params.indicationSteps;
-    uniforms.blurAmount = blurAmount_(input.look, input.uniforms.pixelScale);
+    const BlurFacts blur = blurFacts_(input.look, input.uniforms.pixelScale);
+    uniforms.blurAmount = blur.amount;
+    uniforms.depthFalloff = blur.depthFalloff;
     step_.update(uniforms);
   }
 
  private:
-  BlurAmount blurAmount_;
+  BlurFactsOf blurFacts_;
   ImageStep step_;
 };
 
 }  // namespace
 
-std::unique_ptr<Pass> makeFinalShadow(BlurAmount blurAmount) { return std::make_unique<FinalShadow>(blurAmount); }
+std::unique_ptr<Pass> makeFinalShadow(BlurFactsOf blurFacts) { return std::make_unique<FinalShadow>(blurFacts); }
 
 }  // namespace scumble::passes

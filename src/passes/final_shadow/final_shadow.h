@@ -11,8 +11,12 @@ namespace scumble::passes {
 #define PARAMS_PER_MATERIAL false
 #include "look/define_params.h"
 
-// `blurAmount`: how much of the blurred image counts, for a look and a scale of pixels; the blur pass knows.
-using BlurAmount = float (*)(const look::LookData& look, float pixelScale);
-std::unique_ptr<frame::Pass> makeFinalShadow(BlurAmount blurAmount);
+// What the blur tells of its result, for a look and a scale of pixels.
+struct BlurFacts {
+  float amount;        // how much of the blurred image counts
+  float depthFalloff;  // 1 / (2 sigma^2) of relative depth across which it did not blur
+};
+using BlurFactsOf = BlurFacts (*)(const look::LookData& look, float pixelScale);
+std::unique_ptr<frame::Pass> makeFinalShadow(BlurFactsOf blurFacts);
 
 }  // namespace scumble::passes

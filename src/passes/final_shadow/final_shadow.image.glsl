@@ -3,17 +3,32 @@
 // breakup map is set, more steps (paper 000, section 5.1).
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
-#extension GL_EXT_scalar_block_layout : require
+#include "../../shading/frame.glsl"
 #include "final_shadow.shared.h"
 
 layout(set = 1, binding = 0, scalar) uniform Block { FinalShadowUniforms u; };
 layout(set = 1, binding = 1) uniform sampler2DArray blurred;
 layout(set = 1, binding = 2) uniform sampler2DArray shadow;
+layout(set = 1, binding = 3) uniform sampler2DArray depthBuffer;
 
-// Blurred light, free of the background.
-float blurredLight(vec2 at, int layer) {
-  vec4 b = textureLod(blurred, vec3(at, layer), 0.0);
-  return b.r / max(b.a, 1e-3);
+float lightOf(vec4 b) { return b.r / max(b.a, 1e-3); }
+
+// Blurred light at a full-size pixel: of the four texels around it, those at its own depth count.
+float blurredLight(vec2 at, float depth, int layer) {
+  vec2 texel = at * vec2(textureSize(blurred, 0).xy) - 0.5;
+  ivec2 corner = ivec2(floor(texel)), last = textureSize(blurred, 0).xy - 1;
+  vec2 f = texel - vec2(corner);
+  float sum = 0.0, weights = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 offset = ivec2(i & 1, i >> 1);
+    vec4 b = texelFetch(blurred, ivec3(clamp(corner + offset, ivec2(0), last), layer), 0);
+    vec2 side = mix(1.0 - f, f, vec2(offset));
+    float z = (b.b - depth) / depth;
+    float weight = side.x * side.y * max(exp(-z * z * u.depthFalloff), 1e-4) * (b.a + 1e-4);
+    sum += weight * lightOf(b);
+    weights += weight;
+  }
+  return sum / weights;
 }
 
 vec4 shade(ivec2 pixel, int layer) {
@@ -22,12 +37,15 @@ vec4 shade(ivec2 pixel, int layer) {
   own.rgb /= own.a;
   vec2 texel = 1.0 / vec2(textureSize(shadow, 0).xy);
   vec2 at = (vec2(pixel) + 0.5) * texel;
-  float light = mix(own.r, blurredLight(at, layer), u.blurAmount);
+  float depth = min(eyeDepth(texelFetch(depthBuffer, ivec3(pixel, layer), 0).r, layer), 60000.0);
+  float light = mix(own.r, blurredLight(at, depth, layer), u.blurAmount);
 
   // FORMULAS 15: the edge is about `softness` pixels wide, whatever the slope of the blurred image.
   vec2 dx = vec2(texel.x, 0.0), dy = vec2(0.0, texel.y);
-  float slope = 0.5 * length(vec2(blurredLight(at + dx, layer) - blurredLight(at - dx, layer),
-                                  blurredLight(at + dy, layer) - blurredLight(at - dy, layer)));
+  float slope = 0.5 * length(vec2(lightOf(textureLod(blurred, vec3(at + dx, layer), 0.0)) -
+                                      lightOf(textureLod(blurred, vec3(at - dx, layer), 0.0)),
+                                  lightOf(textureLod(blurred, vec3(at + dy, layer), 0.0)) -
+                                      lightOf(textureLod(blurred, vec3(at - dy, layer), 0.0))));
   float width = max(0.5 * u.softness * slope, 1e-3);
   float lit = smoothstep(u.threshold - width, u.threshold + width, light);
 

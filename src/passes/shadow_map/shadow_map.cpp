@@ -34,27 +34,19 @@ class ShadowMap : public Pass {
     step_.create(frame.device(), resources, frame.scene(), desc);
   }
 
-  void update(const FrameInput& input) override {
-    casts_.clear();
-    for (size_t m = 0; m < input.scene.materialCount(); ++m)
-      casts_.push_back(int(m) != input.scene.groundMaterial() &&
-                       input.look.getForMaterial<ShadowMapParams>(input.scene.materialName(m)).cast);
-  }
-
  private:
   void record(VkCommandBuffer commands) const {
     Target depth{&resources_->image(map_), nullptr, {}};
     depth.clear.depthStencil = {1.0f, 0};
     const RenderingScope scope(commands, kShadowMapSize, kShadowMapSize, 0, {}, &depth);
     step_.draw(commands, *resources_, *scene_, VK_NULL_HANDLE, glm::vec3(0.0f),
-               [&](const Draw& draw) { return casts_[draw.material]; });
+               [](const Draw& draw) { return draw.casts; });
   }
 
   gpu::ResourceId map_ = 0;
   const FrameResources* resources_ = nullptr;
   const SceneOnGpu* scene_ = nullptr;
   GeometryStep step_;
-  std::vector<bool> casts_;
 };
 
 }  // namespace

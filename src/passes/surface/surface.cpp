@@ -65,13 +65,13 @@ class Surface : public Pass {
     knife_ = uploader.texture(makeKnifeMarks().data(), VK_FORMAT_R8G8B8A8_UNORM, kKnifeSize, kKnifeSize, false);
     uploader.flush();
     layout_ = gpu::SetLayout(frame.device(),
-                             {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_FRAGMENT_BIT},
-                              {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_FRAGMENT_BIT},
+                             {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VK_SHADER_STAGE_FRAGMENT_BIT},
+                              {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_FRAGMENT_BIT},
                               {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT},
                               {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}});
     set_ = gpu::DescriptorSets(frame.device(), layout_);
-    set_.writeBuffer(0, 0, uniforms_.buffer, uniforms_.offset, uniforms_.size);
-    params_.bind(set_, 1);
+    params_.bind(set_, 0);
+    set_.writeBuffer(0, 1, uniforms_.buffer, uniforms_.offset, uniforms_.size);
     gpu::SamplerDesc compare;
     compare.compareLess = true;
     set_.writeTexture(0, 2, resources.image(shadowMap_).view(), frame.samplers().get(compare));
@@ -89,6 +89,7 @@ class Surface : public Pass {
     desc.viewMask = viewMask_;
     desc.blends = true;
     desc.passLayout = &layout_;
+    desc.materialStrides = {params_.kStride};
     step_.create(frame.device(), resources, frame.scene(), desc);
   }
 

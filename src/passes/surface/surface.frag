@@ -4,19 +4,19 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
 #include "../../shading/frame.glsl"
+#include "../../shading/color_map.glsl"
 #include "../../shading/light_space.glsl"
+#include "../../shading/material.glsl"
 #include "../../shading/metatexture.glsl"
 #include "surface.glsl"
 
 layout(constant_id = 0) const int kAlphaMode = 0;  // 0 opaque, 1 masked, 2 blended
 layout(constant_id = 1) const int kTextured = 0;
 
-layout(set = 1, binding = 0, scalar) uniform SurfaceBlock { SurfaceUniforms surface; };
-layout(set = 1, binding = 1, scalar) readonly buffer ParamsBlock { SurfaceParams surfaceParams[]; };
-layout(set = 1, binding = 2) uniform sampler2DArrayShadow shadowMap;
-layout(set = 1, binding = 3) uniform sampler2D knife;
-layout(set = 2, binding = 0) uniform sampler2D baseTexture;
-layout(set = 2, binding = 1) uniform sampler2D emissiveTexture;
+layout(set = 2, binding = 0, scalar) uniform ParamsBlock { SurfaceParams params; };
+layout(set = 2, binding = 1, scalar) uniform SurfaceBlock { SurfaceUniforms surface; };
+layout(set = 2, binding = 2) uniform sampler2DArrayShadow shadowMap;
+layout(set = 2, binding = 3) uniform sampler2D knife;
 
 layout(location = 0) in vec3 inPosition;
 layout(location = 1) in vec3 inNormal;
@@ -24,8 +24,7 @@ layout(location = 2) in vec4 inColor;
 layout(location = 3) in vec4 inUvs;
 layout(location = 4) in vec3 inTangentU;
 layout(location = 5) in vec3 inTangentV;
-layout(location = 6) flat in uint inMaterial;
-layout(location = 7) in vec2 inUv0;
+layout(location = 6) in vec2 inUv0;
 
 layout(location = 0) out vec4 outShadow;
 layout(location = 1) out vec4 outLit;
@@ -45,15 +44,7 @@ float lightReaches(vec3 position, vec3 normal, float lambert) {
   return texture(shadowMap, vec4(uv, 0.0, clamp(p.z - bias, 0.0, 1.0)));
 }
 
-vec3 affine(mat3 map, vec3 offset, vec3 root) {
-  vec3 c = max(map * root + offset, vec3(0.0));
-  return c * c;
-}
-
 void main() {
-  MaterialData material = materials[inMaterial];
-  SurfaceParams params = surfaceParams[inMaterial];
-
   // Albedo and alpha.
   vec4 albedo = material.baseColor * inColor;
   vec3 emissive = material.emissive;
@@ -77,18 +68,19 @@ void main() {
   // Blue: the breakup map, only where the surface is oblique to the light and the light reaches it.
   float w = 1.0 / gl_FragCoord.w;
   vec2 ndc = gl_FragCoord.xy / frame.imageSize * 2.0 - 1.0;
+  vec2 dSdu = projectTangent(inTangentU, ndc, w, frame.imageSize);
+  vec2 dSdv = projectTangent(inTangentV, ndc, w, frame.imageSize);
   vec2 gradU, gradV;
-  uvGradients(projectTangent(inTangentU, ndc, w, frame.imageSize), projectTangent(inTangentV, ndc, w, frame.imageSize),
-              gradU, gradV);
-  MetaTextureScale scale = metaTextureScale(gradU, gradV, params.indicationSize * frame.pixelScale);
+  uvGradients(dSdu, dSdv, gradU, gradV);
+  MetaTextureScale scale = metaTextureScale(gradU, gradV, dSdu, dSdv, params.indicationSize * frame.pixelScale);
   float marks = metaTexture(knife, inUv0, scale, vec4(0.5), 1.0, frame.patternShift).x;
   float oblique = 1.0 - smoothstep(0.0, params.indicationWidth, abs(lambert - surface.terminator));
   float breakup = material.unlit != 0 ? 0.0 : clamp(marks, 0.0, 1.0) * oblique * reaches * params.indication;
 
   // Colours in light and in shadow.
   vec3 root = sqrt(clamp(albedo.rgb, 0.0, 1.0));
-  vec3 lit = affine(material.litMap, material.litOffset, root);
-  vec3 shadowed = affine(material.shadowedMap, material.shadowedOffset, root);
+  vec3 lit = applyColorMap(material.lit, root);
+  vec3 shadowed = applyColorMap(material.shadowed, root);
   shadowed = mix(shadowed, material.shadowedColor, material.hasShadowedColor);
   shadowed *= mix(surface.groundTint, surface.skyTint, 0.5 + 0.5 * normal.y);
   if (material.unlit != 0) shadowed = lit;

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
 #include "../../shading/frame.glsl"
-#include "surface.glsl"
+#include "../../shading/material.glsl"
 
 layout(constant_id = 1) const int kTextured = 0;
 
@@ -20,8 +20,7 @@ layout(location = 2) out vec4 outColor;
 layout(location = 3) out vec4 outUvs;
 layout(location = 4) out vec3 outTangentU;
 layout(location = 5) out vec3 outTangentV;
-layout(location = 6) flat out uint outMaterial;
-layout(location = 7) out vec2 outUv0;
+layout(location = 6) out vec2 outUv0;
 
 void main() {
   ViewUniforms view = frame.views[gl_ViewIndex];
@@ -29,15 +28,8 @@ void main() {
   outPosition = inPosition;
   outNormal = decodeNormal(inNormal);
   outColor = inColor;
-  outMaterial = objects[gl_InstanceIndex].material;
   outUv0 = inUv0;
   outTangentU = (view.worldToClip * vec4(inDPdu, 0.0)).xyw;
   outTangentV = (view.worldToClip * vec4(inDPdv, 0.0)).xyw;
-  if (kTextured != 0) {
-    MaterialData m = materials[outMaterial];
-    vec3 base = vec3(m.baseUvSet == 1 ? inUv1 : inUv0, 1.0);
-    vec3 emissive = vec3(m.emissiveUvSet == 1 ? inUv1 : inUv0, 1.0);
-    outUvs = vec4(dot(m.baseUvRowU, base), dot(m.baseUvRowV, base), dot(m.emissiveUvRowU, emissive),
-                  dot(m.emissiveUvRowV, emissive));
-  }
+  if (kTextured != 0) outUvs = vec4(baseUv(inUv0, inUv1), emissiveUv(inUv0, inUv1));
 }

@@ -21,10 +21,10 @@ constexpr uint32_t kNoiseSize = 256;  // texels; one texel a pixel at the defaul
 // The example texture: two independent fields in red and green. Rough at every scale down to the texel, so that edges
 // are torn and not wavy.
 std::vector<uint8_t> makeNoise() {
-  const std::vector<float> x = selfSimilarNoise(kNoiseSize, 12, 4, 0.78f, 11);
-  const std::vector<float> y = selfSimilarNoise(kNoiseSize, 12, 4, 0.78f, 23);
+  const std::vector<float> x = selfSimilarNoise(kNoiseSize, 14, 4, 0.62f, 11);
+  const std::vector<float> y = selfSimilarNoise(kNoiseSize, 14, 4, 0.62f, 23);
   std::vector<uint8_t> texels(size_t(kNoiseSize) * kNoiseSize * 4, 255);
-  const auto byte = [](float v) { return uint8_t(std::lround(std::clamp(0.5f + v / 6.0f, 0.0f, 1.0f) * 255)); };
+  const auto byte = [](float v) { return uint8_t(std::lround(std::clamp(0.5f + v / 4.0f, 0.0f, 1.0f) * 255)); };
   for (size_t i = 0; i < x.size(); ++i) {
     texels[4 * i] = byte(x[i]);
     texels[4 * i + 1] = byte(y[i]);
@@ -59,8 +59,8 @@ class Warp : public Pass {
 
     constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
     layout_ = gpu::SetLayout(frame.device(),
-                             {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kStages},
-                              {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kStages},
+                             {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, kStages},
+                              {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, kStages},
                               {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}});
     set_ = gpu::DescriptorSets(frame.device(), layout_);
     params_.bind(set_, 0);
@@ -74,6 +74,7 @@ class Warp : public Pass {
     desc.colorFormats = {slotInfo(Slot::warp).format};
     desc.viewMask = viewMask_;
     desc.passLayout = &layout_;
+    desc.materialStrides = {params_.kStride, metaTextureParams_.kStride};
     step_.create(frame.device(), resources, frame.scene(), desc);
   }
 

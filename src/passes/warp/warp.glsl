@@ -4,5 +4,5 @@ struct WarpParams {
 #include "warp.params"
 #undef PARAM
 };
-layout(set = 1, binding = 0, scalar) readonly buffer WarpBlock { WarpParams warpParams[]; };
-layout(set = 1, binding = 1, scalar) readonly buffer MetaTextureBlock { MetaTextureParams metaTextureParams[]; };
+layout(set = 2, binding = 0, scalar) uniform WarpBlock { WarpParams warp; };
+layout(set = 2, binding = 1, scalar) uniform MetaTextureBlock { MetaTextureParams meta; };

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_multiview : require
 #include "../../shading/frame.glsl"
+#include "../../shading/material.glsl"
 #include "../../shading/metatexture.glsl"
 #include "warp.glsl"
 
@@ -19,12 +20,10 @@ layout(location = 7) in vec3 inDPdv;
 layout(location = 0) out vec2 outUv;
 layout(location = 1) out vec3 outTangentU;  // clip-space x, y, w of dP/du
 layout(location = 2) out vec3 outTangentV;
-layout(location = 3) flat out uint outMaterial;
-layout(location = 4) out vec3 outBaseUvAlpha;
+layout(location = 3) out vec3 outBaseUvAlpha;
 
 void main() {
   ViewUniforms view = frame.views[gl_ViewIndex];
-  uint material = objects[gl_InstanceIndex].material;
   vec4 clip = view.worldToClip * vec4(inPosition, 1.0);
 
   // Outward on the screen, in pixels per metre. Its length tells how far the normal is turned from the viewer:
@@ -36,7 +35,7 @@ void main() {
   float size = length(outward);
   float turned = smoothstep(0.05, 0.35, abs(size / pixelsPerMetre));
   if (clip.w > 0.0 && size > 0.0) {
-    float pixels = warpParams[material].inflation * frame.pixelScale * turned;
+    float pixels = warp.inflation * frame.pixelScale * turned;
     clip.xy += outward / size * pixels / (0.5 * frame.imageSize) * clip.w;
   }
   gl_Position = clip;
@@ -44,9 +43,5 @@ void main() {
   outUv = inUv0;
   outTangentU = (view.worldToClip * vec4(inDPdu, 0.0)).xyw;
   outTangentV = (view.worldToClip * vec4(inDPdv, 0.0)).xyw;
-  outMaterial = material;
-  if (kAlphaMode != 0) {
-    vec3 uv = vec3(materials[material].baseUvSet == 1 ? inUv1 : inUv0, 1.0);
-    outBaseUvAlpha = vec3(dot(materials[material].baseUvRowU, uv), dot(materials[material].baseUvRowV, uv), inColor.a);
-  }
+  if (kAlphaMode != 0) outBaseUvAlpha = vec3(baseUv(inUv0, inUv1), inColor.a);
 }

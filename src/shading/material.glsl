@@ -1,0 +1,26 @@
+// Descriptor set 1 of geometry passes: the material of what is being drawn. It changes between draws, not within one,
+// which lets drivers load it once and not for every fragment.
+#ifndef SCUMBLE_MATERIAL_GLSL
+#define SCUMBLE_MATERIAL_GLSL
+
+layout(set = 1, binding = 0, scalar) uniform MaterialBlock { MaterialData material; };
+layout(set = 1, binding = 1) uniform sampler2D baseTexture;
+layout(set = 1, binding = 2) uniform sampler2D emissiveTexture;
+
+vec2 baseUv(vec2 uv0, vec2 uv1) {
+  vec3 uv = vec3(material.baseUvSet == 1 ? uv1 : uv0, 1.0);
+  return vec2(dot(material.baseUvRowU, uv), dot(material.baseUvRowV, uv));
+}
+
+vec2 emissiveUv(vec2 uv0, vec2 uv1) {
+  vec3 uv = vec3(material.emissiveUvSet == 1 ? uv1 : uv0, 1.0);
+  return vec2(dot(material.emissiveUvRowU, uv), dot(material.emissiveUvRowV, uv));
+}
+
+// For passes that only need to know where a surface is: whether a masked one (mode 1) has a hole there, or a blended one
+// (mode 2) is nearly not there.
+bool isHole(vec2 uv, float vertexAlpha, int alphaMode) {
+  float alpha = vertexAlpha * material.baseColor.a * texture(baseTexture, uv).a;
+  return alpha < (alphaMode == 1 ? material.alphaCutoff : 0.5);
+}
+#endif
