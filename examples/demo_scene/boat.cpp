@@ -8,7 +8,7 @@ int addBoat(Document& document, int parent) {
   using meshkit::kPi;
   // She heads to the left and a little away, heeled to leeward, towards the viewer, so that the deck shows.
   constexpr float kYaw = 0.17f, kHeel = 0.13f, kTrim = 0.012f;  // radians
-  const glm::vec2 place = {2.75f, 0.0f};
+  const glm::vec2 place = {2.0f, 0.0f};
   const glm::quat rotation = glm::angleAxis(kPi - kYaw, glm::vec3(0, 1, 0)) *
                              glm::angleAxis(kTrim, glm::vec3(0, 0, 1)) *
                              glm::angleAxis(-kHeel, glm::vec3(1, 0, 0));

@@ -10,7 +10,7 @@ using namespace demo;
 
 // Degrees: the sun stands low, to the left and a bit in front, so that jib, mast and gaff draw on the
 // mainsail.
-constexpr float kSunElevation = 21.0f, kSunAzimuth = 23.0f;  // azimuth from the left towards the viewer
+constexpr float kSunElevation = 21.0f, kSunAzimuth = 25.0f;  // azimuth from the left towards the viewer
 
 Document makeScene() {
   Document document;

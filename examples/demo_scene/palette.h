@@ -85,7 +85,7 @@ inline std::vector<meshkit::Material> palette() {
       {"Beard", "#F2EBDD", "#9297B4"},
       {"Cap", "#27354F", "#161A33"},
       {"Pennant", "#C8442F", "#7E2A42", true},
-      {"Lantern", "#FFC568", "#F0A04A", false, "#FFB040"},
+      {"Lantern", "#D9802E", "#C06A2A", false, "#8A4410"},
       {"Pier", "#B59A7C", "#5C5A76"},
       {"PierDark", "#8C7768", "#474862"},
       {"Crate", "#BC8E5C", "#5E4C62"},

@@ -36,7 +36,7 @@ Mesh makeDeck(float length) {
 Mesh makePosts(float length) {
   MeshBuilder mesh("PierPosts");
   Random random(12);
-  constexpr float kBay = 3.0f;
+  constexpr float kBay = 4.2f;
   const int bays = int((length - 0.6f) / kBay);
   for (int i = 0; i <= bays; ++i) {
     const float x = length - 0.35f - float(i) * kBay;
@@ -56,8 +56,6 @@ Mesh makePosts(float length) {
     }
     mesh.setMaterial(kPierDark);
     mesh.box({x, kDeckTop - 0.38f, 0}, {0.2f, 0.2f, kWidth + 0.3f});
-    if (i % 2 == 0)
-      mesh.bar({{x, -0.4f, -0.5f * kWidth}, {x, kDeckTop - 0.4f, 0.5f * kWidth}}, 0.08f, 0.14f, {1, 0, 0});
   }
   return mesh.take();
 }
@@ -87,7 +85,6 @@ Mesh makeCrates() {
   crate(mesh, {-2.3f, 0, -0.45f}, 0.15f, {0.95f, 0.75f, 0.8f}, kCrate, kCrateLight);
   crate(mesh, {-3.25f, 0, -0.35f}, -0.2f, {0.8f, 0.65f, 0.7f}, kCrateLight, kCrate);
   crate(mesh, {-2.45f, 0.75f, -0.4f}, 0.5f, {0.68f, 0.55f, 0.6f}, kCrateLight, kCrate);
-  crate(mesh, {-3.9f, 0, 0.62f}, 0.35f, {0.7f, 0.5f, 0.6f}, kCrate, kCrateLight);
   return mesh.take();
 }
 
@@ -171,16 +168,6 @@ Mesh makeLampPost() {
   return mesh.take();
 }
 
-Mesh makeLadder(float length) {
-  MeshBuilder mesh("PierLadder");
-  mesh.setMaterial(kPier);
-  const float z = 0.5f * kWidth + 0.12f;
-  for (float x : {-5.15f, -4.7f}) mesh.box({length + x, 0.55f, z}, {0.07f, 2.6f, 0.07f});
-  for (int i = 0; i < 6; ++i)
-    mesh.box({length - 4.925f, -0.45f + 0.36f * float(i), z}, {0.45f, 0.05f, 0.06f});
-  return mesh.take();
-}
-
 }  // namespace
 
 int addPier(Document& document, int parent, glm::vec3 root, glm::vec3 head) {
@@ -191,7 +178,6 @@ int addPier(Document& document, int parent, glm::vec3 root, glm::vec3 head) {
   document.addMesh(makeDeck(length), pier);
   document.addMesh(makePosts(length), pier);
   document.addMesh(makeBollards(length), pier);
-  document.addMesh(makeLadder(length), pier);
   document.addMesh(makeCrates(), pier, {length, kDeckTop, 0});
   document.addMesh(makeBarrel(), pier, {length - 1.35f, kDeckTop, -0.72f});
   document.addMesh(makeCoil(), pier, {length - 2.35f, kDeckTop, 0.55f});

@@ -8,7 +8,8 @@
 
 namespace demo {
 
-// The sheets are eased to port, to leeward; the gaff sags off further than the boom.
+// The sheets are eased to starboard, to leeward and away from the viewer, so that mast, gaff and jib draw
+// on the hollow side of the mainsail; the gaff sags off further than the boom.
 constexpr float kBoomAngle = 0.09f, kGaffAngle = 0.26f;                       // radians off the centre line
 constexpr float kBoomLength = 2.16f, kGaffLength = 2.30f, kGaffRise = 0.88f;  // metres, metres, radians
 
@@ -20,12 +21,12 @@ constexpr float kMastTop = 5.55f;
 // Along the boom and the gaff, 0 at the mast, 1 at the end.
 inline glm::vec3 boomPoint(float u) {
   const float r = 0.10f + u * kBoomLength;
-  return mastPoint(1.54f) + glm::vec3(-r * std::cos(kBoomAngle), 0.30f * u, -r * std::sin(kBoomAngle));
+  return mastPoint(1.54f) + glm::vec3(-r * std::cos(kBoomAngle), 0.30f * u, r * std::sin(kBoomAngle));
 }
 inline glm::vec3 gaffPoint(float u) {
   const float r = 0.10f + u * kGaffLength, level = r * std::cos(kGaffRise);
   return mastPoint(3.72f) +
-         glm::vec3(-level * std::cos(kGaffAngle), r * std::sin(kGaffRise), -level * std::sin(kGaffAngle));
+         glm::vec3(-level * std::cos(kGaffAngle), r * std::sin(kGaffRise), level * std::sin(kGaffAngle));
 }
 
 inline glm::vec3 bowspritPoint(float u) {

@@ -44,8 +44,8 @@ Mesh makeMainsail() {
       const float draft = std::max(std::sin(kPi * std::pow(u, 0.76f)), 0.0f);
       // The sine of pi is a hair below zero in floats, and a power of that is not a number.
       const float swell = std::max(std::sin(kPi * std::pow(glm::mix(0.16f, 1.0f, v), 0.85f)), 0.0f);
-      const float belly = 0.56f * draft * std::pow(swell, 0.8f);
-      p += glm::vec3(-0.22f, 0.0f, -0.97f) * belly;
+      const float belly = 0.30f * draft * std::pow(swell, 0.8f);
+      p += glm::vec3(-0.22f, 0.0f, 0.97f) * belly;
       // The foot hangs in a curve, the leech is cut slightly hollow.
       p.y -= 0.10f * std::sin(kPi * u) * (1.0f - v) * (1.0f - v);
       p.x += 0.07f * std::sin(kPi * v) * u * u;
@@ -85,7 +85,7 @@ Mesh makeJib() {
   constexpr size_t kColumns = 19, kRows = 25;
   const glm::vec3 stayFoot = bowspritPoint(0.95f), stayHead = mastPoint(4.54f);
   const glm::vec3 tack = glm::mix(stayFoot, stayHead, 0.05f), head = glm::mix(stayFoot, stayHead, 0.90f);
-  const glm::vec3 clew = {1.06f, 1.42f, -0.60f};
+  const glm::vec3 clew = {1.06f, 1.42f, 0.46f};
   Grid sail(kRows, kColumns);
   for (size_t r = 0; r < kRows; ++r) {
     const float v = float(r) / float(kRows - 1);
@@ -94,8 +94,8 @@ Mesh makeJib() {
       const float u = float(c) / float(kColumns - 1);
       glm::vec3 p = glm::mix(luff, leech, u);
       const float belly =
-          0.30f * std::sin(kPi * std::pow(u, 0.8f)) * std::sin(kPi * glm::mix(0.22f, 1.0f, v));
-      p += glm::vec3(-0.15f, 0.0f, -0.98f) * std::max(belly, 0.0f);
+          0.24f * std::sin(kPi * std::pow(u, 0.8f)) * std::sin(kPi * glm::mix(0.22f, 1.0f, v));
+      p += glm::vec3(-0.15f, 0.0f, 0.98f) * std::max(belly, 0.0f);
       p.y -= 0.10f * std::sin(kPi * u) * (1.0f - v) * (1.0f - v);
       sail.at(r, c) = p;
     }
@@ -107,7 +107,7 @@ Mesh makeJib() {
                         false));
   // The sheet runs aft inside the shrouds to the coaming.
   mesh.setMaterial(kRope);
-  mesh.tube(hangingRope(clew, {-0.3f, deckHeight(-0.3f, 0.72f) + 0.03f, -0.74f}, 0.05f, 8), {0.0135f}, 5);
+  mesh.tube(hangingRope(clew, {-0.3f, deckHeight(-0.3f, 0.72f) + 0.03f, 0.74f}, 0.05f, 8), {0.0135f}, 5);
   return mesh.take();
 }
 
