@@ -17,7 +17,7 @@ uint64_t RangeAllocator::allocate(uint64_t size, uint64_t alignment) {
   for (auto it = free_.begin(); it != free_.end(); ++it) {
     const auto [start, length] = *it;
     const uint64_t offset = alignUp(start, alignment);
-    if (offset + size > start + length) continue;
+    if (offset > start + length || size > start + length - offset) continue;  // offset + size may overflow
     free_.erase(it);
     if (offset > start) free_[start] = offset - start;
     if (offset + size < start + length) free_[offset + size] = start + length - offset - size;
