@@ -43,7 +43,7 @@ void addFoam(Document& document, int parent, const glm::mat4& boat) {
       const glm::vec3 hull = waterline(boat, s, side);
       const glm::vec2 at = {hull.x, hull.z};
       const float curl = std::exp(-18.0f * (s - 0.80f) * (s - 0.80f));
-      const float width = (0.06f + 0.34f * curl) * random.between(0.45f, 1.25f) + 0.02f;
+      const float width = (0.30f + 0.45f * curl) * random.between(0.6f, 1.2f);
       strip.at(0, i) = onWater(at - 0.10f * abeam);
       strip.at(1, i) = onWater(at + width * abeam - 0.6f * width * ahead);
     }

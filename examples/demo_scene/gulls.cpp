@@ -62,7 +62,7 @@ int addGulls(Document& document, int parent) {
   };
   const Flight flights[] = {{{-2.5f, 7.0f, 1.0f}, -2.05f, 0.38f, 0.25f},
                             {{-2.2f, 12.4f, -31.0f}, -2.3f, -0.30f, -0.05f},
-                            {{11.2f, 9.6f, -14.0f}, -1.2f, 0.30f, 0.40f}};
+                            {{8.3f, 11.6f, -14.0f}, -1.2f, 0.30f, 0.40f}};
   int number = 1;
   for (const Flight& f : flights) {
     const glm::quat turn =
