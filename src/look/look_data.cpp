@@ -78,7 +78,7 @@ bool matches(const std::string& pattern, const std::string& name) {
 
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
   std::string best;
-  size_t bestDistance = std::max<size_t>(2, word.size() / 3) + 1;
+  size_t bestDistance = std::max<size_t>(2, std::min<size_t>(word.size(), 64) / 3) + 1;
   for (const std::string& candidate : candidates) {
     const size_t distance = editDistance(word.substr(0, 64), candidate);
     if (distance < bestDistance) best = candidate, bestDistance = distance;
@@ -106,11 +106,10 @@ Result<KnobRef> findKnob(const std::string& path) {
 
 Result<Value> parseValue(const ParamRow& row, const std::string& text) {
   if (row.kind == ParamKind::color) {
-    char* end = nullptr;
-    const unsigned long packed = text.size() == 7 && text[0] == '#' ? std::strtoul(text.c_str() + 1, &end, 16) : 0;
-    if (!end || *end || end != text.c_str() + 7)
+    // Digits only: strtoul would also take a sign, spaces and 0x.
+    if (text.size() != 7 || text[0] != '#' || text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
       return badValue("'" + text + "' is no colour", "write it as #RRGGBB");
-    return Value{0, linearFromSrgb(uint32_t(packed))};
+    return Value{0, linearFromSrgb(uint32_t(std::strtoul(text.c_str() + 1, nullptr, 16)))};
   }
   if (row.kind == ParamKind::choice) {
     const std::vector<std::string> names = choiceNames(row);

@@ -81,6 +81,9 @@ class Reader {
   Status readGroup(const json& value, const std::string& knobPath, const std::string& pattern,
                    const std::string& jsonPath) {
     if (value.is_object()) {
+      // No knob lies deeper; a hostile file could use up the stack.
+      if (std::count(knobPath.begin(), knobPath.end(), '.') > 8)
+        return fail(jsonPath, "there is no knob so deep inside", "`scumble params` lists them all");
       for (const auto& [key, child] : value.items()) {
         const Status status =
             readGroup(child, knobPath.empty() ? key : knobPath + "." + key, pattern, jsonPath + "." + key);

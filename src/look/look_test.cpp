@@ -1,0 +1,586 @@
+// The parameter mechanism and looks. The first tests walk over every knob there is, so that a new row of a
+// .params file is tested without a new test. (That the structs' defaults are the rows' is in
+// frame/pass_list_test.cpp, since this room does not know the structs.)
+#include "scumble/look.h"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "look/look_data.h"
+#include "look/shipped_looks.h"
+
+namespace scumble {
+namespace {
+
+using look::Assignment;
+using look::LookData;
+using look::ParamBlock;
+using look::ParamKind;
+using look::ParamRow;
+using nlohmann::json;
+
+struct Row {
+  const ParamBlock* block;
+  const ParamRow* row;
+  std::string path() const { return std::string(block->path) + "." + row->name; }
+  bool isNumber() const { return row->kind == ParamKind::number || row->kind == ParamKind::integer; }
+};
+
+std::vector<Row> allRows() {
+  std::vector<Row> rows;
+  for (const ParamBlock* block : look::allBlocks())
+    for (const ParamRow& row : block->rows) rows.push_back({block, &row});
+  return rows;
+}
+
+// "a.b.c" and a value as a look file.
+std::string nested(const std::string& path, const json& value) {
+  json root = value;
+  std::string rest = path;
+  while (!rest.empty()) {
+    const size_t dot = rest.rfind('.');
+    root = json{{dot == std::string::npos ? rest : rest.substr(dot + 1), root}};
+    rest = dot == std::string::npos ? "" : rest.substr(0, dot);
+  }
+  return root.dump();
+}
+
+// A value that is not the default, as text for set() and as JSON for files.
+struct Sample {
+  std::string text;
+  json value;
+};
+Sample sampleOf(const ParamRow& row) {
+  switch (row.kind) {
+    case ParamKind::color:
+      return {"#12AB9f", "#12AB9f"};
+    case ParamKind::choice: {
+      const std::vector<std::string> names = look::choiceNames(row);
+      const std::string& name = names[row.defaultValue == 0 ? names.size() - 1 : 0];
+      return {name, name};
+    }
+    case ParamKind::toggle:
+      return {row.defaultValue == 0 ? "true" : "false", row.defaultValue == 0};
+    case ParamKind::integer: {
+      const int value = int(row.defaultValue == row.max ? row.min : row.max);
+      return {std::to_string(value), value};
+    }
+    case ParamKind::number:
+      break;
+  }
+  const double value = row.min + 0.375 * (row.max - row.min);
+  return {json(value).dump(), value};
+}
+
+// The bytes of a block under a look, for the whole scene or for one material.
+std::vector<char> bytesOf(const ParamBlock& block, const Look& look, const std::string* material = nullptr) {
+  std::vector<char> bytes(block.structSize, 0);
+  if (material)
+    look.data().fillForMaterial(block, *material, bytes.data());
+  else
+    look.data().fill(block, bytes.data());
+  return bytes;
+}
+
+float numberIn(const std::vector<char>& bytes, const ParamRow& row) {
+  float value = 0;
+  std::memcpy(&value, bytes.data() + row.offset, sizeof(value));
+  return value;
+}
+
+void expectRefused(const Row& row, const std::string& text) {
+  Look look;
+  const Status status = look.set(row.path(), text);
+  ASSERT_FALSE(status.ok()) << row.path() << "=" << text;
+  EXPECT_EQ(status.error().kind, ErrorKind::usage);
+  EXPECT_NE(status.error().message().find(row.path()), std::string::npos) << status.error().message();
+  EXPECT_TRUE(look.data().assignments.empty()) << "a refused value must change nothing";
+}
+
+Look mustRead(const std::string& text) {
+  const Result<Look> look = Look::fromJson(text, "test.json");
+  EXPECT_TRUE(look.ok()) << look.error().message();
+  return look.ok() ? look.value() : Look();
+}
+
+// -- Every knob
+
+TEST(Look, thereAreKnobsAndTheirRowsMakeSense) {
+  const std::vector<Row> rows = allRows();
+  EXPECT_GT(rows.size(), 20u);
+  std::set<std::string> paths;
+  for (const Row& row : rows) {
+    EXPECT_TRUE(paths.insert(row.path()).second) << row.path() << " is there twice";
+    EXPECT_NE(row.path().substr(0, 10), "materials.") << "the name of the group for single materials";
+    EXPECT_NE(*row.row->meaning, '\0') << row.path();
+    EXPECT_LT(row.row->min, row.row->max) << row.path();
+    EXPECT_GE(row.row->defaultValue, row.row->min) << row.path();
+    EXPECT_LE(row.row->defaultValue, row.row->max) << row.path();
+    EXPECT_LE(row.row->offset + 4, row.block->structSize) << row.path();
+    if (row.row->kind == ParamKind::choice) {
+      const std::vector<std::string> names = look::choiceNames(*row.row);
+      EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size()) << row.path();
+      EXPECT_EQ(row.row->min, 0) << row.path();
+      EXPECT_EQ(row.row->max, double(names.size() - 1)) << row.path();
+    }
+  }
+}
+
+TEST(Look, theListOfKnobsSaysWhatTheRowsSay) {
+  const std::vector<Row> rows = allRows();
+  const std::vector<Knob> knobs = Look::knobs();
+  ASSERT_EQ(knobs.size(), rows.size());
+  for (size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(knobs[i].path, rows[i].path());
+    EXPECT_EQ(knobs[i].perMaterial, rows[i].block->perMaterial);
+    EXPECT_EQ(knobs[i].meaning, rows[i].row->meaning);
+    // What the list shows, set() reads: and it means the default.
+    Look look;
+    const Status status = look.set(knobs[i].path, knobs[i].defaultValue);
+    ASSERT_TRUE(status.ok()) << status.error().message();
+    if (rows[i].isNumber())
+      EXPECT_FLOAT_EQ(float(look.data().assignments[0].value.number), float(rows[i].row->defaultValue));
+    if (rows[i].row->kind == ParamKind::color)
+      EXPECT_EQ(look::srgbFromLinear(look.data().assignments[0].value.linear),
+                uint32_t(rows[i].row->defaultValue));
+  }
+}
+
+TEST(Look, theEndsOfARangeAreInIt) {
+  for (const Row& row : allRows()) {
+    if (!row.isNumber()) continue;
+    for (const double end : {row.row->min, row.row->max}) {
+      Look look;
+      EXPECT_TRUE(look.set(row.path(), json(end).dump()).ok()) << row.path();
+      EXPECT_TRUE(Look::fromJson(nested(row.path(), end), "f").ok()) << row.path();
+    }
+    const double step = row.row->kind == ParamKind::integer ? 1 : 1e-3 * (row.row->max - row.row->min);
+    for (const double beyond : {row.row->min - step, row.row->max + step, -1e300, 1e300}) {
+      expectRefused(row, json(beyond).dump());
+      EXPECT_FALSE(Look::fromJson(nested(row.path(), beyond), "f").ok()) << row.path();
+    }
+  }
+}
+
+TEST(Look, setAndFileGiveTheSameAndChangeOnlyThatKnob) {
+  const Look defaults;
+  for (const Row& row : allRows()) {
+    const Sample sample = sampleOf(*row.row);
+    Look bySet;
+    const Status status = bySet.set(row.path(), sample.text);
+    ASSERT_TRUE(status.ok()) << status.error().message();
+    const Look byFile = mustRead(nested(row.path(), sample.value));
+    EXPECT_EQ(bytesOf(*row.block, bySet), bytesOf(*row.block, byFile)) << row.path();
+    // Only the row's own bytes may differ from an untouched block.
+    const size_t size = row.row->kind == ParamKind::color ? 12 : 4;
+    std::vector<char> filled(row.block->structSize, 0x55), untouched = filled;
+    bySet.data().fill(*row.block, filled.data());
+    for (size_t i = 0; i < filled.size(); ++i)
+      if (i < row.row->offset || i >= row.row->offset + size)
+        ASSERT_EQ(filled[i], untouched[i]) << row.path();
+    if (row.row->kind == ParamKind::number)
+      EXPECT_EQ(numberIn(filled, *row.row), float(sample.value.get<double>())) << row.path();
+    for (const ParamBlock* other : look::allBlocks())
+      if (other != row.block) ASSERT_EQ(bytesOf(*other, bySet), bytesOf(*other, defaults));
+  }
+}
+
+TEST(Look, everyNameOfAChoiceIsItsPlace) {
+  for (const Row& row : allRows()) {
+    if (row.row->kind != ParamKind::choice) continue;
+    const std::vector<std::string> names = look::choiceNames(*row.row);
+    for (size_t i = 0; i < names.size(); ++i) {
+      Look look;
+      ASSERT_TRUE(look.set(row.path(), names[i]).ok()) << row.path() << "=" << names[i];
+      int32_t index = -1;
+      std::memcpy(&index, bytesOf(*row.block, look).data() + row.row->offset, 4);
+      EXPECT_EQ(index, int(i));
+    }
+    expectRefused(row, names[0] + "x");
+    expectRefused(row, row.row->unit);  // "a|b" is no name
+  }
+}
+
+TEST(Look, valuesOfAWrongTypeAreRefused) {
+  for (const Row& row : allRows()) {
+    std::vector<json> wrong = {nullptr, json::array({1})};
+    switch (row.row->kind) {
+      case ParamKind::number:
+      case ParamKind::integer:
+        for (const char* text : {"", "x", "1x", "1,5", "nan", "inf", "--1", "true"}) expectRefused(row, text);
+        wrong.insert(wrong.end(), {true, "1"});
+        break;
+      case ParamKind::toggle:
+        for (const char* text : {"", "2", "yes?", "TRUE "}) expectRefused(row, text);
+        wrong.insert(wrong.end(), {1, "true"});
+        break;
+      case ParamKind::choice:
+        for (const char* text : {"", "no such choice", "0"}) expectRefused(row, text);
+        wrong.insert(wrong.end(), {0, true});
+        break;
+      case ParamKind::color:
+        for (const char* text : {"", "#", "#12345", "#1234567", "123456", "#12345g", "#-12345", "#+12345",
+                                 "# 12345", "#0x1234", "red"})
+          expectRefused(row, text);
+        wrong.insert(wrong.end(), {0x123456, true, json::array({1, 0, 0})});
+        break;
+    }
+    for (const json& value : wrong) {
+      const Result<Look> look = Look::fromJson(nested(row.path(), value), "dir/my.json");
+      ASSERT_FALSE(look.ok()) << row.path() << " = " << value;
+      EXPECT_EQ(look.error().kind, ErrorKind::unusableFile);
+      EXPECT_EQ(look.error().file, "dir/my.json");
+      EXPECT_EQ(look.error().jsonPath.substr(0, row.path().size()), row.path());
+    }
+  }
+}
+
+TEST(Look, wholeNumbersAreWhole) {
+  for (const Row& row : allRows()) {
+    if (row.row->kind != ParamKind::integer) continue;
+    expectRefused(row, json(row.row->min + 0.5).dump());
+    EXPECT_FALSE(Look::fromJson(nested(row.path(), row.row->min + 0.5), "f").ok());
+  }
+}
+
+// A slip of one letter must lead back to the knob that was meant.
+TEST(Look, misspelledKnobsAreSuggested) {
+  for (const Row& row : allRows()) {
+    const std::string path = row.path();
+    std::string without = path, doubled = path;
+    without.erase(path.size() - 2, 1);
+    doubled.insert(path.size() - 1, 1, 'q');
+    for (const std::string& slip : {without, doubled}) {
+      Look look;
+      const Status status = look.set(slip, "1");
+      ASSERT_FALSE(status.ok()) << slip;
+      EXPECT_NE(status.error().advice.find("'" + path + "'"), std::string::npos) << status.error().message();
+      const Result<Look> file = Look::fromJson(nested(slip, 1), "f");
+      ASSERT_FALSE(file.ok());
+      EXPECT_NE(file.error().message().find(path), std::string::npos) << file.error().message();
+    }
+  }
+}
+
+TEST(Look, aRightNameInTheWrongPlaceIsSuggestedToo) {
+  Look look;
+  const Status status = look.set("somewhereElse.completelyDifferent.indicationSteps", "1");
+  ASSERT_FALSE(status.ok());
+  EXPECT_NE(status.error().advice.find(".indicationSteps'"), std::string::npos) << status.error().message();
+}
+
+TEST(Look, whatResemblesNothingHasOtherAdvice) {
+  for (const char* path :
+       {"", ".", "..", "qqqqqqqqqqqq", "shadow", "materials", "materials.", "materials..", "materials.*"}) {
+    Look look;
+    const Status status = look.set(path, "1");
+    ASSERT_FALSE(status.ok()) << path;
+    EXPECT_FALSE(status.error().advice.empty()) << path;
+  }
+}
+
+// -- Materials
+
+const Row& knobForMaterials() {
+  static const Row found = [] {
+    for (const Row& row : allRows())
+      if (row.block->perMaterial && row.row->kind == ParamKind::number && row.row->min == 0) return row;
+    return Row{};
+  }();
+  return found;
+}
+
+float forMaterial(const Look& look, const std::string& material) {
+  const Row& row = knobForMaterials();
+  return numberIn(bytesOf(*row.block, look, &material), *row.row);
+}
+
+// Values that this knob takes, by a number from 1 to 9.
+double level(int i) {
+  return knobForMaterials().row->max * i / 10;
+}
+std::string text(int i) {
+  return json(level(i)).dump();
+}
+
+TEST(LookMaterials, patternsMayHoldWildcardsAndDots) {
+  const std::string knob = knobForMaterials().path();
+  const struct {
+    const char *pattern, *name;
+    bool matches;
+  } cases[] = {{"Sail", "Sail", true},
+               {"Sail", "Sails", false},
+               {"Sail*", "Sails", true},
+               {"*ail*", "Mainsail.001", true},
+               {"S?il", "Soil", true},
+               {"S?il", "Sil", false},
+               {"*", "", true},
+               {"*.001", "Hull.001", true},
+               {"Hull.001", "Hull.001", true},
+               {"Hull.001", "Hull.002", false},
+               {"a*b*c", "a.b.b.c", true},
+               {"a*b*c", "a.c", false},
+               {"Größe", "Größe", true},
+               {"?", "", false},
+               {"**", "x", true},
+               {"sail", "Sail", false}};
+  for (const auto& c : cases) {
+    Look bySet;
+    const Status status = bySet.set("materials." + std::string(c.pattern) + "." + knob, text(7));
+    ASSERT_TRUE(status.ok()) << status.error().message();
+    EXPECT_EQ(forMaterial(bySet, c.name) == float(level(7)), c.matches) << c.pattern << " " << c.name;
+    const json inner = json::parse(nested(knob, level(7)));
+    const Look byFile = mustRead(json{{"materials", {{c.pattern, inner}}}}.dump());
+    EXPECT_EQ(forMaterial(byFile, c.name) == float(level(7)), c.matches) << c.pattern << " " << c.name;
+    EXPECT_EQ(numberIn(bytesOf(*knobForMaterials().block, byFile), *knobForMaterials().row), 0.0f)
+        << "what is set for a material must not hold for the scene";
+  }
+}
+
+TEST(LookMaterials, theyWinOverTheScene) {
+  const std::string knob = knobForMaterials().path();
+  Look look;
+  ASSERT_TRUE(look.set("materials.Sail*." + knob, text(3)).ok());
+  ASSERT_TRUE(look.set(knob, text(5)).ok());  // later, and still weaker
+  EXPECT_EQ(forMaterial(look, "Sail"), float(level(3)));
+  EXPECT_EQ(forMaterial(look, "Hull"), float(level(5)));
+}
+
+TEST(LookMaterials, ofTwoAlikeTheLaterOneWins) {
+  const std::string knob = knobForMaterials().path();
+  Look look;
+  ASSERT_TRUE(look.set("materials.Sail." + knob, text(3)).ok());
+  ASSERT_TRUE(look.set("materials.*." + knob, text(4)).ok());
+  EXPECT_EQ(forMaterial(look, "Sail"), float(level(4)));
+  ASSERT_TRUE(look.set(knob, text(1)).ok());
+  ASSERT_TRUE(look.set(knob, text(2)).ok());
+  EXPECT_EQ(numberIn(bytesOf(*knobForMaterials().block, look), *knobForMaterials().row), float(level(2)));
+}
+
+TEST(LookMaterials, setWinsOverTheFile) {
+  const std::string knob = knobForMaterials().path();
+  json root = json::parse(nested(knob, level(1)));
+  root["materials"]["Sail"] = json::parse(nested(knob, level(2)));
+  Look look = mustRead(root.dump());
+  const Look before = look;
+  ASSERT_TRUE(look.set("materials.S*." + knob, text(6)).ok());
+  ASSERT_TRUE(look.set(knob, text(8)).ok());
+  EXPECT_EQ(forMaterial(look, "Sail"), float(level(6)));
+  EXPECT_EQ(forMaterial(look, "Hull"), float(level(8)));
+  // Copies are independent.
+  EXPECT_EQ(forMaterial(before, "Sail"), float(level(2)));
+  EXPECT_EQ(forMaterial(before, "Hull"), float(level(1)));
+}
+
+TEST(LookMaterials, knobsOfTheWholeSceneAreRefusedThere) {
+  for (const Row& row : allRows()) {
+    const Sample sample = sampleOf(*row.row);
+    Look look;
+    const Status status = look.set("materials.Sail." + row.path(), sample.text);
+    EXPECT_EQ(status.ok(), row.block->perMaterial) << row.path();
+    const json inner = json::parse(nested(row.path(), sample.value));
+    const Result<Look> file = Look::fromJson(json{{"materials", {{"Sail", inner}}}}.dump(), "f");
+    EXPECT_EQ(file.ok(), row.block->perMaterial) << row.path();
+    if (!row.block->perMaterial) {
+      EXPECT_NE(status.error().message().find("whole scene"), std::string::npos) << status.error().message();
+      EXPECT_EQ(file.error().jsonPath, "materials.Sail." + row.path());
+    }
+  }
+}
+
+// -- Files
+
+TEST(LookFile, aSyntaxErrorNamesItsLine) {
+  const struct {
+    const char* text;
+    int line;
+  } cases[] = {{"", 1},
+               {"{", 1},
+               {"{\n  \"shadow\": {\n    \"threshold\": 0.4,,\n  }\n}\n", 3},
+               {"{}\n\n\nx", 4},
+               {"{\n\"a\": \"\x01\"}", 2},
+               {"{\n\n\"description\": \"\xff\"}", 3},
+               {"{ /* comment */ }", 1}};
+  for (const auto& c : cases) {
+    const Result<Look> look = Look::fromJson(c.text, "dir/a.look.json");
+    ASSERT_FALSE(look.ok()) << c.text;
+    EXPECT_EQ(look.error().kind, ErrorKind::unusableFile);
+    EXPECT_EQ(look.error().file, "dir/a.look.json");
+    EXPECT_EQ(look.error().line, c.line) << c.text;
+    EXPECT_EQ(look.error().message().find('\n'), std::string::npos);
+  }
+}
+
+TEST(LookFile, mistakesNameTheirJsonPath) {
+  const struct {
+    const char *text, *path;
+  } cases[] = {{R"({"description": 3})", "description"},
+               {R"({"materials": 3})", "materials"},
+               {R"({"materials": {"Sail*": 3}})", "materials.Sail*"},
+               {R"({"nothing": {"like": {"it": 3}}})", "nothing.like.it"},
+               {R"({"nothing": 3})", "nothing"}};
+  for (const auto& c : cases) {
+    const Result<Look> look = Look::fromJson(c.text, "a.json");
+    ASSERT_FALSE(look.ok()) << c.text;
+    EXPECT_EQ(look.error().jsonPath, c.path);
+    EXPECT_EQ(look.error().message().substr(0, 8), "a.json (");
+  }
+  for (const char* text : {"3", "[]", "\"x\"", "null", "true"})
+    EXPECT_FALSE(Look::fromJson(text, "a").ok()) << text;
+}
+
+TEST(LookFile, emptyDescribedAndWithASchemaAreFine) {
+  EXPECT_TRUE(mustRead("{}").data().assignments.empty());
+  const Look look =
+      mustRead("\n{ \"$schema\": \"look.schema.json\", \"description\": \"Low sun\", \"materials\": {} }\n");
+  EXPECT_EQ(look.description(), "Low sun");
+  EXPECT_TRUE(look.data().assignments.empty());
+}
+
+// Numbers that no double holds, and objects so deep that a careless reader runs out of stack.
+TEST(LookFile, hostileFilesAreErrors) {
+  EXPECT_FALSE(Look::fromJson(R"({"shadow": {"threshold": 1e999}})", "a").ok());
+  for (const size_t depth : {100u, 200000u}) {
+    std::string deep;
+    for (size_t i = 0; i < depth; ++i) deep += "{\"a\":";
+    deep += "1" + std::string(depth, '}');
+    EXPECT_FALSE(Look::fromJson(deep, "a").ok()) << depth;
+    EXPECT_FALSE(Look::fromJson(std::string(depth, '['), "a").ok()) << depth;
+  }
+}
+
+class LookLoad : public testing::Test {
+ protected:
+  LookLoad() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "scumble look XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~LookLoad() override {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  std::string put(const std::string& name, const std::string& content) {
+    std::ofstream(folder_ / name, std::ios::binary) << content;
+    return (folder_ / name).string();
+  }
+  std::filesystem::path folder_;
+};
+
+TEST_F(LookLoad, aFileByItsPath) {
+  const Result<Look> look = Look::load(put("mine.json", R"({"description": "Mine"})"));
+  ASSERT_TRUE(look.ok()) << look.error().message();
+  EXPECT_EQ(look->description(), "Mine");
+  // A path needs no ending to be one.
+  EXPECT_TRUE(Look::load(put("other", "{}")).ok());
+}
+
+TEST_F(LookLoad, filesThatCannotBeReadAreUnusable) {
+  const std::string folder = (folder_ / "folder.json").string();
+  std::filesystem::create_directory(folder);
+  for (const std::string& path : {(folder_ / "absent.json").string(), std::string("absent.json"), folder,
+                                  put("broken.json", "{"), put("empty.json", "")}) {
+    const Result<Look> look = Look::load(path);
+    ASSERT_FALSE(look.ok()) << path;
+    EXPECT_EQ(look.error().kind, ErrorKind::unusableFile) << path;
+    EXPECT_EQ(look.error().file, path);
+  }
+}
+
+TEST_F(LookLoad, everyLookThatShipsLoadsAndSaysWhatItIs) {
+  const std::vector<ShippedLook> looks = Look::shipped();
+  ASSERT_FALSE(looks.empty());
+  bool hasDefault = false;
+  for (const ShippedLook& shipped : looks) {
+    const Result<Look> look = Look::load(shipped.name);
+    ASSERT_TRUE(look.ok()) << look.error().message();
+    EXPECT_FALSE(shipped.description.empty()) << shipped.name;
+    EXPECT_EQ(look->description(), shipped.description);
+    hasDefault |= shipped.name == "age-of-sail";
+  }
+  EXPECT_TRUE(hasDefault) << "the program's default look";
+}
+
+TEST_F(LookLoad, unknownNamesAreUsageErrorsWithASuggestion) {
+  const Result<Look> near = Look::load("age-of-sial");
+  ASSERT_FALSE(near.ok());
+  EXPECT_EQ(near.error().kind, ErrorKind::usage);
+  EXPECT_NE(near.error().advice.find("'age-of-sail'"), std::string::npos) << near.error().message();
+  const Result<Look> far = Look::load("impressionism by candlelight");
+  ASSERT_FALSE(far.ok());
+  EXPECT_EQ(far.error().kind, ErrorKind::usage);
+  EXPECT_NE(far.error().advice.find("scumble looks"), std::string::npos) << far.error().message();
+}
+
+// -- The schema
+
+TEST(LookSchema, isJsonAndDescribesEveryKnob) {
+  const json schema = json::parse(Look::jsonSchema());
+  EXPECT_EQ(schema["type"], "object");
+  EXPECT_EQ(schema["additionalProperties"], false);
+  EXPECT_TRUE(schema.contains("$schema"));
+  const json& material = schema["properties"]["materials"]["additionalProperties"];
+  for (const Row& row : allRows()) {
+    std::string pointer = "/properties/";
+    for (const char c : row.path()) pointer += c == '.' ? std::string("/properties/") : std::string(1, c);
+    const json::json_pointer at(pointer);
+    ASSERT_TRUE(schema.contains(at)) << row.path();
+    const json& entry = schema[at];
+    EXPECT_NE(entry["description"].get<std::string>().find(row.row->meaning), std::string::npos);
+    EXPECT_TRUE(entry.contains("default")) << row.path();
+    if (row.isNumber()) {
+      EXPECT_EQ(entry["minimum"], row.row->min);
+      EXPECT_EQ(entry["maximum"], row.row->max);
+    }
+    EXPECT_EQ(material.contains(at), row.block->perMaterial) << row.path();
+    // The schema's default is a value that the reader takes.
+    EXPECT_TRUE(Look::fromJson(nested(row.path(), entry["default"]), "f").ok()) << row.path();
+  }
+  EXPECT_EQ(schema["properties"]["description"]["type"], "string");
+}
+
+// Every group forbids what it does not know, so that an editor shows the same mistakes as the program.
+TEST(LookSchema, groupsForbidUnknownKnobs) {
+  const json schema = json::parse(Look::jsonSchema());
+  size_t groups = 0;
+  const std::function<void(const json&)> visit = [&](const json& at) {
+    if (at.contains("properties")) {
+      ++groups;
+      EXPECT_EQ(at.value("additionalProperties", json(true)), json(false));
+      for (const auto& [name, child] : at["properties"].items())
+        if (name != "materials" && name != "$schema") visit(child);
+    }
+  };
+  visit(schema);
+  visit(schema["properties"]["materials"]["additionalProperties"]);
+  EXPECT_GT(groups, look::allBlocks().size());
+}
+
+// -- Small parts
+
+TEST(LookColor, srgbGoesThereAndBack) {
+  for (uint32_t code = 0; code < 256; ++code) {
+    const uint32_t packed = code << 16 | (255 - code) << 8 | (code ^ 0x5a);
+    EXPECT_EQ(look::srgbFromLinear(look::linearFromSrgb(packed)), packed);
+  }
+  EXPECT_EQ(look::linearFromSrgb(0xFFFFFF), glm::vec3(1.0f));
+  EXPECT_NEAR(look::linearFromSrgb(0x808080).g, 0.2158605f, 1e-6f);
+  EXPECT_EQ(look::srgbFromLinear({-1, 0.5f, 9}), 0x00BCFFu);
+}
+
+TEST(LookNearest, findsSlipsAndOnlySlips) {
+  const std::vector<std::string> words{"warp.amount", "warp.inflation", "blur.radius"};
+  EXPECT_EQ(look::nearest("warp.amont", words), "warp.amount");
+  EXPECT_EQ(look::nearest("blur.radii", words), "blur.radius");
+  EXPECT_EQ(look::nearest("zzzz", words), "");
+  EXPECT_EQ(look::nearest("", words), "");
+  EXPECT_EQ(look::nearest(std::string(100000, 'x'), words), "");
+}
+
+}  // namespace
+}  // namespace scumble
