@@ -8,8 +8,8 @@ int addBoat(Document& document, int parent) {
   using meshkit::kPi;
   // She heads to the left and towards the viewer, and her crew's weight heels her to this side, so that the
   // deck shows.
-  constexpr float kYaw = -0.32f, kHeel = 0.13f, kTrim = 0.012f;  // radians
-  const glm::vec2 place = {2.0f, 0.0f};
+  constexpr float kYaw = -0.26f, kHeel = 0.13f, kTrim = 0.012f;  // radians
+  const glm::vec2 place = {2.3f, 0.0f};
   const glm::quat rotation = glm::angleAxis(kPi - kYaw, glm::vec3(0, 1, 0)) *
                              glm::angleAxis(kTrim, glm::vec3(0, 0, 1)) *
                              glm::angleAxis(-kHeel, glm::vec3(1, 0, 0));

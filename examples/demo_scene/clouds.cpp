@@ -42,9 +42,9 @@ int addClouds(Document& document, int parent) {
                                             {{-18, 9, 0}, {24, 13, 14}},
                                             {{22, 7, 0}, {28, 10, 14}},
                                             {{-66, 1, 0}, {30, 5, 10}}}),
-                   clouds, {192, 92, -540});
+                   clouds, {186, 98, -540});
   document.addMesh(makeCloud("CloudFar", {{{0, 2, 0}, {52, 6, 14}}, {{14, 5, 0}, {22, 8, 10}}}), clouds,
-                   {-36, 60, -590});
+                   {-58, 62, -590});
   return clouds;
 }
 

@@ -10,14 +10,14 @@ using namespace demo;
 
 // Degrees: the sun stands low, to the left and a bit in front, so that jib, mast and gaff draw on the
 // mainsail.
-constexpr float kSunElevation = 18.0f, kSunAzimuth = 50.0f;  // azimuth from the left towards the viewer
+constexpr float kSunElevation = 18.0f, kSunAzimuth = 45.0f;  // azimuth from the left towards the viewer
 
 Document makeScene() {
   Document document;
   document.materials = palette();
   const int world = document.addNode({"World"});
   const int boat = addBoat(document, world);
-  addPier(document, world, {-27.0f, 0, -37.0f}, {-7.4f, 0, -9.5f});
+  addPier(document, world, {-27.0f, 0, -37.0f}, {-8.3f, 0, -10.1f});
   addShore(document, world);
   addLighthouse(document, world, {-25.5f, 4.15f, -79.5f});
   const glm::mat4 boatMatrix = document.worldMatrix(boat);
@@ -31,9 +31,9 @@ Document makeScene() {
   document.addSun({-std::cos(azimuth) * std::cos(elevation), std::sin(elevation),
                    std::sin(azimuth) * std::cos(elevation)},
                   {1.0f, 0.86f, 0.66f}, 3.0f);
-  document.addCamera({"Hero", 0.53f}, {0.0f, 3.6f, 22.0f}, {0.0f, 5.25f, 0.0f});
+  document.addCamera({"Hero", 0.50f}, {0.0f, 3.4f, 21.0f}, {0.0f, 4.8f, 0.0f});
   document.addCamera({"Sailor", 0.46f}, {2.6f, 1.9f, 5.2f}, {4.3f, 1.30f, 0.0f});
-  document.addCamera({"Pier", 0.56f}, {-14.3f, 3.2f, 0.8f}, {-11.5f, 2.35f, -13.0f});
+  document.addCamera({"Pier", 0.56f}, {-14.3f, 3.2f, 0.8f}, {-11.5f, 1.75f, -13.0f});
   document.addCamera({"Wide", 0.62f}, {10.6f, 7.6f, 26.5f}, {-2.6f, 4.1f, -6.0f});
   return document;
 }

@@ -103,7 +103,7 @@ Mesh makePennant() {
   Grid cloth(5, kColumns);
   for (size_t c = 0; c < kColumns; ++c) {
     const float u = float(c) / float(kColumns - 1);
-    const float wave = 0.07f * std::sin(u * 7.5f + 0.6f) * (0.3f + u);
+    const float wave = 0.045f * std::sin(u * 6.5f + 0.6f) * (0.3f + u);
     for (size_t r = 0; r < 5; ++r) {
       const float v = float(r) / 4.0f;
       const float width = glm::mix(0.30f, 0.15f, u);

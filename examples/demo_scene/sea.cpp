@@ -56,7 +56,7 @@ int addSea(Document& document, int parent, glm::vec2 nearCenter, const Wake& wak
       const int ring = std::max(std::abs(r), std::abs(c));
       const bool edge = ring == kRings;
       // Uneven, because an even pattern of facets would show.
-      const float jitter = edge ? 0.0f : 0.25f;
+      const float jitter = edge ? 0.0f : 0.38f;
       const glm::vec2 place = {float(c) + random.between(-jitter, jitter),
                                float(r) + random.between(-jitter, jitter)};
       const float reach = std::max({std::abs(place.x), std::abs(place.y), 1e-3f});
