@@ -23,9 +23,9 @@ Mesh makeDeck(float length) {
     mesh.setMaterial(random.unit() < 0.10f ? kPierDark : kPier);
     const float x = (float(i) + 0.5f) * kPitch;
     mesh.setTransform(
-        placed({x, kDeckTop - 0.035f + random.between(-0.008f, 0.008f), random.between(-0.05f, 0.05f)},
-               random.between(-0.012f, 0.012f)));
-    mesh.box({0, 0, 0}, {kPitch - 0.014f, 0.07f, kWidth + random.between(-0.06f, 0.10f)});
+        placed({x, kDeckTop - 0.035f + random.between(-0.008f, 0.008f), random.between(-0.02f, 0.02f)},
+               random.between(-0.006f, 0.006f)));
+    mesh.box({0, 0, 0}, {kPitch - 0.014f, 0.07f, kWidth + random.between(-0.03f, 0.04f)});
   }
   mesh.setTransform(glm::mat4(1.0f));
   mesh.setMaterial(kPierDark);

@@ -80,8 +80,8 @@ Mesh makeRunningRigging() {
   MeshBuilder mesh("RunningRigging");
   mesh.setMaterial(kRope);
   // Peak halyard in two parts, topping lift, and the sheet from the boom to the deck at the stern.
-  rope(mesh, mastPoint(kMastTop - 0.25f), gaffPoint(0.92f));
-  rope(mesh, mastPoint(kMastTop - 0.55f), gaffPoint(0.52f));
+  rope(mesh, mastPoint(kMastTop - 0.55f), gaffPoint(0.92f));
+  rope(mesh, mastPoint(kMastTop - 0.80f), gaffPoint(0.52f));
   const glm::vec3 block = boomPoint(0.70f);
   const glm::vec3 horse = {-0.55f, kSole + 0.03f, -0.06f};
   rope(mesh, block, horse, 0.0f);
@@ -91,7 +91,7 @@ Mesh makeRunningRigging() {
   mesh.setMaterial(kTrim);
   mesh.box(block + glm::vec3(-0.02f, -0.1f, 0), {0.07f, 0.12f, 0.05f});
   mesh.box(horse + glm::vec3(0, 0.02f, 0), {0.08f, 0.12f, 0.05f});
-  mesh.box(mastPoint(kMastTop - 0.27f) + glm::vec3(-0.08f, 0, 0), {0.06f, 0.11f, 0.05f});
+  mesh.box(mastPoint(kMastTop - 0.57f) + glm::vec3(-0.08f, 0, 0), {0.06f, 0.11f, 0.05f});
   return mesh.take();
 }
 
@@ -108,7 +108,7 @@ Mesh makePennant() {
       const float v = float(r) / 4.0f;
       const float width = glm::mix(0.30f, 0.15f, u);
       const float tail = 0.20f * (1.0f - std::abs(2.0f * v - 1.0f)) * u;  // the notch of the swallowtail
-      const float length = 0.95f * u - tail * u;
+      const float length = 0.88f * u - tail * u;
       cloth.at(r, c) = glm::vec3(-length * 0.93f, (v - 0.5f) * width - 0.10f * u * u + 0.3f * wave,
                                  0.36f * length + wave);
     }

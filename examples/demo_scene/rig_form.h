@@ -16,7 +16,7 @@ constexpr float kBoomLength = 2.16f, kGaffLength = 2.30f, kGaffRise = 0.88f;  //
 inline glm::vec3 mastPoint(float y) {
   return {kMastFoot - 0.035f * (y - 0.6f), y, 0};
 }
-constexpr float kMastTop = 5.55f;
+constexpr float kMastTop = 5.72f;
 
 // Along the boom and the gaff, 0 at the mast, 1 at the end.
 inline glm::vec3 boomPoint(float u) {

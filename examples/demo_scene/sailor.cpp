@@ -138,9 +138,9 @@ Mesh makeBeard() {
                    {-0.13f, 0.052f, 0.052f, 0.105f},
                    {-0.065f, 0.084f, 0.085f, 0.075f},
                    {0.0f, 0.096f, 0.104f, 0.048f},
-                   {0.045f, 0.094f, 0.104f, 0.034f},
-                   {0.072f, 0.088f, 0.090f, 0.034f},
-                   {0.082f, 0.080f, 0.062f, 0.04f}},
+                   {0.022f, 0.094f, 0.104f, 0.034f},
+                   {0.046f, 0.088f, 0.090f, 0.034f},
+                   {0.056f, 0.080f, 0.062f, 0.04f}},
                   12, 0.95f),
             {.shading = Shading::smooth});
   // Hair at the back of the head, below the cap; brows.
@@ -206,7 +206,7 @@ int addSailor(Document& document, int parent, glm::vec3 position, glm::quat rota
   const int head = document.addMesh(
       makeHead(), sailor, {0, 0.645f, 0.055f},
       glm::angleAxis(-0.62f, glm::vec3(0, 1, 0)) * glm::angleAxis(0.06f, glm::vec3(1, 0, 0)));
-  document.nodes[size_t(head)].scale = glm::vec3(1.16f);
+  document.nodes[size_t(head)].scale = glm::vec3(1.26f);
   document.addMesh(makeBeard(), head);
   document.addMesh(makeCap(), head);
   return sailor;

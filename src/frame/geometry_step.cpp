@@ -22,6 +22,7 @@ void addVertexInput(gpu::GraphicsPipelineDesc& pipeline, uint32_t inputs) {
       {1, VK_FORMAT_R32G32B32_SFLOAT, offsetof(VertexFrame, dPdu)},
       {1, VK_FORMAT_R16G16_SNORM, offsetof(VertexFrame, smoothNormal)},
       {1, VK_FORMAT_R32G32B32_SFLOAT, offsetof(VertexFrame, dPdv)},
+      {2, VK_FORMAT_R32G32_SFLOAT, offsetof(VertexSurface, patternUv)},
   };
   static constexpr uint32_t kStrides[] = {sizeof(VertexCore), sizeof(VertexFrame), sizeof(VertexSurface)};
   bool used[3] = {};

@@ -18,6 +18,7 @@ enum VertexInput : uint32_t {
   kDPdu = 1 << 5,
   kSmoothNormal = 1 << 6,
   kDPdv = 1 << 7,
+  kPatternUv = 1 << 8,
 };
 
 struct GeometryStepDesc {

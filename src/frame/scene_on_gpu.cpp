@@ -188,7 +188,8 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
     for (size_t v = 0; v < primitive.vertexCount(); ++v) {
       uint32_t color = 0xFFFFFFFFu;
       if (!primitive.colors.empty()) std::memcpy(&color, &primitive.colors[v], 4);
-      out[v] = {primitive.uv0[v], primitive.uv1.empty() ? primitive.uv0[v] : primitive.uv1[v], color};
+      out[v] = {primitive.uv0[v], primitive.uv1.empty() ? primitive.uv0[v] : primitive.uv1[v],
+                primitive.patternCoordinates()[v], color};
     }
   });
 

@@ -167,6 +167,7 @@ void gatherVertices(Primitive& p, const std::vector<uint32_t>& source) {
   gather(p.normals, source);
   gather(p.smoothNormals, source);
   gather(p.uv0, source);
+  gather(p.patternUv, source);
   gather(p.uv1, source);
   gather(p.colors, source);
   gather(p.dPdu, source);

@@ -11,17 +11,16 @@ namespace {
 // A box projection without seams: the three axis projections, mixed by the smooth normal. Everything in it is
 // continuous over the surface, so the coordinates are too; where two faces of the box meet the texture is
 // stretched a little instead of torn.
-void generateUvs(Primitive& p, float radius) {
-  const float scale = 1.0f / std::max(radius, 1e-20f);
-  p.uv0.resize(p.vertexCount());
+std::vector<glm::vec2> boxProjection(const Primitive& p, float scale) {
+  std::vector<glm::vec2> uvs(p.vertexCount());
   for (size_t i = 0; i < p.vertexCount(); ++i) {
     const glm::vec3 q = p.positions[i] * scale;
     glm::vec3 w = p.smoothNormals[i] * p.smoothNormals[i];
     w *= w;  // the fourth power keeps the faces of a box almost free of the others
     w /= w.x + w.y + w.z;
-    p.uv0[i] = w.x * glm::vec2(q.z, q.y) + w.y * glm::vec2(q.x, q.z) + w.z * glm::vec2(q.x, q.y);
+    uvs[i] = w.x * glm::vec2(q.z, q.y) + w.y * glm::vec2(q.x, q.z) + w.z * glm::vec2(q.x, q.y);
   }
-  p.generatedUvs = true;
+  return uvs;
 }
 
 bool isFinite(const glm::vec3& v) {
@@ -39,7 +38,8 @@ struct Mapping {
 // `scale` brings the mesh to size one, so that areas neither overflow nor vanish.
 Mapping mappingOf(const Primitive& p, size_t i, float scale) {
   const uint32_t a = p.indices[i], b = p.indices[i + 1], c = p.indices[i + 2];
-  const glm::vec2 d1 = p.uv0[b] - p.uv0[a], d2 = p.uv0[c] - p.uv0[a];
+  const std::vector<glm::vec2>& uv = p.patternCoordinates();
+  const glm::vec2 d1 = uv[b] - uv[a], d2 = uv[c] - uv[a];
   const float det = d1.x * d2.y - d1.y * d2.x;
   Mapping mapping;
   // A triangle whose corners lie on a line in uv says nothing about one direction, and huge things by
@@ -52,6 +52,20 @@ Mapping mappingOf(const Primitive& p, size_t i, float scale) {
   mapping.mirrored = det < 0.0f;
   if (std::isfinite(area) && isFinite(mapping.dPdu) && isFinite(mapping.dPdv)) mapping.area = area;
   return mapping;
+}
+
+// Whether uv0 spreads (almost) all of the surface out.
+bool coversSurface(const Primitive& p, float scale) {
+  float all = 0.0f, mapped = 0.0f;
+  for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
+    const glm::vec3 &a = p.positions[p.indices[i]], &b = p.positions[p.indices[i + 1]],
+                    &c = p.positions[p.indices[i + 2]];
+    const float area = 0.5f * glm::length(glm::cross((b - a) * scale, (c - a) * scale));
+    if (!std::isfinite(area)) continue;
+    all += area;
+    mapped += mappingOf(p, i, scale).area;
+  }
+  return mapped >= 0.9f * all;
 }
 
 void makeTangents(Primitive& p, float scale) {
@@ -115,8 +129,14 @@ void finishPrimitive(Primitive& p, float radius) {
     const float length = glm::length(normal);
     normal = length > 1e-12f ? normal / length : p.normals[i];
   }
-  if (p.uv0.empty() && p.vertexCount() > 0) generateUvs(p, radius);
-  makeTangents(p, 1.0f / std::max(radius, 1e-20f));
+  const float scale = 1.0f / std::max(radius, 1e-20f);
+  if (p.uv0.empty() && p.vertexCount() > 0) {
+    p.uv0 = boxProjection(p, scale);
+    p.generatedUvs = true;
+  } else if (!coversSurface(p, scale)) {
+    p.patternUv = boxProjection(p, scale);
+  }
+  makeTangents(p, scale);
 }
 
 }  // namespace scumble::scene

@@ -72,6 +72,7 @@ struct VertexSkin {
 // What never deforms.
 struct VertexSurface {
   vec2 uv0, uv1;
+  vec2 patternUv;
   uint color;  // unorm8 RGBA, linear
 };
 

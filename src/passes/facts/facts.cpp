@@ -44,7 +44,7 @@ class Facts : public Pass {
     GeometryStepDesc desc;
     desc.vertex = {shaders::facts_vert};
     desc.fragment = {shaders::facts_frag};
-    desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor | kDPdu | kDPdv;
+    desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor | kDPdu | kDPdv | kPatternUv;
     for (const Slot fact : kFacts) desc.colorFormats.push_back(slotInfo(fact).format);
     desc.viewMask = viewMask_;
     desc.passLayout = &layout_;

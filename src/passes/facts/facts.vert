@@ -13,6 +13,7 @@ layout(location = 3) in vec2 inUv1;
 layout(location = 4) in vec4 inColor;
 layout(location = 5) in vec3 inDPdu;
 layout(location = 7) in vec3 inDPdv;
+layout(location = 8) in vec2 inPatternUv;
 
 layout(location = 0) out vec3 outPosition;
 layout(location = 1) out vec3 outNormal;
@@ -28,7 +29,7 @@ void main() {
   gl_Position = view.worldToClip * vec4(inPosition, 1.0);
   outPosition = inPosition;
   outNormal = decodeNormal(inNormal);
-  outUv = inUv0;
+  outUv = inPatternUv;
   outTangentU = (view.worldToClip * vec4(inDPdu, 0.0)).xyw;
   outTangentV = (view.worldToClip * vec4(inDPdv, 0.0)).xyw;
   outPrevious = view.previousWorldToClip * vec4(inPosition, 1.0);

@@ -82,7 +82,7 @@ class Surface : public Pass {
     GeometryStepDesc desc;
     desc.vertex = {shaders::surface_vert};
     desc.fragment = {shaders::surface_frag};
-    desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor | kDPdu | kDPdv;
+    desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor | kDPdu | kDPdv | kPatternUv;
     for (const Slot slot : kTargets)
       if (slot != Slot::depth) desc.colorFormats.push_back(slotInfo(slot).format);
     desc.samples = samples_;

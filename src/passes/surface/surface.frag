@@ -24,7 +24,7 @@ layout(location = 2) in vec4 inColor;
 layout(location = 3) in vec4 inUvs;
 layout(location = 4) in vec3 inTangentU;
 layout(location = 5) in vec3 inTangentV;
-layout(location = 6) in vec2 inUv0;
+layout(location = 6) in vec2 inPatternUv;
 
 layout(location = 0) out vec4 outShadow;
 layout(location = 1) out vec4 outLit;
@@ -73,7 +73,7 @@ void main() {
   vec2 gradU, gradV;
   uvGradients(dSdu, dSdv, gradU, gradV);
   MetaTextureScale scale = metaTextureScale(gradU, gradV, dSdu, dSdv, params.indicationSize * frame.pixelScale);
-  float marks = metaTexture(knife, inUv0, scale, vec4(0.5), 1.0, frame.patternShift).x;
+  float marks = metaTexture(knife, inPatternUv, scale, vec4(0.5), 1.0, frame.patternShift).x;
   float oblique = 1.0 - smoothstep(0.0, params.indicationWidth, abs(lambert - surface.terminator));
   float breakup = material.unlit != 0 ? 0.0 : clamp(marks, 0.0, 1.0) * oblique * reaches * params.indication;
 

@@ -21,8 +21,8 @@ constexpr uint32_t kNoiseSize = 256;  // texels; one texel a pixel at the defaul
 // The example texture: two independent fields in red and green. Rough at every scale down to the texel, so that edges
 // are torn and not wavy.
 std::vector<uint8_t> makeNoise() {
-  const std::vector<float> x = selfSimilarNoise(kNoiseSize, 14, 4, 0.62f, 11);
-  const std::vector<float> y = selfSimilarNoise(kNoiseSize, 14, 4, 0.62f, 23);
+  const std::vector<float> x = selfSimilarNoise(kNoiseSize, 14, 3, 0.62f, 11);
+  const std::vector<float> y = selfSimilarNoise(kNoiseSize, 14, 3, 0.62f, 23);
   std::vector<uint8_t> texels(size_t(kNoiseSize) * kNoiseSize * 4, 255);
   const auto byte = [](float v) { return uint8_t(std::lround(std::clamp(0.5f + v / 4.0f, 0.0f, 1.0f) * 255)); };
   for (size_t i = 0; i < x.size(); ++i) {
@@ -70,7 +70,7 @@ class Warp : public Pass {
     GeometryStepDesc desc;
     desc.vertex = {shaders::warp_vert};
     desc.fragment = {shaders::warp_frag};
-    desc.inputs = kPosition | kUv0 | kUv1 | kColor | kDPdu | kSmoothNormal | kDPdv;
+    desc.inputs = kPosition | kUv0 | kUv1 | kColor | kDPdu | kSmoothNormal | kDPdv | kPatternUv;
     desc.colorFormats = {slotInfo(Slot::warp).format};
     desc.viewMask = viewMask_;
     desc.passLayout = &layout_;

@@ -16,6 +16,7 @@ layout(location = 4) in vec4 inColor;
 layout(location = 5) in vec3 inDPdu;
 layout(location = 6) in vec2 inSmoothNormal;
 layout(location = 7) in vec3 inDPdv;
+layout(location = 8) in vec2 inPatternUv;
 
 layout(location = 0) out vec2 outUv;
 layout(location = 1) out vec3 outTangentU;  // clip-space x, y, w of dP/du
@@ -40,7 +41,7 @@ void main() {
   }
   gl_Position = clip;
 
-  outUv = inUv0;
+  outUv = inPatternUv;
   outTangentU = (view.worldToClip * vec4(inDPdu, 0.0)).xyw;
   outTangentV = (view.worldToClip * vec4(inDPdv, 0.0)).xyw;
   if (kAlphaMode != 0) outBaseUvAlpha = vec3(baseUv(inUv0, inUv1), inColor.a);
