@@ -43,31 +43,28 @@ void GeometryStep::create(gpu::Device& device, const FrameResources& resources, 
                           const GeometryStepDesc& desc) {
   hasPassSet_ = desc.passLayout != nullptr;
   materialStrides_ = desc.materialStrides;
-  bool needed[3][2] = {};
-  for (const Draw& draw : scene.draws()) needed[size_t(draw.alpha)][draw.textured] = true;
-  for (size_t alpha = 0; alpha < 3; ++alpha) {
-    for (size_t textured = 0; textured < 2; ++textured) {
-      if (!needed[alpha][textured]) continue;
-      const bool depthOnly = alpha == 0 && !desc.depthOnlyVertex.words.empty();
-      gpu::GraphicsPipelineDesc pipeline;
-      pipeline.vertex = depthOnly ? desc.depthOnlyVertex : desc.vertex;
-      if (!depthOnly) pipeline.fragment = desc.fragment;
-      pipeline.constants = {uint32_t(alpha), uint32_t(textured)};
-      addVertexInput(pipeline, depthOnly ? uint32_t(kPosition) : desc.inputs);
-      pipeline.colorFormats = desc.colorFormats;
-      pipeline.depthFormat = VK_FORMAT_D32_SFLOAT;
-      pipeline.depthCompare = desc.depthCompare;
-      if (alpha == 2 && desc.blends) {
-        pipeline.blend = gpu::Blend::over;
-        pipeline.depthWrite = false;
-      }
-      pipeline.samples = desc.samples;
-      pipeline.viewMask = desc.viewMask;
-      pipeline.dynamicCulling = true;
-      pipeline.sets = {resources.frameLayout().handle(), scene.materialLayout().handle()};
-      if (hasPassSet_) pipeline.sets.push_back(desc.passLayout->handle());
-      pipelines_[alpha][textured] = gpu::Pipeline(device, pipeline);
+  for (const Draw& draw : scene.draws()) {
+    gpu::Pipeline& made = pipelines_[variant(draw)];
+    if (made) continue;
+    const bool depthOnly = draw.alpha == AlphaMode::opaque && !desc.depthOnlyVertex.words.empty();
+    gpu::GraphicsPipelineDesc pipeline;
+    pipeline.vertex = depthOnly ? desc.depthOnlyVertex : desc.vertex;
+    if (!depthOnly) pipeline.fragment = desc.fragment;
+    pipeline.constants = {uint32_t(draw.alpha), draw.varied, draw.textured};
+    addVertexInput(pipeline, depthOnly ? uint32_t(kPosition) : desc.inputs);
+    pipeline.colorFormats = desc.colorFormats;
+    pipeline.depthFormat = VK_FORMAT_D32_SFLOAT;
+    pipeline.depthCompare = desc.depthCompare;
+    if (draw.alpha == AlphaMode::blend && desc.blends) {
+      pipeline.blend = gpu::Blend::over;
+      pipeline.depthWrite = false;
     }
+    pipeline.samples = desc.samples;
+    pipeline.viewMask = desc.viewMask;
+    pipeline.dynamicCulling = true;
+    pipeline.sets = {resources.frameLayout().handle(), scene.materialLayout().handle()};
+    if (hasPassSet_) pipeline.sets.push_back(desc.passLayout->handle());
+    made = gpu::Pipeline(device, pipeline);
   }
 }
 
@@ -87,7 +84,7 @@ void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resource
   std::stable_sort(order.begin(), order.end(), [&](const Draw* a, const Draw* b) {
     if (a->alpha != b->alpha) return a->alpha < b->alpha;
     if (a->alpha == AlphaMode::blend) return distance(*a) > distance(*b);
-    if (a->textured != b->textured) return a->textured < b->textured;
+    if (variant(*a) != variant(*b)) return variant(*a) < variant(*b);
     return a->material < b->material;
   });
 
@@ -96,7 +93,7 @@ void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resource
   int cull = -1, front = -1;
   std::vector<uint32_t> offsetsOfMaterial(materialStrides_.size());
   for (const Draw* draw : order) {
-    const gpu::Pipeline& pipeline = pipelines_[size_t(draw->alpha)][draw->textured];
+    const gpu::Pipeline& pipeline = pipelines_[variant(*draw)];
     if (bound != &pipeline) {
       pipeline.bind(commands);
       pipeline.bindSet(commands, 0, resources.frameSet());

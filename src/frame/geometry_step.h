@@ -44,8 +44,9 @@ class GeometryStep {
             const glm::vec3& eye, const std::function<bool(const Draw&)>& includes = {}) const;
 
  private:
-  // By alpha mode and by whether textures are read.
-  std::array<std::array<gpu::Pipeline, 2>, 3> pipelines_;
+  // Specialised by alpha mode (constant 0), by whether colours vary (1) and by whether textures are read (2).
+  static size_t variant(const Draw& draw) { return size_t(draw.alpha) * 4 + draw.varied * 2 + draw.textured; }
+  std::array<gpu::Pipeline, 12> pipelines_;
   bool hasPassSet_ = false;
   std::vector<uint32_t> materialStrides_;
 };

@@ -1,17 +1,20 @@
 #include "frame/image_step.h"
 
-#include <bit>
+#include <algorithm>
 
 #include "shaders/fullscreen_vert.h"
 
 namespace scumble::frame {
 
 void ImageStep::declare(FrameBuilder& frame, const std::string& name, ImageShader shader, std::vector<Input> inputs,
-                        gpu::ResourceId output, uint64_t uniformBytes) {
+                        gpu::ResourceId output, uint64_t uniformBytes, std::vector<Texture> textures,
+                        std::vector<uint32_t> constants) {
   shader_ = shader;
   inputs_ = std::move(inputs);
   output_ = output;
-  uniforms_ = frame.uniform(uniformBytes);
+  textures_ = std::move(textures);
+  constants_ = std::move(constants);
+  uniforms_ = frame.uniform(std::max<uint64_t>(uniformBytes, 16));
   compute_ = frame.configuration().computeImagePasses;
   viewMask_ = frame.configuration().viewMask();
   std::vector<gpu::ResourceUse> uses;
@@ -26,7 +29,7 @@ void ImageStep::create(FrameBuilder& frame, const FrameResources& resources) {
   gpu::Device& device = frame.device();
   const VkShaderStageFlags stage = compute_ ? VK_SHADER_STAGE_COMPUTE_BIT : VK_SHADER_STAGE_FRAGMENT_BIT;
   std::vector<gpu::Binding> bindings{{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, stage}};
-  bindings.resize(1 + inputs_.size(), {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, stage});
+  bindings.resize(1 + inputs_.size() + textures_.size(), {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, stage});
   inputLayout_ = gpu::SetLayout(device, bindings);
   inputSet_ = gpu::DescriptorSets(device, inputLayout_);
   inputSet_.writeBuffer(0, 0, uniforms_.buffer, uniforms_.offset, uniforms_.size);
@@ -35,6 +38,9 @@ void ImageStep::create(FrameBuilder& frame, const FrameResources& resources) {
     if (!inputs_[i].linear) sampler.filter = VK_FILTER_NEAREST;
     inputSet_.writeTexture(0, 1 + i, resources.image(inputs_[i].image).view(), frame.samplers().get(sampler));
   }
+  for (uint32_t i = 0; i < textures_.size(); ++i)
+    inputSet_.writeTexture(0, uint32_t(1 + inputs_.size() + i), textures_[i].image->view(),
+                           frame.samplers().get(textures_[i].sampler));
   const gpu::Image& output = resources.image(output_);
   if (compute_) {
     outputLayout_ = gpu::SetLayout(device, {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, stage}});
@@ -42,12 +48,14 @@ void ImageStep::create(FrameBuilder& frame, const FrameResources& resources) {
     outputSet_.writeStorageImage(0, 0, output.view());
     gpu::ComputePipelineDesc desc;
     desc.shader = shader_.compute;
+    desc.constants = constants_;
     desc.sets = {resources.frameLayout().handle(), inputLayout_.handle(), outputLayout_.handle()};
     pipeline_ = gpu::Pipeline(device, desc);
   } else {
     gpu::GraphicsPipelineDesc desc;
     desc.vertex = {shaders::fullscreen_vert};
     desc.fragment = shader_.fragment;
+    desc.constants = constants_;
     desc.colorFormats = {output.desc().format};
     desc.viewMask = viewMask_;
     desc.sets = {resources.frameLayout().handle(), inputLayout_.handle()};

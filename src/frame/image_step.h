@@ -16,9 +16,16 @@ class ImageStep {
     gpu::ResourceId image;
     bool linear = false;  // sampled between texels; else texelFetch only
   };
-  // `uniformBytes`: size of the step's uniform block (set 1, binding 0).
+  // A texture of the pass's own; bound after the inputs.
+  struct Texture {
+    const gpu::Image* image;
+    gpu::SamplerDesc sampler;
+  };
+  // `uniformBytes`: size of the step's uniform block (set 1, binding 0); 0 where the shader has none.
+  // `constants`: specialisation constants.
   void declare(FrameBuilder& frame, const std::string& name, ImageShader shader, std::vector<Input> inputs,
-               gpu::ResourceId output, uint64_t uniformBytes);
+               gpu::ResourceId output, uint64_t uniformBytes, std::vector<Texture> textures = {},
+               std::vector<uint32_t> constants = {});
   void create(FrameBuilder& frame, const FrameResources& resources);
   template <class T>
   void update(const T& uniforms) {
@@ -30,6 +37,8 @@ class ImageStep {
 
   ImageShader shader_;
   std::vector<Input> inputs_;
+  std::vector<Texture> textures_;
+  std::vector<uint32_t> constants_;
   gpu::ResourceId output_ = 0;
   UniformSlice uniforms_;
   bool compute_ = false;

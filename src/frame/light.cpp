@@ -53,6 +53,14 @@ void setLightSpace(shared::FrameUniforms& uniforms, const SceneOnGpu& scene, con
   uniforms.shadowWarp = params.shadowWarp;
   const glm::vec3 focus(uniforms.worldToLight * glm::vec4(viewer, 1));
   uniforms.shadowCenter = glm::clamp(glm::vec2(focus), -1.0f, 1.0f);
+  uniforms.shadowScale = glm::vec2(1.0f), uniforms.shadowShift = glm::vec2(0.0f);
+  if (params.shadowWarp > 0) {
+    const auto sigmoid = [](const glm::vec2& t) { return t / glm::sqrt(1.0f + t * t); };
+    const glm::vec2 low = sigmoid(params.shadowWarp * (-1.0f - uniforms.shadowCenter));
+    const glm::vec2 high = sigmoid(params.shadowWarp * (1.0f - uniforms.shadowCenter));
+    uniforms.shadowScale = 2.0f / (high - low);
+    uniforms.shadowShift = -1.0f - uniforms.shadowScale * low;
+  }
 }
 
 }  // namespace scumble::frame

@@ -46,7 +46,7 @@ std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration
   list.push_back(passes::makeBlur());
   list.push_back(passes::makeFinalShadow([](const look::LookData& look, float pixelScale) {
     const passes::BlurParams blur = look.get<passes::BlurParams>();
-    return passes::BlurFacts{passes::planBlur(blur.radius * pixelScale).amount, passes::depthFalloff(blur.depthEdge)};
+    return passes::BlurFacts{passes::planBlur(blur.radius * pixelScale).amount, passes::depthSharpness(blur.depthEdge)};
   }));
   list.push_back(passes::makeColor());
   list.push_back(passes::makeFinalColor());

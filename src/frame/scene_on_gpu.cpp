@@ -156,6 +156,7 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
     draw.cullsBack = !material.doubleSided;
     draw.mirrored = item.skin < 0 && glm::determinant(linear) < 0;
     draw.textured = material.baseColorTexture.image >= 0 || material.emissiveTexture.image >= 0;
+    draw.varied = draw.textured || !primitive.colors.empty();
     draw.casts = item.casts;
     draw.bounds = item.bounds;
     draws_.push_back(draw);
@@ -246,6 +247,11 @@ void SceneOnGpu::buildMaterials(gpu::Device& device, gpu::Samplers& samplers, gp
     write(m, 1, material.baseColorTexture);
     write(m, 2, material.emissiveTexture);
   }
+}
+
+bool SceneOnGpu::isVaried(size_t material) const {
+  return std::any_of(draws_.begin(), draws_.end(),
+                     [&](const Draw& draw) { return draw.material == material && draw.varied; });
 }
 
 void SceneOnGpu::setMaterial(size_t material, const shared::MaterialData& data) {

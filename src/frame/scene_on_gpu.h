@@ -26,6 +26,7 @@ struct Draw {
   AlphaMode alpha = AlphaMode::opaque;
   bool cullsBack = true;  // single-sided
   bool mirrored = false;  // the object's matrix turns triangles inside out
+  bool varied = false;    // vertex colours or textures vary the material's colour
   bool textured = false;
   bool casts = true;      // shadows
   scene::Bounds bounds;   // world, rest pose
@@ -59,6 +60,8 @@ class SceneOnGpu {
   // Materials by index: the scene's, then (with a ground) the ground's.
   size_t materialCount() const { return materialNames_.size(); }
   const std::string& materialName(size_t material) const { return materialNames_[material]; }
+  // Whether vertex colours or textures vary this material's colour anywhere.
+  bool isVaried(size_t material) const;
   int groundMaterial() const { return groundMaterial_; }
   const SceneColors& colors() const { return colors_; }
   const scene::Bounds& bounds() const { return bounds_; }  // without the ground

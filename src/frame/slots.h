@@ -9,8 +9,8 @@ namespace scumble::frame {
 
 enum class Slot : uint8_t {
   shadowMap,    // depth from the light in sigmoid-warped light space
-  warp,         // R, G: warp vector in pixels (x right, y down); B: 1 where inflated geometry is; A: its eye depth
-  shadow,       // R: Lambert x cast shadow; G: lens; B: breakup; A: coverage
+  warp,         // R, G: warp vector in pixels (x right, y down); B: breakup marks; A: eye depth of the inflated surface, or 0
+  shadow,       // R: Lambert x cast shadow; G: lens; B: breakup, where it may act; A: coverage
   lit,          // colour in full light, linear; A: coverage
   shadowed,     // colour in shadow, linear; A: coverage
   depth,        // depth buffer of the surface pass

@@ -15,6 +15,7 @@ shared::ViewUniforms viewUniforms(const View& view, const View& previous) {
   u.worldToClip = p * view.worldToEye;
   u.worldToEye = view.worldToEye;
   u.previousWorldToClip = previous.eyeToClip * previous.worldToEye;
+  u.upInEye = glm::vec3(view.worldToEye[1]);
   u.eye = glm::vec3(glm::inverse(view.worldToEye)[3]);
   u.orthographic = p[2][3] == 0 ? 1.0f : 0.0f;
   // Clip x is P00 x + P02 z with z = -w: ndc = P00 (x / -z) - P02, so x / -z = (ndc + P02) / P00; parallel projections
@@ -66,6 +67,9 @@ shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const l
   transform(material.baseColorTexture, data.baseUvRowU, data.baseUvRowV, data.baseUvSet);
   transform(material.emissiveTexture, data.emissiveUvRowU, data.emissiveUvRowV, data.emissiveUvSet);
 
+  const auto setConstant = [&](const glm::vec3& lit, const glm::vec3& shadowed) {
+    data.constantLit = lit, data.constantShadowed = shadowed;
+  };
   if (isGround) {
     // The ground belongs to the background, not to the scene's palette.
     const glm::vec3 ground = look.get<passes::BackgroundParams>().mode == 0
@@ -73,30 +77,21 @@ shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const l
                                  : glm::vec3(look.get<GroundParams>().tint);
     PaletteParams plain = palette;
     plain.darkest = 0, plain.lightest = 1, plain.litTintAmount = 0;
-    data.lit = constantColorMap(ground);
-    data.shadowed = constantColorMap(glm::vec3(shadowedColor(plain, glm::dvec3(ground))));
+    setConstant(ground, glm::vec3(shadowedColor(plain, glm::dvec3(ground))));
     return data;
   }
   const auto lit = [&](const glm::dvec3& c) { return litColor(palette, c); };
   const auto shadowed = [&](const glm::dvec3& c) { return shadowedColor(palette, c); };
-  bool coloured = material.baseColorTexture.image >= 0;
-  for (const scene::Mesh& mesh : scene.data().meshes)
-    for (const scene::Primitive& primitive : mesh.primitives)
-      coloured |= primitive.material == int(index) && !primitive.colors.empty();
-  if (coloured) {
-    data.lit = fitColorMap(lit);
-    data.shadowed = fitColorMap(shadowed);
-  } else {
-    // A single colour needs no fit: it goes through the rule itself.
-    const glm::dvec3 base = glm::clamp(glm::dvec3(material.baseColor), 0.0, 1.0);
-    data.lit = constantColorMap(glm::vec3(lit(base)));
-    data.shadowed = constantColorMap(glm::vec3(shadowed(base)));
-  }
+  // A constant colour needs no fit: it goes through the rule itself.
+  const glm::dvec3 base = glm::clamp(glm::dvec3(material.baseColor), 0.0, 1.0);
+  setConstant(glm::vec3(lit(base)), glm::vec3(shadowed(base)));
+  if (scene.isVaried(index)) data.lit = fitColorMap(lit), data.shadowed = fitColorMap(shadowed);
   if (material.shadowedColor) {
     // A scene that brings its own colours for shadow has chosen those for light as well.
     data.shadowedColor = *material.shadowedColor;
     data.hasShadowedColor = palette.ownShadow;
-    if (palette.ownShadow >= 1) data.lit = identityColorMap();
+    data.constantShadowed = glm::mix(data.constantShadowed, data.shadowedColor, palette.ownShadow);
+    if (palette.ownShadow >= 1) data.lit = identityColorMap(), data.constantLit = glm::vec3(base);
   }
   return data;
 }

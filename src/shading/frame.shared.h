@@ -14,6 +14,7 @@ struct ViewUniforms {
   // x, y: eye-space (x/-z, y/-z) = ndc * xy + zw, for any, also off-centre, projection (FORMULAS 4)
   vec4 ndcToEyeRay;
   vec4 depthToEye;           // metres along the axis = (x + y d) / (z + w d) for a depth-buffer value d
+  vec3 upInEye;              // the world's up in eye space
   vec3 eye;                  // world
   float orthographic;        // 1 for a parallel projection, else 0
 };
@@ -24,6 +25,8 @@ struct FrameUniforms {
   vec3 toLight;        // unit, world
   float time;          // seconds
   vec2 shadowCenter;   // light-space x, y near the viewer, where the shadow map is finest
+  vec2 shadowScale;    // warped = scale * sigmoid(strength * (p - center)) + shift, which keeps -1 and 1 in place
+  vec2 shadowShift;
   float shadowWarp;    // strength of the sigmoid; 0: none
   float shadowTexel;   // size of a shadow-map texel in unwarped light space
   vec3 lightToWorldScale;  // metres per unit of light-space x, y, z
@@ -88,6 +91,7 @@ struct MaterialData {
   vec4 baseColor;
   vec3 emissive;
   float alphaCutoff;
+  vec3 constantLit, constantShadowed;  // for baseColor, where neither texture nor vertex colours vary it
   ColorMap lit, shadowed;  // from albedo to the colours in light and in shadow (docs/palette.md)
   vec3 shadowedColor;      // the material's own; used where hasShadowedColor is 1
   float hasShadowedColor;

@@ -26,6 +26,13 @@ vec2 projectTangent(vec3 tangentClip, vec2 ndc, float w, vec2 imageSize) {
   return (tangentClip.xy - ndc * tangentClip.z) / w * 0.5 * imageSize;
 }
 
+// The upper halves of two floats in one word.
+uint packBfloat(vec2 v) {
+  uvec2 bits = floatBitsToUint(v) + 0x8000u;
+  return bits.x >> 16 | (bits.y & 0xFFFF0000u);
+}
+vec2 unpackBfloat(uint word) { return uintBitsToFloat(uvec2(word << 16, word & 0xFFFF0000u)); }
+
 struct MetaTextureScale {
   vec2 exponent;  // eq. 2
   vec2 blend;     // eq. 7

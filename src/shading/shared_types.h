@@ -8,6 +8,7 @@
 #include <glm/glm.hpp>
 
 namespace scumble::shared {
+using glm::ivec2;
 using glm::mat3;
 using glm::mat4;
 using glm::vec2;

@@ -14,22 +14,37 @@ namespace scumble::passes {
 using namespace frame;
 
 BlurPlan planBlur(float radius) {
-  // A halving filters with a standard deviation of about one source texel, which is enough against aliasing.
-  constexpr float kHalving = 1.0f;
-  constexpr float kLeastVariance = kHalving * kHalving + 4 * kHalving * kHalving;  // in full-size pixels
-  const float sigma = 0.5f * radius, variance = sigma * sigma;
-  BlurPlan plan{{kHalving, kHalving}, 0.0f, 1.0f};
-  if (variance > kLeastVariance) {
-    plan.fullSigma = std::sqrt(variance - kLeastVariance) / 4;
-  } else {
-    plan.amount = std::sqrt(variance / kLeastVariance);
-  }
+  // Going to a quarter filters with a standard deviation of two source texels, which is enough against aliasing.
+  constexpr float kQuarterSigma = 2.0f;
+  const float sigma = 0.5f * radius;
+  BlurPlan plan{kQuarterSigma, 0.0f, 1.0f};
+  if (sigma > kQuarterSigma)
+    plan.fullSigma = std::sqrt(sigma * sigma - kQuarterSigma * kQuarterSigma) / 4;
+  else
+    plan.amount = sigma / kQuarterSigma;
   return plan;
 }
 
-float depthFalloff(float depthEdge) { return depthEdge > 0 ? 0.5f / (depthEdge * depthEdge) : 0.0f; }
+float depthSharpness(float depthEdge) { return depthEdge > 0 ? 0.5f / (depthEdge * depthEdge) : 0.0f; }
 
 namespace {
+
+// A Gaussian of `sigma` source texels around the centre of an output pixel that spans `factor` of them.
+shared::BlurStep makeStep(bool vertical, int factor, float sigma) {
+  shared::BlurStep step{};
+  step.axis = vertical ? glm::ivec2(0, 1) : glm::ivec2(1, 0);
+  step.scale = glm::ivec2(1) + step.axis * (factor - 1);
+  step.factor = factor;
+  const float center = 0.5f * float(factor - 1);
+  const int reach = std::min(int(std::ceil(2.0f * sigma)), shared::kMaxBlurTaps / 2 - 1);
+  step.firstTap = int(std::ceil(center)) - reach;
+  step.taps = int(std::floor(center)) + reach - step.firstTap + 1;
+  for (int i = 0; i < step.taps; ++i) {
+    const float x = float(step.firstTap + i) - center;
+    step.weights[i] = sigma > 0 ? std::exp(-0.5f * x * x / (sigma * sigma)) : float(x == 0);
+  }
+  return step;
+}
 
 class Blur : public Pass {
  public:
@@ -37,23 +52,17 @@ class Blur : public Pass {
 
   void declare(FrameBuilder& frame) override {
     const Configuration& c = frame.configuration();
-    const uint32_t halfWidth = (c.width + 1) / 2, halfHeight = (c.height + 1) / 2;
     const uint32_t width = (c.width + 3) / 4, height = (c.height + 3) / 4;
-    const VkFormat format = slotInfo(Slot::blur).format;
     const auto image = [&](const char* name, uint32_t w, uint32_t h) {
-      return frame.transient(name, {format, w, h, c.viewCount});
+      return frame.transient(name, {slotInfo(Slot::blur).format, w, h, c.viewCount});
     };
-    const gpu::ResourceId chain[] = {frame.slot(Slot::shadow),
-                                     image("blur 1", halfWidth, c.height),
-                                     image("blur 2", halfWidth, halfHeight),
-                                     image("blur 3", width, halfHeight),
-                                     image("blur 4", width, height),
-                                     image("blur 5", width, height),
+    const gpu::ResourceId chain[] = {frame.slot(Slot::shadow), image("blur 1", width, c.height),
+                                     image("blur 2", width, height), image("blur 3", width, height),
                                      frame.slot(Slot::blur)};
     const ImageShader shader{{shaders::blur_image_frag}, {shaders::blur_image_comp}};
     for (size_t i = 0; i < steps_.size(); ++i)
       steps_[i].declare(frame, "blur", shader, {{chain[i]}, {frame.slot(Slot::depth)}}, chain[i + 1],
-                        sizeof(shared::BlurStep));
+                        sizeof(shared::BlurStep), {}, {uint32_t(i == 0)});
   }
 
   void create(FrameBuilder& frame, const FrameResources& resources) override {
@@ -64,22 +73,15 @@ class Blur : public Pass {
     const BlurParams params = input.look.get<BlurParams>();
     const BlurPlan plan = planBlur(params.radius * input.uniforms.pixelScale);
     for (size_t i = 0; i < steps_.size(); ++i) {
-      const bool halves = i < 4;
-      const float sigma = halves ? plan.halvingSigma[i / 2] : plan.fullSigma;
-      shared::BlurStep step{};
-      step.vertical = i % 2;
-      step.halving = halves;
-      step.reach = int(std::ceil(2.5f * sigma));
-      step.falloff = sigma > 0 ? 0.5f / (sigma * sigma) : 1.0f;
-      step.depthFalloff = depthFalloff(params.depthEdge);
-      step.first = i == 0;
+      shared::BlurStep step = makeStep(i % 2 == 1, i < 2 ? 4 : 1, i < 2 ? plan.quarterSigma : plan.fullSigma);
+      step.depthSharpness = depthSharpness(params.depthEdge);
       steps_[i].update(step);
     }
   }
 
  private:
-  // Halve along x, y, x, y; then blur along x and y.
-  std::array<ImageStep, 6> steps_;
+  // To a quarter along x and along y; then blur along x and y.
+  std::array<ImageStep, 4> steps_;
 };
 
 }  // namespace

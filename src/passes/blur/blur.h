@@ -11,17 +11,17 @@ namespace scumble::passes {
 #define PARAMS_PER_MATERIAL false
 #include "look/define_params.h"
 
-// How the blur's variance is shared among its steps; pixels of the full-size image.
+// How the blur's variance is shared among its steps.
 struct BlurPlan {
-  float halvingSigma[2];  // of the two halvings, in texels of their sources
-  float fullSigma;        // of the last two steps, in texels at a quarter of the size; 0: they only copy
-  float amount;           // how much of the blurred image counts: less than 1 for tiny radii
+  float quarterSigma;  // of the steps that go to a quarter of the size, in texels of their sources
+  float fullSigma;     // of the last two steps, in texels at a quarter of the size; 0: they only copy
+  float amount;        // how much of the blurred image counts: less than 1 for tiny radii
 };
-// `radius`: twice the standard deviation wanted, in pixels.
+// `radius`: twice the standard deviation wanted, in pixels of the full size.
 BlurPlan planBlur(float radius);
 
-// 1 / (2 sigma^2) for a depth edge of sigma; 0 for none.
-float depthFalloff(float depthEdge);
+// How quickly taps lose their weight with relative depth, for a depth edge that is that large; 0 for none.
+float depthSharpness(float depthEdge);
 
 std::unique_ptr<frame::Pass> makeBlur();
 

@@ -3,13 +3,15 @@
 #include "../../shading/shared_types.h"
 
 SHARED_BEGIN
+const int kMaxBlurTaps = 64;
 struct BlurStep {
-  uint vertical;
-  int halving;    // 1: the output is half as large along the axis
-  int reach;      // taps on each side, source texels
-  float falloff;  // 1 / (2 sigma^2), source texels
-  float depthFalloff;  // 1 / (2 sigma^2), of relative depth
-  uint first;          // 1: depth comes from the depth buffer, else from B
+  ivec2 axis;     // (1, 0) or (0, 1)
+  ivec2 scale;    // source texels an output pixel, per axis of the image
+  int factor;     // the same along `axis`
+  int firstTap;   // relative to the output pixel's first source texel
+  int taps;
+  float depthSharpness;  // a tap at relative depth z counts 1 / (1 + sharpness z^2)^2 of its weight
+  float weights[kMaxBlurTaps];
 };
 SHARED_END
 #endif

@@ -1,5 +1,8 @@
 #include "passes/color/color.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "frame/image_step.h"
 #include "frame/palette.h"
 #include "passes/color/color.shared.h"
@@ -36,7 +39,7 @@ class Color : public Pass {
       uniforms.horizon = colors.horizon;
       uniforms.zenith = colors.zenith;
     }
-    uniforms.height = glm::radians(params.height);
+    uniforms.height = std::sin(glm::radians(params.height));
     uniforms.air = params.air;
     const float radius = input.uniforms.sceneRadius;
     const float center = glm::length(input.uniforms.sceneCenter - input.uniforms.views[0].eye);

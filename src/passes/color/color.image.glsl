@@ -13,10 +13,10 @@ layout(set = 1, binding = 4) uniform sampler2DArray depth;
 
 vec3 sky(vec2 ndc, int layer) {
   ViewUniforms view = frame.views[layer];
-  vec2 ray = ndc * view.ndcToEyeRay.xy + view.ndcToEyeRay.zw;
-  vec3 direction = normalize(transpose(mat3(view.worldToEye)) * vec3(ray * (1.0 - view.orthographic), -1.0));
-  float elevation = asin(clamp(direction.y, -1.0, 1.0));
-  return mix(u.horizon, u.zenith, smoothstep(0.0, 1.0, elevation / u.height));
+  vec3 ray = vec3((ndc * view.ndcToEyeRay.xy + view.ndcToEyeRay.zw) * (1.0 - view.orthographic), -1.0);
+  float sine = dot(view.upInEye, ray) * inversesqrt(dot(ray, ray));  // of the elevation
+  float t = clamp(sine / u.height, 0.0, 1.0);
+  return mix(u.horizon, u.zenith, t * t * (3.0 - 2.0 * t));
 }
 
 vec4 shade(ivec2 pixel, int layer) {
@@ -28,8 +28,7 @@ vec4 shade(ivec2 pixel, int layer) {
   vec3 color = mix(shadowedColor.rgb, litColor.rgb, light.r);
 
   float distance = eyeDepth(texelFetch(depth, at, 0).r, layer);
-  float air = u.air * smoothstep(u.airStart, u.airEnd, distance) * coverage;
-  color = mix(color, u.horizon * coverage, air / max(coverage, 1e-4));
+  color = mix(color, u.horizon * coverage, u.air * smoothstep(u.airStart, u.airEnd, distance));
   if (u.transparent != 0.0) return vec4(color, coverage);
   vec2 ndc = (vec2(pixel) + 0.5) / frame.imageSize * 2.0 - 1.0;
   return vec4(color + sky(ndc, layer) * (1.0 - coverage), 1.0);

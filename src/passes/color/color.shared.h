@@ -5,7 +5,7 @@
 SHARED_BEGIN
 struct ColorUniforms {
   vec3 horizon;
-  float height;  // radians
+  float height;  // sine of the elevation at which the sky has its upper colour
   vec3 zenith;
   float air;
   float airStart, airEnd;  // metres along the view axis

@@ -1,6 +1,7 @@
 #include "passes/deform/deform.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "passes/deform/deform.shared.h"
 #include "shaders/deform_comp.h"
@@ -15,6 +16,8 @@ class Deform : public frame::Pass {
 
   void declare(frame::FrameBuilder& frame) override {
     frame.addStep("deform", {{frame.finalVertices(), gpu::Use::storageBufferWrite}}, [this](VkCommandBuffer commands) {
+      // Nothing moves yet: the first frame's vertices are every frame's.
+      if (std::exchange(done_, true)) return;
       pipeline_.bind(commands);
       pipeline_.bindSet(commands, 0, frameSet_);
       pipeline_.bindSet(commands, 1, set_[0]);
@@ -47,6 +50,7 @@ class Deform : public frame::Pass {
   gpu::Pipeline pipeline_;
   VkDescriptorSet frameSet_ = VK_NULL_HANDLE;
   uint32_t chunkCount_ = 0;
+  bool done_ = false;
 };
 
 }  // namespace

@@ -11,25 +11,29 @@ layout(set = 1, binding = 2) uniform sampler2DArray warp;
 layout(set = 1, binding = 3) uniform sampler2DArray depth;
 layout(set = 1, binding = 4) uniform sampler2DArray blurred;
 
+// Depth-buffer value of a point one percent behind the inflated surface.
+float surfaceDepth(float distance, int layer) {
+  vec4 t = frame.views[layer].depthToEye;
+  float far = 1.01 * distance;
+  return (t.x - t.z * far) / (t.w * far - t.y);
+}
+
 vec4 shade(ivec2 pixel, int layer) {
   ivec3 at = ivec3(pixel, layer);
   vec4 vector = texelFetch(warp, at, 0);
-  vec2 source = vec2(pixel) + 0.5;
-  if (vector.b > 0.0) {
-    vec2 moved = clamp(source + vector.xy, vec2(0.5), frame.imageSize - 0.5);
-    bool keeps = false;
-    if (u.ripple == 1) {
-      // FORMULAS 10: outside the silhouette, covered by the inflated surface only, and about to fetch something that
-      // lies behind that surface: such a pixel keeps its own colour.
-      float surface = vector.a * 1.01;
-      float own = eyeDepth(texelFetch(depth, at, 0).r, layer);
-      float there = eyeDepth(texelFetch(depth, ivec3(ivec2(moved), layer), 0).r, layer);
-      keeps = own > surface && there > surface;
-    }
-    if (!keeps) source = moved;
+  vec2 own = vec2(pixel) + 0.5;
+  vec2 moved = clamp(own + vector.xy, vec2(0.5), frame.imageSize - 0.5);
+  if (u.ripple == 1) {
+    // FORMULAS 10: outside the silhouette, covered by the inflated surface only, and about to fetch something that lies
+    // behind that surface: such a pixel keeps its own colour. Depths are compared as the depth buffer has them, where
+    // less is farther (parallel projections included).
+    float surface = surfaceDepth(vector.a, layer);
+    float ownDepth = texelFetch(depth, at, 0).r;
+    float movedDepth = texelFetch(depth, ivec3(ivec2(moved), layer), 0).r;
+    if (max(ownDepth, movedDepth) < surface) moved = own;
   }
-  vec4 result = textureLod(color, vec3(source / frame.imageSize, layer), 0.0);
-  float glow = textureLod(blurred, vec3((vec2(pixel) + 0.5) / frame.imageSize, layer), 0.0).g;
+  vec4 result = textureLod(color, vec3(moved / frame.imageSize, layer), 0.0);
+  float glow = textureLod(blurred, vec3(own / frame.imageSize, layer), 0.0).g;
   result.rgb += u.bloom * glow * result.a;
   return result;
 }

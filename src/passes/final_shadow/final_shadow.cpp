@@ -18,7 +18,10 @@ class FinalShadow : public Pass {
 
   void declare(FrameBuilder& frame) override {
     step_.declare(frame, "final-shadow", {{shaders::final_shadow_image_frag}, {shaders::final_shadow_image_comp}},
-                  {{frame.slot(Slot::blur), true}, {frame.slot(Slot::shadow)}, {frame.slot(Slot::depth)}}, frame.slot(Slot::finalShadow),
+                  {{frame.slot(Slot::blur)},
+                   {frame.slot(Slot::shadow)},
+                   {frame.slot(Slot::depth)},
+                   {frame.slot(Slot::warp)}}, frame.slot(Slot::finalShadow),
                   sizeof(shared::FinalShadowUniforms));
   }
   void create(FrameBuilder& frame, const FrameResources& resources) override { step_.create(frame, resources); }
@@ -33,7 +36,7 @@ class FinalShadow : public Pass {
     uniforms.indicationSteps = params.indicationSteps;
     const BlurFacts blur = blurFacts_(input.look, input.uniforms.pixelScale);
     uniforms.blurAmount = blur.amount;
-    uniforms.depthFalloff = blur.depthFalloff;
+    uniforms.depthSharpness = blur.depthSharpness;
     step_.update(uniforms);
   }
 

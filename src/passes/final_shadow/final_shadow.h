@@ -14,7 +14,7 @@ namespace scumble::passes {
 // What the blur tells of its result, for a look and a scale of pixels.
 struct BlurFacts {
   float amount;        // how much of the blurred image counts
-  float depthFalloff;  // 1 / (2 sigma^2) of relative depth across which it did not blur
+  float depthSharpness;  // of its weights over relative depth
 };
 using BlurFactsOf = BlurFacts (*)(const look::LookData& look, float pixelScale);
 std::unique_ptr<frame::Pass> makeFinalShadow(BlurFactsOf blurFacts);

@@ -10,60 +10,54 @@ layout(set = 1, binding = 0, scalar) uniform Block { FinalShadowUniforms u; };
 layout(set = 1, binding = 1) uniform sampler2DArray blurred;
 layout(set = 1, binding = 2) uniform sampler2DArray shadow;
 layout(set = 1, binding = 3) uniform sampler2DArray depthBuffer;
-
-float lightOf(vec4 b) { return b.r / max(b.a, 1e-3); }
-
-// Blurred light at a full-size pixel: of the four texels around it, those at its own depth count.
-float blurredLight(vec2 at, float depth, int layer) {
-  vec2 texel = at * vec2(textureSize(blurred, 0).xy) - 0.5;
-  ivec2 corner = ivec2(floor(texel)), last = textureSize(blurred, 0).xy - 1;
-  vec2 f = texel - vec2(corner);
-  float sum = 0.0, weights = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    ivec2 offset = ivec2(i & 1, i >> 1);
-    vec4 b = texelFetch(blurred, ivec3(clamp(corner + offset, ivec2(0), last), layer), 0);
-    vec2 side = mix(1.0 - f, f, vec2(offset));
-    float z = (b.b - depth) / depth;
-    float weight = side.x * side.y * max(exp(-z * z * u.depthFalloff), 1e-4) * (b.a + 1e-4);
-    sum += weight * lightOf(b);
-    weights += weight;
-  }
-  return sum / weights;
-}
+layout(set = 1, binding = 4) uniform sampler2DArray warp;
 
 vec4 shade(ivec2 pixel, int layer) {
   vec4 own = texelFetch(shadow, ivec3(pixel, layer), 0);
-  if (own.a <= 0.0) return vec4(0.0);
-  own.rgb /= own.a;
-  vec2 texel = 1.0 / vec2(textureSize(shadow, 0).xy);
-  vec2 at = (vec2(pixel) + 0.5) * texel;
+  own.rgb /= max(own.a, 1e-3);
+  vec4 warped = texelFetch(warp, ivec3(pixel, layer), 0);
   float depth = min(eyeDepth(texelFetch(depthBuffer, ivec3(pixel, layer), 0).r, layer), 60000.0);
-  float light = mix(own.r, blurredLight(at, depth, layer), u.blurAmount);
+
+  // Blurred light: of the four texels around the pixel, those at its own depth count.
+  vec2 position = (vec2(pixel) + 0.5) * 0.25 - 0.5;
+  ivec2 corner = ivec2(floor(position)), last = textureSize(blurred, 0).xy - 1;
+  vec2 f = position - vec2(corner);
+  vec4 sides = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
+  float sum = 0.0, weights = 0.0, sharpness = u.depthSharpness / (depth * depth);
+  vec4 lights;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 at = clamp(corner + ivec2(i & 1, i >> 1), ivec2(0), last);
+    vec4 b = texelFetch(blurred, ivec3(at, layer), 0);
+    lights[i] = b.r / max(b.a, 1e-3);
+    float z = b.b - depth;
+    float falloff = 1.0 / (1.0 + z * z * sharpness);
+    float weight = sides[i] * max(falloff * falloff, 1e-4) * (b.a + 1e-4);
+    sum += weight * lights[i];
+    weights += weight;
+  }
+  float light = mix(own.r, sum / weights, u.blurAmount);
 
   // FORMULAS 15: the edge is about `softness` pixels wide, whatever the slope of the blurred image.
-  vec2 dx = vec2(texel.x, 0.0), dy = vec2(0.0, texel.y);
-  float slope = 0.5 * length(vec2(lightOf(textureLod(blurred, vec3(at + dx, layer), 0.0)) -
-                                      lightOf(textureLod(blurred, vec3(at - dx, layer), 0.0)),
-                                  lightOf(textureLod(blurred, vec3(at + dy, layer), 0.0)) -
-                                      lightOf(textureLod(blurred, vec3(at - dy, layer), 0.0))));
-  float width = max(0.5 * u.softness * slope, 1e-3);
+  vec2 slope = 0.25 * vec2(mix(lights[1] - lights[0], lights[3] - lights[2], f.y),
+                           mix(lights[2] - lights[0], lights[3] - lights[1], f.x));
+  float width = max(0.5 * u.softness * length(slope), 1e-3);
   float lit = smoothstep(u.threshold - width, u.threshold + width, light);
 
-  // Texture indication: the marks push the blurred light over the threshold in a few more steps, each a flat shape.
-  float marks = own.b;
-  if (marks > 0.0) {
-    float pushed = 0.0;
-    for (int i = 1; i <= u.indicationSteps; ++i) {
-      float step_ = u.threshold + u.indication * (float(i) / float(u.indicationSteps)) * 0.9;
-      pushed += smoothstep(step_ - 0.02, step_ + 0.02, light + marks * u.indication) / float(u.indicationSteps);
-    }
-    lit = max(lit, pushed * smoothstep(0.0, 0.15, light));
+  // Texture indication: where the breakup map is set, marks push the blurred light over the threshold in a few more
+  // steps, each a flat shape.
+  float push = light + own.b * warped.b * u.indication;
+  float pushed = 0.0;
+  for (int i = 1; i <= u.indicationSteps; ++i) {
+    float level = u.threshold + 0.9 * u.indication * float(i) / float(u.indicationSteps);
+    pushed += clamp(0.5 + (push - level) * 25.0, 0.0, 1.0);
   }
+  pushed *= clamp(light * 6.0, 0.0, 1.0) / float(u.indicationSteps);
+  lit = own.b > 0.0 ? max(lit, pushed) : lit;
 
   // Inner glow: the inverted blur, clamped, adds light to the interior of the dark, none at its edge.
   float inside = clamp((u.threshold - light) / u.threshold, 0.0, 1.0);
   float result = lit + (1.0 - lit) * u.innerGlow * inside;
-  return vec4(result, own.g, marks, own.a);
+  return own.a > 0.0 ? vec4(result, own.g, own.b, own.a) : vec4(0.0);
 }
 
 #include "../../shading/image_pass.glsl"

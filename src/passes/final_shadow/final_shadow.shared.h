@@ -9,7 +9,7 @@ struct FinalShadowUniforms {
   float innerGlow;
   float indication;
   int indicationSteps;
-  float depthFalloff;  // 1 / (2 sigma^2), of relative depth; as the blur's
+  float depthSharpness;  // as the blur's
   float blurAmount;  // 1; less where the knob asks for less roundness than the blur can be small
 };
 SHARED_END

@@ -4,7 +4,7 @@
 #include "../../shading/material.glsl"
 
 layout(constant_id = 0) const int kAlphaMode = 0;
-layout(constant_id = 1) const int kTextured = 0;
+layout(constant_id = 2) const int kTextured = 0;
 
 layout(location = 0) in vec2 inUv;
 layout(location = 1) in vec4 inColor;

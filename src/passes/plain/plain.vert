@@ -4,7 +4,7 @@
 #include "../../shading/frame.glsl"
 #include "../../shading/material.glsl"
 
-layout(constant_id = 1) const int kTextured = 0;
+layout(constant_id = 2) const int kTextured = 0;
 
 layout(location = 0) in vec3 inPosition;
 layout(location = 2) in vec2 inUv0;

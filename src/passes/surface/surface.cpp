@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/tileable_noise.h"
 #include "frame/geometry_step.h"
 #include "frame/light.h"
 #include "frame/material_params.h"
@@ -16,24 +15,11 @@ using namespace frame;
 
 namespace {
 
-constexpr uint32_t kKnifeSize = 256;
-
 // Mirrors SurfaceUniforms in surface.glsl.
 struct SurfaceUniforms {
   float terminator, terminatorSharpness;
   glm::vec3 skyTint, groundTint;
 };
-
-// The breakup map: palette-knife marks, longer than wide, with flat tops and sharp sides; mean 0.5.
-std::vector<uint8_t> makeKnifeMarks() {
-  const std::vector<float> noise = selfSimilarNoise(kKnifeSize, 32, 3, 0.6f, 5, 4.0f);
-  std::vector<uint8_t> texels(size_t(kKnifeSize) * kKnifeSize * 4, 255);
-  for (size_t i = 0; i < noise.size(); ++i) {
-    const float mark = 0.5f + 0.5f * std::tanh(1.6f * noise[i]);
-    texels[4 * i] = uint8_t(std::lround(mark * 255));
-  }
-  return texels;
-}
 
 class Surface : public Pass {
  public:
@@ -61,13 +47,9 @@ class Surface : public Pass {
   void create(FrameBuilder& frame, const FrameResources& resources) override {
     resources_ = &resources;
     scene_ = &frame.scene();
-    gpu::Uploader uploader(frame.device());
-    knife_ = uploader.texture(makeKnifeMarks().data(), VK_FORMAT_R8G8B8A8_UNORM, kKnifeSize, kKnifeSize, false);
-    uploader.flush();
     layout_ = gpu::SetLayout(frame.device(),
                              {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VK_SHADER_STAGE_FRAGMENT_BIT},
                               {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_FRAGMENT_BIT},
-                              {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT},
                               {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}});
     set_ = gpu::DescriptorSets(frame.device(), layout_);
     params_.bind(set_, 0);
@@ -75,14 +57,11 @@ class Surface : public Pass {
     gpu::SamplerDesc compare;
     compare.compareLess = true;
     set_.writeTexture(0, 2, resources.image(shadowMap_).view(), frame.samplers().get(compare));
-    gpu::SamplerDesc repeating;
-    repeating.wrapU = repeating.wrapV = VK_SAMPLER_ADDRESS_MODE_REPEAT;
-    set_.writeTexture(0, 3, knife_.view(), frame.samplers().get(repeating));
 
     GeometryStepDesc desc;
     desc.vertex = {shaders::surface_vert};
     desc.fragment = {shaders::surface_frag};
-    desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor | kDPdu | kDPdv | kPatternUv;
+    desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor;
     for (const Slot slot : kTargets)
       if (slot != Slot::depth) desc.colorFormats.push_back(slotInfo(slot).format);
     desc.samples = samples_;
@@ -125,7 +104,6 @@ class Surface : public Pass {
   const FrameResources* resources_ = nullptr;
   const SceneOnGpu* scene_ = nullptr;
   glm::vec3 eye_{0.0f};
-  gpu::Image knife_;
   gpu::SetLayout layout_;
   gpu::DescriptorSets set_;
   GeometryStep step_;
