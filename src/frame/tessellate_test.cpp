@@ -23,6 +23,7 @@ void addTriangle(Primitive& p, const glm::vec3& a, const glm::vec3& b, const glm
     // Linear in the position, so that what is interpolated can be foretold.
     p.uv0.push_back({v.x + 2 * v.y, v.z - v.x});
     p.uv1.push_back({v.y, v.z});
+    p.patternUv.push_back({v.z, v.y});
     p.dPdu.push_back({v.x, 1, 0});
     p.dPdv.push_back({0, 1, v.z});
     p.colors.push_back(glm::u8vec4(glm::clamp(v * 10.0f + 100.0f, 0.0f, 255.0f), 255));
@@ -31,8 +32,11 @@ void addTriangle(Primitive& p, const glm::vec3& a, const glm::vec3& b, const glm
 
 // A closed box whose faces share no vertices, as flat shading makes them.
 Primitive box(const glm::vec3& size) {
-  const auto corner = [&](int i) { return glm::vec3(i & 1 ? size.x : 0, i & 2 ? size.y : 0, i & 4 ? size.z : 0); };
-  constexpr int kFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  const auto corner = [&](int i) {
+    return glm::vec3(i & 1 ? size.x : 0, i & 2 ? size.y : 0, i & 4 ? size.z : 0);
+  };
+  constexpr int kFaces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
   Primitive p;
   for (const auto& f : kFaces) {
     addTriangle(p, corner(f[0]), corner(f[1]), corner(f[2]));
@@ -48,7 +52,8 @@ Primitive sheet(uint32_t seed) {
   constexpr uint32_t kSide = 5;
   Primitive p;
   std::array<float, kSide> x{}, z{};
-  for (uint32_t i = 1; i < kSide; ++i) x[i] = x[i - 1] + 0.05f + 3 * number(), z[i] = z[i - 1] + 0.05f + 3 * number();
+  for (uint32_t i = 1; i < kSide; ++i)
+    x[i] = x[i - 1] + 0.05f + 3 * number(), z[i] = z[i - 1] + 0.05f + 3 * number();
   for (uint32_t i = 0; i < kSide * kSide; ++i) {
     p.positions.push_back({x[i % kSide], number(), z[i / kSide]});
     p.normals.push_back({0, 1, 0});
@@ -73,7 +78,8 @@ float longestEdge(const Primitive& p) {
 double areaOf(const Primitive& p) {
   double area = 0;
   for (size_t i = 0; i < p.indices.size(); i += 3) {
-    const glm::dvec3 a(p.positions[p.indices[i]]), b(p.positions[p.indices[i + 1]]), c(p.positions[p.indices[i + 2]]);
+    const glm::dvec3 a(p.positions[p.indices[i]]), b(p.positions[p.indices[i + 1]]),
+        c(p.positions[p.indices[i + 2]]);
     area += 0.5 * glm::length(glm::cross(b - a, c - a));
   }
   return area;
@@ -85,8 +91,8 @@ scene::Bounds boundsOf(const Primitive& p) {
   return bounds;
 }
 
-// How often each directed edge is there, by position: in a surface without tears and flips, each one lies against its
-// opposite, but at the border.
+// How often each directed edge is there, by position: in a surface without tears and flips, each one lies
+// against its opposite, but at the border.
 using Point = std::array<float, 3>;
 std::map<std::pair<Point, Point>, int> edgesOf(const Primitive& p) {
   std::map<std::pair<Point, Point>, int> edges;
@@ -103,8 +109,9 @@ double borderOf(const Primitive& p) {
     const auto opposite = edges.find({edge.second, edge.first});
     const int unmatched = count - (opposite == edges.end() ? 0 : opposite->second);
     if (unmatched <= 0) continue;
-    length += unmatched * std::hypot(double(edge.first[0]) - edge.second[0], double(edge.first[1]) - edge.second[1],
-                                     double(edge.first[2]) - edge.second[2]);
+    length +=
+        unmatched * std::hypot(double(edge.first[0]) - edge.second[0], double(edge.first[1]) - edge.second[1],
+                               double(edge.first[2]) - edge.second[2]);
   }
   return length;
 }
@@ -141,7 +148,8 @@ TEST(Tessellate, primitivesThatShareAnEdgeSplitItAlike) {
   const auto onTheEdge = [&](const Primitive& p) {
     std::vector<Point> points;
     for (const glm::vec3& v : p.positions)
-      if (glm::length(glm::cross(v - a, b - a)) < 1e-5f * glm::dot(b - a, b - a)) points.push_back({v.x, v.y, v.z});
+      if (glm::length(glm::cross(v - a, b - a)) < 1e-5f * glm::dot(b - a, b - a))
+        points.push_back({v.x, v.y, v.z});
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
     return points;
@@ -173,6 +181,7 @@ TEST(Tessellate, attributesAreInterpolated) {
   ASSERT_EQ(result->smoothNormals.size(), count);
   ASSERT_EQ(result->uv0.size(), count);
   ASSERT_EQ(result->uv1.size(), count);
+  ASSERT_EQ(result->patternUv.size(), count);
   ASSERT_EQ(result->dPdu.size(), count);
   ASSERT_EQ(result->dPdv.size(), count);
   ASSERT_EQ(result->colors.size(), count);
@@ -181,6 +190,7 @@ TEST(Tessellate, attributesAreInterpolated) {
     EXPECT_NEAR(result->uv0[i].x, p.x + 2 * p.y, 1e-5f);
     EXPECT_NEAR(result->uv0[i].y, p.z - p.x, 1e-5f);
     EXPECT_NEAR(result->uv1[i].y, p.z, 1e-5f);
+    EXPECT_NEAR(result->patternUv[i].x, p.z, 1e-5f);
     EXPECT_NEAR(result->dPdu[i].x, p.x, 1e-5f);
     EXPECT_NEAR(result->dPdv[i].z, p.z, 1e-5f);
     EXPECT_NEAR(glm::length(result->normals[i]), 1, 1e-5f);

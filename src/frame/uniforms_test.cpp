@@ -1,6 +1,6 @@
-// Projections and the constants that shaders take apart again what a projection did: checked against the projection
-// itself, for any off-centre one, since headsets have nothing else.
-#include "frame/uniforms.h"
+// Projections and the constants that shaders take apart again what a projection did: checked against the
+// projection itself, for any off-centre one, since headsets have nothing else.
+#include "renderer/uniforms.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,9 @@ namespace {
 class Numbers {
  public:
   explicit Numbers(uint32_t seed) : random_(seed) {}
-  float operator()(float low, float high) { return std::uniform_real_distribution<float>(low, high)(random_); }
+  float operator()(float low, float high) {
+    return std::uniform_real_distribution<float>(low, high)(random_);
+  }
 
  private:
   std::mt19937 random_;
@@ -53,8 +55,8 @@ TEST(ViewUniforms, raysAndDepthsOfPerspectives) {
       const float distance = number(1, 40);
       const glm::vec3 point(number(-2, 2) * distance, number(-2, 2) * distance, -distance);
       const glm::vec3 ndc = ndcOf(view.eyeToClip, point);
-      const glm::vec2 ray =
-          glm::vec2(ndc) * glm::vec2(u.ndcToEyeRay.x, u.ndcToEyeRay.y) + glm::vec2(u.ndcToEyeRay.z, u.ndcToEyeRay.w);
+      const glm::vec2 ray = glm::vec2(ndc) * glm::vec2(u.ndcToEyeRay.x, u.ndcToEyeRay.y) +
+                            glm::vec2(u.ndcToEyeRay.z, u.ndcToEyeRay.w);
       EXPECT_NEAR(ray.x, point.x / distance, 2e-5f);
       EXPECT_NEAR(ray.y, point.y / distance, 2e-5f);
       EXPECT_NEAR(eyeDepth(u, ndc.z), distance, 1e-3f * distance * distance) << "depth " << ndc.z;
@@ -73,8 +75,8 @@ TEST(ViewUniforms, pointsAndDepthsOfParallelProjections) {
     EXPECT_EQ(u.orthographic, 1.0f);
     const glm::vec3 point(number(-5, 5), number(-5, 5), -number(1, 20));
     const glm::vec3 ndc = ndcOf(view.eyeToClip, point);
-    const glm::vec2 at =
-        glm::vec2(ndc) * glm::vec2(u.ndcToEyeRay.x, u.ndcToEyeRay.y) + glm::vec2(u.ndcToEyeRay.z, u.ndcToEyeRay.w);
+    const glm::vec2 at = glm::vec2(ndc) * glm::vec2(u.ndcToEyeRay.x, u.ndcToEyeRay.y) +
+                         glm::vec2(u.ndcToEyeRay.z, u.ndcToEyeRay.w);
     EXPECT_NEAR(at.x, point.x, 1e-4f);
     EXPECT_NEAR(at.y, point.y, 1e-4f);
     EXPECT_NEAR(eyeDepth(u, ndc.z), -point.z, 1e-3f);
@@ -91,7 +93,8 @@ TEST(ViewUniforms, eyeAndMatricesOfNowAndBefore) {
   EXPECT_NEAR(glm::length(u.eye - glm::vec3(3, 4, 5)), 0, 1e-5f);
   const glm::vec4 point(0.3f, 0.2f, -0.4f, 1);
   EXPECT_NEAR(glm::length(u.worldToClip * point - now.eyeToClip * (now.worldToEye * point)), 0, 1e-5f);
-  EXPECT_NEAR(glm::length(u.previousWorldToClip * point - before.eyeToClip * (before.worldToEye * point)), 0, 1e-5f);
+  EXPECT_NEAR(glm::length(u.previousWorldToClip * point - before.eyeToClip * (before.worldToEye * point)), 0,
+              1e-5f);
 }
 
 // -- Vulkan's convention: y down, depth 1 at the near plane and 0 far away

@@ -7,7 +7,7 @@
 #include "frame/material_params.h"
 #include "shaders/facts_frag.h"
 #include "shaders/facts_vert.h"
-#include "shading/metatexture_params.h"
+#include "frame/metatexture_params.h"
 
 namespace scumble::passes {
 
@@ -73,7 +73,7 @@ class Facts : public Pass {
   std::array<gpu::ResourceId, kFacts.size()> targets_{};
   gpu::ResourceId depth_ = 0;
   uint32_t viewMask_ = 1;
-  MaterialParams<shading::WarpMetaTextureParams> metaTextureParams_;
+  MaterialParams<frame::WarpMetaTextureParams> metaTextureParams_;
   const FrameResources* resources_ = nullptr;
   const SceneOnGpu* scene_ = nullptr;
   glm::vec3 eye_{0.0f};

@@ -11,7 +11,7 @@
 #include "shaders/warp_image_frag.h"
 #include "shaders/warp_surface_frag.h"
 #include "shaders/warp_surface_vert.h"
-#include "shading/metatexture_params.h"
+#include "frame/metatexture_params.h"
 
 namespace scumble::passes {
 
@@ -110,7 +110,7 @@ class Warp : public Pass {
   uint32_t viewMask_ = 1;
   glm::vec3 eye_{0.0f};
   MaterialParams<WarpParams> params_;
-  MaterialParams<shading::WarpMetaTextureParams> metaTextureParams_;
+  MaterialParams<frame::WarpMetaTextureParams> metaTextureParams_;
   gpu::Image example_;
   gpu::SetLayout layout_;
   gpu::DescriptorSets set_;

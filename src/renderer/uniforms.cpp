@@ -1,4 +1,4 @@
-#include "frame/uniforms.h"
+#include "renderer/uniforms.h"
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 #include "frame/palette.h"
 #include "passes/color/color.h"
 
-namespace scumble::frame {
+namespace scumble::renderer {
 
 shared::ViewUniforms viewUniforms(const View& view, const View& previous) {
   const glm::mat4& p = view.eyeToClip;
@@ -96,4 +96,4 @@ shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const l
   return data;
 }
 
-}  // namespace scumble::frame
+}  // namespace scumble::renderer

@@ -4,7 +4,9 @@
 #include "frame/pass.h"
 #include "scumble/view.h"
 
-namespace scumble::frame {
+namespace scumble::renderer {
+
+using namespace frame;
 
 shared::ViewUniforms viewUniforms(const View& view, const View& previous);
 
@@ -15,4 +17,4 @@ shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const look::LookDat
 // The material's facts, its texture transforms and its colour maps under a look.
 shared::MaterialData materialData(const SceneOnGpu& scene, size_t material, const look::LookData& look);
 
-}  // namespace scumble::frame
+}  // namespace scumble::renderer

@@ -4,7 +4,9 @@
 #include "frame/pass.h"
 #include "scumble/image.h"
 
-namespace scumble::frame {
+namespace scumble::renderer {
+
+using namespace frame;
 
 // One slot's image on its way back: declares the copy, and converts when the frame is done.
 class Readback {
@@ -22,4 +24,4 @@ class Readback {
   gpu::Buffer buffer_;
 };
 
-}  // namespace scumble::frame
+}  // namespace scumble::renderer

@@ -1,4 +1,4 @@
-#include "frame/pass_list.h"
+#include "renderer/pass_list.h"
 
 #include "frame/light.h"
 #include "frame/palette.h"
@@ -12,7 +12,7 @@
 #include "passes/shadow_map/shadow_map.h"
 #include "passes/surface/surface.h"
 #include "passes/warp/warp.h"
-#include "shading/metatexture_params.h"
+#include "frame/metatexture_params.h"
 
 namespace scumble {
 
@@ -23,7 +23,7 @@ const std::vector<const ParamBlock*>& allBlocks() {
       &frame::LightParams::block(),       &passes::ShadowMapParams::block(),
       &frame::PaletteParams::block(),     &passes::SurfaceParams::block(),
       &passes::BlurParams::block(),       &passes::FinalShadowParams::block(),
-      &passes::WarpParams::block(),       &shading::WarpMetaTextureParams::block(),
+      &passes::WarpParams::block(),       &frame::WarpMetaTextureParams::block(),
       &passes::BackgroundParams::block(), &frame::GroundParams::block(),
       &passes::FinalColorParams::block()};
   return blocks;
@@ -31,7 +31,7 @@ const std::vector<const ParamBlock*>& allBlocks() {
 
 }  // namespace look
 
-namespace frame {
+namespace renderer {
 
 std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration) {
   std::vector<std::unique_ptr<Pass>> list;
@@ -61,5 +61,5 @@ std::vector<bool> shadowCasters(const scene::SceneData& scene, const look::LookD
   return casts;
 }
 
-}  // namespace frame
+}  // namespace renderer
 }  // namespace scumble

@@ -3,7 +3,7 @@
 
 #include "look/param.h"
 
-namespace scumble::shading {
+namespace scumble::frame {
 
 #define PARAMS_STRUCT WarpMetaTextureParams
 #define PARAMS_FILE "shading/metatexture.params"
@@ -11,4 +11,4 @@ namespace scumble::shading {
 #define PARAMS_PER_MATERIAL true
 #include "look/define_params.h"
 
-}  // namespace scumble::shading
+}  // namespace scumble::frame

@@ -8,13 +8,14 @@
 #include "frame/framing.h"
 #include "frame/light.h"
 #include "frame/palette.h"
-#include "frame/pass_list.h"
-#include "frame/readback.h"
-#include "frame/uniforms.h"
+#include "renderer/pass_list.h"
+#include "renderer/readback.h"
+#include "renderer/uniforms.h"
 
 namespace scumble {
 
 using namespace frame;
+using namespace renderer;
 
 namespace {
 
@@ -211,11 +212,11 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
   deviceOptions.cacheFolder = options.cacheFolder;
   Result<std::unique_ptr<gpu::Device>> device = gpu::Device::create(deviceOptions);
   if (!device) return device.error();
-  std::unique_ptr<Renderer> renderer(new Renderer);
-  renderer->impl_->device = std::move(device).value();
-  renderer->impl_->samplers.emplace(*renderer->impl_->device);
-  renderer->impl_->imagePasses = options.imagePasses;
-  return renderer;
+  std::unique_ptr<Renderer> created(new Renderer);
+  created->impl_->device = std::move(device).value();
+  created->impl_->samplers.emplace(*created->impl_->device);
+  created->impl_->imagePasses = options.imagePasses;
+  return created;
 }
 
 Result<Frame> Renderer::render(const Scene& scene, const Look& look, double time, const std::vector<View>& views,

@@ -6,11 +6,13 @@
 
 #include "frame/pass.h"
 
-namespace scumble::frame {
+namespace scumble::renderer {
+
+using namespace frame;
 
 std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration);
 
 // Which materials cast shadows under a look; the ground, if there is one, is no material of the scene's.
 std::vector<bool> shadowCasters(const scene::SceneData& scene, const look::LookData& look);
 
-}  // namespace scumble::frame
+}  // namespace scumble::renderer

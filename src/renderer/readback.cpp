@@ -1,4 +1,4 @@
-#include "frame/readback.h"
+#include "renderer/readback.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include "look/param.h"
 #include "scene/parallel.h"
 
-namespace scumble::frame {
+namespace scumble::renderer {
 
 namespace {
 
@@ -149,4 +149,4 @@ std::vector<Image> Readback::images(uint32_t width, uint32_t height) const {
   return images;
 }
 
-}  // namespace scumble::frame
+}  // namespace scumble::renderer

@@ -1,0 +1,235 @@
+// The palette rule against the art director's brief: a person judges pictures, this holds what that person
+// said in numbers. Distances are in OKLab, where 0.02 is just noticeable side by side and 0.1 is the next
+// colour in the box.
+#include "frame/palette.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/oklab.h"
+
+namespace scumble::frame {
+namespace {
+
+glm::dvec3 srgb(uint32_t rrggbb) {
+  return glm::dvec3(look::linearFromSrgb(rrggbb));
+}
+
+double distance(const glm::dvec3& a, const glm::dvec3& b) {
+  return glm::length(oklabFromLinear(a) - oklabFromLinear(b));
+}
+
+// Calls with linear colours over a grid that is even in sRGB.
+template <class Function>
+void forColors(int steps, const Function& function) {
+  for (int i = 0; i < steps * steps * steps; ++i) {
+    const glm::dvec3 s = glm::dvec3(i % steps, i / steps % steps, i / (steps * steps)) / double(steps - 1);
+    glm::dvec3 linear;
+    for (int c = 0; c < 3; ++c)
+      linear[c] = s[c] <= 0.04045 ? s[c] / 12.92 : std::pow((s[c] + 0.055) / 1.055, 2.4);
+    function(linear);
+  }
+}
+
+// -- The brief
+
+// The brief's triads (lit / shadow) are examples painted by hand, not a formula: the rule must come near all
+// of them at once. Tolerances: 0.07 for light, which shall stay the model's own colour; 0.11 for shadow,
+// about one colour's step.
+TEST(Palette, followsTheBriefsTriads) {
+  const struct {
+    const char* name;
+    uint32_t lit, shadowed;
+  } triads[] = {
+      {"canvas", 0xEADFC8, 0x8E93AC}, {"varnished wood", 0xB8743F, 0x5A3B48}, {"skin", 0xD9A07A, 0x86545A}};
+  const PaletteParams params;
+  for (const auto& triad : triads) {
+    EXPECT_LT(distance(litColor(params, srgb(triad.lit)), srgb(triad.lit)), 0.07) << triad.name;
+    EXPECT_LT(distance(shadowedColor(params, srgb(triad.lit)), srgb(triad.shadowed)), 0.11) << triad.name;
+  }
+}
+
+TEST(Palette, shadowIsCoolerAndSeldomDarkerThanHalfTheLight) {
+  const PaletteParams params;
+  forColors(17, [&](const glm::dvec3& albedo) {
+    const glm::dvec3 lit = oklabFromLinear(litColor(params, albedo)),
+                     shadowed = oklabFromLinear(shadowedColor(params, albedo));
+    EXPECT_GE(shadowed.x, 0.5 * lit.x);
+    EXPECT_LE(shadowed.x, 0.9 * lit.x) << "no shadow to be seen";
+    // What is much bluer than the shadow's own tint cannot become bluer still.
+    if (lit.z > -0.08) EXPECT_LT(shadowed.z, lit.z);
+  });
+}
+
+// A colour of its own: at the least one noticeable step from every grey multiple of the lit colour.
+TEST(Palette, shadowIsNeverGreyTimesTheLight) {
+  const PaletteParams params;
+  forColors(13, [&](const glm::dvec3& albedo) {
+    const glm::dvec3 lit = litColor(params, albedo), shadowed = shadowedColor(params, albedo);
+    double nearest = 1;
+    for (int i = 0; i <= 40; ++i) nearest = std::min(nearest, distance(lit * (i / 40.0), shadowed));
+    EXPECT_GT(nearest, 0.02) << albedo.r << " " << albedo.g << " " << albedo.b;
+  });
+}
+
+// "White models do not burn out, black ones do not become holes."
+TEST(Palette, whiteAndBlackStayReadable) {
+  const PaletteParams params;
+  const glm::dvec3 white = oklabFromLinear(litColor(params, glm::dvec3(1.0)));
+  EXPECT_LT(white.x, 0.97);
+  EXPECT_GT(white.x, 0.85);
+  EXPECT_GT(oklabFromLinear(litColor(params, glm::dvec3(0.0))).x, 0.12);
+  EXPECT_GT(oklabFromLinear(shadowedColor(params, glm::dvec3(0.0))).x, 0.06);
+}
+
+TEST(Palette, lighterStaysLighter) {
+  const PaletteParams params;
+  double litBefore = -1, shadowedBefore = -1;
+  for (int i = 0; i <= 32; ++i) {
+    const glm::dvec3 grey(std::pow(i / 32.0, 2.2));
+    const double lit = oklabFromLinear(litColor(params, grey)).x,
+                 shadowed = oklabFromLinear(shadowedColor(params, grey)).x;
+    EXPECT_GT(lit, litBefore);
+    EXPECT_GT(shadowed, shadowedBefore);
+    litBefore = lit, shadowedBefore = shadowed;
+  }
+}
+
+TEST(Palette, everyKnobsEndsGiveColours) {
+  for (const look::ParamRow& row : PaletteParams::block().rows) {
+    for (const double end : {row.min, row.max}) {
+      look::LookData look;
+      look.assignments.push_back(
+          {"", &PaletteParams::block(), &row, {end, look::linearFromSrgb(uint32_t(std::max(0.0, end)))}});
+      const PaletteParams params = look.get<PaletteParams>();
+      forColors(4, [&](const glm::dvec3& albedo) {
+        for (const glm::dvec3& color : {litColor(params, albedo), shadowedColor(params, albedo)})
+          for (int c = 0; c < 3; ++c) {
+            ASSERT_TRUE(std::isfinite(color[c])) << row.name;
+            ASSERT_GE(color[c], 0) << row.name;
+            ASSERT_LE(color[c], 1) << row.name;
+          }
+      });
+    }
+  }
+}
+
+TEST(Palette, withoutAnyShiftTheRuleChangesNothing) {
+  PaletteParams params;
+  params.darkest = 0, params.lightest = 1, params.saturation = 1, params.litTintAmount = 0;
+  forColors(9,
+            [&](const glm::dvec3& albedo) { EXPECT_LT(distance(litColor(params, albedo), albedo), 2e-3); });
+}
+
+// -- The maps that carry the rule to the GPU
+
+struct FitError {
+  double mean = 0, max = 0;
+};
+template <class Rule>
+FitError errorOfFit(const Rule& rule) {
+  const shared::ColorMap map = fitColorMap(rule);
+  FitError error;
+  int count = 0;
+  forColors(13, [&](const glm::dvec3& albedo) {
+    const double d = distance(glm::dvec3(apply(map, glm::vec3(albedo))), rule(albedo));
+    error.mean += d, error.max = std::max(error.max, d), ++count;
+  });
+  error.mean /= count;
+  return error;
+}
+
+// Measured over the sRGB cube at the defaults: light 0.010 on average and 0.085 at most (at black, where the
+// rule's cube root is steepest), shadow 0.007 and 0.059.
+TEST(PaletteFit, staysNearTheRule) {
+  const PaletteParams params;
+  const FitError lit = errorOfFit([&](const glm::dvec3& c) { return litColor(params, c); });
+  EXPECT_LT(lit.mean, 0.016);
+  EXPECT_LT(lit.max, 0.12);
+  const FitError shadowed = errorOfFit([&](const glm::dvec3& c) { return shadowedColor(params, c); });
+  EXPECT_LT(shadowed.mean, 0.014);
+  EXPECT_LT(shadowed.max, 0.12);
+}
+
+// A rule that is such a polynomial itself must come back exactly: that tries the solver without the rule's
+// own bends.
+TEST(PaletteFit, isExactForWhatItCanExpress) {
+  const auto quadratic = [](const glm::dvec3& linear) {
+    const glm::dvec3 r = glm::sqrt(linear);
+    const glm::dvec3 root = 0.1 + 0.5 * r + 0.2 * r * glm::dvec3(r.g, r.b, r.r) + 0.15 * r * r;
+    return root * root;
+  };
+  EXPECT_LT(errorOfFit(quadratic).max, 1e-4);
+  EXPECT_LT(errorOfFit([](const glm::dvec3& c) { return c; }).max, 2e-3);
+}
+
+TEST(PaletteFit, constantAndIdentity) {
+  const glm::vec3 color(0.2f, 0.5f, 0.04f);
+  forColors(5, [&](const glm::dvec3& albedo) {
+    EXPECT_NEAR(glm::length(apply(constantColorMap(color), glm::vec3(albedo)) - color), 0, 1e-6);
+    EXPECT_NEAR(glm::length(apply(identityColorMap(), glm::vec3(albedo)) - glm::vec3(albedo)), 0, 1e-6);
+  });
+  // Out of range, as blended vertex colours may be: clamped, and never a number that is none.
+  const glm::vec3 odd = apply(identityColorMap(), {-1, 4, 0.5f});
+  EXPECT_NEAR(glm::length(odd - glm::vec3(0, 1, 0.5f)), 0, 1e-6);
+}
+
+// -- The background
+
+double lightnessOf(const glm::vec3& linear) {
+  return oklabFromLinear(glm::dvec3(linear)).x;
+}
+
+SceneColors sceneOf(const glm::dvec3& linear) {
+  SceneColors colors;
+  colors.meanRootRgb = glm::vec3(glm::sqrt(linear));
+  return colors;
+}
+
+// "A background two steps away in value from the model": a step is 0.1 of OKLab lightness. The model is seen
+// through the palette, about half lit and half in shadow, so "away" is measured to the lit colour or to its
+// middle, whichever is nearer the background; a model's shadow side may come near it.
+TEST(Background, standsTwoStepsOfValueAwayFromTheScene) {
+  forColors(9, [&](const glm::dvec3& linear) {
+    const BackgroundColors background = automaticBackground(sceneOf(linear));
+    const double scene = oklabFromLinear(linear).x;
+    for (const glm::vec3& part : {background.horizon, background.zenith, background.ground}) {
+      const double apart = std::abs(lightnessOf(part) - scene);
+      EXPECT_GT(apart, 0.13) << "scene " << scene << " background " << lightnessOf(part);
+    }
+  });
+}
+
+TEST(Background, isQuietAndNeitherBlackNorBurntOut) {
+  forColors(9, [&](const glm::dvec3& linear) {
+    const BackgroundColors background = automaticBackground(sceneOf(linear));
+    for (const glm::vec3& part : {background.horizon, background.zenith, background.ground}) {
+      const glm::dvec3 lab = oklabFromLinear(glm::dvec3(part));
+      EXPECT_GT(lab.x, 0.5);
+      EXPECT_LT(lab.x, 0.95);
+      EXPECT_LT(std::hypot(lab.y, lab.z), 0.09) << "a background that shouts";
+    }
+    EXPECT_GT(lightnessOf(background.horizon), lightnessOf(background.zenith)) << "the far is lighter";
+    EXPECT_LT(distance(glm::dvec3(background.horizon), glm::dvec3(background.zenith)), 0.2);
+  });
+}
+
+TEST(Ground, followsItsKnobAndTheScenesShape) {
+  scene::SceneData tall, flat;
+  tall.bounds.add({-1, 0, -1}), tall.bounds.add({1, 2, 1});
+  flat.bounds.add({-10, 0, -10}), flat.bounds.add({10, 1, 10});
+  look::LookData look;
+  EXPECT_TRUE(hasGround(tall, look));
+  EXPECT_FALSE(hasGround(flat, look));
+  const look::ParamRow& mode = GroundParams::block().rows[0];
+  ASSERT_STREQ(mode.name, "mode");
+  look.assignments.push_back({"", &GroundParams::block(), &mode, {1, {}}});
+  EXPECT_TRUE(hasGround(flat, look));
+  look.assignments.push_back({"", &GroundParams::block(), &mode, {2, {}}});
+  EXPECT_FALSE(hasGround(tall, look));
+}
+
+}  // namespace
+}  // namespace scumble::frame

@@ -1,0 +1,113 @@
+// What must hold for all blocks of knobs at once: the structs that passes read start with the values that
+// `scumble params` shows, and the list of blocks is complete.
+#include "frame/pass_list.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <set>
+#include <string>
+
+#include "frame/light.h"
+#include "frame/palette.h"
+#include "frame/slots.h"
+#include "passes/blur/blur.h"
+#include "passes/color/color.h"
+#include "passes/final_color/final_color.h"
+#include "passes/final_shadow/final_shadow.h"
+#include "passes/shadow_map/shadow_map.h"
+#include "passes/surface/surface.h"
+#include "passes/warp/warp.h"
+#include "scumble/renderer.h"
+#include "shading/metatexture_params.h"
+
+namespace scumble::frame {
+namespace {
+
+using look::ParamKind;
+
+template <class T>
+T read(const void* base, size_t offset) {
+  T value;
+  std::memcpy(&value, static_cast<const char*>(base) + offset, sizeof(T));
+  return value;
+}
+
+template <class Params>
+void expectRowsDefaults(std::set<const look::ParamBlock*>& seen) {
+  const look::ParamBlock& block = Params::block();
+  seen.insert(&block);
+  EXPECT_EQ(block.structSize, sizeof(Params));
+  const Params fresh, whole = look::LookData{}.get<Params>(),
+                      single = look::LookData{}.getForMaterial<Params>("Sail");
+  size_t expectedOffset = 0;
+  for (const look::ParamRow& row : block.rows) {
+    const std::string name = std::string(block.path) + "." + row.name;
+    // Scalar layout without gaps, which is what GLSL sees.
+    EXPECT_EQ(row.offset, expectedOffset) << name;
+    expectedOffset += row.kind == ParamKind::color ? 12 : 4;
+    for (const Params* params : {&fresh, &whole, &single}) switch (row.kind) {
+        case ParamKind::number:
+          EXPECT_EQ(read<float>(params, row.offset), float(row.defaultValue)) << name;
+          break;
+        case ParamKind::integer:
+        case ParamKind::choice:
+          EXPECT_EQ(read<int32_t>(params, row.offset), int32_t(row.defaultValue)) << name;
+          break;
+        case ParamKind::toggle:
+          EXPECT_EQ(read<uint32_t>(params, row.offset), uint32_t(row.defaultValue)) << name;
+          break;
+        case ParamKind::color:
+          EXPECT_EQ(look::srgbFromLinear(read<glm::vec3>(params, row.offset)), uint32_t(row.defaultValue))
+              << name;
+      }
+  }
+  EXPECT_EQ(expectedOffset, sizeof(Params)) << block.path;
+}
+
+TEST(PassList, structsStartWithTheirRowsDefaults) {
+  std::set<const look::ParamBlock*> seen;
+  expectRowsDefaults<LightParams>(seen);
+  expectRowsDefaults<PaletteParams>(seen);
+  expectRowsDefaults<GroundParams>(seen);
+  expectRowsDefaults<passes::ShadowMapParams>(seen);
+  expectRowsDefaults<passes::SurfaceParams>(seen);
+  expectRowsDefaults<passes::BlurParams>(seen);
+  expectRowsDefaults<passes::FinalShadowParams>(seen);
+  expectRowsDefaults<passes::WarpParams>(seen);
+  expectRowsDefaults<passes::BackgroundParams>(seen);
+  expectRowsDefaults<passes::FinalColorParams>(seen);
+  expectRowsDefaults<shading::WarpMetaTextureParams>(seen);
+  for (const look::ParamBlock* block : look::allBlocks())
+    EXPECT_TRUE(seen.count(block)) << block->path << ": a new block of knobs; add its struct to this test";
+  EXPECT_EQ(look::allBlocks().size(), seen.size())
+      << "a block of knobs that the list leaves out, or one twice";
+}
+
+// Shaders pad nothing, and neither does the program's face: names of AOVs are different words of small
+// letters.
+TEST(PassList, namesOfAovsAreThePromisedOnes) {
+  const std::vector<std::string> names = Renderer::aovNames();
+  const std::set<std::string> unique(names.begin(), names.end());
+  EXPECT_EQ(unique.size(), names.size());
+  for (const std::string& name : names)
+    EXPECT_EQ(name.find_first_not_of("abcdefghijklmnopqrstuvwxyz-"), std::string::npos);
+  // docs: PROGRAM.md promises these to scripts.
+  for (const char* name :
+       {"warp", "shadow-map", "shadow", "blur", "final-shadow", "lit", "shadowed", "color", "final-color",
+        "depth", "position", "normal", "uv", "uv-gradient", "metatexture", "motion", "id"})
+    EXPECT_TRUE(unique.count(name)) << name;
+}
+
+TEST(PassList, slotsSayWhatTheyHold) {
+  for (size_t i = 0; i < size_t(Slot::count); ++i) {
+    const SlotInfo& info = slotInfo(Slot(i));
+    ASSERT_NE(info.aov, nullptr) << i;
+    EXPECT_GE(info.channels, 1);
+    EXPECT_LE(info.channels, 4);
+    EXPECT_NE(info.format, VK_FORMAT_UNDEFINED);
+  }
+}
+
+}  // namespace
+}  // namespace scumble::frame
