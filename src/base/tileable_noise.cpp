@@ -1,9 +1,28 @@
 #include "base/tileable_noise.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace scumble {
+
+namespace {
+
+// Unit vectors all around, since a cosine and a sine for each corner of each texel would take most of the time.
+const std::array<std::pair<float, float>, 256>& directions() {
+  static const std::array<std::pair<float, float>, 256> table = [] {
+    std::array<std::pair<float, float>, 256> t;
+    for (size_t i = 0; i < t.size(); ++i) {
+      const float angle = float(i) * (6.28318531f / 256.0f);
+      t[i] = {std::cos(angle), std::sin(angle)};
+    }
+    return t;
+  }();
+  return table;
+}
+
+}  // namespace
 
 uint32_t hash(uint32_t value) {
   const uint32_t state = value * 747796405u + 2891336453u;
@@ -19,8 +38,8 @@ float gradientNoise(float x, float y, uint32_t periodX, uint32_t periodY, uint32
       return uint32_t((int64_t(cell) + offset) % int64_t(period) + int64_t(period)) % period;
     };
     const uint32_t h = hash(wrap(floorX, dx, periodX) + hash(wrap(floorY, dy, periodY) + hash(seed)));
-    const float angle = float(h & 0xFFFF) * (6.28318531f / 65536.0f);
-    return std::cos(angle) * (fx - float(dx)) + std::sin(angle) * (fy - float(dy));
+    const auto& [gx, gy] = directions()[h & 0xFF];
+    return gx * (fx - float(dx)) + gy * (fy - float(dy));
   };
   const auto fade = [](float t) { return t * t * t * (t * (t * 6 - 15) + 10); };
   const auto mix = [](float a, float b, float t) { return a + (b - a) * t; };

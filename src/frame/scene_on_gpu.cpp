@@ -5,6 +5,7 @@
 #include <map>
 
 #include "frame/geometry.h"
+#include "frame/mipmaps.h"
 #include "scene/parallel.h"
 
 namespace scumble::frame {
@@ -216,13 +217,22 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
 }
 
 void SceneOnGpu::buildMaterials(gpu::Device& device, gpu::Samplers& samplers, gpu::Uploader& uploader) {
-  const uint32_t white = 0xFFFFFFFFu;
-  images_.push_back(uploader.texture(&white, VK_FORMAT_R8G8B8A8_SRGB, 1, 1, false));
-  for (const scene::Image& image : data_->images) {
+  const std::byte white[4] = {std::byte(255), std::byte(255), std::byte(255), std::byte(255)};
+  const std::span<const std::byte> whiteLevel(white);
+  images_.push_back(uploader.texture({&whiteLevel, 1}, VK_FORMAT_R8G8B8A8_SRGB, 1, 1));
+  std::vector<std::vector<std::vector<uint8_t>>> mipmaps(data_->images.size());
+  scene::parallelFor(mipmaps.size(), scene::threadCount(0), [&](size_t i) {
+    mipmaps[i] = makeMipmaps(data_->images[i].rgba, data_->images[i].width, data_->images[i].height);
+  });
+  for (size_t i = 0; i < mipmaps.size(); ++i) {
+    const scene::Image& image = data_->images[i];
     if (image.width > device.limits().maxImageDimension2D || image.height > device.limits().maxImageDimension2D)
       throw gpu::VulkanError{"a texture's size", VK_ERROR_OUT_OF_DEVICE_MEMORY};
-    images_.push_back(uploader.texture(image.rgba.data(), VK_FORMAT_R8G8B8A8_SRGB, image.width, image.height, true));
-    uploadedBytes_ += image.rgba.size();
+    std::vector<std::span<const std::byte>> levels{std::as_bytes(std::span(image.rgba))};
+    for (const auto& level : mipmaps[i]) levels.push_back(std::as_bytes(std::span(level)));
+    images_.push_back(uploader.texture(levels, VK_FORMAT_R8G8B8A8_SRGB, image.width, image.height));
+    for (const auto& level : levels) uploadedBytes_ += level.size();
+    mipmaps[i].clear();
   }
 
   constexpr VkDescriptorType kTexture = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;

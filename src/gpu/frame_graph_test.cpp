@@ -258,11 +258,12 @@ TEST(FrameGraph, randomGraphsKeepVulkansRules) {
               << "a barrier for nothing, seed " << seed;
           if (barrier.resource < kImages) {
             // From the right layout, or discarding; and only the first use of a frame may discard.
-            if (barrier.oldLayout == VK_IMAGE_LAYOUT_UNDEFINED)
+            if (barrier.oldLayout == VK_IMAGE_LAYOUT_UNDEFINED) {
               ASSERT_FALSE(usedThisFrame[barrier.resource])
                   << "contents are lost, seed " << seed << " step " << s;
-            else
+            } else {
               ASSERT_EQ(barrier.oldLayout, memory.layout) << "seed " << seed << " step " << s;
+            }
             if (barrier.oldLayout != barrier.newLayout) {
               // A transition writes: whoever is at it must be waited for, and only the barrier's target sees
               // it.
@@ -281,8 +282,9 @@ TEST(FrameGraph, randomGraphsKeepVulkansRules) {
           const UseInfo info = useInfo(use.use);
           Memory& memory = state[use.resource];
           const Barrier* barrier = find(plan[s], use.resource);
-          if (use.resource < kImages)
+          if (use.resource < kImages) {
             ASSERT_EQ(memory.layout, info.layout) << "seed " << seed << " step " << s;
+          }
           if (info.writes) {
             const VkPipelineStageFlags2 atIt = memory.writer | memory.readers;
             const bool transitioned = barrier && barrier->oldLayout != barrier->newLayout;

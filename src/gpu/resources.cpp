@@ -1,7 +1,6 @@
 #include "gpu/resources.h"
 
 #include <algorithm>
-#include <bit>
 #include <cassert>
 #include <cstring>
 
@@ -11,20 +10,19 @@ namespace {
 // More staged than this and the uploader flushes by itself, so that staging never doubles the memory of a large scene.
 constexpr uint64_t kMaxStaged = 64ull << 20;
 
-VkImageMemoryBarrier2 mipBarrier(VkImage image, uint32_t level, uint32_t count, VkImageLayout from, VkImageLayout to) {
+uint32_t levelSize(uint32_t size, uint32_t level) { return std::max(1u, size >> level); }
+
+void recordLayout(VkCommandBuffer commands, VkImage image, uint32_t levels, VkImageLayout from, VkImageLayout to) {
   VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
-  barrier.srcStageMask = from == VK_IMAGE_LAYOUT_UNDEFINED ? VK_PIPELINE_STAGE_2_NONE : VK_PIPELINE_STAGE_2_TRANSFER_BIT;
-  barrier.srcAccessMask = from == VK_IMAGE_LAYOUT_UNDEFINED ? VK_ACCESS_2_NONE : VK_ACCESS_2_TRANSFER_WRITE_BIT;
-  barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-  barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+  const bool isNew = from == VK_IMAGE_LAYOUT_UNDEFINED;
+  barrier.srcStageMask = isNew ? VK_PIPELINE_STAGE_2_NONE : VK_PIPELINE_STAGE_2_COPY_BIT;
+  barrier.srcAccessMask = isNew ? VK_ACCESS_2_NONE : VK_ACCESS_2_TRANSFER_WRITE_BIT;
+  barrier.dstStageMask = isNew ? VK_PIPELINE_STAGE_2_COPY_BIT : VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+  barrier.dstAccessMask = isNew ? VK_ACCESS_2_TRANSFER_WRITE_BIT : VK_ACCESS_2_SHADER_READ_BIT;
   barrier.oldLayout = from;
   barrier.newLayout = to;
   barrier.image = image;
-  barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, level, count, 0, 1};
-  return barrier;
-}
-
-void recordBarrier(VkCommandBuffer commands, const VkImageMemoryBarrier2& barrier) {
+  barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, levels, 0, 1};
   VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
   dependency.imageMemoryBarrierCount = 1;
   dependency.pImageMemoryBarriers = &barrier;
@@ -32,27 +30,19 @@ void recordBarrier(VkCommandBuffer commands, const VkImageMemoryBarrier2& barrie
 }
 
 void recordTextureUpload(VkCommandBuffer commands, VkBuffer source, VkImage image, const ImageDesc& desc) {
-  constexpr auto kSource = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, kTarget = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
-  recordBarrier(commands, mipBarrier(image, 0, desc.mipLevels, VK_IMAGE_LAYOUT_UNDEFINED, kTarget));
-  VkBufferImageCopy copy{};
-  copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-  copy.imageExtent = {desc.width, desc.height, 1};
-  vkCmdCopyBufferToImage(commands, source, image, kTarget, 1, &copy);
-
-  // Each level is the filtered half of the one above.
-  for (uint32_t level = 1; level < desc.mipLevels; ++level) {
-    recordBarrier(commands, mipBarrier(image, level - 1, 1, kTarget, kSource));
-    const auto side = [&](uint32_t size, uint32_t l) { return int32_t(std::max(1u, size >> l)); };
-    VkImageBlit blit{};
-    blit.srcSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level - 1, 0, 1};
-    blit.srcOffsets[1] = {side(desc.width, level - 1), side(desc.height, level - 1), 1};
-    blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 0, 1};
-    blit.dstOffsets[1] = {side(desc.width, level), side(desc.height, level), 1};
-    vkCmdBlitImage(commands, image, kSource, image, kTarget, 1, &blit, VK_FILTER_LINEAR);
+  constexpr auto kTarget = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+  recordLayout(commands, image, desc.mipLevels, VK_IMAGE_LAYOUT_UNDEFINED, kTarget);
+  std::vector<VkBufferImageCopy> copies(desc.mipLevels);
+  uint64_t offset = 0;
+  for (uint32_t level = 0; level < desc.mipLevels; ++level) {
+    const uint32_t width = levelSize(desc.width, level), height = levelSize(desc.height, level);
+    copies[level].bufferOffset = offset;
+    copies[level].imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, level, 0, 1};
+    copies[level].imageExtent = {width, height, 1};
+    offset += uint64_t(width) * height * bytesPerPixel(desc.format);
   }
-  constexpr auto kFinal = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-  recordBarrier(commands, mipBarrier(image, desc.mipLevels - 1, 1, kTarget, kFinal));
-  if (desc.mipLevels > 1) recordBarrier(commands, mipBarrier(image, 0, desc.mipLevels - 1, kSource, kFinal));
+  vkCmdCopyBufferToImage(commands, source, image, kTarget, desc.mipLevels, copies.data());
+  recordLayout(commands, image, desc.mipLevels, kTarget, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
 }
 }  // namespace
 
@@ -163,15 +153,21 @@ Buffer Uploader::reserve(uint64_t size, VkBufferUsageFlags usage, std::byte** ta
   return buffer;
 }
 
-Image Uploader::texture(const void* pixels, VkFormat format, uint32_t width, uint32_t height, bool mipmaps) {
+Image Uploader::texture(std::span<const std::span<const std::byte>> levels, VkFormat format, uint32_t width,
+                        uint32_t height) {
   ImageDesc desc{format, width, height};
   desc.arrayView = false;
-  if (mipmaps) desc.mipLevels = uint32_t(std::bit_width(std::max(width, height)));
-  Image image(device_, desc,
-              VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
-  const uint64_t size = uint64_t(width) * height * bytesPerPixel(format);
+  desc.mipLevels = uint32_t(levels.size());
+  Image image(device_, desc, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+  uint64_t size = 0;
+  for (const auto& level : levels) size += level.size();
   const size_t staged = stage(size);
-  std::memcpy(staging_[staged].mapped(), pixels, size);
+  std::byte* target = staging_[staged].mapped();
+  for (uint32_t i = 0; i < levels.size(); ++i) {
+    assert(levels[i].size() == size_t(levelSize(width, i)) * levelSize(height, i) * bytesPerPixel(format));
+    std::memcpy(target, levels[i].data(), levels[i].size());
+    target += levels[i].size();
+  }
   textures_.push_back({staged, image.handle(), desc});
   if (stagedBytes_ > kMaxStaged) flush();
   return image;

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -74,9 +75,9 @@ class Uploader {
   ~Uploader();
   // A new buffer on the device; the caller writes its contents to *target before the next flush().
   Buffer reserve(uint64_t size, VkBufferUsageFlags usage, std::byte** target);
-  // A sampled image with a full mip chain if `mipmaps`, from tightly packed pixels of layer 0. Flushes by itself when
-  // much is staged.
-  Image texture(const void* pixels, VkFormat format, uint32_t width, uint32_t height, bool mipmaps);
+  // A sampled image; `levels` are its mip levels from the largest to the smallest, tightly packed, each half the size of
+  // the one before (at least 1). Flushes by itself when much is staged.
+  Image texture(std::span<const std::span<const std::byte>> levels, VkFormat format, uint32_t width, uint32_t height);
   // Ends when all data is on the device.
   void flush();
 
@@ -87,7 +88,7 @@ class Uploader {
     uint64_t size;
   };
   struct TextureCopy {
-    size_t staging;
+    size_t staging;  // all levels, one after the other
     VkImage target;
     ImageDesc desc;
   };

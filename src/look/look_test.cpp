@@ -144,11 +144,13 @@ TEST(Look, theListOfKnobsSaysWhatTheRowsSay) {
     Look look;
     const Status status = look.set(knobs[i].path, knobs[i].defaultValue);
     ASSERT_TRUE(status.ok()) << status.error().message();
-    if (rows[i].isNumber())
+    if (rows[i].isNumber()) {
       EXPECT_FLOAT_EQ(float(look.data().assignments[0].value.number), float(rows[i].row->defaultValue));
-    if (rows[i].row->kind == ParamKind::color)
+    }
+    if (rows[i].row->kind == ParamKind::color) {
       EXPECT_EQ(look::srgbFromLinear(look.data().assignments[0].value.linear),
                 uint32_t(rows[i].row->defaultValue));
+    }
   }
 }
 
@@ -182,12 +184,16 @@ TEST(Look, setAndFileGiveTheSameAndChangeOnlyThatKnob) {
     std::vector<char> filled(row.block->structSize, 0x55), untouched = filled;
     bySet.data().fill(*row.block, filled.data());
     for (size_t i = 0; i < filled.size(); ++i)
-      if (i < row.row->offset || i >= row.row->offset + size)
+      if (i < row.row->offset || i >= row.row->offset + size) {
         ASSERT_EQ(filled[i], untouched[i]) << row.path();
-    if (row.row->kind == ParamKind::number)
+      }
+    if (row.row->kind == ParamKind::number) {
       EXPECT_EQ(numberIn(filled, *row.row), float(sample.value.get<double>())) << row.path();
+    }
     for (const ParamBlock* other : look::allBlocks())
-      if (other != row.block) ASSERT_EQ(bytesOf(*other, bySet), bytesOf(*other, defaults));
+      if (other != row.block) {
+        ASSERT_EQ(bytesOf(*other, bySet), bytesOf(*other, defaults));
+      }
   }
 }
 

@@ -56,7 +56,9 @@ class Warp : public Pass {
                   [this](VkCommandBuffer commands) { record(commands); });
 
     gpu::Uploader uploader(frame.device());
-    example_ = uploader.texture(makeExample().data(), VK_FORMAT_R8G8B8A8_UNORM, kNoiseSize, kNoiseSize, false);
+    const std::vector<uint8_t> example = makeExample();
+    const std::span<const std::byte> level = std::as_bytes(std::span(example));
+    example_ = uploader.texture({&level, 1}, VK_FORMAT_R8G8B8A8_UNORM, kNoiseSize, kNoiseSize);
     uploader.flush();
     image_.declare(frame, "warp", {{shaders::warp_image_frag}, {shaders::warp_image_comp}},
                    {{pattern_}, {knobs_}, {depth_}}, frame.slot(Slot::warp), 0, {{&example_, kRepeating}});

@@ -7,7 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
-namespace scumble::frame {
+namespace scumble::renderer {
 namespace {
 
 class Numbers {
@@ -120,4 +120,4 @@ TEST(Projection, orthographic) {
 }
 
 }  // namespace
-}  // namespace scumble::frame
+}  // namespace scumble::renderer

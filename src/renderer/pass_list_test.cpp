@@ -1,6 +1,6 @@
 // What must hold for all blocks of knobs at once: the structs that passes read start with the values that
 // `scumble params` shows, and the list of blocks is complete.
-#include "frame/pass_list.h"
+#include "renderer/pass_list.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +9,7 @@
 #include <string>
 
 #include "frame/light.h"
+#include "frame/metatexture_params.h"
 #include "frame/palette.h"
 #include "frame/slots.h"
 #include "passes/blur/blur.h"
@@ -19,9 +20,8 @@
 #include "passes/surface/surface.h"
 #include "passes/warp/warp.h"
 #include "scumble/renderer.h"
-#include "shading/metatexture_params.h"
 
-namespace scumble::frame {
+namespace scumble::renderer {
 namespace {
 
 using look::ParamKind;
@@ -77,7 +77,7 @@ TEST(PassList, structsStartWithTheirRowsDefaults) {
   expectRowsDefaults<passes::WarpParams>(seen);
   expectRowsDefaults<passes::BackgroundParams>(seen);
   expectRowsDefaults<passes::FinalColorParams>(seen);
-  expectRowsDefaults<shading::WarpMetaTextureParams>(seen);
+  expectRowsDefaults<WarpMetaTextureParams>(seen);
   for (const look::ParamBlock* block : look::allBlocks())
     EXPECT_TRUE(seen.count(block)) << block->path << ": a new block of knobs; add its struct to this test";
   EXPECT_EQ(look::allBlocks().size(), seen.size())
@@ -110,4 +110,4 @@ TEST(PassList, slotsSayWhatTheyHold) {
 }
 
 }  // namespace
-}  // namespace scumble::frame
+}  // namespace scumble::renderer
