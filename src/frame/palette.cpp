@@ -151,13 +151,13 @@ BackgroundColors automaticBackground(const SceneColors& colors) {
   const double lightness = light ? std::clamp(scene.x - 0.19, 0.60, 0.69) : std::clamp(scene.x + 0.36, 0.78, 0.89);
   const double warmth = std::clamp((scene.y + scene.z) / 0.08, -1.0, 1.0);
   const double coolness = light ? 0.80 + 0.20 * warmth : 0.38 + 0.40 * warmth;
-  const glm::dvec2 warm(0.018, 0.050), cool(-0.030, -0.036);
+  const glm::dvec2 warm(0.018, 0.050), cool(-0.034, -0.044);
   const auto color = [&](double l, double mix) {
     const glm::dvec2 ab = glm::mix(warm, cool, glm::clamp(mix, 0.0, 1.0));
     return glm::vec3(toGamut({l, ab.x, ab.y}));
   };
   return {color(lightness + 0.035, coolness - 0.10), color(lightness - 0.045, coolness + 0.10),
-          color(lightness, coolness - 0.22)};
+          color(lightness, coolness - 0.14)};
 }
 
 }  // namespace scumble::frame

@@ -23,7 +23,7 @@ vec4 shade(ivec2 pixel, int layer) {
   ivec2 corner = ivec2(floor(position)), last = textureSize(blurred, 0).xy - 1;
   vec2 f = position - vec2(corner);
   vec4 sides = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
-  float sum = 0.0, weights = 0.0, sharpness = u.depthSharpness / (depth * depth);
+  float sum = 0.0, weights = 1e-6, sharpness = u.depthSharpness / (depth * depth);
   vec4 lights;
   for (int i = 0; i < 4; ++i) {
     ivec2 at = clamp(corner + ivec2(i & 1, i >> 1), ivec2(0), last);
@@ -31,11 +31,12 @@ vec4 shade(ivec2 pixel, int layer) {
     lights[i] = b.r / max(b.a, 1e-3);
     float z = b.b - depth;
     float falloff = 1.0 / (1.0 + z * z * sharpness);
-    float weight = sides[i] * max(falloff * falloff, 1e-4) * (b.a + 1e-4);
+    float weight = sides[i] * falloff * falloff * b.a;
     sum += weight * lights[i];
     weights += weight;
   }
-  float light = mix(own.r, sum / weights, u.blurAmount);
+  // Beside a silhouette there may be none at its depth; then its own, unblurred light stands.
+  float light = mix(own.r, sum / weights, u.blurAmount * clamp(weights * 8.0, 0.0, 1.0));
 
   // FORMULAS 15: the edge is about `softness` pixels wide, whatever the slope of the blurred image.
   vec2 slope = 0.25 * vec2(mix(lights[1] - lights[0], lights[3] - lights[2], f.y),
