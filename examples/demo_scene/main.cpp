@@ -33,7 +33,7 @@ Document makeScene() {
                   {1.0f, 0.86f, 0.66f}, 3.0f);
   document.addCamera({"Hero", 0.50f}, {0.0f, 3.4f, 21.0f}, {0.0f, 4.8f, 0.0f});
   document.addCamera({"Sailor", 0.46f}, {2.6f, 1.9f, 5.2f}, {4.3f, 1.30f, 0.0f});
-  document.addCamera({"Pier", 0.56f}, {-14.3f, 3.2f, 0.8f}, {-11.5f, 1.1f, -13.0f});
+  document.addCamera({"Pier", 0.56f}, {-14.3f, 3.2f, 0.8f}, {-12.1f, 1.5f, -13.0f});
   document.addCamera({"Wide", 0.62f}, {10.6f, 7.6f, 26.5f}, {-2.6f, 4.1f, -6.0f});
   return document;
 }

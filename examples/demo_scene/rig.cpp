@@ -60,7 +60,10 @@ Mesh makeStandingRigging() {
   MeshBuilder mesh("StandingRigging");
   mesh.setMaterial(kRope);
   const glm::vec3 hounds = mastPoint(4.54f);
-  rope(mesh, hounds, bowspritPoint(0.95f), 0.0f, 0.016f);
+  // Where the jib is set, its luff is the line: a rope beside a sail's edge would only dot it.
+  const glm::vec3 stayFoot = bowspritPoint(0.95f);
+  rope(mesh, hounds, glm::mix(stayFoot, hounds, 0.88f), 0.0f, 0.016f);
+  rope(mesh, glm::mix(stayFoot, hounds, 0.06f), stayFoot, 0.0f, 0.016f);
   const glm::vec3 cutwater = hullPoint(1.0f, 0.52f);
   rope(mesh, bowspritPoint(0.95f), cutwater + glm::vec3(0.03f, 0, 0));
   for (float side : {-1.0f, 1.0f}) {

@@ -67,7 +67,7 @@ Mesh makeMainsail() {
     mesh.tube({p, p + glm::vec3(0.0f, -0.07f, -0.02f), p + glm::vec3(0.01f, -0.14f, -0.012f)}, {0.012f}, 5);
   }
   // Hoops hold the luff to the mast.
-  for (size_t r = 3; r < kRows; r += 6) {
+  for (size_t r = 6; r < kRows; r += 11) {
     const glm::vec3 luff = sail.at(r, 0);
     std::vector<glm::vec3> hoop;
     for (int i = 0; i <= 12; ++i) {
