@@ -11,8 +11,8 @@ enum class Slot : uint8_t {
   shadowMap,    // depth from the light in sigmoid-warped light space
   warp,         // R, G: warp vector in pixels (x right, y down); B: breakup marks; A: eye depth of the inflated surface, or 0
   shadow,       // R: Lambert x cast shadow; G: lens; B: breakup, where it may act; A: coverage
-  lit,          // colour in full light, linear; A: coverage
-  shadowed,     // colour in shadow, linear; A: coverage
+  lit,          // square root of the linear colour in full light; A: coverage
+  shadowed,     // the same in shadow. Square roots need no more than 8 bits, and cost drivers less than sRGB
   depth,        // depth buffer of the surface pass
   blur,         // the shadow channels, blurred, at a quarter of the size
   finalShadow,  // R: light after threshold and inner glow; G: lens; B: where indication acts; A: coverage

@@ -1,9 +1,13 @@
 // An image pass is one function, vec4 shade(ivec2 pixel, int layer). This wrapper makes it a full-screen fragment
-// shader or, with SCUMBLE_COMPUTE defined, a compute shader; the build compiles both.
+// shader or, with SCUMBLE_COMPUTE defined, a compute shader; the build compiles both. A pass that writes another format
+// than rgba16f defines OUTPUT_FORMAT.
 #ifdef SCUMBLE_COMPUTE
 
+#ifndef OUTPUT_FORMAT
+#define OUTPUT_FORMAT rgba16f
+#endif
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(set = 2, binding = 0, rgba16f) writeonly uniform image2DArray outputImage;
+layout(set = 2, binding = 0, OUTPUT_FORMAT) writeonly uniform image2DArray outputImage;
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

@@ -21,14 +21,16 @@ vec3 sky(vec2 ndc, int layer) {
 
 vec4 shade(ivec2 pixel, int layer) {
   ivec3 at = ivec3(pixel, layer);
-  vec4 light = texelFetch(finalShadow, at, 0);
-  vec4 litColor = texelFetch(lit, at, 0), shadowedColor = texelFetch(shadowed, at, 0);
-  float coverage = litColor.a;
+  float light = texelFetch(finalShadow, at, 0).r;
+  vec4 litRoot = texelFetch(lit, at, 0), shadowedRoot = texelFetch(shadowed, at, 0);
   // Resolved colours are premultiplied by their coverage.
-  vec3 color = mix(shadowedColor.rgb, litColor.rgb, light.r);
+  float coverage = litRoot.a, whole = 1.0 / max(coverage, 1e-3);
+  litRoot *= whole;
+  shadowedRoot *= whole;
+  vec3 color = mix(shadowedRoot.rgb * shadowedRoot.rgb, litRoot.rgb * litRoot.rgb, light);
 
   float distance = eyeDepth(texelFetch(depth, at, 0).r, layer);
-  color = mix(color, u.horizon * coverage, u.air * smoothstep(u.airStart, u.airEnd, distance));
+  color = mix(color, u.horizon, u.air * smoothstep(u.airStart, u.airEnd, distance)) * coverage;
   if (u.transparent != 0.0) return vec4(color, coverage);
   vec2 ndc = (vec2(pixel) + 0.5) / frame.imageSize * 2.0 - 1.0;
   return vec4(color + sky(ndc, layer) * (1.0 - coverage), 1.0);

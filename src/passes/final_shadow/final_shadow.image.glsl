@@ -61,4 +61,5 @@ vec4 shade(ivec2 pixel, int layer) {
   return own.a > 0.0 ? vec4(result, own.g, own.b, own.a) : vec4(0.0);
 }
 
+#define OUTPUT_FORMAT rgba8
 #include "../../shading/image_pass.glsl"

@@ -64,6 +64,6 @@ void main() {
     shadowed = lit;
   }
   outShadow = vec4(light, lens, oblique, alpha);
-  outLit = vec4(lit + emissive, alpha);
-  outShadowed = vec4(shadowed + emissive, alpha);
+  outLit = vec4(sqrt(lit + emissive), alpha);
+  outShadowed = vec4(sqrt(shadowed + emissive), alpha);
 }
