@@ -57,7 +57,8 @@ int run(const BenchArguments& args) {
     const Result<Frame> drawn = (*yardstick)->render(*scene, *look, 0, *views, plain);
     if (!drawn) return fail(drawn.error());
     if (painted->stats.passes.empty())
-      return fail(Error{ErrorKind::noUsableGpu, "", 0, "", "this device has no timestamps", "choose another --device"});
+      return fail(Error{ErrorKind::noUsableGpu, "", 0, "", "this device has no timestamps",
+                        "choose another --device"});
     if (i == 0) continue;
     // The yardstick is its draw alone: deform is the painter's own work.
     double once = 0, all = 0;
@@ -77,8 +78,9 @@ int run(const BenchArguments& args) {
 
   nlohmann::json passReport = nlohmann::json::array();
   std::printf("%s, %s\n", (*painter)->gpu().name.c_str(), (*painter)->gpu().driver.c_str());
-  std::printf("%u x %u, %u samples, %zu views, %llu triangles, medians of %d\n", options->width, options->height,
-              options->samples, views->size(), static_cast<unsigned long long>(triangles), args.runs);
+  std::printf("%u x %u, %u samples, %zu views, %llu triangles, medians of %d\n", options->width,
+              options->height, options->samples, views->size(), static_cast<unsigned long long>(triangles),
+              args.runs);
   for (const std::string& name : order) {
     std::printf("  %-14s %9.2f ms\n", name.c_str(), median(passes[name]));
     passReport.push_back({{"name", name}, {"milliseconds", median(passes[name])}});
@@ -100,7 +102,8 @@ int run(const BenchArguments& args) {
                                 {"ratio", median(ratios)}};
     std::ofstream file(args.json);
     if (!(file << report.dump(2) << '\n').flush())
-      return fail(Error{ErrorKind::outputNotWritten, args.json, 0, "", "the report cannot be written", "check the path"});
+      return fail(Error{ErrorKind::outputNotWritten, args.json, 0, "", "the report cannot be written",
+                        "check the path"});
   }
   return kDone;
 }

@@ -12,7 +12,9 @@ namespace scumble::app {
 
 namespace {
 
-void print(const std::string& text) { std::fputs(text.c_str(), stdout); }
+void print(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+}
 
 std::string joined(const std::vector<std::string>& names) {
   std::string text;
@@ -46,18 +48,20 @@ int info(const SceneArguments& args, bool asJson) {
     print(report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
     return kDone;
   }
-  print(fmt::format("meshes      {} ({} primitives, {} triangles, {} vertices)\n", s.meshes, s.primitives, s.triangles,
-                    s.vertices));
-  print(fmt::format("nodes       {}\nmaterials   {}: {}\nimages      {}\nskins       {}\nmorphs      {}\n", s.nodes,
-                    s.materialNames.size(), joined(s.materialNames), s.images, s.skins, s.morphTargets));
+  print(fmt::format("meshes      {} ({} primitives, {} triangles, {} vertices)\n", s.meshes, s.primitives,
+                    s.triangles, s.vertices));
+  print(fmt::format("nodes       {}\nmaterials   {}: {}\nimages      {}\nskins       {}\nmorphs      {}\n",
+                    s.nodes, s.materialNames.size(), joined(s.materialNames), s.images, s.skins,
+                    s.morphTargets));
   std::vector<std::string> clips;
   for (const auto& clip : s.clips) clips.push_back(fmt::format("{} ({:.2f} s)", clip.name, clip.duration));
-  print(fmt::format("clips       {}\ncameras     {}\nlights      {}\n", joined(clips), joined(s.cameras), joined(s.lights)));
+  print(fmt::format("clips       {}\ncameras     {}\nlights      {}\n", joined(clips), joined(s.cameras),
+                    joined(s.lights)));
   print(fmt::format("extensions  {}\n", joined(s.extensionsUsed)));
   if (!s.extensionsNotSupported.empty())
     print(fmt::format("not supported: {}\n", joined(s.extensionsNotSupported)));
-  print(fmt::format("bounds      {:g} {:g} {:g} to {:g} {:g} {:g} metres\n", s.min[0], s.min[1], s.min[2], s.max[0],
-                    s.max[1], s.max[2]));
+  print(fmt::format("bounds      {:g} {:g} {:g} to {:g} {:g} {:g} metres\n", s.min[0], s.min[1], s.min[2],
+                    s.max[0], s.max[1], s.max[2]));
   return kDone;
 }
 
@@ -78,10 +82,11 @@ int params(const std::string& prefix) {
                               : knob.type == "choice" ? knob.unit
                               : knob.type == "toggle" ? "true|false"
                                                       : "#RRGGBB";
-    print(fmt::format("  {:<24} {:<12} {}\n      {}\n", knob.path.substr(own.size() + 1), knob.defaultValue, range,
-                      knob.meaning));
+    print(fmt::format("  {:<24} {:<12} {}\n      {}\n", knob.path.substr(own.size() + 1), knob.defaultValue,
+                      range, knob.meaning));
   }
-  if (!any) return failUsage("no knob's path begins with '" + prefix + "'", "`scumble params` lists them all");
+  if (!any)
+    return failUsage("no knob's path begins with '" + prefix + "'", "`scumble params` lists them all");
   return kDone;
 }
 
@@ -91,7 +96,8 @@ int devices() {
   bool any = false;
   for (size_t i = 0; i < gpus->size(); ++i) {
     const GpuInfo& gpu = (*gpus)[i];
-    print(fmt::format("{} {} {}  Vulkan {}  {}{}\n", gpu.wouldBeUsed ? "*" : " ", i, gpu.name, gpu.apiVersion, gpu.driver,
+    print(fmt::format("{} {} {}  Vulkan {}  {}{}\n", gpu.wouldBeUsed ? "*" : " ", i, gpu.name, gpu.apiVersion,
+                      gpu.driver,
                       gpu.unusableBecause.empty() ? "" : "  cannot be used: " + gpu.unusableBecause));
     any |= gpu.wouldBeUsed;
   }
@@ -120,7 +126,8 @@ void addDescriptions(CLI::App& program, int& exitCode) {
   CLI::App* looksCommand = program.add_subcommand("looks", "The looks that ship");
   looksCommand->footer("Example: scumble looks");
   looksCommand->callback([&exitCode] {
-    for (const ShippedLook& look : Look::shipped()) print(fmt::format("{:<16} {}\n", look.name, look.description));
+    for (const ShippedLook& look : Look::shipped())
+      print(fmt::format("{:<16} {}\n", look.name, look.description));
     exitCode = kDone;
   });
 

@@ -21,7 +21,8 @@ int main(int argc, char** argv) {
     app::addRender(program, exitCode);
     app::addDescriptions(program, exitCode);
     app::addBench(program, exitCode);
-    program.footer("Example: scumble render boat.glb -o boat.png\n`scumble COMMAND --help` shows a command's options.");
+    program.footer(
+        "Example: scumble render boat.glb -o boat.png\n`scumble COMMAND --help` shows a command's options.");
 
     try {
       program.parse(argc, argv);

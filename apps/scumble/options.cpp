@@ -16,7 +16,8 @@ Error usage(std::string problem, std::string advice) {
 
 // $XDG_CACHE_HOME/scumble or ~/.cache/scumble; empty where neither is known.
 std::string cacheFolder() {
-  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache) return std::string(cache) + "/scumble";
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache)
+    return std::string(cache) + "/scumble";
   if (const char* home = std::getenv("HOME"); home && *home) return std::string(home) + "/.cache/scumble";
   return "";
 }
@@ -51,8 +52,10 @@ std::optional<std::pair<uint32_t, uint32_t>> parseSize(const std::string& text) 
 }
 
 void SceneArguments::addTo(CLI::App& command) {
-  command.add_option("SCENE", files, "glTF 2.0 files (.gltf or .glb); several are placed in one world")->required();
-  command.add_option("--scene", sceneNumber, "Which of the file's scenes, by number (default: the file's own choice)");
+  command.add_option("SCENE", files, "glTF 2.0 files (.gltf or .glb); several are placed in one world")
+      ->required();
+  command.add_option("--scene", sceneNumber,
+                     "Which of the file's scenes, by number (default: the file's own choice)");
   command.add_flag("--allow-outside", allowOutside, "Let paths in the scene lead out of its folder");
 }
 
@@ -71,9 +74,11 @@ Result<Scene> SceneArguments::load(bool quiet) const {
 }
 
 void LookArguments::addTo(CLI::App& command) {
-  command.add_option("--look", look,
-                     "A look that ships or a JSON file (default: SCENE.look.json beside the scene, else age-of-sail)");
-  command.add_option("--set", settings, "Any knob, e.g. shadow.threshold=0.4; repeatable; wins over the look")
+  command.add_option(
+      "--look", look,
+      "A look that ships or a JSON file (default: SCENE.look.json beside the scene, else age-of-sail)");
+  command
+      .add_option("--set", settings, "Any knob, e.g. shadow.threshold=0.4; repeatable; wins over the look")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
 }
@@ -84,7 +89,8 @@ Result<Look> LookArguments::load(const std::string& sceneFile) const {
     std::filesystem::path beside(sceneFile);
     beside.replace_extension(".look.json");
     std::error_code ignored;
-    name = std::filesystem::exists(beside, ignored) ? std::filesystem::absolute(beside).string() : "age-of-sail";
+    name =
+        std::filesystem::exists(beside, ignored) ? std::filesystem::absolute(beside).string() : "age-of-sail";
   }
   Result<Look> result = Look::load(name);
   if (!result) return result.error();
@@ -99,7 +105,9 @@ Result<Look> LookArguments::load(const std::string& sceneFile) const {
 }
 
 void PictureArguments::addTo(CLI::App& command) {
-  command.add_option("--camera", camera, "A camera of the scene, by name or number (default: the first, or a framing of everything)");
+  command.add_option(
+      "--camera", camera,
+      "A camera of the scene, by name or number (default: the first, or a framing of everything)");
   command.add_option("--orbit", orbit, "Degrees around the scene's centre, and the distance in scene radii")
       ->type_name("AZ,EL[,DIST]");
   command.add_option("--eye", eye, "Where the camera stands, metres")->type_name("X,Y,Z");
@@ -111,8 +119,10 @@ void PictureArguments::addTo(CLI::App& command) {
   command.add_option("--stereo", stereo, "Two views: side-by-side, over-under or separate");
   command.add_option("--ipd", ipd, "Distance between the eyes, metres")->capture_default_str();
   command.add_option("--device", device, "A GPU by name or number, or cpu (`scumble devices` lists them)");
-  command.add_option("--seed", seed, "Moves every pattern; the same seed gives the same picture")->capture_default_str();
-  command.add_flag("--validate", validate, "Run under the Vulkan validation layers; a message from them is an error");
+  command.add_option("--seed", seed, "Moves every pattern; the same seed gives the same picture")
+      ->capture_default_str();
+  command.add_flag("--validate", validate,
+                   "Run under the Vulkan validation layers; a message from them is an error");
 }
 
 Result<RenderOptions> PictureArguments::renderOptions() const {
@@ -157,7 +167,8 @@ Result<std::vector<View>> PictureArguments::views(const Scene& scene) const {
     return usage("--roll or --ipd is out of range", "use degrees, and metres from 0 on");
   const Result<RenderOptions> options = renderOptions();
   if (!options) return options.error();
-  if (options->width == 0 || options->height == 0) return usage("'" + size + "' has no area", "write it like 1280x720");
+  if (options->width == 0 || options->height == 0)
+    return usage("'" + size + "' has no area", "write it like 1280x720");
   return makeViews(scene, viewpoint, float(options->width) / float(options->height),
                    isStereo() ? Stereo::stereo : Stereo::mono, ipd);
 }

@@ -27,7 +27,8 @@ Image arrange(const std::vector<Image>& views, const std::string& layout) {
 
 }  // namespace
 
-Result<OutputPlan> OutputPlan::make(const std::string& given, const std::string& sceneFile, const std::string& layout) {
+Result<OutputPlan> OutputPlan::make(const std::string& given, const std::string& sceneFile,
+                                    const std::string& layout) {
   OutputPlan plan;
   plan.layout = layout;
   plan.path = given.empty() ? fs::path(sceneFile).stem().string() + ".png" : given;
@@ -35,7 +36,11 @@ Result<OutputPlan> OutputPlan::make(const std::string& given, const std::string&
   const std::string extension = fs::path(plan.path).extension().string();
   plan.exr = extension == ".exr";
   if (!plan.exr && extension != ".png")
-    return Error{ErrorKind::usage, "", 0, "", "'" + plan.path + "' ends neither in .png nor in .exr",
+    return Error{ErrorKind::usage,
+                 "",
+                 0,
+                 "",
+                 "'" + plan.path + "' ends neither in .png nor in .exr",
                  "name the output like picture.png"};
   // Find out now, not after a long rendering.
   fs::path folder = fs::path(plan.path).parent_path();
@@ -44,8 +49,12 @@ Result<OutputPlan> OutputPlan::make(const std::string& given, const std::string&
   if (!fs::is_directory(folder, error))
     return Error{ErrorKind::outputNotWritten, plan.path, 0, "", "the folder does not exist", "make it first"};
   if (access(folder.c_str(), W_OK) != 0)
-    return Error{ErrorKind::outputNotWritten, plan.path, 0, "",
-                 std::string("the folder cannot be written: ") + std::strerror(errno), "choose another one"};
+    return Error{ErrorKind::outputNotWritten,
+                 plan.path,
+                 0,
+                 "",
+                 std::string("the folder cannot be written: ") + std::strerror(errno),
+                 "choose another one"};
   if (fs::is_directory(plan.path, error))
     return Error{ErrorKind::outputNotWritten, plan.path, 0, "", "this is a folder", "give a file's name"};
   return plan;
@@ -83,17 +92,20 @@ Status OutputPlan::write(const Frame& frame, const std::string& target) const {
       }
       continue;
     }
-    // All layers of an EXR have one size; what has another goes into a file of its own. One EXR of two eyes holds them
-    // as views (the standard's multiView), which is what compositors read; layouts are for players of flat pictures.
+    // All layers of an EXR have one size; what has another goes into a file of its own. One EXR of two eyes
+    // holds them as views (the standard's multiView), which is what compositors read; layouts are for players
+    // of flat pictures.
     const bool asViews = viewCount > 1 && !separateEyes;
     std::vector<Image> images;
     std::vector<std::pair<std::string, std::string>> names;
     for (const Frame::Layer& layer : frame.layers) {
-      const bool otherSize = layer.views.size() != viewCount || layer.views[0].width != frame.layers[0].views[0].width ||
+      const bool otherSize = layer.views.size() != viewCount ||
+                             layer.views[0].width != frame.layers[0].views[0].width ||
                              layer.views[0].height != frame.layers[0].views[0].height;
       if (otherSize) {
         const ImageLayer alone{"", "", &layer.views[0]};
-        if (const Status status = writeExr(withPart(path_, layer.name, ".exr"), {alone}); !status) return status.error();
+        if (const Status status = writeExr(withPart(path_, layer.name, ".exr"), {alone}); !status)
+          return status.error();
         continue;
       }
       for (size_t view = 0; view < (asViews ? viewCount : 1); ++view) {
@@ -102,7 +114,8 @@ Status OutputPlan::write(const Frame& frame, const std::string& target) const {
       }
     }
     std::vector<ImageLayer> layers;
-    for (size_t i = 0; i < images.size(); ++i) layers.push_back({names[i].first, names[i].second, &images[i]});
+    for (size_t i = 0; i < images.size(); ++i)
+      layers.push_back({names[i].first, names[i].second, &images[i]});
     if (const Status status = writeExr(path_, layers); !status) return status.error();
   }
   return Done{};

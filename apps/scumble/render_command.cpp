@@ -35,7 +35,8 @@ struct RenderArguments {
 // "3..17"; nothing when it is not of that form.
 std::optional<std::pair<int, int>> parseFrames(const std::string& text) {
   int first, last, used = 0;
-  if (std::sscanf(text.c_str(), "%d..%d%n", &first, &last, &used) != 2 || size_t(used) != text.size() || last < first)
+  if (std::sscanf(text.c_str(), "%d..%d%n", &first, &last, &used) != 2 || size_t(used) != text.size() ||
+      last < first)
     return std::nullopt;
   return std::pair{first, last};
 }
@@ -74,7 +75,8 @@ int run(const RenderArguments& args) {
   if (!args.frames.empty() && !(frames = parseFrames(args.frames)))
     return failUsage("--frames " + args.frames + " is no range", "write it like 0..23");
   if (frames && frames->first != frames->second && !output->isSequence())
-    return failUsage("several frames cannot go into one '" + output->path + "'", "name it like picture.####.png");
+    return failUsage("several frames cannot go into one '" + output->path + "'",
+                     "name it like picture.####.png");
   if (!std::isfinite(args.time) || !(args.fps > 0) || !std::isfinite(args.fps))
     return failUsage("--time or --fps is out of range", "time is in seconds, fps above 0");
   options->framesPerSecond = args.fps;
@@ -120,7 +122,8 @@ int run(const RenderArguments& args) {
     const Result<Frame> frame = (*renderer)->render(*scene, *look, time, *views, *options);
     if (!frame) return fail(frame.error());
     if (args.picture.validate && (*renderer)->validationMessages() > 0)
-      return fail(Error{ErrorKind::internal, "", 0, "", "the validation layers found mistakes", "please report them"});
+      return fail(Error{ErrorKind::internal, "", 0, "", "the validation layers found mistakes",
+                        "please report them"});
     rendering += millisecondsSince(lapStart);
     lapStart = Clock::now();
     if (const Status status = output->write(*frame, path); !status) return fail(status.error());
@@ -134,22 +137,26 @@ int run(const RenderArguments& args) {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     const SceneTimings& import = scene->timings();
-    const nlohmann::json report{
-        {"device", (*renderer)->gpu().name},
-        {"driver", (*renderer)->gpu().driver},
-        {"size", {options->width, options->height}},
-        {"samples", options->samples},
-        {"views", views->size()},
-        {"import", {{"read", import.read}, {"parse", import.parse}, {"geometry", import.geometry}, {"images", import.images}}},
-        {"steps", steps},
-        {"renderMilliseconds", rendering},
-        {"writeMilliseconds", writing},
-        {"totalMilliseconds", millisecondsSince(start)},
-        {"peakResidentBytes", uint64_t(usage.ru_maxrss) * 1024},
-        {"frames", frameStats}};
+    const nlohmann::json report{{"device", (*renderer)->gpu().name},
+                                {"driver", (*renderer)->gpu().driver},
+                                {"size", {options->width, options->height}},
+                                {"samples", options->samples},
+                                {"views", views->size()},
+                                {"import",
+                                 {{"read", import.read},
+                                  {"parse", import.parse},
+                                  {"geometry", import.geometry},
+                                  {"images", import.images}}},
+                                {"steps", steps},
+                                {"renderMilliseconds", rendering},
+                                {"writeMilliseconds", writing},
+                                {"totalMilliseconds", millisecondsSince(start)},
+                                {"peakResidentBytes", uint64_t(usage.ru_maxrss) * 1024},
+                                {"frames", frameStats}};
     std::ofstream file(args.stats);
     if (!(file << report.dump(2) << '\n').flush())
-      return fail(Error{ErrorKind::outputNotWritten, args.stats, 0, "", "the statistics cannot be written", "check the path"});
+      return fail(Error{ErrorKind::outputNotWritten, args.stats, 0, "", "the statistics cannot be written",
+                        "check the path"});
   }
   return kDone;
 }
@@ -160,24 +167,29 @@ void addRender(CLI::App& program, int& exitCode) {
   auto args = std::make_shared<RenderArguments>();
   CLI::App* command = program.add_subcommand("render", "Render one image, or a range of frames");
   args->scene.addTo(*command);
-  command->add_option("-o,--output", args->output,
-                      "The picture: .png (8 bit sRGB) or .exr (linear float, both eyes as views); name.####.png for a "
-                      "sequence (default: the scene's name + .png in the current folder)");
+  command->add_option(
+      "-o,--output", args->output,
+      "The picture: .png (8 bit sRGB) or .exr (linear float, both eyes as views); name.####.png for a "
+      "sequence (default: the scene's name + .png in the current folder)");
   args->look.addTo(*command);
   args->picture.addTo(*command);
   command->add_option("--time", args->time, "Seconds")->capture_default_str();
-  command->add_option("--frames", args->frames, "A range of frames; frame n is at n / fps seconds")->type_name("A..B");
+  command->add_option("--frames", args->frames, "A range of frames; frame n is at n / fps seconds")
+      ->type_name("A..B");
   command->add_option("--fps", args->fps, "Frames a second")->capture_default_str();
   command->add_flag("--resume", args->resume, "Leave out frames whose file is there already");
   std::string names;
   for (const std::string& name : Renderer::aovNames()) names += (names.empty() ? "" : ", ") + name;
   command
       ->add_option("--aov", args->aovs,
-                   "Also write a pass's output, into the EXR as layers or beside a PNG as NAME.AOV.exr: all, or some of " + names)
+                   "Also write a pass's output, into the EXR as layers or beside a PNG as NAME.AOV.exr: all, "
+                   "or some of " +
+                       names)
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_option("--background", args->background, "What is behind everything: #RRGGBB or transparent");
-  command->add_option("--stats", args->stats, "Write JSON with milliseconds of each pass, counts and memory")->type_name("FILE");
+  command->add_option("--stats", args->stats, "Write JSON with milliseconds of each pass, counts and memory")
+      ->type_name("FILE");
   command->add_flag("--quiet", args->quiet, "No warnings and no progress");
   command->footer("Example: scumble render boat.glb -o boat.png --orbit 30,15 --set shadow.threshold=0.4");
   command->callback([args, &exitCode] { exitCode = run(*args); });

@@ -7,11 +7,16 @@ namespace scumble::app {
 int fail(const Error& error) {
   std::fprintf(stderr, "scumble: error: %s\n", error.message().c_str());
   switch (error.kind) {
-    case ErrorKind::usage: return kWrongUsage;
-    case ErrorKind::unusableFile: return kUnusableFile;
-    case ErrorKind::noUsableGpu: return kNoGpu;
-    case ErrorKind::outputNotWritten: return kNotWritten;
-    case ErrorKind::internal: break;
+    case ErrorKind::usage:
+      return kWrongUsage;
+    case ErrorKind::unusableFile:
+      return kUnusableFile;
+    case ErrorKind::noUsableGpu:
+      return kNoGpu;
+    case ErrorKind::outputNotWritten:
+      return kNotWritten;
+    case ErrorKind::internal:
+      break;
   }
   return kOurFault;
 }

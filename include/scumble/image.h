@@ -34,8 +34,11 @@ Status writePng(const std::string& path, const Image& image);
 // Reads what writePng writes, and any other PNG, as linear floats (R, G, B, A).
 Result<Image> readPng(const std::string& path);
 
-// 32-bit float, ZIP compressed. Channels are named LAYER.CHANNEL, and in stereo LAYER.VIEW.CHANNEL with the standard
-// multiView attribute, the left view being the default one (its channels carry no view name). All layers have one size.
+// 32-bit float, ZIP compressed; alpha is straight, as in Image. Channels are named LAYER.CHANNEL. In stereo
+// (layers with views) the standard multiView attribute lists the views, "left" first; the picture's channels
+// are R, G, B, A for the left eye and right.R ... for the right one, those of layers LAYER.left.CHANNEL and
+// LAYER.right.CHANNEL, since OpenEXR gives only names without a period to the default view. All layers have
+// one size.
 Status writeExr(const std::string& path, const std::vector<ImageLayer>& layers);
 
 // Two pictures in one: left | right, or left over right.

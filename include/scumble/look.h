@@ -1,5 +1,5 @@
-// Looks: art direction as one JSON file that sets knobs. `scumble params` lists the knobs, `scumble schema` prints the
-// file's JSON schema.
+// Looks: art direction as one JSON file that sets knobs. `scumble params` lists the knobs, `scumble schema`
+// prints the file's JSON schema.
 //
 //   { "description": "Low sun, torn edges.",
 //     "shadow": { "threshold": 0.4 },
@@ -33,13 +33,14 @@ class Look {
  public:
   Look();  // all defaults
 
-  // A look that ships (by name), or a JSON file (by a path with '/' or ending in .json). Fails with unusableFile for
-  // files and with usage for unknown names.
+  // A look that ships (by name), or a JSON file (by a path with '/' or ending in .json). Fails with
+  // unusableFile for files and with usage for unknown names.
   static Result<Look> load(const std::string& nameOrFile);
   static Result<Look> fromJson(const std::string& text, const std::string& file);
 
-  // Sets one knob, e.g. ("shadow.threshold", "0.4") or ("materials.Sail*.warp.amount", "2"). A setting for some
-  // materials wins over one for the whole scene; of two alike the later one wins. Fails with ErrorKind::usage.
+  // Sets one knob, e.g. ("shadow.threshold", "0.4") or ("materials.Sail*.warp.amount", "2"). A setting for
+  // some materials wins over one for the whole scene; of two alike the later one wins. Fails with
+  // ErrorKind::usage.
   Status set(const std::string& path, const std::string& value);
 
   const std::string& description() const;

@@ -1,4 +1,5 @@
-// The renderer: a frame is a pure function of scene, look, time and views. The same call gives the same bytes.
+// The renderer: a frame is a pure function of scene, look, time and views. The same call gives the same
+// bytes.
 #pragma once
 
 #include <cstdint>
@@ -27,11 +28,11 @@ Result<std::vector<GpuInfo>> listGpus(const std::string& choice = "");
 enum class ImagePassKind { automatic, fragment, compute };
 
 struct RendererOptions {
-  std::string device;          // part of a name, a number of listGpus(), "cpu", or empty: the best one
-  bool validation = false;     // Vulkan validation layers; messages go to stderr and are counted
-  std::string cacheFolder;     // compiled pipelines are kept here between runs; empty: nowhere
-  ImagePassKind imagePasses = ImagePassKind::automatic;  // how image passes run; automatic measures nothing, it
-                                                         // chooses by the kind of device (docs/gpu.md)
+  std::string device;       // part of a name, a number of listGpus(), "cpu", or empty: the best one
+  bool validation = false;  // Vulkan validation layers; messages go to stderr and are counted
+  std::string cacheFolder;  // compiled pipelines are kept here between runs; empty: nowhere
+  ImagePassKind imagePasses = ImagePassKind::automatic;  // how image passes run; automatic measures nothing,
+                                                         // it chooses by the kind of device (docs/gpu.md)
 };
 
 struct RenderOptions {
@@ -41,7 +42,7 @@ struct RenderOptions {
   bool transparent = false;             // leave the background out: alpha 0 where nothing is
   double framesPerSecond = 24;          // of the motion AOV and the look's frame grid
   uint32_t seed = 0;
-  bool plain = false;                   // the yardstick: the scene once, unlit, one pass, nothing else
+  bool plain = false;  // the yardstick: the scene once, unlit, one pass, nothing else
   // The views one frame earlier, for the motion AOV; empty: the same as now.
   std::vector<View> previousViews;
 };
@@ -65,7 +66,7 @@ struct FrameStats {
 // A finished frame: for each view the picture and the AOVs that were asked for.
 struct Frame {
   struct Layer {
-    std::string name;  // empty for the picture itself, else the AOV's name
+    std::string name;          // empty for the picture itself, else the AOV's name
     std::vector<Image> views;  // one a view; shadow-map has one for all
   };
   std::vector<Layer> layers;

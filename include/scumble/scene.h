@@ -30,8 +30,8 @@ struct SceneSummary {
     std::string name;
     double duration = 0;  // seconds
   };
-  size_t meshes = 0, primitives = 0, triangles = 0, vertices = 0, nodes = 0, materials = 0, images = 0, skins = 0,
-         morphTargets = 0;
+  size_t meshes = 0, primitives = 0, triangles = 0, vertices = 0, nodes = 0, materials = 0, images = 0,
+         skins = 0, morphTargets = 0;
   std::vector<std::string> cameras, lights, materialNames;
   std::vector<Clip> clips;
   std::vector<std::string> extensionsUsed, extensionsNotSupported;
@@ -44,8 +44,8 @@ class Scene {
   // Reads .gltf or .glb. Fails with ErrorKind::unusableFile.
   static Result<Scene> load(const std::string& path, const SceneOptions& options = {});
 
-  // The same from a glTF or GLB in memory; URIs are resolved relative to `folder`. With an empty `folder` no file
-  // is ever opened: the scene must hold everything itself. `name` is what messages call it.
+  // The same from a glTF or GLB in memory; URIs are resolved relative to `folder`. With an empty `folder` no
+  // file is ever opened: the scene must hold everything itself. `name` is what messages call it.
   static Result<Scene> loadFromMemory(const void* bytes, size_t size, const std::string& name,
                                       const std::string& folder, const SceneOptions& options = {});
 

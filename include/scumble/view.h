@@ -14,7 +14,8 @@ namespace scumble {
 // One eye. Matrices are column-major, for column vectors.
 struct View {
   glm::mat4 worldToEye{1.0f};  // eye space: x right, y up, looking along -z; metres
-  // Eye to clip space in Vulkan's convention: y down, depth reversed (1 at the near plane, 0 far away). May be off-centre.
+  // Eye to clip space in Vulkan's convention: y down, depth reversed (1 at the near plane, 0 far away). May
+  // be off-centre.
   glm::mat4 eyeToClip{1.0f};
 };
 
@@ -22,12 +23,13 @@ struct View {
 glm::mat4 perspectiveProjection(float verticalFov, float aspect, float near);  // infinite far plane
 glm::mat4 orthographicProjection(float halfHeight, float aspect, float near, float far);
 
-// Where the camera stands, as the command line says it. The first that is given counts: eye and target, orbit, the
-// scene's camera, its first camera, and else a framing of everything.
+// Where the camera stands, as the command line says it. The first that is given counts: eye and target,
+// orbit, the scene's camera, its first camera, and else a framing of everything.
 struct Viewpoint {
-  std::string camera;                    // name or number of a scene's camera; empty: the first
-  bool orbit = false;                    // around the scene's centre
-  float azimuth = 0, elevation = 0;      // degrees; azimuth 0 looks at the scene's front (+Z), growing to its left (+X)
+  std::string camera;  // name or number of a scene's camera; empty: the first
+  bool orbit = false;  // around the scene's centre
+  float azimuth = 0,
+        elevation = 0;  // degrees; azimuth 0 looks at the scene's front (+Z), growing to its left (+X)
   std::optional<float> distance;         // in scene radii; default: everything in the frame
   std::optional<glm::vec3> eye, target;  // metres
   float roll = 0;                        // degrees, clockwise as seen by the viewer
@@ -36,8 +38,8 @@ struct Viewpoint {
 
 enum class Stereo { mono, stereo };
 
-// One view, or the left and the right one (ipd metres apart, parallel axes). Fails with ErrorKind::usage for an unknown
-// camera and for a viewpoint that sees nothing (eye on the target).
+// One view, or the left and the right one (ipd metres apart, parallel axes). Fails with ErrorKind::usage for
+// an unknown camera and for a viewpoint that sees nothing (eye on the target).
 Result<std::vector<View>> makeViews(const Scene& scene, const Viewpoint& viewpoint, float aspect,
                                     Stereo stereo = Stereo::mono, float ipd = 0.063f);
 

@@ -1,4 +1,5 @@
-// OKLab (Ottosson 2020): lightness L in [0, 1], and a, b whose length is chroma; distances are about perceptual.
+// OKLab (Ottosson 2020): lightness L in [0, 1], and a, b whose length is chroma; distances are about
+// perceptual.
 #pragma once
 
 #include <cmath>

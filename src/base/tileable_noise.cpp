@@ -9,7 +9,8 @@ namespace scumble {
 
 namespace {
 
-// Unit vectors all around, since a cosine and a sine for each corner of each texel would take most of the time.
+// Unit vectors all around, since a cosine and a sine for each corner of each texel would take most of the
+// time.
 const std::array<std::pair<float, float>, 256>& directions() {
   static const std::array<std::pair<float, float>, 256> table = [] {
     std::array<std::pair<float, float>, 256> t;
@@ -47,8 +48,8 @@ float gradientNoise(float x, float y, uint32_t periodX, uint32_t periodY, uint32
   return 1.41421356f * mix(mix(corner(0, 0), corner(1, 0), u), mix(corner(0, 1), corner(1, 1), u), v);
 }
 
-std::vector<float> selfSimilarNoise(uint32_t size, uint32_t firstPeriod, int octaves, float persistence, uint32_t seed,
-                                    float stretch) {
+std::vector<float> selfSimilarNoise(uint32_t size, uint32_t firstPeriod, int octaves, float persistence,
+                                    uint32_t seed, float stretch) {
   std::vector<float> field(size_t(size) * size, 0.0f);
   float amplitude = 1.0f;
   uint32_t period = firstPeriod;
@@ -57,8 +58,9 @@ std::vector<float> selfSimilarNoise(uint32_t size, uint32_t firstPeriod, int oct
     for (uint32_t y = 0; y < size; ++y)
       for (uint32_t x = 0; x < size; ++x) {
         const float u = (float(x) + 0.5f) / float(size), v = (float(y) + 0.5f) / float(size);
-        field[size_t(y) * size + x] += amplitude * gradientNoise(u * float(period), v * float(periodV), period,
-                                                                 periodV, seed + uint32_t(octave) * 977u);
+        field[size_t(y) * size + x] +=
+            amplitude * gradientNoise(u * float(period), v * float(periodV), period, periodV,
+                                      seed + uint32_t(octave) * 977u);
       }
   }
   double sum = 0, squares = 0;

@@ -13,9 +13,10 @@ using scene::SceneData;
 namespace frame {
 
 namespace {
-constexpr float kDefaultAzimuth = 32, kDefaultElevation = 14;  // degrees: three-quarter view, slightly from above
-constexpr float kDefaultFov = 34;                              // degrees, vertical
-constexpr float kFill = 0.82f;                                 // of the frame that the subject may take
+constexpr float kDefaultAzimuth = 32,
+                kDefaultElevation = 14;  // degrees: three-quarter view, slightly from above
+constexpr float kDefaultFov = 34;        // degrees, vertical
+constexpr float kFill = 0.82f;           // of the frame that the subject may take
 }  // namespace
 
 glm::mat4 cameraWorld(const SceneData& scene, size_t camera) {
@@ -39,16 +40,19 @@ glm::vec3 defaultEyeDirection(const SceneData& scene) {
   return orbitDirection(kDefaultAzimuth, kDefaultElevation);
 }
 
-float framingDistance(const scene::Bounds& bounds, const glm::vec3& direction, float verticalFov, float aspect) {
+float framingDistance(const scene::Bounds& bounds, const glm::vec3& direction, float verticalFov,
+                      float aspect) {
   const glm::vec3 up = std::abs(direction.y) > 0.999f ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0);
   const glm::vec3 right = glm::normalize(glm::cross(up, direction)), above = glm::cross(direction, right);
   const float tanY = std::tan(0.5f * verticalFov) * kFill, tanX = tanY * aspect;
   const glm::vec3 half = 0.5f * (bounds.max - bounds.min);
   float distance = 0;
   for (int corner = 0; corner < 8; ++corner) {
-    const glm::vec3 p(corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y, corner & 4 ? half.z : -half.z);
+    const glm::vec3 p(corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y,
+                      corner & 4 ? half.z : -half.z);
     const float depth = glm::dot(p, direction);
-    distance = std::max({distance, std::abs(glm::dot(p, right)) / tanX + depth, std::abs(glm::dot(p, above)) / tanY + depth});
+    distance = std::max(
+        {distance, std::abs(glm::dot(p, right)) / tanX + depth, std::abs(glm::dot(p, above)) / tanY + depth});
   }
   return std::max(distance, 1e-6f);
 }
@@ -84,7 +88,8 @@ Error badViewpoint(std::string problem, std::string advice) {
 std::optional<size_t> findCamera(const SceneData& scene, const std::string& name) {
   for (size_t i = 0; i < scene.cameras.size(); ++i)
     if (scene.cameras[i].name == name) return i;
-  if (!name.empty() && name.size() < 7 && std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; }))
+  if (!name.empty() && name.size() < 7 &&
+      std::all_of(name.begin(), name.end(), [](char c) { return c >= '0' && c <= '9'; }))
     if (const size_t number = size_t(std::stoul(name)); number < scene.cameras.size()) return number;
   return std::nullopt;
 }
@@ -94,20 +99,22 @@ View lookAt(const glm::vec3& eye, const glm::vec3& target, float rollDegrees) {
   const glm::vec3 up = std::abs(forward.y) > 0.999f ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0);
   View view;
   view.worldToEye = glm::lookAt(eye, target, up);
-  view.worldToEye = glm::rotate(glm::mat4(1.0f), glm::radians(rollDegrees), glm::vec3(0, 0, 1)) * view.worldToEye;
+  view.worldToEye =
+      glm::rotate(glm::mat4(1.0f), glm::radians(rollDegrees), glm::vec3(0, 0, 1)) * view.worldToEye;
   return view;
 }
 
 }  // namespace
 
-Result<std::vector<View>> makeViews(const Scene& scene, const Viewpoint& viewpoint, float aspect, Stereo stereo,
-                                    float ipd) {
+Result<std::vector<View>> makeViews(const Scene& scene, const Viewpoint& viewpoint, float aspect,
+                                    Stereo stereo, float ipd) {
   using namespace frame;
   const SceneData& data = scene.data();
   const float radius = std::max(data.bounds.radius(), 1e-6f);
   const float near = 1e-3f * radius;
   float fov = glm::radians(viewpoint.verticalFov.value_or(kDefaultFov));
-  if (!(fov > 0.001f && fov < 3.1f)) return badViewpoint("a field of view of that size sees nothing", "use 1 to 170 degrees");
+  if (!(fov > 0.001f && fov < 3.1f))
+    return badViewpoint("a field of view of that size sees nothing", "use 1 to 170 degrees");
   if (!(aspect > 0)) return badViewpoint("the picture has no area", "give a size like 1280x720");
 
   View view;
@@ -116,7 +123,8 @@ Result<std::vector<View>> makeViews(const Scene& scene, const Viewpoint& viewpoi
     const glm::vec3 eye =
         viewpoint.eye.value_or(target + framingDistance(data.bounds, defaultEyeDirection(data), fov, aspect) *
                                             defaultEyeDirection(data));
-    if (glm::length(target - eye) < 1e-9f * radius) return badViewpoint("the eye stands on its target", "move one of them");
+    if (glm::length(target - eye) < 1e-9f * radius)
+      return badViewpoint("the eye stands on its target", "move one of them");
     view = lookAt(eye, target, viewpoint.roll);
     view.eyeToClip = perspectiveProjection(fov, aspect, std::min(near, 0.1f * glm::length(target - eye)));
   } else if (viewpoint.orbit || (viewpoint.camera.empty() && data.cameras.empty())) {
@@ -124,14 +132,17 @@ Result<std::vector<View>> makeViews(const Scene& scene, const Viewpoint& viewpoi
                                                 : orbitDirection(kDefaultAzimuth, kDefaultElevation);
     const float distance = viewpoint.distance ? *viewpoint.distance * radius
                                               : framingDistance(data.bounds, direction, fov, aspect);
-    if (!(distance > 0)) return badViewpoint("the orbit's distance is not above zero", "give it in scene radii, e.g. 3");
+    if (!(distance > 0))
+      return badViewpoint("the orbit's distance is not above zero", "give it in scene radii, e.g. 3");
     view = lookAt(data.bounds.center() + distance * direction, data.bounds.center(), viewpoint.roll);
     view.eyeToClip = perspectiveProjection(fov, aspect, std::min(near, 0.1f * distance));
   } else {
     const std::optional<size_t> index = viewpoint.camera.empty() ? 0 : findCamera(data, viewpoint.camera);
     if (!index) {
       std::string names;
-      for (const scene::Camera& camera : data.cameras) names += (names.empty() ? "" : ", ") + camera.name;
+      for (size_t i = 0; i < data.cameras.size(); ++i)
+        names +=
+            (i == 0 ? "" : ", ") + (data.cameras[i].name.empty() ? std::to_string(i) : data.cameras[i].name);
       return badViewpoint("the scene has no camera '" + viewpoint.camera + "'",
                           names.empty() ? "it has none at all; use --orbit" : "it has: " + names);
     }
@@ -140,7 +151,8 @@ Result<std::vector<View>> makeViews(const Scene& scene, const Viewpoint& viewpoi
     glm::mat4 world = cameraWorld(data, *index);
     for (int axis = 0; axis < 3; ++axis)
       if (const float length = glm::length(glm::vec3(world[axis])); length > 1e-12f) world[axis] /= length;
-    view.worldToEye = glm::rotate(glm::mat4(1.0f), glm::radians(viewpoint.roll), glm::vec3(0, 0, 1)) * glm::inverse(world);
+    view.worldToEye =
+        glm::rotate(glm::mat4(1.0f), glm::radians(viewpoint.roll), glm::vec3(0, 0, 1)) * glm::inverse(world);
     if (camera.perspective) {
       if (!viewpoint.verticalFov) fov = std::clamp(camera.verticalFov, 0.001f, 3.1f);
       view.eyeToClip = perspectiveProjection(fov, aspect, std::max(camera.near, 1e-6f * radius));

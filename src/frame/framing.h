@@ -8,13 +8,15 @@ namespace scumble::frame {
 // World matrix of the first node that carries this camera; identity when none does.
 glm::mat4 cameraWorld(const scene::SceneData& scene, size_t camera);
 
-// Direction from the scene's centre to the default viewpoint: its first camera, else three-quarter view from the front.
+// Direction from the scene's centre to the default viewpoint: its first camera, else three-quarter view from
+// the front.
 glm::vec3 defaultEyeDirection(const scene::SceneData& scene);
 
 // Direction for an azimuth and elevation in degrees (see Viewpoint).
 glm::vec3 orbitDirection(float azimuth, float elevation);
 
 // Distance from the centre of `bounds` at which all of it is seen, with air around it. Angles in radians.
-float framingDistance(const scene::Bounds& bounds, const glm::vec3& direction, float verticalFov, float aspect);
+float framingDistance(const scene::Bounds& bounds, const glm::vec3& direction, float verticalFov,
+                      float aspect);
 
 }  // namespace scumble::frame

@@ -14,7 +14,8 @@ namespace {
 
 constexpr size_t kMaxNewTriangles = 1 << 18;
 
-// A disc around and a little below the scene: rings that widen, so that it is fine near the scene and reaches far.
+// A disc around and a little below the scene: rings that widen, so that it is fine near the scene and reaches
+// far.
 scene::Primitive makeGround(const scene::Bounds& bounds) {
   constexpr int kSectors = 48, kRings = 9;
   constexpr float kReach = 40.0f;  // scene radii
@@ -33,11 +34,14 @@ scene::Primitive makeGround(const scene::Bounds& bounds) {
       addVertex(r * std::cos(angle), -r * std::sin(angle));
     }
   }
-  const auto at = [&](int ring, int s) { return ring == 0 ? 0u : uint32_t(1 + (ring - 1) * kSectors + s % kSectors); };
+  const auto at = [&](int ring, int s) {
+    return ring == 0 ? 0u : uint32_t(1 + (ring - 1) * kSectors + s % kSectors);
+  };
   for (int ring = 0; ring < kRings; ++ring)
     for (int s = 0; s < kSectors; ++s) {
       ground.indices.insert(ground.indices.end(), {at(ring, s), at(ring + 1, s), at(ring + 1, s + 1)});
-      if (ring > 0) ground.indices.insert(ground.indices.end(), {at(ring, s), at(ring + 1, s + 1), at(ring, s + 1)});
+      if (ring > 0)
+        ground.indices.insert(ground.indices.end(), {at(ring, s), at(ring + 1, s + 1), at(ring, s + 1)});
     }
   const size_t count = ground.vertexCount();
   ground.normals.assign(count, {0, 1, 0});
@@ -52,7 +56,8 @@ scene::Primitive morphed(const scene::Primitive& primitive, const std::vector<fl
   scene::Primitive result = primitive;
   for (size_t t = 0; t < primitive.morphTargets.size() && t < weights.size(); ++t) {
     const scene::MorphTarget& target = primitive.morphTargets[t];
-    for (size_t v = 0; v < target.positions.size(); ++v) result.positions[v] += weights[t] * target.positions[v];
+    for (size_t v = 0; v < target.positions.size(); ++v)
+      result.positions[v] += weights[t] * target.positions[v];
     for (size_t v = 0; v < target.normals.size(); ++v) result.normals[v] += weights[t] * target.normals[v];
   }
   for (glm::vec3& n : result.normals) n = glm::length(n) > 1e-6f ? glm::normalize(n) : glm::vec3(0, 1, 0);
@@ -67,7 +72,8 @@ float largestScale(const glm::mat4& m) {
 
 float longestEdge(float shadowWarp) {
   if (shadowWarp <= 0) return std::numeric_limits<float>::infinity();
-  // The algebraic sigmoid's second derivative is at most 0.858; the warp scales t by the strength and its range to 2.
+  // The algebraic sigmoid's second derivative is at most 0.858; the warp scales t by the strength and its
+  // range to 2.
   const float range = 2 * shadowWarp / std::sqrt(1 + shadowWarp * shadowWarp);
   const float curvature = 2 * shadowWarp * shadowWarp * 0.858f / range;
   const float tolerance = 3 * 2.0f / float(kShadowMapSize);
@@ -110,7 +116,8 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
     }
   }
 
-  // Split casters that are too long for the shadow map's sigmoid: by the largest scale at which a primitive is drawn.
+  // Split casters that are too long for the shadow map's sigmoid: by the largest scale at which a primitive
+  // is drawn.
   std::map<const scene::Primitive*, float> scales;
   scene::Bounds casters;
   for (const GeometryItem& item : geometry.items) {
@@ -130,8 +137,13 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
     if (const auto it = split.find(item.primitive); it != split.end()) item.primitive = it->second;
 
   if (groundMaterial >= 0) {
-    GeometryItem item{&geometry.made.emplace_back(makeGround(geometry.bounds)), glm::mat4(1.0f), -1,
-                      uint32_t(groundMaterial), 0, false, {}};
+    GeometryItem item{&geometry.made.emplace_back(makeGround(geometry.bounds)),
+                      glm::mat4(1.0f),
+                      -1,
+                      uint32_t(groundMaterial),
+                      0,
+                      false,
+                      {}};
     for (const glm::vec3& p : item.primitive->positions) item.bounds.add(p);
     item.id = uint32_t(scene.nodes.size() + 1);
     item.casts = false;

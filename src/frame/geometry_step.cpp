@@ -71,7 +71,8 @@ void GeometryStep::create(gpu::Device& device, const FrameResources& resources, 
 void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resources, const SceneOnGpu& scene,
                         VkDescriptorSet passSet, const glm::vec3& eye,
                         const std::function<bool(const Draw&)>& includes) const {
-  const VkBuffer buffers[] = {scene.finalCore().handle(), scene.finalFrame().handle(), scene.surface().handle()};
+  const VkBuffer buffers[] = {scene.finalCore().handle(), scene.finalFrame().handle(),
+                              scene.surface().handle()};
   const VkDeviceSize offsets[] = {0, 0, 0};
   vkCmdBindVertexBuffers(commands, 0, 3, buffers, offsets);
   vkCmdBindIndexBuffer(commands, scene.indices().handle(), 0, VK_INDEX_TYPE_UINT32);
@@ -102,12 +103,14 @@ void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resource
     }
     if (boundMaterial != draw->material) {
       pipeline.bindSet(commands, 1, scene.materialSet(draw->material));
-      for (size_t i = 0; i < materialStrides_.size(); ++i) offsetsOfMaterial[i] = draw->material * materialStrides_[i];
+      for (size_t i = 0; i < materialStrides_.size(); ++i)
+        offsetsOfMaterial[i] = draw->material * materialStrides_[i];
       if (hasPassSet_) pipeline.bindSet(commands, 2, passSet, offsetsOfMaterial);
       boundMaterial = draw->material;
     }
     if (cull != int(draw->cullsBack))
-      vkCmdSetCullMode(commands, draw->cullsBack ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE), cull = draw->cullsBack;
+      vkCmdSetCullMode(commands, draw->cullsBack ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE),
+          cull = draw->cullsBack;
     if (front != int(draw->mirrored))
       vkCmdSetFrontFace(commands, draw->mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE),
           front = draw->mirrored;

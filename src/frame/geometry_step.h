@@ -23,14 +23,14 @@ enum VertexInput : uint32_t {
 
 struct GeometryStepDesc {
   gpu::Shader vertex, fragment;
-  uint32_t inputs = 0;               // VertexInput bits that `vertex` reads
-  gpu::Shader depthOnlyVertex;       // instead of both for opaque surfaces: position in, depth out; may be empty
+  uint32_t inputs = 0;          // VertexInput bits that `vertex` reads
+  gpu::Shader depthOnlyVertex;  // instead of both for opaque surfaces: position in, depth out; may be empty
   std::vector<VkFormat> colorFormats;
   VkCompareOp depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
   uint32_t samples = 1, viewMask = 0;
-  bool blends = false;               // blended surfaces are composited; else they are drawn like masked ones
-  // Set 2, or null for none. Its first bindings are dynamic uniforms, one for each of `materialStrides`: the step from
-  // one material's knobs to the next one's, in bytes.
+  bool blends = false;  // blended surfaces are composited; else they are drawn like masked ones
+  // Set 2, or null for none. Its first bindings are dynamic uniforms, one for each of `materialStrides`: the
+  // step from one material's knobs to the next one's, in bytes.
   const gpu::SetLayout* passLayout = nullptr;
   std::vector<uint32_t> materialStrides;
 };
@@ -39,9 +39,11 @@ class GeometryStep {
  public:
   void create(gpu::Device& device, const FrameResources& resources, const SceneOnGpu& scene,
               const GeometryStepDesc& desc);
-  // Draws what `includes` lets through: opaque, then masked, then blended surfaces from far to near as `eye` sees them.
-  void draw(VkCommandBuffer commands, const FrameResources& resources, const SceneOnGpu& scene, VkDescriptorSet passSet,
-            const glm::vec3& eye, const std::function<bool(const Draw&)>& includes = {}) const;
+  // Draws what `includes` lets through: opaque, then masked, then blended surfaces from far to near as `eye`
+  // sees them.
+  void draw(VkCommandBuffer commands, const FrameResources& resources, const SceneOnGpu& scene,
+            VkDescriptorSet passSet, const glm::vec3& eye,
+            const std::function<bool(const Draw&)>& includes = {}) const;
 
  private:
   // Specialised by alpha mode (constant 0), by whether colours vary (1) and by whether textures are read (2).

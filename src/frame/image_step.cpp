@@ -6,9 +6,9 @@
 
 namespace scumble::frame {
 
-void ImageStep::declare(FrameBuilder& frame, const std::string& name, ImageShader shader, std::vector<Input> inputs,
-                        gpu::ResourceId output, uint64_t uniformBytes, std::vector<Texture> textures,
-                        std::vector<uint32_t> constants) {
+void ImageStep::declare(FrameBuilder& frame, const std::string& name, ImageShader shader,
+                        std::vector<Input> inputs, gpu::ResourceId output, uint64_t uniformBytes,
+                        std::vector<Texture> textures, std::vector<uint32_t> constants) {
   shader_ = shader;
   inputs_ = std::move(inputs);
   output_ = output;

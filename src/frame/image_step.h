@@ -1,5 +1,6 @@
-// An image pass: one function of a pixel and a layer, run as a full-screen fragment shader or as a compute shader,
-// whichever the configuration says (CPU drivers are faster with the first, some servers' GPUs with the second).
+// An image pass: one function of a pixel and a layer, run as a full-screen fragment shader or as a compute
+// shader, whichever the configuration says (CPU drivers are faster with the first, some servers' GPUs with
+// the second).
 #pragma once
 
 #include "frame/pass.h"

@@ -21,7 +21,8 @@ glm::vec3 keyLightDirection(const scene::SceneData& scene, const LightParams& pa
   const glm::vec3 eye = defaultEyeDirection(scene);
   const float azimuth = std::atan2(eye.x, eye.z) + glm::radians(params.azimuth);
   const float elevation = glm::radians(params.elevation);
-  return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation), std::cos(azimuth) * std::cos(elevation)};
+  return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+          std::cos(azimuth) * std::cos(elevation)};
 }
 
 void setLightSpace(shared::FrameUniforms& uniforms, const SceneOnGpu& scene, const LightParams& params,

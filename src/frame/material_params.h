@@ -1,5 +1,5 @@
-// A pass's knobs for every material: uniforms with one struct of a per-material block each, at a dynamic offset that
-// follows the material being drawn.
+// A pass's knobs for every material: uniforms with one struct of a per-material block each, at a dynamic
+// offset that follows the material being drawn.
 #pragma once
 
 #include "frame/pass.h"

@@ -19,11 +19,13 @@ const std::array<float, 256>& toLinear() {
   return table;
 }
 
-// sRGB bytes by linear value in steps of 1 / 4095: within one byte of exact, which is enough for a filtered level.
+// sRGB bytes by linear value in steps of 1 / 4095: within one byte of exact, which is enough for a filtered
+// level.
 const std::array<uint8_t, 4096>& toSrgb() {
   static const std::array<uint8_t, 4096> table = [] {
     std::array<uint8_t, 4096> t{};
-    for (uint32_t i = 0; i < t.size(); ++i) t[i] = uint8_t(look::srgbFromLinear(glm::vec3(float(i) / 4095.0f)) & 0xFF);
+    for (uint32_t i = 0; i < t.size(); ++i)
+      t[i] = uint8_t(look::srgbFromLinear(glm::vec3(float(i) / 4095.0f)) & 0xFF);
     return t;
   }();
   return table;
@@ -31,7 +33,8 @@ const std::array<uint8_t, 4096>& toSrgb() {
 
 }  // namespace
 
-std::vector<std::vector<uint8_t>> makeMipmaps(std::span<const uint8_t> rgba, uint32_t width, uint32_t height) {
+std::vector<std::vector<uint8_t>> makeMipmaps(std::span<const uint8_t> rgba, uint32_t width,
+                                              uint32_t height) {
   const auto& linear = toLinear();
   const auto& srgb = toSrgb();
   std::vector<std::vector<uint8_t>> levels;
@@ -43,8 +46,9 @@ std::vector<std::vector<uint8_t>> makeMipmaps(std::span<const uint8_t> rgba, uin
       const uint32_t y0 = std::min(2 * y, height - 1), y1 = std::min(2 * y + 1, height - 1);
       for (uint32_t x = 0; x < w; ++x) {
         const uint32_t x0 = std::min(2 * x, width - 1), x1 = std::min(2 * x + 1, width - 1);
-        const uint8_t* texels[4] = {above + 4 * (size_t(y0) * width + x0), above + 4 * (size_t(y0) * width + x1),
-                                    above + 4 * (size_t(y1) * width + x0), above + 4 * (size_t(y1) * width + x1)};
+        const uint8_t* texels[4] = {
+            above + 4 * (size_t(y0) * width + x0), above + 4 * (size_t(y0) * width + x1),
+            above + 4 * (size_t(y1) * width + x0), above + 4 * (size_t(y1) * width + x1)};
         float sum[3] = {}, alpha = 0;
         for (const uint8_t* t : texels) {
           // A little weight for what is transparent, so that a level without alpha keeps its colour.

@@ -1,5 +1,5 @@
-// Mip levels of colour textures, made on the CPU: no driver's blit filters sRGB and alpha as they should be, and on CPU
-// drivers the first blit of each kind costs more than all of this.
+// Mip levels of colour textures, made on the CPU: no driver's blit filters sRGB and alpha as they should be,
+// and on CPU drivers the first blit of each kind costs more than all of this.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace scumble::frame {
 
-// All levels below the largest one, down to 1 x 1: each pixel is the mean of (up to) 2 x 2 of the level above, in linear
-// light and weighted by alpha. `rgba`: 4 bytes a pixel, sRGB colour, straight alpha.
+// All levels below the largest one, down to 1 x 1: each pixel is the mean of (up to) 2 x 2 of the level
+// above, in linear light and weighted by alpha. `rgba`: 4 bytes a pixel, sRGB colour, straight alpha.
 std::vector<std::vector<uint8_t>> makeMipmaps(std::span<const uint8_t> rgba, uint32_t width, uint32_t height);
 
 }  // namespace scumble::frame

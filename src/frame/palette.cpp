@@ -48,7 +48,9 @@ glm::dvec3 litLab(const PaletteParams& params, const glm::dvec3& albedo) {
 
 }  // namespace
 
-glm::dvec3 litColor(const PaletteParams& params, const glm::dvec3& albedo) { return toGamut(litLab(params, albedo)); }
+glm::dvec3 litColor(const PaletteParams& params, const glm::dvec3& albedo) {
+  return toGamut(litLab(params, albedo));
+}
 
 glm::dvec3 shadowedColor(const PaletteParams& params, const glm::dvec3& albedo) {
   glm::dvec3 lab = litLab(params, albedo);
@@ -145,10 +147,11 @@ bool hasGround(const scene::SceneData& scene, const look::LookData& look) {
 
 BackgroundColors automaticBackground(const SceneColors& colors) {
   const glm::dvec3 scene = oklabFromLinear(glm::dvec3(colors.meanRootRgb * colors.meanRootRgb));
-  // Light scenes stand before a middle value and cool air; dark ones before a light value, warm cream unless they are
-  // warm themselves.
+  // Light scenes stand before a middle value and cool air; dark ones before a light value, warm cream unless
+  // they are warm themselves.
   const bool light = scene.x > 0.60;
-  const double lightness = light ? std::clamp(scene.x - 0.19, 0.60, 0.69) : std::clamp(scene.x + 0.36, 0.78, 0.89);
+  const double lightness =
+      light ? std::clamp(scene.x - 0.19, 0.60, 0.69) : std::clamp(scene.x + 0.36, 0.78, 0.89);
   const double warmth = std::clamp((scene.y + scene.z) / 0.08, -1.0, 1.0);
   const double coolness = light ? 0.80 + 0.20 * warmth : 0.38 + 0.40 * warmth;
   const glm::dvec2 warm(0.018, 0.050), cool(-0.034, -0.044);

@@ -1,5 +1,6 @@
-// The palette rule: from a surface's own colour to its colours in light and in shadow, for scenes that nobody prepared.
-// Light is warm, shadow is cool and a colour of its own, never grey times the lit one (docs/palette.md).
+// The palette rule: from a surface's own colour to its colours in light and in shadow, for scenes that nobody
+// prepared. Light is warm, shadow is cool and a colour of its own, never grey times the lit one
+// (docs/palette.md).
 #pragma once
 
 #include <functional>
@@ -25,9 +26,9 @@ namespace scumble::frame {
 glm::dvec3 litColor(const PaletteParams& params, const glm::dvec3& albedo);
 glm::dvec3 shadowedColor(const PaletteParams& params, const glm::dvec3& albedo);
 
-// A rule carried to the GPU: its quadratic polynomial in the square root of linear RGB, nearest by least squares over
-// the colours of sRGB. Shaders evaluate this, since the rule itself needs a cube root for each channel and a search for
-// the gamut.
+// A rule carried to the GPU: its quadratic polynomial in the square root of linear RGB, nearest by least
+// squares over the colours of sRGB. Shaders evaluate this, since the rule itself needs a cube root for each
+// channel and a search for the gamut.
 shared::ColorMap fitColorMap(const std::function<glm::dvec3(const glm::dvec3&)>& rule);
 // The map that gives one colour for everything.
 shared::ColorMap constantColorMap(const glm::vec3& linear);

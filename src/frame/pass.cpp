@@ -34,8 +34,8 @@ gpu::ResourceId FrameBuilder::multisampled(Slot slot) {
   if (id == kNone) {
     const SlotInfo& info = slotInfo(slot);
     id = graph_.addImage(std::string(info.aov) + " samples",
-                         {info.format, configuration_.width, configuration_.height, configuration_.viewCount, 1,
-                          configuration_.samples});
+                         {info.format, configuration_.width, configuration_.height, configuration_.viewCount,
+                          1, configuration_.samples});
   }
   return id;
 }
@@ -54,8 +54,8 @@ UniformSlice FrameBuilder::uniform(uint64_t bytes) {
   return slice;
 }
 
-FrameResources::FrameResources(gpu::Device& device, const FrameBuilder& builder, const gpu::SetLayout& frameLayout,
-                               VkDescriptorSet frameSet)
+FrameResources::FrameResources(gpu::Device& device, const FrameBuilder& builder,
+                               const gpu::SetLayout& frameLayout, VkDescriptorSet frameSet)
     : frameLayout_(frameLayout), frameSet_(frameSet) {
   for (const gpu::FrameGraph::ResourceInfo& resource : builder.graph().resources()) {
     if (resource.isImage && resource.usage != 0)
@@ -84,7 +84,8 @@ RenderingScope::RenderingScope(VkCommandBuffer commands, uint32_t width, uint32_
   };
   std::vector<VkRenderingAttachmentInfo> colorInfos;
   for (const Target& color : colors)
-    colorInfos.push_back(attachment(color, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_RESOLVE_MODE_AVERAGE_BIT));
+    colorInfos.push_back(
+        attachment(color, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_RESOLVE_MODE_AVERAGE_BIT));
   VkRenderingAttachmentInfo depthInfo;
   if (depth)
     depthInfo = attachment(*depth, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, VK_RESOLVE_MODE_SAMPLE_ZERO_BIT);

@@ -1,6 +1,7 @@
-// The contract of a pass. A pass declares its steps (what each reads and writes, and how it records) once for a
-// configuration of the renderer; then, when the images exist, makes its pipelines and descriptor sets; then, each frame,
-// writes its uniforms. It sees the frame, the scene on the GPU and the look; no file, no window, no other pass.
+// The contract of a pass. A pass declares its steps (what each reads and writes, and how it records) once for
+// a configuration of the renderer; then, when the images exist, makes its pipelines and descriptor sets;
+// then, each frame, writes its uniforms. It sees the frame, the scene on the GPU and the look; no file, no
+// window, no other pass.
 #pragma once
 
 #include <functional>
@@ -18,7 +19,8 @@
 
 namespace scumble::frame {
 
-// A piece of the renderer's uniform buffer; written by the CPU before the frame, read as uniform or storage buffer.
+// A piece of the renderer's uniform buffer; written by the CPU before the frame, read as uniform or storage
+// buffer.
 struct UniformSlice {
   VkBuffer buffer = VK_NULL_HANDLE;
   uint64_t offset = 0, size = 0;
@@ -33,8 +35,8 @@ struct UniformSlice {
 struct Configuration {
   uint32_t width = 0, height = 0, samples = 1, viewCount = 1;
   bool computeImagePasses = false;
-  bool facts = false;               // whether the facts pass runs
-  std::vector<Slot> readBack;      // what the caller gets
+  bool facts = false;          // whether the facts pass runs
+  std::vector<Slot> readBack;  // what the caller gets
   bool plain = false;
   uint32_t viewMask() const { return (1u << viewCount) - 1; }
   bool operator==(const Configuration&) const = default;
@@ -70,7 +72,9 @@ class FrameBuilder {
   // The final vertices that `deform` writes.
   gpu::ResourceId finalVertices() const { return finalVertices_; }
   // An image of the pass's own.
-  gpu::ResourceId transient(std::string name, const gpu::ImageDesc& desc) { return graph_.addImage(name, desc); }
+  gpu::ResourceId transient(std::string name, const gpu::ImageDesc& desc) {
+    return graph_.addImage(name, desc);
+  }
 
   void addStep(const std::string& name, std::vector<gpu::ResourceUse> uses, Record record);
   UniformSlice uniform(uint64_t bytes);

@@ -17,23 +17,31 @@ uint32_t encodeNormal(glm::vec3 n) {
   glm::vec2 oct(n.x, n.y);
   if (n.z < 0)
     oct = {(1 - std::abs(n.y)) * (n.x >= 0 ? 1.0f : -1.0f), (1 - std::abs(n.x)) * (n.y >= 0 ? 1.0f : -1.0f)};
-  const auto snorm = [](float v) { return uint32_t(uint16_t(int16_t(std::lround(std::clamp(v, -1.0f, 1.0f) * 32767)))); };
+  const auto snorm = [](float v) {
+    return uint32_t(uint16_t(int16_t(std::lround(std::clamp(v, -1.0f, 1.0f) * 32767))));
+  };
   return snorm(oct.x) | snorm(oct.y) << 16;
 }
 
 AlphaMode alphaMode(const scene::Material& material) {
   switch (material.alphaMode) {
-    case scene::AlphaMode::mask: return AlphaMode::mask;
-    case scene::AlphaMode::blend: return AlphaMode::blend;
-    default: return AlphaMode::opaque;
+    case scene::AlphaMode::mask:
+      return AlphaMode::mask;
+    case scene::AlphaMode::blend:
+      return AlphaMode::blend;
+    default:
+      return AlphaMode::opaque;
   }
 }
 
 VkSamplerAddressMode addressMode(scene::Wrap wrap) {
   switch (wrap) {
-    case scene::Wrap::mirroredRepeat: return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
-    case scene::Wrap::clampToEdge: return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    default: return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+    case scene::Wrap::mirroredRepeat:
+      return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+    case scene::Wrap::clampToEdge:
+      return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    default:
+      return VK_SAMPLER_ADDRESS_MODE_REPEAT;
   }
 }
 
@@ -90,7 +98,9 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
   uint64_t restVertices = 0, indexCount = 0, skinEntries = 0, finalVertices = 0;
   for (const GeometryItem& item : geometry.items) {
     const scene::Primitive& primitive = *item.primitive;
-    if (ranges.try_emplace(&primitive, RestRange{uint32_t(restVertices), uint32_t(indexCount), uint32_t(skinEntries)})
+    if (ranges
+            .try_emplace(&primitive,
+                         RestRange{uint32_t(restVertices), uint32_t(indexCount), uint32_t(skinEntries)})
             .second) {
       primitives.push_back(&primitive);
       restVertices += primitive.vertexCount();
@@ -116,15 +126,17 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
     const RestRange range = ranges.at(&primitive);
     for (size_t v = 0; v < primitive.vertexCount(); ++v) {
       core.data[range.vertex + v] = {primitive.positions[v], encodeNormal(primitive.normals[v])};
-      around.data[range.vertex + v] = {primitive.dPdu[v], encodeNormal(primitive.smoothNormals[v]), primitive.dPdv[v]};
+      around.data[range.vertex + v] = {primitive.dPdu[v], encodeNormal(primitive.smoothNormals[v]),
+                                       primitive.dPdv[v]};
     }
     std::copy(primitive.indices.begin(), primitive.indices.end(), indices.data + range.index);
     const size_t groups = size_t(primitive.influences / 4);
     for (size_t g = 0; g < primitive.vertexCount() * groups; ++g) {
       const uint16_t* j = &primitive.joints[4 * g];
       const float* w = &primitive.weights[4 * g];
-      skins.data[range.skin + g] = {{uint32_t(j[0]) | uint32_t(j[1]) << 16, uint32_t(j[2]) | uint32_t(j[3]) << 16},
-                                    {w[0], w[1], w[2], w[3]}};
+      skins.data[range.skin + g] = {
+          {uint32_t(j[0]) | uint32_t(j[1]) << 16, uint32_t(j[2]) | uint32_t(j[3]) << 16},
+          {w[0], w[1], w[2], w[3]}};
     }
   });
 
@@ -168,7 +180,8 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
     // The cofactor matrix is the inverse transpose times the determinant, and exists for flat matrices too.
     object.normal = glm::mat3(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                               glm::cross(linear[0], linear[1]));
-    // Its entries are products of two lengths; divide by the largest, so that tiny and huge scales keep precision.
+    // Its entries are products of two lengths; divide by the largest, so that tiny and huge scales keep
+    // precision.
     float most = 0;
     for (int i = 0; i < 9; ++i) most = std::max(most, std::abs(object.normal[i / 3][i % 3]));
     object.normal *= (draw.mirrored ? -1.0f : 1.0f) / (most > 0 && std::isfinite(most) ? most : 1.0f);
@@ -180,7 +193,8 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
 
     const uint32_t count = uint32_t(primitive.vertexCount());
     for (uint32_t v = 0; v < count; v += shared::kDeformChunk)
-      chunks.push_back({draw.object, range.vertex + v, finalVertex + v, std::min(count - v, uint32_t(shared::kDeformChunk)),
+      chunks.push_back({draw.object, range.vertex + v, finalVertex + v,
+                        std::min(count - v, uint32_t(shared::kDeformChunk)),
                         range.skin + v * uint32_t(primitive.influences / 4)});
     finalVertex += count;
   }
@@ -204,7 +218,8 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
   chunkCount_ = uint32_t(chunks.size());
   if (chunks.size() > kDeformRow) chunks.resize((chunks.size() + kDeformRow - 1) / kDeformRow * kDeformRow);
   const auto upload = [&](const auto& array) {
-    auto stream = reserve<std::remove_cvref_t<decltype(array[0])>>(uploader, array.size(), kStorage, uploadedBytes_);
+    auto stream =
+        reserve<std::remove_cvref_t<decltype(array[0])>>(uploader, array.size(), kStorage, uploadedBytes_);
     std::copy(array.begin(), array.end(), stream.data);
     return std::move(stream.buffer);
   };
@@ -212,8 +227,10 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
   chunks_ = upload(chunks);
   joints_ = upload(joints);
   const uint64_t finals = std::max<uint64_t>(1, finalVertices);
-  finalCore_ = gpu::Buffer(device, finals * sizeof(shared::VertexCore), kStorage | kVertex, gpu::MemoryKind::device);
-  finalFrame_ = gpu::Buffer(device, finals * sizeof(shared::VertexFrame), kStorage | kVertex, gpu::MemoryKind::device);
+  finalCore_ =
+      gpu::Buffer(device, finals * sizeof(shared::VertexCore), kStorage | kVertex, gpu::MemoryKind::device);
+  finalFrame_ =
+      gpu::Buffer(device, finals * sizeof(shared::VertexFrame), kStorage | kVertex, gpu::MemoryKind::device);
 }
 
 void SceneOnGpu::buildMaterials(gpu::Device& device, gpu::Samplers& samplers, gpu::Uploader& uploader) {
@@ -226,7 +243,8 @@ void SceneOnGpu::buildMaterials(gpu::Device& device, gpu::Samplers& samplers, gp
   });
   for (size_t i = 0; i < mipmaps.size(); ++i) {
     const scene::Image& image = data_->images[i];
-    if (image.width > device.limits().maxImageDimension2D || image.height > device.limits().maxImageDimension2D)
+    if (image.width > device.limits().maxImageDimension2D ||
+        image.height > device.limits().maxImageDimension2D)
       throw gpu::VulkanError{"a texture's size", VK_ERROR_OUT_OF_DEVICE_MEMORY};
     std::vector<std::span<const std::byte>> levels{std::as_bytes(std::span(image.rgba))};
     for (const auto& level : mipmaps[i]) levels.push_back(std::as_bytes(std::span(level)));
@@ -241,8 +259,8 @@ void SceneOnGpu::buildMaterials(gpu::Device& device, gpu::Samplers& samplers, gp
                                             {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
                                             {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT}});
   materialSets_ = gpu::DescriptorSets(device, materialLayout_, uint32_t(materialNames_.size()));
-  materialData_ = gpu::Buffer(device, materialNames_.size() * kMaterialStride, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
-                              gpu::MemoryKind::upload);
+  materialData_ = gpu::Buffer(device, materialNames_.size() * kMaterialStride,
+                              VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, gpu::MemoryKind::upload);
   const auto write = [&](size_t set, uint32_t binding, const scene::TextureUse& use) {
     gpu::SamplerDesc desc;
     desc.wrapU = addressMode(use.sampler.wrapU);
@@ -253,7 +271,8 @@ void SceneOnGpu::buildMaterials(gpu::Device& device, gpu::Samplers& samplers, gp
   };
   for (size_t m = 0; m < materialNames_.size(); ++m) {
     const scene::Material material = m < data_->materials.size() ? data_->materials[m] : scene::Material{};
-    materialSets_.writeBuffer(m, 0, materialData_.handle(), m * kMaterialStride, sizeof(shared::MaterialData));
+    materialSets_.writeBuffer(m, 0, materialData_.handle(), m * kMaterialStride,
+                              sizeof(shared::MaterialData));
     write(m, 1, material.baseColorTexture);
     write(m, 2, material.emissiveTexture);
   }
@@ -299,8 +318,9 @@ void SceneOnGpu::measureColors(const Geometry& geometry) {
     for (size_t t = 0; t < triangles; t += step) {
       const uint32_t* v = &primitive.indices[3 * t];
       const glm::mat3 m(item.model);
-      const glm::dvec3 normal = glm::cross(glm::dvec3(m * (primitive.positions[v[1]] - primitive.positions[v[0]])),
-                                           glm::dvec3(m * (primitive.positions[v[2]] - primitive.positions[v[0]])));
+      const glm::dvec3 normal =
+          glm::cross(glm::dvec3(m * (primitive.positions[v[1]] - primitive.positions[v[0]])),
+                     glm::dvec3(m * (primitive.positions[v[2]] - primitive.positions[v[0]])));
       const double area = glm::length(normal) * double(step);
       if (!std::isfinite(area)) continue;
       glm::vec3 c = root;

@@ -1,5 +1,5 @@
-// A scene in device memory: rest vertices, the final vertices that `deform` writes, indices, textures, and the list of
-// draws. Built once per scene; nothing in it depends on the look but whether there is a ground.
+// A scene in device memory: rest vertices, the final vertices that `deform` writes, indices, textures, and
+// the list of draws. Built once per scene; nothing in it depends on the look but whether there is a ground.
 #pragma once
 
 #include <array>
@@ -28,8 +28,8 @@ struct Draw {
   bool mirrored = false;  // the object's matrix turns triangles inside out
   bool varied = false;    // vertex colours or textures vary the material's colour
   bool textured = false;
-  bool casts = true;      // shadows
-  scene::Bounds bounds;   // world, rest pose
+  bool casts = true;     // shadows
+  scene::Bounds bounds;  // world, rest pose
 };
 
 // What the automatic choices of colours need to know.
@@ -40,8 +40,8 @@ struct SceneColors {
 // What of the look goes into a scene's geometry; when it changes, the scene is built anew.
 struct GeometryOptions {
   bool ground = false;
-  float shadowWarp = 0;               // strength of the shadow map's sigmoid, which long triangles cannot follow
-  std::vector<bool> casts;            // by material: whether it casts shadows
+  float shadowWarp = 0;     // strength of the shadow map's sigmoid, which long triangles cannot follow
+  std::vector<bool> casts;  // by material: whether it casts shadows
   bool operator==(const GeometryOptions&) const = default;
 };
 
@@ -98,7 +98,8 @@ class SceneOnGpu {
   std::vector<Draw> draws_;
   SceneColors colors_;
   scene::Bounds bounds_;
-  gpu::Buffer objects_, chunks_, restCore_, restFrame_, restSkin_, joints_, finalCore_, finalFrame_, surface_, indices_;
+  gpu::Buffer objects_, chunks_, restCore_, restFrame_, restSkin_, joints_, finalCore_, finalFrame_, surface_,
+      indices_;
   uint32_t chunkCount_ = 0;
   std::vector<gpu::Image> images_;
   gpu::Buffer materialData_;

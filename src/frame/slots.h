@@ -1,4 +1,5 @@
-// Slots: the images that passes exchange and that can be saved as AOVs. A pass names a slot, never another pass.
+// Slots: the images that passes exchange and that can be saved as AOVs. A pass names a slot, never another
+// pass.
 #pragma once
 
 #include <vulkan/vulkan.h>
@@ -8,13 +9,14 @@
 namespace scumble::frame {
 
 enum class Slot : uint8_t {
-  shadowMap,    // depth from the light in sigmoid-warped light space
-  warp,         // R, G: warp vector in pixels (x right, y down); B: breakup marks; A: eye depth of the inflated surface, or 0
-  shadow,       // R: Lambert x cast shadow; G: lens; B: breakup, where it may act; A: coverage
-  lit,          // square root of the linear colour in full light; A: coverage
-  shadowed,     // the same in shadow. Square roots need no more than 8 bits, and cost drivers less than sRGB
-  depth,        // depth buffer of the surface pass
-  blur,         // the shadow channels, blurred, at a quarter of the size
+  shadowMap,  // depth from the light in sigmoid-warped light space
+  warp,       // R, G: warp vector in pixels (x right, y down); B: breakup marks; A: eye depth of the inflated
+              // surface, or 0
+  shadow,     // R: Lambert x cast shadow; G: lens; B: breakup, where it may act; A: coverage
+  lit,        // square root of the linear colour in full light; A: coverage
+  shadowed,   // the same in shadow. Square roots need no more than 8 bits, and cost drivers less than sRGB
+  depth,      // depth buffer of the surface pass
+  blur,       // the shadow channels, blurred, at a quarter of the size
   finalShadow,  // R: light after threshold and inner glow; G: lens; B: where indication acts; A: coverage
   color,        // lit and shadowed mixed, over the background
   finalColor,   // warped, with bloom: the picture
@@ -27,18 +29,18 @@ enum class Slot : uint8_t {
   metatexture,
   motion,
   id,
-  plain,        // the yardstick's picture
+  plain,  // the yardstick's picture
   count
 };
 
 enum class Rate : uint8_t { once, perView };
 
 struct SlotInfo {
-  const char* aov;       // name outside
+  const char* aov;  // name outside
   VkFormat format;
   Rate rate;
-  bool multisampled;     // drawn with the frame's samples and resolved
-  uint8_t channels;      // how many of the format's channels mean something, from R on
+  bool multisampled;  // drawn with the frame's samples and resolved
+  uint8_t channels;   // how many of the format's channels mean something, from R on
 };
 
 const SlotInfo& slotInfo(Slot slot);

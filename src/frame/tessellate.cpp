@@ -9,7 +9,8 @@ namespace {
 
 class Splitter {
  public:
-  Splitter(const scene::Primitive& primitive, float maxEdge) : out_(primitive), maxEdge2_(maxEdge * maxEdge) {}
+  Splitter(const scene::Primitive& primitive, float maxEdge)
+      : out_(primitive), maxEdge2_(maxEdge * maxEdge) {}
 
   // One round: every edge that is too long gets a vertex in its middle. False when there was none.
   bool split() {
@@ -63,10 +64,12 @@ class Splitter {
         const float length = glm::length(sum);
         array.push_back(length > 1e-6f ? sum / length : array[a]);
       };
-      mean(out_.positions), mean(out_.uv0), mean(out_.uv1), mean(out_.patternUv), mean(out_.dPdu), mean(out_.dPdv);
+      mean(out_.positions), mean(out_.uv0), mean(out_.uv1), mean(out_.patternUv), mean(out_.dPdu),
+          mean(out_.dPdv);
       meanDirection(out_.normals), meanDirection(out_.smoothNormals);
       if (!out_.colors.empty())
-        out_.colors.push_back(glm::u8vec4((glm::uvec4(out_.colors[a]) + glm::uvec4(out_.colors[b]) + 1u) / 2u));
+        out_.colors.push_back(
+            glm::u8vec4((glm::uvec4(out_.colors[a]) + glm::uvec4(out_.colors[b]) + 1u) / 2u));
     }
     return it->second;
   }
@@ -78,11 +81,13 @@ class Splitter {
 
 }  // namespace
 
-std::optional<scene::Primitive> tessellate(const scene::Primitive& primitive, float maxEdge, size_t maxNewTriangles) {
+std::optional<scene::Primitive> tessellate(const scene::Primitive& primitive, float maxEdge,
+                                           size_t maxNewTriangles) {
   if (primitive.influences > 0 || !primitive.morphTargets.empty()) return std::nullopt;
   const float maxEdge2 = maxEdge * maxEdge;
   const auto isLong = [&](size_t i) {
-    const glm::vec3 &a = primitive.positions[primitive.indices[i]], &b = primitive.positions[primitive.indices[i + 1]],
+    const glm::vec3 &a = primitive.positions[primitive.indices[i]],
+                    &b = primitive.positions[primitive.indices[i + 1]],
                     &c = primitive.positions[primitive.indices[i + 2]];
     return std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)}) > maxEdge2;
   };

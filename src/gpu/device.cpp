@@ -87,16 +87,22 @@ DeviceInfo describe(VkPhysicalDevice physical) {
 
 Result<VkInstance> createInstance(bool validation) {
   std::vector<const char*> layers, extensions;
-  const VkValidationFeatureEnableEXT enabled[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+  const VkValidationFeatureEnableEXT enabled[] = {
+      VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
   VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
   if (validation) {
     uint32_t count = 0;
     vkEnumerateInstanceLayerProperties(&count, nullptr);
     std::vector<VkLayerProperties> available(count);
     vkEnumerateInstanceLayerProperties(&count, available.data());
-    if (std::none_of(available.begin(), available.end(),
-                     [](const VkLayerProperties& layer) { return !strcmp(layer.layerName, kValidationLayer); }))
-      return Error{ErrorKind::noUsableGpu, "", 0, "", "the Vulkan validation layer is not installed",
+    if (std::none_of(available.begin(), available.end(), [](const VkLayerProperties& layer) {
+          return !strcmp(layer.layerName, kValidationLayer);
+        }))
+      return Error{ErrorKind::noUsableGpu,
+                   "",
+                   0,
+                   "",
+                   "the Vulkan validation layer is not installed",
                    "install the package vulkan-validationlayers"};
     layers.push_back(kValidationLayer);
     extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
@@ -116,7 +122,11 @@ Result<VkInstance> createInstance(bool validation) {
   VkInstance instance;
   const VkResult result = vkCreateInstance(&info, nullptr, &instance);
   if (result != VK_SUCCESS)
-    return Error{ErrorKind::noUsableGpu, "", 0, "", std::string("Vulkan cannot start (") + resultName(result) + ")",
+    return Error{ErrorKind::noUsableGpu,
+                 "",
+                 0,
+                 "",
+                 std::string("Vulkan cannot start (") + resultName(result) + ")",
                  "install a Vulkan 1.3 driver, e.g. the package mesa-vulkan-drivers"};
   return instance;
 }
@@ -136,7 +146,8 @@ bool containsIgnoringCase(const std::string& text, const std::string& part) {
          }) != text.end();
 }
 
-VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                         VkDebugUtilsMessageTypeFlagsEXT,
                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* counter) {
   ++*static_cast<std::atomic<int>*>(counter);
   std::fprintf(stderr, "scumble: validation: %s\n", data->pMessage);
@@ -147,14 +158,22 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
 
 const char* resultName(VkResult result) {
   switch (result) {
-    case VK_ERROR_OUT_OF_HOST_MEMORY: return "out of memory";
-    case VK_ERROR_OUT_OF_DEVICE_MEMORY: return "out of device memory";
-    case VK_ERROR_DEVICE_LOST: return "the device was lost";
-    case VK_ERROR_INITIALIZATION_FAILED: return "initialisation failed";
-    case VK_ERROR_INCOMPATIBLE_DRIVER: return "no driver was found";
-    case VK_ERROR_FEATURE_NOT_PRESENT: return "a feature is missing";
-    case VK_ERROR_FORMAT_NOT_SUPPORTED: return "a format is not supported";
-    default: return "unexpected result";
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+      return "out of memory";
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+      return "out of device memory";
+    case VK_ERROR_DEVICE_LOST:
+      return "the device was lost";
+    case VK_ERROR_INITIALIZATION_FAILED:
+      return "initialisation failed";
+    case VK_ERROR_INCOMPATIBLE_DRIVER:
+      return "no driver was found";
+    case VK_ERROR_FEATURE_NOT_PRESENT:
+      return "a feature is missing";
+    case VK_ERROR_FORMAT_NOT_SUPPORTED:
+      return "a format is not supported";
+    default:
+      return "unexpected result";
   }
 }
 
@@ -173,11 +192,16 @@ Result<std::vector<DeviceInfo>> listDevices() {
 
 Result<size_t> chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& choice) {
   const auto fail = [](const std::string& problem) {
-    return Error{ErrorKind::noUsableGpu, "", 0, "", problem,
+    return Error{ErrorKind::noUsableGpu,
+                 "",
+                 0,
+                 "",
+                 problem,
                  "see `scumble devices`; the package mesa-vulkan-drivers has a driver that runs on any CPU"};
   };
-  const bool isNumber = !choice.empty() && choice.size() < 6 &&
-                        std::all_of(choice.begin(), choice.end(), [](char c) { return c >= '0' && c <= '9'; });
+  const bool isNumber =
+      !choice.empty() && choice.size() < 6 &&
+      std::all_of(choice.begin(), choice.end(), [](char c) { return c >= '0' && c <= '9'; });
   std::optional<size_t> best;
   for (size_t i = 0; i < devices.size(); ++i) {
     const DeviceInfo& device = devices[i];
@@ -187,14 +211,16 @@ Result<size_t> chooseDevice(const std::vector<DeviceInfo>& devices, const std::s
                                           : containsIgnoringCase(device.name, choice);
     if (!wanted) continue;
     if (!device.unusableBecause.empty()) {
-      if (!choice.empty()) return fail("the device '" + device.name + "' cannot be used: " + device.unusableBecause);
+      if (!choice.empty())
+        return fail("the device '" + device.name + "' cannot be used: " + device.unusableBecause);
       continue;
     }
     const auto rank = [&](const DeviceInfo& d) { return d.discrete ? 2 : d.isCpu ? 0 : 1; };
     if (!best || rank(device) > rank(devices[*best])) best = i;
   }
   if (best) return *best;
-  return fail(choice.empty() ? "no usable Vulkan 1.3 device was found" : "no device is called '" + choice + "'");
+  return fail(choice.empty() ? "no usable Vulkan 1.3 device was found"
+                             : "no device is called '" + choice + "'");
 }
 
 Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
@@ -222,8 +248,8 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
       VkDebugUtilsMessengerCreateInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
       info.messageSeverity =
           VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-      info.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT |
-                         VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+      info.messageType =
+          VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
       info.pfnUserCallback = onMessage;
       info.pUserData = &device->validationMessages_;
       const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
@@ -297,7 +323,9 @@ void Device::openPipelineCache(const std::string& folder) {
 void Device::savePipelineCache() {
   if (cacheFile_.empty()) return;
   size_t size = 0;
-  if (vkGetPipelineCacheData(device_, pipelineCache_, &size, nullptr) != VK_SUCCESS || size == cacheSizeOnDisk_) return;
+  if (vkGetPipelineCacheData(device_, pipelineCache_, &size, nullptr) != VK_SUCCESS ||
+      size == cacheSizeOnDisk_)
+    return;
   std::vector<char> data(size);
   if (vkGetPipelineCacheData(device_, pipelineCache_, &size, data.data()) != VK_SUCCESS) return;
   // A cache that cannot be written only costs time at the next start, so failure is silent.
@@ -322,7 +350,8 @@ void Device::runOnce(const std::function<void(VkCommandBuffer)>& record) {
   SCUMBLE_VK(vkBeginCommandBuffer(commands, &begin));
   record(commands);
   SCUMBLE_VK(vkEndCommandBuffer(commands));
-  const VkCommandBufferSubmitInfo submitted{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, nullptr, commands, 0};
+  const VkCommandBufferSubmitInfo submitted{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, nullptr, commands,
+                                            0};
   VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
   submit.commandBufferInfoCount = 1;
   submit.pCommandBufferInfos = &submitted;

@@ -15,9 +15,9 @@
 namespace scumble::gpu {
 
 struct DeviceOptions {
-  std::string choice;         // part of a name, a number in the order of listDevices(), "cpu", or empty: the best
-  bool validation = false;    // core and synchronisation validation; noUsableGpu where the layer is absent
-  std::string cacheFolder;    // where compiled pipelines are kept; empty: nowhere
+  std::string choice;  // part of a name, a number in the order of listDevices(), "cpu", or empty: the best
+  bool validation = false;  // core and synchronisation validation; noUsableGpu where the layer is absent
+  std::string cacheFolder;  // where compiled pipelines are kept; empty: nowhere
 };
 
 struct DeviceInfo {
@@ -49,8 +49,8 @@ class Device {
   const DeviceInfo& info() const { return info_; }
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
   bool supports4Samples() const { return supports4Samples_; }
-  // Whether image passes run faster as compute shaders. Measured: CPU drivers draw a full screen 1.45 times faster than
-  // they dispatch it; servers' GPUs have few graphics units and dispatch up to 30 times faster.
+  // Whether image passes run faster as compute shaders. Measured: CPU drivers draw a full screen 1.45 times
+  // faster than they dispatch it; servers' GPUs have few graphics units and dispatch up to 30 times faster.
   bool prefersCompute() const { return !info_.isCpu; }
   bool hasTimestamps() const { return limits_.timestampComputeAndGraphics && limits_.timestampPeriod > 0; }
 

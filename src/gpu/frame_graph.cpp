@@ -22,30 +22,30 @@ UseInfo useInfo(Use use) {
               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_IMAGE_USAGE_SAMPLED_BIT, false};
     case Use::colorTarget:
     case Use::resolveTarget:
-      return {kColorStage, kColorAccess, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
-              true};
+      return {kColorStage, kColorAccess, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+              VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, true};
     case Use::depthTarget:
       return {kDepthStages, kDepthAccess, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
               VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, true};
     case Use::depthResolveTarget:
       // A depth resolve happens in the colour output stage (Vulkan 1.3, section 8.3.4).
-      return {kColorStage | kDepthStages, kColorAccess | kDepthAccess, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-              VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, true};
+      return {kColorStage | kDepthStages, kColorAccess | kDepthAccess,
+              VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, true};
     case Use::storageImageWrite:
-      return {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL,
-              VK_IMAGE_USAGE_STORAGE_BIT, true};
+      return {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+              VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_USAGE_STORAGE_BIT, true};
     case Use::storageBufferRead:
-      return {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, VK_IMAGE_LAYOUT_UNDEFINED, 0,
-              false};
+      return {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT,
+              VK_IMAGE_LAYOUT_UNDEFINED, 0, false};
     case Use::storageBufferWrite:
-      return {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
-              0, true};
+      return {VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+              VK_IMAGE_LAYOUT_UNDEFINED, 0, true};
     case Use::vertexBuffer:
       return {VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT,
               VK_IMAGE_LAYOUT_UNDEFINED, 0, false};
     case Use::copySource:
-      return {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-              VK_IMAGE_USAGE_TRANSFER_SRC_BIT, false};
+      return {VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
+              VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_USAGE_TRANSFER_SRC_BIT, false};
   }
   assert(!"an unknown use");
   return {};
@@ -66,7 +66,8 @@ size_t FrameGraph::addStep(std::string name, std::vector<ResourceUse> uses) {
     const ResourceId resource = uses[i].resource;
     assert(resource < resources_.size());
     const auto sameResource = [&](const ResourceUse& other) { return other.resource == resource; };
-    assert(std::none_of(uses.begin(), uses.begin() + long(i), sameResource) && "a resource is used twice in one step");
+    assert(std::none_of(uses.begin(), uses.begin() + long(i), sameResource) &&
+           "a resource is used twice in one step");
     const UseInfo info = useInfo(uses[i].use);
     assert(resources_[resource].isImage == (info.layout != VK_IMAGE_LAYOUT_UNDEFINED));
     assert((info.writes || std::any_of(steps_.begin(), steps_.end(),
@@ -104,8 +105,8 @@ std::vector<std::vector<Barrier>> FrameGraph::planBarriers() const {
                                        : (state.writeStages != 0 && (info.stages & ~state.visibleTo) != 0);
         if (layoutChanges || waits) {
           // A write after reads needs their execution to end, nothing to be made visible.
-          Barrier barrier{use.resource, state.writeStages, info.stages, state.writeAccess, info.access, state.layout,
-                          info.layout};
+          Barrier barrier{use.resource, state.writeStages, info.stages, state.writeAccess,
+                          info.access,  state.layout,      info.layout};
           if (info.writes || layoutChanges) barrier.sourceStages |= state.readStages;
           if (barrier.sourceStages == 0) barrier.sourceStages = VK_PIPELINE_STAGE_2_NONE;
           plan[s].push_back(barrier);

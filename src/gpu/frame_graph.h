@@ -1,5 +1,6 @@
-// The frame graph: which step reads and writes what, and from that the barriers. Steps run in the order in which they
-// were added; nothing is reordered. It plans only, and knows no device, so it is tested without one.
+// The frame graph: which step reads and writes what, and from that the barriers. Steps run in the order in
+// which they were added; nothing is reordered. It plans only, and knows no device, so it is tested without
+// one.
 #pragma once
 
 #include <string>
@@ -53,8 +54,8 @@ class FrameGraph {
   ResourceId addImage(std::string name, const ImageDesc& desc);
   ResourceId addBuffer(std::string name);
 
-  // Adds a step; returns its index. A resource may occur only once among a step's uses, and must have been written
-  // by an earlier step before it is read.
+  // Adds a step; returns its index. A resource may occur only once among a step's uses, and must have been
+  // written by an earlier step before it is read.
   size_t addStep(std::string name, std::vector<ResourceUse> uses);
 
   struct ResourceInfo {
@@ -70,8 +71,8 @@ class FrameGraph {
   const std::vector<ResourceInfo>& resources() const { return resources_; }
   const std::vector<Step>& steps() const { return steps_; }
 
-  // Barriers before each step, index by index. The first use in a frame waits for the last use in the frame before
-  // and discards an image's contents: no step sees an earlier frame.
+  // Barriers before each step, index by index. The first use in a frame waits for the last use in the frame
+  // before and discards an image's contents: no step sees an earlier frame.
   std::vector<std::vector<Barrier>> planBarriers() const;
 
  private:

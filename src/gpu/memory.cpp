@@ -8,10 +8,14 @@ namespace scumble::gpu {
 namespace {
 constexpr uint64_t kBlockSize = 64ull << 20;
 
-uint64_t alignUp(uint64_t value, uint64_t alignment) { return (value + alignment - 1) & ~(alignment - 1); }
+uint64_t alignUp(uint64_t value, uint64_t alignment) {
+  return (value + alignment - 1) & ~(alignment - 1);
+}
 }  // namespace
 
-RangeAllocator::RangeAllocator(uint64_t size) : size_(size) { free_[0] = size; }
+RangeAllocator::RangeAllocator(uint64_t size) : size_(size) {
+  free_[0] = size;
+}
 
 uint64_t RangeAllocator::allocate(uint64_t size, uint64_t alignment) {
   for (auto it = free_.begin(); it != free_.end(); ++it) {
@@ -53,7 +57,8 @@ MemoryPool::~MemoryPool() {
 }
 
 uint32_t MemoryPool::chooseType(uint32_t allowed, MemoryKind kind) const {
-  constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+  constexpr VkMemoryPropertyFlags kHost =
+      VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
   const auto find = [&](VkMemoryPropertyFlags wanted) {
     for (uint32_t i = 0; i < properties_.memoryTypeCount; ++i)
       if ((allowed >> i & 1) && (properties_.memoryTypes[i].propertyFlags & wanted) == wanted) return i;
@@ -72,7 +77,8 @@ MemoryPool::Block& MemoryPool::addBlock(uint64_t size, uint32_t type, bool linea
   VkDeviceMemory memory;
   SCUMBLE_VK(vkAllocateMemory(device_, &info, nullptr, &memory));
   void* mapped = nullptr;
-  constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+  constexpr VkMemoryPropertyFlags kHost =
+      VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
   if ((properties_.memoryTypes[type].propertyFlags & kHost) == kHost)
     SCUMBLE_VK(vkMapMemory(device_, memory, 0, VK_WHOLE_SIZE, 0, &mapped));
   bytesReserved_ += size;

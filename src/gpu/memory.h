@@ -1,5 +1,6 @@
-// Device memory in large blocks, because drivers allow few allocations (4096 by the specification) and each is slow.
-// A block belongs to one memory type; free ranges are kept sorted and merged; large requests get a block of their own.
+// Device memory in large blocks, because drivers allow few allocations (4096 by the specification) and each
+// is slow. A block belongs to one memory type; free ranges are kept sorted and merged; large requests get a
+// block of their own.
 #pragma once
 
 #include <cstdint>
@@ -43,7 +44,8 @@ class MemoryPool {
  public:
   MemoryPool(VkPhysicalDevice physical, VkDevice device);
   ~MemoryPool();
-  // Linear resources (buffers) and tiled ones (images) never share a block, which keeps bufferImageGranularity.
+  // Linear resources (buffers) and tiled ones (images) never share a block, which keeps
+  // bufferImageGranularity.
   Allocation allocate(const VkMemoryRequirements& needs, MemoryKind kind, bool linear);
   void release(const Allocation& allocation);
   uint64_t bytesInUse() const { return bytesInUse_; }

@@ -111,7 +111,8 @@ void DescriptorSets::write(size_t set, uint32_t binding, const VkDescriptorBuffe
   vkUpdateDescriptorSets(device_->handle(), 1, &write, 0, nullptr);
 }
 
-void DescriptorSets::writeBuffer(size_t set, uint32_t binding, VkBuffer buffer, uint64_t offset, uint64_t size) {
+void DescriptorSets::writeBuffer(size_t set, uint32_t binding, VkBuffer buffer, uint64_t offset,
+                                 uint64_t size) {
   const VkDescriptorBufferInfo info{buffer, offset, size};
   write(set, binding, &info, nullptr);
 }
@@ -144,7 +145,8 @@ Pipeline::Pipeline(Device& device, const ComputePipelineDesc& desc)
   VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
   info.stage = shaderStage(VK_SHADER_STAGE_COMPUTE_BIT, module, constants);
   info.layout = layout_;
-  SCUMBLE_VK(vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr, &pipeline_));
+  SCUMBLE_VK(
+      vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr, &pipeline_));
 }
 
 Pipeline::Pipeline(Device& device, const GraphicsPipelineDesc& desc) : device_(&device) {
@@ -153,7 +155,8 @@ Pipeline::Pipeline(Device& device, const GraphicsPipelineDesc& desc) : device_(&
   // Shaders.
   const Constants constants(desc.constants);
   const ShaderModule vertex(device, desc.vertex);
-  std::vector<VkPipelineShaderStageCreateInfo> stages{shaderStage(VK_SHADER_STAGE_VERTEX_BIT, vertex, constants)};
+  std::vector<VkPipelineShaderStageCreateInfo> stages{
+      shaderStage(VK_SHADER_STAGE_VERTEX_BIT, vertex, constants)};
   std::unique_ptr<ShaderModule> fragment;
   if (!desc.fragment.words.empty()) {
     fragment = std::make_unique<ShaderModule>(device, desc.fragment);
@@ -166,7 +169,8 @@ Pipeline::Pipeline(Device& device, const GraphicsPipelineDesc& desc) : device_(&
   vertexInput.pVertexBindingDescriptions = desc.vertexBindings.data();
   vertexInput.vertexAttributeDescriptionCount = uint32_t(desc.vertexAttributes.size());
   vertexInput.pVertexAttributeDescriptions = desc.vertexAttributes.data();
-  VkPipelineInputAssemblyStateCreateInfo assembly{VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
+  VkPipelineInputAssemblyStateCreateInfo assembly{
+      VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO};
   assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
   VkPipelineViewportStateCreateInfo viewport{VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO};
   viewport.viewportCount = viewport.scissorCount = 1;
@@ -217,7 +221,8 @@ Pipeline::Pipeline(Device& device, const GraphicsPipelineDesc& desc) : device_(&
   info.pColorBlendState = &blend;
   info.pDynamicState = &dynamicState;
   info.layout = layout_;
-  SCUMBLE_VK(vkCreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr, &pipeline_));
+  SCUMBLE_VK(
+      vkCreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr, &pipeline_));
 }
 
 Pipeline::~Pipeline() {

@@ -52,13 +52,15 @@ class DescriptorSets {
     return *this;
   }
   VkDescriptorSet operator[](size_t index) const { return sets_[index]; }
-  void writeBuffer(size_t set, uint32_t binding, VkBuffer buffer, uint64_t offset = 0, uint64_t size = VK_WHOLE_SIZE);
+  void writeBuffer(size_t set, uint32_t binding, VkBuffer buffer, uint64_t offset = 0,
+                   uint64_t size = VK_WHOLE_SIZE);
   void writeTexture(size_t set, uint32_t binding, VkImageView view, VkSampler sampler);
   void writeStorageImage(size_t set, uint32_t binding, VkImageView view);
 
  private:
   void swap(DescriptorSets& other);
-  void write(size_t set, uint32_t binding, const VkDescriptorBufferInfo* buffer, const VkDescriptorImageInfo* image);
+  void write(size_t set, uint32_t binding, const VkDescriptorBufferInfo* buffer,
+             const VkDescriptorImageInfo* image);
   Device* device_ = nullptr;
   VkDescriptorPool pool_ = VK_NULL_HANDLE;
   std::vector<VkDescriptorSet> sets_;
@@ -68,20 +70,20 @@ class DescriptorSets {
 enum class Blend : uint8_t { none, over };
 
 struct GraphicsPipelineDesc {
-  Shader vertex, fragment;                      // no fragment shader: depth only
-  std::vector<uint32_t> constants;              // specialisation constants 0, 1, ... of both shaders
+  Shader vertex, fragment;          // no fragment shader: depth only
+  std::vector<uint32_t> constants;  // specialisation constants 0, 1, ... of both shaders
   std::vector<VkVertexInputBindingDescription> vertexBindings;
   std::vector<VkVertexInputAttributeDescription> vertexAttributes;
   std::vector<VkFormat> colorFormats;
-  Blend blend = Blend::none;                    // of all targets
-  VkFormat depthFormat = VK_FORMAT_UNDEFINED;   // undefined: no depth test
+  Blend blend = Blend::none;                   // of all targets
+  VkFormat depthFormat = VK_FORMAT_UNDEFINED;  // undefined: no depth test
   VkCompareOp depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
   bool depthWrite = true;
   uint32_t samples = 1;
-  uint32_t viewMask = 0;                        // 0: no multiview
-  bool dynamicCulling = false;                  // cull mode and front face are set while recording
+  uint32_t viewMask = 0;        // 0: no multiview
+  bool dynamicCulling = false;  // cull mode and front face are set while recording
   std::vector<VkDescriptorSetLayout> sets;
-  uint32_t pushConstantBytes = 0;               // seen by all stages
+  uint32_t pushConstantBytes = 0;  // seen by all stages
 };
 
 struct ComputePipelineDesc {
@@ -122,7 +124,8 @@ class Pipeline {
 
 struct SamplerDesc {
   VkFilter filter = VK_FILTER_LINEAR;
-  VkSamplerAddressMode wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+  VkSamplerAddressMode wrapU = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                       wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
   bool mipmaps = false;
   bool compareLess = false;  // depth comparison, for shadow maps
   bool operator==(const SamplerDesc&) const = default;

@@ -7,12 +7,16 @@
 namespace scumble::gpu {
 
 namespace {
-// More staged than this and the uploader flushes by itself, so that staging never doubles the memory of a large scene.
+// More staged than this and the uploader flushes by itself, so that staging never doubles the memory of a
+// large scene.
 constexpr uint64_t kMaxStaged = 64ull << 20;
 
-uint32_t levelSize(uint32_t size, uint32_t level) { return std::max(1u, size >> level); }
+uint32_t levelSize(uint32_t size, uint32_t level) {
+  return std::max(1u, size >> level);
+}
 
-void recordLayout(VkCommandBuffer commands, VkImage image, uint32_t levels, VkImageLayout from, VkImageLayout to) {
+void recordLayout(VkCommandBuffer commands, VkImage image, uint32_t levels, VkImageLayout from,
+                  VkImageLayout to) {
   VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
   const bool isNew = from == VK_IMAGE_LAYOUT_UNDEFINED;
   barrier.srcStageMask = isNew ? VK_PIPELINE_STAGE_2_NONE : VK_PIPELINE_STAGE_2_COPY_BIT;
@@ -96,9 +100,9 @@ Image::Image(Device& device, const ImageDesc& desc, VkImageUsageFlags usage) : d
     viewInfo.image = image_;
     viewInfo.viewType = desc.arrayView ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
     viewInfo.format = desc.format;
-    viewInfo.subresourceRange = {
-        VkImageAspectFlags(isDepthFormat(desc.format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT), 0,
-        desc.mipLevels, 0, desc.layers};
+    viewInfo.subresourceRange = {VkImageAspectFlags(isDepthFormat(desc.format) ? VK_IMAGE_ASPECT_DEPTH_BIT
+                                                                               : VK_IMAGE_ASPECT_COLOR_BIT),
+                                 0, desc.mipLevels, 0, desc.layers};
     SCUMBLE_VK(vkCreateImageView(device.handle(), &viewInfo, nullptr, &view_));
   } catch (...) {
     vkDestroyImage(device.handle(), image_, nullptr);
@@ -121,21 +125,30 @@ void Image::swap(Image& other) {
   std::swap(desc_, other.desc_);
 }
 
-bool isDepthFormat(VkFormat format) { return format == VK_FORMAT_D32_SFLOAT || format == VK_FORMAT_D16_UNORM; }
+bool isDepthFormat(VkFormat format) {
+  return format == VK_FORMAT_D32_SFLOAT || format == VK_FORMAT_D16_UNORM;
+}
 
 uint32_t bytesPerPixel(VkFormat format) {
   switch (format) {
     case VK_FORMAT_R8G8B8A8_UNORM:
     case VK_FORMAT_R8G8B8A8_SRGB:
     case VK_FORMAT_D32_SFLOAT:
-    case VK_FORMAT_R32_SFLOAT: return 4;
-    case VK_FORMAT_R16G16B16A16_SFLOAT: return 8;
-    case VK_FORMAT_R32G32B32A32_SFLOAT: return 16;
-    default: assert(!"a format without a size"); return 0;
+    case VK_FORMAT_R32_SFLOAT:
+      return 4;
+    case VK_FORMAT_R16G16B16A16_SFLOAT:
+      return 8;
+    case VK_FORMAT_R32G32B32A32_SFLOAT:
+      return 16;
+    default:
+      assert(!"a format without a size");
+      return 0;
   }
 }
 
-Uploader::~Uploader() { assert(buffers_.empty() && textures_.empty() && "flush() was forgotten"); }
+Uploader::~Uploader() {
+  assert(buffers_.empty() && textures_.empty() && "flush() was forgotten");
+}
 
 size_t Uploader::stage(uint64_t size) {
   staging_.emplace_back(device_, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::upload);

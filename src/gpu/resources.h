@@ -75,9 +75,10 @@ class Uploader {
   ~Uploader();
   // A new buffer on the device; the caller writes its contents to *target before the next flush().
   Buffer reserve(uint64_t size, VkBufferUsageFlags usage, std::byte** target);
-  // A sampled image; `levels` are its mip levels from the largest to the smallest, tightly packed, each half the size of
-  // the one before (at least 1). Flushes by itself when much is staged.
-  Image texture(std::span<const std::span<const std::byte>> levels, VkFormat format, uint32_t width, uint32_t height);
+  // A sampled image; `levels` are its mip levels from the largest to the smallest, tightly packed, each half
+  // the size of the one before (at least 1). Flushes by itself when much is staged.
+  Image texture(std::span<const std::span<const std::byte>> levels, VkFormat format, uint32_t width,
+                uint32_t height);
   // Ends when all data is on the device.
   void flush();
 

@@ -1,5 +1,6 @@
-// Included once for each .params file, with PARAMS_STRUCT (the struct's name), PARAMS_FILE (quoted) and PARAMS_PATH
-// (quoted) defined, and PARAMS_PER_MATERIAL as true or false. Defines the struct and its table of rows:
+// Included once for each .params file, with PARAMS_STRUCT (the struct's name), PARAMS_FILE (quoted) and
+// PARAMS_PATH (quoted) defined, and PARAMS_PER_MATERIAL as true or false. Defines the struct and its table of
+// rows:
 //
 //   #define PARAMS_STRUCT BlurParams
 //   #define PARAMS_FILE "passes/blur/blur.params"
@@ -22,17 +23,16 @@ struct PARAMS_STRUCT {
 };
 
 inline const ::scumble::look::ParamBlock& PARAMS_STRUCT::block() {
-  static const ::scumble::look::ParamBlock table{
-      PARAMS_PATH,
-      PARAMS_PER_MATERIAL,
-      {
-#define PARAM(type, name, defaultValue, min, max, unit, meaning)                            \
-  {#name, ::scumble::look::kindOf<type>(), double(defaultValue), double(min), double(max),  \
-   unit,  meaning,                         offsetof(PARAMS_STRUCT, name)},
+  static const ::scumble::look::ParamBlock table{PARAMS_PATH,
+                                                 PARAMS_PER_MATERIAL,
+                                                 {
+#define PARAM(type, name, defaultValue, min, max, unit, meaning)                                   \
+  {#name,   ::scumble::look::kindOf<type>(), double(defaultValue), double(min), double(max), unit, \
+   meaning, offsetof(PARAMS_STRUCT, name)},
 #include PARAMS_FILE
 #undef PARAM
-      },
-      sizeof(PARAMS_STRUCT)};
+                                                 },
+                                                 sizeof(PARAMS_STRUCT)};
   return table;
 }
 

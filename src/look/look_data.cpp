@@ -15,11 +15,21 @@ void store(const ParamRow& row, const Value& value, void* out) {
   std::byte* target = static_cast<std::byte*>(out) + row.offset;
   const auto put = [&](const auto& v) { std::memcpy(target, &v, sizeof(v)); };
   switch (row.kind) {
-    case ParamKind::number: put(float(value.number)); break;
-    case ParamKind::integer: put(int(value.number)); break;
-    case ParamKind::toggle: put(Toggle(value.number)); break;
-    case ParamKind::choice: put(Choice(value.number)); break;
-    case ParamKind::color: put(value.linear); break;
+    case ParamKind::number:
+      put(float(value.number));
+      break;
+    case ParamKind::integer:
+      put(int(value.number));
+      break;
+    case ParamKind::toggle:
+      put(Toggle(value.number));
+      break;
+    case ParamKind::choice:
+      put(Choice(value.number));
+      break;
+    case ParamKind::color:
+      put(value.linear);
+      break;
   }
 }
 
@@ -100,14 +110,16 @@ Result<KnobRef> findKnob(const std::string& path) {
     for (const std::string& candidate : known)
       if (candidate.substr(candidate.rfind('.') + 1) == last) suggestion = candidate;
   }
-  return badValue("there is no knob '" + path + "'",
-                  suggestion.empty() ? "`scumble params` lists them all" : "did you mean '" + suggestion + "'?");
+  return badValue("there is no knob '" + path + "'", suggestion.empty()
+                                                         ? "`scumble params` lists them all"
+                                                         : "did you mean '" + suggestion + "'?");
 }
 
 Result<Value> parseValue(const ParamRow& row, const std::string& text) {
   if (row.kind == ParamKind::color) {
     // Digits only: strtoul would also take a sign, spaces and 0x.
-    if (text.size() != 7 || text[0] != '#' || text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
+    if (text.size() != 7 || text[0] != '#' ||
+        text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
       return badValue("'" + text + "' is no colour", "write it as #RRGGBB");
     return Value{0, linearFromSrgb(uint32_t(std::strtoul(text.c_str() + 1, nullptr, 16)))};
   }
@@ -124,9 +136,11 @@ Result<Value> parseValue(const ParamRow& row, const std::string& text) {
   }
   char* end = nullptr;
   const double number = text.empty() ? 0 : std::strtod(text.c_str(), &end);
-  if (!end || *end || !std::isfinite(number)) return badValue("'" + text + "' is no number", "write a number");
+  if (!end || *end || !std::isfinite(number))
+    return badValue("'" + text + "' is no number", "write a number");
   if (number < row.min || number > row.max)
-    return badValue(fmt::format("{} is out of range", text), fmt::format("it may be {:g} to {:g}", row.min, row.max));
+    return badValue(fmt::format("{} is out of range", text),
+                    fmt::format("it may be {:g} to {:g}", row.min, row.max));
   if (row.kind == ParamKind::integer && number != std::floor(number))
     return badValue("'" + text + "' is no whole number", "write a whole number");
   return Value{number, {}};
@@ -134,10 +148,14 @@ Result<Value> parseValue(const ParamRow& row, const std::string& text) {
 
 std::string formatValue(const ParamRow& row, double number) {
   switch (row.kind) {
-    case ParamKind::toggle: return number != 0 ? "true" : "false";
-    case ParamKind::choice: return choiceNames(row)[size_t(number)];
-    case ParamKind::color: return fmt::format("#{:06X}", uint32_t(number));
-    default: return fmt::format("{:g}", number);
+    case ParamKind::toggle:
+      return number != 0 ? "true" : "false";
+    case ParamKind::choice:
+      return choiceNames(row)[size_t(number)];
+    case ParamKind::color:
+      return fmt::format("#{:06X}", uint32_t(number));
+    default:
+      return fmt::format("{:g}", number);
   }
 }
 

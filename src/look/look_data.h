@@ -10,8 +10,8 @@
 namespace scumble::look {
 
 struct Value {
-  double number = 0;        // all kinds but color
-  glm::vec3 linear{0.0f};   // color
+  double number = 0;       // all kinds but color
+  glm::vec3 linear{0.0f};  // color
 };
 
 struct Assignment {

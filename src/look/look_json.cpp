@@ -1,4 +1,5 @@
-// Reading looks: JSON files, --set, the looks that ship; and describing the knobs as a list and as a JSON schema.
+// Reading looks: JSON files, --set, the looks that ship; and describing the knobs as a list and as a JSON
+// schema.
 #include <algorithm>
 #include <fstream>
 #include <iterator>
@@ -22,8 +23,8 @@ namespace {
 
 constexpr size_t kMaxLookFile = 16 << 20;
 
-// Splits "materials.Sail*.warp.amount" into pattern and knob. Material names may contain dots, so the knob is the
-// shortest tail that is one.
+// Splits "materials.Sail*.warp.amount" into pattern and knob. Material names may contain dots, so the knob is
+// the shortest tail that is one.
 Result<Assignment> resolve(const std::string& path) {
   const std::string prefix = "materials.";
   if (path.compare(0, prefix.size(), prefix) != 0) {
@@ -36,13 +37,21 @@ Result<Assignment> resolve(const std::string& path) {
     const Result<KnobRef> knob = look::findKnob(rest.substr(dot + 1));
     if (!knob) continue;
     if (!knob->block->perMaterial)
-      return Error{ErrorKind::usage, "", 0, "", "'" + rest.substr(dot + 1) + "' holds for the whole scene",
+      return Error{ErrorKind::usage,
+                   "",
+                   0,
+                   "",
+                   "'" + rest.substr(dot + 1) + "' holds for the whole scene",
                    "set it without 'materials.'"};
     return Assignment{rest.substr(0, dot), knob->block, knob->row, {}};
   }
   const size_t dot = rest.find('.');
   if (dot == std::string::npos)
-    return Error{ErrorKind::usage, "", 0, "", "'" + path + "' names no knob",
+    return Error{ErrorKind::usage,
+                 "",
+                 0,
+                 "",
+                 "'" + path + "' names no knob",
                  "write it like materials.Sail*.warp.amount"};
   return look::findKnob(rest.substr(dot + 1)).error();
 }
@@ -60,7 +69,8 @@ class Reader {
         if (!value.is_string()) return fail(key, "the description is no string", "write it in quotes");
         out_.description = value.get<std::string>();
       } else if (key == "materials") {
-        if (!value.is_object()) return fail(key, "it is no object", "its keys are material names or patterns");
+        if (!value.is_object())
+          return fail(key, "it is no object", "its keys are material names or patterns");
         for (const auto& [pattern, knobs] : value.items()) {
           const Status status = readGroup(knobs, "", pattern, "materials." + pattern);
           if (!status) return status;
@@ -96,9 +106,9 @@ class Reader {
     if (!pattern.empty() && !knob->block->perMaterial)
       return fail(jsonPath, "this knob holds for the whole scene", "move it out of 'materials'");
     const bool wantsText = knob->row->kind == ParamKind::color || knob->row->kind == ParamKind::choice;
-    const bool fits = wantsText                                  ? value.is_string()
-                      : knob->row->kind == ParamKind::toggle     ? value.is_boolean()
-                                                                 : value.is_number();
+    const bool fits = wantsText                              ? value.is_string()
+                      : knob->row->kind == ParamKind::toggle ? value.is_boolean()
+                                                             : value.is_number();
     if (!fits)
       return fail(jsonPath, "the value has the wrong type",
                   knob->row->kind == ParamKind::color    ? "write a colour as \"#RRGGBB\""
@@ -120,7 +130,9 @@ class Reader {
 
 Look::Look() : data_(std::make_shared<LookData>()) {}
 
-const std::string& Look::description() const { return data_->description; }
+const std::string& Look::description() const {
+  return data_->description;
+}
 
 Result<Look> Look::fromJson(const std::string& text, const std::string& file) {
   auto data = std::make_shared<LookData>();
@@ -131,7 +143,8 @@ Result<Look> Look::fromJson(const std::string& text, const std::string& file) {
   } catch (const json::parse_error& error) {
     const size_t end = std::min(error.byte, text.size());
     const int line = 1 + int(std::count(text.begin(), text.begin() + long(end), '\n'));
-    return Error{ErrorKind::unusableFile, file, line, "", "this is no JSON", "mind commas, quotes and brackets there"};
+    return Error{
+        ErrorKind::unusableFile, file, line, "", "this is no JSON", "mind commas, quotes and brackets there"};
   } catch (const json::exception&) {
     return Error{ErrorKind::unusableFile, file, 0, "", "this JSON cannot be read", "see `scumble schema`"};
   }
@@ -150,7 +163,11 @@ Result<Look> Look::load(const std::string& nameOrFile) {
       names.emplace_back(file.name);
     }
     const std::string suggestion = look::nearest(nameOrFile, names);
-    return Error{ErrorKind::usage, "", 0, "", "no look is called '" + nameOrFile + "'",
+    return Error{ErrorKind::usage,
+                 "",
+                 0,
+                 "",
+                 "no look is called '" + nameOrFile + "'",
                  suggestion.empty() ? "`scumble looks` lists them; a file's name ends in .json"
                                     : "did you mean '" + suggestion + "'?"};
   }
@@ -159,7 +176,8 @@ Result<Look> Look::load(const std::string& nameOrFile) {
   if (!file || size < 0)
     return Error{ErrorKind::unusableFile, nameOrFile, 0, "", "the look cannot be opened", "check the path"};
   if (size_t(size) > kMaxLookFile)
-    return Error{ErrorKind::unusableFile, nameOrFile, 0, "", "this is too large for a look", "check the path"};
+    return Error{ErrorKind::unusableFile,        nameOrFile,      0, "",
+                 "this is too large for a look", "check the path"};
   std::string text(size_t(size), '\0');
   file.seekg(0);
   if (!file.read(text.data(), size) && size > 0)

@@ -4,8 +4,8 @@
 //         type   name    default min  max   unit                meaning
 //
 // that C++ (through look/define_params.h) and GLSL (with PARAM defined as `type name;`) both include.
-// Types: float; int; toggle (0 or 1); choice (a number; the unit column lists the names: "off|approximate|exact");
-// srgb (0xRRGGBB in the row, linear in the struct).
+// Types: float; int; toggle (0 or 1); choice (a number; the unit column lists the names:
+// "off|approximate|exact"); srgb (0xRRGGBB in the row, linear in the struct).
 #pragma once
 
 #include <cstddef>
@@ -65,8 +65,8 @@ constexpr ParamKind kindOf() {
   if constexpr (std::is_same_v<T, Color>) return ParamKind::color;
 }
 
-// Every block of the program, in the order of the documentation. Defined by the pass list (src/frame), because
-// this room knows no pass.
+// Every block of the program, in the order of the documentation. Defined by the pass list (src/frame),
+// because this room knows no pass.
 const std::vector<const ParamBlock*>& allBlocks();
 
 // The names of a choice row, split at '|'.

@@ -1,5 +1,5 @@
-// The looks that ship, compiled into the library so that they are found wherever it runs. The build writes the table
-// from looks/*.json (src/look/CMakeLists.txt).
+// The looks that ship, compiled into the library so that they are found wherever it runs. The build writes
+// the table from looks/*.json (src/look/CMakeLists.txt).
 #pragma once
 
 #include <string_view>

@@ -1,6 +1,7 @@
 #include "renderer/pass_list.h"
 
 #include "frame/light.h"
+#include "frame/metatexture_params.h"
 #include "frame/palette.h"
 #include "passes/blur/blur.h"
 #include "passes/color/color.h"
@@ -12,7 +13,6 @@
 #include "passes/shadow_map/shadow_map.h"
 #include "passes/surface/surface.h"
 #include "passes/warp/warp.h"
-#include "frame/metatexture_params.h"
 
 namespace scumble {
 
@@ -46,7 +46,8 @@ std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration
   list.push_back(passes::makeBlur());
   list.push_back(passes::makeFinalShadow([](const look::LookData& look, float pixelScale) {
     const passes::BlurParams blur = look.get<passes::BlurParams>();
-    return passes::BlurFacts{passes::planBlur(blur.radius * pixelScale).amount, passes::depthSharpness(blur.depthEdge)};
+    return passes::BlurFacts{passes::planBlur(blur.radius * pixelScale).amount,
+                             passes::depthSharpness(blur.depthEdge)};
   }));
   list.push_back(passes::makeColor());
   list.push_back(passes::makeFinalColor());

@@ -63,8 +63,10 @@ bool isPremultiplied(Slot slot) {
     case Slot::blur:
     case Slot::color:
     case Slot::finalColor:
-    case Slot::plain: return true;
-    default: return false;
+    case Slot::plain:
+      return true;
+    default:
+      return false;
   }
 }
 
@@ -74,9 +76,10 @@ Image enlarge(const Image& small, uint32_t width, uint32_t height) {
   large.pixels.resize(size_t(width) * height * channels);
   for (uint32_t y = 0; y < height; ++y)
     for (uint32_t x = 0; x < width; ++x) {
-      const float sx = std::clamp((float(x) + 0.5f) * float(small.width) / float(width) - 0.5f, 0.0f, float(small.width - 1));
-      const float sy =
-          std::clamp((float(y) + 0.5f) * float(small.height) / float(height) - 0.5f, 0.0f, float(small.height - 1));
+      const float sx = std::clamp((float(x) + 0.5f) * float(small.width) / float(width) - 0.5f, 0.0f,
+                                  float(small.width - 1));
+      const float sy = std::clamp((float(y) + 0.5f) * float(small.height) / float(height) - 0.5f, 0.0f,
+                                  float(small.height - 1));
       const uint32_t x0 = uint32_t(sx), y0 = uint32_t(sy);
       const uint32_t x1 = std::min(x0 + 1, small.width - 1), y1 = std::min(y0 + 1, small.height - 1);
       const float fx = sx - float(x0), fy = sy - float(y0);
@@ -98,10 +101,12 @@ void Readback::declare(FrameBuilder& frame, Slot slot) {
     const gpu::Image& image = resources_->image(image_);
     VkBufferImageCopy copy{};
     copy.imageSubresource = {
-        VkImageAspectFlags(gpu::isDepthFormat(image.desc().format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT),
+        VkImageAspectFlags(gpu::isDepthFormat(image.desc().format) ? VK_IMAGE_ASPECT_DEPTH_BIT
+                                                                   : VK_IMAGE_ASPECT_COLOR_BIT),
         0, 0, image.desc().layers};
     copy.imageExtent = {image.desc().width, image.desc().height, 1};
-    vkCmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer_.handle(), 1, &copy);
+    vkCmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer_.handle(),
+                           1, &copy);
     VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
     barrier.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
     barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;

@@ -13,8 +13,8 @@ class Readback {
  public:
   void declare(FrameBuilder& frame, Slot slot);
   void create(FrameBuilder& frame, const FrameResources& resources);
-  // One image a view (or one, for what is drawn once). Linear, straight alpha. What is drawn at a fraction of the
-  // frame's size (blur) is enlarged by linear interpolation.
+  // One image a view (or one, for what is drawn once). Linear, straight alpha. What is drawn at a fraction of
+  // the frame's size (blur) is enlarged by linear interpolation.
   std::vector<scumble::Image> images(uint32_t width, uint32_t height) const;
 
  private:

@@ -30,8 +30,12 @@ Error usage(std::string problem, std::string advice) {
   return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
 }
 
-bool isAov(Slot slot) { return slot != Slot::depth && slot != Slot::plain; }
-bool isFact(Slot slot) { return slot >= Slot::factDepth && slot <= Slot::id; }
+bool isAov(Slot slot) {
+  return slot != Slot::depth && slot != Slot::plain;
+}
+bool isFact(Slot slot) {
+  return slot >= Slot::factDepth && slot <= Slot::id;
+}
 
 std::optional<Slot> slotOfAov(const std::string& name) {
   for (size_t i = 0; i < size_t(Slot::count); ++i)
@@ -114,14 +118,15 @@ void Renderer::Impl::useConfiguration(const Configuration& configuration) {
 
   // Uniform memory: what holds for the frame, then what each material has in each pass.
   const uint64_t size = (64 << 10) + sceneOnGpu->materialCount() * 2048;
-  next->uniformBuffer = gpu::Buffer(*device, size,
-                                    VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                                    gpu::MemoryKind::upload);
+  next->uniformBuffer =
+      gpu::Buffer(*device, size, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                  gpu::MemoryKind::upload);
   next->builder.emplace(*device, *samplers, configuration, *sceneOnGpu,
                         UniformSlice{next->uniformBuffer.handle(), 0, size, next->uniformBuffer.mapped()});
   next->frameSlice = next->builder->uniform(sizeof(shared::FrameUniforms));
 
-  // Passes declare what they read and write; then images, and with them pipelines and descriptor sets, can be made.
+  // Passes declare what they read and write; then images, and with them pipelines and descriptor sets, can be
+  // made.
   next->passes = makePasses(configuration);
   for (const auto& pass : next->passes) pass->declare(*next->builder);
   for (const Slot slot : configuration.readBack)
@@ -169,9 +174,10 @@ void Renderer::Impl::record(VkCommandBuffer commands) {
       out.oldLayout = barrier.oldLayout, out.newLayout = barrier.newLayout;
       out.srcQueueFamilyIndex = out.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
       out.image = image.handle();
-      out.subresourceRange = {VkImageAspectFlags(gpu::isDepthFormat(image.desc().format) ? VK_IMAGE_ASPECT_DEPTH_BIT
-                                                                                         : VK_IMAGE_ASPECT_COLOR_BIT),
-                              0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
+      out.subresourceRange = {
+          VkImageAspectFlags(gpu::isDepthFormat(image.desc().format) ? VK_IMAGE_ASPECT_DEPTH_BIT
+                                                                     : VK_IMAGE_ASPECT_COLOR_BIT),
+          0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
       images.push_back(out);
     }
     VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
@@ -189,8 +195,9 @@ void Renderer::Impl::readTimes(FrameStats& stats) {
   if (!setup->queries) return;
   const auto& steps = setup->builder->graph().steps();
   std::vector<uint64_t> stamps(steps.size() + 1);
-  SCUMBLE_VK(vkGetQueryPoolResults(device->handle(), setup->queries, 0, uint32_t(stamps.size()), stamps.size() * 8,
-                                   stamps.data(), 8, VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
+  SCUMBLE_VK(vkGetQueryPoolResults(device->handle(), setup->queries, 0, uint32_t(stamps.size()),
+                                   stamps.size() * 8, stamps.data(), 8,
+                                   VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
   const double unit = double(device->limits().timestampPeriod) * 1e-6;
   for (size_t s = 0; s < steps.size(); ++s) {
     const double time = double(stamps[s + 1] - stamps[s]) * unit;
@@ -219,22 +226,24 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
   return created;
 }
 
-Result<Frame> Renderer::render(const Scene& scene, const Look& look, double time, const std::vector<View>& views,
-                               const RenderOptions& options) {
+Result<Frame> Renderer::render(const Scene& scene, const Look& look, double time,
+                               const std::vector<View>& views, const RenderOptions& options) {
   // Check what the caller wants.
   const uint32_t largest = std::min(kMaxSize, impl_->device->limits().maxImageDimension2D);
   if (options.width < 1 || options.height < 1 || options.width > largest || options.height > largest)
     return usage("a picture of " + std::to_string(options.width) + "x" + std::to_string(options.height) +
                      " is out of range",
                  "use 1x1 to " + std::to_string(largest) + "x" + std::to_string(largest));
-  if (options.samples != 1 && options.samples != 4) return usage("the number of samples is neither 1 nor 4", "use 4");
+  if (options.samples != 1 && options.samples != 4)
+    return usage("the number of samples is neither 1 nor 4", "use 4");
   if (options.samples == 4 && !impl_->device->supports4Samples())
     return usage("this device has no 4 samples a pixel", "use --samples 1");
   if (views.empty() || views.size() > size_t(shared::kMaxViews) ||
       (!options.previousViews.empty() && options.previousViews.size() != views.size()))
     return usage("the number of views is neither one nor two", "give one, or a left and a right one");
   for (const View& view : views)
-    if (!isFinite(view.worldToEye) || !isFinite(view.eyeToClip)) return usage("a view is not finite", "check the camera");
+    if (!isFinite(view.worldToEye) || !isFinite(view.eyeToClip))
+      return usage("a view is not finite", "check the camera");
   if (!std::isfinite(time)) return usage("the time is not finite", "give it in seconds");
 
   Configuration configuration;
@@ -243,16 +252,17 @@ Result<Frame> Renderer::render(const Scene& scene, const Look& look, double time
   configuration.samples = options.samples;
   configuration.viewCount = uint32_t(views.size());
   configuration.plain = options.plain;
-  configuration.computeImagePasses = impl_->imagePasses == ImagePassKind::compute ||
-                                     (impl_->imagePasses == ImagePassKind::automatic &&
-                                      impl_->device->prefersCompute());
+  configuration.computeImagePasses =
+      impl_->imagePasses == ImagePassKind::compute ||
+      (impl_->imagePasses == ImagePassKind::automatic && impl_->device->prefersCompute());
   configuration.readBack.push_back(options.plain ? Slot::plain : Slot::finalColor);
   for (const std::string& aov : options.aovs) {
     const std::optional<Slot> slot = slotOfAov(aov);
     if (!slot || options.plain) {
       const std::string suggestion = look::nearest(aov, aovNames());
-      return usage("there is no AOV '" + aov + "'",
-                   suggestion.empty() ? "`scumble render --help` lists them" : "did you mean '" + suggestion + "'?");
+      return usage("there is no AOV '" + aov + "'", suggestion.empty()
+                                                        ? "`scumble render --help` lists them"
+                                                        : "did you mean '" + suggestion + "'?");
     }
     configuration.facts |= isFact(*slot);
     if (*slot != Slot::finalColor) configuration.readBack.push_back(*slot);
@@ -278,8 +288,8 @@ Result<Frame> Renderer::render(const Scene& scene, const Look& look, double time
     // Write the uniforms.
     Setup& setup = *impl_->setup;
     SceneOnGpu& sceneOnGpu = *impl_->sceneOnGpu;
-    const shared::FrameUniforms uniforms = frameUniforms(sceneOnGpu, look.data(), views, options.previousViews, time,
-                                                         configuration, options.seed);
+    const shared::FrameUniforms uniforms = frameUniforms(
+        sceneOnGpu, look.data(), views, options.previousViews, time, configuration, options.seed);
     setup.frameSlice.write(uniforms);
     for (size_t m = 0; m < sceneOnGpu.materialCount(); ++m)
       sceneOnGpu.setMaterial(m, materialData(sceneOnGpu, m, look.data()));
@@ -310,7 +320,8 @@ Result<Frame> Renderer::render(const Scene& scene, const Look& look, double time
     return Error{internal ? ErrorKind::internal : ErrorKind::noUsableGpu, "", 0, "", error.message(),
                  "use a smaller picture or scene, or another --device"};
   } catch (const std::bad_alloc&) {
-    return Error{ErrorKind::noUsableGpu, "", 0, "", "there is not enough memory", "use a smaller picture or scene"};
+    return Error{ErrorKind::noUsableGpu,          "", 0, "", "there is not enough memory",
+                 "use a smaller picture or scene"};
   }
 }
 
@@ -327,7 +338,9 @@ GpuInfo Renderer::gpu() const {
   return info;
 }
 
-int Renderer::validationMessages() const { return impl_->device->validationMessages(); }
+int Renderer::validationMessages() const {
+  return impl_->device->validationMessages();
+}
 
 Result<std::vector<GpuInfo>> listGpus(const std::string& choice) {
   const Result<std::vector<gpu::DeviceInfo>> devices = gpu::listDevices();

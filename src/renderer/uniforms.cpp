@@ -18,8 +18,8 @@ shared::ViewUniforms viewUniforms(const View& view, const View& previous) {
   u.upInEye = glm::vec3(view.worldToEye[1]);
   u.eye = glm::vec3(glm::inverse(view.worldToEye)[3]);
   u.orthographic = p[2][3] == 0 ? 1.0f : 0.0f;
-  // Clip x is P00 x + P02 z with z = -w: ndc = P00 (x / -z) - P02, so x / -z = (ndc + P02) / P00; parallel projections
-  // have their shift in the last column instead.
+  // Clip x is P00 x + P02 z with z = -w: ndc = P00 (x / -z) - P02, so x / -z = (ndc + P02) / P00; parallel
+  // projections have their shift in the last column instead.
   const glm::vec2 shift = u.orthographic != 0 ? glm::vec2(-p[3][0], -p[3][1]) : glm::vec2(p[2][0], p[2][1]);
   u.ndcToEyeRay = {1 / p[0][0], 1 / p[1][1], shift.x / p[0][0], shift.y / p[1][1]};
   // Depth value d = (A z + B) / w with z = -distance; w = distance, or 1.
@@ -29,8 +29,8 @@ shared::ViewUniforms viewUniforms(const View& view, const View& previous) {
 }
 
 shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const look::LookData& look,
-                                    const std::vector<View>& views, const std::vector<View>& previousViews, double time,
-                                    const Configuration& configuration, uint32_t seed) {
+                                    const std::vector<View>& views, const std::vector<View>& previousViews,
+                                    double time, const Configuration& configuration, uint32_t seed) {
   shared::FrameUniforms u{};
   glm::vec3 viewer(0.0f);
   for (size_t i = 0; i < views.size(); ++i) {
@@ -42,7 +42,8 @@ shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const look::LookDat
   u.pixelScale = float(configuration.height) / 1080.0f;
   u.sceneCenter = scene.bounds().center();
   u.sceneRadius = std::max(scene.bounds().radius(), 1e-6f);
-  if (seed != 0) u.patternShift = glm::vec2(float(hash(seed) & 0xFFFF), float(hash(seed + 1) & 0xFFFF)) / 65536.0f;
+  if (seed != 0)
+    u.patternShift = glm::vec2(float(hash(seed) & 0xFFFF), float(hash(seed + 1) & 0xFFFF)) / 65536.0f;
 
   const LightParams light = look.get<LightParams>();
   u.toLight = keyLightDirection(scene.data(), light);

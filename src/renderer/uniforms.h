@@ -11,8 +11,8 @@ using namespace frame;
 shared::ViewUniforms viewUniforms(const View& view, const View& previous);
 
 shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const look::LookData& look,
-                                    const std::vector<View>& views, const std::vector<View>& previousViews, double time,
-                                    const Configuration& configuration, uint32_t seed);
+                                    const std::vector<View>& views, const std::vector<View>& previousViews,
+                                    double time, const Configuration& configuration, uint32_t seed);
 
 // The material's facts, its texture transforms and its colour maps under a look.
 shared::MaterialData materialData(const SceneOnGpu& scene, size_t material, const look::LookData& look);

@@ -13,28 +13,30 @@ struct ViewUniforms {
   mat4 previousWorldToClip;  // one frame (1 / fps) earlier
   // x, y: eye-space (x/-z, y/-z) = ndc * xy + zw, for any, also off-centre, projection (FORMULAS 4)
   vec4 ndcToEyeRay;
-  vec4 depthToEye;           // metres along the axis = (x + y d) / (z + w d) for a depth-buffer value d
-  vec3 upInEye;              // the world's up in eye space
-  vec3 eye;                  // world
-  float orthographic;        // 1 for a parallel projection, else 0
+  vec4 depthToEye;     // metres along the axis = (x + y d) / (z + w d) for a depth-buffer value d
+  vec3 upInEye;        // the world's up in eye space
+  vec3 eye;            // world
+  float orthographic;  // 1 for a parallel projection, else 0
 };
 
 struct FrameUniforms {
   ViewUniforms views[kMaxViews];
-  mat4 worldToLight;   // x, y in [-1, 1] over everything that casts shadows; z in [0, 1], growing away from the light
-  vec3 toLight;        // unit, world
-  float time;          // seconds
-  vec2 shadowCenter;   // light-space x, y near the viewer, where the shadow map is finest
-  vec2 shadowScale;    // warped = scale * sigmoid(strength * (p - center)) + shift, which keeps -1 and 1 in place
+  mat4 worldToLight;  // x, y in [-1, 1] over everything that casts shadows; z in [0, 1], growing away from
+                      // the light
+  vec3 toLight;       // unit, world
+  float time;         // seconds
+  vec2 shadowCenter;  // light-space x, y near the viewer, where the shadow map is finest
+  vec2 shadowScale;   // warped = scale * sigmoid(strength * (p - center)) + shift, which keeps -1 and 1 in
+                      // place
   vec2 shadowShift;
-  float shadowWarp;    // strength of the sigmoid; 0: none
-  float shadowTexel;   // size of a shadow-map texel in unwarped light space
+  float shadowWarp;        // strength of the sigmoid; 0: none
+  float shadowTexel;       // size of a shadow-map texel in unwarped light space
   vec3 lightToWorldScale;  // metres per unit of light-space x, y, z
-  float pixelScale;    // pixels per knob pixel: image height / 1080
-  vec2 imageSize;      // pixels
-  vec2 patternShift;   // of all patterns, by the seed; in copies of the pattern
-  float sceneRadius;   // metres
-  vec3 sceneCenter;    // world
+  float pixelScale;        // pixels per knob pixel: image height / 1080
+  vec2 imageSize;          // pixels
+  vec2 patternShift;       // of all patterns, by the seed; in copies of the pattern
+  float sceneRadius;       // metres
+  vec3 sceneCenter;        // world
 };
 
 // One drawn instance of a primitive.
@@ -42,7 +44,7 @@ struct ObjectData {
   mat4 model;   // object to world
   mat3 normal;  // inverse transpose of its linear part, up to a positive factor
   uint material;
-  uint id;      // from 1; the `id` AOV
+  uint id;          // from 1; the `id` AOV
   uint influences;  // joints a vertex: 0 (rigid), 4 or 8
   uint firstJoint;  // in the joint matrices
 };
@@ -54,7 +56,7 @@ struct DeformChunk {
   uint restVertex;   // first vertex in the rest buffers
   uint finalVertex;  // first vertex in the final buffers
   uint count;
-  uint skinVertex;   // first entry in the skin buffer
+  uint skinVertex;  // first entry in the skin buffer
 };
 
 // A vertex as deform reads and writes it; two streams, so that depth-only passes fetch 16 bytes.
@@ -92,10 +94,10 @@ struct MaterialData {
   vec3 emissive;
   float alphaCutoff;
   vec3 constantLit, constantShadowed;  // for baseColor, where neither texture nor vertex colours vary it
-  ColorMap lit, shadowed;  // from albedo to the colours in light and in shadow (docs/palette.md)
-  vec3 shadowedColor;      // the material's own; used where hasShadowedColor is 1
+  ColorMap lit, shadowed;              // from albedo to the colours in light and in shadow (docs/palette.md)
+  vec3 shadowedColor;                  // the material's own; used where hasShadowedColor is 1
   float hasShadowedColor;
-  vec3 baseUvRowU, baseUvRowV;          // KHR_texture_transform: u' = dot(row, (u, v, 1))
+  vec3 baseUvRowU, baseUvRowV;  // KHR_texture_transform: u' = dot(row, (u, v, 1))
   vec3 emissiveUvRowU, emissiveUvRowV;
   uint baseUvSet, emissiveUvSet;
   uint unlit;

@@ -1,5 +1,5 @@
-// Types that C++ and GLSL share: a *.shared.h file includes this, declares its structs between SHARED_BEGIN and
-// SHARED_END, and is laid out the same on both sides (GLSL uses scalar layout; no bool).
+// Types that C++ and GLSL share: a *.shared.h file includes this, declares its structs between SHARED_BEGIN
+// and SHARED_END, and is laid out the same on both sides (GLSL uses scalar layout; no bool).
 #ifndef SCUMBLE_SHARED_TYPES_H
 #define SCUMBLE_SHARED_TYPES_H
 #ifdef __cplusplus
@@ -11,10 +11,10 @@ namespace scumble::shared {
 using glm::ivec2;
 using glm::mat3;
 using glm::mat4;
+using glm::uvec2;
 using glm::vec2;
 using glm::vec3;
 using glm::vec4;
-using glm::uvec2;
 using uint = uint32_t;
 }  // namespace scumble::shared
 #define SHARED_BEGIN namespace scumble::shared {

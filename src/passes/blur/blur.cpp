@@ -14,7 +14,8 @@ namespace scumble::passes {
 using namespace frame;
 
 BlurPlan planBlur(float radius) {
-  // Going to a quarter filters with a standard deviation of two source texels, which is enough against aliasing.
+  // Going to a quarter filters with a standard deviation of two source texels, which is enough against
+  // aliasing.
   constexpr float kQuarterSigma = 2.0f;
   const float sigma = 0.5f * radius;
   BlurPlan plan{kQuarterSigma, 0.0f, 1.0f};
@@ -25,7 +26,9 @@ BlurPlan planBlur(float radius) {
   return plan;
 }
 
-float depthSharpness(float depthEdge) { return depthEdge > 0 ? 0.5f / (depthEdge * depthEdge) : 0.0f; }
+float depthSharpness(float depthEdge) {
+  return depthEdge > 0 ? 0.5f / (depthEdge * depthEdge) : 0.0f;
+}
 
 namespace {
 
@@ -86,6 +89,8 @@ class Blur : public Pass {
 
 }  // namespace
 
-std::unique_ptr<Pass> makeBlur() { return std::make_unique<Blur>(); }
+std::unique_ptr<Pass> makeBlur() {
+  return std::make_unique<Blur>();
+}
 
 }  // namespace scumble::passes

@@ -27,7 +27,9 @@ class Color : public Pass {
                    {frame.slot(Slot::depth)}},
                   frame.slot(Slot::color), sizeof(shared::ColorUniforms));
   }
-  void create(FrameBuilder& frame, const FrameResources& resources) override { step_.create(frame, resources); }
+  void create(FrameBuilder& frame, const FrameResources& resources) override {
+    step_.create(frame, resources);
+  }
 
   void update(const FrameInput& input) override {
     const BackgroundParams params = input.look.get<BackgroundParams>();
@@ -55,6 +57,8 @@ class Color : public Pass {
 
 }  // namespace
 
-std::unique_ptr<Pass> makeColor() { return std::make_unique<Color>(); }
+std::unique_ptr<Pass> makeColor() {
+  return std::make_unique<Color>();
+}
 
 }  // namespace scumble::passes

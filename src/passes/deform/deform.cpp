@@ -15,22 +15,24 @@ class Deform : public frame::Pass {
   const char* name() const override { return "deform"; }
 
   void declare(frame::FrameBuilder& frame) override {
-    frame.addStep("deform", {{frame.finalVertices(), gpu::Use::storageBufferWrite}}, [this](VkCommandBuffer commands) {
-      // Nothing moves yet: the first frame's vertices are every frame's.
-      if (std::exchange(done_, true)) return;
-      pipeline_.bind(commands);
-      pipeline_.bindSet(commands, 0, frameSet_);
-      pipeline_.bindSet(commands, 1, set_[0]);
-      const uint32_t x = std::min(chunkCount_, uint32_t(shared::kMaxGroupsX));
-      // Whole rows; chunks beyond the end are empty (SceneOnGpu pads the list).
-      if (x > 0) vkCmdDispatch(commands, x, (chunkCount_ + x - 1) / x, 1);
-    });
+    frame.addStep("deform", {{frame.finalVertices(), gpu::Use::storageBufferWrite}},
+                  [this](VkCommandBuffer commands) {
+                    // Nothing moves yet: the first frame's vertices are every frame's.
+                    if (std::exchange(done_, true)) return;
+                    pipeline_.bind(commands);
+                    pipeline_.bindSet(commands, 0, frameSet_);
+                    pipeline_.bindSet(commands, 1, set_[0]);
+                    const uint32_t x = std::min(chunkCount_, uint32_t(shared::kMaxGroupsX));
+                    // Whole rows; chunks beyond the end are empty (SceneOnGpu pads the list).
+                    if (x > 0) vkCmdDispatch(commands, x, (chunkCount_ + x - 1) / x, 1);
+                  });
   }
 
   void create(frame::FrameBuilder& frame, const frame::FrameResources& resources) override {
     const frame::SceneOnGpu& scene = frame.scene();
-    const gpu::Buffer* buffers[] = {&scene.chunks(),    &scene.restCore(),  &scene.restFrame(), &scene.restSkin(),
-                                    &scene.joints(),    &scene.finalCore(), &scene.finalFrame()};
+    const gpu::Buffer* buffers[] = {&scene.chunks(),    &scene.restCore(), &scene.restFrame(),
+                                    &scene.restSkin(),  &scene.joints(),   &scene.finalCore(),
+                                    &scene.finalFrame()};
     layout_ = gpu::SetLayout(frame.device(),
                              std::vector<gpu::Binding>(std::size(buffers), {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                                                             VK_SHADER_STAGE_COMPUTE_BIT}));
@@ -55,6 +57,8 @@ class Deform : public frame::Pass {
 
 }  // namespace
 
-std::unique_ptr<frame::Pass> makeDeform() { return std::make_unique<Deform>(); }
+std::unique_ptr<frame::Pass> makeDeform() {
+  return std::make_unique<Deform>();
+}
 
 }  // namespace scumble::passes

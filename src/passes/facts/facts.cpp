@@ -5,9 +5,9 @@
 
 #include "frame/geometry_step.h"
 #include "frame/material_params.h"
+#include "frame/metatexture_params.h"
 #include "shaders/facts_frag.h"
 #include "shaders/facts_vert.h"
-#include "frame/metatexture_params.h"
 
 namespace scumble::passes {
 
@@ -15,9 +15,8 @@ using namespace frame;
 
 namespace {
 
-constexpr std::array kFacts{Slot::factDepth,   Slot::position, Slot::normal, Slot::uv,
-                            Slot::uvGradient,  Slot::metatexture, Slot::motion,
-                            Slot::id};
+constexpr std::array kFacts{Slot::factDepth,  Slot::position,    Slot::normal, Slot::uv,
+                            Slot::uvGradient, Slot::metatexture, Slot::motion, Slot::id};
 
 class Facts : public Pass {
  public:
@@ -38,7 +37,8 @@ class Facts : public Pass {
   void create(FrameBuilder& frame, const FrameResources& resources) override {
     resources_ = &resources;
     scene_ = &frame.scene();
-    layout_ = gpu::SetLayout(frame.device(), {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VK_SHADER_STAGE_FRAGMENT_BIT}});
+    layout_ = gpu::SetLayout(frame.device(),
+                             {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VK_SHADER_STAGE_FRAGMENT_BIT}});
     set_ = gpu::DescriptorSets(frame.device(), layout_);
     metaTextureParams_.bind(set_, 0);
     GeometryStepDesc desc;
@@ -84,6 +84,8 @@ class Facts : public Pass {
 
 }  // namespace
 
-std::unique_ptr<Pass> makeFacts() { return std::make_unique<Facts>(); }
+std::unique_ptr<Pass> makeFacts() {
+  return std::make_unique<Facts>();
+}
 
 }  // namespace scumble::passes

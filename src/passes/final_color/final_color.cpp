@@ -16,14 +16,17 @@ class FinalColor : public Pass {
   const char* name() const override { return "final-color"; }
 
   void declare(FrameBuilder& frame) override {
-    step_.declare(frame, "final-color", {{shaders::final_color_image_frag}, {shaders::final_color_image_comp}},
+    step_.declare(frame, "final-color",
+                  {{shaders::final_color_image_frag}, {shaders::final_color_image_comp}},
                   {{frame.slot(Slot::color), true},
                    {frame.slot(Slot::warp)},
                    {frame.slot(Slot::depth)},
                    {frame.slot(Slot::blur), true}},
                   frame.slot(Slot::finalColor), sizeof(shared::FinalColorUniforms));
   }
-  void create(FrameBuilder& frame, const FrameResources& resources) override { step_.create(frame, resources); }
+  void create(FrameBuilder& frame, const FrameResources& resources) override {
+    step_.create(frame, resources);
+  }
 
   void update(const FrameInput& input) override {
     const FinalColorParams params = input.look.get<FinalColorParams>();
@@ -39,6 +42,8 @@ class FinalColor : public Pass {
 
 }  // namespace
 
-std::unique_ptr<Pass> makeFinalColor() { return std::make_unique<FinalColor>(); }
+std::unique_ptr<Pass> makeFinalColor() {
+  return std::make_unique<FinalColor>();
+}
 
 }  // namespace scumble::passes

@@ -4,8 +4,8 @@
 
 SHARED_BEGIN
 struct FinalColorUniforms {
-  vec3 bloom;        // colour times amount
-  int ripple;        // 0 paper, 1 depth-aware
+  vec3 bloom;  // colour times amount
+  int ripple;  // 0 paper, 1 depth-aware
 };
 SHARED_END
 #endif

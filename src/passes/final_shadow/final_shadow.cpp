@@ -17,14 +17,17 @@ class FinalShadow : public Pass {
   const char* name() const override { return "final-shadow"; }
 
   void declare(FrameBuilder& frame) override {
-    step_.declare(frame, "final-shadow", {{shaders::final_shadow_image_frag}, {shaders::final_shadow_image_comp}},
+    step_.declare(frame, "final-shadow",
+                  {{shaders::final_shadow_image_frag}, {shaders::final_shadow_image_comp}},
                   {{frame.slot(Slot::blur)},
                    {frame.slot(Slot::shadow)},
                    {frame.slot(Slot::depth)},
-                   {frame.slot(Slot::warp)}}, frame.slot(Slot::finalShadow),
-                  sizeof(shared::FinalShadowUniforms));
+                   {frame.slot(Slot::warp)}},
+                  frame.slot(Slot::finalShadow), sizeof(shared::FinalShadowUniforms));
   }
-  void create(FrameBuilder& frame, const FrameResources& resources) override { step_.create(frame, resources); }
+  void create(FrameBuilder& frame, const FrameResources& resources) override {
+    step_.create(frame, resources);
+  }
 
   void update(const FrameInput& input) override {
     const FinalShadowParams params = input.look.get<FinalShadowParams>();
@@ -47,6 +50,8 @@ class FinalShadow : public Pass {
 
 }  // namespace
 
-std::unique_ptr<Pass> makeFinalShadow(BlurFactsOf blurFacts) { return std::make_unique<FinalShadow>(blurFacts); }
+std::unique_ptr<Pass> makeFinalShadow(BlurFactsOf blurFacts) {
+  return std::make_unique<FinalShadow>(blurFacts);
+}
 
 }  // namespace scumble::passes

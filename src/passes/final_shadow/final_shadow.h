@@ -13,7 +13,7 @@ namespace scumble::passes {
 
 // What the blur tells of its result, for a look and a scale of pixels.
 struct BlurFacts {
-  float amount;        // how much of the blurred image counts
+  float amount;          // how much of the blurred image counts
   float depthSharpness;  // of its weights over relative depth
 };
 using BlurFactsOf = BlurFacts (*)(const look::LookData& look, float pixelScale);

@@ -5,12 +5,12 @@
 SHARED_BEGIN
 struct FinalShadowUniforms {
   float threshold;
-  float softness;    // pixels
+  float softness;  // pixels
   float innerGlow;
   float indication;
   int indicationSteps;
   float depthSharpness;  // as the blur's
-  float blurAmount;  // 1; less where the knob asks for less roundness than the blur can be small
+  float blurAmount;      // 1; less where the knob asks for less roundness than the blur can be small
 };
 SHARED_END
 #endif

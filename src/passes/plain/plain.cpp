@@ -20,7 +20,8 @@ class Plain : public Pass {
     viewMask_ = c.viewMask();
     resolved_ = frame.slot(Slot::plain);
     drawn_ = samples_ > 1 ? frame.multisampled(Slot::plain) : resolved_;
-    depth_ = frame.transient("plain depth", {VK_FORMAT_D32_SFLOAT, c.width, c.height, c.viewCount, 1, samples_});
+    depth_ =
+        frame.transient("plain depth", {VK_FORMAT_D32_SFLOAT, c.width, c.height, c.viewCount, 1, samples_});
     std::vector<gpu::ResourceUse> uses{{frame.finalVertices(), gpu::Use::vertexBuffer},
                                        {drawn_, gpu::Use::colorTarget},
                                        {depth_, gpu::Use::depthTarget}};
@@ -46,7 +47,8 @@ class Plain : public Pass {
 
  private:
   void record(VkCommandBuffer commands) const {
-    const Target color{&resources_->image(drawn_), samples_ > 1 ? &resources_->image(resolved_) : nullptr, {}};
+    const Target color{
+        &resources_->image(drawn_), samples_ > 1 ? &resources_->image(resolved_) : nullptr, {}};
     const Target depth{&resources_->image(depth_), nullptr, {}};
     const gpu::ImageDesc& size = color.image->desc();
     const RenderingScope scope(commands, size.width, size.height, viewMask_, {&color, 1}, &depth);
@@ -63,6 +65,8 @@ class Plain : public Pass {
 
 }  // namespace
 
-std::unique_ptr<Pass> makePlain() { return std::make_unique<Plain>(); }
+std::unique_ptr<Pass> makePlain() {
+  return std::make_unique<Plain>();
+}
 
 }  // namespace scumble::passes

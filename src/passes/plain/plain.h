@@ -1,4 +1,5 @@
-// The yardstick: the scene once, unlit, one target, the frame's samples. Everything else is measured against it.
+// The yardstick: the scene once, unlit, one target, the frame's samples. Everything else is measured against
+// it.
 #pragma once
 
 #include "frame/pass.h"

@@ -51,6 +51,8 @@ class ShadowMap : public Pass {
 
 }  // namespace
 
-std::unique_ptr<Pass> makeShadowMap() { return std::make_unique<ShadowMap>(); }
+std::unique_ptr<Pass> makeShadowMap() {
+  return std::make_unique<ShadowMap>();
+}
 
 }  // namespace scumble::passes

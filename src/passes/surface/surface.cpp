@@ -29,8 +29,9 @@ class Surface : public Pass {
     const Configuration& c = frame.configuration();
     samples_ = c.samples;
     viewMask_ = c.viewMask();
-    std::vector<gpu::ResourceUse> uses{{frame.finalVertices(), gpu::Use::vertexBuffer},
-                                       {shadowMap_ = frame.slot(Slot::shadowMap), gpu::Use::sampledByFragment}};
+    std::vector<gpu::ResourceUse> uses{
+        {frame.finalVertices(), gpu::Use::vertexBuffer},
+        {shadowMap_ = frame.slot(Slot::shadowMap), gpu::Use::sampledByFragment}};
     for (size_t i = 0; i < kTargets.size(); ++i) {
       const bool isDepth = kTargets[i] == Slot::depth;
       resolved_[i] = frame.slot(kTargets[i]);
@@ -79,7 +80,8 @@ class Surface : public Pass {
     // The sky is cooler than the shadow colour, the ground warmer; both at equal brightness.
     const float amount = input.look.get<SurfaceParams>().skyTint;
     const glm::vec3 cool(-0.6f, 0.1f, 1.0f), warm(1.0f, 0.0f, -0.8f);
-    uniforms_.write(SurfaceUniforms{light.terminator, light.terminatorSharpness, 1.0f + amount * cool + 0.6f * amount,
+    uniforms_.write(SurfaceUniforms{light.terminator, light.terminatorSharpness,
+                                    1.0f + amount * cool + 0.6f * amount,
                                     1.0f + amount * warm - 0.4f * amount});
   }
 
@@ -88,7 +90,8 @@ class Surface : public Pass {
 
   void record(VkCommandBuffer commands) const {
     const auto target = [&](size_t i) {
-      return Target{&resources_->image(drawn_[i]), samples_ > 1 ? &resources_->image(resolved_[i]) : nullptr, {}};
+      return Target{
+          &resources_->image(drawn_[i]), samples_ > 1 ? &resources_->image(resolved_[i]) : nullptr, {}};
     };
     const Target colors[] = {target(0), target(1), target(2)}, depth = target(3);
     const gpu::ImageDesc& size = colors[0].image->desc();
@@ -111,6 +114,8 @@ class Surface : public Pass {
 
 }  // namespace
 
-std::unique_ptr<Pass> makeSurface() { return std::make_unique<Surface>(); }
+std::unique_ptr<Pass> makeSurface() {
+  return std::make_unique<Surface>();
+}
 
 }  // namespace scumble::passes

@@ -1,5 +1,5 @@
-// The shadow channels and both colours of every surface, in one geometry pass (paper 000, Shadow Pass and the geometry
-// half of the Color Pass; FORMULAS 14).
+// The shadow channels and both colours of every surface, in one geometry pass (paper 000, Shadow Pass and the
+// geometry half of the Color Pass; FORMULAS 14).
 #pragma once
 
 #include "frame/pass.h"

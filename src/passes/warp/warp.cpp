@@ -7,11 +7,11 @@
 #include "frame/geometry_step.h"
 #include "frame/image_step.h"
 #include "frame/material_params.h"
+#include "frame/metatexture_params.h"
 #include "shaders/warp_image_comp.h"
 #include "shaders/warp_image_frag.h"
 #include "shaders/warp_surface_frag.h"
 #include "shaders/warp_surface_vert.h"
-#include "frame/metatexture_params.h"
 
 namespace scumble::passes {
 
@@ -21,13 +21,16 @@ namespace {
 
 constexpr uint32_t kNoiseSize = 256;  // texels; one texel a pixel at the default size
 
-// The example texture: two independent fields in red and green, rough at every scale down to a few texels, so that edges
-// are torn and not wavy; in blue the breakup map: palette-knife marks, longer than wide, with flat tops and sharp sides.
+// The example texture: two independent fields in red and green, rough at every scale down to a few texels, so
+// that edges are torn and not wavy; in blue the breakup map: palette-knife marks, longer than wide, with flat
+// tops and sharp sides.
 std::vector<uint8_t> makeExample() {
   const std::vector<float> x = selfSimilarNoise(kNoiseSize, 14, 3, 0.62f, 11);
   const std::vector<float> y = selfSimilarNoise(kNoiseSize, 14, 3, 0.62f, 23);
   std::vector<uint8_t> texels(size_t(kNoiseSize) * kNoiseSize * 4, 255);
-  const auto byte = [](float v) { return uint8_t(std::lround(std::clamp(0.5f + v / 4.0f, 0.0f, 1.0f) * 255)); };
+  const auto byte = [](float v) {
+    return uint8_t(std::lround(std::clamp(0.5f + v / 4.0f, 0.0f, 1.0f) * 255));
+  };
   const std::vector<float> marks = selfSimilarNoise(kNoiseSize, 32, 3, 0.6f, 5, 4.0f);
   for (size_t i = 0; i < x.size(); ++i) {
     texels[4 * i] = byte(x[i]);
@@ -94,7 +97,8 @@ class Warp : public Pass {
   }
 
  private:
-  static constexpr VkFormat kPatternFormat = VK_FORMAT_R32G32B32A32_UINT, kKnobsFormat = VK_FORMAT_R8G8B8A8_UNORM;
+  static constexpr VkFormat kPatternFormat = VK_FORMAT_R32G32B32A32_UINT,
+                            kKnobsFormat = VK_FORMAT_R8G8B8A8_UNORM;
   static constexpr gpu::SamplerDesc kRepeating{VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT,
                                                VK_SAMPLER_ADDRESS_MODE_REPEAT};
 
@@ -122,6 +126,8 @@ class Warp : public Pass {
 
 }  // namespace
 
-std::unique_ptr<Pass> makeWarp() { return std::make_unique<Warp>(); }
+std::unique_ptr<Pass> makeWarp() {
+  return std::make_unique<Warp>();
+}
 
 }  // namespace scumble::passes

@@ -1,0 +1,654 @@
+#!/usr/bin/env python3
+"""The program from outside: what PROGRAM.md promises to users and to scripts, tried with small pictures.
+
+    tests/program/program_test.py SCUMBLE DEMO_SCENE [unittest's options]     both as built, e.g. build/scumble build/demo_scene
+
+Every call that draws runs under the validation layers. Scenes are made here, or by the generator of the demo scene.
+"""
+import base64
+import json
+import os
+import re
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+import zlib
+from pathlib import Path
+
+SMALL = ["--size", "160x90", "--samples", "1", "--validate"]
+TINY = ["--size", "32x18", "--samples", "1", "--validate"]
+DONE, OUR_FAULT, USAGE, UNUSABLE, NO_GPU, NOT_WRITTEN = range(6)
+COMMANDS = ["render", "info", "looks", "params", "schema", "devices", "bench"]
+scumble = demo_scene = None
+shared = None  # a folder for what several tests read
+
+
+# -- Scenes
+
+def gltf(color=(0.8, 0.5, 0.2), camera=False, **more):
+    """A box on a floor as glTF, all in one file."""
+    positions, indices = [], []
+    for axis in range(3):
+        for side in (-1, 1):
+            first = len(positions)
+            for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
+                p = [0, 0, 0]
+                p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3] = side, a, b
+                positions.append(p)
+            quad = [first, first + 1, first + 2, first, first + 2, first + 3]
+            indices += quad if side > 0 else quad[::-1]
+    data = b"".join(struct.pack("<3f", *p) for p in positions)
+    view = len(data)
+    data += struct.pack(f"<{len(indices)}H", *indices)
+    scene = {
+        "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}],
+        "nodes": [{"name": "Box", "mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 0}]}],
+        "materials": [{"name": "Paint.001", "pbrMetallicRoughness": {"baseColorFactor": [*color, 1]}}],
+        "accessors": [{"bufferView": 0, "componentType": 5126, "type": "VEC3", "count": len(positions),
+                       "min": [-1, -1, -1], "max": [1, 1, 1]},
+                      {"bufferView": 1, "componentType": 5123, "type": "SCALAR", "count": len(indices)}],
+        "bufferViews": [{"buffer": 0, "byteOffset": 0, "byteLength": view},
+                        {"buffer": 0, "byteOffset": view, "byteLength": len(data) - view}],
+        "buffers": [{"byteLength": len(data),
+                     "uri": "data:application/octet-stream;base64," + base64.b64encode(data).decode()}]}
+    if camera:
+        scene["cameras"] = [{"name": "Front", "type": "perspective", "perspective": {"yfov": 0.7, "znear": 0.1}},
+                            {"name": "Side", "type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1}}]
+        scene["nodes"] += [{"camera": 0, "translation": [0, 0, 6]},
+                           {"camera": 1, "translation": [7, 0, 0], "rotation": [0, 0.70710678, 0, 0.70710678]}]
+        scene["scenes"][0]["nodes"] += [1, 2]
+    scene.update(more)
+    return json.dumps(scene)
+
+
+# -- Pictures
+
+def png(path):
+    """Width, height, channels and rows of an 8 bit PNG."""
+    data = Path(path).read_bytes()
+    assert data[:8] == b"\x89PNG\r\n\x1a\n", f"{path} is no PNG"
+    width, height, depth, color = struct.unpack(">IIBB", data[16:26])
+    assert depth == 8 and color in (2, 6), (depth, color)
+    channels = {2: 3, 6: 4}[color]
+    packed, at = b"", 8
+    while at < len(data):
+        length, kind = struct.unpack(">I4s", data[at:at + 8])
+        if kind == b"IDAT":
+            packed += data[at + 8:at + 8 + length]
+        at += 12 + length
+    raw, rows, before = zlib.decompress(packed), [], bytearray(width * channels)
+    stride = width * channels + 1
+    for y in range(height):
+        kind, row = raw[y * stride], bytearray(raw[y * stride + 1:(y + 1) * stride])
+        for i in range(len(row)):
+            a = row[i - channels] if i >= channels else 0
+            b = before[i]
+            c = before[i - channels] if i >= channels else 0
+            if kind == 1:
+                row[i] = (row[i] + a) & 255
+            elif kind == 2:
+                row[i] = (row[i] + b) & 255
+            elif kind == 3:
+                row[i] = (row[i] + (a + b) // 2) & 255
+            elif kind == 4:
+                p = a + b - c
+                pa, pb, pc = abs(p - a), abs(p - b), abs(p - c)
+                row[i] = (row[i] + (a if pa <= pb and pa <= pc else b if pb <= pc else c)) & 255
+        rows.append(bytes(row))
+        before = row
+    return width, height, channels, rows
+
+
+def exr(path):
+    """The header of an EXR: its attributes by name, "channels" as a list of (name, type), type 2 being float."""
+    data = Path(path).read_bytes()
+    magic, version = struct.unpack("<II", data[:8])
+    assert magic == 20000630, f"{path} is no EXR"
+    at, attributes = 8, {}
+
+    def text():
+        nonlocal at
+        end = data.index(b"\0", at)
+        at, value = end + 1, data[at:end].decode()
+        return value
+
+    while data[at] != 0:
+        name, kind = text(), text()
+        size = struct.unpack("<I", data[at:at + 4])[0]
+        at += 4
+        attributes[name] = (kind, data[at:at + size])
+        at += size
+    channels, value, i = [], attributes["channels"][1], 0
+    while value[i] != 0:
+        end = value.index(b"\0", i)
+        channels.append((value[i:end].decode(), struct.unpack("<I", value[end + 1:end + 5])[0]))
+        i = end + 17
+    attributes["channels"] = channels
+    x0, y0, x1, y1 = struct.unpack("<4i", attributes["dataWindow"][1])
+    attributes["size"] = (x1 - x0 + 1, y1 - y0 + 1)
+    if "multiView" in attributes:
+        value, views, i = attributes["multiView"][1], [], 0
+        while i < len(value):
+            length = struct.unpack("<I", value[i:i + 4])[0]
+            views.append(value[i + 4:i + 4 + length].decode())
+            i += 4 + length
+        attributes["multiView"] = views
+    return attributes
+
+
+def layers(path):
+    """The names of an EXR's layers; the plain channels are the layer ""."""
+    return {name.rpartition(".")[0] for name, _ in exr(path)["channels"]}
+
+
+class Program(unittest.TestCase):
+    """Each test has an empty folder of its own, with a scene in it, and the program runs there."""
+
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="scumble program "))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+        self.put("box.gltf", gltf())
+        self.before = self.files()
+
+    def put(self, name, content):
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(content)
+        return str(path)
+
+    def files(self):
+        return {str(p.relative_to(self.folder)) for p in self.folder.rglob("*") if p.is_file()}
+
+    def new_files(self):
+        return self.files() - self.before
+
+    def run_program(self, *args, environment=None):
+        env = dict(os.environ, XDG_CACHE_HOME=str(shared / "cache"), **(environment or {}))
+        return subprocess.run([scumble, *args], cwd=self.folder, env=env, capture_output=True, text=True, timeout=120,
+                              stdin=subprocess.DEVNULL)
+
+    def good(self, *args, warnings=False):
+        done = self.run_program(*args)
+        self.assertEqual(done.returncode, DONE, f"{args}: {done.stderr}")
+        if not warnings:
+            self.assertEqual(done.stderr, "", args)
+        return done.stdout
+
+    def render(self, *args, size=SMALL):
+        return self.good("render", *args, *size)
+
+    def bad(self, code, *args, says=(), environment=None):
+        """The call fails with this code and one line in the promised form, and leaves nothing behind."""
+        done = self.run_program(*args, environment=environment)
+        self.assertEqual(done.returncode, code, f"{args}: {done.stderr}")
+        self.assertRegex(done.stderr, r"\Ascumble: error: [^\n]+\n\Z", args)
+        for text in [says] if isinstance(says, str) else says:
+            self.assertIn(text, done.stderr)
+        self.assertEqual(self.new_files(), set(), args)
+        return done.stderr
+
+
+class Commands(Program):
+    def test_every_command_has_help_with_an_example(self):
+        for command in COMMANDS:
+            with self.subTest(command=command):
+                text = self.good(command, "--help")
+                self.assertRegex(text, rf"Example: scumble {command}")
+        text = self.good("--help")
+        for command in COMMANDS:
+            self.assertIn(command, text)
+
+    def test_help_shows_every_promised_option_of_render(self):
+        text = self.good("render", "--help")
+        for option in ("-o", "--look", "--set", "--camera", "--orbit", "--eye", "--target", "--roll", "--fov", "--size",
+                       "--samples", "--time", "--frames", "--fps", "--stereo", "--ipd", "--aov", "--background", "--device",
+                       "--seed", "--stats", "--quiet", "--resume", "--allow-outside"):
+            self.assertRegex(text, rf"(^|[\s,]){option}\b", option)
+        for default in ("1280x720", "0.063", "24"):
+            self.assertIn(default, text)
+
+    def test_version_names_build_and_device(self):
+        text = self.good("--version")
+        self.assertRegex(text, r"scumble \d+\.\d+")
+        self.assertIn("device: ", text)
+
+    def test_nothing_to_do_shows_help_and_is_wrong_usage(self):
+        done = self.run_program()
+        self.assertEqual(done.returncode, USAGE)
+        self.assertIn("scumble", done.stdout)
+
+    def test_wrong_usage(self):
+        for args in (["paint-me"], ["render"], ["render", "box.gltf", "--no-such-option"], ["info"], ["--nonsense"],
+                     ["render", "box.gltf", "--time"], ["render", "box.gltf", "--samples", "many"], ["looks", "too", "many"]):
+            with self.subTest(args=args):
+                self.bad(USAGE, *args)
+
+    def test_looks_lists_the_default(self):
+        self.assertRegex(self.good("looks"), r"(?m)^age-of-sail\s+\S")
+
+    def test_params(self):
+        text = self.good("params")
+        self.assertIn("threshold", text)
+        only = self.good("params", "shadow.")
+        self.assertIn("threshold", only)
+        self.assertNotIn("elevation", only)
+        self.bad(USAGE, "params", "no.such.path")
+
+    def test_schema_is_json(self):
+        schema = json.loads(self.good("schema"))
+        self.assertIn("shadow", schema["properties"])
+        self.assertIn("materials", schema["properties"])
+
+    def test_devices(self):
+        self.assertRegex(self.good("devices"), r"(?m)^\* \d+ .*Vulkan 1\.")
+
+    def test_bench_reports_passes_and_yardstick(self):
+        self.good("bench", "box.gltf", "--runs", "1", "--json", "b.json", *TINY)
+        report = json.loads((self.folder / "b.json").read_text())
+        self.assertGreater(report["yardstickMilliseconds"], 0)
+        self.assertGreater(len(report["passes"]), 5)
+        self.assertEqual(report["size"], [32, 18])
+
+
+class Info(Program):
+    def test_text_and_json(self):
+        self.put("cameras.gltf", gltf(camera=True, extensionsUsed=["EXT_from_nowhere"]))
+        text = self.good("info", "cameras.gltf", warnings=True)
+        for word in ("Paint.001", "Front", "EXT_from_nowhere"):
+            self.assertIn(word, text)
+        report = json.loads(self.good("info", "cameras.gltf", "--json", warnings=True))
+        self.assertEqual(report["meshes"], 1)
+        self.assertEqual(report["triangles"], 12)
+        self.assertEqual(report["cameras"], ["Front", "Side"])
+        self.assertIn("Paint.001", report["materials"])
+        self.assertIn("EXT_from_nowhere", report["extensionsNotSupported"])
+        self.assertEqual(report["bounds"], {"min": [-1, -1, -1], "max": [1, 1, 1]})
+        for key in ("lights", "clips", "skins", "images", "extensionsUsed", "warnings"):
+            self.assertIn(key, report)
+
+    def test_errors(self):
+        self.bad(UNUSABLE, "info", "absent.glb", says="absent.glb")
+        self.bad(UNUSABLE, "info", "absent.glb", "--json")
+
+
+class Rendering(Program):
+    def test_png(self):
+        self.render("box.gltf", "-o", "a.png")
+        width, height, channels, rows = png(self.folder / "a.png")
+        self.assertEqual((width, height, channels), (160, 90, 3))
+        self.assertGreater(len({row[i:i + 3] for row in rows for i in range(0, len(row), 3)}), 20, "an empty picture")
+        self.assertEqual(self.new_files(), {"a.png"})
+
+    def test_default_name_is_the_scenes_in_the_current_folder(self):
+        self.put("deep/er/vase.gltf", gltf())
+        self.before = self.files()
+        self.render("deep/er/vase.gltf")
+        self.assertEqual(self.new_files(), {"vase.png"})
+
+    def test_exr_is_linear_float(self):
+        self.render("box.gltf", "-o", "a.exr")
+        header = exr(self.folder / "a.exr")
+        self.assertEqual(header["size"], (160, 90))
+        self.assertEqual(header["channels"], [("A", 2), ("B", 2), ("G", 2), ("R", 2)])
+        self.assertNotIn("multiView", header)
+        if shutil.which("exrheader"):  # a second opinion
+            subprocess.run(["exrheader", self.folder / "a.exr"], check=True, capture_output=True)
+
+    def test_same_call_same_bytes_and_every_knob_of_the_call_counts(self):
+        self.render("box.gltf", "-o", "a.png")
+        self.render("box.gltf", "-o", "b.png")
+        first = (self.folder / "a.png").read_bytes()
+        self.assertEqual(first, (self.folder / "b.png").read_bytes())
+        for change in (["--orbit", "120,20"], ["--seed", "7"], ["--set", "shadow.threshold=0.2"], ["--roll", "15"],
+                       ["--fov", "60"], ["--eye", "3,1,4"], ["--background", "#204060"], ["--samples", "4"]):
+            with self.subTest(change=change):
+                self.good("render", "box.gltf", "-o", "c.png", "--size", "160x90", "--validate",
+                          *([] if "--samples" in change else ["--samples", "1"]), *change)
+                self.assertNotEqual(first, (self.folder / "c.png").read_bytes())
+
+    def test_orbit_with_a_distance(self):
+        self.render("box.gltf", "-o", "near.png", "--orbit", "30,15,2", "--background", "transparent")
+        self.render("box.gltf", "-o", "far.png", "--orbit", "30,15,9", "--background", "transparent")
+        covered = [sum(row[3::4].count(255) for row in png(self.folder / name)[3]) for name in ("near.png", "far.png")]
+        self.assertGreater(covered[0], 4 * covered[1])
+
+    def test_cameras(self):
+        self.put("cameras.gltf", gltf(camera=True))
+        self.before = self.files()
+        for name, camera in (("default", []), ("name", ["--camera", "Front"]), ("number", ["--camera", "0"]),
+                             ("side", ["--camera", "Side"]), ("side number", ["--camera", "1"])):
+            self.render("cameras.gltf", "-o", name + ".png", *camera)
+        pictures = {name: (self.folder / (name + ".png")).read_bytes() for name in ("default", "name", "number", "side", "side number")}
+        self.assertEqual(pictures["default"], pictures["name"])
+        self.assertEqual(pictures["default"], pictures["number"])
+        self.assertEqual(pictures["side"], pictures["side number"])
+        self.assertNotEqual(pictures["default"], pictures["side"])
+
+    def test_background(self):
+        self.render("box.gltf", "-o", "t.png", "--background", "transparent")
+        width, height, channels, rows = png(self.folder / "t.png")
+        self.assertEqual(channels, 4)
+        self.assertEqual(rows[0][3], 0)
+        self.assertEqual(rows[height // 2][4 * (width // 2) + 3], 255)
+        self.render("box.gltf", "-o", "c.png", "--background", "#204060", "--set", "ground.mode=off")
+        width, height, channels, rows = png(self.folder / "c.png")
+        for corner in (rows[0][:3], rows[0][-3:], rows[-1][:3], rows[-1][-3:]):
+            for value, wanted in zip(corner, (0x20, 0x40, 0x60)):
+                self.assertLessEqual(abs(value - wanted), 2, corner.hex())
+
+    def test_several_scenes_in_one_world(self):
+        self.put("red.gltf", gltf((0.9, 0.1, 0.1), nodes=[{"mesh": 0, "translation": [3, 0, 0]}]))
+        self.before = self.files()
+        self.render("box.gltf", "red.gltf", "-o", "both.png", "--stats", "s.json")
+        self.render("box.gltf", "-o", "one.png", "--stats", "one.json")
+        both, one = (json.loads((self.folder / name).read_text())["frames"][0] for name in ("s.json", "one.json"))
+        self.assertGreater(both["triangles"], one["triangles"])
+        self.assertNotEqual((self.folder / "both.png").read_bytes(), (self.folder / "one.png").read_bytes())
+        self.bad_one_of_several()
+
+    def bad_one_of_several(self):
+        self.before = self.files()
+        self.bad(UNUSABLE, "render", "box.gltf", "absent.gltf", "-o", "x.png", *TINY, says="absent.gltf")
+
+    def test_stats(self):
+        self.render("box.gltf", "-o", "a.png", "--stats", "s.json")
+        stats = json.loads((self.folder / "s.json").read_text())
+        self.assertEqual(stats["size"], [160, 90])
+        self.assertEqual((stats["samples"], stats["views"]), (1, 1))
+        self.assertTrue(stats["device"])
+        for key in ("totalMilliseconds", "renderMilliseconds", "writeMilliseconds", "peakResidentBytes"):
+            self.assertGreater(stats[key], 0)
+        self.assertEqual(set(stats["import"]), {"read", "parse", "geometry", "images"})
+        frame, = stats["frames"]
+        self.assertGreaterEqual(frame["triangles"], 12)
+        for key in ("drawCalls", "deviceBytes", "uploadedBytes"):
+            self.assertGreater(frame[key], 0)
+        passes = {each["name"] for each in frame["passes"]}
+        for name in ("shadow-map", "warp", "surface", "blur", "final-shadow", "color", "final-color"):
+            self.assertIn(name, passes)
+
+    def test_quiet_says_nothing(self):
+        self.put("odd.gltf", gltf(extensionsUsed=["EXT_from_nowhere"]))
+        self.before = self.files()
+        loud = self.run_program("render", "odd.gltf", "-o", "a.png", *TINY)
+        self.assertEqual(loud.stderr.count("EXT_from_nowhere"), 1, "a warning, once")
+        self.assertIn("scumble: warning: ", loud.stderr)
+        quiet = self.run_program("render", "odd.gltf", "-o", "b.png", "--quiet", *TINY)
+        self.assertEqual((loud.returncode, quiet.returncode, quiet.stderr, quiet.stdout), (0, 0, "", ""))
+
+    def test_demo_scene(self):
+        self.good("render", str(shared / "demo.glb"), "-o", "a.png", "--camera", "Sailor", *SMALL)
+        self.assertEqual(self.new_files(), {"a.png"})
+
+
+class Looks(Program):
+    def test_a_look_beside_the_scene_is_found(self):
+        self.render("box.gltf", "-o", "plain.png")
+        self.put("box.look.json", '{"description": "Blue", "background": {"mode": "look", "horizon": "#0000FF", "zenith": "#0000FF"}}')
+        self.render("box.gltf", "-o", "found.png")
+        self.render("box.gltf", "-o", "given.png", "--look", "box.look.json")
+        self.render("box.gltf", "-o", "named.png", "--look", "age-of-sail")
+        plain, found, given, named = ((self.folder / f"{n}.png").read_bytes() for n in ("plain", "found", "given", "named"))
+        self.assertNotEqual(plain, found)
+        self.assertEqual(found, given)
+        self.assertEqual(plain, named, "a look that was asked for wins over the file beside the scene")
+
+    def test_set_wins_over_the_look_and_the_later_one_wins(self):
+        self.put("a.json", '{"shadow": {"threshold": 0.2}}')
+        self.before = self.files()
+        self.render("box.gltf", "-o", "a.png", "--look", "a.json", "--set", "shadow.threshold=0.3", "--set", "shadow.threshold=0.6")
+        self.render("box.gltf", "-o", "b.png", "--set", "shadow.threshold=0.6")
+        self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
+
+    def test_set_for_materials(self):
+        self.render("box.gltf", "-o", "a.png")
+        self.render("box.gltf", "-o", "b.png", "--set", "materials.Paint.001.palette.saturation=0")
+        self.render("box.gltf", "-o", "c.png", "--set", "materials.P*.palette.saturation=0")
+        self.render("box.gltf", "-o", "d.png", "--set", "materials.Other*.palette.saturation=0")
+        a, b, c, d = ((self.folder / f"{n}.png").read_bytes() for n in "abcd")
+        self.assertNotEqual(a, b)
+        self.assertEqual(b, c)
+        self.assertEqual(a, d)
+
+    def test_set_errors(self):
+        for setting, says in (("shadow.treshold=0.4", "did you mean 'shadow.threshold'?"), ("shadow.threshold", "="),
+                              ("shadow.threshold=", "shadow.threshold"), ("shadow.threshold=9", "range"), ("shadow.threshold=x", "number"),
+                              ("ground.mode=maybe", "auto|on|off"), ("ground.tint=red", "#RRGGBB"), ("=1", ""),
+                              ("materials.A.shadow.threshold=0.4", ""), ("materials.A=1", "")):
+            with self.subTest(setting=setting):
+                self.bad(USAGE, "render", "box.gltf", "-o", "x.png", "--set", setting, *TINY, says=says)
+
+    def test_look_errors(self):
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.png", "--look", "age-of-sial", *TINY, says="'age-of-sail'")
+        self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--look", "absent.json", *TINY, says="absent.json: ")
+        self.put("broken.json", '{\n "shadow": {\n  "threshold": 0.4,,\n }\n}')
+        self.put("wrong.json", '{"shadow": {"threshold": "much"}}')
+        self.put("typo.json", '{"shadow": {"treshold": 0.4}}')
+        self.before = self.files()
+        self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--look", "broken.json", *TINY, says="broken.json:3: ")
+        self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--look", "wrong.json", *TINY, says="wrong.json (shadow.threshold): ")
+        self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--look", "typo.json", *TINY, says="shadow.threshold")
+        self.put("box.look.json", "{")
+        self.before = self.files()
+        self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", *TINY, says="box.look.json:1: ")
+
+
+class Aovs(Program):
+    PASSES = ["warp", "shadow", "blur", "final-shadow", "lit", "shadowed", "color", "final-color"]
+    FACTS = ["depth", "position", "normal", "uv", "uv-gradient", "metatexture", "motion", "id"]
+
+    def test_all_go_into_one_exr_as_layers_by_their_names(self):
+        self.render("box.gltf", "-o", "a.exr", "--aov", "all")
+        found = layers(self.folder / "a.exr")
+        for name in ["", *self.PASSES, *self.FACTS]:
+            self.assertIn(name, found)
+        header = exr(self.folder / "a.exr")
+        names = {name for name, _ in header["channels"]}
+        for channel in ("final-shadow.R", "depth.R", "normal.B", "uv-gradient.A", "motion.G", "id.R"):
+            self.assertIn(channel, names)
+        self.assertEqual({kind for _, kind in header["channels"]}, {2}, "all float")
+        self.assertIn("multiView" in header, (False,))
+        # The shadow map has a size of its own, which layers of one file cannot have.
+        self.assertIn("a.shadow-map.exr", self.new_files())
+        self.assertNotEqual(exr(self.folder / "a.shadow-map.exr")["size"], (160, 90))
+
+    def test_some_by_name_in_both_spellings(self):
+        self.render("box.gltf", "-o", "a.exr", "--aov", "depth,final-shadow", "--aov", "id")
+        self.assertEqual(layers(self.folder / "a.exr"), {"", "depth", "final-shadow", "id"})
+
+    def test_beside_a_png(self):
+        self.render("box.gltf", "-o", "a.png", "--aov", "depth,shadow-map")
+        self.assertEqual(self.new_files(), {"a.png", "a.depth.exr", "a.shadow-map.exr"})
+        self.assertEqual(exr(self.folder / "a.depth.exr")["size"], (160, 90))
+
+    def test_asking_for_aovs_changes_no_picture(self):
+        self.render("box.gltf", "-o", "a.png")
+        self.render("box.gltf", "-o", "b.png", "--aov", "all")
+        self.assertEqual((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
+
+    def test_unknown(self):
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.exr", "--aov", "final-shadwo", *TINY, says="'final-shadow'")
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.exr", "--aov", "depth,nonsense", *TINY, says="nonsense")
+
+
+class Stereo(Program):
+    def test_layouts_and_sizes(self):
+        self.render("box.gltf", "-o", "mono.png")
+        self.render("box.gltf", "-o", "side.png", "--stereo", "side-by-side")
+        self.render("box.gltf", "-o", "over.png", "--stereo", "over-under")
+        self.render("box.gltf", "-o", "two.png", "--stereo", "separate")
+        self.assertEqual(self.new_files(), {"mono.png", "side.png", "over.png", "two.left.png", "two.right.png"})
+        side, over, left, right = (png(self.folder / n) for n in ("side.png", "over.png", "two.left.png", "two.right.png"))
+        self.assertEqual((side[:2], over[:2], left[:2], right[:2]), ((320, 90), (160, 180), (160, 90), (160, 90)))
+        # The layouts hold the same two pictures.
+        self.assertEqual([row[:480] for row in side[3]], left[3])
+        self.assertEqual([row[480:] for row in side[3]], right[3])
+        self.assertEqual(over[3], left[3] + right[3])
+        self.assertNotEqual(left[3], right[3])
+
+    def test_no_distance_no_difference(self):
+        self.render("box.gltf", "-o", "two.png", "--stereo", "separate", "--ipd", "0")
+        self.assertEqual(png(self.folder / "two.left.png")[3], png(self.folder / "two.right.png")[3])
+
+    def test_exr_carries_views(self):
+        self.render("box.gltf", "-o", "a.exr", "--stereo", "side-by-side", "--aov", "depth")
+        header = exr(self.folder / "a.exr")
+        self.assertEqual(header["multiView"], ["left", "right"])
+        names = {name for name, _ in header["channels"]}
+        for name in ("R", "right.R", "depth.R"):
+            self.assertIn(name, names)
+        self.assertTrue({"depth.right.R", "right.depth.R"} & names, names)
+
+    def test_errors(self):
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.png", "--stereo", "sideways", *TINY, says="side-by-side")
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.png", "--stereo", "separate", "--ipd", "-1", *TINY)
+
+
+class Sequences(Program):
+    def test_frames_alone_are_frames_of_the_sequence(self):
+        self.good("render", "box.gltf", "-o", "x.##.png", "--frames", "0..2", "--quiet", *SMALL)
+        self.assertEqual(self.new_files(), {"x.00.png", "x.01.png", "x.02.png"})
+        self.good("render", "box.gltf", "-o", "alone.####.png", "--frames", "2..2", "--quiet", *SMALL)
+        self.assertEqual((self.folder / "alone.0002.png").read_bytes(), (self.folder / "x.02.png").read_bytes())
+        # Frame n is at n / fps seconds.
+        self.good("render", "box.gltf", "-o", "time.png", "--time", str(2 / 24), *SMALL)
+        self.assertEqual((self.folder / "time.png").read_bytes(), (self.folder / "x.02.png").read_bytes())
+
+    def test_progress_is_plain_lines_without_a_terminal(self):
+        done = self.run_program("render", "box.gltf", "-o", "x.#.png", "--frames", "0..1", *TINY)
+        self.assertEqual(done.returncode, DONE)
+        self.assertNotIn("\r", done.stderr)
+        self.assertNotIn("\x1b", done.stderr)
+
+    def test_resume_goes_on_where_it_was(self):
+        self.put("x.0.png", "mine")
+        self.good("render", "box.gltf", "-o", "x.#.png", "--frames", "0..1", "--resume", "--quiet", *TINY)
+        self.assertEqual((self.folder / "x.0.png").read_text(), "mine")
+        self.assertEqual(png(self.folder / "x.1.png")[:2], (32, 18))
+        self.good("render", "box.gltf", "-o", "x.#.png", "--frames", "0..1", "--quiet", *TINY)
+        self.assertEqual(png(self.folder / "x.0.png")[:2], (32, 18))
+
+    def test_resume_in_stereo(self):
+        args = ["render", "box.gltf", "-o", "x.#.png", "--frames", "0..1", "--stereo", "separate", "--resume", "--quiet", *TINY]
+        self.good(*args)
+        self.assertEqual(self.new_files(), {"x.0.left.png", "x.0.right.png", "x.1.left.png", "x.1.right.png"})
+        for name in ("x.0.left.png", "x.0.right.png"):
+            self.put(name, "mine")
+        self.good(*args)
+        self.assertEqual((self.folder / "x.0.left.png").read_text(), "mine", "drawn again though it was there")
+
+    def test_errors(self):
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.png", "--frames", "0..2", *TINY, says="####")
+        for frames in ("2..0", "x", "0", "0..", "0..2x", "0...2"):
+            with self.subTest(frames=frames):
+                self.bad(USAGE, "render", "box.gltf", "-o", "x.#.png", "--frames", frames, *TINY)
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.#.png", "--frames", "0..1", "--fps", "0", *TINY)
+
+
+class Errors(Program):
+    def test_wrong_numbers(self):
+        for args in (["--size", "160"], ["--size", "0x90"], ["--size", "160x90x2"], ["--size", "99999x2"], ["--size", "-1x5"],
+                     ["--samples", "2"], ["--orbit", "30"], ["--orbit", "a,b"], ["--orbit", "0,0,0"], ["--eye", "1,2"],
+                     ["--eye", "1,2,nan"], ["--target", "x"], ["--fov", "0"], ["--fov", "180"], ["--time", "nan"],
+                     ["--background", "red"], ["--background", "#12345"], ["--eye", "0,0,0", "--target", "0,0,0"]):
+            with self.subTest(args=args):
+                size = [] if "--size" in args else ["--size", "32x18"]
+                samples = [] if "--samples" in args else ["--samples", "1"]
+                self.bad(USAGE, "render", "box.gltf", "-o", "x.png", "--validate", *size, *samples, *args)
+
+    def test_cameras(self):
+        self.put("cameras.gltf", gltf(camera=True))
+        self.before = self.files()
+        self.bad(USAGE, "render", "cameras.gltf", "-o", "x.png", "--camera", "Frnt", *TINY, says="Front")
+        self.bad(USAGE, "render", "cameras.gltf", "-o", "x.png", "--camera", "2", *TINY)
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.png", "--camera", "Front", *TINY)
+
+    def test_unusable_scenes(self):
+        self.put("text.gltf", "hello")
+        self.put("old.gltf", '{"asset": {"version": "1.0"}}')
+        self.put("empty.glb", "")
+        (self.folder / "folder.gltf").mkdir()
+        self.before = self.files()
+        for name in ("absent.glb", "text.gltf", "old.gltf", "empty.glb", "folder.gltf", ".", "", "no/such/folder.glb"):
+            with self.subTest(name=name):
+                self.bad(UNUSABLE, "render", name, "-o", "x.png", *TINY, says=name)
+
+    def test_a_name_with_a_line_break_makes_no_second_line(self):
+        self.bad(UNUSABLE, "render", "a\nb.glb", "-o", "x.png", *TINY)
+
+    def test_mistakes_in_a_scene_name_their_place(self):
+        self.put("far.gltf", gltf(meshes=[{"primitives": [{"attributes": {"POSITION": 99}}]}]))
+        self.put("comma.gltf", '{\n "asset": {"version": "2.0"},,\n}')
+        self.before = self.files()
+        self.bad(UNUSABLE, "render", "far.gltf", "-o", "x.png", *TINY, says=["far.gltf (meshes[0].primitives[0]", "POSITION"])
+        self.bad(UNUSABLE, "render", "comma.gltf", "-o", "x.png", *TINY, says="comma.gltf:2")
+
+    def test_no_network(self):
+        scene = json.loads(gltf())
+        scene["buffers"][0]["uri"] = "http://localhost:1/a.bin"
+        self.put("remote.gltf", json.dumps(scene))
+        self.before = self.files()
+        self.assertRegex(self.bad(UNUSABLE, "render", "remote.gltf", "-o", "x.png", *TINY), "network|http")
+
+    def test_paths_outside(self):
+        scene = json.loads(gltf())
+        uri = scene["buffers"][0]["uri"]
+        (self.folder / "a.bin").write_bytes(base64.b64decode(uri.partition(",")[2]))
+        scene["buffers"][0]["uri"] = "../a.bin"
+        self.put("inside/outside.gltf", json.dumps(scene))
+        self.before = self.files()
+        self.bad(UNUSABLE, "render", "inside/outside.gltf", "-o", "x.png", *TINY, says="--allow-outside")
+        self.render("inside/outside.gltf", "-o", "x.png", "--allow-outside", size=TINY)
+        self.assertEqual(self.new_files(), {"x.png"})
+
+    def test_outputs_that_cannot_be_written(self):
+        self.put("file", "")
+        (self.folder / "folder.png").mkdir()
+        self.before = self.files()
+        for output in ("no/such/folder/x.png", "file/x.png", "folder.png", "/proc/x.png", "/dev/full/x.png"):
+            with self.subTest(output=output):
+                self.bad(NOT_WRITTEN, "render", "box.gltf", "-o", output, *TINY, says=output)
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.jpeg", *TINY, says=".png")
+        self.bad(USAGE, "render", "box.gltf", "-o", "x", *TINY)
+
+    @unittest.skipIf(os.geteuid() == 0, "root writes everywhere")
+    def test_a_folder_without_permission(self):
+        (self.folder / "closed").mkdir(mode=0o555)
+        self.bad(NOT_WRITTEN, "render", "box.gltf", "-o", "closed/x.png", *TINY)
+
+    def test_statistics_that_cannot_be_written(self):
+        done = self.run_program("render", "box.gltf", "-o", "x.png", "--stats", "no/such/s.json", *TINY)
+        self.assertEqual(done.returncode, NOT_WRITTEN)
+        self.assertRegex(done.stderr, r"\Ascumble: error: no/such/s.json: [^\n]+\n\Z")
+
+    def test_an_old_picture_survives_a_failure(self):
+        self.put("x.png", "mine")
+        self.before = self.files()
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.png", "--set", "no.such=1", *TINY)
+        self.bad(UNUSABLE, "render", "absent.gltf", "-o", "x.png", *TINY)
+        self.assertEqual((self.folder / "x.png").read_text(), "mine")
+
+    def test_devices(self):
+        self.bad(NO_GPU, "render", "box.gltf", "-o", "x.png", "--device", "no such device", *TINY)
+        self.bad(NO_GPU, "render", "box.gltf", "-o", "x.png", *TINY,
+                 environment={"VK_ICD_FILENAMES": "/nonexistent.json", "VK_DRIVER_FILES": "/nonexistent.json"})
+
+
+def main():
+    global scumble, demo_scene, shared
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    scumble, demo_scene = (os.path.abspath(path) for path in sys.argv[1:3])
+    with tempfile.TemporaryDirectory(prefix="scumble program shared ") as folder:
+        shared = Path(folder)
+        subprocess.run([demo_scene, shared / "demo.glb"], check=True, stdout=subprocess.DEVNULL)
+        program = unittest.main(argv=[sys.argv[0], *sys.argv[3:]], exit=False)
+    sys.exit(not program.result.wasSuccessful())
+
+
+if __name__ == "__main__":
+    main()

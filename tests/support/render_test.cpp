@@ -1,0 +1,91 @@
+#include "tests/support/render_test.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <stdexcept>
+
+namespace scumble::test {
+
+namespace {
+
+std::unique_ptr<Renderer> shared, other;
+
+// Renderers end before the process does: drivers unload in an order of their own.
+class Renderers : public ::testing::Environment {
+ public:
+  void TearDown() override { shared.reset(), other.reset(); }
+};
+[[maybe_unused]] const auto* const kEnvironment = ::testing::AddGlobalTestEnvironment(new Renderers);
+
+Renderer& existing(std::unique_ptr<Renderer>& renderer, ImagePassKind kind) {
+  if (!renderer) {
+    RendererOptions options;
+    options.validation = true;
+    options.imagePasses = kind;
+    Result<std::unique_ptr<Renderer>> made = Renderer::create(options);
+    if (!made) throw std::runtime_error(made.error().message());
+    renderer = std::move(made).value();
+  }
+  return *renderer;
+}
+
+int messages() {
+  return (shared ? shared->validationMessages() : 0) + (other ? other->validationMessages() : 0);
+}
+
+}  // namespace
+
+Renderer& RenderTest::renderer() { return existing(shared, ImagePassKind::fragment); }
+Renderer& RenderTest::otherRenderer() { return existing(other, ImagePassKind::compute); }
+
+void RenderTest::SetUp() { messagesBefore_ = messages(); }
+void RenderTest::TearDown() {
+  EXPECT_EQ(messages(), messagesBefore_) << "the validation layers have something to say (above, on stderr)";
+}
+
+Frame RenderTest::draw(const Scene& scene, const Look& look, const std::vector<View>& views,
+                       const RenderOptions& options) {
+  Result<Frame> frame = renderer().render(scene, look, 0, views, options);
+  if (!frame) throw std::runtime_error(frame.error().message());
+  return std::move(frame).value();
+}
+
+std::string stereoName(const ::testing::TestParamInfo<Stereo>& info) {
+  return info.param == Stereo::stereo ? "stereo" : "mono";
+}
+
+Look quietLook(const std::vector<std::pair<std::string, std::string>>& knobs) {
+  Look look;
+  std::vector<std::pair<std::string, std::string>> all{
+      {"ground.mode", "off"}, {"background.mode", "look"}, {"background.air", "0"}, {"final.bloom", "0"}};
+  all.insert(all.end(), knobs.begin(), knobs.end());
+  for (const auto& [path, value] : all)
+    if (const Status set = look.set(path, value); !set) throw std::runtime_error(set.error().message());
+  return look;
+}
+
+std::vector<View> viewsFrom(const Scene& scene, const Stand& stand, uint32_t width, uint32_t height,
+                            Stereo stereo) {
+  Viewpoint viewpoint;
+  viewpoint.eye = stand.eye, viewpoint.target = stand.target;
+  viewpoint.roll = stand.roll, viewpoint.verticalFov = stand.fov;
+  Result<std::vector<View>> views =
+      makeViews(scene, viewpoint, float(width) / float(height), stereo, stand.ipd);
+  if (!views) throw std::runtime_error(views.error().message());
+  return std::move(views).value();
+}
+
+View parallelView(float halfHeight, float aspect) {
+  View view;
+  view.worldToEye = glm::translate(glm::mat4(1.0f), glm::vec3(0, 0, -5));
+  view.eyeToClip = orthographicProjection(halfHeight, aspect, 0.1f, 20);
+  return view;
+}
+
+RenderOptions sized(uint32_t width, uint32_t height, std::vector<std::string> aovs, uint32_t samples) {
+  RenderOptions options;
+  options.width = width, options.height = height, options.samples = samples;
+  options.aovs = std::move(aovs);
+  return options;
+}
+
+}  // namespace scumble::test
