@@ -42,6 +42,7 @@ void addVertexInput(gpu::GraphicsPipelineDesc& pipeline, uint32_t inputs) {
 void GeometryStep::create(gpu::Device& device, const FrameResources& resources, const SceneOnGpu& scene,
                           const GeometryStepDesc& desc) {
   hasPassSet_ = desc.passLayout != nullptr;
+  hasViews_ = desc.viewMask != 0;
   materialStrides_ = desc.materialStrides;
   for (const Draw& draw : scene.draws()) {
     gpu::Pipeline& made = pipelines_[variant(draw)];
@@ -61,6 +62,7 @@ void GeometryStep::create(gpu::Device& device, const FrameResources& resources, 
     }
     pipeline.samples = desc.samples;
     pipeline.viewMask = desc.viewMask;
+    pipeline.pushConstantBytes = desc.viewMask ? 4 : 0;
     pipeline.dynamicCulling = true;
     pipeline.sets = {resources.frameLayout().handle(), scene.materialLayout().handle()};
     if (hasPassSet_) pipeline.sets.push_back(desc.passLayout->handle());
@@ -69,7 +71,7 @@ void GeometryStep::create(gpu::Device& device, const FrameResources& resources, 
 }
 
 void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resources, const SceneOnGpu& scene,
-                        VkDescriptorSet passSet, const glm::vec3& eye,
+                        VkDescriptorSet passSet, uint32_t firstView, const glm::vec3& eye,
                         const std::function<bool(const Draw&)>& includes) const {
   const VkBuffer buffers[] = {scene.finalCore().handle(), scene.finalFrame().handle(),
                               scene.surface().handle()};
@@ -98,6 +100,7 @@ void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resource
     if (bound != &pipeline) {
       pipeline.bind(commands);
       pipeline.bindSet(commands, 0, resources.frameSet());
+      if (hasViews_) pipeline.push(commands, firstView);
       bound = &pipeline;
       boundMaterial = ~0u;
     }

@@ -27,7 +27,7 @@ struct GeometryStepDesc {
   gpu::Shader depthOnlyVertex;  // instead of both for opaque surfaces: position in, depth out; may be empty
   std::vector<VkFormat> colorFormats;
   VkCompareOp depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
-  uint32_t samples = 1, viewMask = 0;
+  uint32_t samples = 1, viewMask = 0;  // 0: the shaders know no views
   bool blends = false;  // blended surfaces are composited; else they are drawn like masked ones
   // Set 2, or null for none. Its first bindings are dynamic uniforms, one for each of `materialStrides`: the
   // step from one material's knobs to the next one's, in bytes.
@@ -42,14 +42,14 @@ class GeometryStep {
   // Draws what `includes` lets through: opaque, then masked, then blended surfaces from far to near as `eye`
   // sees them.
   void draw(VkCommandBuffer commands, const FrameResources& resources, const SceneOnGpu& scene,
-            VkDescriptorSet passSet, const glm::vec3& eye,
+            VkDescriptorSet passSet, uint32_t firstView, const glm::vec3& eye,
             const std::function<bool(const Draw&)>& includes = {}) const;
 
  private:
   // Specialised by alpha mode (constant 0), by whether colours vary (1) and by whether textures are read (2).
   static size_t variant(const Draw& draw) { return size_t(draw.alpha) * 4 + draw.varied * 2 + draw.textured; }
   std::array<gpu::Pipeline, 12> pipelines_;
-  bool hasPassSet_ = false;
+  bool hasPassSet_ = false, hasViews_ = false;
   std::vector<uint32_t> materialStrides_;
 };
 

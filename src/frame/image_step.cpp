@@ -16,7 +16,7 @@ void ImageStep::declare(FrameBuilder& frame, const std::string& name, ImageShade
   constants_ = std::move(constants);
   uniforms_ = frame.uniform(std::max<uint64_t>(uniformBytes, 16));
   compute_ = frame.configuration().computeImagePasses;
-  viewMask_ = frame.configuration().viewMask();
+  configuration_ = frame.configuration();
   std::vector<gpu::ResourceUse> uses;
   for (const Input& input : inputs_)
     uses.push_back({input.image, compute_ ? gpu::Use::sampledByCompute : gpu::Use::sampledByFragment});
@@ -57,7 +57,8 @@ void ImageStep::create(FrameBuilder& frame, const FrameResources& resources) {
     desc.fragment = shader_.fragment;
     desc.constants = constants_;
     desc.colorFormats = {output.desc().format};
-    desc.viewMask = viewMask_;
+    desc.viewMask = viewMask(configuration_);
+    desc.pushConstantBytes = 4;
     desc.sets = {resources.frameLayout().handle(), inputLayout_.handle()};
     pipeline_ = gpu::Pipeline(device, desc);
   }
@@ -77,10 +78,12 @@ void ImageStep::record(VkCommandBuffer commands) const {
     vkCmdDispatch(commands, (width + 7) / 8, (height + 7) / 8, output.desc().layers);
     return;
   }
-  const Target target{&output, nullptr, {}};
-  const RenderingScope scope(commands, width, height, viewMask_, {&target, 1}, nullptr);
-  bind();
-  vkCmdDraw(commands, 3, 1, 0, 0);
+  const Target target{&output, nullptr, {}, Target::Before::undefined};
+  drawViews(commands, configuration_, {&target, 1}, nullptr, [&](uint32_t firstView) {
+    bind();
+    pipeline_.push(commands, firstView);
+    vkCmdDraw(commands, 3, 1, 0, 0);
+  });
 }
 
 }  // namespace scumble::frame

@@ -43,7 +43,7 @@ class ImageStep {
   gpu::ResourceId output_ = 0;
   UniformSlice uniforms_;
   bool compute_ = false;
-  uint32_t viewMask_ = 1;
+  Configuration configuration_;
   const FrameResources* resources_ = nullptr;
   gpu::SetLayout inputLayout_, outputLayout_;
   gpu::DescriptorSets inputSet_, outputSet_;

@@ -1,5 +1,6 @@
 #include "frame/pass.h"
 
+#include <algorithm>
 #include <cassert>
 
 namespace scumble::frame {
@@ -65,19 +66,22 @@ FrameResources::FrameResources(gpu::Device& device, const FrameBuilder& builder,
   }
 }
 
-RenderingScope::RenderingScope(VkCommandBuffer commands, uint32_t width, uint32_t height, uint32_t viewMask,
-                               std::span<const Target> colors, const Target* depth)
-    : commands_(commands) {
-  const auto attachment = [](const Target& target, VkImageLayout layout, VkResolveModeFlagBits resolveMode) {
+namespace {
+
+void beginRendering(VkCommandBuffer commands, uint32_t firstLayer, uint32_t mask,
+                    std::span<const Target> colors, const Target* depth) {
+  const auto attachment = [&](const Target& target, VkImageLayout layout, VkResolveModeFlagBits resolveMode) {
+    static constexpr VkAttachmentLoadOp kLoad[] = {
+        VK_ATTACHMENT_LOAD_OP_CLEAR, VK_ATTACHMENT_LOAD_OP_DONT_CARE, VK_ATTACHMENT_LOAD_OP_LOAD};
     VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-    info.imageView = target.image->view();
+    info.imageView = target.image->viewFrom(firstLayer);
     info.imageLayout = layout;
-    info.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    info.loadOp = kLoad[size_t(target.before)];
     info.storeOp = target.resolve ? VK_ATTACHMENT_STORE_OP_DONT_CARE : VK_ATTACHMENT_STORE_OP_STORE;
     info.clearValue = target.clear;
     if (target.resolve) {
       info.resolveMode = resolveMode;
-      info.resolveImageView = target.resolve->view();
+      info.resolveImageView = target.resolve->viewFrom(firstLayer);
       info.resolveImageLayout = layout;
     }
     return info;
@@ -90,18 +94,74 @@ RenderingScope::RenderingScope(VkCommandBuffer commands, uint32_t width, uint32_
   if (depth)
     depthInfo = attachment(*depth, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, VK_RESOLVE_MODE_SAMPLE_ZERO_BIT);
 
+  const gpu::ImageDesc& size = (depth ? depth : &colors[0])->image->desc();
   VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
-  info.renderArea = {{0, 0}, {width, height}};
+  info.renderArea = {{0, 0}, {size.width, size.height}};
   info.layerCount = 1;
-  info.viewMask = viewMask;
+  info.viewMask = mask;
   info.colorAttachmentCount = uint32_t(colorInfos.size());
   info.pColorAttachments = colorInfos.data();
   info.pDepthAttachment = depth ? &depthInfo : nullptr;
   vkCmdBeginRendering(commands, &info);
-  const VkViewport viewport{0, 0, float(width), float(height), 0, 1};
-  const VkRect2D scissor{{0, 0}, {width, height}};
+  const VkViewport viewport{0, 0, float(size.width), float(size.height), 0, 1};
+  const VkRect2D scissor{{0, 0}, {size.width, size.height}};
   vkCmdSetViewport(commands, 0, 1, &viewport);
   vkCmdSetScissor(commands, 0, 1, &scissor);
+}
+
+}  // namespace
+
+uint32_t viewMask(const Configuration& configuration) {
+  return configuration.multiview ? (1u << configuration.viewCount) - 1 : 1;
+}
+
+void drawViews(VkCommandBuffer commands, const Configuration& configuration, std::span<const Target> colors,
+               const Target* depth, const std::function<void(uint32_t firstView)>& draw) {
+  const bool resolves = std::any_of(colors.begin(), colors.end(), [](const Target& t) { return t.resolve; });
+  const bool together = configuration.multiview || configuration.viewCount == 1;
+  if (together || !resolves) {
+    for (uint32_t view = 0; view < (together ? 1 : configuration.viewCount); ++view) {
+      beginRendering(commands, view, viewMask(configuration), colors, depth);
+      draw(view);
+      vkCmdEndRendering(commands);
+    }
+    return;
+  }
+  // The driver that needs its views one by one also resolves into the first layer only, whatever layer it is
+  // given. So the samples are kept, and all layers resolved at once by a rendering that draws nothing.
+  std::vector<Target> kept(colors.begin(), colors.end());
+  Target keptDepth = depth ? *depth : Target{};
+  for (Target& target : kept) target.resolve = nullptr;
+  keptDepth.resolve = nullptr;
+  for (uint32_t view = 0; view < configuration.viewCount; ++view) {
+    beginRendering(commands, view, 1, kept, depth ? &keptDepth : nullptr);
+    draw(view);
+    vkCmdEndRendering(commands);
+  }
+  kept.assign(colors.begin(), colors.end());
+  for (Target& target : kept) target.before = Target::Before::kept;
+  keptDepth = depth ? *depth : Target{};
+  keptDepth.before = Target::Before::kept;
+  VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+  barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT |
+                                                VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT |
+                                                VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT;
+  barrier.srcAccessMask =
+      VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+  barrier.dstAccessMask = barrier.srcAccessMask | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT |
+                          VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT;
+  VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+  dependency.memoryBarrierCount = 1;
+  dependency.pMemoryBarriers = &barrier;
+  vkCmdPipelineBarrier2(commands, &dependency);
+  beginRendering(commands, 0, (1u << configuration.viewCount) - 1, kept, depth ? &keptDepth : nullptr);
+  vkCmdEndRendering(commands);
+}
+
+void drawOnce(VkCommandBuffer commands, const Target& depth, const std::function<void()>& draw) {
+  beginRendering(commands, 0, 0, {}, &depth);
+  draw();
+  vkCmdEndRendering(commands);
 }
 
 }  // namespace scumble::frame

@@ -38,7 +38,7 @@ struct Configuration {
   bool facts = false;          // whether the facts pass runs
   std::vector<Slot> readBack;  // what the caller gets
   bool plain = false;
-  uint32_t viewMask() const { return (1u << viewCount) - 1; }
+  bool multiview = true;  // all views at once; else one after the other
   bool operator==(const Configuration&) const = default;
 };
 
@@ -120,21 +120,27 @@ class Pass {
   virtual void update(const FrameInput&) {}
 };
 
-// Begins rendering into targets of one size; ends it when it goes out of scope.
+// What a pass draws into.
 struct Target {
   const gpu::Image* image = nullptr;
   const gpu::Image* resolve = nullptr;  // null where `image` has one sample
   VkClearValue clear{};
+  enum class Before : uint8_t {
+    cleared,
+    undefined,
+    kept
+  } before = Before::cleared;  // what is in it to begin with
 };
-class RenderingScope {
- public:
-  RenderingScope(VkCommandBuffer commands, uint32_t width, uint32_t height, uint32_t viewMask,
-                 std::span<const Target> colors, const Target* depth);
-  ~RenderingScope() { vkCmdEndRendering(commands_); }
-  RenderingScope(const RenderingScope&) = delete;
 
- private:
-  VkCommandBuffer commands_;
-};
+// The mask that pipelines for these views are made with.
+uint32_t viewMask(const Configuration& configuration);
+
+// Begins rendering into targets of one size, calls `draw` with the number of the first view that it draws,
+// and ends rendering: once for all views with multiview, else once for each.
+void drawViews(VkCommandBuffer commands, const Configuration& configuration, std::span<const Target> colors,
+               const Target* depth, const std::function<void(uint32_t firstView)>& draw);
+
+// The same for what is drawn once a frame, whatever the views.
+void drawOnce(VkCommandBuffer commands, const Target& depth, const std::function<void()>& draw);
 
 }  // namespace scumble::frame

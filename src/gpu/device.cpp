@@ -59,6 +59,13 @@ bool hasGraphicsQueue(VkPhysicalDevice physical, uint32_t* family) {
   return false;
 }
 
+VkDriverId driverOf(VkPhysicalDevice physical) {
+  VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver};
+  vkGetPhysicalDeviceProperties2(physical, &properties);
+  return driver.driverID;
+}
+
 DeviceInfo describe(VkPhysicalDevice physical) {
   VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
   VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver};
@@ -240,6 +247,7 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
   VkPhysicalDeviceProperties properties;
   vkGetPhysicalDeviceProperties(device->physical_, &properties);
   device->limits_ = properties.limits;
+  device->isLlvmpipe_ = driverOf(device->physical_) == VK_DRIVER_ID_MESA_LLVMPIPE;
   device->supports4Samples_ = properties.limits.framebufferColorSampleCounts &
                               properties.limits.framebufferDepthSampleCounts & VK_SAMPLE_COUNT_4_BIT;
 

@@ -111,6 +111,9 @@ class Pipeline {
     vkCmdBindDescriptorSets(commands, bindPoint_, layout_, index, 1, &set, uint32_t(dynamicOffsets.size()),
                             dynamicOffsets.data());
   }
+  void push(VkCommandBuffer commands, uint32_t constant) const {
+    vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_ALL, 0, sizeof(constant), &constant);
+  }
   explicit operator bool() const { return pipeline_ != VK_NULL_HANDLE; }
 
  private:

@@ -96,22 +96,35 @@ Image::Image(Device& device, const ImageDesc& desc, VkImageUsageFlags usage) : d
   try {
     allocation_ = device.memory().allocate(needs, MemoryKind::device, false);
     SCUMBLE_VK(vkBindImageMemory(device.handle(), image_, allocation_.memory, allocation_.offset));
-    VkImageViewCreateInfo viewInfo{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
-    viewInfo.image = image_;
-    viewInfo.viewType = desc.arrayView ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
-    viewInfo.format = desc.format;
-    viewInfo.subresourceRange = {VkImageAspectFlags(isDepthFormat(desc.format) ? VK_IMAGE_ASPECT_DEPTH_BIT
-                                                                               : VK_IMAGE_ASPECT_COLOR_BIT),
-                                 0, desc.mipLevels, 0, desc.layers};
-    SCUMBLE_VK(vkCreateImageView(device.handle(), &viewInfo, nullptr, &view_));
+    view_ = makeView(0);
   } catch (...) {
     vkDestroyImage(device.handle(), image_, nullptr);
     throw;
   }
 }
 
+VkImageView Image::makeView(uint32_t firstLayer) const {
+  VkImageViewCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+  info.image = image_;
+  info.viewType = desc_.arrayView ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+  info.format = desc_.format;
+  const bool depth = isDepthFormat(desc_.format);
+  info.subresourceRange = {VkImageAspectFlags(depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT), 0,
+                           desc_.mipLevels, firstLayer, desc_.layers - firstLayer};
+  VkImageView view;
+  SCUMBLE_VK(vkCreateImageView(device_->handle(), &info, nullptr, &view));
+  return view;
+}
+
+VkImageView Image::viewFrom(uint32_t layer) const {
+  if (layer == 0) return view_;
+  while (viewsFrom_.size() < layer) viewsFrom_.push_back(makeView(uint32_t(viewsFrom_.size() + 1)));
+  return viewsFrom_[layer - 1];
+}
+
 Image::~Image() {
   if (!image_) return;
+  for (VkImageView view : viewsFrom_) vkDestroyImageView(device_->handle(), view, nullptr);
   vkDestroyImageView(device_->handle(), view_, nullptr);
   vkDestroyImage(device_->handle(), image_, nullptr);
   device_->memory().release(allocation_);
@@ -121,6 +134,7 @@ void Image::swap(Image& other) {
   std::swap(device_, other.device_);
   std::swap(image_, other.image_);
   std::swap(view_, other.view_);
+  std::swap(viewsFrom_, other.viewsFrom_);
   std::swap(allocation_, other.allocation_);
   std::swap(desc_, other.desc_);
 }

@@ -54,13 +54,17 @@ class Image {
   }
   VkImage handle() const { return image_; }
   VkImageView view() const { return view_; }  // of all layers and levels
+  // From this layer on; made when it is first asked for.
+  VkImageView viewFrom(uint32_t layer) const;
   const ImageDesc& desc() const { return desc_; }
 
  private:
   void swap(Image& other);
   Device* device_ = nullptr;
   VkImage image_ = VK_NULL_HANDLE;
+  VkImageView makeView(uint32_t firstLayer) const;
   VkImageView view_ = VK_NULL_HANDLE;
+  mutable std::vector<VkImageView> viewsFrom_;  // by first layer, from 1 on
   Allocation allocation_;
   ImageDesc desc_;
 };

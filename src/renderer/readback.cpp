@@ -145,7 +145,8 @@ std::vector<Image> Readback::images(uint32_t width, uint32_t height) const {
         float* out = &image.pixels[i * channels];
         readPixel(desc.format, buffer_.mapped(), layer * pixelsALayer + i, channels, out);
         if (isPremultiplied(slot_) && out[3] > 0.0f && out[3] < 1.0f)
-          for (uint32_t c = 0; c < 3; ++c) out[c] /= out[3];
+          for (uint32_t c = 0; c < (slot_ == Slot::blur ? 2u : 3u); ++c)
+            out[c] /= out[3];  // the blur's B is depth
         if (slot_ == Slot::lit || slot_ == Slot::shadowed)
           for (uint32_t c = 0; c < 3; ++c) out[c] *= out[c];
       }

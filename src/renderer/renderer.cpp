@@ -252,6 +252,7 @@ Result<Frame> Renderer::render(const Scene& scene, const Look& look, double time
   configuration.samples = options.samples;
   configuration.viewCount = uint32_t(views.size());
   configuration.plain = options.plain;
+  configuration.multiview = impl_->device->multiviewWorks();
   configuration.computeImagePasses =
       impl_->imagePasses == ImagePassKind::compute ||
       (impl_->imagePasses == ImagePassKind::automatic && impl_->device->prefersCompute());

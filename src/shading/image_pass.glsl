@@ -18,7 +18,8 @@ void main() {
 
 #else
 
+#include "view_index.glsl"
 layout(location = 0) out vec4 outputColor;
-void main() { outputColor = shade(ivec2(gl_FragCoord.xy), gl_ViewIndex); }
+void main() { outputColor = shade(ivec2(gl_FragCoord.xy), viewIndex()); }
 
 #endif

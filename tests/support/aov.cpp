@@ -23,8 +23,12 @@ glm::dvec4 texel(const Image& image, int x, int y) {
   return value;
 }
 
-double toHalf(double value) { return glm::unpackHalf1x16(glm::packHalf1x16(float(value))); }
-glm::dvec4 toHalf(const glm::dvec4& v) { return {toHalf(v.x), toHalf(v.y), toHalf(v.z), toHalf(v.w)}; }
+double toHalf(double value) {
+  return glm::unpackHalf1x16(glm::packHalf1x16(float(value)));
+}
+glm::dvec4 toHalf(const glm::dvec4& v) {
+  return {toHalf(v.x), toHalf(v.y), toHalf(v.z), toHalf(v.w)};
+}
 
 Texels quarterTexels(const Image& enlarged) {
   const int w = int(enlarged.width) / 4, h = int(enlarged.height) / 4;

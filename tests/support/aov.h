@@ -29,8 +29,8 @@ struct Texels {
   }
 };
 
-// The blur's texels, a quarter of the size, from its AOV, which is enlarged linearly: exact where the size is a multiple
-// of four. Colours are straight, as AOVs are.
+// The blur's texels, a quarter of the size, from its AOV, which is enlarged linearly: exact where the size is
+// a multiple of four. Colours are straight, as AOVs are.
 Texels quarterTexels(const Image& enlarged);
 
 double smoothstep(double low, double high, double x);

@@ -17,12 +17,13 @@ struct Ray {
 Ray pixelRay(const View& view, int x, int y, int width, int height);
 
 struct Hit {
-  double distance = 0;  // along the ray, metres
+  double distance = 0;          // along the ray, metres
   glm::dvec3 position, normal;  // the normal is interpolated and unit
   int id = 0;
 };
 // The nearest triangle whose outside is hit, or any side with `bothSides`.
-std::optional<Hit> castRay(const Ray& ray, const std::vector<WorldTriangle>& triangles, bool bothSides = false);
+std::optional<Hit> castRay(const Ray& ray, const std::vector<WorldTriangle>& triangles,
+                           bool bothSides = false);
 
 // Where a point of the world lies in the picture, in pixels from its upper left corner.
 glm::dvec2 pixelOf(const View& view, const glm::dvec3& world, int width, int height);

@@ -34,10 +34,16 @@ int messages() {
 
 }  // namespace
 
-Renderer& RenderTest::renderer() { return existing(shared, ImagePassKind::fragment); }
-Renderer& RenderTest::otherRenderer() { return existing(other, ImagePassKind::compute); }
+Renderer& RenderTest::renderer() {
+  return existing(shared, ImagePassKind::fragment);
+}
+Renderer& RenderTest::otherRenderer() {
+  return existing(other, ImagePassKind::compute);
+}
 
-void RenderTest::SetUp() { messagesBefore_ = messages(); }
+void RenderTest::SetUp() {
+  messagesBefore_ = messages();
+}
 void RenderTest::TearDown() {
   EXPECT_EQ(messages(), messagesBefore_) << "the validation layers have something to say (above, on stderr)";
 }

@@ -1,4 +1,5 @@
-// Tests that draw: one renderer for the whole process, with the validation layers; a message from them fails the test.
+// Tests that draw: one renderer for the whole process, with the validation layers; a message from them fails
+// the test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -35,12 +36,13 @@ class BothEyes : public RenderTest, public ::testing::WithParamInterface<Stereo>
   static size_t viewCount() { return GetParam() == Stereo::stereo ? 2 : 1; }
 };
 std::string stereoName(const ::testing::TestParamInfo<Stereo>& info);
-#define INSTANTIATE_BOTH_EYES(suite)                                                                       \
-  INSTANTIATE_TEST_SUITE_P(Views, suite, ::testing::Values(::scumble::Stereo::mono, ::scumble::Stereo::stereo), \
+#define INSTANTIATE_BOTH_EYES(suite)                                                              \
+  INSTANTIATE_TEST_SUITE_P(Views, suite,                                                          \
+                           ::testing::Values(::scumble::Stereo::mono, ::scumble::Stereo::stereo), \
                            ::scumble::test::stereoName)
 
-// A look without what tests of single passes do not want: no ground, a background of the look's own colours, no air, no
-// bloom. Then the given knobs.
+// A look without what tests of single passes do not want: no ground, a background of the look's own colours,
+// no air, no bloom. Then the given knobs.
 Look quietLook(const std::vector<std::pair<std::string, std::string>>& knobs = {});
 
 // Views from an eye to a target; two eyes stand `ipd` apart. Angles in degrees.
@@ -53,6 +55,7 @@ std::vector<View> viewsFrom(const Scene& scene, const Stand& stand, uint32_t wid
 // A view by a parallel projection along -Z from (0, 0, 5); `halfHeight` metres above and below the origin.
 View parallelView(float halfHeight, float aspect);
 
-RenderOptions sized(uint32_t width, uint32_t height, std::vector<std::string> aovs = {}, uint32_t samples = 1);
+RenderOptions sized(uint32_t width, uint32_t height, std::vector<std::string> aovs = {},
+                    uint32_t samples = 1);
 
 }  // namespace scumble::test

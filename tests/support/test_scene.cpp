@@ -72,9 +72,15 @@ TestMesh boxMesh(const glm::vec3& low, const glm::vec3& high) {
 
 namespace {
 
-std::vector<float> floats(const std::vector<glm::vec2>& v) { return {&v[0].x, &v[0].x + v.size() * 2}; }
-std::vector<float> floats(const std::vector<glm::vec3>& v) { return {&v[0].x, &v[0].x + v.size() * 3}; }
-std::vector<float> floats(const std::vector<glm::vec4>& v) { return {&v[0].x, &v[0].x + v.size() * 4}; }
+std::vector<float> floats(const std::vector<glm::vec2>& v) {
+  return {&v[0].x, &v[0].x + v.size() * 2};
+}
+std::vector<float> floats(const std::vector<glm::vec3>& v) {
+  return {&v[0].x, &v[0].x + v.size() * 3};
+}
+std::vector<float> floats(const std::vector<glm::vec4>& v) {
+  return {&v[0].x, &v[0].x + v.size() * 4};
+}
 
 Json numbers(const glm::mat4& m) {
   Json list = Json::array();
@@ -151,13 +157,12 @@ void TestScene::place(const TestMesh& mesh, const std::vector<glm::dmat4>& verte
       const glm::dmat4& m = vertexMatrices[vertexMatrices.size() == 1 ? 0 : v];
       rest[k] = glm::dvec3(mesh.positions[v]);
       t.positions[k] = glm::dvec3(m * glm::dvec4(rest[k], 1));
-      t.normals[k] = glm::normalize(glm::inverse(glm::transpose(glm::dmat3(m))) *
-                                    glm::dvec3(mesh.normals[v]));
+      t.normals[k] =
+          glm::normalize(glm::inverse(glm::transpose(glm::dmat3(m))) * glm::dvec3(mesh.normals[v]));
     }
     // glTF: a mirrored node's triangles keep their outside.
     const double mirror = glm::determinant(glm::dmat3(vertexMatrices[0])) < 0 ? -1 : 1;
-    t.outward = mirror *
-                glm::cross(t.positions[1] - t.positions[0], t.positions[2] - t.positions[0]);
+    t.outward = mirror * glm::cross(t.positions[1] - t.positions[0], t.positions[2] - t.positions[0]);
     triangles_.push_back(t);
   }
 }
@@ -193,8 +198,8 @@ void TestScene::addSkinned(const TestMesh& mesh, int material, const std::vector
     jointNodes.push_back(addNode({{"matrix", numbers(joints[j])}}));
     binds.insert(binds.end(), &inverseBind[j][0][0], &inverseBind[j][0][0] + 16);
   }
-  json()["skins"] = Json::array(
-      {{{"joints", jointNodes}, {"inverseBindMatrices", gltf_.add(binds, 5126, "MAT4", 16)}}});
+  json()["skins"] =
+      Json::array({{{"joints", jointNodes}, {"inverseBindMatrices", gltf_.add(binds, 5126, "MAT4", 16)}}});
   // Linear blend skinning.
   std::vector<glm::dmat4> matrices;
   for (size_t v = 0; v < mesh.positions.size(); ++v) {
@@ -211,9 +216,11 @@ void TestScene::light(const glm::vec3& towards) {
   json()["extensionsUsed"].push_back("KHR_lights_punctual");
   json()["extensions"]["KHR_lights_punctual"]["lights"] = Json::array({{{"type", "directional"}}});
   // Lights shine along their -Z.
-  const glm::vec3 z = glm::normalize(towards), up = std::abs(z.y) > 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+  const glm::vec3 z = glm::normalize(towards),
+                  up = std::abs(z.y) > 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
   const glm::vec3 x = glm::normalize(glm::cross(up, z));
-  const glm::mat4 matrix(glm::vec4(x, 0), glm::vec4(glm::cross(z, x), 0), glm::vec4(z, 0), glm::vec4(0, 0, 0, 1));
+  const glm::mat4 matrix(glm::vec4(x, 0), glm::vec4(glm::cross(z, x), 0), glm::vec4(z, 0),
+                         glm::vec4(0, 0, 0, 1));
   addNode({{"matrix", numbers(matrix)}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
 }
 

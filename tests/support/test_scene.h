@@ -1,5 +1,5 @@
-// Small scenes for tests that draw: meshes made by code, written as glTF and read back through the importer, and the
-// same triangles, placed in double precision, for what the CPU expects to see.
+// Small scenes for tests that draw: meshes made by code, written as glTF and read back through the importer,
+// and the same triangles, placed in double precision, for what the CPU expects to see.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -25,7 +25,8 @@ struct TestMesh {
   std::vector<glm::vec4> weights;
 };
 
-// A parallelogram that faces cross(alongU, alongV), of so many cells; uv goes from (0, 0) at `corner` to `uvs`.
+// A parallelogram that faces cross(alongU, alongV), of so many cells; uv goes from (0, 0) at `corner` to
+// `uvs`.
 TestMesh gridMesh(const glm::vec3& corner, const glm::vec3& alongU, const glm::vec3& alongV, int cells = 1,
                   const glm::vec2& uvs = {1, 1});
 TestMesh sphereMesh(const glm::vec3& center, float radius, int segments = 32);
@@ -74,7 +75,8 @@ class TestScene {
   std::vector<WorldTriangle> triangles_;
 };
 
-// Sphere, box and a wall on a ground that ends before the picture does: light, shadow, depth edges and sky in one.
+// Sphere, box and a wall on a ground that ends before the picture does: light, shadow, depth edges and sky in
+// one.
 TestScene stillLife();
 
 }  // namespace scumble::test

@@ -6,7 +6,6 @@
 // In:  R, G: light and lens, premultiplied by coverage; A: coverage.
 // Out: the same, and in B the eye depth, on which the next step relies.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_multiview : require
 #include "../../shading/frame.glsl"
 #include "blur.shared.h"
 
@@ -22,7 +21,7 @@ float fetchDepth(ivec2 texel, int layer) {
 vec4 shade(ivec2 pixel, int layer) {
   ivec2 last = textureSize(source, 0).xy - 1;
   // The texel left of (above) the output pixel's centre, and the first tap.
-  ivec2 center = min(pixel * blurStep.scale + blurStep.axis * (blurStep.factor / 2 - 1), last);
+  ivec2 center = min(pixel * blurStep.scale + blurStep.axis * ((blurStep.factor - 1) / 2), last);
   ivec2 first = pixel * blurStep.scale + blurStep.axis * blurStep.firstTap;
   float ownDepth = kFirst != 0 ? fetchDepth(max(center, ivec2(0)), layer)
                                : texelFetch(source, ivec3(max(center, ivec2(0)), layer), 0).b;

@@ -1,7 +1,6 @@
 #version 460
 // The image half of the Color Pass: lit and shadowed colours mixed by the final shadow, in the air, over the sky.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_multiview : require
 #include "../../shading/frame.glsl"
 #include "color.shared.h"
 

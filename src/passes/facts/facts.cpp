@@ -30,7 +30,7 @@ class Facts : public Pass {
     for (const Slot fact : kFacts) uses.push_back({frame.slot(fact), gpu::Use::colorTarget});
     for (size_t i = 0; i < kFacts.size(); ++i) targets_[i] = frame.slot(kFacts[i]);
     metaTextureParams_.declare(frame);
-    viewMask_ = c.viewMask();
+    configuration_ = frame.configuration();
     frame.addStep("facts", std::move(uses), [this](VkCommandBuffer commands) { record(commands); });
   }
 
@@ -46,7 +46,7 @@ class Facts : public Pass {
     desc.fragment = {shaders::facts_frag};
     desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor | kDPdu | kDPdv | kPatternUv;
     for (const Slot fact : kFacts) desc.colorFormats.push_back(slotInfo(fact).format);
-    desc.viewMask = viewMask_;
+    desc.viewMask = viewMask(configuration_);
     desc.passLayout = &layout_;
     desc.materialStrides = {metaTextureParams_.kStride};
     step_.create(frame.device(), resources, frame.scene(), desc);
@@ -65,14 +65,14 @@ class Facts : public Pass {
     static_assert(kFacts[0] == Slot::factDepth);
     colors[0].clear.color = {{infinity, infinity, infinity, infinity}};
     const Target depth{&resources_->image(depth_), nullptr, {}};
-    const gpu::ImageDesc& size = colors[0].image->desc();
-    const RenderingScope scope(commands, size.width, size.height, viewMask_, colors, &depth);
-    step_.draw(commands, *resources_, *scene_, set_[0], eye_);
+    drawViews(commands, configuration_, colors, &depth, [&](uint32_t firstView) {
+      step_.draw(commands, *resources_, *scene_, set_[0], firstView, eye_);
+    });
   }
 
   std::array<gpu::ResourceId, kFacts.size()> targets_{};
   gpu::ResourceId depth_ = 0;
-  uint32_t viewMask_ = 1;
+  Configuration configuration_;
   MaterialParams<frame::WarpMetaTextureParams> metaTextureParams_;
   const FrameResources* resources_ = nullptr;
   const SceneOnGpu* scene_ = nullptr;

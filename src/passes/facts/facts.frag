@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_multiview : require
 #include "../../shading/frame.glsl"
 #include "../../shading/material.glsl"
 #include "../../shading/metatexture.glsl"
+#include "../../shading/view_index.glsl"
 
 layout(constant_id = 0) const int kAlphaMode = 0;
 layout(set = 2, binding = 0, scalar) uniform MetaTextureBlock { MetaTextureParams meta; };
@@ -36,7 +36,7 @@ void main() {
   uvGradients(dSdu, dSdv, gradU, gradV);
   MetaTextureScale scale = metaTextureScale(gradU, gradV, dSdu, dSdv, meta.size * frame.pixelScale);
 
-  outDepth = vec4(eyeDepth(gl_FragCoord.z, gl_ViewIndex));
+  outDepth = vec4(eyeDepth(gl_FragCoord.z, viewIndex()));
   outPosition = vec4(inPosition, 1.0);
   outNormal = vec4(normalize(gl_FrontFacing ? inNormal : -inNormal), 1.0);
   outUv = vec4(inUv, 0.0, 1.0);

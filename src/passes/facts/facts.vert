@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_multiview : require
 #include "../../shading/frame.glsl"
 #include "../../shading/material.glsl"
+#include "../../shading/view_index.glsl"
 
 layout(constant_id = 0) const int kAlphaMode = 0;
 
@@ -25,7 +25,7 @@ layout(location = 6) flat out uint outObject;
 layout(location = 7) out vec3 outBaseUvAlpha;
 
 void main() {
-  ViewUniforms view = frame.views[gl_ViewIndex];
+  ViewUniforms view = frame.views[viewIndex()];
   gl_Position = view.worldToClip * vec4(inPosition, 1.0);
   outPosition = inPosition;
   outNormal = decodeNormal(inNormal);

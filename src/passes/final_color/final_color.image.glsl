@@ -1,7 +1,6 @@
 #version 460
 // The picture: the colour pass warped by the warp pass, with bloom from the lens channel.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_multiview : require
 #include "../../shading/frame.glsl"
 #include "final_color.shared.h"
 

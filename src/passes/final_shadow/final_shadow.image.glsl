@@ -2,7 +2,6 @@
 // Shadow shapes: the blurred light is thresholded to a hard, rounded edge; inside the dark an inner glow; where the
 // breakup map is set, more steps (paper 000, section 5.1).
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_multiview : require
 #include "../../shading/frame.glsl"
 #include "final_shadow.shared.h"
 

@@ -17,7 +17,7 @@ class Plain : public Pass {
   void declare(FrameBuilder& frame) override {
     const Configuration& c = frame.configuration();
     samples_ = c.samples;
-    viewMask_ = c.viewMask();
+    configuration_ = frame.configuration();
     resolved_ = frame.slot(Slot::plain);
     drawn_ = samples_ > 1 ? frame.multisampled(Slot::plain) : resolved_;
     depth_ =
@@ -38,7 +38,7 @@ class Plain : public Pass {
     desc.inputs = kPosition | kUv0 | kUv1 | kColor;
     desc.colorFormats = {slotInfo(Slot::plain).format};
     desc.samples = samples_;
-    desc.viewMask = viewMask_;
+    desc.viewMask = viewMask(configuration_);
     desc.blends = true;
     step_.create(frame.device(), resources, frame.scene(), desc);
   }
@@ -50,13 +50,14 @@ class Plain : public Pass {
     const Target color{
         &resources_->image(drawn_), samples_ > 1 ? &resources_->image(resolved_) : nullptr, {}};
     const Target depth{&resources_->image(depth_), nullptr, {}};
-    const gpu::ImageDesc& size = color.image->desc();
-    const RenderingScope scope(commands, size.width, size.height, viewMask_, {&color, 1}, &depth);
-    step_.draw(commands, *resources_, *scene_, VK_NULL_HANDLE, eye_);
+    drawViews(commands, configuration_, {&color, 1}, &depth, [&](uint32_t firstView) {
+      step_.draw(commands, *resources_, *scene_, VK_NULL_HANDLE, firstView, eye_);
+    });
   }
 
   gpu::ResourceId drawn_ = 0, resolved_ = 0, depth_ = 0;
-  uint32_t samples_ = 1, viewMask_ = 1;
+  uint32_t samples_ = 1;
+  Configuration configuration_;
   const FrameResources* resources_ = nullptr;
   const SceneOnGpu* scene_ = nullptr;
   glm::vec3 eye_{0.0f};

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_multiview : require
 #include "../../shading/frame.glsl"
 #include "../../shading/material.glsl"
+#include "../../shading/view_index.glsl"
 
 layout(constant_id = 2) const int kTextured = 0;
 
@@ -15,7 +15,7 @@ layout(location = 0) out vec2 outUv;
 layout(location = 1) out vec4 outColor;
 
 void main() {
-  gl_Position = frame.views[gl_ViewIndex].worldToClip * vec4(inPosition, 1.0);
+  gl_Position = frame.views[viewIndex()].worldToClip * vec4(inPosition, 1.0);
   outUv = kTextured != 0 ? baseUv(inUv0, inUv1) : vec2(0.0);
   outColor = material.baseColor * inColor;
 }

@@ -38,9 +38,10 @@ class ShadowMap : public Pass {
   void record(VkCommandBuffer commands) const {
     Target depth{&resources_->image(map_), nullptr, {}};
     depth.clear.depthStencil = {1.0f, 0};
-    const RenderingScope scope(commands, kShadowMapSize, kShadowMapSize, 0, {}, &depth);
-    step_.draw(commands, *resources_, *scene_, VK_NULL_HANDLE, glm::vec3(0.0f),
-               [](const Draw& draw) { return draw.casts; });
+    drawOnce(commands, depth, [&] {
+      step_.draw(commands, *resources_, *scene_, VK_NULL_HANDLE, 0, glm::vec3(0.0f),
+                 [](const Draw& draw) { return draw.casts; });
+    });
   }
 
   gpu::ResourceId map_ = 0;

@@ -28,7 +28,7 @@ class Surface : public Pass {
   void declare(FrameBuilder& frame) override {
     const Configuration& c = frame.configuration();
     samples_ = c.samples;
-    viewMask_ = c.viewMask();
+    configuration_ = frame.configuration();
     std::vector<gpu::ResourceUse> uses{
         {frame.finalVertices(), gpu::Use::vertexBuffer},
         {shadowMap_ = frame.slot(Slot::shadowMap), gpu::Use::sampledByFragment}};
@@ -66,7 +66,7 @@ class Surface : public Pass {
     for (const Slot slot : kTargets)
       if (slot != Slot::depth) desc.colorFormats.push_back(slotInfo(slot).format);
     desc.samples = samples_;
-    desc.viewMask = viewMask_;
+    desc.viewMask = viewMask(configuration_);
     desc.blends = true;
     desc.passLayout = &layout_;
     desc.materialStrides = {params_.kStride};
@@ -94,14 +94,15 @@ class Surface : public Pass {
           &resources_->image(drawn_[i]), samples_ > 1 ? &resources_->image(resolved_[i]) : nullptr, {}};
     };
     const Target colors[] = {target(0), target(1), target(2)}, depth = target(3);
-    const gpu::ImageDesc& size = colors[0].image->desc();
-    const RenderingScope scope(commands, size.width, size.height, viewMask_, colors, &depth);
-    step_.draw(commands, *resources_, *scene_, set_[0], eye_);
+    drawViews(commands, configuration_, colors, &depth, [&](uint32_t firstView) {
+      step_.draw(commands, *resources_, *scene_, set_[0], firstView, eye_);
+    });
   }
 
   gpu::ResourceId shadowMap_ = 0;
   std::array<gpu::ResourceId, kTargets.size()> drawn_{}, resolved_{};
-  uint32_t samples_ = 1, viewMask_ = 1;
+  uint32_t samples_ = 1;
+  Configuration configuration_;
   UniformSlice uniforms_;
   MaterialParams<SurfaceParams> params_;
   const FrameResources* resources_ = nullptr;

@@ -2,7 +2,6 @@
 // The shadow channels and both colours of every surface in one geometry pass (FORMULAS 14): the colour pass then only
 // mixes.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_multiview : require
 #include "../../shading/frame.glsl"
 #include "../../shading/color_map.glsl"
 #include "../../shading/light_space.glsl"

@@ -1,10 +1,10 @@
 #version 460
 // Everything that varies slowly over a triangle is computed here: fragments of small triangles are many.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_multiview : require
 #include "../../shading/frame.glsl"
 #include "../../shading/light_space.glsl"
 #include "../../shading/material.glsl"
+#include "../../shading/view_index.glsl"
 
 layout(constant_id = 1) const int kVaried = 0;    // colours vary: vertex colours or textures
 layout(constant_id = 2) const int kTextured = 0;
@@ -21,7 +21,7 @@ layout(location = 2) out vec4 outColor;
 layout(location = 3) out vec4 outUvs;
 
 void main() {
-  ViewUniforms view = frame.views[gl_ViewIndex];
+  ViewUniforms view = frame.views[viewIndex()];
   gl_Position = view.worldToClip * vec4(inPosition, 1.0);
   vec3 normal = decodeNormal(inNormal);
   float lambert = dot(normal, frame.toLight);

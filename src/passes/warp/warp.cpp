@@ -70,7 +70,7 @@ class Warp : public Pass {
   void create(FrameBuilder& frame, const FrameResources& resources) override {
     resources_ = &resources;
     scene_ = &frame.scene();
-    viewMask_ = frame.configuration().viewMask();
+    configuration_ = frame.configuration();
     constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
     layout_ = gpu::SetLayout(frame.device(), {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, kStages},
                                               {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, kStages}});
@@ -83,7 +83,7 @@ class Warp : public Pass {
     desc.fragment = {shaders::warp_surface_frag};
     desc.inputs = kPosition | kUv0 | kUv1 | kColor | kDPdu | kSmoothNormal | kDPdv | kPatternUv;
     desc.colorFormats = {kPatternFormat, kKnobsFormat};
-    desc.viewMask = viewMask_;
+    desc.viewMask = viewMask(configuration_);
     desc.passLayout = &layout_;
     desc.materialStrides = {params_.kStride, metaTextureParams_.kStride};
     step_.create(frame.device(), resources, frame.scene(), desc);
@@ -103,17 +103,17 @@ class Warp : public Pass {
                                                VK_SAMPLER_ADDRESS_MODE_REPEAT};
 
   void record(VkCommandBuffer commands) const {
-    const gpu::Image& image = resources_->image(pattern_);
-    const Target colors[] = {{&image, nullptr, {}}, {&resources_->image(knobs_), nullptr, {}}};
+    const Target colors[] = {{&resources_->image(pattern_)}, {&resources_->image(knobs_)}};
     const Target depth{&resources_->image(depth_), nullptr, {}};
-    const RenderingScope scope(commands, image.desc().width, image.desc().height, viewMask_, colors, &depth);
-    step_.draw(commands, *resources_, *scene_, set_[0], eye_);
+    drawViews(commands, configuration_, colors, &depth, [&](uint32_t firstView) {
+      step_.draw(commands, *resources_, *scene_, set_[0], firstView, eye_);
+    });
   }
 
   gpu::ResourceId pattern_ = 0, knobs_ = 0, depth_ = 0;
   const FrameResources* resources_ = nullptr;
   const SceneOnGpu* scene_ = nullptr;
-  uint32_t viewMask_ = 1;
+  Configuration configuration_;
   glm::vec3 eye_{0.0f};
   MaterialParams<WarpParams> params_;
   MaterialParams<frame::WarpMetaTextureParams> metaTextureParams_;

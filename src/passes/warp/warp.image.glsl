@@ -3,7 +3,6 @@
 // Out: R, G: vector in pixels (x right, y down); B: breakup marks in [0, 1]; A: eye depth of the inflated surface, 0 where
 // there is none.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_multiview : require
 #include "../../shading/frame.glsl"
 #include "../../shading/metatexture.glsl"
 

@@ -6,7 +6,6 @@
 //           precision of 0.4 percent, which is less than a hundredth of a blend).
 // Target 1: R: amount / 64 pixels; G: (log2 of the texture's size in pixels) / 16; B: contrast; A: coverage.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_multiview : require
 #include "../../shading/frame.glsl"
 #include "../../shading/material.glsl"
 #include "../../shading/metatexture.glsl"

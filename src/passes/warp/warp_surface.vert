@@ -1,10 +1,10 @@
 #version 460
 // The inflated surface: each vertex moves outward along its screen-space projected normal (paper 000, section 4.1).
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_multiview : require
 #include "../../shading/frame.glsl"
 #include "../../shading/material.glsl"
 #include "../../shading/metatexture.glsl"
+#include "../../shading/view_index.glsl"
 #include "warp.glsl"
 
 layout(constant_id = 0) const int kAlphaMode = 0;
@@ -24,7 +24,7 @@ layout(location = 2) out vec3 outTangentV;
 layout(location = 3) out vec3 outBaseUvAlpha;
 
 void main() {
-  ViewUniforms view = frame.views[gl_ViewIndex];
+  ViewUniforms view = frame.views[viewIndex()];
   vec4 clip = view.worldToClip * vec4(inPosition, 1.0);
 
   // Outward on the screen, in pixels per metre. Its length tells how far the normal is turned from the viewer:
