@@ -1,0 +1,113 @@
+#!/usr/bin/env python3
+"""Keeps the documentation true where a machine can tell.
+
+    tests/docs_test.py PROGRAM [ROOT]      PROGRAM: the built `scumble`; exit code 1 with a list if something is wrong
+    tests/docs_test.py PROGRAM --write     makes docs/knobs.md again
+
+docs/knobs.md is what the program prints; relative links and pictures in README.md and docs/*.md lead somewhere; every
+long option of `scumble` that README.md mentions is one that --help shows.
+"""
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+HEADER = "Every knob, as `scumble params` prints it. Made by `python3 tests/docs_test.py build/scumble --write`."
+
+FENCE = re.compile(r"^ *(```|~~~)")
+# [text](target) and ![text](target), with an optional title.
+LINK = re.compile(r"\[[^\]]*\]\(\s*<?([^)\s>]+)>?(?:\s+[\"'][^)]*)?\)")
+HEADING = re.compile(r"^#+ +(.*?) *#* *$")
+OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]*")
+# Commands of other programs: their options are not ours.
+OTHER_PROGRAM = re.compile(r"\b(cmake|ctest|ninja|git|python3|apt-get|\S+\.py)\b")
+
+
+def output_of(program, *arguments):
+    return subprocess.run([program, *arguments], capture_output=True, text=True, check=True).stdout
+
+
+def knobs_page(program):
+    return f"# Knobs\n\n{HEADER}\n\n```text\n{output_of(program, 'params')}```\n"
+
+
+def lines_without_code(text):
+    """The lines outside of fenced code, with code spans blanked."""
+    inside = False
+    for number, line in enumerate(text.splitlines(), 1):
+        if FENCE.match(line):
+            inside = not inside
+        elif not inside:
+            yield number, re.sub(r"`[^`]*`", "", line)
+
+
+def anchors_of(text):
+    """The anchors that headings get: lower case, punctuation gone, spaces to hyphens."""
+    anchors, inside = set(), False
+    for line in text.splitlines():
+        if FENCE.match(line):
+            inside = not inside
+        match = None if inside else HEADING.match(line)
+        if match:
+            plain = re.sub(r"\[([^\]]*)\]\([^)]*\)", r"\1", match.group(1)).lower()
+            anchors.add(re.sub(r"[^\w\- ]", "", plain).replace(" ", "-"))
+    return anchors
+
+
+def check_links(root, pages):
+    for page in pages:
+        for number, line in lines_without_code(page.read_text(encoding="utf-8")):
+            for target in LINK.findall(line):
+                if re.match(r"[a-z][a-z0-9+.-]*:", target):
+                    continue
+                path, _, anchor = target.partition("#")
+                place = (page.parent / path).resolve() if path else page
+                where = f"{page.relative_to(root)}:{number}"
+                if not place.exists():
+                    yield f"{where}: {target} leads nowhere"
+                elif root not in [place, *place.parents]:
+                    yield f"{where}: {target} leads out of the repository"
+                elif anchor and place.suffix == ".md" and anchor not in anchors_of(place.read_text(encoding="utf-8")):
+                    yield f"{where}: {target} names no heading of that page"
+
+
+def check_options(root, program):
+    """Options that README.md mentions: all of them are one of the commands', or the program's own."""
+    known = set(OPTION.findall(output_of(program, "--help-all")))
+    page = root / "README.md"
+    for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
+        if OTHER_PROGRAM.search(line):
+            continue
+        for option in OPTION.findall(line):
+            if option not in known:
+                yield f"README.md:{number}: `scumble` has no option {option}"
+
+
+def check_knobs(root, program):
+    page = root / "docs" / "knobs.md"
+    if not page.exists() or page.read_text(encoding="utf-8") != knobs_page(program):
+        yield ("docs/knobs.md is not what the program prints; make it again: "
+               f"python3 tests/docs_test.py {program} --write")
+
+
+def main():
+    if len(sys.argv) not in (2, 3):
+        print(__doc__, file=sys.stderr)
+        return 2
+    program = str(Path(sys.argv[1]).resolve())
+    if sys.argv[2:] == ["--write"]:
+        (ROOT / "docs" / "knobs.md").write_text(knobs_page(program), encoding="utf-8")
+        return 0
+    root = Path(sys.argv[2]).resolve() if len(sys.argv) > 2 else ROOT
+    pages = [root / "README.md", *sorted((root / "docs").glob("*.md"))]
+    problems = [*check_knobs(root, program), *check_links(root, pages), *check_options(root, program)]
+    for problem in problems:
+        print(problem, file=sys.stderr)
+    if not problems:
+        print(f"docs: {len(pages)} pages are true where a machine can tell")
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
