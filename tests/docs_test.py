@@ -5,7 +5,8 @@
     tests/docs_test.py PROGRAM --write     makes docs/knobs.md again
 
 docs/knobs.md is what the program prints; relative links and pictures in README.md and docs/*.md lead somewhere; every
-long option of `scumble` that README.md mentions is one that --help shows.
+long option of `scumble` that README.md mentions is one that --help shows; the program that README.md shows is
+examples/embed/main.cpp.
 """
 import re
 import subprocess
@@ -91,6 +92,14 @@ def check_knobs(root, program):
                f"python3 tests/docs_test.py {program} --write")
 
 
+def check_embed(root):
+    source = root / "examples" / "embed" / "main.cpp"
+    if source.exists():
+        code = re.sub(r"\A(//.*\n)+", "", source.read_text(encoding="utf-8")).strip()
+        if code not in (root / "README.md").read_text(encoding="utf-8"):
+            yield "README.md does not show examples/embed/main.cpp as it is"
+
+
 def main():
     if len(sys.argv) not in (2, 3):
         print(__doc__, file=sys.stderr)
@@ -101,7 +110,7 @@ def main():
         return 0
     root = Path(sys.argv[2]).resolve() if len(sys.argv) > 2 else ROOT
     pages = [root / "README.md", *sorted((root / "docs").glob("*.md"))]
-    problems = [*check_knobs(root, program), *check_links(root, pages), *check_options(root, program)]
+    problems = [*check_knobs(root, program), *check_links(root, pages), *check_options(root, program), *check_embed(root)]
     for problem in problems:
         print(problem, file=sys.stderr)
     if not problems:
