@@ -7,6 +7,10 @@
 layout(set = 0, binding = 0, scalar) uniform FrameBlock { FrameUniforms frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer ObjectBlock { ObjectData objects[]; };
 
+// A field of one view's uniforms. Choosing between two loads costs less than one at an index that the compiler does not
+// know to be the same for all pixels: CPU drivers then load it pixel by pixel.
+#define VIEW_FIELD(field, view) ((view) == 0 ? frame.views[0].field : frame.views[1].field)
+
 // Unit vectors in 2 x snorm16, by the octahedral map (Cigolle et al. 2014).
 vec3 decodeNormal(vec2 oct) {
   vec3 n = vec3(oct, 1.0 - abs(oct.x) - abs(oct.y));
@@ -26,7 +30,7 @@ uint encodeNormal(vec3 n) {
 // Metres along the view axis, from a depth buffer's value; very far (1e30) where nothing is.
 const float kNothing = 1e30;
 float eyeDepth(float depth, int view) {
-  vec4 t = frame.views[view].depthToEye;
+  vec4 t = VIEW_FIELD(depthToEye, view);
   return depth <= 0.0 ? kNothing : (t.x + t.y * depth) / (t.z + t.w * depth);
 }
 #endif

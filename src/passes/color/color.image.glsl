@@ -11,9 +11,9 @@ layout(set = 1, binding = 3) uniform sampler2DArray shadowed;
 layout(set = 1, binding = 4) uniform sampler2DArray depth;
 
 vec3 sky(vec2 ndc, int layer) {
-  ViewUniforms view = frame.views[layer];
-  vec3 ray = vec3((ndc * view.ndcToEyeRay.xy + view.ndcToEyeRay.zw) * (1.0 - view.orthographic), -1.0);
-  float sine = dot(view.upInEye, ray) * inversesqrt(dot(ray, ray));  // of the elevation
+  vec4 toRay = VIEW_FIELD(ndcToEyeRay, layer);
+  vec3 ray = vec3((ndc * toRay.xy + toRay.zw) * (1.0 - VIEW_FIELD(orthographic, layer)), -1.0);
+  float sine = dot(VIEW_FIELD(upInEye, layer), ray) * inversesqrt(dot(ray, ray));  // of the elevation
   float t = clamp(sine / u.height, 0.0, 1.0);
   return mix(u.horizon, u.zenith, t * t * (3.0 - 2.0 * t));
 }

@@ -25,14 +25,14 @@ layout(location = 6) flat out uint outObject;
 layout(location = 7) out vec3 outBaseUvAlpha;
 
 void main() {
-  ViewUniforms view = frame.views[viewIndex()];
-  gl_Position = view.worldToClip * vec4(inPosition, 1.0);
+  mat4 worldToClip = VIEW_FIELD(worldToClip, viewIndex());
+  gl_Position = worldToClip * vec4(inPosition, 1.0);
   outPosition = inPosition;
   outNormal = decodeNormal(inNormal);
   outUv = inPatternUv;
-  outTangentU = (view.worldToClip * vec4(inDPdu, 0.0)).xyw;
-  outTangentV = (view.worldToClip * vec4(inDPdv, 0.0)).xyw;
-  outPrevious = view.previousWorldToClip * vec4(inPosition, 1.0);
+  outTangentU = (worldToClip * vec4(inDPdu, 0.0)).xyw;
+  outTangentV = (worldToClip * vec4(inDPdv, 0.0)).xyw;
+  outPrevious = VIEW_FIELD(previousWorldToClip, viewIndex()) * vec4(inPosition, 1.0);
   outObject = gl_InstanceIndex;
   if (kAlphaMode != 0) outBaseUvAlpha = vec3(baseUv(inUv0, inUv1), inColor.a);
 }

@@ -12,7 +12,7 @@ layout(set = 1, binding = 4) uniform sampler2DArray blurred;
 
 // Depth-buffer value of a point one percent behind the inflated surface.
 float surfaceDepth(float distance, int layer) {
-  vec4 t = frame.views[layer].depthToEye;
+  vec4 t = VIEW_FIELD(depthToEye, layer);
   float far = 1.01 * distance;
   return (t.x - t.z * far) / (t.w * far - t.y);
 }

@@ -15,7 +15,7 @@ layout(location = 0) out vec2 outUv;
 layout(location = 1) out vec4 outColor;
 
 void main() {
-  gl_Position = frame.views[viewIndex()].worldToClip * vec4(inPosition, 1.0);
+  gl_Position = VIEW_FIELD(worldToClip, viewIndex()) * vec4(inPosition, 1.0);
   outUv = kTextured != 0 ? baseUv(inUv0, inUv1) : vec2(0.0);
   outColor = material.baseColor * inColor;
 }

@@ -21,8 +21,8 @@ layout(location = 2) out vec4 outColor;
 layout(location = 3) out vec4 outUvs;
 
 void main() {
-  ViewUniforms view = frame.views[viewIndex()];
-  gl_Position = view.worldToClip * vec4(inPosition, 1.0);
+  mat4 worldToClip = VIEW_FIELD(worldToClip, viewIndex());
+  gl_Position = worldToClip * vec4(inPosition, 1.0);
   vec3 normal = decodeNormal(inNormal);
   float lambert = dot(normal, frame.toLight);
 

@@ -24,15 +24,15 @@ layout(location = 2) out vec3 outTangentV;
 layout(location = 3) out vec3 outBaseUvAlpha;
 
 void main() {
-  ViewUniforms view = frame.views[viewIndex()];
-  vec4 clip = view.worldToClip * vec4(inPosition, 1.0);
+  mat4 worldToClip = VIEW_FIELD(worldToClip, viewIndex());
+  vec4 clip = worldToClip * vec4(inPosition, 1.0);
 
   // Outward on the screen, in pixels per metre. Its length tells how far the normal is turned from the viewer:
   // vertices that face the viewer stay, since their direction on the screen means nothing.
   vec3 normal = decodeNormal(inSmoothNormal);
-  vec4 normalClip = view.worldToClip * vec4(normal, 0.0);
+  vec4 normalClip = worldToClip * vec4(normal, 0.0);
   vec2 outward = (normalClip.xy - clip.xy / clip.w * normalClip.w) / clip.w * 0.5 * frame.imageSize;
-  float pixelsPerMetre = 0.5 * frame.imageSize.y / (view.ndcToEyeRay.y * clip.w);
+  float pixelsPerMetre = 0.5 * frame.imageSize.y / (VIEW_FIELD(ndcToEyeRay, viewIndex()).y * clip.w);
   float size = length(outward);
   float turned = smoothstep(0.05, 0.35, abs(size / pixelsPerMetre));
   if (clip.w > 0.0 && size > 0.0) {
@@ -42,7 +42,7 @@ void main() {
   gl_Position = clip;
 
   outUv = inPatternUv;
-  outTangentU = (view.worldToClip * vec4(inDPdu, 0.0)).xyw;
-  outTangentV = (view.worldToClip * vec4(inDPdv, 0.0)).xyw;
+  outTangentU = (worldToClip * vec4(inDPdu, 0.0)).xyw;
+  outTangentV = (worldToClip * vec4(inDPdv, 0.0)).xyw;
   if (kAlphaMode != 0) outBaseUvAlpha = vec3(baseUv(inUv0, inUv1), inColor.a);
 }

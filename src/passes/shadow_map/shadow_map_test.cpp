@@ -1,0 +1,169 @@
+// Light space and its sigmoid against the CPU, and FORMULAS 13: what is straight casts a straight shadow.
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "tests/support/aov.h"
+#include "tests/support/ray_cast.h"
+#include "tests/support/render_test.h"
+
+namespace scumble::passes {
+namespace {
+
+using namespace test;
+
+class ShadowMapTest : public BothEyes {};
+INSTANTIATE_BOTH_EYES(ShadowMapTest);
+
+// Points that the light sees lie in the map where the sigmoid puts them, at their depth.
+TEST_P(ShadowMapTest, pointsLieWhereTheSigmoidPutsThem) {
+  const TestScene test = stillLife();
+  const glm::dvec3 toLight = glm::normalize(glm::dvec3(-0.6, 1.0, 0.8));
+  const Scene scene = test.load();
+  const auto views = viewsFrom(scene, {{2, 2.5f, 3}, {0, 0.8f, 0}}, 64, 48, GetParam());
+  // Light axes and the box of everything in them, by its parts' boxes in the world.
+  const glm::dvec3 right = glm::normalize(glm::cross(-toLight, glm::dvec3(0, 1, 0))),
+                   up = glm::cross(right, -toLight);
+  const glm::dmat3 axes = glm::transpose(glm::dmat3(right, up, -toLight));
+  glm::dvec3 low(1e9), high(-1e9);
+  for (int id = 1; id <= 4; ++id) {
+    glm::dvec3 a(1e9), b(-1e9);
+    for (const WorldTriangle& t : test.triangles())
+      if (t.id == id)
+        for (const glm::dvec3& p : t.positions) a = glm::min(a, p), b = glm::max(b, p);
+    for (int i = 0; i < 8; ++i) {
+      const glm::dvec3 p = axes * glm::dvec3(i & 1 ? b.x : a.x, i & 2 ? b.y : a.y, i & 4 ? b.z : a.z);
+      low = glm::min(low, p), high = glm::max(high, p);
+    }
+  }
+  const SceneSummary summary = scene.summary();
+  const double radius =
+      0.5 * glm::length(glm::dvec3(summary.max[0] - summary.min[0], summary.max[1] - summary.min[1],
+                                   summary.max[2] - summary.min[2]));
+  const glm::dvec3 half = 0.505 * (high - low) + 1e-4 * radius, center = 0.5 * (low + high);
+  glm::dvec3 viewer(0.0);
+  for (const View& view : views)
+    viewer += glm::dvec3(glm::inverse(glm::dmat4(view.worldToEye))[3]) / double(views.size());
+  const glm::dvec2 focus = glm::clamp(glm::dvec2((axes * viewer - center) / half), -1.0, 1.0);
+
+  for (const double strength : {0.0, 1.0, 8.0, 40.0}) {
+    const Frame frame = draw(scene, quietLook({{"light.shadowWarp", std::to_string(strength)}}), views,
+                             sized(64, 48, {"shadow-map"}));
+    const Image& map = aov(frame, "shadow-map");
+    ASSERT_EQ(frame.layers.back().views.size(), 1u);  // one for all views
+    const auto sigmoid = [](double t) { return t / std::sqrt(1 + t * t); };
+    const auto warped = [&](double p, double at) {
+      if (strength == 0) return p;
+      const double a = sigmoid(strength * (-1 - at)), b = sigmoid(strength * (1 - at));
+      return (sigmoid(strength * (p - at)) - a) / (b - a) * 2 - 1;
+    };
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> number(0, 1);
+    size_t wrong = 0, count = 0;
+    while (count < 1500) {
+      const WorldTriangle& t = test.triangles()[size_t(number(random) * double(test.triangles().size()))];
+      double u = number(random), v = number(random);
+      if (u + v > 1) u = 1 - u, v = 1 - v;
+      const glm::dvec3 p =
+          t.positions[0] + u * (t.positions[1] - t.positions[0]) + v * (t.positions[2] - t.positions[0]);
+      if (glm::dot(glm::normalize(t.outward), toLight) < 0.3) continue;
+      if (castRay({p + 1e-4 * toLight, toLight}, test.triangles(), true)) continue;
+      ++count;
+      const glm::dvec3 q = (axes * p - center) / half;
+      const int size = int(map.width);
+      const int x = int((warped(q.x, focus.x) * 0.5 + 0.5) * size),
+                y = int((warped(q.y, focus.y) * 0.5 + 0.5) * size);
+      // A surface may lie three texels off its curve, and slope by three along the light: look around.
+      double nearest = 1e9;
+      for (int j = -3; j <= 3; ++j)
+        for (int i = -3; i <= 3; ++i)
+          nearest = std::min(nearest, std::abs(texel(map, x + i, y + j).x - (0.5 + 0.5 * q.z)));
+      wrong += nearest > 2e-3;
+    }
+    EXPECT_LE(wrong, count / 100) << "strength " << strength;  // at silhouettes
+  }
+}
+
+// FORMULAS 13: a pole on a ground of 100 m by 100 m, which is two triangles, casts one straight shadow.
+TEST_P(ShadowMapTest, aPoleCastsAStraightShadow) {
+  constexpr int kWidth = 320, kHeight = 240;
+  TestScene test;
+  const int sand = test.material(TestScene::colored("Sand", {0.6f, 0.5f, 0.3f, 1}));
+  test.add(gridMesh({-50, 0, 50}, {100, 0, 0}, {0, 0, -100}), sand);
+  test.add(boxMesh({-20.25f, 0, -10.25f}, {-19.75f, 24, -9.75f}), sand);
+  const glm::dvec3 toLight = glm::normalize(glm::dvec3(-1.0, 0.6, -0.35));
+  test.light(glm::vec3(toLight));
+  const Scene scene = test.load();
+  const auto views = viewsFrom(scene, {{0, 45, 40}, {0, 0, 0}, 50}, kWidth, kHeight, GetParam());
+  for (const double strength : {0.0, 1.0, 16.0, 64.0}) {
+    const Frame frame =
+        draw(scene,
+             quietLook({{"light.shadowWarp", std::to_string(strength)}, {"light.terminatorSharpness", "8"}}),
+             views, sized(kWidth, kHeight, {"shadow", "position", "id"}));
+    for (size_t v = 0; v < viewCount(); ++v) {
+      // Along the shadow and across it, metres from the pole's foot.
+      const glm::dvec2 along = -glm::normalize(glm::dvec2(toLight.x, toLight.z)), across(-along.y, along.x);
+      const double length = 24 * glm::length(glm::dvec2(toLight.x, toLight.z)) / toLight.y;
+      std::vector<glm::dvec2> sums(40);  // of offset across, and of weight, in bins along the shadow
+      double stray = 0, ground = 0;
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+          if (texel(aov(frame, "id", v), x, y).x != 1) continue;
+          const double dark = 1 - texel(aov(frame, "shadow", v), x, y).x;
+          const glm::dvec3 p(texel(aov(frame, "position", v), x, y));
+          const glm::dvec2 d = glm::dvec2(p.x + 20, p.z + 10);
+          const double s = glm::dot(d, along), t = glm::dot(d, across);
+          ground += 1;
+          if (s > -0.6 && s < length + 1.5 && std::abs(t) < 1.5) {
+            const size_t bin =
+                size_t(std::clamp(s / length * double(sums.size()), 0.0, double(sums.size()) - 1));
+            sums[bin] += glm::dvec2(t * dark, dark);
+          } else {
+            stray += dark;  // acne, or a bent shadow
+          }
+        }
+      EXPECT_GT(ground, 20000);
+      EXPECT_LT(stray, 1e-3 * ground) << "strength " << strength << ", view " << v;
+      double most = 0;
+      size_t missing = 0;
+      for (size_t b = 1; b + 2 < sums.size(); ++b) {
+        if (sums[b].y < 0.5)
+          ++missing;
+        else
+          most = std::max(most, std::abs(sums[b].x / sums[b].y));
+      }
+      EXPECT_EQ(missing, 0u) << "strength " << strength;                      // one shadow, without gaps
+      EXPECT_LT(most, 0.35) << "metres off the line, strength " << strength;  // a pixel is 0.2 to 0.3 m
+      ::testing::Test::RecordProperty("off_line_mm_" + std::to_string(int(strength)), int(1000 * most));
+      std::printf("strength %g view %zu off %g stray %g\n", strength, v, most, stray);
+    }
+  }
+}
+
+// What is told not to cast casts nothing; masked surfaces cast their holes.
+TEST_F(ShadowMapTest, castersAndHoles) {
+  for (const bool casts : {true, false}) {
+    TestScene test;
+    Image grid{2, 1, {"R", "G", "B", "A"}, {1, 1, 1, 1, 1, 1, 1, 0}};
+    const int texture = test.texture(grid);
+    Json screen = TestScene::colored("Screen", {0.5f, 0.5f, 0.5f, 1});
+    screen["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", texture}};
+    screen["alphaMode"] = "MASK";
+    test.add(gridMesh({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}),
+             test.material(TestScene::colored("Sand", {0.5f, 0.5f, 0.5f, 1})));
+    test.add(gridMesh({-1, 2, 1}, {2, 0, 0}, {0, 0, -2}), test.material(screen));  // left half there
+    test.light({0.001f, 1, 0});
+    const Scene scene = test.load();
+    const auto views = viewsFrom(scene, {{0, 1, 6}, {0, 0, 0}}, 96, 72);
+    const Frame frame = draw(scene, quietLook({{"materials.Screen.shadowMap.cast", casts ? "on" : "off"}}),
+                             views, sized(96, 72, {"shadow", "id"}));
+    const glm::ivec2 left(pixelOf(views[0], {-0.5, 0, 0}, 96, 72)),
+        right(pixelOf(views[0], {0.5, 0, 0}, 96, 72));
+    ASSERT_EQ(texel(aov(frame, "id"), left.x, left.y).x, 1);
+    EXPECT_NEAR(texel(aov(frame, "shadow"), left.x, left.y).x, casts ? 0 : 1, 0.01);
+    EXPECT_NEAR(texel(aov(frame, "shadow"), right.x, right.y).x, 1, 0.01);
+  }
+}
+
+}  // namespace
+}  // namespace scumble::passes

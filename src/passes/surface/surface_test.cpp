@@ -1,0 +1,217 @@
+// The geometry pass against the CPU: light from the Lambert term, colours from the palette rule, lens, holes,
+// and blended surfaces composited from far to near.
+#include "passes/surface/surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "frame/light.h"
+#include "frame/palette.h"
+#include "tests/support/aov.h"
+#include "tests/support/ray_cast.h"
+#include "tests/support/render_test.h"
+
+namespace scumble::passes {
+namespace {
+
+using namespace test;
+
+constexpr double kByte = 1.0 / 255;
+
+class SurfaceTest : public BothEyes {
+ protected:
+  static constexpr int kWidth = 96, kHeight = 72;
+
+  static void expectColor(const glm::dvec4& got, const glm::dvec3& expected, double roots = 1.0) {
+    // Targets hold square roots in 8 bits.
+    for (int c = 0; c < 3; ++c)
+      EXPECT_NEAR(std::sqrt(got[c]), std::sqrt(std::max(expected[c], 0.0)), roots * kByte) << "channel " << c;
+  }
+  static Json unlit(const std::string& name, const glm::vec4& color) {
+    Json json = TestScene::colored(name, color);
+    json["extensions"]["KHR_materials_unlit"] = Json::object();
+    return json;
+  }
+};
+INSTANTIATE_BOTH_EYES(SurfaceTest);
+
+TEST_P(SurfaceTest, lambertOfASphere) {
+  TestScene test;
+  test.add(sphereMesh({0, 0, 0}, 1, 96), test.material(TestScene::colored("Grey", {0.5f, 0.5f, 0.5f, 1})));
+  const glm::dvec3 toLight = glm::normalize(glm::dvec3(-0.5, 0.7, 0.6));
+  test.light(glm::vec3(toLight));
+  const Scene scene = test.load();
+  const auto views = viewsFrom(scene, {{0.3f, 0.5f, 3}}, kWidth, kHeight, GetParam());
+  for (const auto& [terminator, sharpness, width] :
+       {std::tuple{0.1, 4.0, 0.45}, {-0.4, 1.0, 0.2}, {0.3, 12.0, 1.0}}) {
+    const Look look = quietLook({{"shadowMap.cast", "off"},
+                                 {"light.terminator", std::to_string(terminator)},
+                                 {"light.terminatorSharpness", std::to_string(sharpness)},
+                                 {"surface.indicationWidth", std::to_string(width)}});
+    const Frame frame = draw(scene, look, views, sized(kWidth, kHeight, {"shadow", "normal", "id"}));
+    for (size_t v = 0; v < viewCount(); ++v) {
+      // The term is interpolated over triangles of 4 degrees: off by up to 1 - cos(2 degrees) = 6e-4.
+      Difference light(0.5 * kByte + 1.5e-3 * sharpness), marks(0.5 * kByte + 1.5e-3 / width);
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+          if (texel(aov(frame, "id", v), x, y).x == 0) continue;
+          const double turn =
+              glm::dot(glm::dvec3(texel(aov(frame, "normal", v), x, y)), toLight) - terminator;
+          const glm::dvec4 got = texel(aov(frame, "shadow", v), x, y);
+          light.add(got.x, std::clamp(0.5 + turn * sharpness, 0.0, 1.0));
+          marks.add(got.z, std::clamp(1 - std::abs(turn) / width, 0.0, 1.0));
+          EXPECT_EQ(got.y, 0);
+          EXPECT_EQ(got.w, 1);
+        }
+      EXPECT_GT(light.count, 1500u);
+      EXPECT_EQ(light.beyond, 0u) << light.text();
+      EXPECT_EQ(marks.beyond, 0u) << marks.text();
+    }
+  }
+}
+
+// The palette rule itself for plain colours; where colours vary, its polynomial.
+TEST_P(SurfaceTest, colorsFollowThePalette) {
+  const glm::vec4 colors[] = {
+      {0.7f, 0.12f, 0.08f, 1}, {0.1f, 0.25f, 0.6f, 1}, {1, 1, 1, 1}, {0.01f, 0.01f, 0.01f, 1}};
+  TestScene s;
+  for (int i = 0; i < 4; ++i) {
+    const float x = float(i) - 2;
+    s.add(gridMesh({x, 0, 0}, {1, 0, 0}, {0, 1, 0}), s.material(TestScene::colored("Plain", colors[i])));
+    TestMesh varied = gridMesh({x, -1, 0}, {1, 0, 0}, {0, 1, 0});
+    varied.colors.assign(4, colors[i]);
+    s.add(varied, s.material(TestScene::colored("Varied", {1, 1, 1, 1})));
+  }
+  const Scene scene = s.load();
+  const Look look = quietLook(
+      {{"palette.shadowTintAmount", "0.8"}, {"palette.darkest", "0.1"}, {"surface.skyTint", "0.2"}});
+  frame::PaletteParams palette;
+  palette.shadowTintAmount = 0.8f, palette.darkest = 0.1f;
+  const auto views = viewsFrom(scene, {{0, 0, 3.5f}}, kWidth, kHeight, GetParam());
+  const Frame frame = draw(scene, look, views, sized(kWidth, kHeight, {"lit", "shadowed"}));
+  // The normals are level: half sky, half ground.
+  const glm::dvec3 sky = 1.0 + 0.2 * glm::dvec3(-0.6, 0.1, 1) + 0.12,
+                   ground = 1.0 + 0.2 * glm::dvec3(1, 0, -0.8) - 0.08;
+  for (size_t v = 0; v < viewCount(); ++v)
+    for (int i = 0; i < 4; ++i)
+      for (const bool varied : {false, true}) {
+        const glm::dvec2 at = pixelOf(views[v], {i - 1.5, varied ? -0.5 : 0.5, 0}, kWidth, kHeight);
+        const glm::dvec3 lit = frame::litColor(palette, glm::dvec3(colors[i]));
+        const glm::dvec3 shadowed =
+            frame::shadowedColor(palette, glm::dvec3(colors[i])) * 0.5 * (sky + ground);
+        // The polynomial is a fit: as good as palette_test finds it; vertex colours have 8 bits.
+        const double roots = varied ? 16 : 1;
+        SCOPED_TRACE(std::to_string(i) + (varied ? " varied" : " plain"));
+        expectColor(texel(aov(frame, "lit", v), int(at.x), int(at.y)), lit, roots);
+        expectColor(texel(aov(frame, "shadowed", v), int(at.x), int(at.y)), shadowed, roots);
+      }
+}
+
+// A scene's own colour in shadow wins, and its colour in light is then its own as well.
+TEST_F(SurfaceTest, ownShadowedColor) {
+  TestScene s;
+  Json json = TestScene::colored("Sail", {0.8f, 0.7f, 0.4f, 1});
+  json["extras"]["scumble_shadowed"] = "#8E93AC";
+  s.add(gridMesh({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}), s.material(json));
+  const Frame frame = draw(s.load(), quietLook({{"surface.skyTint", "0"}}), {parallelView(1, 1)},
+                           sized(8, 8, {"lit", "shadowed"}));
+  const auto linear = [](int srgb) { return std::pow((srgb / 255.0 + 0.055) / 1.055, 2.4); };
+  expectColor(texel(aov(frame, "lit"), 4, 4), {0.8, 0.7, 0.4});
+  expectColor(texel(aov(frame, "shadowed"), 4, 4), {linear(0x8E), linear(0x93), linear(0xAC)});
+}
+
+TEST_P(SurfaceTest, unlitAndEmissive) {
+  TestScene s;
+  s.json()["extensionsUsed"].push_back("KHR_materials_unlit");
+  Json lamp = TestScene::colored("Lamp", {0.2f, 0.2f, 0.2f, 1});
+  lamp["emissiveFactor"] = {0.4, 0.2, 0.1};
+  s.add(gridMesh({-2, -1, 0}, {2, 0, 0}, {0, 2, 0}), s.material(unlit("Sign", {0.3f, 0.6f, 0.2f, 1})));
+  s.add(gridMesh({0, -1, 0}, {2, 0, 0}, {0, 2, 0}), s.material(lamp));
+  s.light({0, 0.2f, -1});  // from behind: both would be in shadow
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0, 0, 3.5f}}, kWidth, kHeight, GetParam());
+  const Frame frame = draw(scene, quietLook({{"surface.lens", "1.5"}, {"surface.skyTint", "0"}}), views,
+                           sized(kWidth, kHeight, {"shadow", "lit", "shadowed"}));
+  const frame::PaletteParams palette;
+  for (size_t v = 0; v < viewCount(); ++v) {
+    const glm::ivec2 sign(pixelOf(views[v], {-1, 0, 0}, kWidth, kHeight)),
+        bulb(pixelOf(views[v], {1, 0, 0}, kWidth, kHeight));
+    EXPECT_EQ(texel(aov(frame, "shadow", v), sign.x, sign.y), glm::dvec4(1, 0, 0, 1));
+    EXPECT_EQ(texel(aov(frame, "lit", v), sign.x, sign.y), texel(aov(frame, "shadowed", v), sign.x, sign.y));
+    const glm::dvec3 emissive(0.4, 0.2, 0.1);
+    const glm::dvec4 shadow = texel(aov(frame, "shadow", v), bulb.x, bulb.y);
+    EXPECT_NEAR(shadow.x, 0, kByte);
+    EXPECT_NEAR(shadow.y, 1.5 * glm::dot(emissive, glm::dvec3(0.2126, 0.7152, 0.0722)), kByte);
+    expectColor(texel(aov(frame, "lit", v), bulb.x, bulb.y),
+                glm::min(frame::litColor(palette, glm::dvec3(0.2f)) + emissive, 1.0));
+    expectColor(texel(aov(frame, "shadowed", v), bulb.x, bulb.y),
+                frame::shadowedColor(palette, glm::dvec3(0.2f)) + emissive);
+  }
+}
+
+// The cutoff is a threshold on the texture's alpha; holes show what is behind, and nothing.
+TEST_P(SurfaceTest, maskedHoles) {
+  Image leaf{8, 8, {"R", "G", "B", "A"}, {}};
+  for (int i = 0; i < 64; ++i) {
+    const float alpha = (i % 8 + i / 8) % 2 ? 0.7f : 0.5f;
+    leaf.pixels.insert(leaf.pixels.end(), {0.5f, 0.5f, 0.5f, alpha});
+  }
+  TestScene s;
+  const int texture = s.texture(leaf);
+  Json json = TestScene::colored("Leaf", {1, 1, 1, 1});
+  json["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", texture}};
+  json["alphaMode"] = "MASK";
+  json["alphaCutoff"] = 0.6;
+  s.add(gridMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), s.material(json));
+  s.light({0.3f, 0.3f, 1});
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0, 0, 3}}, kWidth, kHeight, GetParam());
+  const Frame frame = draw(scene, quietLook({{"surface.simplify", "0"}}), views,
+                           sized(kWidth, kHeight, {"shadow", "lit", "id", "warp"}));
+  for (size_t v = 0; v < viewCount(); ++v)
+    for (int j = 0; j < 8; ++j)
+      for (int i = 0; i < 8; ++i) {
+        // Row 0 of the picture is at v = 0, which this mesh has at its lower side.
+        const glm::ivec2 at(pixelOf(views[v], {(i + 0.5) / 4 - 1, (j + 0.5) / 4 - 1, 0}, kWidth, kHeight));
+        const double there = (i + j) % 2;
+        EXPECT_EQ(texel(aov(frame, "shadow", v), at.x, at.y).w, there);
+        EXPECT_EQ(texel(aov(frame, "lit", v), at.x, at.y).w, there);
+        EXPECT_EQ(texel(aov(frame, "id", v), at.x, at.y).x, there);
+      }
+}
+
+// Three panes over each other and a wall, listed in the wrong order.
+TEST_P(SurfaceTest, blendedFromFarToNear) {
+  TestScene s;
+  const glm::vec4 colors[] = {{0.8f, 0.1f, 0.1f, 0.5f}, {0.1f, 0.7f, 0.2f, 0.25f}, {0.1f, 0.2f, 0.8f, 0.75f}};
+  const float z[] = {0.5f, -0.5f, 0.0f};
+  for (int i = 0; i < 3; ++i) {
+    Json json = TestScene::colored("Pane", colors[i]);
+    json["alphaMode"] = "BLEND";
+    s.add(gridMesh({-1, -1, z[i]}, {2, 0, 0}, {0, 2, 0}), s.material(json));
+  }
+  s.add(gridMesh({-1, -1, -1}, {1, 0, 0}, {0, 2, 0}),
+        s.material(TestScene::colored("Wall", {0.5f, 0.5f, 0.5f, 1})));
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0, 0, 6}}, kWidth, kHeight, GetParam());
+  const Frame frame = draw(scene, quietLook(), views, sized(kWidth, kHeight, {"lit"}));
+  const frame::PaletteParams palette;
+  for (size_t v = 0; v < viewCount(); ++v)
+    for (const bool wall : {false, true}) {
+      // Composited as roots, since that is what the target holds.
+      glm::dvec3 sum = wall ? glm::sqrt(frame::litColor(palette, glm::dvec3(0.5))) : glm::dvec3(0.0);
+      double coverage = wall;
+      for (const int i : {1, 2, 0}) {
+        const double a = colors[i].a;
+        sum = glm::mix(sum, glm::sqrt(frame::litColor(palette, glm::dvec3(colors[i]))), a);
+        coverage += a * (1 - coverage);
+      }
+      const glm::ivec2 at(pixelOf(views[v], {wall ? -0.5 : 0.5, 0, 0}, kWidth, kHeight));
+      const glm::dvec4 got = texel(aov(frame, "lit", v), at.x, at.y);
+      EXPECT_NEAR(got.w, coverage, 3 * kByte);
+      expectColor(got, glm::dvec3((sum / coverage) * (sum / coverage)), 4);
+    }
+}
+
+}  // namespace
+}  // namespace scumble::passes
