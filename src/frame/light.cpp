@@ -51,17 +51,15 @@ void setLightSpace(shared::FrameUniforms& uniforms, const SceneOnGpu& scene, con
   uniforms.worldToLight = scale * glm::mat4(toLightAxes);
   uniforms.lightToWorldScale = {half.x, half.y, 2 * half.z};
   uniforms.shadowTexel = 2.0f / float(kShadowMapSize);
-  uniforms.shadowWarp = params.shadowWarp;
+  // A strength of nothing is a sigmoid's straight middle.
+  uniforms.shadowWarp = std::max(params.shadowWarp, 1e-3f);
   const glm::vec3 focus(uniforms.worldToLight * glm::vec4(viewer, 1));
   uniforms.shadowCenter = glm::clamp(glm::vec2(focus), -1.0f, 1.0f);
-  uniforms.shadowScale = glm::vec2(1.0f), uniforms.shadowShift = glm::vec2(0.0f);
-  if (params.shadowWarp > 0) {
-    const auto sigmoid = [](const glm::vec2& t) { return t / glm::sqrt(1.0f + t * t); };
-    const glm::vec2 low = sigmoid(params.shadowWarp * (-1.0f - uniforms.shadowCenter));
-    const glm::vec2 high = sigmoid(params.shadowWarp * (1.0f - uniforms.shadowCenter));
-    uniforms.shadowScale = 2.0f / (high - low);
-    uniforms.shadowShift = -1.0f - uniforms.shadowScale * low;
-  }
+  const auto sigmoid = [](const glm::vec2& t) { return t / glm::sqrt(1.0f + t * t); };
+  const glm::vec2 low = sigmoid(uniforms.shadowWarp * (-1.0f - uniforms.shadowCenter));
+  const glm::vec2 high = sigmoid(uniforms.shadowWarp * (1.0f - uniforms.shadowCenter));
+  uniforms.shadowScale = 1.0f / (high - low);
+  uniforms.shadowShift = -uniforms.shadowScale * low;
 }
 
 }  // namespace scumble::frame

@@ -455,7 +455,8 @@ TEST(LookFile, hostileFilesAreErrors) {
   for (const size_t depth : {100u, 200000u}) {
     std::string deep;
     for (size_t i = 0; i < depth; ++i) deep += "{\"a\":";
-    deep += "1" + std::string(depth, '}');
+    deep += '1';
+    deep.append(depth, '}');
     EXPECT_FALSE(Look::fromJson(deep, "a").ok()) << depth;
     EXPECT_FALSE(Look::fromJson(std::string(depth, '['), "a").ok()) << depth;
   }

@@ -59,7 +59,7 @@ shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const l
   data.baseColor = material.baseColor;
   data.emissive = material.emissive;
   data.alphaCutoff = material.alphaCutoff;
-  data.unlit = material.unlit;
+  data.unlit = material.unlit ? 1.0f : 0.0f;
   const auto transform = [](const scene::TextureUse& use, glm::vec3& rowU, glm::vec3& rowV, uint32_t& set) {
     const glm::mat3 rows = glm::transpose(use.transform);
     rowU = rows[0], rowV = rows[1];
@@ -68,8 +68,18 @@ shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const l
   transform(material.baseColorTexture, data.baseUvRowU, data.baseUvRowV, data.baseUvSet);
   transform(material.emissiveTexture, data.emissiveUvRowU, data.emissiveUvRowV, data.emissiveUvSet);
 
+  // The sky is cooler than the colour in shadow, the ground warmer, at about equal brightness.
+  const float tint = palette.skyTint;
+  data.tintUp = glm::sqrt(1.0f + tint * glm::vec3(0.0f, 0.7f, 1.6f));
+  data.tintDown = glm::sqrt(glm::max(1.0f + tint * glm::vec3(0.6f, -0.4f, -1.2f), 0.0f));
   const auto setConstant = [&](const glm::vec3& lit, const glm::vec3& shadowed) {
-    data.constantLit = lit, data.constantShadowed = shadowed;
+    const glm::vec3 dark = material.unlit ? lit : shadowed;
+    const glm::vec3 down = material.unlit ? glm::vec3(1.0f) : data.tintDown;
+    const glm::vec3 up = material.unlit ? glm::vec3(1.0f) : data.tintUp;
+    data.constantLit = glm::sqrt(lit + material.emissive);
+    data.constantShadowedDown = glm::sqrt(dark * down * down + material.emissive);
+    data.constantShadowedUp = glm::sqrt(dark * up * up + material.emissive);
+    data.constantLens = glm::dot(material.emissive, glm::vec3(0.2126f, 0.7152f, 0.0722f));
   };
   if (isGround) {
     // The ground belongs to the background, not to the scene's palette.
@@ -85,15 +95,16 @@ shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const l
   const auto shadowed = [&](const glm::dvec3& c) { return shadowedColor(palette, c); };
   // A constant colour needs no fit: it goes through the rule itself.
   const glm::dvec3 base = glm::clamp(glm::dvec3(material.baseColor), 0.0, 1.0);
-  setConstant(glm::vec3(lit(base)), glm::vec3(shadowed(base)));
+  glm::vec3 constantLit(lit(base)), constantShadowed(shadowed(base));
   if (scene.isVaried(index)) data.lit = fitColorMap(lit), data.shadowed = fitColorMap(shadowed);
   if (material.shadowedColor) {
     // A scene that brings its own colours for shadow has chosen those for light as well.
     data.shadowedColor = *material.shadowedColor;
     data.hasShadowedColor = palette.ownShadow;
-    data.constantShadowed = glm::mix(data.constantShadowed, data.shadowedColor, palette.ownShadow);
-    if (palette.ownShadow >= 1) data.lit = identityColorMap(), data.constantLit = glm::vec3(base);
+    constantShadowed = glm::mix(constantShadowed, data.shadowedColor, palette.ownShadow);
+    if (palette.ownShadow >= 1) data.lit = identityColorMap(), constantLit = glm::vec3(base);
   }
+  setConstant(constantLit, constantShadowed);
   return data;
 }
 

@@ -1,17 +1,19 @@
 // The shadow map's sigmoid warp: light-space x and y are bent so that texels are finest around a centre (paper 000,
-// section 5, "Depth Pass"; FORMULAS 13). The algebraic sigmoid t / sqrt(1 + t^2), scaled to keep -1 and 1 in place.
+// section 5, "Depth Pass"; FORMULAS 13). The algebraic sigmoid t / sqrt(1 + t^2), scaled to keep the borders in place.
 #ifndef SCUMBLE_LIGHT_SPACE_GLSL
 #define SCUMBLE_LIGHT_SPACE_GLSL
 
-vec2 warpLightSpace(vec2 p) {
-  vec2 t = frame.shadowWarp * (p - frame.shadowCenter);
-  return frame.shadowScale * (frame.shadowWarp > 0.0 ? t * inversesqrt(1.0 + t * t) : p) + frame.shadowShift;
+// The sigmoid's argument, linear in position: vertices compute it, fragments interpolate it.
+vec2 sigmoidArgument(vec2 p) { return frame.shadowWarp * (p - frame.shadowCenter); }
+
+// Texture coordinates in the shadow map.
+vec2 shadowMapUv(vec2 argument) {
+  return frame.shadowScale * argument * inversesqrt(1.0 + argument * argument) + frame.shadowShift;
 }
 
-// d(warped) / d(unwarped), per axis: how much finer the map is there.
-vec2 lightSpaceMagnification(vec2 p) {
-  vec2 t = frame.shadowWarp * (p - frame.shadowCenter);
-  vec2 root = inversesqrt(1.0 + t * t);
-  return frame.shadowWarp > 0.0 ? frame.shadowScale * frame.shadowWarp * root * root * root : vec2(1.0);
+// d(warped) / d(unwarped), per axis, from -1 to 1 on both: how much finer the map is there.
+vec2 lightSpaceMagnification(vec2 argument) {
+  vec2 root = inversesqrt(1.0 + argument * argument);
+  return 2.0 * frame.shadowScale * frame.shadowWarp * root * root * root;
 }
 #endif

@@ -18,7 +18,6 @@ namespace {
 // Mirrors SurfaceUniforms in surface.glsl.
 struct SurfaceUniforms {
   float terminator, terminatorSharpness;
-  glm::vec3 skyTint, groundTint;
 };
 
 class Surface : public Pass {
@@ -77,12 +76,7 @@ class Surface : public Pass {
     params_.update(input);
     eye_ = input.uniforms.views[0].eye;
     const LightParams light = input.look.get<LightParams>();
-    // The sky is cooler than the shadow colour, the ground warmer; both at equal brightness.
-    const float amount = input.look.get<SurfaceParams>().skyTint;
-    const glm::vec3 cool(-0.6f, 0.1f, 1.0f), warm(1.0f, 0.0f, -0.8f);
-    uniforms_.write(SurfaceUniforms{light.terminator, light.terminatorSharpness,
-                                    1.0f + amount * cool + 0.6f * amount,
-                                    1.0f + amount * warm - 0.4f * amount});
+    uniforms_.write(SurfaceUniforms{light.terminator, light.terminatorSharpness});
   }
 
  private:

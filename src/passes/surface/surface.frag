@@ -26,11 +26,17 @@ layout(location = 1) out vec4 outLit;
 layout(location = 2) out vec4 outShadowed;
 
 void main() {
-  // Colours in light and in shadow.
-  vec3 lit = material.constantLit, shadowed = material.constantShadowed, emissive = material.emissive;
+  vec2 facing = gl_FrontFacing ? inFacing : -inFacing;
+  float up = 0.5 + 0.5 * facing.y;
+
+  // Square roots of the colours in light and in shadow, and what acts on the lens.
+  vec3 lit = material.constantLit;
+  vec3 shadowed = mix(material.constantShadowedDown, material.constantShadowedUp, up);
+  float lens = material.constantLens;
   float alpha = material.baseColor.a;
   if (kVaried != 0) {
     vec4 albedo = material.baseColor * inColor;
+    vec3 emissive = material.emissive;
     if (kTextured != 0) {
       albedo *= texture(baseTexture, inUvs.xy, params.simplify);
       emissive *= texture(emissiveTexture, inUvs.zw, params.simplify).rgb;
@@ -38,31 +44,27 @@ void main() {
     alpha = albedo.a;
     vec3 root = sqrt(clamp(albedo.rgb, 0.0, 1.0));
     lit = applyColorMap(material.lit, root);
-    shadowed = mix(applyColorMap(material.shadowed, root), material.shadowedColor, material.hasShadowedColor);
+    shadowed = mix(applyColorMap(material.shadowed, root), sqrt(material.shadowedColor), material.hasShadowedColor) *
+               mix(material.tintDown, material.tintUp, up);
+    shadowed = mix(shadowed, lit, material.unlit);
+    lit = sqrt(lit * lit + emissive);
+    shadowed = sqrt(shadowed * shadowed + emissive);
+    lens = dot(emissive, vec3(0.2126, 0.7152, 0.0722));
   }
   if (kAlphaMode == 1 && alpha < material.alphaCutoff) discard;
   if (kAlphaMode != 2) alpha = 1.0;
 
-  // Red: Lambert times cast shadow, steepened around the terminator.
-  vec2 facing = gl_FrontFacing ? inFacing : -inFacing;
-  vec2 uv = warpLightSpace(inLightSpace.xy) * 0.5 + 0.5;
-  float reaches = texture(shadowMap, vec4(uv, 0.0, clamp(inLightSpace.z, 0.0, 1.0)));
-  // Outside the map there is nothing that could cast a shadow.
-  if (max(abs(inLightSpace.x), abs(inLightSpace.y)) > 1.0) reaches = 1.0;
+  // Red: Lambert times cast shadow, steepened around the terminator. Outside the map there is nothing that could cast a
+  // shadow, and its border is empty.
+  float reaches = texture(shadowMap, vec4(shadowMapUv(inLightSpace.xy), 0.0, min(inLightSpace.z, 1.0)));
   float turn = facing.x - surface.terminator;
-  float light = clamp(0.5 + turn * surface.terminatorSharpness, 0.0, 1.0) * reaches;
+  float light = max(clamp(0.5 + turn * surface.terminatorSharpness, 0.0, 1.0) * reaches, material.unlit);
 
-  // Green: lens. Blue: where the breakup map may act, which is where the surface is oblique to a light that reaches it.
-  float lens = clamp(dot(emissive, vec3(0.2126, 0.7152, 0.0722)) * params.lens, 0.0, 1.0);
+  // Blue: where the breakup map may act, which is where the surface is oblique to a light that reaches it.
   float oblique = clamp(1.0 - abs(turn) / params.indicationWidth, 0.0, 1.0) * reaches * params.indication;
+  oblique *= 1.0 - material.unlit;
 
-  shadowed *= mix(surface.groundTint, surface.skyTint, 0.5 + 0.5 * facing.y);
-  if (material.unlit != 0) {
-    light = 1.0;
-    oblique = 0.0;
-    shadowed = lit;
-  }
-  outShadow = vec4(light, lens, oblique, alpha);
-  outLit = vec4(sqrt(lit + emissive), alpha);
-  outShadowed = vec4(sqrt(shadowed + emissive), alpha);
+  outShadow = vec4(light, clamp(lens * params.lens, 0.0, 1.0), oblique, alpha);
+  outLit = vec4(lit, alpha);
+  outShadowed = vec4(shadowed, alpha);
 }

@@ -6,6 +6,4 @@ struct SurfaceParams {
 struct SurfaceUniforms {
   float terminator;
   float terminatorSharpness;
-  vec3 skyTint;     // factors on colours in shadow that look up, and down
-  vec3 groundTint;
 };

@@ -15,25 +15,23 @@ layout(location = 2) in vec2 inUv0;
 layout(location = 3) in vec2 inUv1;
 layout(location = 4) in vec4 inColor;
 
-layout(location = 0) out vec3 outLightSpace;  // where to look the shadow map up, not yet warped
+layout(location = 0) out vec3 outLightSpace;  // the sigmoid's argument, and depth from the light
 layout(location = 1) out vec2 outFacing;      // towards the light, and upwards: cosines of the front side
 layout(location = 2) out vec4 outColor;
 layout(location = 3) out vec4 outUvs;
 
 void main() {
-  mat4 worldToClip = VIEW_FIELD(worldToClip, viewIndex());
-  gl_Position = worldToClip * vec4(inPosition, 1.0);
+  gl_Position = VIEW_FIELD(worldToClip, viewIndex()) * vec4(inPosition, 1.0);
   vec3 normal = decodeNormal(inNormal);
   float lambert = dot(normal, frame.toLight);
 
   // A texel and a half along the normal, on the side that the light can reach, keeps a surface from shading itself
   // wherever the map is coarse.
   vec3 p = (frame.worldToLight * vec4(inPosition, 1.0)).xyz;
-  vec2 texel = frame.shadowTexel * frame.lightToWorldScale.xy / lightSpaceMagnification(p.xy);
+  vec2 texel = frame.shadowTexel * frame.lightToWorldScale.xy / lightSpaceMagnification(sigmoidArgument(p.xy));
   float coarse = max(texel.x, texel.y);
-  vec3 moved = inPosition + normal * (lambert < 0.0 ? -1.5 : 1.5) * coarse;
-  outLightSpace = (frame.worldToLight * vec4(moved, 1.0)).xyz;
-  outLightSpace.z -= 0.5 * coarse / frame.lightToWorldScale.z;
+  p += mat3(frame.worldToLight) * normal * (lambert < 0.0 ? -1.5 : 1.5) * coarse;
+  outLightSpace = vec3(sigmoidArgument(p.xy), p.z - 0.5 * coarse / frame.lightToWorldScale.z);
 
   outFacing = vec2(lambert, normal.y);
   if (kVaried != 0) outColor = inColor;

@@ -17,16 +17,17 @@ layout(location = 0) in vec2 inUv;
 layout(location = 1) in vec3 inTangentU;
 layout(location = 2) in vec3 inTangentV;
 layout(location = 3) in vec3 inBaseUvAlpha;
+layout(location = 4) flat in vec2 inSizeContrast;
 layout(location = 0) out uvec4 outPattern;
 layout(location = 1) out vec4 outKnobs;
 
 void main() {
   if (kAlphaMode != 0 && isHole(inBaseUvAlpha.xy, inBaseUvAlpha.z, kAlphaMode)) discard;
-  float w = 1.0 / gl_FragCoord.w;
-  vec2 ndc = gl_FragCoord.xy / frame.imageSize * 2.0 - 1.0;
-  outPattern = uvec4(floatBitsToUint(inUv), packBfloat(projectTangent(inTangentU, ndc, w, frame.imageSize)),
-                     packBfloat(projectTangent(inTangentV, ndc, w, frame.imageSize)));
-  float far = warp.distance * w;  // paper 000, eq. 26
-  outKnobs = vec4(warp.amount / 64.0 / (1.0 + far * far), log2(meta.size * frame.pixelScale) / 16.0,
-                  float(meta.contrast), 1.0);
+  // From clip space to pixels at this point: the tangents' x and y come in half image sizes.
+  vec2 fromCenter = gl_FragCoord.xy - 0.5 * frame.imageSize;
+  vec2 dSdu = (inTangentU.xy - fromCenter * inTangentU.z) * gl_FragCoord.w;
+  vec2 dSdv = (inTangentV.xy - fromCenter * inTangentV.z) * gl_FragCoord.w;
+  outPattern = uvec4(floatBitsToUint(inUv), packBfloat(dSdu), packBfloat(dSdv));
+  float nearness = gl_FragCoord.w * gl_FragCoord.w;  // paper 000, eq. 26, with 1 / d^2
+  outKnobs = vec4(warp.amount / 64.0 * nearness / (nearness + warp.distance * warp.distance), inSizeContrast, 1.0);
 }

@@ -22,6 +22,7 @@ layout(location = 0) out vec2 outUv;
 layout(location = 1) out vec3 outTangentU;  // clip-space x, y, w of dP/du
 layout(location = 2) out vec3 outTangentV;
 layout(location = 3) out vec3 outBaseUvAlpha;
+layout(location = 4) flat out vec2 outSizeContrast;  // as target 1 has them
 
 void main() {
   mat4 worldToClip = VIEW_FIELD(worldToClip, viewIndex());
@@ -41,8 +42,10 @@ void main() {
   }
   gl_Position = clip;
 
+  outSizeContrast = vec2(log2(meta.size * frame.pixelScale) / 16.0, float(meta.contrast));
   outUv = inPatternUv;
-  outTangentU = (worldToClip * vec4(inDPdu, 0.0)).xyw;
-  outTangentV = (worldToClip * vec4(inDPdv, 0.0)).xyw;
+  vec3 toPixels = vec3(0.5 * frame.imageSize, 1.0);
+  outTangentU = toPixels * (worldToClip * vec4(inDPdu, 0.0)).xyw;
+  outTangentV = toPixels * (worldToClip * vec4(inDPdv, 0.0)).xyw;
   if (kAlphaMode != 0) outBaseUvAlpha = vec3(baseUv(inUv0, inUv1), inColor.a);
 }
