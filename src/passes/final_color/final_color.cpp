@@ -1,5 +1,7 @@
 #include "passes/final_color/final_color.h"
 
+#include <algorithm>
+
 #include "frame/image_step.h"
 #include "passes/final_color/final_color.shared.h"
 #include "shaders/final_color_image_comp.h"
@@ -33,6 +35,10 @@ class FinalColor : public Pass {
     shared::FinalColorUniforms uniforms{};
     uniforms.bloom = params.bloom * glm::vec3(params.bloomTint);
     uniforms.ripple = params.ripple;
+    uniforms.glows = params.bloom > 0 && std::any_of(input.scene.data().materials.begin(),
+                                                     input.scene.data().materials.end(), [](const auto& material) {
+                                                       return material.emissive != glm::vec3(0.0f);
+                                                     });
     step_.update(uniforms);
   }
 

@@ -22,18 +22,16 @@ vec4 shade(ivec2 pixel, int layer) {
   vec4 vector = texelFetch(warp, at, 0);
   vec2 own = vec2(pixel) + 0.5;
   vec2 moved = clamp(own + vector.xy, vec2(0.5), frame.imageSize - 0.5);
-  if (u.ripple == 1) {
-    // FORMULAS 10: outside the silhouette, covered by the inflated surface only, and about to fetch something that lies
-    // behind that surface: such a pixel keeps its own colour. Depths are compared as the depth buffer has them, where
-    // less is farther (parallel projections included).
-    float surface = surfaceDepth(vector.a, layer);
-    float ownDepth = texelFetch(depth, at, 0).r;
-    float movedDepth = texelFetch(depth, ivec3(ivec2(moved), layer), 0).r;
-    if (max(ownDepth, movedDepth) < surface) moved = own;
-  }
+  // FORMULAS 10: outside the silhouette, covered by the inflated surface only, and about to fetch something that lies
+  // behind that surface: such a pixel keeps its own colour. Depths are compared as the depth buffer has them, where
+  // less is farther (parallel projections included). (Loops of one turn, where CPU drivers would run an if for nothing.)
+  float surface = surfaceDepth(vector.a, layer);
+  int outside = u.ripple == 1 && texelFetch(depth, at, 0).r < surface ? 1 : 0;
+  for (int i = 0; i < outside; ++i)
+    if (texelFetch(depth, ivec3(ivec2(moved), layer), 0).r < surface) moved = own;
   vec4 result = textureLod(color, vec3(moved / frame.imageSize, layer), 0.0);
-  float glow = textureLod(blurred, vec3(own / frame.imageSize, layer), 0.0).g;
-  result.rgb += u.bloom * glow * result.a;
+  for (int i = 0; i < u.glows; ++i)
+    result.rgb += u.bloom * textureLod(blurred, vec3(own / frame.imageSize, layer), 0.0).g * result.a;
   return result;
 }
 

@@ -1,0 +1,351 @@
+// MetaTexture and the warp vectors: FORMULAS 1 (pairing), 2 (contrast), 3 (gradients) and 9 (camera roll),
+// and all of it against the same in double precision, from the `uv` and `uv-gradient` AOVs.
+#include "passes/warp/warp.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "base/tileable_noise.h"
+#include "tests/support/aov.h"
+#include "tests/support/ray_cast.h"
+#include "tests/support/render_test.h"
+
+namespace scumble::passes {
+namespace {
+
+using namespace test;
+
+constexpr int kTexels = 256;
+
+// The example texture as the pass makes it, in [0, 1].
+struct Example {
+  std::vector<glm::dvec3> texels{size_t(kTexels) * kTexels};
+  Example() {
+    const auto x = selfSimilarNoise(kTexels, 14, 3, 0.62f, 11),
+               y = selfSimilarNoise(kTexels, 14, 3, 0.62f, 23);
+    const auto marks = selfSimilarNoise(kTexels, 32, 3, 0.6f, 5, 4.0f);
+    const auto byte = [](double v) { return std::round(std::clamp(v, 0.0, 1.0) * 255) / 255; };
+    for (size_t i = 0; i < texels.size(); ++i)
+      texels[i] = {byte(0.5 + x[i] / 4), byte(0.5 + y[i] / 4), byte(0.5 + 0.5 * std::tanh(1.6 * marks[i]))};
+  }
+  glm::dvec3 sample(const glm::dvec2& uv) const {
+    const glm::dvec2 at = uv * double(kTexels) - 0.5, corner = glm::floor(at), f = at - corner;
+    const auto texel = [&](int dx, int dy) {
+      const auto wrap = [](double v) { return size_t(int64_t(v) & (kTexels - 1)); };
+      return texels[wrap(corner.y + dy) * kTexels + wrap(corner.x + dx)];
+    };
+    return glm::mix(glm::mix(texel(0, 0), texel(1, 0), f.x), glm::mix(texel(0, 1), texel(1, 1), f.x), f.y);
+  }
+};
+const Example& example() {
+  static const Example made;
+  return made;
+}
+
+double bfloat(double value) {
+  return std::bit_cast<float>((std::bit_cast<uint32_t>(float(value)) + 0x8000u) & 0xFFFF0000u);
+}
+
+// The texture's colour at a point; gradients in 1 / pixel, size in pixels.
+glm::dvec3 metaTexture(const glm::dvec2& uv, const glm::dvec2& gradU, const glm::dvec2& gradV, double size,
+                       bool contrast) {
+  const double det = gradU.x * gradV.y - gradU.y * gradV.x;
+  const glm::dvec2 dSdu(gradV.y / det, -gradV.x / det), dSdv(-gradU.y / det, gradU.x / det);
+  const auto exponent = [&](const glm::dvec2& grad, const glm::dvec2& dS) {
+    return -std::log2(size * std::min(glm::length(grad), 2 / glm::length(dS)));
+  };
+  const double eu = exponent(gradU, dSdu), ev = exponent(gradV, dSdv);
+  const double bu = smoothstep(0, 1, eu - std::floor(eu)), bv = smoothstep(0, 1, ev - std::floor(ev));
+  // Four copies: u and v at the nearest powers of two below and above. Bu goes with the doubled u (FORMULAS
+  // 1).
+  const double u0 = std::exp2(std::floor(eu)) * uv.x, v0 = std::exp2(std::floor(ev)) * uv.y;
+  const glm::dvec3 sum =
+      (1 - bu) * (1 - bv) * example().sample({u0, v0}) + bu * (1 - bv) * example().sample({2 * u0, v0}) +
+      (1 - bu) * bv * example().sample({u0, 2 * v0}) + bu * bv * example().sample({2 * u0, 2 * v0});
+  // The standard deviation of the blend of independent copies (FORMULAS 2).
+  const double deviation = std::sqrt((bu * bu + (1 - bu) * (1 - bu)) * (bv * bv + (1 - bv) * (1 - bv)));
+  return contrast ? 0.5 + (sum - 0.5) / deviation : sum;
+}
+
+// Knobs reach the texture in 8 bits: the amount in steps of 64/255 pixels, the size in steps of 16/255
+// octaves.
+double amountInBytes(double amount) {
+  return std::round(amount / 64 * 255) / 255 * 64;
+}
+double sizeInBytes(double pixels) {
+  return std::exp2(std::round(std::clamp(std::log2(pixels) / 16, 0.0, 1.0) * 255) / 255 * 16);
+}
+
+class WarpTest : public BothEyes {
+ protected:
+  static constexpr int kWidth = 160, kHeight = 120;
+
+  // A wall whose uv run at different paces.
+  static TestScene wall(const glm::vec2& uvs = {3, 1.7f}) {
+    TestScene s;
+    s.add(gridMesh({-8, -6, 0}, {16, 0, 0}, {0, 12, 0}, 1, uvs),
+          s.material(TestScene::colored("Wall", {0.5f, 0.5f, 0.5f, 1})));
+    return s;
+  }
+  static Look lookOf(double amount, double size, bool contrast = true) {
+    return quietLook({{"warp.amount", std::to_string(amount)},
+                      {"warp.inflation", "0"},
+                      {"warp.metatexture.size", std::to_string(size)},
+                      {"warp.metatexture.contrast", contrast ? "on" : "off"}});
+  }
+};
+INSTANTIATE_BOTH_EYES(WarpTest);
+
+TEST_P(WarpTest, equalsItsReference) {
+  // A tilted wall and a ball.
+  TestScene s = wall({9, 4});
+  s.add(sphereMesh({0, 0, 1}, 1.5f, 48), 0);
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{4, 2, 6}, {0, 0, 0}}, kWidth, kHeight, GetParam());
+  for (const bool contrast : {true, false})
+    for (const double size : {300.0, 1800.0}) {
+      const Frame frame =
+          draw(scene, lookOf(48, size, contrast), views,
+               sized(kWidth, kHeight, {"warp", "uv", "uv-gradient", "depth", "id", "metatexture"}));
+      const double scale = kHeight / 1080.0;
+      for (size_t v = 0; v < viewCount(); ++v) {
+        Difference vectors(0.06), marks(0.06), exponents(0.01), depth(2e-3);
+        for (int y = 0; y < kHeight; ++y)
+          for (int x = 0; x < kWidth; ++x) {
+            const glm::dvec4 got = texel(aov(frame, "warp", v), x, y);
+            if (texel(aov(frame, "id", v), x, y).x == 0) {
+              EXPECT_EQ(got, glm::dvec4(0.0));
+              continue;
+            }
+            const glm::dvec4 gradients = texel(aov(frame, "uv-gradient", v), x, y);
+            glm::dvec2 gradU(gradients.x, gradients.y), gradV(gradients.z, gradients.w);
+            const double turn = gradU.x * gradV.y - gradU.y * gradV.x;
+            const double skew = std::abs(turn) / glm::length(gradU) / glm::length(gradV);
+            if (skew < 0.02) continue;  // edge-on: bounded
+            const auto shown = [&](const glm::dvec2& grad, const glm::dvec2& other) {
+              return -std::log2(size * scale *
+                                std::min(glm::length(grad), 2 * std::abs(turn) / glm::length(other)));
+            };
+            exponents.add(texel(aov(frame, "metatexture", v), x, y).x, shown(gradU, gradV));
+            exponents.add(texel(aov(frame, "metatexture", v), x, y).y, shown(gradV, gradU));
+            // The pass packs dS/du and dS/dv in 16 bits each.
+            const glm::dvec2 dSdu(bfloat(gradV.y / turn), bfloat(-gradV.x / turn)),
+                dSdv(bfloat(-gradU.y / turn), bfloat(gradU.x / turn));
+            const double det = dSdu.x * dSdv.y - dSdu.y * dSdv.x;
+            gradU = glm::dvec2(dSdv.y, -dSdv.x) / det, gradV = glm::dvec2(-dSdu.y, dSdu.x) / det;
+            const glm::dvec2 uv(texel(aov(frame, "uv", v), x, y));
+            const glm::dvec3 e = metaTexture(uv, gradU, gradV, sizeInBytes(size * scale), contrast);
+            // The vector is turned along the gradient of u.
+            const glm::dvec2 axis = glm::normalize(gradU), w = glm::dvec2(e) * 2.0 - 1.0;
+            const double amount = amountInBytes(48) * scale;
+            vectors.add(got.x / amount, axis.x * w.x - axis.y * w.y);
+            vectors.add(got.y / amount, axis.y * w.x + axis.x * w.y);
+            marks.add(got.z, std::clamp(e.z, 0.0, 1.0));
+            depth.add(got.w / texel(aov(frame, "depth", v), x, y).x, 1);
+          }
+        // Filter weights in steps of 1/256, 8 bit texels and half floats; a packed gradient that is rounded
+        // the other way moves a blend by a percent.
+        EXPECT_GT(vectors.count, 10000u);
+        EXPECT_LT(vectors.beyondPart(), 5e-3) << vectors.text();
+        EXPECT_LT(vectors.mean(), 0.01) << vectors.text();
+        EXPECT_LT(marks.beyondPart(), 5e-3) << marks.text();
+        EXPECT_LT(marks.mean(), 0.01) << marks.text();
+        EXPECT_EQ(exponents.beyond, 0u) << exponents.text();
+        EXPECT_EQ(depth.beyond, 0u) << depth.text();
+      }
+    }
+}
+
+// FORMULAS 3: on a tilted plane the smooth gradient is the analytic one, and the difference between pixels,
+// to a percent.
+TEST_P(WarpTest, gradientsOfATiltedPlane) {
+  const TestScene test = wall();
+  const Scene scene = test.load();
+  auto views = viewsFrom(scene, {{5, 3, 4}, {0, 0, 0}, 40, 20}, kWidth, kHeight, GetParam());
+  for (View& view : views) view.eyeToClip[2][0] = 0.2f, view.eyeToClip[2][1] = -0.1f;
+  const Frame frame = draw(scene, quietLook(), views, sized(kWidth, kHeight, {"uv", "uv-gradient", "id"}));
+  for (size_t v = 0; v < viewCount(); ++v) {
+    const auto uvAt = [&](double x, double y) {  // in pixels from the centre of pixel (0, 0)
+      const glm::dmat4 toWorld =
+          glm::inverse(glm::dmat4(views[v].eyeToClip) * glm::dmat4(views[v].worldToEye));
+      const glm::dvec2 ndc = (glm::dvec2(x, y) + 0.5) / glm::dvec2(kWidth, kHeight) * 2.0 - 1.0;
+      const glm::dvec4 a = toWorld * glm::dvec4(ndc, 1, 1), b = toWorld * glm::dvec4(ndc, 0.5, 1);
+      const glm::dvec3 p = glm::dvec3(a) / a.w, q = glm::dvec3(b) / b.w;
+      const glm::dvec3 hit = p - (q - p) * p.z / (q.z - p.z);
+      return glm::dvec2((hit.x + 8) / 16 * 3, (hit.y + 6) / 12 * 1.7);
+    };
+    size_t count = 0;
+    double offAnalytic = 0, offDifference = 0;
+    for (int y = 1; y < kHeight - 1; ++y)
+      for (int x = 1; x < kWidth - 1; ++x) {
+        const Image& id = aov(frame, "id", v);
+        bool inside = true;
+        for (const auto& [dx, dy] : {std::pair{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+          inside &= texel(id, x + dx, y + dy).x == 1;
+        if (!inside) continue;
+        ++count;
+        const glm::dvec4 g = texel(aov(frame, "uv-gradient", v), x, y);
+        const double h = 1e-3;
+        const glm::dvec2 dx = (uvAt(x + h, y) - uvAt(x - h, y)) / (2 * h),
+                         dy = (uvAt(x, y + h) - uvAt(x, y - h)) / (2 * h);
+        const glm::dvec4 analytic(dx.x, dy.x, dx.y, dy.y);
+        const Image& uv = aov(frame, "uv", v);
+        const glm::dvec4 ex = 0.5 * (texel(uv, x + 1, y) - texel(uv, x - 1, y)),
+                         ey = 0.5 * (texel(uv, x, y + 1) - texel(uv, x, y - 1));
+        const glm::dvec4 difference(ex.x, ey.x, ex.y, ey.y);
+        const auto off = [&](const glm::dvec4& e) {
+          const double u = glm::length(glm::dvec2(g) - glm::dvec2(e)) / glm::length(glm::dvec2(e));
+          const double w =
+              glm::length(glm::dvec2(g.z, g.w) - glm::dvec2(e.z, e.w)) / glm::length(glm::dvec2(e.z, e.w));
+          return std::max(u, w);
+        };
+        offAnalytic = std::max(offAnalytic, off(analytic));
+        offDifference = std::max(offDifference, off(difference));
+      }
+    EXPECT_GT(count, 8000u);
+    EXPECT_LT(offAnalytic, 0.002);
+    EXPECT_LT(offDifference, 0.01);
+  }
+}
+
+// FORMULAS 1: as the size goes through two octaves the colour never jumps; least of all where an exponent is
+// whole, because the blend stands still there.
+TEST_F(WarpTest, continuousWhereExponentsAreWhole) {
+  const Scene scene = wall({5, 2.2f}).load();
+  const View view = parallelView(2, 4.0f / 3);
+  constexpr int kSteps = 33;
+  const double step = 16.0 / 255;  // as fine as the pass resolves sizes
+  std::vector<Image> warps;
+  std::vector<glm::dvec2> exponents;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double size = std::exp2(step * (90 + i)) * 1080 / kHeight;
+    const Frame frame =
+        draw(scene, lookOf(64, size), {view}, sized(kWidth, kHeight, {"warp", "metatexture"}));
+    warps.push_back(aov(frame, "warp"));
+    exponents.push_back(glm::dvec2(texel(aov(frame, "metatexture"), 80, 60)));
+  }
+  double across = 0, elsewhere = 0;
+  int crossings = 0, others = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    double sum = 0;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        const glm::dvec4 d = texel(warps[size_t(i)], x, y) - texel(warps[size_t(i) + 1], x, y);
+        sum += d.x * d.x + d.y * d.y;
+      }
+    const double rms = std::sqrt(sum / (kWidth * kHeight)) / (64.0 * kHeight / 1080);
+    const glm::dvec2 a = exponents[size_t(i)], b = exponents[size_t(i) + 1];
+    const bool crosses = glm::floor(a) != glm::floor(b);
+    (crosses ? across : elsewhere) = std::max(crosses ? across : elsewhere, rms);
+    ++(crosses ? crossings : others);
+  }
+  EXPECT_GE(crossings, 4);
+  EXPECT_GE(others, 20);
+  // A blend moves by at most 1.5 of its way an octave; copies differ by about one standard deviation (0.5)
+  // times sqrt 2, and contrast may double that.
+  EXPECT_LT(elsewhere, 1.5 * step * 0.5 * 1.42 * 2 * 1.42);
+  EXPECT_LT(across, 0.7 * elsewhere);
+  RecordProperty("across_permille", int(1000 * across));
+  RecordProperty("elsewhere_permille", int(1000 * elsewhere));
+}
+
+// FORMULAS 2: the same contrast at every zoom.
+TEST_F(WarpTest, contrastIsSteadyOverAZoom) {
+  const Scene scene = wall({8, 6}).load();  // square in metres
+  double least[2] = {1e9, 1e9}, most[2] = {0, 0};
+  for (const bool contrast : {false, true})
+    for (int i = 0; i < 12; ++i) {
+      const View view = parallelView(2.0f * std::exp2(float(i) / 8), 4.0f / 3);
+      const Frame frame = draw(scene, lookOf(64, 216, contrast), {view}, sized(320, 240, {"warp"}));
+      glm::dvec2 sum(0.0), squares(0.0);
+      for (int y = 0; y < 240; ++y)
+        for (int x = 0; x < 320; ++x) {
+          const glm::dvec2 w(texel(aov(frame, "warp"), x, y));
+          sum += w, squares += w * w;
+        }
+      const double n = 320 * 240, pixels = 64.0 * 240 / 1080;
+      const glm::dvec2 variance = squares / n - sum * sum / n / n;
+      const double deviation = std::sqrt(0.5 * (variance.x + variance.y)) / pixels;
+      least[contrast] = std::min(least[contrast], deviation),
+      most[contrast] = std::max(most[contrast], deviation);
+    }
+  EXPECT_LT(most[1] / least[1], 1.12) << least[1] << " to " << most[1];
+  EXPECT_GT(most[0] / least[0], 1.5) << "blending alone takes half of it away";
+  RecordProperty("ratio_percent", int(100 * most[1] / least[1]));
+  std::printf("contrast %g..%g, without %g..%g\n", least[1], most[1], least[0], most[0]);
+}
+
+// FORMULAS 9: a roll of the camera by 90 degrees rolls the picture and the vectors with it.
+TEST_P(WarpTest, cameraRollRollsThePicture) {
+  constexpr int kSize = 128;
+  const Scene scene = stillLife().load();
+  // The sky's gradient and the light are of the world, so they roll as well.
+  const Look look = quietLook({{"warp.amount", "40"}, {"warp.inflation", "20"}, {"light.shadowWarp", "0"}});
+  const auto render = [&](float roll) {
+    Stand stand{{2, 2.5f, 6}, {0, 0.8f, 0}, 40, roll, 0};  // both eyes at one place: ipd turns with the head
+    return draw(scene, look, viewsFrom(scene, stand, kSize, kSize, GetParam()),
+                sized(kSize, kSize, {"warp", "color"}));
+  };
+  const Frame upright = render(0), rolled = render(90);
+  for (size_t v = 0; v < viewCount(); ++v) {
+    Difference picture(0.02), vectors(0.25);
+    for (int y = 0; y < kSize; ++y)
+      for (int x = 0; x < kSize; ++x) {
+        // Right is up in the rolled picture.
+        const glm::dvec4 a = texel(aov(upright, "", v), x, y),
+                         b = texel(aov(rolled, "", v), y, kSize - 1 - x);
+        for (int c = 0; c < 3; ++c) picture.add(a[c], b[c]);
+        const glm::dvec4 p = texel(aov(upright, "warp", v), x, y),
+                         q = texel(aov(rolled, "warp", v), y, kSize - 1 - x);
+        vectors.add(p.x, -q.y);
+        vectors.add(p.y, q.x);
+      }
+    EXPECT_LT(picture.beyondPart(), 0.03) << picture.text();
+    EXPECT_LT(picture.mean(), 3e-3) << picture.text();
+    EXPECT_LT(vectors.beyondPart(), 0.02) << vectors.text();
+  }
+}
+
+// Inflation widens the covered part by as many pixels as it says, and nothing where it is 0.
+TEST_P(WarpTest, inflationWidensTheSilhouette) {
+  TestScene s;
+  s.add(sphereMesh({0, 0, 0}, 1, 64), s.material(TestScene::colored("Ball", {0.5f, 0.5f, 0.5f, 1})));
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0, 0, 6}}, kWidth, kHeight, GetParam());
+  for (const double pixels : {0.0, 3.0, 6.0}) {
+    const Frame frame = draw(scene, quietLook({{"warp.inflation", std::to_string(pixels * 1080 / kHeight)}}),
+                             views, sized(kWidth, kHeight, {"warp", "id"}));
+    for (size_t v = 0; v < viewCount(); ++v) {
+      double area = 0, inflated = 0;
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+          area += texel(aov(frame, "id", v), x, y).x;
+          inflated += texel(aov(frame, "warp", v), x, y).w > 0;
+        }
+      EXPECT_NEAR(std::sqrt(inflated / 3.14159265) - std::sqrt(area / 3.14159265), pixels, 0.25);
+    }
+  }
+}
+
+// Eq. 26: the amount falls with distance.
+TEST_F(WarpTest, farThingsAreTornLess) {
+  const Scene scene = wall().load();
+  const auto spread = [&](float away, const char* distance) {
+    Look look = lookOf(64, 256);
+    EXPECT_TRUE(look.set("warp.distance", distance).ok());
+    const Frame frame = draw(scene, look, viewsFrom(scene, {{0, 0, away}, {0, 0, 0}, 20}, kWidth, kHeight),
+                             sized(kWidth, kHeight, {"warp"}));
+    double most = 0;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x)
+        most = std::max(most, glm::length(glm::dvec2(texel(aov(frame, "warp"), x, y))));
+    return most;
+  };
+  EXPECT_NEAR(spread(10, "0.2") / spread(10, "0"), 1 / (1 + 4.0), 0.02);
+  EXPECT_NEAR(spread(5, "0.2") / spread(5, "0"), 1 / (1 + 1.0), 0.02);
+}
+
+}  // namespace
+}  // namespace scumble::passes
