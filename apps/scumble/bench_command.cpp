@@ -9,6 +9,7 @@
 
 #include "commands.h"
 #include "options.h"
+#include "outputs.h"
 #include "report.h"
 
 namespace scumble::app {
@@ -30,6 +31,7 @@ double median(std::vector<double> values) {
 
 int run(const BenchArguments& args) {
   if (args.runs < 1 || args.runs > 1000) return failUsage("--runs is out of range", "use 1 to 1000");
+  if (const Status status = checkWritable(args.json); !status) return fail(status.error());
   const Result<RenderOptions> options = args.picture.renderOptions();
   if (!options) return fail(options.error());
   const Result<Look> look = args.look.load(args.scene.files[0]);
@@ -56,6 +58,9 @@ int run(const BenchArguments& args) {
     if (!painted) return fail(painted.error());
     const Result<Frame> drawn = (*yardstick)->render(*scene, *look, 0, *views, plain);
     if (!drawn) return fail(drawn.error());
+    if ((*painter)->validationMessages() + (*yardstick)->validationMessages() > 0)
+      return fail(Error{ErrorKind::internal, "", 0, "", "the validation layers found mistakes",
+                        "please report them"});
     if (painted->stats.passes.empty())
       return fail(Error{ErrorKind::noUsableGpu, "", 0, "", "this device has no timestamps",
                         "choose another --device"});
@@ -100,10 +105,8 @@ int run(const BenchArguments& args) {
                                 {"frameMilliseconds", median(frame)},
                                 {"yardstickMilliseconds", median(plainFrame)},
                                 {"ratio", median(ratios)}};
-    std::ofstream file(args.json);
-    if (!(file << report.dump(2) << '\n').flush())
-      return fail(Error{ErrorKind::outputNotWritten, args.json, 0, "", "the report cannot be written",
-                        "check the path"});
+    if (const Status status = writeText(args.json, report.dump(2) + "\n"); !status)
+      return fail(status.error());
   }
   return kDone;
 }

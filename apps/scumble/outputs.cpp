@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 
 namespace scumble::app {
 
@@ -27,8 +28,36 @@ Image arrange(const std::vector<Image>& views, const std::string& layout) {
 
 }  // namespace
 
+Status checkWritable(const std::string& path) {
+  if (path.empty()) return Done{};
+  const auto fail_ = [&](std::string problem, std::string advice) {
+    return Error{ErrorKind::outputNotWritten, path, 0, "", std::move(problem), std::move(advice)};
+  };
+  fs::path folder = fs::path(path).parent_path();
+  if (folder.empty()) folder = ".";
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) return fail_("the folder does not exist", "make it first");
+  if (access(folder.c_str(), W_OK) != 0)
+    return fail_(std::string("the folder cannot be written: ") + std::strerror(errno), "choose another one");
+  if (fs::is_directory(path, ignored)) return fail_("this is a folder", "give a file's name");
+  return Done{};
+}
+
+Status writeText(const std::string& path, const std::string& text) {
+  if (path.empty()) return Done{};
+  const std::string temporary = path + "." + std::to_string(getpid()) + ".tmp";
+  std::error_code error;
+  const bool written = (std::ofstream(temporary, std::ios::binary) << text).flush().good();
+  if (written) fs::rename(temporary, path, error);
+  if (written && !error) return Done{};
+  const std::string problem = error ? error.message() : std::strerror(errno);
+  fs::remove(temporary, error);
+  return Error{ErrorKind::outputNotWritten,  path, 0, "", "it cannot be written: " + problem,
+               "check the path and the disk"};
+}
+
 Result<OutputPlan> OutputPlan::make(const std::string& given, const std::string& sceneFile,
-                                    const std::string& layout) {
+                                    const std::string& layout, bool hasFrames) {
   OutputPlan plan;
   plan.layout = layout;
   plan.path = given.empty() ? fs::path(sceneFile).stem().string() + ".png" : given;
@@ -42,21 +71,14 @@ Result<OutputPlan> OutputPlan::make(const std::string& given, const std::string&
                  "",
                  "'" + plan.path + "' ends neither in .png nor in .exr",
                  "name the output like picture.png"};
-  // Find out now, not after a long rendering.
-  fs::path folder = fs::path(plan.path).parent_path();
-  if (folder.empty()) folder = ".";
-  std::error_code error;
-  if (!fs::is_directory(folder, error))
-    return Error{ErrorKind::outputNotWritten, plan.path, 0, "", "the folder does not exist", "make it first"};
-  if (access(folder.c_str(), W_OK) != 0)
-    return Error{ErrorKind::outputNotWritten,
-                 plan.path,
+  if (plan.isSequence() && !hasFrames)
+    return Error{ErrorKind::usage,
+                 "",
                  0,
                  "",
-                 std::string("the folder cannot be written: ") + std::strerror(errno),
-                 "choose another one"};
-  if (fs::is_directory(plan.path, error))
-    return Error{ErrorKind::outputNotWritten, plan.path, 0, "", "this is a folder", "give a file's name"};
+                 "'" + plan.path + "' names a sequence, but there is no range of frames",
+                 "add --frames A..B, or name one picture"};
+  if (const Status status = checkWritable(plan.path); !status) return status.error();
   return plan;
 }
 
@@ -68,6 +90,14 @@ std::string OutputPlan::framePath(std::optional<int> number) const {
   std::string digits = std::to_string(std::abs(*number));
   if (digits.size() < last - first) digits.insert(0, last - first - digits.size(), '0');
   return path.substr(0, first) + (*number < 0 ? "-" : "") + digits + path.substr(last);
+}
+
+bool OutputPlan::isThere(const std::string& target, size_t viewCount) const {
+  std::error_code ignored;
+  if (!separateEyes || viewCount < 2) return fs::exists(target, ignored);
+  const std::string extension = fs::path(target).extension().string();
+  return fs::exists(withPart(target, kEyes[0], extension), ignored) &&
+         fs::exists(withPart(target, kEyes[1], extension), ignored);
 }
 
 Status OutputPlan::write(const Frame& frame, const std::string& target) const {

@@ -17,14 +17,22 @@ struct OutputPlan {
   // Fails with usage for a name whose ending is not known, and with outputNotWritten where it cannot be
   // written at all.
   static Result<OutputPlan> make(const std::string& given, const std::string& sceneFile,
-                                 const std::string& layout);
+                                 const std::string& layout, bool hasFrames);
 
   // The path of frame `number`: #### is replaced by the number, zero-padded.
   std::string framePath(std::optional<int> number) const;
   bool isSequence() const { return path.find('#') != std::string::npos; }
 
+  // Whether every picture of this frame is there (AOVs beside it are written after it and not looked for).
+  bool isThere(const std::string& framePath, size_t viewCount) const;
+
   // Writes the picture and its AOVs: layers of an EXR, or beside a PNG as NAME.AOV.exr.
   Status write(const Frame& frame, const std::string& framePath) const;
 };
+
+// A text file that appears whole or not at all. Nothing happens for an empty path.
+Status writeText(const std::string& path, const std::string& text);
+// Whether that could work, before long work begins.
+Status checkWritable(const std::string& path);
 
 }  // namespace scumble::app

@@ -69,8 +69,10 @@ int run(const RenderArguments& args) {
   // Check everything that can be checked before anything is drawn.
   Result<RenderOptions> options = args.picture.renderOptions();
   if (!options) return fail(options.error());
-  const Result<OutputPlan> output = OutputPlan::make(args.output, args.scene.files[0], args.picture.stereo);
+  const Result<OutputPlan> output =
+      OutputPlan::make(args.output, args.scene.files[0], args.picture.stereo, !args.frames.empty());
   if (!output) return fail(output.error());
+  if (const Status status = checkWritable(args.stats); !status) return fail(status.error());
   std::optional<std::pair<int, int>> frames;
   if (!args.frames.empty() && !(frames = parseFrames(args.frames)))
     return failUsage("--frames " + args.frames + " is no range", "write it like 0..23");
@@ -79,7 +81,6 @@ int run(const RenderArguments& args) {
                      "name it like picture.####.png");
   if (!std::isfinite(args.time) || !(args.fps > 0) || !std::isfinite(args.fps))
     return failUsage("--time or --fps is out of range", "time is in seconds, fps above 0");
-  options->framesPerSecond = args.fps;
   for (const std::string& name : args.aovs) {
     if (name == "all") {
       for (const std::string& every : Renderer::aovNames()) options->aovs.push_back(every);
@@ -115,8 +116,7 @@ int run(const RenderArguments& args) {
   double rendering = 0, writing = 0;
   for (int number = first; number <= last; ++number) {
     const std::string path = output->framePath(frames ? std::optional(number) : std::nullopt);
-    std::error_code ignored;
-    if (args.resume && std::filesystem::exists(path, ignored)) continue;
+    if (args.resume && output->isThere(path, views->size())) continue;
     const double time = frames ? number / args.fps : args.time;
     lapStart = Clock::now();
     const Result<Frame> frame = (*renderer)->render(*scene, *look, time, *views, *options);
@@ -153,10 +153,8 @@ int run(const RenderArguments& args) {
                                 {"totalMilliseconds", millisecondsSince(start)},
                                 {"peakResidentBytes", uint64_t(usage.ru_maxrss) * 1024},
                                 {"frames", frameStats}};
-    std::ofstream file(args.stats);
-    if (!(file << report.dump(2) << '\n').flush())
-      return fail(Error{ErrorKind::outputNotWritten, args.stats, 0, "", "the statistics cannot be written",
-                        "check the path"});
+    if (const Status status = writeText(args.stats, report.dump(2) + "\n"); !status)
+      return fail(status.error());
   }
   return kDone;
 }

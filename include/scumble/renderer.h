@@ -40,7 +40,6 @@ struct RenderOptions {
   uint32_t samples = 4;                 // 1 or 4
   std::vector<std::string> aovs;        // names of Renderer::aovNames()
   bool transparent = false;             // leave the background out: alpha 0 where nothing is
-  double framesPerSecond = 24;          // of the motion AOV and the look's frame grid
   uint32_t seed = 0;
   bool plain = false;  // the yardstick: the scene once, unlit, one pass, nothing else
   // The views one frame earlier, for the motion AOV; empty: the same as now.
@@ -55,7 +54,7 @@ struct PassTime {
 struct FrameStats {
   std::vector<PassTime> passes;  // in order; empty where the device has no timestamps
   double gpuMilliseconds = 0;    // first to last timestamp
-  double cpuMilliseconds = 0;    // preparing and recording
+  double cpuMilliseconds = 0;    // preparing: uniforms and passes' updates
   double readbackMilliseconds = 0;
   double uploadMilliseconds = 0;  // building the scene's GPU data; 0 once it is there
   double setupMilliseconds = 0;   // images and pipelines; 0 once they are there

@@ -52,11 +52,13 @@ class Scene {
   // Several scenes in one world, in the given order; cameras of the first come first.
   static Scene combine(const std::vector<Scene>& scenes);
 
+  bool empty() const { return !data_; }  // true of a Scene that was not loaded
+
   SceneSummary summary() const;
   const std::vector<std::string>& warnings() const;  // what was ignored or replaced, each once
   const SceneTimings& timings() const;
 
-  // The data behind it, for the library's own rooms.
+  // The data behind it, for the library's own rooms; not of an empty one.
   const scene::SceneData& data() const { return *data_; }
 
  private:

@@ -109,6 +109,7 @@ View lookAt(const glm::vec3& eye, const glm::vec3& target, float rollDegrees) {
 Result<std::vector<View>> makeViews(const Scene& scene, const Viewpoint& viewpoint, float aspect,
                                     Stereo stereo, float ipd) {
   using namespace frame;
+  if (scene.empty()) return badViewpoint("the scene is empty", "load one with Scene::load");
   const SceneData& data = scene.data();
   const float radius = std::max(data.bounds.radius(), 1e-6f);
   const float near = 1e-3f * radius;

@@ -30,7 +30,9 @@ void setLightSpace(shared::FrameUniforms& uniforms, const SceneOnGpu& scene, con
   const glm::vec3 away = -uniforms.toLight;
   const glm::vec3 up = std::abs(away.y) > 0.99f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
   const glm::vec3 right = glm::normalize(glm::cross(away, up)), above = glm::cross(right, away);
-  const glm::mat3 toLightAxes = glm::transpose(glm::mat3(right, above, away));
+  // Clip space's y points down; a light space that follows it keeps the winding, so that single-sided sheets
+  // cast their shadows with the side that faces the light.
+  const glm::mat3 toLightAxes = glm::transpose(glm::mat3(right, -above, away));
 
   scene::Bounds box;
   for (const Draw& draw : scene.draws()) {

@@ -140,18 +140,18 @@ glm::vec3 apply(const shared::ColorMap& map, const glm::vec3& linear) {
 bool hasGround(const scene::SceneData& scene, const look::LookData& look) {
   const int mode = look.get<GroundParams>().mode;
   if (mode != 0) return mode == 1;
-  // A scene that is wide and low, or seen from inside by its own camera, brings its own ground.
+  // A scene that is wide and low brings its own ground.
   const glm::vec3 size = scene.bounds.max - scene.bounds.min;
   return size.y > 0.12f * std::max(size.x, size.z);
 }
 
 BackgroundColors automaticBackground(const SceneColors& colors) {
   const glm::dvec3 scene = oklabFromLinear(glm::dvec3(colors.meanRootRgb * colors.meanRootRgb));
-  // Light scenes stand before a middle value and cool air; dark ones before a light value, warm cream unless
-  // they are warm themselves.
-  const bool light = scene.x > 0.60;
+  // Light scenes stand before a middle value and cool air; all others before a light value, warm cream unless
+  // they are warm themselves. Two steps of value are about 0.2 of lightness.
+  const bool light = scene.x > 0.74;
   const double lightness =
-      light ? std::clamp(scene.x - 0.19, 0.60, 0.69) : std::clamp(scene.x + 0.36, 0.78, 0.89);
+      light ? std::clamp(scene.x - 0.21, 0.56, 0.70) : std::clamp(scene.x + 0.30, 0.78, 0.93);
   const double warmth = std::clamp((scene.y + scene.z) / 0.08, -1.0, 1.0);
   const double coolness = light ? 0.80 + 0.20 * warmth : 0.38 + 0.40 * warmth;
   const glm::dvec2 warm(0.018, 0.050), cool(-0.034, -0.044);

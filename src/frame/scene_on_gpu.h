@@ -1,5 +1,5 @@
 // A scene in device memory: rest vertices, the final vertices that `deform` writes, indices, textures, and
-// the list of draws. Built once per scene; nothing in it depends on the look but whether there is a ground.
+// the list of draws. Built once per scene and GeometryOptions, the little of the look that goes into it.
 #pragma once
 
 #include <array>

@@ -16,7 +16,7 @@ enum class Slot : uint8_t {
   lit,        // square root of the linear colour in full light; A: coverage
   shadowed,   // the same in shadow. Square roots need no more than 8 bits, and cost drivers less than sRGB
   depth,      // depth buffer of the surface pass
-  blur,       // the shadow channels, blurred, at a quarter of the size
+  blur,       // R, G, A: the shadow channels, blurred, at a quarter of the size; B: eye depth
   finalShadow,  // R: light after threshold and inner glow; G: lens; B: where indication acts; A: coverage
   color,        // lit and shadowed mixed, over the background
   finalColor,   // warped, with bloom: the picture

@@ -52,8 +52,8 @@ class Device {
   // Whether image passes run faster as compute shaders. Measured: CPU drivers draw a full screen 1.45 times
   // faster than they dispatch it; servers' GPUs have few graphics units and dispatch up to 30 times faster.
   bool prefersCompute() const { return !info_.isCpu; }
-  // Whether several views can be drawn at once. Mesa 22.3's llvmpipe draws what covers whole tiles into the first layer,
-  // whatever the view: it gets one view at a time.
+  // Whether several views can be drawn at once. Mesa 22.3's llvmpipe draws what covers whole tiles into the
+  // first layer, whatever the view: it gets one view at a time.
   bool multiviewWorks() const { return !isLlvmpipe_; }
   bool hasTimestamps() const { return limits_.timestampComputeAndGraphics && limits_.timestampPeriod > 0; }
 

@@ -109,8 +109,8 @@ VkImageView Image::makeView(uint32_t firstLayer) const {
   info.viewType = desc_.arrayView ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
   info.format = desc_.format;
   const bool depth = isDepthFormat(desc_.format);
-  info.subresourceRange = {VkImageAspectFlags(depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT), 0,
-                           desc_.mipLevels, firstLayer, desc_.layers - firstLayer};
+  info.subresourceRange = {VkImageAspectFlags(depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT),
+                           0, desc_.mipLevels, firstLayer, desc_.layers - firstLayer};
   VkImageView view;
   SCUMBLE_VK(vkCreateImageView(device_->handle(), &info, nullptr, &view));
   return view;

@@ -55,15 +55,18 @@ size_t editDistance(const std::string& a, const std::string& b) {
 }  // namespace
 
 void LookData::fill(const ParamBlock& block, void* out) const {
-  for (const Assignment& a : assignments)
-    if (a.block == &block && a.materialPattern.empty()) store(*a.row, a.value, out);
+  for (const bool byHand : {false, true})
+    for (const Assignment& a : assignments)
+      if (a.block == &block && a.byHand == byHand && a.materialPattern.empty()) store(*a.row, a.value, out);
 }
 
 void LookData::fillForMaterial(const ParamBlock& block, const std::string& material, void* out) const {
-  fill(block, out);
-  for (const Assignment& a : assignments)
-    if (a.block == &block && !a.materialPattern.empty() && matches(a.materialPattern, material))
-      store(*a.row, a.value, out);
+  for (const bool byHand : {false, true})
+    for (const bool forMaterials : {false, true})
+      for (const Assignment& a : assignments)
+        if (a.block == &block && a.byHand == byHand && a.materialPattern.empty() != forMaterials &&
+            (!forMaterials || matches(a.materialPattern, material)))
+          store(*a.row, a.value, out);
 }
 
 bool matches(const std::string& pattern, const std::string& name) {

@@ -19,12 +19,15 @@ struct Assignment {
   const ParamBlock* block;
   const ParamRow* row;
   Value value;
+  bool byHand = false;  // by Look::set, not by the look's file
 };
 
 struct LookData {
   std::string description;
   std::vector<Assignment> assignments;
 
+  // The order in which settings count, the last one winning: the file's for the whole scene, the file's for
+  // materials, those by hand for the whole scene, those by hand for materials; of two alike the later one.
   // Fills a block's struct with what holds for the whole scene.
   void fill(const ParamBlock& block, void* out) const;
   // With what holds for one material.

@@ -17,7 +17,8 @@ using look::LookData;
 using look::ParamBlock;
 using look::ParamKind;
 using look::ParamRow;
-using nlohmann::json;
+// In the order of the file, since of two settings alike the later one wins.
+using json = nlohmann::ordered_json;
 
 namespace {
 
@@ -195,6 +196,7 @@ Status Look::set(const std::string& path, const std::string& value) {
     return error;
   }
   assignment->value = *parsed;
+  assignment->byHand = true;
   auto changed = std::make_shared<LookData>(*data_);
   changed->assignments.push_back(*assignment);
   data_ = std::move(changed);

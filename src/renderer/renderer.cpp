@@ -89,6 +89,7 @@ struct Renderer::Impl {
   std::optional<Scene> scene;  // keeps the data alive that sceneOnGpu refers to
   std::optional<SceneOnGpu> sceneOnGpu;
   std::unique_ptr<Setup> setup;
+  ColorMaps colorMaps;
 
   ~Impl() {
     setup.reset();
@@ -229,6 +230,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
 Result<Frame> Renderer::render(const Scene& scene, const Look& look, double time,
                                const std::vector<View>& views, const RenderOptions& options) {
   // Check what the caller wants.
+  if (scene.empty()) return usage("the scene is empty", "load one with Scene::load");
   const uint32_t largest = std::min(kMaxSize, impl_->device->limits().maxImageDimension2D);
   if (options.width < 1 || options.height < 1 || options.width > largest || options.height > largest)
     return usage("a picture of " + std::to_string(options.width) + "x" + std::to_string(options.height) +
@@ -293,7 +295,7 @@ Result<Frame> Renderer::render(const Scene& scene, const Look& look, double time
         sceneOnGpu, look.data(), views, options.previousViews, time, configuration, options.seed);
     setup.frameSlice.write(uniforms);
     for (size_t m = 0; m < sceneOnGpu.materialCount(); ++m)
-      sceneOnGpu.setMaterial(m, materialData(sceneOnGpu, m, look.data()));
+      sceneOnGpu.setMaterial(m, materialData(sceneOnGpu, m, look.data(), impl_->colorMaps));
     const FrameInput input{look.data(), uniforms, sceneOnGpu, options.transparent, options.seed};
     for (const auto& pass : setup.passes) pass->update(input);
     frame.stats.cpuMilliseconds = lap();

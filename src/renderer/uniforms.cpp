@@ -51,7 +51,20 @@ shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const look::LookDat
   return u;
 }
 
-shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const look::LookData& look) {
+const ColorMaps::Pair& ColorMaps::get(const PaletteParams& palette) {
+  for (const auto& [known, pair] : known_)
+    if (std::memcmp(&known, &palette, sizeof(palette)) == 0) return pair;
+  // An animated palette must not fill the memory.
+  if (known_.size() >= 64) known_.clear();
+  return known_
+      .emplace_back(palette,
+                    Pair{fitColorMap([&](const glm::dvec3& c) { return litColor(palette, c); }),
+                         fitColorMap([&](const glm::dvec3& c) { return shadowedColor(palette, c); })})
+      .second;
+}
+
+shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const look::LookData& look,
+                                  ColorMaps& maps) {
   const bool isGround = int(index) == scene.groundMaterial();
   const scene::Material material = isGround ? scene::Material{} : scene.data().materials[index];
   const PaletteParams palette = look.getForMaterial<PaletteParams>(scene.materialName(index));
@@ -96,7 +109,10 @@ shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const l
   // A constant colour needs no fit: it goes through the rule itself.
   const glm::dvec3 base = glm::clamp(glm::dvec3(material.baseColor), 0.0, 1.0);
   glm::vec3 constantLit(lit(base)), constantShadowed(shadowed(base));
-  if (scene.isVaried(index)) data.lit = fitColorMap(lit), data.shadowed = fitColorMap(shadowed);
+  if (scene.isVaried(index)) {
+    const ColorMaps::Pair& pair = maps.get(palette);
+    data.lit = pair.lit, data.shadowed = pair.shadowed;
+  }
   if (material.shadowedColor) {
     // A scene that brings its own colours for shadow has chosen those for light as well.
     data.shadowedColor = *material.shadowedColor;
@@ -104,6 +120,8 @@ shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const l
     constantShadowed = glm::mix(constantShadowed, data.shadowedColor, palette.ownShadow);
     if (palette.ownShadow >= 1) data.lit = identityColorMap(), constantLit = glm::vec3(base);
   }
+  // What is unlit is to look as its author painted it.
+  if (material.unlit) data.lit = identityColorMap(), constantLit = glm::vec3(base);
   setConstant(constantLit, constantShadowed);
   return data;
 }

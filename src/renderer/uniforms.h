@@ -1,6 +1,7 @@
 // What set 0 holds, computed from views, scene and look.
 #pragma once
 
+#include "frame/palette.h"
 #include "frame/pass.h"
 #include "scumble/view.h"
 
@@ -14,7 +15,21 @@ shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const look::LookDat
                                     const std::vector<View>& views, const std::vector<View>& previousViews,
                                     double time, const Configuration& configuration, uint32_t seed);
 
+// Fitted colour maps by palette, since a fit costs a tenth of a millisecond or more and most materials share
+// one.
+class ColorMaps {
+ public:
+  struct Pair {
+    shared::ColorMap lit, shadowed;
+  };
+  const Pair& get(const PaletteParams& palette);
+
+ private:
+  std::vector<std::pair<PaletteParams, Pair>> known_;
+};
+
 // The material's facts, its texture transforms and its colour maps under a look.
-shared::MaterialData materialData(const SceneOnGpu& scene, size_t material, const look::LookData& look);
+shared::MaterialData materialData(const SceneOnGpu& scene, size_t material, const look::LookData& look,
+                                  ColorMaps& maps);
 
 }  // namespace scumble::renderer

@@ -71,12 +71,16 @@ TEST(PrepareMesh, mirroredMappingKeepsItsLengthAtTheSeam) {
     EXPECT_NEAR(glm::length(dPdu), 1.0f, 1e-5f);
 }
 
-TEST(PrepareMesh, degenerateMappingGivesZero) {
+TEST(PrepareMesh, degenerateMappingGetsCoordinatesForPatterns) {
   TestGltf g;
   const int position = g.addFloats({0, 0, 0, 1, 0, 0, 0, 1, 0}, 3), uv = g.addFloats({0, 0, 1, 1, 2, 2}, 2);
   g.addMesh({{"POSITION", position}, {"TEXCOORD_0", uv}});
   const Scene scene = loaded(g);
-  for (const glm::vec3& dPdu : scene.data().meshes[0].primitives[0].dPdu) EXPECT_EQ(dPdu, glm::vec3(0));
+  const Primitive& p = scene.data().meshes[0].primitives[0];
+  ASSERT_EQ(p.patternUv.size(), p.vertexCount());
+  EXPECT_EQ(p.uv0[2], glm::vec2(2, 2)) << "the file's own coordinates stay for its textures";
+  for (size_t v = 0; v < p.vertexCount(); ++v)
+    EXPECT_GT(glm::length(glm::cross(p.dPdu[v], p.dPdv[v])), 0.0f) << "they spread the surface out";
 }
 
 TEST(PrepareMesh, missingNormalsAreFlatAndSmoothNormalsShared) {

@@ -134,7 +134,8 @@ SceneSummary Scene::summary() const {
   }
   for (const Camera& camera : data.cameras) s.cameras.push_back(camera.name);
   for (const Light& light : data.lights) s.lights.push_back(light.name);
-  for (const Material& material : data.materials) s.materialNames.push_back(material.name);
+  // The first is glTF's default, which is in no file.
+  for (size_t m = 1; m < data.materials.size(); ++m) s.materialNames.push_back(data.materials[m].name);
   for (const Clip& clip : data.clips) s.clips.push_back({clip.name, clip.duration});
   s.extensionsUsed = data.extensionsUsed;
   s.extensionsNotSupported = data.extensionsNotSupported;

@@ -93,18 +93,18 @@ struct MaterialData {
   vec4 baseColor;
   vec3 emissive;
   float alphaCutoff;
-  // Where neither texture nor vertex colours vary the colour: square roots of what the surface pass writes, in light,
-  // and in shadow for faces that look down and up.
+  // Where neither texture nor vertex colours vary the colour: square roots of what the surface pass writes,
+  // in light, and in shadow for faces that look down and up.
   vec3 constantLit, constantShadowedDown, constantShadowedUp;
   float constantLens;      // luminance of what it emits
-  ColorMap lit, shadowed;              // from albedo to the colours in light and in shadow (docs/palette.md)
-  vec3 shadowedColor;                  // the material's own; used where hasShadowedColor is 1
+  ColorMap lit, shadowed;  // from albedo to the colours in light and in shadow (docs/palette.md)
+  vec3 shadowedColor;      // the material's own; used where hasShadowedColor is 1
   float hasShadowedColor;
   vec3 baseUvRowU, baseUvRowV;  // KHR_texture_transform: u' = dot(row, (u, v, 1))
   vec3 emissiveUvRowU, emissiveUvRowV;
   uint baseUvSet, emissiveUvSet;
-  float unlit;             // 1: always in full light
-  vec3 tintDown, tintUp;   // square roots of factors on colours in shadow, for faces that look down and up
+  float unlit;            // 1: always in full light
+  vec3 tintDown, tintUp;  // square roots of factors on colours in shadow, for faces that look down and up
 };
 
 SHARED_END

@@ -35,10 +35,9 @@ class FinalColor : public Pass {
     shared::FinalColorUniforms uniforms{};
     uniforms.bloom = params.bloom * glm::vec3(params.bloomTint);
     uniforms.ripple = params.ripple;
-    uniforms.glows = params.bloom > 0 && std::any_of(input.scene.data().materials.begin(),
-                                                     input.scene.data().materials.end(), [](const auto& material) {
-                                                       return material.emissive != glm::vec3(0.0f);
-                                                     });
+    uniforms.glows = params.bloom > 0 &&
+                     std::any_of(input.scene.data().materials.begin(), input.scene.data().materials.end(),
+                                 [](const auto& material) { return material.emissive != glm::vec3(0.0f); });
     step_.update(uniforms);
   }
 
