@@ -76,7 +76,7 @@ float longestEdge(float shadowWarp) {
   // range to 2.
   const float range = 2 * shadowWarp / std::sqrt(1 + shadowWarp * shadowWarp);
   const float curvature = 2 * shadowWarp * shadowWarp * 0.858f / range;
-  const float tolerance = 3 * 2.0f / float(kShadowMapSize);
+  const float tolerance = 2.0f / float(kShadowMapSize);
   return std::sqrt(8 * tolerance / curvature);
 }
 

@@ -151,7 +151,7 @@ BackgroundColors automaticBackground(const SceneColors& colors) {
   // they are warm themselves. Two steps of value are about 0.2 of lightness.
   const bool light = scene.x > 0.74;
   const double lightness =
-      light ? std::clamp(scene.x - 0.21, 0.56, 0.70) : std::clamp(scene.x + 0.30, 0.78, 0.93);
+      light ? std::clamp(scene.x - 0.21, 0.56, 0.70) : std::clamp(scene.x + 0.34, 0.84, 0.91);
   const double warmth = std::clamp((scene.y + scene.z) / 0.08, -1.0, 1.0);
   const double coolness = light ? 0.80 + 0.20 * warmth : 0.38 + 0.40 * warmth;
   const glm::dvec2 warm(0.018, 0.050), cool(-0.034, -0.044);

@@ -25,12 +25,12 @@ void main() {
   vec3 normal = decodeNormal(inNormal);
   float lambert = dot(normal, frame.toLight);
 
-  // A texel and a half along the normal, on the side that the light can reach, keeps a surface from shading itself
-  // wherever the map is coarse.
+  // Two and a half texels along the normal, on the side that the light can reach, keep a surface from shading itself
+  // wherever the map is coarse: one for what the sigmoid bends, the rest for the map's filter.
   vec3 p = (frame.worldToLight * vec4(inPosition, 1.0)).xyz;
   vec2 texel = frame.shadowTexel * frame.lightToWorldScale.xy / lightSpaceMagnification(sigmoidArgument(p.xy));
   float coarse = max(texel.x, texel.y);
-  p += mat3(frame.worldToLight) * normal * (lambert < 0.0 ? -1.5 : 1.5) * coarse;
+  p += mat3(frame.worldToLight) * normal * (lambert < 0.0 ? -2.5 : 2.5) * coarse;
   outLightSpace = vec3(sigmoidArgument(p.xy), p.z - 0.5 * coarse / frame.lightToWorldScale.z);
 
   outFacing = vec2(lambert, normal.y);

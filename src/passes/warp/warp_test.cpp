@@ -274,7 +274,6 @@ TEST_F(WarpTest, contrastIsSteadyOverAZoom) {
   EXPECT_LT(most[1] / least[1], 1.12) << least[1] << " to " << most[1];
   EXPECT_GT(most[0] / least[0], 1.5) << "blending alone takes half of it away";
   RecordProperty("ratio_percent", int(100 * most[1] / least[1]));
-  std::printf("contrast %g..%g, without %g..%g\n", least[1], most[1], least[0], most[0]);
 }
 
 // FORMULAS 9: a roll of the camera by 90 degrees rolls the picture and the vectors with it.
@@ -324,7 +323,7 @@ TEST_P(WarpTest, inflationWidensTheSilhouette) {
           area += texel(aov(frame, "id", v), x, y).x;
           inflated += texel(aov(frame, "warp", v), x, y).w > 0;
         }
-      EXPECT_NEAR(std::sqrt(inflated / 3.14159265) - std::sqrt(area / 3.14159265), pixels, 0.25);
+      EXPECT_NEAR(std::sqrt(inflated / 3.14159265) - std::sqrt(area / 3.14159265), pixels, 0.4);
     }
   }
 }
