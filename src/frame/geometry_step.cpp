@@ -51,7 +51,7 @@ void GeometryStep::create(gpu::Device& device, const FrameResources& resources, 
     gpu::GraphicsPipelineDesc pipeline;
     pipeline.vertex = depthOnly ? desc.depthOnlyVertex : desc.vertex;
     if (!depthOnly) pipeline.fragment = desc.fragment;
-    pipeline.constants = {uint32_t(draw.alpha), draw.varied, draw.textured};
+    pipeline.constants = {uint32_t(draw.alpha), draw.varied, draw.textured, desc.viewCount};
     addVertexInput(pipeline, depthOnly ? uint32_t(kPosition) : desc.inputs);
     pipeline.colorFormats = desc.colorFormats;
     pipeline.depthFormat = VK_FORMAT_D32_SFLOAT;

@@ -13,7 +13,10 @@ void ImageStep::declare(FrameBuilder& frame, const std::string& name, ImageShade
   inputs_ = std::move(inputs);
   output_ = output;
   textures_ = std::move(textures);
+  // Constant 3 is every shader's number of views (src/shading/frame.glsl).
   constants_ = std::move(constants);
+  constants_.resize(3);
+  constants_.push_back(frame.configuration().viewCount);
   uniforms_ = frame.uniform(std::max<uint64_t>(uniformBytes, 16));
   compute_ = frame.configuration().computeImagePasses;
   configuration_ = frame.configuration();

@@ -23,7 +23,7 @@ class ImageStep {
     gpu::SamplerDesc sampler;
   };
   // `uniformBytes`: size of the step's uniform block (set 1, binding 0); 0 where the shader has none.
-  // `constants`: specialisation constants.
+  // `constants`: specialisation constants 0 to 2.
   void declare(FrameBuilder& frame, const std::string& name, ImageShader shader, std::vector<Input> inputs,
                gpu::ResourceId output, uint64_t uniformBytes, std::vector<Texture> textures = {},
                std::vector<uint32_t> constants = {});

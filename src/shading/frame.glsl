@@ -7,9 +7,12 @@
 layout(set = 0, binding = 0, scalar) uniform FrameBlock { FrameUniforms frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer ObjectBlock { ObjectData objects[]; };
 
+layout(constant_id = 3) const int kViewCount = 2;
+
 // A field of one view's uniforms. Choosing between two loads costs less than one at an index that the compiler does not
 // know to be the same for all pixels: CPU drivers then load it pixel by pixel.
-#define VIEW_FIELD(field, view) ((view) == 0 ? frame.views[0].field : frame.views[1].field)
+#define VIEW_FIELD(field, view) \
+  (kViewCount == 1 || (view) == 0 ? frame.views[0].field : frame.views[1].field)
 
 // Unit vectors in 2 x snorm16, by the octahedral map (Cigolle et al. 2014).
 vec3 decodeNormal(vec2 oct) {

@@ -31,10 +31,8 @@ vec4 shade(ivec2 pixel, int layer) {
   float distance = eyeDepth(texelFetch(depth, at, 0).r, layer);
   color = mix(color, u.horizon, u.air * smoothstep(u.airStart, u.airEnd, distance)) * coverage;
 
-  // Sky only where it is seen. A loop, because CPU drivers run both sides of an if, but leave a loop that nobody needs.
   float open = (1.0 - coverage) * (1.0 - u.transparent);
-  for (int i = 0; i < (open > 0.0 ? 1 : 0); ++i)
-    color += sky((vec2(pixel) + 0.5) / frame.imageSize * 2.0 - 1.0, layer) * open;
+  color += sky((vec2(pixel) + 0.5) / frame.imageSize * 2.0 - 1.0, layer) * open;
   return vec4(color, coverage + open);
 }
 

@@ -47,6 +47,7 @@ class Facts : public Pass {
     desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor | kDPdu | kDPdv | kPatternUv;
     for (const Slot fact : kFacts) desc.colorFormats.push_back(slotInfo(fact).format);
     desc.viewMask = viewMask(configuration_);
+    desc.viewCount = configuration_.viewCount;
     desc.passLayout = &layout_;
     desc.materialStrides = {metaTextureParams_.kStride};
     step_.create(frame.device(), resources, frame.scene(), desc);

@@ -18,13 +18,17 @@ class FinalColor : public Pass {
   const char* name() const override { return "final-color"; }
 
   void declare(FrameBuilder& frame) override {
+    const auto& materials = frame.scene().data().materials;
+    const bool glows = std::any_of(materials.begin(), materials.end(), [](const auto& material) {
+      return material.emissive != glm::vec3(0.0f);
+    });
     step_.declare(frame, "final-color",
                   {{shaders::final_color_image_frag}, {shaders::final_color_image_comp}},
                   {{frame.slot(Slot::color), true},
                    {frame.slot(Slot::warp)},
                    {frame.slot(Slot::depth)},
                    {frame.slot(Slot::blur), true}},
-                  frame.slot(Slot::finalColor), sizeof(shared::FinalColorUniforms));
+                  frame.slot(Slot::finalColor), sizeof(shared::FinalColorUniforms), {}, {uint32_t(glows)});
   }
   void create(FrameBuilder& frame, const FrameResources& resources) override {
     step_.create(frame, resources);
@@ -35,9 +39,6 @@ class FinalColor : public Pass {
     shared::FinalColorUniforms uniforms{};
     uniforms.bloom = params.bloom * glm::vec3(params.bloomTint);
     uniforms.ripple = params.ripple;
-    uniforms.glows = params.bloom > 0 &&
-                     std::any_of(input.scene.data().materials.begin(), input.scene.data().materials.end(),
-                                 [](const auto& material) { return material.emissive != glm::vec3(0.0f); });
     step_.update(uniforms);
   }
 

@@ -4,6 +4,7 @@
 #include "../../shading/frame.glsl"
 #include "final_color.shared.h"
 
+layout(constant_id = 0) const int kGlows = 1;  // whether anything in the scene acts on the lens
 layout(set = 1, binding = 0, scalar) uniform Block { FinalColorUniforms u; };
 layout(set = 1, binding = 1) uniform sampler2DArray color;
 layout(set = 1, binding = 2) uniform sampler2DArray warp;
@@ -24,14 +25,13 @@ vec4 shade(ivec2 pixel, int layer) {
   vec2 moved = clamp(own + vector.xy, vec2(0.5), frame.imageSize - 0.5);
   // FORMULAS 10: outside the silhouette, covered by the inflated surface only, and about to fetch something that lies
   // behind that surface: such a pixel keeps its own colour. Depths are compared as the depth buffer has them, where
-  // less is farther (parallel projections included). (Loops of one turn, where CPU drivers would run an if for nothing.)
+  // less is farther (parallel projections included).
   float surface = surfaceDepth(vector.a, layer);
-  int outside = u.ripple == 1 && texelFetch(depth, at, 0).r < surface ? 1 : 0;
-  for (int i = 0; i < outside; ++i)
-    if (texelFetch(depth, ivec3(ivec2(moved), layer), 0).r < surface) moved = own;
+  float ownDepth = texelFetch(depth, at, 0).r;
+  float movedDepth = texelFetch(depth, ivec3(ivec2(moved), layer), 0).r;
+  if (u.ripple == 1 && max(ownDepth, movedDepth) < surface) moved = own;
   vec4 result = textureLod(color, vec3(moved / frame.imageSize, layer), 0.0);
-  for (int i = 0; i < u.glows; ++i)
-    result.rgb += u.bloom * textureLod(blurred, vec3(own / frame.imageSize, layer), 0.0).g * result.a;
+  if (kGlows != 0) result.rgb += u.bloom * textureLod(blurred, vec3(own / frame.imageSize, layer), 0.0).g * result.a;
   return result;
 }
 

@@ -47,11 +47,11 @@ vec4 shade(ivec2 pixel, int layer) {
   // steps, each a flat shape.
   float push = light + own.b * warped.b * u.indication;
   float pushed = 0.0;
-  for (int i = 1; i <= (own.b > 0.0 ? u.indicationSteps : 0); ++i) {
+  for (int i = 1; i <= u.indicationSteps; ++i) {
     float level = u.threshold + 0.9 * u.indication * float(i) / float(u.indicationSteps);
     pushed += clamp(0.5 + (push - level) * 25.0, 0.0, 1.0);
   }
-  lit = max(lit, pushed * clamp(light * 6.0, 0.0, 1.0) / float(u.indicationSteps));
+  if (own.b > 0.0) lit = max(lit, pushed * clamp(light * 6.0, 0.0, 1.0) / float(u.indicationSteps));
 
   // Inner glow: the inverted blur, clamped, adds light to the interior of the dark, none at its edge.
   float inside = clamp((u.threshold - light) / u.threshold, 0.0, 1.0);

@@ -39,6 +39,7 @@ class Plain : public Pass {
     desc.colorFormats = {slotInfo(Slot::plain).format};
     desc.samples = samples_;
     desc.viewMask = viewMask(configuration_);
+    desc.viewCount = configuration_.viewCount;
     desc.blends = true;
     step_.create(frame.device(), resources, frame.scene(), desc);
   }

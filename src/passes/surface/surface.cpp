@@ -66,6 +66,7 @@ class Surface : public Pass {
       if (slot != Slot::depth) desc.colorFormats.push_back(slotInfo(slot).format);
     desc.samples = samples_;
     desc.viewMask = viewMask(configuration_);
+    desc.viewCount = configuration_.viewCount;
     desc.blends = true;
     desc.passLayout = &layout_;
     desc.materialStrides = {params_.kStride};

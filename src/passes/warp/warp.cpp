@@ -84,6 +84,7 @@ class Warp : public Pass {
     desc.inputs = kPosition | kUv0 | kUv1 | kColor | kDPdu | kSmoothNormal | kDPdv | kPatternUv;
     desc.colorFormats = {kPatternFormat, kKnobsFormat};
     desc.viewMask = viewMask(configuration_);
+    desc.viewCount = configuration_.viewCount;
     desc.passLayout = &layout_;
     desc.materialStrides = {params_.kStride, metaTextureParams_.kStride};
     step_.create(frame.device(), resources, frame.scene(), desc);
