@@ -9,6 +9,7 @@ torn edges a little: measured in the mean that is well below the tolerance, whil
 """
 import os
 import shlex
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -39,8 +40,8 @@ def cases():
 def scene_file(build, folder, name):
     if name == "demo":
         path = folder / "demo.glb"
-        if not path.exists():
-            subprocess.run([build / "demo_scene", path], check=True, stdout=subprocess.DEVNULL)
+        shutil.copy(HERE.parent.parent / "examples/demo_scene/demo.look.json", folder / "demo.look.json")
+        subprocess.run([build / "demo_scene", path], check=True, stdout=subprocess.DEVNULL)
     else:
         path = folder / f"{name}.gltf"
         path.write_text(scenes.SCENES[name]())
