@@ -28,8 +28,8 @@ struct Geometry {
 // `groundMaterial`: the material index of the ground, or -1 for none.
 Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& options, int groundMaterial);
 
-// Longest edge, as a part of the shadow map's half width, that a sigmoid of this strength bends by less than a
-// texel: an edge of length L strays from its curve by L^2 f'' / 8.
+// Longest edge, as a part of the shadow map's half width, that a sigmoid of this strength bends by less than
+// a texel: an edge of length L strays from its curve by L^2 f'' / 8.
 float longestEdge(float shadowWarp);
 
 }  // namespace scumble::frame
