@@ -112,8 +112,8 @@ Mesh makePennant() {
       const float width = glm::mix(0.30f, 0.15f, u);
       const float tail = 0.20f * (1.0f - std::abs(2.0f * v - 1.0f)) * u;  // the notch of the swallowtail
       const float length = 0.88f * u - tail * u;
-      cloth.at(r, c) = glm::vec3(-length * 0.93f, (v - 0.5f) * width - 0.10f * u * u + 0.3f * wave,
-                                 0.36f * length + wave);
+      cloth.at(r, c) =
+          glm::vec3(-length * 0.93f, (v - 0.5f) * width - 0.10f * u * u + 0.3f * wave, 0.36f * length + wave);
     }
   }
   mesh.grid(cloth, {.shading = Shading::smooth, .projectAlong = {0, 0, 1}});

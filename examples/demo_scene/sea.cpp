@@ -81,8 +81,7 @@ int addSea(Document& document, int parent, glm::vec2 nearCenter, const Wake& wak
     const glm::vec2 behind = glm::vec2(middle.x, middle.z) - wake.stern;
     const float along = glm::dot(behind, wake.astern),
                 across = std::abs(wake.astern.x * behind.y - wake.astern.y * behind.x);
-    if (along > -0.3f && along < wake.length && across < 0.38f + 0.05f * along)
-      return kSea1;
+    if (along > -0.3f && along < wake.length && across < 0.38f + 0.05f * along) return kSea1;
     if (tone > 0.92f) return kSea4;
     if (tone > 0.42f) return kSea1;
     if (tone > -0.42f) return kSea2;

@@ -42,8 +42,8 @@ Mesh makeHeadland(const char* name, Paint paint, float distance, float from, flo
   for (size_t c = 0; c < kColumns; ++c) {
     const float t = float(c) / float(kColumns - 1), angle = glm::mix(from, to, t);
     const glm::vec3 out = {std::sin(angle), 0, -std::cos(angle)};
-    const float swell =
-        std::pow(std::max(std::sin(kPi * t), 0.0f), 1.3f) * (0.62f + 0.38f * std::sin(5.0f * t + float(seed)));
+    const float swell = std::pow(std::max(std::sin(kPi * t), 0.0f), 1.3f) *
+                        (0.62f + 0.38f * std::sin(5.0f * t + float(seed)));
     const float y = height * swell * random.between(0.82f, 1.0f);
     ridge.at(0, c) = out * distance + glm::vec3(0, -1.5f, 0);
     ridge.at(1, c) = out * (distance + 0.7f * y) + glm::vec3(0, 0.6f * y - 0.5f, 0);

@@ -19,9 +19,8 @@ class FinalColor : public Pass {
 
   void declare(FrameBuilder& frame) override {
     const auto& materials = frame.scene().data().materials;
-    const bool glows = std::any_of(materials.begin(), materials.end(), [](const auto& material) {
-      return material.emissive != glm::vec3(0.0f);
-    });
+    const bool glows = std::any_of(materials.begin(), materials.end(),
+                                   [](const auto& material) { return material.emissive != glm::vec3(0.0f); });
     step_.declare(frame, "final-color",
                   {{shaders::final_color_image_frag}, {shaders::final_color_image_comp}},
                   {{frame.slot(Slot::color), true},
