@@ -11,6 +11,7 @@
 #include "commands.h"
 #include "options.h"
 #include "outputs.h"
+#include "progress.h"
 #include "report.h"
 
 namespace scumble::app {
@@ -114,9 +115,13 @@ int run(const RenderArguments& args) {
   nlohmann::json frameStats = nlohmann::json::array();
   const int first = frames ? frames->first : 0, last = frames ? frames->second : 0;
   double rendering = 0, writing = 0;
+  Progress progress(last - first + 1, args.quiet);
   for (int number = first; number <= last; ++number) {
     const std::string path = output->framePath(frames ? std::optional(number) : std::nullopt);
-    if (args.resume && output->isThere(path, views->size())) continue;
+    if (args.resume && output->isThere(path, views->size())) {
+      progress.done("frame " + std::to_string(number));
+      continue;
+    }
     const double time = frames ? number / args.fps : args.time;
     lapStart = Clock::now();
     const Result<Frame> frame = (*renderer)->render(*scene, *look, time, *views, *options);
@@ -129,8 +134,7 @@ int run(const RenderArguments& args) {
     if (const Status status = output->write(*frame, path); !status) return fail(status.error());
     writing += millisecondsSince(lapStart);
     frameStats.push_back(statsJson(frame->stats));
-    if (!args.quiet && frames && first != last)
-      std::fprintf(stderr, "scumble: frame %d of %d..%d\n", number, first, last);
+    progress.done("frame " + std::to_string(number));
   }
 
   if (!args.stats.empty()) {
