@@ -33,11 +33,13 @@ struct RenderArguments {
   bool quiet = false, resume = false;
 };
 
+constexpr int kMostFrame = 10'000'000;
+
 // "3..17"; nothing when it is not of that form.
 std::optional<std::pair<int, int>> parseFrames(const std::string& text) {
   int first, last, used = 0;
   if (std::sscanf(text.c_str(), "%d..%d%n", &first, &last, &used) != 2 || size_t(used) != text.size() ||
-      last < first)
+      last < first || first < -kMostFrame || last > kMostFrame)
     return std::nullopt;
   return std::pair{first, last};
 }

@@ -79,7 +79,7 @@ void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resource
   vkCmdBindVertexBuffers(commands, 0, 3, buffers, offsets);
   vkCmdBindIndexBuffer(commands, scene.indices().handle(), 0, VK_INDEX_TYPE_UINT32);
 
-  // Opaque surfaces by pipeline and material; blended ones by distance.
+  // Opaque surfaces by pipeline and from near to far, so that what is hidden is not shaded; blended ones from far to near.
   std::vector<const Draw*> order;
   for (const Draw& draw : scene.draws())
     if (!includes || includes(draw)) order.push_back(&draw);
@@ -88,7 +88,7 @@ void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resource
     if (a->alpha != b->alpha) return a->alpha < b->alpha;
     if (a->alpha == AlphaMode::blend) return distance(*a) > distance(*b);
     if (variant(*a) != variant(*b)) return variant(*a) < variant(*b);
-    return a->material < b->material;
+    return distance(*a) < distance(*b);
   });
 
   const gpu::Pipeline* bound = nullptr;
