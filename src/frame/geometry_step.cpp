@@ -79,7 +79,8 @@ void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resource
   vkCmdBindVertexBuffers(commands, 0, 3, buffers, offsets);
   vkCmdBindIndexBuffer(commands, scene.indices().handle(), 0, VK_INDEX_TYPE_UINT32);
 
-  // Opaque surfaces by pipeline and from near to far, so that what is hidden is not shaded; blended ones from far to near.
+  // Opaque surfaces by pipeline and from near to far, so that what is hidden is not shaded; blended ones from
+  // far to near.
   std::vector<const Draw*> order;
   for (const Draw& draw : scene.draws())
     if (!includes || includes(draw)) order.push_back(&draw);
