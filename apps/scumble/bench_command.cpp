@@ -31,7 +31,7 @@ double median(std::vector<double> values) {
 
 int run(const BenchArguments& args) {
   if (args.runs < 1 || args.runs > 1000) return failUsage("--runs is out of range", "use 1 to 1000");
-  if (const Status status = checkWritable(args.json); !status) return fail(status.error());
+  if (const Status status = checkWritable(args.json, args.scene.files); !status) return fail(status.error());
   const Result<RenderOptions> options = args.picture.renderOptions();
   if (!options) return fail(options.error());
   const Result<Look> look = args.look.load(args.scene.files[0]);

@@ -8,7 +8,9 @@
 
 using namespace scumble;
 
-int main(int argc, char** argv) {
+namespace {
+
+int run(int argc, char** argv) {
   try {
     CLI::App program{"scumble: glTF scenes become moving paintings", "scumble"};
     program.require_subcommand(0, 1);
@@ -48,4 +50,15 @@ int main(int argc, char** argv) {
   } catch (const std::exception& error) {
     return app::fail(Error{ErrorKind::internal, "", 0, "", error.what(), "please report this"});
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const int exitCode = run(argc, argv);
+  // What was printed counts as output too: a script that saves it must learn when it did not arrive.
+  if (exitCode == app::kDone && (std::fflush(stdout) != 0 || std::ferror(stdout)))
+    return app::fail(
+        Error{ErrorKind::outputNotWritten, "", 0, "", "the output cannot be printed", "check where it goes"});
+  return exitCode;
 }

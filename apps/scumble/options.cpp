@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 
 #include "report.h"
 
@@ -64,10 +65,12 @@ Result<Scene> SceneArguments::load(bool quiet) const {
   options.scene = sceneNumber;
   options.allowOutside = allowOutside;
   std::vector<Scene> scenes;
+  std::set<std::string> warned;
   for (const std::string& file : files) {
     Result<Scene> scene = Scene::load(file, options);
     if (!scene) return scene.error();
-    if (!quiet) warn(scene->warnings());
+    for (const std::string& warning : scene->warnings())
+      if (!quiet && warned.insert(warning).second) warn({warning});
     scenes.push_back(std::move(scene).value());
   }
   return scenes.size() == 1 ? scenes[0] : Scene::combine(scenes);

@@ -28,7 +28,7 @@ Image arrange(const std::vector<Image>& views, const std::string& layout) {
 
 }  // namespace
 
-Status checkWritable(const std::string& path) {
+Status checkWritable(const std::string& path, const std::vector<std::string>& inputs) {
   if (path.empty()) return Done{};
   const auto fail_ = [&](std::string problem, std::string advice) {
     return Error{ErrorKind::outputNotWritten, path, 0, "", std::move(problem), std::move(advice)};
@@ -40,6 +40,10 @@ Status checkWritable(const std::string& path) {
   if (access(folder.c_str(), W_OK) != 0)
     return fail_(std::string("the folder cannot be written: ") + std::strerror(errno), "choose another one");
   if (fs::is_directory(path, ignored)) return fail_("this is a folder", "give a file's name");
+  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))
+    return fail_("it is not an ordinary file", "give another name");
+  for (const std::string& input : inputs)
+    if (fs::equivalent(path, input, ignored)) return fail_("this is one of the inputs", "give another name");
   return Done{};
 }
 
@@ -57,7 +61,8 @@ Status writeText(const std::string& path, const std::string& text) {
 }
 
 Result<OutputPlan> OutputPlan::make(const std::string& given, const std::string& sceneFile,
-                                    const std::string& layout, bool hasFrames) {
+                                    const std::string& layout, bool hasFrames,
+                                    const std::vector<std::string>& inputs) {
   OutputPlan plan;
   plan.layout = layout;
   plan.path = given.empty() ? fs::path(sceneFile).stem().string() + ".png" : given;
@@ -78,7 +83,7 @@ Result<OutputPlan> OutputPlan::make(const std::string& given, const std::string&
                  "",
                  "'" + plan.path + "' names a sequence, but there is no range of frames",
                  "add --frames A..B, or name one picture"};
-  if (const Status status = checkWritable(plan.path); !status) return status.error();
+  if (const Status status = checkWritable(plan.path, inputs); !status) return status.error();
   return plan;
 }
 

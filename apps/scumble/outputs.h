@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "scumble/renderer.h"
 
@@ -17,7 +18,8 @@ struct OutputPlan {
   // Fails with usage for a name whose ending is not known, and with outputNotWritten where it cannot be
   // written at all.
   static Result<OutputPlan> make(const std::string& given, const std::string& sceneFile,
-                                 const std::string& layout, bool hasFrames);
+                                 const std::string& layout, bool hasFrames,
+                                 const std::vector<std::string>& inputs);
 
   // The path of frame `number`: #### is replaced by the number, zero-padded.
   std::string framePath(std::optional<int> number) const;
@@ -32,7 +34,8 @@ struct OutputPlan {
 
 // A text file that appears whole or not at all. Nothing happens for an empty path.
 Status writeText(const std::string& path, const std::string& text);
-// Whether that could work, before long work begins.
-Status checkWritable(const std::string& path);
+// Whether a file could be written, before long work begins: no input (scene, look) and nothing but an
+// ordinary file is ever replaced.
+Status checkWritable(const std::string& path, const std::vector<std::string>& inputs);
 
 }  // namespace scumble::app

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -37,11 +39,13 @@ constexpr int kMostFrame = 10'000'000;
 
 // "3..17"; nothing when it is not of that form.
 std::optional<std::pair<int, int>> parseFrames(const std::string& text) {
-  int first, last, used = 0;
-  if (std::sscanf(text.c_str(), "%d..%d%n", &first, &last, &used) != 2 || size_t(used) != text.size() ||
-      last < first || first < -kMostFrame || last > kMostFrame)
-    return std::nullopt;
-  return std::pair{first, last};
+  char* end = nullptr;
+  const long long first = std::strtoll(text.c_str(), &end, 10);
+  if (end == text.c_str() || std::strncmp(end, "..", 2) != 0) return std::nullopt;
+  const char* second = end + 2;
+  const long long last = std::strtoll(second, &end, 10);
+  if (end == second || *end || last < first || first < -kMostFrame || last > kMostFrame) return std::nullopt;
+  return std::pair{int(first), int(last)};
 }
 
 nlohmann::json statsJson(const FrameStats& stats) {
@@ -72,13 +76,18 @@ int run(const RenderArguments& args) {
   // Check everything that can be checked before anything is drawn.
   Result<RenderOptions> options = args.picture.renderOptions();
   if (!options) return fail(options.error());
+  std::vector<std::string> inputs = args.scene.files;
+  if (!args.look.look.empty()) inputs.push_back(args.look.look);
   const Result<OutputPlan> output =
-      OutputPlan::make(args.output, args.scene.files[0], args.picture.stereo, !args.frames.empty());
+      OutputPlan::make(args.output, args.scene.files[0], args.picture.stereo, !args.frames.empty(), inputs);
   if (!output) return fail(output.error());
-  if (const Status status = checkWritable(args.stats); !status) return fail(status.error());
+  std::vector<std::string> statsInputs = inputs;
+  statsInputs.push_back(output->path);
+  if (const Status status = checkWritable(args.stats, statsInputs); !status) return fail(status.error());
   std::optional<std::pair<int, int>> frames;
   if (!args.frames.empty() && !(frames = parseFrames(args.frames)))
-    return failUsage("--frames " + args.frames + " is no range", "write it like 0..23");
+    return failUsage("--frames " + args.frames + " is no range",
+                     "write it like 0..23, with numbers up to 10000000");
   if (frames && frames->first != frames->second && !output->isSequence())
     return failUsage("several frames cannot go into one '" + output->path + "'",
                      "name it like picture.####.png");

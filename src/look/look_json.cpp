@@ -1,6 +1,7 @@
 // Reading looks: JSON files, --set, the looks that ship; and describing the knobs as a list and as a JSON
 // schema.
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -34,6 +35,13 @@ Result<Assignment> resolve(const std::string& path) {
     return Assignment{"", knob->block, knob->row, {}};
   }
   const std::string rest = path.substr(prefix.size());
+  if (rest.empty() || rest[0] == '.')
+    return Error{ErrorKind::usage,
+                 "",
+                 0,
+                 "",
+                 "'" + path + "' names no material",
+                 "write it like materials.Sail*.warp.amount"};
   for (size_t dot = rest.rfind('.'); dot != std::string::npos && dot > 0; dot = rest.rfind('.', dot - 1)) {
     const Result<KnobRef> knob = look::findKnob(rest.substr(dot + 1));
     if (!knob) continue;
@@ -73,6 +81,7 @@ class Reader {
         if (!value.is_object())
           return fail(key, "it is no object", "its keys are material names or patterns");
         for (const auto& [pattern, knobs] : value.items()) {
+          if (pattern.empty()) return fail(key, "a material's pattern is empty", "'*' matches all");
           const Status status = readGroup(knobs, "", pattern, "materials." + pattern);
           if (!status) return status;
         }
@@ -172,6 +181,15 @@ Result<Look> Look::load(const std::string& nameOrFile) {
                  suggestion.empty() ? "`scumble looks` lists them; a file's name ends in .json"
                                     : "did you mean '" + suggestion + "'?"};
   }
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(nameOrFile, ignored))
+    return Error{
+        ErrorKind::unusableFile,
+        nameOrFile,
+        0,
+        "",
+        std::filesystem::exists(nameOrFile, ignored) ? "this is no ordinary file" : "there is no such look",
+        "give a JSON file, or a name that `scumble looks` lists"};
   std::ifstream file(nameOrFile, std::ios::binary | std::ios::ate);
   const auto size = file ? file.tellg() : std::streampos(-1);
   if (!file || size < 0)
