@@ -538,8 +538,7 @@ class Sequences(Program):
         self.good("render", "box.gltf", "-o", "x.#.png", "--frames", "0..1", "--quiet", *TINY)
         self.assertEqual(png(self.folder / "x.0.png")[:2], (32, 18))
 
-    # --resume looks for x.0.png, which `separate` never writes. Take the mark away when it is mended.
-    @unittest.expectedFailure
+    # Two files make one frame.
     def test_resume_in_stereo(self):
         args = ["render", "box.gltf", "-o", "x.#.png", "--frames", "0..1", "--stereo", "separate", "--resume", "--quiet", *TINY]
         self.good(*args)

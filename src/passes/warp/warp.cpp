@@ -99,7 +99,7 @@ class Warp : public Pass {
 
  private:
   static constexpr VkFormat kPatternFormat = VK_FORMAT_R32G32B32A32_UINT,
-                            kKnobsFormat = VK_FORMAT_R8G8B8A8_UNORM;
+                            kKnobsFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
   static constexpr gpu::SamplerDesc kRepeating{VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT,
                                                VK_SAMPLER_ADDRESS_MODE_REPEAT};
 

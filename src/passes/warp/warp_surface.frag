@@ -4,7 +4,7 @@
 //
 // Target 0: bits of pattern u and v; dS/du and dS/dv in pixels per unit, each as two bfloat16 (a float's range, and a
 //           precision of 0.4 percent, which is less than a hundredth of a blend).
-// Target 1: R: amount / 64 pixels; G: (log2 of the texture's size in pixels) / 16; B: contrast; A: coverage.
+// Target 1: R: amount / 64 pixels; G: (log2 of the texture's size in pixels) / 16; B: contrast; A: coverage. Half floats.
 #extension GL_GOOGLE_include_directive : require
 #include "../../shading/frame.glsl"
 #include "../../shading/material.glsl"
