@@ -69,13 +69,12 @@ glm::dvec3 metaTexture(const glm::dvec2& uv, const glm::dvec2& gradU, const glm:
   return contrast ? 0.5 + (sum - 0.5) / deviation : sum;
 }
 
-// Knobs reach the texture in 8 bits: the amount in steps of 64/255 pixels, the size in steps of 16/255
-// octaves.
-double amountInBytes(double amount) {
-  return std::round(amount / 64 * 255) / 255 * 64;
+// Knobs reach the texture as half floats: the amount over 64 pixels, and a sixteenth of the size's logarithm.
+double amountInHalves(double amount) {
+  return toHalf(amount / 64) * 64;
 }
-double sizeInBytes(double pixels) {
-  return std::exp2(std::round(std::clamp(std::log2(pixels) / 16, 0.0, 1.0) * 255) / 255 * 16);
+double sizeInHalves(double pixels) {
+  return std::exp2(toHalf(std::log2(pixels) / 16) * 16);
 }
 
 class WarpTest : public BothEyes {
@@ -136,10 +135,10 @@ TEST_P(WarpTest, equalsItsReference) {
             const double det = dSdu.x * dSdv.y - dSdu.y * dSdv.x;
             gradU = glm::dvec2(dSdv.y, -dSdv.x) / det, gradV = glm::dvec2(-dSdu.y, dSdu.x) / det;
             const glm::dvec2 uv(texel(aov(frame, "uv", v), x, y));
-            const glm::dvec3 e = metaTexture(uv, gradU, gradV, sizeInBytes(size * scale), contrast);
+            const glm::dvec3 e = metaTexture(uv, gradU, gradV, sizeInHalves(size * scale), contrast);
             // The vector is turned along the gradient of u.
             const glm::dvec2 axis = glm::normalize(gradU), w = glm::dvec2(e) * 2.0 - 1.0;
-            const double amount = amountInBytes(48) * scale;
+            const double amount = amountInHalves(48) * scale;
             vectors.add(got.x / amount, axis.x * w.x - axis.y * w.y);
             vectors.add(got.y / amount, axis.y * w.x + axis.x * w.y);
             marks.add(got.z, std::clamp(e.z, 0.0, 1.0));
@@ -216,7 +215,7 @@ TEST_F(WarpTest, continuousWhereExponentsAreWhole) {
   const Scene scene = wall({5, 2.2f}).load();
   const View view = parallelView(2, 4.0f / 3);
   constexpr int kSteps = 33;
-  const double step = 16.0 / 255;  // as fine as the pass resolves sizes
+  const double step = 1.0 / 16;  // octaves
   std::vector<Image> warps;
   std::vector<glm::dvec2> exponents;
   for (int i = 0; i <= kSteps; ++i) {
