@@ -557,6 +557,33 @@ class Sequences(Program):
 
 
 class Errors(Program):
+    def test_inputs_are_never_outputs(self):
+        before = (self.folder / "box.gltf").read_bytes()
+        self.bad(NOT_WRITTEN, "render", "box.gltf", "-o", "x.png", "--stats", "box.gltf", *TINY, says="inputs")
+        self.bad(NOT_WRITTEN, "bench", "box.gltf", "--runs", "1", "--json", "box.gltf", *TINY, says="inputs")
+        self.put("box.png", before.decode())  # what a file is decides its content, not its name
+        self.before = self.files()
+        self.bad(NOT_WRITTEN, "render", "box.png", "-o", "box.png", *TINY, says="inputs")
+        self.same((self.folder / "box.gltf").read_bytes(), before)
+
+    def test_only_ordinary_files_are_replaced(self):
+        os.mkfifo(self.folder / "pipe")
+        self.bad(NOT_WRITTEN, "render", "box.gltf", "-o", "x.png", "--stats", "pipe", *TINY, says="ordinary")
+        self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--look", "./pipe", *TINY, says="ordinary")
+
+    def test_what_is_printed_must_arrive(self):
+        with open("/dev/full", "w") as full:
+            done = subprocess.run([scumble, "info", "box.gltf", "--json"], cwd=self.folder, stdout=full,
+                                  stderr=subprocess.PIPE, text=True, timeout=60)
+        self.assertEqual(done.returncode, NOT_WRITTEN)
+        self.assertRegex(done.stderr, r"\Ascumble: error: [^\n]+\n\Z")
+
+    def test_a_pattern_of_materials_is_not_empty(self):
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.png", "--set", "materials..warp.amount=2", *TINY)
+        self.put("empty.json", '{"materials": {"": {"warp": {"amount": 1}}}}')
+        self.before = self.files()
+        self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--look", "./empty.json", *TINY)
+
     def test_wrong_numbers(self):
         for args in (["--size", "160"], ["--size", "0x90"], ["--size", "160x90x2"], ["--size", "99999x2"], ["--size", "-1x5"],
                      ["--samples", "2"], ["--orbit", "30"], ["--orbit", "a,b"], ["--orbit", "0,0,0"], ["--eye", "1,2"],
