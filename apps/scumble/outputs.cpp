@@ -5,7 +5,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 
 namespace scumble::app {
 
@@ -45,19 +44,6 @@ Status checkWritable(const std::string& path, const std::vector<std::string>& in
   for (const std::string& input : inputs)
     if (fs::equivalent(path, input, ignored)) return fail_("this is one of the inputs", "give another name");
   return Done{};
-}
-
-Status writeText(const std::string& path, const std::string& text) {
-  if (path.empty()) return Done{};
-  const std::string temporary = path + "." + std::to_string(getpid()) + ".tmp";
-  std::error_code error;
-  const bool written = (std::ofstream(temporary, std::ios::binary) << text).flush().good();
-  if (written) fs::rename(temporary, path, error);
-  if (written && !error) return Done{};
-  const std::string problem = error ? error.message() : std::strerror(errno);
-  fs::remove(temporary, error);
-  return Error{ErrorKind::outputNotWritten,  path, 0, "", "it cannot be written: " + problem,
-               "check the path and the disk"};
 }
 
 Result<OutputPlan> OutputPlan::make(const std::string& given, const std::string& sceneFile,

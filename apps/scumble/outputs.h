@@ -32,10 +32,8 @@ struct OutputPlan {
   Status write(const Frame& frame, const std::string& framePath) const;
 };
 
-// A text file that appears whole or not at all. Nothing happens for an empty path.
-Status writeText(const std::string& path, const std::string& text);
-// Whether a file could be written, before long work begins: no input (scene, look) and nothing but an
-// ordinary file is ever replaced.
+// Whether a file could be written (an empty path: none is wanted), before long work begins: no input (scene,
+// look) and nothing but an ordinary file is ever replaced.
 Status checkWritable(const std::string& path, const std::vector<std::string>& inputs);
 
 }  // namespace scumble::app

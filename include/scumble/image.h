@@ -41,6 +41,10 @@ Result<Image> readPng(const std::string& path);
 // one size.
 Status writeExr(const std::string& path, const std::vector<ImageLayer>& layers);
 
+// A report beside pictures, e.g. JSON. The file appears whole or not at all. Fails with
+// ErrorKind::outputNotWritten.
+Status writeText(const std::string& path, const std::string& text);
+
 // Two pictures in one: left | right, or left over right.
 Image sideBySide(const Image& left, const Image& right);
 Image overUnder(const Image& left, const Image& right);

@@ -68,7 +68,6 @@ class FrameBuilder {
   gpu::ResourceId slot(Slot slot);
   // The multisampled image that is resolved into the slot's; only where the configuration has samples.
   gpu::ResourceId multisampled(Slot slot);
-  bool hasSlot(Slot slot) const { return slots_[size_t(slot)] != kNone; }
   // The final vertices that `deform` writes.
   gpu::ResourceId finalVertices() const { return finalVertices_; }
   // An image of the pass's own.

@@ -53,19 +53,4 @@ Bounds posedBounds(const Primitive& primitive, const Node& node, const glm::mat4
   return bounds;
 }
 
-Bounds posedBounds(const SceneData& scene) {
-  const std::vector<glm::mat4> world = worldMatrices(scene);
-  const auto joints = jointMatrices(scene, world);
-  Bounds bounds;
-  for (size_t n = 0; n < scene.nodes.size(); ++n) {
-    const Node& node = scene.nodes[n];
-    if (node.mesh < 0) continue;
-    for (const Primitive& primitive : scene.meshes[size_t(node.mesh)].primitives) {
-      const Bounds part = posedBounds(primitive, node, world[n], joints);
-      if (!part.empty) bounds.add(part.min), bounds.add(part.max);
-    }
-  }
-  return bounds;
-}
-
 }  // namespace scumble::scene

@@ -16,7 +16,4 @@ glm::vec3 skinnedPosition(const Primitive& primitive, size_t v, const std::vecto
 Bounds posedBounds(const Primitive& primitive, const Node& node, const glm::mat4& nodeWorld,
                    const std::vector<std::vector<glm::mat4>>& joints);
 
-// World bounds of everything that is drawn.
-Bounds posedBounds(const SceneData& scene);
-
 }  // namespace scumble::scene

@@ -10,23 +10,13 @@
 #include "scene/scene_data.h"
 #include "scene/test_gltf.h"
 #include "scumble/scene.h"
+#include "tests/support/asset_files.h"
 
 namespace scumble::scene {
 namespace {
 
-const std::filesystem::path kAssets = std::filesystem::path(SCUMBLE_SOURCE_DIR) / "../shared/assets";
-
-std::vector<std::filesystem::path> filesBelow(const std::filesystem::path& folder,
-                                              const std::vector<std::string>& extensions) {
-  std::vector<std::filesystem::path> files;
-  if (!std::filesystem::exists(folder)) return files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    if (entry.is_regular_file() &&
-        std::find(extensions.begin(), extensions.end(), entry.path().extension()) != extensions.end())
-      files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
-}
+using test::filesBelow;
+using test::kAssets;
 
 std::vector<uint8_t> bytesOf(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);

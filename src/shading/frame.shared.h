@@ -26,10 +26,10 @@ struct FrameUniforms {
   vec3 toLight;       // unit, world
   float time;         // seconds
   vec2 shadowCenter;  // light-space x, y near the viewer, where the shadow map is finest
-  vec2 shadowScale;   // warped = scale * sigmoid(strength * (p - center)) + shift, which keeps -1 and 1 in
-                      // place
+  vec2 shadowScale;   // coordinates in the map = scale * sigmoid(strength * (p - center)) + shift, which go
+                      // from 0 to 1 for p from -1 to 1
   vec2 shadowShift;
-  float shadowWarp;        // strength of the sigmoid; 0: none
+  float shadowWarp;        // strength of the sigmoid, above 0
   float shadowTexel;       // size of a shadow-map texel in unwarped light space
   vec3 lightToWorldScale;  // metres per unit of light-space x, y, z
   float pixelScale;        // pixels per knob pixel: image height / 1080
