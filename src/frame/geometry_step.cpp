@@ -63,8 +63,9 @@ void GeometryStep::makePipelines(const SceneOnGpu& scene) {
     gpu::GraphicsPipelineDesc pipeline;
     pipeline.vertex = depthOnly ? desc_.depthOnlyVertex : desc_.vertex;
     if (!depthOnly) pipeline.fragment = desc_.fragment;
-    pipeline.constants = {uint32_t(draw.alpha), draw.varied || isPainted(draw), draw.textured,
-                          desc_.viewCount, isPainted(draw)};
+    pipeline.constants = {uint32_t(draw.alpha), draw.varied || isPainted(draw),
+                          draw.textured,        desc_.viewCount,
+                          isPainted(draw),      desc_.constant};
     addVertexInput(pipeline, depthOnly ? uint32_t(kPosition) : desc_.inputs);
     pipeline.colorFormats = desc_.colorFormats;
     pipeline.depthFormat = VK_FORMAT_D32_SFLOAT;

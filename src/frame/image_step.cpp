@@ -22,8 +22,11 @@ void ImageStep::declare(FrameBuilder& frame, const std::string& name, ImageShade
   compute_ = frame.configuration().computeImagePasses;
   configuration_ = frame.configuration();
   std::vector<gpu::ResourceUse> uses;
-  for (const Input& input : inputs_)
-    uses.push_back({input.image, compute_ ? gpu::Use::sampledByCompute : gpu::Use::sampledByFragment});
+  for (const Input& input : inputs_) {
+    const auto isKnown = [&](const gpu::ResourceUse& use) { return use.resource == input.image; };
+    if (std::none_of(uses.begin(), uses.end(), isKnown))
+      uses.push_back({input.image, compute_ ? gpu::Use::sampledByCompute : gpu::Use::sampledByFragment});
+  }
   uses.push_back({output, compute_ ? gpu::Use::storageImageWrite : gpu::Use::colorTarget});
   frame.addStep(name, std::move(uses), [this](VkCommandBuffer commands) { record(commands); });
 }

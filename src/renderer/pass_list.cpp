@@ -1,5 +1,7 @@
 #include "renderer/pass_list.h"
 
+#include <algorithm>
+
 #include "frame/light.h"
 #include "frame/metatexture.h"
 #include "frame/palette.h"
@@ -44,7 +46,8 @@ std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration
   }
   list.push_back(passes::makeShadowMap());
   list.push_back(passes::makeWarp());
-  list.push_back(passes::makeSurface());
+  list.push_back(passes::makeSurface(passes::SurfaceLayer::first));
+  if (configuration.layered) list.push_back(passes::makeSurface(passes::SurfaceLayer::behind));
   list.push_back(passes::makeBlur());
   list.push_back(passes::makeFinalShadow([](const look::LookData& look, float pixelScale) {
     const passes::BlurParams blur = look.get<passes::BlurParams>();
@@ -52,9 +55,20 @@ std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration
                              passes::depthSharpness(blur.depthEdge)};
   }));
   list.push_back(passes::makeColor());
-  list.push_back(passes::makeFinalColor());
+  list.push_back(passes::makeFinalColor([](const look::LookData& look, const SceneOnGpu& scene,
+                                           float imageHeight) {
+    float most = 0;
+    for (size_t m = 0; m < scene.materialCount(); ++m)
+      most = std::max(most, passes::inflationPixels(
+                                look.getForMaterial<passes::WarpParams>(scene.materialName(m)), imageHeight));
+    return most;
+  }));
   if (configuration.facts) list.push_back(passes::makeFacts());
   return list;
+}
+
+bool wantsLayers(const look::LookData& look) {
+  return look.get<passes::FinalColorParams>().ripple == passes::kRippleLayered;
 }
 
 std::vector<bool> shadowCasters(const scene::SceneData& scene, const look::LookData& look) {

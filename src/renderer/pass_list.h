@@ -12,6 +12,9 @@ using namespace frame;
 
 std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration);
 
+// Whether the look needs what lies behind the first surfaces (Configuration::layered).
+bool wantsLayers(const look::LookData& look);
+
 // Which materials cast shadows under a look; the ground, if there is one, is no material of the scene's.
 std::vector<bool> shadowCasters(const scene::SceneData& scene, const look::LookData& look);
 

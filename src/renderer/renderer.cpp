@@ -31,7 +31,7 @@ Error usage(std::string problem, std::string advice) {
 }
 
 bool isAov(Slot slot) {
-  return slot != Slot::depth && slot != Slot::plain;
+  return slot != Slot::depth && slot != Slot::plain && !(slot >= Slot::behindShadow && slot <= Slot::behind);
 }
 bool isFact(Slot slot) {
   return slot >= Slot::factDepth && slot <= Slot::id;
@@ -257,6 +257,7 @@ Result<Frame> Renderer::render(const Scene& scene, const Look& look, double time
   configuration.samples = options.samples;
   configuration.viewCount = uint32_t(views.size());
   configuration.plain = options.plain;
+  configuration.layered = !options.plain && wantsLayers(look.data());
   configuration.multiview = impl_->device->multiviewWorks();
   configuration.computeImagePasses =
       impl_->imagePasses == ImagePassKind::compute ||

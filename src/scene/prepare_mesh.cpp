@@ -73,14 +73,26 @@ float inverseExtent(const std::vector<glm::vec3>& positions) {
   return extent > 1e-30f ? 1.0f / extent : 0.0f;
 }
 
+// Positions on a grid of 1 / 65536 of the extent: the two sides of a seam are often computed, and differ by a
+// rounding. Round numbers lie in the middle of a cell.
+class Grid {
+ public:
+  explicit Grid(float inverseExtent) : scale_(65536.0f * inverseExtent) {}
+  glm::vec3 operator()(const glm::vec3& p) const { return glm::round(p * scale_); }
+
+ private:
+  float scale_;
+};
+
 // representatives[v]: the first vertex at v's position. Empty when all positions differ.
 std::vector<uint32_t> findRepresentatives(const std::vector<glm::vec3>& positions) {
+  const Grid grid(inverseExtent(positions));
   std::vector<uint32_t> representatives(positions.size());
   PositionTable table(positions.size());
-  const auto positionOf = [&](uint32_t i) { return positions[i]; };
+  const auto positionOf = [&](uint32_t i) { return grid(positions[i]); };
   bool anyShared = false;
   for (uint32_t i = 0; i < positions.size(); ++i) {
-    representatives[i] = table.findOrAdd(positions[i], i, positionOf);
+    representatives[i] = table.findOrAdd(grid(positions[i]), i, positionOf);
     anyShared |= representatives[i] != i;
   }
   if (!anyShared) representatives.clear();
@@ -230,6 +242,7 @@ void weldSmoothNormals(Mesh& mesh) {
   if (mesh.primitives.size() < 2) return;
   size_t count = 0;
   for (const Primitive& p : mesh.primitives) count += p.vertexCount();
+  const Grid grid(0.5f / std::max(boundingRadius(mesh), 1e-30f));
 
   // One entry a position; a primitive's sum is the same at all its vertices there, and counts once.
   struct Entry {
@@ -246,9 +259,10 @@ void weldSmoothNormals(Mesh& mesh) {
     const Primitive& p = mesh.primitives[k];
     for (size_t i = 0; i < p.vertexCount(); ++i) {
       const uint32_t fresh = static_cast<uint32_t>(entries.size());
-      const uint32_t found = table.findOrAdd(p.positions[i], fresh, positionOf);
+      const glm::vec3 position = grid(p.positions[i]);
+      const uint32_t found = table.findOrAdd(position, fresh, positionOf);
       if (found == fresh) {
-        entries.push_back({p.positions[i], p.smoothNormals[i], k});
+        entries.push_back({position, p.smoothNormals[i], k});
       } else if (entries[found].lastPrimitive != k) {
         entries[found].lastPrimitive = k;
         const glm::vec3 sum = entries[found].sum + p.smoothNormals[i];

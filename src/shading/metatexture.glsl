@@ -107,8 +107,16 @@ MetaTextureChoice metaTextureChoose(MetaTexture m, vec2 dSdu, vec2 dSdv, float a
     }
     if (m.skew == 0) c.psi[k] = vec2(1.0, 0.0);
     vec2 psi = c.psi[k], squared = psi * psi;
-    c.exponent[k] = metaTextureExponent(
-        m, squared * uu + squared.yx * vv + 2.0 * psi.x * psi.y * uv, alpha);
+    vec2 squares = squared * uu + squared.yx * vv + 2.0 * psi.x * psi.y * uv;
+    if (m.skew != 0) {
+      // What the levels leave of the skew: seen from the edge, both gradients still point across the silhouette, and a
+      // scale chosen by them would stretch the texture along it. So below 45 degrees between the two it is the extent
+      // along that counts.
+      float dotted = (squared.x + squared.y) * uv + psi.x * psi.y * (uu + vv);
+      float sine2 = 1.0 - dotted * dotted / max(squares.x * squares.y, 1e-30);
+      squares *= clamp(2.0 * sine2, 1e-6, 1.0);
+    }
+    c.exponent[k] = metaTextureExponent(m, squares, alpha);
   }
   // From a quarter octave of foreshortening along u on, the texture turns; at three quarters it has.
   c.orientBlend = m.orient == 0 ? 0.0 : metaTextureBlend(m, log2(max(uu, 1e-24) / max(vv, 1e-24)) - 0.5);

@@ -40,8 +40,11 @@ MetaTextureReference::Result MetaTextureReference::at(const glm::dvec2& uv, cons
     const double psi = skew == off ? 0 : skew == exact ? 0.5 * std::asin(q) : std::atan(0.5 * q);
     const double c = std::cos(psi), s = std::sin(psi);
     const glm::dvec2 gu = c * gradU + s * gradV, gv = s * gradU + c * gradV;
+    // Below 45 degrees between them the extent along counts instead of the gradient: 1 / |dS/du'|, times sqrt 2.
+    const double sine = std::abs(gu.x * gv.y - gu.y * gv.x) / glm::length(gu) / glm::length(gv);
+    const double along = skew == off ? 1 : std::min(1.0, std::sqrt(2.0) * sine);
     const glm::dvec2 e =
-        -glm::log2(alpha * size * glm::dvec2(glm::length(gu), glm::length(gv))) / std::log2(base);
+        -glm::log2(alpha * size * along * glm::dvec2(glm::length(gu), glm::length(gv))) / std::log2(base);
     const double share = level == 0 ? 1 - between : between;
     result.exponent += share * e;
     const glm::dvec2 whole = glm::floor(e), b(beta(e.x - whole.x), beta(e.y - whole.y));

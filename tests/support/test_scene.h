@@ -19,6 +19,7 @@ struct TestMesh {
   std::vector<glm::vec3> positions, normals;
   std::vector<glm::vec2> uvs;
   std::vector<glm::vec4> colors;  // linear RGBA; empty or one a vertex
+  std::vector<float> warpScales;  // the attribute _WARP; empty or one a vertex
   std::vector<uint32_t> indices;
   // Skinning: both empty, or one a vertex.
   std::vector<glm::u8vec4> joints;

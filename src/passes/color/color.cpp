@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 
 #include "frame/image_step.h"
 #include "frame/palette.h"
@@ -20,15 +21,19 @@ class Color : public Pass {
   const char* name() const override { return "color"; }
 
   void declare(FrameBuilder& frame) override {
-    step_.declare(frame, "color", {{shaders::color_image_frag}, {shaders::color_image_comp}},
-                  {{frame.slot(Slot::finalShadow)},
-                   {frame.slot(Slot::lit)},
-                   {frame.slot(Slot::shadowed)},
-                   {frame.slot(Slot::depth)}},
-                  frame.slot(Slot::color), sizeof(shared::ColorUniforms));
+    const auto mix = [&](const char* step, Slot light, Slot lit, Slot shadowed, Slot depth, Slot color) {
+      steps_.emplace_back().declare(
+          frame, step, {{shaders::color_image_frag}, {shaders::color_image_comp}},
+          {{frame.slot(light)}, {frame.slot(lit)}, {frame.slot(shadowed)}, {frame.slot(depth)}},
+          frame.slot(color), sizeof(shared::ColorUniforms));
+    };
+    mix("color", Slot::finalShadow, Slot::lit, Slot::shadowed, Slot::depth, Slot::color);
+    if (frame.configuration().layered)
+      mix("behind", Slot::behindShadow, Slot::behindLit, Slot::behindShadowed, Slot::behindDepth,
+          Slot::behind);
   }
   void create(FrameBuilder& frame, const FrameResources& resources) override {
-    step_.create(frame, resources);
+    for (ImageStep& step : steps_) step.create(frame, resources);
   }
 
   void update(const FrameInput& input) override {
@@ -48,11 +53,11 @@ class Color : public Pass {
     uniforms.airStart = center + params.airStart * radius;
     uniforms.airEnd = center + std::max(params.airEnd, params.airStart + 1e-3f) * radius;
     uniforms.transparent = input.transparent;
-    step_.update(uniforms);
+    for (ImageStep& step : steps_) step.update(uniforms);
   }
 
  private:
-  ImageStep step_;
+  std::deque<ImageStep> steps_;  // they are referred to, and stay where they are
 };
 
 }  // namespace

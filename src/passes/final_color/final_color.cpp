@@ -15,6 +15,7 @@ namespace {
 
 class FinalColor : public Pass {
  public:
+  explicit FinalColor(InflationOf inflation) : inflation_(inflation) {}
   const char* name() const override { return "final-color"; }
 
   void declare(FrameBuilder& frame) override {
@@ -26,8 +27,11 @@ class FinalColor : public Pass {
                   {{frame.slot(Slot::color), true},
                    {frame.slot(Slot::warp)},
                    {frame.slot(Slot::depth)},
-                   {frame.slot(Slot::blur), true}},
-                  frame.slot(Slot::finalColor), sizeof(shared::FinalColorUniforms), {uint32_t(glows)});
+                   {frame.slot(Slot::blur), true},
+                   {frame.slot(frame.configuration().layered ? Slot::behind : Slot::color)},
+                   {frame.slot(frame.configuration().layered ? Slot::behindDepth : Slot::depth)}},
+                  frame.slot(Slot::finalColor), sizeof(shared::FinalColorUniforms),
+                  {uint32_t(glows), uint32_t(frame.configuration().layered)});
   }
   void create(FrameBuilder& frame, const FrameResources& resources) override {
     step_.create(frame, resources);
@@ -37,18 +41,20 @@ class FinalColor : public Pass {
     const FinalColorParams params = input.look.get<FinalColorParams>();
     shared::FinalColorUniforms uniforms{};
     uniforms.bloom = params.bloom * glm::vec3(params.bloomTint);
+    uniforms.inflation = inflation_(input.look, input.scene, input.uniforms.imageSize.y);
     uniforms.ripple = params.ripple;
     step_.update(uniforms);
   }
 
  private:
+  InflationOf inflation_;
   ImageStep step_;
 };
 
 }  // namespace
 
-std::unique_ptr<Pass> makeFinalColor() {
-  return std::make_unique<FinalColor>();
+std::unique_ptr<Pass> makeFinalColor(InflationOf inflation) {
+  return std::make_unique<FinalColor>(inflation);
 }
 
 }  // namespace scumble::passes

@@ -11,6 +11,12 @@ namespace scumble::passes {
 #define PARAMS_PER_MATERIAL false
 #include "look/define_params.h"
 
-std::unique_ptr<frame::Pass> makeFinalColor();
+// The choices of final.ripple.
+enum Ripple : int { kRipplePaper, kRippleDepthAware, kRippleLayered };
+
+// What the warp pass says: the largest inflation of any of the scene's materials, in pixels.
+using InflationOf = float (*)(const look::LookData& look, const frame::SceneOnGpu& scene, float imageHeight);
+
+std::unique_ptr<frame::Pass> makeFinalColor(InflationOf inflation);
 
 }  // namespace scumble::passes

@@ -5,7 +5,8 @@
 SHARED_BEGIN
 struct FinalColorUniforms {
   vec3 bloom;  // colour times amount
-  int ripple;  // 0 paper, 1 depth-aware
+  float inflation;  // pixels, the most of any material
+  int ripple;       // 0 paper, 1 depth-aware, 2 layered
 };
 SHARED_END
 #endif

@@ -47,17 +47,33 @@ TEST_P(FinalColorTest, equalsItsReference) {
         size_t undecided = 0, kept = 0, moved = 0, wrong = 0;
         for (int y = 0; y < kHeight; ++y)
           for (int x = 0; x < kWidth; ++x) {
-            const double surface = 1.01 * texel(aov(frame, "warp", v), x, y).w;
+            const glm::dvec4 vector = texel(aov(frame, "warp", v), x, y);
             glm::vec2 at = displaced(frame, v, x, y);
-            if (aware) {
-              const Image& depth = aov(frame, "depth", v);
-              const double nearest = std::min(texel(depth, x, y).x, texel(depth, int(at.x), int(at.y)).x);
+            if (aware && vector.w > 0) {
+              // By inverse distances, which planes have linear on the screen.
+              const auto inverse = [](const Image& image, int i, int j, int channel) {
+                return 1 / texel(image, i, j)[channel];
+              };
+              const Image &depth = aov(frame, "depth", v), &inflated = aov(frame, "warp", v);
+              const double own = inverse(depth, x, y, 0), there = inverse(depth, int(at.x), int(at.y), 0);
+              const auto gentler = [&](int dx, int dy) {
+                const double here = 1 / vector.w;
+                return std::min(std::abs(here - inverse(inflated, x - dx, y - dy, 3)),
+                                std::abs(here - inverse(inflated, x + dx, y + dy, 3)));
+              };
+              const double slope = gentler(1, 0) + gentler(0, 1),
+                           fall = std::min(2 * slope * 30 * kHeight / 1080.0,
+                                           1 / vector.w - 1 / (1.15 * vector.w)),
+                           rise = slope * (glm::length(glm::dvec2(vector)) + 1.5);
+              const double beyond = 1 / (1.01 * vector.w), before = 1 / (0.97 * vector.w) + rise;
               // Float depths that are this close compare either way.
-              if (std::abs(nearest - surface) < 1e-3 * surface) {
+              const auto isClose = [](double a, double b) { return std::abs(a - b) < 1e-3 * (a + b); };
+              if (isClose(own + fall, beyond) || isClose(there + fall, beyond) || isClose(there, before)) {
                 ++undecided;
                 continue;
               }
-              if (nearest > surface) at = glm::vec2(x, y) + 0.5f, ++kept;
+              if ((std::max(own, there) + fall < beyond) || there > before)
+                at = glm::vec2(x, y) + 0.5f, ++kept;
             }
             moved += at != glm::vec2(x, y) + 0.5f;
             // Bilinear, premultiplied; `spread` is how far the four texels differ.
@@ -92,7 +108,7 @@ TEST_P(FinalColorTest, equalsItsReference) {
           }
         EXPECT_EQ(wrong, 0u) << difference.text() << (aware ? ", depth-aware" : ", paper");
         EXPECT_LT(difference.mean(), 5e-4);
-        EXPECT_LT(undecided, size_t(kWidth * kHeight / 30));
+        EXPECT_LT(undecided, size_t(kWidth * kHeight / 20));
         EXPECT_GT(moved, 2000u);
         EXPECT_GE(kept, aware ? 100u : 0u);
       }
@@ -159,6 +175,117 @@ TEST_P(FinalColorTest, rippleKeepsOffTheBackground) {
   }
   EXPECT_GT(changed[0], 50u) << "the paper's ripple";
   EXPECT_EQ(changed[1], 0u) << "depth-aware";
+}
+
+// Section 4.1: nothing shows an object's colour where its inflated surface does not cover, however far the
+// vectors reach.
+TEST_P(FinalColorTest, noColourBeyondTheInflatedSurface) {
+  TestScene s;
+  s.json()["extensionsUsed"].push_back("KHR_materials_unlit");
+  Json wall = TestScene::colored("Wall", {0.1f, 0.1f, 0.8f, 1}),
+       ball = TestScene::colored("Ball", {0.9f, 0.05f, 0.05f, 1});
+  wall["extensions"]["KHR_materials_unlit"] = ball["extensions"]["KHR_materials_unlit"] = Json::object();
+  s.add(gridMesh({-8, -6, -2}, {16, 0, 0}, {0, 12, 0}, 8, {9, 7}), s.material(wall));
+  s.add(sphereMesh({0, 0, 0}, 1, 48), s.material(ball));
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0.3f, 0.2f, 5}, {0, 0, 0}, 40}, kWidth, kHeight, GetParam());
+  size_t strays[3] = {};
+  for (const auto& [mode, name] : {std::pair{0, "paper"}, {1, "depth-aware"}, {2, "layered"}}) {
+    // The wall's vectors are long, the ball's inflation is short.
+    const Look look = quietLook({{"final.ripple", name}, {"warp.amount", "64"}, {"warp.inflation", "12"}});
+    const Frame frame = draw(scene, look, views, sized(kWidth, kHeight, {"warp"}));
+    for (size_t v = 0; v < viewCount(); ++v)
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+          // Filtering mixes in three neighbours by up to three quarters.
+          const bool isRed = texel(aov(frame, "", v), x, y).x > 0.7,
+                     isCovered = texel(aov(frame, "warp", v), x, y).w < 6;
+          strays[mode] += isRed && !isCovered;
+        }
+  }
+  EXPECT_GT(strays[0], 20u) << "the paper's";
+  EXPECT_EQ(strays[1], 0u);
+  EXPECT_EQ(strays[2], 0u);
+}
+
+// Edges are torn off as far inside a round silhouette as they are torn out, whatever the object's depth.
+TEST_P(FinalColorTest, roundSilhouettesAreTornInwardsToo) {
+  TestScene s;
+  s.json()["extensionsUsed"].push_back("KHR_materials_unlit");
+  Json ball = TestScene::colored("Ball", {0.9f, 0.05f, 0.05f, 1});
+  ball["extensions"]["KHR_materials_unlit"] = Json::object();
+  s.add(sphereMesh({0, 0, 0}, 1, 64), s.material(ball));
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0, 0, 3.2f}, {0, 0, 0}, 45}, kWidth, kHeight, GetParam());
+  for (const char* ripple : {"depth-aware", "layered"}) {
+    const Look look = quietLook({{"final.ripple", ripple}, {"warp.amount", "40"}, {"warp.inflation", "40"}});
+    const Frame frame = draw(scene, look, views, sized(kWidth, kHeight, {"id"}));
+    for (size_t v = 0; v < viewCount(); ++v) {
+      size_t in = 0, out = 0;
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+          const bool isBall = texel(aov(frame, "id", v), x, y).x == 1;
+          const glm::dvec4 color = texel(aov(frame, "", v), x, y);
+          const bool isRed = color.x > 0.3 && color.y < 0.3;
+          in += isBall && !isRed, out += !isBall && isRed;
+        }
+      EXPECT_GT(in, 60u) << ripple;
+      EXPECT_GT(out, 60u) << ripple;
+      EXPECT_LT(double(std::max(in, out)) / double(std::min(in, out)), 3.0)
+          << ripple << ": " << in << " in, " << out << " out";
+    }
+  }
+}
+
+// Layered: what lies behind stands still inside the silhouette too, where edges are torn off.
+TEST_P(FinalColorTest, layeredShowsWhatLiesBehind) {
+  // Stripes behind a ball; the ball alone is torn.
+  const auto makeScene = [](bool withBall) {
+    TestScene s;
+    s.json()["extensionsUsed"].push_back("KHR_materials_unlit");
+    Json stripes = TestScene::colored("Stripes", {1, 1, 1, 1}),
+         ball = TestScene::colored("Ball", {0.8f, 0.1f, 0.1f, 1});
+    stripes["extensions"]["KHR_materials_unlit"] = ball["extensions"]["KHR_materials_unlit"] = Json::object();
+    TestMesh mesh;
+    for (int x = -40; x < 40; ++x) {
+      const TestMesh cell = gridMesh({0.15f * float(x), -6, -2}, {0.15f, 0, 0}, {0, 12, 0});
+      const uint32_t first = uint32_t(mesh.positions.size());
+      mesh.positions.insert(mesh.positions.end(), cell.positions.begin(), cell.positions.end());
+      mesh.normals.insert(mesh.normals.end(), cell.normals.begin(), cell.normals.end());
+      mesh.uvs.insert(mesh.uvs.end(), cell.uvs.begin(), cell.uvs.end());
+      for (const uint32_t i : cell.indices) mesh.indices.push_back(first + i);
+      mesh.colors.insert(mesh.colors.end(), 4,
+                         x & 1 ? glm::vec4(0.05f, 0.9f, 0.05f, 1) : glm::vec4(0.05f, 0.05f, 0.9f, 1));
+    }
+    s.add(mesh, s.material(stripes));
+    if (withBall) s.add(sphereMesh({0, 0, 0}, 1, 48), s.material(ball));
+    return s.load();
+  };
+  const Scene stripes = makeScene(false), both = makeScene(true);
+  const auto views = viewsFrom(both, {{0.2f, 0.3f, 4}, {0, 0, 0}, 50}, kWidth, kHeight, GetParam());
+  double wrong[2] = {};
+  for (const bool layered : {false, true}) {
+    const Look look = quietLook({{"final.ripple", layered ? "layered" : "depth-aware"},
+                                 {"warp.amount", "40"},
+                                 {"warp.inflation", "40"},
+                                 {"materials.Stripes.warp.amount", "0"}});
+    const Frame with = draw(both, look, views, sized(kWidth, kHeight, {"id"})),
+                without = draw(stripes, look, views, sized(kWidth, kHeight));
+    size_t torn = 0, off = 0;
+    for (size_t v = 0; v < viewCount(); ++v)
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+          if (texel(aov(with, "id", v), x, y).x != 2) continue;
+          const glm::dvec4 a = texel(aov(with, "", v), x, y), b = texel(aov(without, "", v), x, y);
+          if (a.x > 0.2) continue;  // the ball's colour still stands
+          ++torn;
+          off += std::abs(a.y - b.y) > 0.1;
+        }
+    EXPECT_GT(torn, 60u);
+    wrong[layered] = double(off) / double(torn);
+  }
+  EXPECT_GT(wrong[0], 0.2) << "stripes come along";
+  EXPECT_LT(wrong[1], 0.1) << "stripes stand still";
 }
 
 }  // namespace

@@ -31,19 +31,22 @@ struct PaintedMaterial {
 
 class Surface : public Pass {
  public:
-  const char* name() const override { return "surface"; }
+  explicit Surface(SurfaceLayer layer)
+      : isBehind_(layer == SurfaceLayer::behind), targets_(isBehind_ ? kBehindTargets : kFirstTargets) {}
+  const char* name() const override { return isBehind_ ? "behind" : "surface"; }
 
   void declare(FrameBuilder& frame) override {
     const Configuration& c = frame.configuration();
-    samples_ = c.samples;
+    samples_ = isBehind_ ? 1 : c.samples;
     configuration_ = frame.configuration();
     std::vector<gpu::ResourceUse> uses{
         {frame.finalVertices(), gpu::Use::vertexBuffer},
         {shadowMap_ = frame.slot(Slot::shadowMap), gpu::Use::sampledByFragment}};
-    for (size_t i = 0; i < kTargets.size(); ++i) {
-      const bool isDepth = kTargets[i] == Slot::depth;
-      resolved_[i] = frame.slot(kTargets[i]);
-      drawn_[i] = samples_ > 1 ? frame.multisampled(kTargets[i]) : resolved_[i];
+    if (isBehind_) uses.push_back({firstDepth_ = frame.slot(Slot::depth), gpu::Use::sampledByFragment});
+    for (size_t i = 0; i < targets_.size(); ++i) {
+      const bool isDepth = i == kDepthTarget;
+      resolved_[i] = frame.slot(targets_[i]);
+      drawn_[i] = samples_ > 1 ? frame.multisampled(targets_[i]) : resolved_[i];
       uses.push_back({drawn_[i], isDepth ? gpu::Use::depthTarget : gpu::Use::colorTarget});
       if (samples_ > 1)
         uses.push_back({resolved_[i], isDepth ? gpu::Use::depthResolveTarget : gpu::Use::resolveTarget});
@@ -51,7 +54,7 @@ class Surface : public Pass {
     uniforms_ = frame.uniform(sizeof(SurfaceUniforms));
     params_.declare(frame);
     painted_.declare(frame);
-    frame.addStep("surface", std::move(uses), [this](VkCommandBuffer commands) { record(commands); });
+    frame.addStep(name(), std::move(uses), [this](VkCommandBuffer commands) { record(commands); });
   }
 
   void create(FrameBuilder& frame, const FrameResources& resources) override {
@@ -66,6 +69,7 @@ class Surface : public Pass {
                               {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_FRAGMENT_BIT},
                               {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
                               {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
+                              {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
                               {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT}});
     // One set for each material, since each may have a texture of its own.
     const size_t materials = frame.scene().materialCount();
@@ -78,18 +82,21 @@ class Surface : public Pass {
       painted_.bind(sets_, 1, m);
       sets_.writeBuffer(m, 2, uniforms_.buffer, uniforms_.offset, uniforms_.size);
       sets_.writeTexture(m, 3, resources.image(shadowMap_).view(), frame.samplers().get(compare));
+      // The first layer does not look at it.
+      sets_.writeTexture(m, 6, resources.image(isBehind_ ? firstDepth_ : shadowMap_).view(),
+                         frame.samplers().get({VK_FILTER_NEAREST}));
     }
 
     GeometryStepDesc desc;
     desc.vertex = {shaders::surface_vert};
     desc.fragment = {shaders::surface_frag};
     desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor | kDPdu | kDPdv | kPatternUv;
-    for (const Slot slot : kTargets)
-      if (slot != Slot::depth) desc.colorFormats.push_back(slotInfo(slot).format);
+    for (size_t i = 0; i < kDepthTarget; ++i) desc.colorFormats.push_back(slotInfo(targets_[i]).format);
     desc.samples = samples_;
     desc.viewMask = viewMask(configuration_);
     desc.viewCount = configuration_.viewCount;
-    desc.blends = true;
+    desc.blends = !isBehind_;
+    desc.constant = isBehind_;
     desc.passLayout = &layout_;
     desc.materialStrides = {params_.kStride, painted_.kStride};
     step_.create(frame.device(), resources, frame.scene(), desc);
@@ -120,7 +127,10 @@ class Surface : public Pass {
   }
 
  private:
-  static constexpr std::array kTargets{Slot::shadow, Slot::lit, Slot::shadowed, Slot::depth};
+  static constexpr std::array kFirstTargets{Slot::shadow, Slot::lit, Slot::shadowed, Slot::depth};
+  static constexpr std::array kBehindTargets{Slot::behindShadow, Slot::behindLit, Slot::behindShadowed,
+                                             Slot::behindDepth};
+  static constexpr size_t kDepthTarget = 3;
 
   void record(VkCommandBuffer commands) const {
     const auto target = [&](size_t i) {
@@ -133,8 +143,10 @@ class Surface : public Pass {
     });
   }
 
-  gpu::ResourceId shadowMap_ = 0;
-  std::array<gpu::ResourceId, kTargets.size()> drawn_{}, resolved_{};
+  bool isBehind_;
+  std::array<Slot, 4> targets_;
+  gpu::ResourceId shadowMap_ = 0, firstDepth_ = 0;
+  std::array<gpu::ResourceId, 4> drawn_{}, resolved_{};
   uint32_t samples_ = 1;
   Configuration configuration_;
   UniformSlice uniforms_;
@@ -152,8 +164,8 @@ class Surface : public Pass {
 
 }  // namespace
 
-std::unique_ptr<Pass> makeSurface() {
-  return std::make_unique<Surface>();
+std::unique_ptr<Pass> makeSurface(SurfaceLayer layer) {
+  return std::make_unique<Surface>(layer);
 }
 
 }  // namespace scumble::passes

@@ -15,6 +15,7 @@ layout(constant_id = 0) const int kAlphaMode = 0;  // 0 opaque, 1 masked, 2 blen
 layout(constant_id = 1) const int kVaried = 0;
 layout(constant_id = 2) const int kTextured = 0;
 layout(constant_id = 4) const int kPainted = 0;
+layout(constant_id = 5) const int kBehind = 0;  // only what lies behind the first surface
 
 layout(set = 2, binding = 0, scalar) uniform ParamsBlock { SurfaceParams params; };
 layout(set = 2, binding = 1, scalar) uniform PaintedBlock { PaintedMaterial painted; };
@@ -22,6 +23,7 @@ layout(set = 2, binding = 2, scalar) uniform SurfaceBlock { SurfaceUniforms surf
 layout(set = 2, binding = 3) uniform sampler2DArrayShadow shadowMap;
 layout(set = 2, binding = 4) uniform sampler2D paintedExample;
 layout(set = 2, binding = 5) uniform sampler2D paintedInverse;
+layout(set = 2, binding = 6) uniform sampler2DArray firstDepth;
 
 layout(location = 0) in vec3 inLightSpace;
 layout(location = 1) in vec2 inFacing;
@@ -53,6 +55,10 @@ vec3 paint(vec3 root) {
 }
 
 void main() {
+  if (kBehind != 0) {
+    float first = texelFetch(firstDepth, ivec3(gl_FragCoord.xy, viewIndex()), 0).r;
+    if (eyeDepth(gl_FragCoord.z, viewIndex()) < 1.005 * eyeDepth(first, viewIndex())) discard;
+  }
   vec2 facing = gl_FrontFacing ? inFacing : -inFacing;
   float up = 0.5 + 0.5 * facing.y;
 
@@ -92,6 +98,8 @@ void main() {
   float oblique = clamp(1.0 - abs(turn) / params.indicationWidth, 0.0, 1.0) * reaches * params.indication;
   oblique *= 1.0 - material.unlit;
 
+  // Nothing blurs and thresholds it later.
+  if (kBehind != 0) light = clamp(0.5 + 8.0 * (light - 0.5), 0.0, 1.0);
   outShadow = vec4(light, clamp(lens * params.lens, 0.0, 1.0), oblique, alpha);
   outLit = vec4(lit, alpha);
   outShadowed = vec4(shadowed, alpha);

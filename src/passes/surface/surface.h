@@ -19,6 +19,9 @@ namespace scumble::passes {
 #define PARAMS_PER_MATERIAL true
 #include "look/define_params.h"
 
-std::unique_ptr<frame::Pass> makeSurface();
+// Which surface of a pixel: the first, or the next one behind it (one sample a pixel, light as it is thresholded without
+// a blur).
+enum class SurfaceLayer { first, behind };
+std::unique_ptr<frame::Pass> makeSurface(SurfaceLayer layer);
 
 }  // namespace scumble::passes

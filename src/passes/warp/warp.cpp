@@ -169,6 +169,10 @@ class Warp : public Pass {
 
 }  // namespace
 
+float inflationPixels(const WarpParams& params, float imageHeight) {
+  return params.inflation * imageHeight / (params.inflationUnit == 0 ? 1080.0f : 100.0f);
+}
+
 int boilDrawing(const WarpParams& params, double time) {
   // A ten-thousandth of a frame keeps n / 24 seconds from falling short of frame n.
   const double frame = std::floor(time * 24 + 1e-4);

@@ -17,6 +17,9 @@ namespace scumble::passes {
 #define PARAMS_PER_MATERIAL true
 #include "look/define_params.h"
 
+// The inflation in pixels of a picture.
+float inflationPixels(const WarpParams& params, float imageHeight);
+
 // The drawing that line boil shows at a time, from 0: it changes on the grid of 24 frames a second only,
 // however often the picture is drawn (FORMULAS 11).
 int boilDrawing(const WarpParams& params, double time);

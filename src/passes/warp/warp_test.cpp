@@ -320,5 +320,269 @@ TEST_F(WarpTest, farThingsAreTornLess) {
   EXPECT_NEAR(spread(5, "0.2") / spread(5, "0"), 1 / (1 + 1.0), 0.02);
 }
 
+// FORMULAS 3 for the other choice: differences between pixels choose the same scales on a plane, to a
+// percent; on a coarse ball they are flat in each triangle where the smooth ones are not.
+TEST_P(WarpTest, fragmentGradientsAgreeOnAPlane) {
+  constexpr int width = 2 * kWidth, height = 2 * kHeight;  // differences are over pixels of some size
+  const Scene scene = wall({5, 2}).load();
+  const auto views = viewsFrom(scene, {{5, 3, 4}, {0, 0, 0}, 40, 20}, width, height, GetParam());
+  for (const char* cyclopean : {"off", "on"}) {
+    const auto drawn = [&](const char* gradients) {
+      return draw(
+          scene,
+          quietLook({{"warp.metatexture.gradients", gradients}, {"warp.metatexture.cyclopean", cyclopean}}),
+          views, sized(width, height, {"metatexture", "id"}));
+    };
+    const Frame smooth = drawn("smooth"), fragment = drawn("fragment");
+    for (size_t v = 0; v < viewCount(); ++v) {
+      // A percent of a gradient is 0.0144 of an exponent.
+      Difference exponents(0.0144);
+      for (int y = 2; y < height - 2; ++y)
+        for (int x = 2; x < width - 2; ++x) {
+          bool inside = true;
+          for (int i = 0; i < 9; ++i)
+            inside &= texel(aov(smooth, "id", v), x - 1 + i % 3, y - 1 + i / 3).x == 1;
+          if (!inside) continue;
+          const glm::dvec4 a = texel(aov(smooth, "metatexture", v), x, y),
+                           b = texel(aov(fragment, "metatexture", v), x, y);
+          exponents.add(a.x, b.x), exponents.add(a.y, b.y);
+        }
+      EXPECT_GT(exponents.count, 10000u);
+      EXPECT_LT(exponents.beyondPart(), 0.01) << exponents.text() << ", cyclopean " << cyclopean;
+    }
+  }
+}
+
+// FORMULAS 4: for an off-centre projection alpha is 1 + tan^2 of the angle between the pixel's ray and the
+// view axis.
+TEST_P(WarpTest, radialAngle) {
+  const Scene scene = wall({5, 2}).load();
+  auto views = viewsFrom(scene, {{1, 0.5f, 5}, {0, 0, 0}, 70}, kWidth, kHeight, GetParam());
+  for (View& view : views) view.eyeToClip[2][0] = 0.3f, view.eyeToClip[2][1] = -0.2f;
+  const auto drawn = [&](const char* radial) {
+    return draw(scene,
+                quietLook({{"warp.metatexture.radial", radial},
+                           {"warp.metatexture.skew", "off"},
+                           {"warp.metatexture.cyclopean", "off"}}),
+                views, sized(kWidth, kHeight, {"metatexture", "position", "id"}));
+  };
+  const Frame off = drawn("off"), on = drawn("on");
+  for (size_t v = 0; v < viewCount(); ++v) {
+    Difference alphas(2e-3);
+    double most = 0;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        if (texel(aov(off, "id", v), x, y).x == 0) continue;
+        const glm::dvec4 eye =
+            glm::dmat4(views[v].worldToEye) * glm::dvec4(glm::dvec3(texel(aov(off, "position", v), x, y)), 1);
+        const double tangent = glm::length(glm::dvec2(eye)) / -eye.z;
+        const double alpha =
+            std::exp2(texel(aov(off, "metatexture", v), x, y).x - texel(aov(on, "metatexture", v), x, y).x);
+        alphas.add(alpha, 1 + tangent * tangent);
+        most = std::max(most, alpha);
+      }
+    EXPECT_EQ(alphas.beyond, 0u) << alphas.text();
+    EXPECT_GT(most, 1.5);
+  }
+}
+
+// FORMULAS 7: the exponents chosen at one surface point are the same in both eyes; and so are the vectors.
+TEST_F(WarpTest, bothEyesChooseTheSame) {
+  TestScene s = wall({9, 4});
+  s.add(sphereMesh({0.5f, 0, 1}, 1.5f, 48), 0);
+  const Scene scene = s.load();
+  auto views = viewsFrom(scene, {{4, 1, 3}, {0, 0, 0}, 50, 0, 0.6f}, 320, 240, Stereo::stereo);
+  // As headsets have it: each eye's frustum leans outwards.
+  views[0].eyeToClip[2][0] = -0.1f, views[1].eyeToClip[2][0] = 0.1f;
+  double mean[2] = {};
+  for (const bool cyclopean : {false, true}) {
+    Look look = lookOf(48, 900);
+    ASSERT_TRUE(look.set("warp.metatexture.cyclopean", cyclopean ? "on" : "off").ok());
+    const Frame frame = draw(scene, look, views, sized(320, 240, {"metatexture", "position", "id", "warp"}));
+    Difference exponents(0.02), vectors(0.3);
+    for (int y = 0; y < 240; ++y)
+      for (int x = 0; x < 320; ++x) {
+        const double id = texel(aov(frame, "id", 0), x, y).x;
+        if (id == 0) continue;
+        const glm::dvec3 p(texel(aov(frame, "position", 0), x, y));
+        const glm::dvec4 clip =
+            glm::dmat4(views[1].eyeToClip) * glm::dmat4(views[1].worldToEye) * glm::dvec4(p, 1);
+        const glm::dvec2 at = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * glm::dvec2(320, 240);
+        const int i = int(std::floor(at.x)), j = int(std::floor(at.y));
+        if (i < 0 || j < 0 || i >= 320 || j >= 240 || texel(aov(frame, "id", 1), i, j).x != id) continue;
+        // The same point, within a pixel.
+        const glm::dvec3 q(texel(aov(frame, "position", 1), i, j));
+        if (glm::length(q - p) > 0.012) continue;
+        for (int c = 0; c < 3; ++c)
+          exponents.add(texel(aov(frame, "metatexture", 0), x, y)[c],
+                        texel(aov(frame, "metatexture", 1), i, j)[c]);
+        for (int c = 0; c < 2; ++c)
+          vectors.add(texel(aov(frame, "warp", 0), x, y)[c] / 10.7,
+                      texel(aov(frame, "warp", 1), i, j)[c] / 10.7);
+      }
+    EXPECT_GT(exponents.count, 10000u);
+    mean[cyclopean] = exponents.mean();
+    if (cyclopean) {
+      EXPECT_LT(exponents.mean(), 0.01) << exponents.text();
+      EXPECT_LT(vectors.mean(), 0.12) << vectors.text();
+    }
+  }
+  EXPECT_GT(mean[0], 5 * mean[1]) << "by themselves they differ";
+}
+
+// A mapping that is mirrored along u: the vectors go on across the seam.
+TEST_P(WarpTest, mirroredMappingsHaveNoSeam) {
+  TestScene s;
+  const int material = s.material(TestScene::colored("Wall", {0.5f, 0.5f, 0.5f, 1}));
+  s.add(gridMesh({0, -3, 0}, {4, 0, 0}, {0, 6, 0}, 1, {2, 3}), material);
+  // The left half: u grows to the left.
+  TestMesh left = gridMesh({-4, -3, 0}, {4, 0, 0}, {0, 6, 0}, 1, {2, 3});
+  for (glm::vec2& uv : left.uvs) uv.x = 2 - uv.x;
+  s.add(left, material);
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0, 0, 6}}, kWidth, kHeight, GetParam());
+  const Frame frame = draw(scene, lookOf(64, 2000), views, sized(kWidth, kHeight, {"warp", "id"}));
+  for (size_t v = 0; v < viewCount(); ++v) {
+    double across = 0, along = 0;
+    int count = 0;
+    for (int y = 10; y < kHeight - 10; ++y)
+      for (int x = 1; x < kWidth; ++x) {
+        const Image &id = aov(frame, "id", v), &warp = aov(frame, "warp", v);
+        if (texel(id, x, y).x != 1 || texel(id, x - 1, y).x != 2) continue;
+        across += glm::length(glm::dvec2(texel(warp, x, y) - texel(warp, x - 1, y)));
+        along += glm::length(glm::dvec2(texel(warp, x + 3, y) - texel(warp, x + 2, y)));
+        ++count;
+      }
+    EXPECT_GT(count, 60);
+    EXPECT_LT(across, 1.5 * along) << "as steady as elsewhere";
+  }
+}
+
+// Seams of split vertices do not open: a box with hard edges is covered without a hole, however far it is
+// inflated.
+TEST_P(WarpTest, hardEdgesStayClosed) {
+  TestScene s;
+  s.add(boxMesh({-1, -1, -1}, {1, 1, 1}), s.material(TestScene::colored("Box", {0.5f, 0.5f, 0.5f, 1})));
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{3, 2.5f, 4}}, kWidth, kHeight, GetParam());
+  const Frame frame =
+      draw(scene, quietLook({{"warp.inflation", "60"}}), views, sized(kWidth, kHeight, {"warp", "id"}));
+  for (size_t v = 0; v < viewCount(); ++v) {
+    size_t box = 0, holes = 0;
+    for (int y = 0; y < kHeight; ++y) {
+      int first = kWidth, last = -1;
+      for (int x = 0; x < kWidth; ++x)
+        if (texel(aov(frame, "warp", v), x, y).w > 0) first = std::min(first, x), last = x;
+      for (int x = first; x <= last; ++x) holes += texel(aov(frame, "warp", v), x, y).w == 0;
+      for (int x = 0; x < kWidth; ++x) {
+        const bool covered = texel(aov(frame, "warp", v), x, y).w > 0;
+        box += texel(aov(frame, "id", v), x, y).x == 1;
+        holes += texel(aov(frame, "id", v), x, y).x == 1 && !covered;
+      }
+    }
+    EXPECT_GT(box, 1000u);
+    EXPECT_EQ(holes, 0u);
+  }
+}
+
+// Percent of the image's height is the other unit of inflation.
+TEST_F(WarpTest, inflationInPercent) {
+  WarpParams params;
+  params.inflation = 2;
+  params.inflationUnit = 1;
+  EXPECT_FLOAT_EQ(inflationPixels(params, 720), 14.4f);
+  params.inflationUnit = 0;
+  EXPECT_FLOAT_EQ(inflationPixels(params, 540), 1.0f);
+}
+
+// The attribute _WARP scales amount and inflation vertex by vertex: faces stay clear.
+TEST_P(WarpTest, verticesScaleTheAmount) {
+  TestScene s;
+  TestMesh mesh = gridMesh({-2, -1.5f, 0}, {4, 0, 0}, {0, 3, 0}, 16, {3, 2});
+  for (const glm::vec3& p : mesh.positions) mesh.warpScales.push_back(p.x < 0.01f ? 0.0f : 1.0f);
+  s.add(mesh, s.material(TestScene::colored("Wall", {0.5f, 0.5f, 0.5f, 1})));
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0, 0, 5}}, kWidth, kHeight, GetParam());
+  const Frame frame = draw(scene, lookOf(64, 500), views, sized(kWidth, kHeight, {"warp", "position", "id"}));
+  for (size_t v = 0; v < viewCount(); ++v) {
+    double left = 0, right = 0;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        if (texel(aov(frame, "id", v), x, y).x == 0) continue;
+        const double length = glm::length(glm::dvec2(texel(aov(frame, "warp", v), x, y)));
+        const double at = texel(aov(frame, "position", v), x, y).x;
+        if (at < -0.05) left = std::max(left, length);
+        if (at > 0.3) right = std::max(right, length);
+      }
+    EXPECT_EQ(left, 0);
+    EXPECT_GT(right, 3);
+  }
+}
+
+// FORMULAS 11: drawings change on the grid of 24 frames a second only, and come back after their number.
+TEST_P(WarpTest, lineBoilOnTwos) {
+  const Scene scene = wall().load();
+  const auto views = viewsFrom(scene, {{0, 0, 5}}, kWidth, kHeight, GetParam());
+  const auto drawnAt = [&](double time, const char* boil) {
+    Look look = lookOf(64, 500);
+    EXPECT_TRUE(look.set("warp.boil", boil).ok() && look.set("warp.boilDrawings", "3").ok());
+    Result<Frame> frame = renderer().render(scene, look, time, views, sized(kWidth, kHeight, {"warp"}));
+    EXPECT_TRUE(frame.ok());
+    return aov(*frame, "warp", viewCount() - 1);
+  };
+  const Image first = drawnAt(0, "1");
+  EXPECT_TRUE(sameBytes(first, drawnAt(0, "0"))) << "a still is what it is without boil";
+  EXPECT_TRUE(sameBytes(first, drawnAt(1.0 / 90, "1"))) << "the display's rate does not matter";
+  EXPECT_TRUE(sameBytes(first, drawnAt(1.0 / 24, "1"))) << "on twos";
+  EXPECT_FALSE(sameBytes(first, drawnAt(2.0 / 24, "1")));
+  EXPECT_TRUE(sameBytes(drawnAt(2.0 / 24, "1"), drawnAt(3.0 / 24 + 0.01, "1")));
+  EXPECT_FALSE(sameBytes(drawnAt(2.0 / 24, "1"), drawnAt(4.0 / 24, "1")));
+  EXPECT_TRUE(sameBytes(first, drawnAt(6.0 / 24, "1"))) << "three drawings, then again";
+  EXPECT_TRUE(sameBytes(first, drawnAt(2.0 / 24, "0")));
+  // Every frame of a long film falls into its own drawing.
+  WarpParams params;
+  for (int frame = 0; frame < 100000; ++frame)
+    ASSERT_EQ(boilDrawing(params, frame / 24.0), frame / 2 % 4) << frame;
+  EXPECT_EQ(boilDrawing(params, -2.0 / 24), 3);
+}
+
+// Materials with textures and knobs of their own are each evaluated with them: as if they were alone.
+TEST_P(WarpTest, everyMaterialHasItsOwnSetup) {
+  TestScene s;
+  const int a = s.material(TestScene::colored("A", {0.5f, 0.5f, 0.5f, 1})),
+            b = s.material(TestScene::colored("B", {0.5f, 0.5f, 0.5f, 1})),
+            c = s.material(TestScene::colored("C", {0.5f, 0.5f, 0.5f, 1}));
+  s.add(gridMesh({-3, -2, 0}, {2, 0, 0}, {0, 4, 0}), a);
+  s.add(gridMesh({-1, -2, 0}, {2, 0, 0}, {0, 4, 0}), b);
+  s.add(gridMesh({1, -2, 0}, {2, 0, 0}, {0, 4, 0}), c);
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0, 0, 6}}, kWidth, kHeight, GetParam());
+  const std::vector<std::pair<std::string, std::string>> knobs[] = {
+      {{"warp.metatexture.size", "700"}, {"breakup.metatexture.example", "strokes"}},
+      {{"warp.metatexture.base", "3"}, {"warp.metatexture.levelRotation", "40"}},
+      {{"warp.metatexture.mode", "screen"}, {"breakup.metatexture.size", "90"}}};
+  std::vector<std::pair<std::string, std::string>> all{{"warp.inflation", "0"}};
+  for (int m = 0; m < 3; ++m)
+    for (const auto& [path, value] : knobs[m])
+      all.push_back({std::string("materials.") + "ABC"[m] + "." + path, value});
+  const RenderOptions options = sized(kWidth, kHeight, {"warp", "id"});
+  const Frame together = draw(scene, quietLook(all), views, options);
+  for (int m = 0; m < 3; ++m) {
+    std::vector<std::pair<std::string, std::string>> alone{{"warp.inflation", "0"}};
+    alone.insert(alone.end(), knobs[m].begin(), knobs[m].end());
+    const Frame single = draw(scene, quietLook(alone), views, options);
+    for (size_t v = 0; v < viewCount(); ++v) {
+      size_t count = 0;
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+          if (texel(aov(together, "id", v), x, y).x != m + 1) continue;
+          EXPECT_EQ(texel(aov(together, "warp", v), x, y), texel(aov(single, "warp", v), x, y));
+          ++count;
+        }
+      EXPECT_GT(count, 1000u);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace scumble::passes
