@@ -64,7 +64,7 @@ struct ModeMeasurements {
 
 // What was promised of the vectors, and what was found.
 struct MeasureTarget {
-  std::string meaning, unit;
+  std::string name, meaning;
   double value = 0, limit = 0;  // it is kept where value <= limit
   bool isKept() const { return value <= limit; }
 };
