@@ -14,7 +14,7 @@ namespace scumble::app {
 
 namespace {
 
-constexpr int kWidth = 1600, kHeight = 1060;
+constexpr int kWidth = 1600, kHeight = 1050;
 constexpr double kMargin = 48;
 
 struct Color {
@@ -291,7 +291,7 @@ Status writeChart(const std::string& path, const Measurements& measured, const s
   frequencyPanel(canvas, {kMargin, kTop, kHalf, kRow}, measured);
   contrastPanel(canvas, {kMargin + kHalf + kGap, kTop, kHalf, kRow}, measured);
 
-  constexpr double kSecond = kTop + kRow + 36, kThird = 330, kNarrow = (kHalf - kGap) / 2 + 30;
+  constexpr double kSecond = kTop + kRow + 36, kThird = 362, kNarrow = (kHalf - kGap) / 2 + 30;
   constexpr double kWide = kWidth - 2 * kMargin - 2 * (kNarrow + kGap);
   barPanel(canvas, {kMargin, kSecond, kWide, kThird}, "Warp error from frame to frame",
            "low is good: 0 sticks to the surface, 1 is unrelated to it", "warp vectors", measured,
@@ -312,12 +312,12 @@ Status writeChart(const std::string& path, const Measurements& measured, const s
   for (const MeasureTarget& target : measured.targets) {
     const std::string text =
         fmt::format("{} {:.2f} (at most {:.2f})", target.name, target.value, target.limit);
-    canvas.dot(footer + 6, kHeight - 51, 6,
+    canvas.dot(footer + 6, kHeight - 41, 6,
                target.isKept() ? styleOf("metatexture").color : styleOf("screen").color);
-    canvas.text(footer + 20, kHeight - 46, text, 13.5, kInk);
+    canvas.text(footer + 20, kHeight - 36, text, 13.5, kInk);
     footer += 20 + canvas.textWidth(text);
     const std::string verdict = target.isKept() ? " kept" : " missed";
-    canvas.text(footer, kHeight - 46, verdict, 13.5, kInk, Align::left, true);
+    canvas.text(footer, kHeight - 36, verdict, 13.5, kInk, Align::left, true);
     footer += canvas.textWidth(verdict) + 34;
   }
   return writePng(path, canvas.image());

@@ -50,7 +50,7 @@ Table tableOf(std::span<const Field> fields, int channel, const Levels& levels, 
         for (int x = std::max(0, -dx); x + std::max(0, dx) < field.width; ++x) {
           const size_t a = size_t(y) * size_t(field.width) + size_t(x);
           const size_t b = size_t(y + dy) * size_t(field.width) + size_t(x + dx);
-          if (!field.valid[a] || !field.valid[b]) continue;
+          if (!field.isPair(a, b)) continue;
           ++table[size_t(level[a]) * kLevels + level[b]];
           ++table[size_t(level[b]) * kLevels + level[a]];
           pairs += 2;

@@ -1,6 +1,8 @@
 // Fields: what is measured of a picture. Numbers a pixel, and which pixels count.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -8,18 +10,28 @@
 
 namespace scumble::measuring {
 
+// Where depths differ by more than this part, there is an edge between two surfaces: what lies on one must
+// not be mixed or compared with what lies on the other.
+constexpr float kSameSurface = 0.03f;
+
 // Row 0 at the top. Places in it are in pixels from its left upper corner: the first pixel's centre is (0.5,
 // 0.5).
 struct Field {
   int width = 0, height = 0, channels = 1;
   std::vector<float> values;   // interleaved
   std::vector<uint8_t> valid;  // 1 where the pixel counts
+  std::vector<float> depth;    // metres from the eye, where it is known; else empty
 
   Field() = default;
   Field(int w, int h, int channelCount);  // zeros, none of them valid
 
   size_t pixelCount() const { return valid.size(); }
   size_t validCount() const;
+  // Whether both pixels count and lie on one surface: not on either side of a silhouette.
+  bool isPair(size_t a, size_t b) const {
+    return valid[a] && valid[b] &&
+           (depth.empty() || std::abs(depth[a] - depth[b]) <= kSameSurface * std::min(depth[a], depth[b]));
+  }
   const float* at(size_t pixel) const { return values.data() + pixel * size_t(channels); }
   float* at(size_t pixel) { return values.data() + pixel * size_t(channels); }
 };

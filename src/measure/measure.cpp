@@ -49,6 +49,11 @@ Error usage(std::string problem, std::string advice) {
   return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
 }
 
+Error cannotFollow() {
+  return usage("the surface cannot be followed from frame to frame: too little of it is away from edges",
+               "use a larger --size, or a camera that sees more of the scene");
+}
+
 // What MetaTexture puts on the surface, of one frame.
 struct Fields {
   Field vectors, marks;
@@ -74,14 +79,18 @@ const Image& layer(const Frame& frame, const char* name, size_t view = 0) {
 
 Fields fieldsOf(const Frame& frame, size_t view = 0) {
   const Image& warp = layer(frame, "warp", view);
-  return {fieldOf(warp, 0, 2, warp, 3, 1080.0f / (kAmount * float(warp.height))),
-          fieldOf(warp, 2, 1, warp, 3)};
+  Fields fields{fieldOf(warp, 0, 2, warp, 3, 1080.0f / (kAmount * float(warp.height))),
+                fieldOf(warp, 2, 1, warp, 3)};
+  fields.vectors.depth = fields.marks.depth = fieldOf(warp, 3, 1, warp, 3).values;
+  return fields;
 }
 
-Surface surfaceOf(const Frame& frame, size_t view = 0) {
-  const Image &position = layer(frame, "position", view), &depth = layer(frame, "depth", view),
-              &id = layer(frame, "id", view);
-  return {fieldOf(position, 0, 3, id, 0), fieldOf(depth, 0, 1, id, 0)};
+Surface surfaceOf(const Frame& frame, const View& view, size_t index = 0) {
+  const Image &position = layer(frame, "position", index), &depth = layer(frame, "depth", index),
+              &id = layer(frame, "id", index);
+  const glm::mat4& projection = view.eyeToClip;
+  return {fieldOf(position, 0, 3, id, 0), fieldOf(depth, 0, 1, id, 0),
+          2 / (std::abs(projection[1][1]) * float(position.height)), projection[2][3] == 0};
 }
 
 // Turns vectors on the screen (y down) clockwise.
@@ -175,7 +184,8 @@ class Measurer {
       everywhere("warp.amount", std::to_string(kAmount));
     }
     for (const auto& [path, value] : settings)
-      if (const Status status = look.set(path, value); !status && path.find(".metatexture.") == std::string::npos)
+      if (const Status status = look.set(path, value);
+          !status && path.find(".metatexture.") == std::string::npos)
         return status.error();  // TODO: knobs of modes are not there before the merge
     return look;
   }
@@ -291,14 +301,15 @@ class Measurer {
     const Result<Frame> start = render(scene_, *look, {view_}, facts);
     if (!start) return start.error();
     for (int motion = 0; motion < kMotions; ++motion) {
-      Surface earlier = surfaceOf(*start);
+      Surface earlier = surfaceOf(*start, view_);
       for (int step = 1; step <= kStepsAPath; ++step) {
         const Result<Frame> frame =
             render(scene_, *look, {moved(motion, step)}, facts, 0, {moved(motion, step - 1)});
         if (!frame) return frame.error();
-        Surface now = surfaceOf(*frame);
+        Surface now = surfaceOf(*frame, view_);
         const Field pixels = fieldOf(layer(*frame, "motion"), 0, 2, layer(*frame, "id"), 0);
         places_[size_t(motion)].push_back(placesByMotion(pixels, now, earlier));
+        if (places_[size_t(motion)].back().validCount() < kFewestPixels) return cannotFollow();
         earlier = std::move(now);
       }
     }
@@ -390,8 +401,9 @@ class Measurer {
     const Result<Frame> pictures = render(scene_, *own, eyes, {"final-shadow", "color"});
     if (!pictures) return pictures.error();
 
-    const Surface left = surfaceOf(*fields, 0), right = surfaceOf(*fields, 1);
+    const Surface left = surfaceOf(*fields, eyes[0], 0), right = surfaceOf(*fields, eyes[1], 1);
     const Places places = placesByProjection(right, left, eyes[0].eyeToClip * eyes[0].worldToEye);
+    if (places.validCount() < kFewestPixels) return cannotFollow();
     const Fields inLeft = fieldsOf(*fields, 0), inRight = fieldsOf(*fields, 1);
     mode.stereo.warp = perField([&](Field Fields::*member) {
       return difference(sampleAt(inLeft.*member, places), inRight.*member).relative;

@@ -24,12 +24,12 @@ bool showsPoint(const Surface& surface, float x, float y, const glm::vec3& point
       there += weight * glm::vec3(position.at(pixel)[0], position.at(pixel)[1], position.at(pixel)[2]);
       depthThere += weight * *depth.at(pixel);
     }
-  if (!(glm::length(there - point) <= kSamePoint * depthThere)) return false;
+  const float footprint = surface.footprint(depthThere);
+  if (!(glm::length(there - point) <= kSamePoint * footprint)) return false;
   for (size_t j = 0; j < 6; ++j)
     for (size_t i = 0; i < 6; ++i) {
       const size_t pixel = corner + j * width + i - 2 * width - 2;
-      if (!position.valid[pixel] || std::abs(*depth.at(pixel) - depthThere) > kSameSurface * depthThere)
-        return false;
+      if (!position.valid[pixel] || std::abs(*depth.at(pixel) - depthThere) > kEdge * footprint) return false;
     }
   return true;
 }

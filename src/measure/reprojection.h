@@ -7,19 +7,22 @@
 
 namespace scumble::measuring {
 
-// A view's pixels in the world: position AOV and eye depth (the warp AOV's A or the depth AOV), where
-// something is.
+// A view's pixels in the world, where something is.
 struct Surface {
   Field position;  // x, y, z in metres
   Field depth;     // metres along the view axis
+  // How much a pixel covers: metres for each metre of depth, or metres alone in a parallel projection.
+  float pixel = 0;
+  bool parallel = false;
+
+  float footprint(float atDepth) const { return parallel ? pixel : pixel * atDepth; }
 };
 
-// Two positions are the same point where they are at most this part of their distance from the eye apart:
-// some two pixels of a view of 34 degrees and 540 lines.
-constexpr float kSamePoint = 0.0025f;
-// Where depths around a place, as far as sampleAt reaches, differ by more than this part, there is an edge
-// between two surfaces: what lies on one must not be mixed with what lies on the other.
-constexpr float kSameSurface = 0.03f;
+// Positions closer than this are the same point, in footprints of a pixel.
+constexpr float kSamePoint = 2.2f;
+// Depths that differ by more than this among the pixels that sampleAt uses, in footprints, are an edge
+// between two surfaces; the steepest slope that does not count as one is some 80 degrees.
+constexpr float kEdge = 26;
 
 // For each pixel of `now` the place in `earlier`, by the motion AOV (pixels since then; x right, y down). Not
 // valid where the point was hidden, beside an edge or out of the picture then.

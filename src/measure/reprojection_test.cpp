@@ -24,6 +24,7 @@ struct Walls {
     view.worldToEye = glm::translate(glm::mat4(1.0f), glm::vec3(-x, 0, 0));
     view.eyeToClip = perspectiveProjection(glm::radians(40.0f), 1, 0.1f);
     const float perMetre = std::tan(glm::radians(20.0f)) * 2 / kSize;
+    surface.pixel = perMetre;
     for (size_t pixel = 0; pixel < surface.position.pixelCount(); ++pixel) {
       const float rayX = (float(pixel % kSize) + 0.5f - kSize / 2) * perMetre,
                   rayY = -(float(pixel / kSize) + 0.5f - kSize / 2) * perMetre;

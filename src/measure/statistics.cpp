@@ -33,7 +33,7 @@ double correlation(std::span<const Field> fields, const std::vector<double>& mea
     for (int y = 0; y + stepY < field.height; ++y) {
       for (int x = 0; x + stepX < field.width; ++x) {
         const size_t pixel = size_t(y) * size_t(field.width) + size_t(x);
-        if (!field.valid[pixel] || !field.valid[pixel + step]) continue;
+        if (!field.isPair(pixel, pixel + step)) continue;
         ++pairs;
         for (size_t c = 0; c < mean.size(); ++c) {
           const double a = field.at(pixel)[c] - mean[c], b = field.at(pixel + step)[c] - mean[c];

@@ -91,6 +91,19 @@ TEST(DominantFrequency, followsMagnification) {
   }
 }
 
+TEST(DominantFrequency, isThatOfSurfacesAndNotOfTheirEdges) {
+  // Stripes of two surfaces, each with waves of its own.
+  const auto stripe = [](double x) { return int(x / 5) % 2; };
+  Field striped = fieldFrom(200, 200, [&](double x, double y) {
+    return std::cos(0.2 * x + 2 * stripe(x)) * std::cos(0.2 * y + 2 * stripe(x));
+  });
+  const double mixed = frequencyOf(striped);
+  for (size_t pixel = 0; pixel < striped.pixelCount(); ++pixel)
+    striped.depth.push_back(stripe(double(pixel % 200) + 0.5) ? 1.0f : 1.1f);
+  EXPECT_NEAR(frequencyOf(striped) * 2 * std::numbers::pi, 0.2, 0.02);
+  EXPECT_GT(mixed, 1.3 * frequencyOf(striped));
+}
+
 TEST(DominantFrequency, isNoneWhereNothingVaries) {
   EXPECT_EQ(frequencyOf(waves(32, 0)), 0);
   EXPECT_EQ(frequencyOf(masked(whiteNoise(32, 1), -1)), 0);
