@@ -42,21 +42,22 @@ const FieldRow kFieldRows[] = {
     {"warp error, moving object", [](const ModeMeasurements& m) { return m.temporal.object; }},
     {"warp error, mean", [](const ModeMeasurements& m) { return m.temporal.mean(); }},
     {"frequency drift, octaves", [](const ModeMeasurements& m) { return m.frequencyDrift; }},
-    {"contrast deviation", [](const ModeMeasurements& m) { return m.contrastDeviation; }},
+    {"contrast, from its mean", [](const ModeMeasurements& m) { return m.contrastDeviation; }},
+    {"contrast, from the example's", [](const ModeMeasurements& m) { return m.contrastError; }},
     {"flatness error", [](const ModeMeasurements& m) { return m.flatness; }},
     {"stereo difference", [](const ModeMeasurements& m) { return m.stereo.warp; }},
 };
 
 void printRow(const std::string& name, const Measurements& measured, const NumberOf& numberOf,
               const char* format = "{:14.3f}") {
-  std::string line = fmt::format("  {:28}", name);
+  std::string line = fmt::format("  {:29}", name);
   for (const ModeMeasurements& mode : measured.modes)
     line += fmt::format(fmt::runtime(format), numberOf(mode));
   std::puts(line.c_str());
 }
 
 void printHead(const std::string& name, const Measurements& measured) {
-  std::string line = fmt::format("\n{:30}", name);
+  std::string line = fmt::format("\n{:31}", name);
   for (const ModeMeasurements& mode : measured.modes) line += fmt::format("{:>14}", mode.mode);
   std::puts(line.c_str());
 }
@@ -118,6 +119,7 @@ nlohmann::json toJson(const ModeMeasurements& mode) {
           {"zoom", zoom},
           {"frequencyDrift", toJson(mode.frequencyDrift)},
           {"contrastDeviation", toJson(mode.contrastDeviation)},
+          {"contrastError", toJson(mode.contrastError)},
           {"flatness", toJson(mode.flatness)},
           {"stereo",
            {{"warp", toJson(mode.stereo.warp)},

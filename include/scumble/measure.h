@@ -21,15 +21,14 @@ struct MeasureOptions {
   std::function<void(int done, int total)> progress;
 };
 
-// A number for each of the two fields that stand on the surface: the vectors that tear edges, and the breakup
-// marks.
+// A number for each of the two fields on the surface: the vectors that tear edges, and the breakup marks.
 struct PerField {
   double vectors = 0, marks = 0;
 };
 
-// How far a field is from having moved with the surface: the rms difference between a frame and the frame
-// before, carried along by the exact motion, over sqrt(2) standard deviations. 0: it sticks; 1: nothing of it
-// is left.
+// How far a field is from having moved with the surface: the rms difference between a frame and the one
+// before, carried along by the exact motion, over sqrt(2) standard deviations. 0: it sticks; 1: nothing is
+// left of it.
 struct TemporalError {
   PerField dolly, orbit, roll, object;
   PerField mean() const;
@@ -42,8 +41,7 @@ struct ZoomPoint {
   PerField contrast;   // standard deviation relative to the flat example's
 };
 
-// The left picture carried into the right one by exact depth: rms differences, where both eyes see the
-// surface.
+// The left picture carried into the right one by exact depth: rms differences, where both eyes see the same.
 struct StereoDifference {
   PerField warp;           // over sqrt(2) standard deviations, as TemporalError
   double finalShadow = 0;  // of 1; so are the colours, linear, over three channels
@@ -56,9 +54,9 @@ struct ModeMeasurements {
   TemporalError temporal;
   std::vector<ZoomPoint> zoom;  // 1/8 to 8 in half octaves
   PerField frequencyDrift;      // octaves from the lowest to the highest frequency of the zoom
-  PerField
-      contrastDeviation;  // greatest deviation of the contrast from its mean over the zoom, relative to that
-  PerField flatness;  // average co-occurrence error at zoom 1 against the flat example: 0 same, 1 different
+  PerField contrastDeviation;   // greatest distance of the contrast from its mean, relative to that mean
+  PerField contrastError;       // greatest distance of the contrast from the flat example's
+  PerField flatness;            // average co-occurrence error at zoom 1: 0 as the flat example, 1 different
   StereoDifference stereo;
 };
 

@@ -14,8 +14,7 @@ namespace scumble::measuring {
 // not be mixed or compared with what lies on the other.
 constexpr float kSameSurface = 0.03f;
 
-// Row 0 at the top. Places in it are in pixels from its left upper corner: the first pixel's centre is (0.5,
-// 0.5).
+// Row 0 at the top. Places are in pixels from the left upper corner: the first pixel's centre is (0.5, 0.5).
 struct Field {
   int width = 0, height = 0, channels = 1;
   std::vector<float> values;   // interleaved

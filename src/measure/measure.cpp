@@ -155,7 +155,7 @@ class Measurer {
   Result<Measurements> run() {
     if (const Status status = frameScene(); !status) return status.error();
     if (const Status status = measureExample(); !status) return status.error();
-    for (const char* mode : kModes) result_.modes.push_back({mode, {}, {}, {}, {}, {}, {}});
+    for (const char* mode : kModes) result_.modes.emplace_back().mode = mode;
     if (const Status status = findPlaces(); !status) return status.error();
     for (ModeMeasurements& mode : result_.modes)
       for (const auto step : {&Measurer::measureMotion, &Measurer::measureZoom, &Measurer::measureStereo})
@@ -379,8 +379,11 @@ class Measurer {
         highest = std::max(highest, frequency);
         mean += point.contrast.*number / kZooms;
       }
-      for (const ZoomPoint& point : mode.zoom)
+      for (const ZoomPoint& point : mode.zoom) {
         farthest = std::max(farthest, std::abs(point.contrast.*number - mean));
+        mode.contrastError.*number =
+            std::max(mode.contrastError.*number, std::abs(point.contrast.*number - 1));
+      }
       mode.frequencyDrift.*number = lowest > 0 ? std::log2(highest / lowest) : 0;
       mode.contrastDeviation.*number = mean > 0 ? farthest / mean : 0;
     }

@@ -13,10 +13,9 @@ namespace scumble::measuring {
 double spread(std::span<const Field> fields);
 
 struct FieldDifference {
-  double rms = 0;  // in the field's unit
-  double relative =
-      0;  // rms / (sqrt(2) spread): 0 for the same field, 1 for two that have nothing to do with each other
-  size_t pixels = 0;  // that count in both
+  double rms = 0;       // in the field's unit
+  double relative = 0;  // rms / (sqrt(2) spread): 0 for the same field, 1 for two unrelated ones
+  size_t pixels = 0;    // that count in both
 };
 FieldDifference difference(const Field& a, const Field& b);
 
