@@ -196,6 +196,7 @@ void frequencyPanel(Canvas& canvas, const Box& box, const Measurements& measured
       panel(canvas, box, "Screen frequency over a 64x zoom",
             "level is good; the band is one octave around MetaTexture, dashed is the flat example");
   double low = 1.0 / 8, lowest = 1, highest = 0;
+  if (measured.exampleFrequency.vectors > 0) low = std::min(low, measured.exampleFrequency.vectors);
   for (const ModeMeasurements& mode : measured.modes)
     for (const ZoomPoint& point : mode.zoom)
       if (point.frequency.vectors > 0) low = std::min(low, point.frequency.vectors);
