@@ -236,7 +236,7 @@ class Measurer {
     double sum = 0;
     for (size_t pixel = 0; pixel < exponents.pixelCount(); ++pixel)
       if (exponents.valid[pixel]) sum += exponents.at(pixel)[0] + exponents.at(pixel)[1];
-    result_.tiles = std::exp2(sum / (2 * double(seen)));
+    result_.tiles = std::clamp(std::exp2(sum / (2 * double(seen))), 0.01, 10000.0);  // the knob's range
     result_.visible = double(seen) / double(exponents.pixelCount());
     zoomCentre_ = zoomCentre(exponents);
     return Done{};
