@@ -23,6 +23,7 @@ void addVertexInput(gpu::GraphicsPipelineDesc& pipeline, uint32_t inputs) {
       {1, VK_FORMAT_R16G16_SNORM, offsetof(VertexFrame, smoothNormal)},
       {1, VK_FORMAT_R32G32B32_SFLOAT, offsetof(VertexFrame, dPdv)},
       {2, VK_FORMAT_R32G32_SFLOAT, offsetof(VertexSurface, patternUv)},
+      {2, VK_FORMAT_R32_SFLOAT, offsetof(VertexSurface, warpScale)},
   };
   static constexpr uint32_t kStrides[] = {sizeof(VertexCore), sizeof(VertexFrame), sizeof(VertexSurface)};
   bool used[3] = {};
@@ -41,37 +42,48 @@ void addVertexInput(gpu::GraphicsPipelineDesc& pipeline, uint32_t inputs) {
 
 void GeometryStep::create(gpu::Device& device, const FrameResources& resources, const SceneOnGpu& scene,
                           const GeometryStepDesc& desc) {
-  hasPassSet_ = desc.passLayout != nullptr;
-  hasViews_ = desc.viewMask != 0;
-  materialStrides_ = desc.materialStrides;
+  device_ = &device;
+  desc_ = desc;
+  setLayouts_ = {resources.frameLayout().handle(), scene.materialLayout().handle()};
+  if (desc.passLayout) setLayouts_.push_back(desc.passLayout->handle());
+  makePipelines(scene);
+}
+
+void GeometryStep::setPainted(const SceneOnGpu& scene, std::vector<bool> painted) {
+  if (painted_ == painted) return;
+  painted_ = std::move(painted);
+  makePipelines(scene);
+}
+
+void GeometryStep::makePipelines(const SceneOnGpu& scene) {
   for (const Draw& draw : scene.draws()) {
     gpu::Pipeline& made = pipelines_[variant(draw)];
     if (made) continue;
-    const bool depthOnly = draw.alpha == AlphaMode::opaque && !desc.depthOnlyVertex.words.empty();
+    const bool depthOnly = draw.alpha == AlphaMode::opaque && !desc_.depthOnlyVertex.words.empty();
     gpu::GraphicsPipelineDesc pipeline;
-    pipeline.vertex = depthOnly ? desc.depthOnlyVertex : desc.vertex;
-    if (!depthOnly) pipeline.fragment = desc.fragment;
-    pipeline.constants = {uint32_t(draw.alpha), draw.varied, draw.textured, desc.viewCount};
-    addVertexInput(pipeline, depthOnly ? uint32_t(kPosition) : desc.inputs);
-    pipeline.colorFormats = desc.colorFormats;
+    pipeline.vertex = depthOnly ? desc_.depthOnlyVertex : desc_.vertex;
+    if (!depthOnly) pipeline.fragment = desc_.fragment;
+    pipeline.constants = {uint32_t(draw.alpha), draw.varied || isPainted(draw), draw.textured,
+                          desc_.viewCount, isPainted(draw)};
+    addVertexInput(pipeline, depthOnly ? uint32_t(kPosition) : desc_.inputs);
+    pipeline.colorFormats = desc_.colorFormats;
     pipeline.depthFormat = VK_FORMAT_D32_SFLOAT;
-    pipeline.depthCompare = desc.depthCompare;
-    if (draw.alpha == AlphaMode::blend && desc.blends) {
+    pipeline.depthCompare = desc_.depthCompare;
+    if (draw.alpha == AlphaMode::blend && desc_.blends) {
       pipeline.blend = gpu::Blend::over;
       pipeline.depthWrite = false;
     }
-    pipeline.samples = desc.samples;
-    pipeline.viewMask = desc.viewMask;
-    pipeline.pushConstantBytes = desc.viewMask ? 4 : 0;
+    pipeline.samples = desc_.samples;
+    pipeline.viewMask = desc_.viewMask;
+    pipeline.pushConstantBytes = desc_.viewMask ? 4 : 0;
     pipeline.dynamicCulling = true;
-    pipeline.sets = {resources.frameLayout().handle(), scene.materialLayout().handle()};
-    if (hasPassSet_) pipeline.sets.push_back(desc.passLayout->handle());
-    made = gpu::Pipeline(device, pipeline);
+    pipeline.sets = setLayouts_;
+    made = gpu::Pipeline(*device_, pipeline);
   }
 }
 
 void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resources, const SceneOnGpu& scene,
-                        VkDescriptorSet passSet, uint32_t firstView, const glm::vec3& eye,
+                        const gpu::DescriptorSets* passSets, uint32_t firstView, const glm::vec3& eye,
                         const std::function<bool(const Draw&)>& includes) const {
   const VkBuffer buffers[] = {scene.finalCore().handle(), scene.finalFrame().handle(),
                               scene.surface().handle()};
@@ -95,21 +107,23 @@ void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resource
   const gpu::Pipeline* bound = nullptr;
   uint32_t boundMaterial = ~0u;
   int cull = -1, front = -1;
-  std::vector<uint32_t> offsetsOfMaterial(materialStrides_.size());
+  std::vector<uint32_t> offsetsOfMaterial(desc_.materialStrides.size());
   for (const Draw* draw : order) {
     const gpu::Pipeline& pipeline = pipelines_[variant(*draw)];
     if (bound != &pipeline) {
       pipeline.bind(commands);
       pipeline.bindSet(commands, 0, resources.frameSet());
-      if (hasViews_) pipeline.push(commands, firstView);
+      if (desc_.viewMask) pipeline.push(commands, firstView);
       bound = &pipeline;
       boundMaterial = ~0u;
     }
     if (boundMaterial != draw->material) {
       pipeline.bindSet(commands, 1, scene.materialSet(draw->material));
-      for (size_t i = 0; i < materialStrides_.size(); ++i)
-        offsetsOfMaterial[i] = draw->material * materialStrides_[i];
-      if (hasPassSet_) pipeline.bindSet(commands, 2, passSet, offsetsOfMaterial);
+      for (size_t i = 0; i < desc_.materialStrides.size(); ++i)
+        offsetsOfMaterial[i] = draw->material * desc_.materialStrides[i];
+      if (passSets)
+        pipeline.bindSet(commands, 2, (*passSets)[passSets->size() > 1 ? draw->material : 0],
+                         offsetsOfMaterial);
       boundMaterial = draw->material;
     }
     if (cull != int(draw->cullsBack))

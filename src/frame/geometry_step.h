@@ -19,6 +19,7 @@ enum VertexInput : uint32_t {
   kSmoothNormal = 1 << 6,
   kDPdv = 1 << 7,
   kPatternUv = 1 << 8,
+  kWarpScale = 1 << 9,
 };
 
 struct GeometryStepDesc {
@@ -40,18 +41,31 @@ class GeometryStep {
  public:
   void create(gpu::Device& device, const FrameResources& resources, const SceneOnGpu& scene,
               const GeometryStepDesc& desc);
+  // Materials whose colours vary more than the scene says, because the look paints textures on them:
+  // constant 4. Makes the pipelines that are still missing.
+  void setPainted(const SceneOnGpu& scene, std::vector<bool> painted);
   // Draws what `includes` lets through: opaque, then masked, then blended surfaces from far to near as `eye`
-  // sees them.
+  // sees them. `passSets`: set 2, one for all or one for each material; null for none.
   void draw(VkCommandBuffer commands, const FrameResources& resources, const SceneOnGpu& scene,
-            VkDescriptorSet passSet, uint32_t firstView, const glm::vec3& eye,
+            const gpu::DescriptorSets* passSets, uint32_t firstView, const glm::vec3& eye,
             const std::function<bool(const Draw&)>& includes = {}) const;
 
  private:
-  // Specialised by alpha mode (constant 0), by whether colours vary (1) and by whether textures are read (2).
-  static size_t variant(const Draw& draw) { return size_t(draw.alpha) * 4 + draw.varied * 2 + draw.textured; }
-  std::array<gpu::Pipeline, 12> pipelines_;
-  bool hasPassSet_ = false, hasViews_ = false;
-  std::vector<uint32_t> materialStrides_;
+  // Specialised by alpha mode (constant 0), by whether colours vary (1), by whether the scene's textures are
+  // read (2) and by whether the look's are (4).
+  bool isPainted(const Draw& draw) const {
+    return draw.material < painted_.size() && painted_[draw.material];
+  }
+  size_t variant(const Draw& draw) const {
+    return size_t(draw.alpha) * 8 + isPainted(draw) * 4 + draw.varied * 2 + draw.textured;
+  }
+  void makePipelines(const SceneOnGpu& scene);
+
+  gpu::Device* device_ = nullptr;
+  GeometryStepDesc desc_;
+  std::vector<VkDescriptorSetLayout> setLayouts_;
+  std::vector<bool> painted_;
+  std::array<gpu::Pipeline, 24> pipelines_;
 };
 
 }  // namespace scumble::frame

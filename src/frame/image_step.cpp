@@ -1,6 +1,7 @@
 #include "frame/image_step.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "shaders/fullscreen_vert.h"
 
@@ -8,16 +9,16 @@ namespace scumble::frame {
 
 void ImageStep::declare(FrameBuilder& frame, const std::string& name, ImageShader shader,
                         std::vector<Input> inputs, gpu::ResourceId output, uint64_t uniformBytes,
-                        std::vector<Texture> textures, std::vector<uint32_t> constants) {
+                        std::vector<uint32_t> constants, uint32_t textureCount, uint32_t maxJobs) {
   shader_ = shader;
   inputs_ = std::move(inputs);
   output_ = output;
-  textures_ = std::move(textures);
-  // Constant 3 is every shader's number of views (src/shading/frame.glsl).
   constants_ = std::move(constants);
-  constants_.resize(3);
-  constants_.push_back(frame.configuration().viewCount);
-  uniforms_ = frame.uniform(std::max<uint64_t>(uniformBytes, 16));
+  textureCount_ = textureCount;
+  maxJobs_ = maxJobs;
+  // No device wants uniforms at larger steps than this.
+  uniformStride_ = (std::max<uint64_t>(uniformBytes, 16) + 255) / 256 * 256;
+  uniforms_ = frame.uniform(uniformStride_ * maxJobs);
   compute_ = frame.configuration().computeImagePasses;
   configuration_ = frame.configuration();
   std::vector<gpu::ResourceUse> uses;
@@ -28,64 +29,98 @@ void ImageStep::declare(FrameBuilder& frame, const std::string& name, ImageShade
 }
 
 void ImageStep::create(FrameBuilder& frame, const FrameResources& resources) {
+  frame_ = &frame;
   resources_ = &resources;
   gpu::Device& device = frame.device();
   const VkShaderStageFlags stage = compute_ ? VK_SHADER_STAGE_COMPUTE_BIT : VK_SHADER_STAGE_FRAGMENT_BIT;
   std::vector<gpu::Binding> bindings{{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, stage}};
-  bindings.resize(1 + inputs_.size() + textures_.size(), {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, stage});
+  bindings.resize(1 + inputs_.size() + textureCount_, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, stage});
   inputLayout_ = gpu::SetLayout(device, bindings);
-  inputSet_ = gpu::DescriptorSets(device, inputLayout_);
-  inputSet_.writeBuffer(0, 0, uniforms_.buffer, uniforms_.offset, uniforms_.size);
-  for (uint32_t i = 0; i < inputs_.size(); ++i) {
-    gpu::SamplerDesc sampler;
-    if (!inputs_[i].linear) sampler.filter = VK_FILTER_NEAREST;
-    inputSet_.writeTexture(0, 1 + i, resources.image(inputs_[i].image).view(), frame.samplers().get(sampler));
+  inputSets_ = gpu::DescriptorSets(device, inputLayout_, maxJobs_);
+  boundTextures_.resize(maxJobs_);
+  for (uint32_t job = 0; job < maxJobs_; ++job) {
+    inputSets_.writeBuffer(job, 0, uniforms_.buffer, uniforms_.offset + job * uniformStride_, uniformStride_);
+    for (uint32_t i = 0; i < inputs_.size(); ++i) {
+      gpu::SamplerDesc sampler;
+      if (!inputs_[i].linear) sampler.filter = VK_FILTER_NEAREST;
+      inputSets_.writeTexture(job, 1 + i, resources.image(inputs_[i].image).view(),
+                              frame.samplers().get(sampler));
+    }
   }
-  for (uint32_t i = 0; i < textures_.size(); ++i)
-    inputSet_.writeTexture(0, uint32_t(1 + inputs_.size() + i), textures_[i].image->view(),
-                           frame.samplers().get(textures_[i].sampler));
-  const gpu::Image& output = resources.image(output_);
   if (compute_) {
     outputLayout_ = gpu::SetLayout(device, {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, stage}});
     outputSet_ = gpu::DescriptorSets(device, outputLayout_);
-    outputSet_.writeStorageImage(0, 0, output.view());
+    outputSet_.writeStorageImage(0, 0, resources.image(output_).view());
+  }
+  if (textureCount_ == 0) setJobs({{constants_, {}}});
+}
+
+void ImageStep::setJobs(std::vector<Job> jobs) {
+  assert(jobs.size() <= maxJobs_);
+  jobs_.clear();
+  for (size_t job = 0; job < jobs.size(); ++job) {
+    assert(jobs[job].textures.size() == textureCount_);
+    const std::vector<Texture>& textures = jobs[job].textures;
+    if (boundTextures_[job] != textures)
+      for (uint32_t i = 0; i < textureCount_; ++i)
+        inputSets_.writeTexture(job, uint32_t(1 + inputs_.size() + i), textures[i].image->view(),
+                                frame_->samplers().get(textures[i].sampler));
+    boundTextures_[job] = textures;
+    jobs_.push_back(&pipelineFor(jobs[job].constants));
+  }
+}
+
+const gpu::Pipeline& ImageStep::pipelineFor(const std::vector<uint32_t>& constants) {
+  gpu::Pipeline& pipeline = pipelines_[constants];
+  if (pipeline) return pipeline;
+  // Constant 3 is every shader's number of views (src/shading/frame.glsl).
+  std::vector<uint32_t> all = constants;
+  all.resize(3);
+  all.push_back(configuration_.viewCount);
+  if (compute_) {
     gpu::ComputePipelineDesc desc;
     desc.shader = shader_.compute;
-    desc.constants = constants_;
-    desc.sets = {resources.frameLayout().handle(), inputLayout_.handle(), outputLayout_.handle()};
-    pipeline_ = gpu::Pipeline(device, desc);
+    desc.constants = std::move(all);
+    desc.sets = {resources_->frameLayout().handle(), inputLayout_.handle(), outputLayout_.handle()};
+    pipeline = gpu::Pipeline(frame_->device(), desc);
   } else {
     gpu::GraphicsPipelineDesc desc;
     desc.vertex = {shaders::fullscreen_vert};
     desc.fragment = shader_.fragment;
-    desc.constants = constants_;
-    desc.colorFormats = {output.desc().format};
+    desc.constants = std::move(all);
+    desc.colorFormats = {resources_->image(output_).desc().format};
     desc.viewMask = viewMask(configuration_);
     desc.pushConstantBytes = 4;
-    desc.sets = {resources.frameLayout().handle(), inputLayout_.handle()};
-    pipeline_ = gpu::Pipeline(device, desc);
+    desc.sets = {resources_->frameLayout().handle(), inputLayout_.handle()};
+    pipeline = gpu::Pipeline(frame_->device(), desc);
   }
+  return pipeline;
 }
 
 void ImageStep::record(VkCommandBuffer commands) const {
   const gpu::Image& output = resources_->image(output_);
   const uint32_t width = output.desc().width, height = output.desc().height;
-  const auto bind = [&] {
-    pipeline_.bind(commands);
-    pipeline_.bindSet(commands, 0, resources_->frameSet());
-    pipeline_.bindSet(commands, 1, inputSet_[0]);
+  const auto bind = [&](size_t job) {
+    jobs_[job]->bind(commands);
+    jobs_[job]->bindSet(commands, 0, resources_->frameSet());
+    jobs_[job]->bindSet(commands, 1, inputSets_[job]);
   };
   if (compute_) {
-    bind();
-    pipeline_.bindSet(commands, 2, outputSet_[0]);
-    vkCmdDispatch(commands, (width + 7) / 8, (height + 7) / 8, output.desc().layers);
+    // Jobs write different pixels, so that nothing need wait between them.
+    for (size_t job = 0; job < jobs_.size(); ++job) {
+      bind(job);
+      jobs_[job]->bindSet(commands, 2, outputSet_[0]);
+      vkCmdDispatch(commands, (width + 7) / 8, (height + 7) / 8, output.desc().layers);
+    }
     return;
   }
   const Target target{&output, nullptr, {}, Target::Before::undefined};
   drawViews(commands, configuration_, {&target, 1}, nullptr, [&](uint32_t firstView) {
-    bind();
-    pipeline_.push(commands, firstView);
-    vkCmdDraw(commands, 3, 1, 0, 0);
+    for (size_t job = 0; job < jobs_.size(); ++job) {
+      bind(job);
+      jobs_[job]->push(commands, firstView);
+      vkCmdDraw(commands, 3, 1, 0, 0);
+    }
   });
 }
 

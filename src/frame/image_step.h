@@ -3,6 +3,9 @@
 // the second).
 #pragma once
 
+#include <deque>
+#include <map>
+
 #include "frame/pass.h"
 
 namespace scumble::frame {
@@ -17,37 +20,51 @@ class ImageStep {
     gpu::ResourceId image;
     bool linear = false;  // sampled between texels; else texelFetch only
   };
-  // A texture of the pass's own; bound after the inputs.
+  // A texture that is none of the frame's images; bound after the inputs.
   struct Texture {
     const gpu::Image* image;
     gpu::SamplerDesc sampler;
+    bool operator==(const Texture&) const = default;
   };
-  // `uniformBytes`: size of the step's uniform block (set 1, binding 0); 0 where the shader has none.
-  // `constants`: specialisation constants 0 to 2.
+  // One run of the shader over the whole picture. Most steps have one job; where several share the pixels
+  // among them, the shader has SHADES_SOME (src/shading/image_pass.glsl).
+  struct Job {
+    std::vector<uint32_t> constants;  // specialisation constants 0 to 2
+    std::vector<Texture> textures;    // as many as were declared
+  };
+  // `uniformBytes`: size of the step's uniform block (set 1, binding 0) for each job; 0 where the shader has
+  // none.
   void declare(FrameBuilder& frame, const std::string& name, ImageShader shader, std::vector<Input> inputs,
-               gpu::ResourceId output, uint64_t uniformBytes, std::vector<Texture> textures = {},
-               std::vector<uint32_t> constants = {});
+               gpu::ResourceId output, uint64_t uniformBytes, std::vector<uint32_t> constants = {},
+               uint32_t textureCount = 0, uint32_t maxJobs = 1);
+  // Steps without textures have their one job from here on; others need setJobs before their first frame.
   void create(FrameBuilder& frame, const FrameResources& resources);
+  void setJobs(std::vector<Job> jobs);
   template <class T>
-  void update(const T& uniforms) {
-    uniforms_.write(uniforms);
+  void update(const T& uniforms, size_t job = 0) {
+    std::memcpy(uniforms_.mapped + job * uniformStride_, &uniforms, sizeof(T));
   }
 
  private:
+  const gpu::Pipeline& pipelineFor(const std::vector<uint32_t>& constants);
   void record(VkCommandBuffer commands) const;
 
   ImageShader shader_;
   std::vector<Input> inputs_;
-  std::vector<Texture> textures_;
   std::vector<uint32_t> constants_;
   gpu::ResourceId output_ = 0;
   UniformSlice uniforms_;
+  uint64_t uniformStride_ = 0;
+  uint32_t textureCount_ = 0, maxJobs_ = 1;
   bool compute_ = false;
   Configuration configuration_;
+  FrameBuilder* frame_ = nullptr;
   const FrameResources* resources_ = nullptr;
   gpu::SetLayout inputLayout_, outputLayout_;
-  gpu::DescriptorSets inputSet_, outputSet_;
-  gpu::Pipeline pipeline_;
+  gpu::DescriptorSets inputSets_, outputSet_;
+  std::map<std::vector<uint32_t>, gpu::Pipeline> pipelines_;
+  std::vector<std::vector<Texture>> boundTextures_;  // by job
+  std::vector<const gpu::Pipeline*> jobs_;
 };
 
 }  // namespace scumble::frame

@@ -5,10 +5,12 @@
 
 namespace scumble::frame {
 
-FrameBuilder::FrameBuilder(gpu::Device& device, gpu::Samplers& samplers, const Configuration& configuration,
-                           const SceneOnGpu& scene, UniformSlice uniformMemory)
+FrameBuilder::FrameBuilder(gpu::Device& device, gpu::Samplers& samplers, ExampleTextures& examples,
+                           const Configuration& configuration, const SceneOnGpu& scene,
+                           UniformSlice uniformMemory)
     : device_(device),
       samplers_(samplers),
+      examples_(examples),
       configuration_(configuration),
       scene_(scene),
       uniformMemory_(uniformMemory),

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "frame/example_textures.h"
 #include "frame/scene_on_gpu.h"
 #include "frame/slots.h"
 #include "gpu/frame_graph.h"
@@ -56,11 +57,12 @@ using Record = std::function<void(VkCommandBuffer)>;
 // Collects the steps of all passes.
 class FrameBuilder {
  public:
-  FrameBuilder(gpu::Device& device, gpu::Samplers& samplers, const Configuration& configuration,
-               const SceneOnGpu& scene, UniformSlice uniformMemory);
+  FrameBuilder(gpu::Device& device, gpu::Samplers& samplers, ExampleTextures& examples,
+               const Configuration& configuration, const SceneOnGpu& scene, UniformSlice uniformMemory);
 
   gpu::Device& device() { return device_; }
   gpu::Samplers& samplers() { return samplers_; }
+  ExampleTextures& examples() { return examples_; }
   const Configuration& configuration() const { return configuration_; }
   const SceneOnGpu& scene() const { return scene_; }
 
@@ -85,6 +87,7 @@ class FrameBuilder {
   static constexpr gpu::ResourceId kNone = ~0u;
   gpu::Device& device_;
   gpu::Samplers& samplers_;
+  ExampleTextures& examples_;
   Configuration configuration_;
   const SceneOnGpu& scene_;
   UniformSlice uniformMemory_;

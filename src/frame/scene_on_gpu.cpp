@@ -170,6 +170,7 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
     draw.mirrored = item.skin < 0 && glm::determinant(linear) < 0;
     draw.textured = material.baseColorTexture.image >= 0 || material.emissiveTexture.image >= 0;
     draw.varied = draw.textured || !primitive.colors.empty();
+    draw.wraps = primitive.wrapsU || primitive.wrapsV;
     draw.casts = item.casts;
     draw.bounds = item.bounds;
     draws_.push_back(draw);
@@ -187,6 +188,7 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
     object.normal *= (draw.mirrored ? -1.0f : 1.0f) / (most > 0 && std::isfinite(most) ? most : 1.0f);
     object.material = item.material;
     object.id = item.id;
+    object.wraps = uint32_t(primitive.wrapsU) + 2 * uint32_t(primitive.wrapsV);
     object.influences = item.skin >= 0 ? uint32_t(primitive.influences) : 0;
     object.firstJoint = item.skin >= 0 ? firstJoints[size_t(item.skin)] : 0;
     objects.push_back(object);
@@ -205,7 +207,8 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
       uint32_t color = 0xFFFFFFFFu;
       if (!primitive.colors.empty()) std::memcpy(&color, &primitive.colors[v], 4);
       out[v] = {primitive.uv0[v], primitive.uv1.empty() ? primitive.uv0[v] : primitive.uv1[v],
-                primitive.patternCoordinates()[v], color};
+                primitive.patternCoordinates()[v], color,
+                primitive.warpScales.empty() ? 1.0f : primitive.warpScales[v]};
     }
   });
 

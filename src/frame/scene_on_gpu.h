@@ -28,6 +28,7 @@ struct Draw {
   bool mirrored = false;  // the object's matrix turns triangles inside out
   bool varied = false;    // vertex colours or textures vary the material's colour
   bool textured = false;
+  bool wraps = false;    // its mapping closes on itself
   bool casts = true;     // shadows
   scene::Bounds bounds;  // world, rest pose
 };

@@ -251,6 +251,10 @@ VkSampler Samplers::get(const SamplerDesc& desc) {
   info.addressModeU = desc.wrapU;
   info.addressModeV = info.addressModeW = desc.wrapV;
   info.maxLod = desc.mipmaps ? VK_LOD_CLAMP_NONE : 0.0f;
+  if (desc.onlyLevel >= 0) {
+    info.minLod = info.maxLod = desc.onlyLevel;
+    info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_NEAREST;
+  }
   info.compareEnable = desc.compareLess;
   info.compareOp = VK_COMPARE_OP_LESS_OR_EQUAL;
   info.borderColor = VK_BORDER_COLOR_FLOAT_OPAQUE_WHITE;

@@ -52,6 +52,7 @@ class DescriptorSets {
     return *this;
   }
   VkDescriptorSet operator[](size_t index) const { return sets_[index]; }
+  size_t size() const { return sets_.size(); }
   void writeBuffer(size_t set, uint32_t binding, VkBuffer buffer, uint64_t offset = 0,
                    uint64_t size = VK_WHOLE_SIZE);
   void writeTexture(size_t set, uint32_t binding, VkImageView view, VkSampler sampler);
@@ -131,6 +132,8 @@ struct SamplerDesc {
                        wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
   bool mipmaps = false;
   bool compareLess = false;  // depth comparison, for shadow maps
+  float onlyLevel =
+      -1;  // the one mip level that is read, which saves drivers its computation; -1: all of them
   bool operator==(const SamplerDesc&) const = default;
 };
 

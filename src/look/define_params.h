@@ -14,6 +14,7 @@ struct PARAMS_STRUCT {
   using toggle = ::scumble::look::Toggle;
   using choice = ::scumble::look::Choice;
   using srgb = ::scumble::look::Color;
+  using picture = ::scumble::look::Picture;
 
 #define PARAM(type, name, defaultValue, min, max, unit, meaning) type name = defaultValue;
 #include PARAMS_FILE

@@ -30,6 +30,9 @@ void store(const ParamRow& row, const Value& value, void* out) {
     case ParamKind::color:
       put(value.linear);
       break;
+    case ParamKind::picture:
+      put(Picture(value.number));
+      break;
   }
 }
 
@@ -126,7 +129,7 @@ Result<Value> parseValue(const ParamRow& row, const std::string& text) {
       return badValue("'" + text + "' is no colour", "write it as #RRGGBB");
     return Value{0, linearFromSrgb(uint32_t(std::strtoul(text.c_str() + 1, nullptr, 16)))};
   }
-  if (row.kind == ParamKind::choice) {
+  if (row.kind == ParamKind::choice || row.kind == ParamKind::picture) {
     const std::vector<std::string> names = choiceNames(row);
     const auto it = std::find(names.begin(), names.end(), text);
     if (it == names.end()) return badValue("'" + text + "' is none of " + row.unit, "choose one of them");
@@ -154,6 +157,7 @@ std::string formatValue(const ParamRow& row, double number) {
     case ParamKind::toggle:
       return number != 0 ? "true" : "false";
     case ParamKind::choice:
+    case ParamKind::picture:
       return choiceNames(row)[size_t(number)];
     case ParamKind::color:
       return fmt::format("#{:06X}", uint32_t(number));

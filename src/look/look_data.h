@@ -1,9 +1,11 @@
 // A look as the rooms behind it read it: a list of assignments to rows, evaluated block by block.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "base/pixels.h"
 #include "look/param.h"
 #include "scumble/result.h"
 
@@ -22,9 +24,16 @@ struct Assignment {
   bool byHand = false;  // by Look::set, not by the look's file
 };
 
+// A picture file that a look names.
+struct LookPicture {
+  std::string file;
+  Pixels pixels;
+};
+
 struct LookData {
   std::string description;
   std::vector<Assignment> assignments;
+  std::vector<std::shared_ptr<const LookPicture>> pictures;
 
   // The order in which settings count, the last one winning: the file's for the whole scene, the file's for
   // materials, those by hand for the whole scene, those by hand for materials; of two alike the later one.
@@ -60,7 +69,8 @@ Result<KnobRef> findKnob(const std::string& path);
 // The candidate nearest to `word`, or empty when none is near.
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
 
-// Reads a value as text ("0.4", "true", "exact", "#EADFC8"); the problem is in Error::problem.
+// Reads a value as text ("0.4", "true", "exact", "#EADFC8", the name of a picture that is built in); the
+// problem is in Error::problem.
 Result<Value> parseValue(const ParamRow& row, const std::string& text);
 std::string formatValue(const ParamRow& row, double number);
 

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "base/image_decode.h"
 #include "look/look_data.h"
 #include "look/shipped_looks.h"
 #include "scumble/look.h"
@@ -65,6 +66,47 @@ Result<Assignment> resolve(const std::string& path) {
   return look::findKnob(rest.substr(dot + 1)).error();
 }
 
+// A picture that fits a knob is no photograph of a landscape.
+constexpr uint32_t kMaxPictureSide = 4096;
+
+Result<look::LookPicture> loadPicture(const std::string& file) {
+  const auto fail = [&](std::string problem) {
+    return Error{ErrorKind::unusableFile,
+                 file,
+                 0,
+                 "",
+                 std::move(problem),
+                 "give a PNG, JPEG or WebP of at most " + std::to_string(kMaxPictureSide) +
+                     " pixels a side, or a picture that is built in"};
+  };
+  look::LookPicture picture{file, {}};
+  FileBytes bytes;
+  std::string problem;
+  if (!bytes.open(file, problem)) return fail(problem);
+  uint32_t width = 0, height = 0;
+  if (!readImageSize(bytes.bytes(), width, height, problem)) return fail(problem);
+  if (width > kMaxPictureSide || height > kMaxPictureSide) return fail("this picture is too large");
+  if (!decodeImage(bytes.bytes(), picture.pixels, problem)) return fail(problem);
+  return picture;
+}
+
+// A value as text; a picture's file is loaded into `data`.
+Result<look::Value> readValue(const ParamRow& row, const std::string& text, const std::string& folder,
+                              LookData& data) {
+  const Result<look::Value> parsed = look::parseValue(row, text);
+  if (parsed || row.kind != ParamKind::picture) return parsed;
+  // A word without a dot is a slip in a built-in name rather than a file.
+  if (text.find('.') == std::string::npos) return parsed;
+  Result<look::LookPicture> picture = loadPicture((std::filesystem::path(folder) / text).string());
+  if (!picture) return picture.error();
+  data.pictures.push_back(std::make_shared<const look::LookPicture>(std::move(picture).value()));
+  return look::Value{-double(data.pictures.size()), {}};
+}
+
+bool leadsOutside(const std::filesystem::path& path) {
+  return path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end();
+}
+
 // Walks a look's JSON; the first mistake ends it.
 class Reader {
  public:
@@ -115,7 +157,8 @@ class Reader {
     if (!knob) return fail(jsonPath, knob.error().problem, knob.error().advice);
     if (!pattern.empty() && !knob->block->perMaterial)
       return fail(jsonPath, "this knob holds for the whole scene", "move it out of 'materials'");
-    const bool wantsText = knob->row->kind == ParamKind::color || knob->row->kind == ParamKind::choice;
+    const bool wantsText = knob->row->kind == ParamKind::color || knob->row->kind == ParamKind::choice ||
+                           knob->row->kind == ParamKind::picture;
     const bool fits = wantsText                              ? value.is_string()
                       : knob->row->kind == ParamKind::toggle ? value.is_boolean()
                                                              : value.is_number();
@@ -123,11 +166,21 @@ class Reader {
       return fail(jsonPath, "the value has the wrong type",
                   knob->row->kind == ParamKind::color    ? "write a colour as \"#RRGGBB\""
                   : knob->row->kind == ParamKind::choice ? std::string("choose one of ") + knob->row->unit
+                  : knob->row->kind == ParamKind::picture
+                      ? std::string("write a picture's path, or one of ") + knob->row->unit
                   : knob->row->kind == ParamKind::toggle ? "write true or false"
                                                          : "write a number");
+    const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+    // A look may come with a scene from anywhere: it reads pictures beside itself and below, and no others.
+    if (knob->row->kind == ParamKind::picture && leadsOutside(text))
+      return fail(jsonPath, "this picture lies outside of the look's folder", "put it beside the look");
     const Result<look::Value> parsed =
-        look::parseValue(*knob->row, value.is_string() ? value.get<std::string>() : value.dump());
-    if (!parsed) return fail(jsonPath, parsed.error().problem, parsed.error().advice);
+        readValue(*knob->row, text, std::filesystem::path(file_).parent_path().string(), out_);
+    if (!parsed)
+      return fail(
+          jsonPath,
+          parsed.error().file.empty() ? parsed.error().problem : "'" + text + "': " + parsed.error().problem,
+          parsed.error().advice);
     out_.assignments.push_back({pattern, knob->block, knob->row, *parsed});
     return Done{};
   }
@@ -207,15 +260,15 @@ Result<Look> Look::load(const std::string& nameOrFile) {
 Status Look::set(const std::string& path, const std::string& value) {
   Result<Assignment> assignment = resolve(path);
   if (!assignment) return assignment.error();
-  const Result<look::Value> parsed = look::parseValue(*assignment->row, value);
+  auto changed = std::make_shared<LookData>(*data_);
+  const Result<look::Value> parsed = readValue(*assignment->row, value, "", *changed);
   if (!parsed) {
     Error error = parsed.error();
-    error.problem = path + ": " + error.problem;
+    if (error.file.empty()) error.problem = path + ": " + error.problem;
     return error;
   }
   assignment->value = *parsed;
   assignment->byHand = true;
-  auto changed = std::make_shared<LookData>(*data_);
   changed->assignments.push_back(*assignment);
   data_ = std::move(changed);
   return Done{};
@@ -231,7 +284,7 @@ std::vector<ShippedLook> Look::shipped() {
 }
 
 std::vector<Knob> Look::knobs() {
-  static constexpr const char* kTypes[] = {"number", "integer", "toggle", "choice", "color"};
+  static constexpr const char* kTypes[] = {"number", "integer", "toggle", "choice", "color", "picture"};
   std::vector<Knob> knobs;
   for (const ParamBlock* block : look::allBlocks())
     for (const ParamRow& row : block->rows) {
@@ -260,6 +313,11 @@ std::string Look::jsonSchema() {
         break;
       case ParamKind::choice:
         schema["enum"] = look::choiceNames(row);
+        break;
+      case ParamKind::picture:
+        schema["type"] = "string";
+        schema["description"] =
+            std::string(row.meaning) + " A picture's path beside the look, or one of " + row.unit + ".";
         break;
       case ParamKind::toggle:
         schema["type"] = "boolean";

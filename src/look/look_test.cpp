@@ -60,6 +60,7 @@ Sample sampleOf(const ParamRow& row) {
   switch (row.kind) {
     case ParamKind::color:
       return {"#12AB9f", "#12AB9f"};
+    case ParamKind::picture:
     case ParamKind::choice: {
       const std::vector<std::string> names = look::choiceNames(row);
       const std::string& name = names[row.defaultValue == 0 ? names.size() - 1 : 0];
@@ -228,6 +229,17 @@ TEST(Look, valuesOfAWrongTypeAreRefused) {
         break;
       case ParamKind::choice:
         for (const char* text : {"", "no such choice", "0"}) expectRefused(row, text);
+        wrong.insert(wrong.end(), {0, true});
+        break;
+      case ParamKind::picture:
+        for (const char* text : {"", "no such picture", "0"}) expectRefused(row, text);
+        for (const char* text : {"no-such-file.png", "/no/such.png", "../torn.png"}) {
+          Look look;
+          const Status status = look.set(row.path(), text);
+          ASSERT_FALSE(status.ok()) << text;
+          EXPECT_EQ(status.error().kind, ErrorKind::unusableFile);
+          EXPECT_TRUE(look.data().assignments.empty() && look.data().pictures.empty());
+        }
         wrong.insert(wrong.end(), {0, true});
         break;
       case ParamKind::color:

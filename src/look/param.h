@@ -5,7 +5,8 @@
 //
 // that C++ (through look/define_params.h) and GLSL (with PARAM defined as `type name;`) both include.
 // Types: float; int; toggle (0 or 1); choice (a number; the unit column lists the names:
-// "off|approximate|exact"); srgb (0xRRGGBB in the row, linear in the struct).
+// "off|approximate|exact"); srgb (0xRRGGBB in the row, linear in the struct); picture (a number; the unit
+// column lists the pictures that are built in, any other word is a file's path).
 #pragma once
 
 #include <cstddef>
@@ -17,7 +18,7 @@
 
 namespace scumble::look {
 
-enum class ParamKind : uint8_t { number, integer, toggle, choice, color };
+enum class ParamKind : uint8_t { number, integer, toggle, choice, color, picture };
 
 struct ParamRow {
   const char* name;
@@ -56,6 +57,14 @@ struct Color {
   operator glm::vec3() const { return linear; }
 };
 
+// A picture that is built in (0 and up, in the order of the row), or one of the look's own: -1 - its index in
+// LookData::pictures.
+struct Picture {
+  int32_t index = 0;
+  Picture(double v = 0) : index(int32_t(v)) {}
+  bool operator==(const Picture&) const = default;
+};
+
 template <class T>
 constexpr ParamKind kindOf() {
   if constexpr (std::is_same_v<T, float>) return ParamKind::number;
@@ -63,13 +72,14 @@ constexpr ParamKind kindOf() {
   if constexpr (std::is_same_v<T, Toggle>) return ParamKind::toggle;
   if constexpr (std::is_same_v<T, Choice>) return ParamKind::choice;
   if constexpr (std::is_same_v<T, Color>) return ParamKind::color;
+  if constexpr (std::is_same_v<T, Picture>) return ParamKind::picture;
 }
 
 // Every block of the program, in the order of the documentation. Defined by the pass list (src/frame),
 // because this room knows no pass.
 const std::vector<const ParamBlock*>& allBlocks();
 
-// The names of a choice row, split at '|'.
+// The names of a choice or picture row, split at '|'.
 std::vector<std::string> choiceNames(const ParamRow& row);
 
 }  // namespace scumble::look

@@ -1,7 +1,7 @@
 #include "renderer/pass_list.h"
 
 #include "frame/light.h"
-#include "frame/metatexture_params.h"
+#include "frame/metatexture.h"
 #include "frame/palette.h"
 #include "passes/blur/blur.h"
 #include "passes/color/color.h"
@@ -23,7 +23,9 @@ const std::vector<const ParamBlock*>& allBlocks() {
       &frame::LightParams::block(),       &passes::ShadowMapParams::block(),
       &frame::PaletteParams::block(),     &passes::SurfaceParams::block(),
       &passes::BlurParams::block(),       &passes::FinalShadowParams::block(),
+      &passes::TextureParams::block(),    &frame::TextureMetaTextureParams::block(),
       &passes::WarpParams::block(),       &frame::WarpMetaTextureParams::block(),
+      &passes::BreakupParams::block(),    &frame::BreakupMetaTextureParams::block(),
       &passes::BackgroundParams::block(), &frame::GroundParams::block(),
       &passes::FinalColorParams::block()};
   return blocks;

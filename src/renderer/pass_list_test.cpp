@@ -9,7 +9,7 @@
 #include <string>
 
 #include "frame/light.h"
-#include "frame/metatexture_params.h"
+#include "frame/metatexture.h"
 #include "frame/palette.h"
 #include "frame/slots.h"
 #include "passes/blur/blur.h"
@@ -52,6 +52,7 @@ void expectRowsDefaults(std::set<const look::ParamBlock*>& seen) {
           break;
         case ParamKind::integer:
         case ParamKind::choice:
+        case ParamKind::picture:
           EXPECT_EQ(read<int32_t>(params, row.offset), int32_t(row.defaultValue)) << name;
           break;
         case ParamKind::toggle:
@@ -77,7 +78,11 @@ TEST(PassList, structsStartWithTheirRowsDefaults) {
   expectRowsDefaults<passes::WarpParams>(seen);
   expectRowsDefaults<passes::BackgroundParams>(seen);
   expectRowsDefaults<passes::FinalColorParams>(seen);
+  expectRowsDefaults<passes::TextureParams>(seen);
+  expectRowsDefaults<passes::BreakupParams>(seen);
   expectRowsDefaults<WarpMetaTextureParams>(seen);
+  expectRowsDefaults<BreakupMetaTextureParams>(seen);
+  expectRowsDefaults<TextureMetaTextureParams>(seen);
   for (const look::ParamBlock* block : look::allBlocks())
     EXPECT_TRUE(seen.count(block)) << block->path << ": a new block of knobs; add its struct to this test";
   EXPECT_EQ(look::allBlocks().size(), seen.size())

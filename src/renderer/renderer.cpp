@@ -85,6 +85,7 @@ struct Setup {
 struct Renderer::Impl {
   std::unique_ptr<gpu::Device> device;
   std::optional<gpu::Samplers> samplers;
+  std::optional<ExampleTextures> examples;
   ImagePassKind imagePasses = ImagePassKind::automatic;
   std::optional<Scene> scene;  // keeps the data alive that sceneOnGpu refers to
   std::optional<SceneOnGpu> sceneOnGpu;
@@ -94,6 +95,7 @@ struct Renderer::Impl {
   ~Impl() {
     setup.reset();
     sceneOnGpu.reset();
+    examples.reset();
     samplers.reset();
   }
 
@@ -122,7 +124,7 @@ void Renderer::Impl::useConfiguration(const Configuration& configuration) {
   next->uniformBuffer =
       gpu::Buffer(*device, size, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                   gpu::MemoryKind::upload);
-  next->builder.emplace(*device, *samplers, configuration, *sceneOnGpu,
+  next->builder.emplace(*device, *samplers, *examples, configuration, *sceneOnGpu,
                         UniformSlice{next->uniformBuffer.handle(), 0, size, next->uniformBuffer.mapped()});
   next->frameSlice = next->builder->uniform(sizeof(shared::FrameUniforms));
 
@@ -223,6 +225,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
   std::unique_ptr<Renderer> created(new Renderer);
   created->impl_->device = std::move(device).value();
   created->impl_->samplers.emplace(*created->impl_->device);
+  created->impl_->examples.emplace(*created->impl_->device);
   created->impl_->imagePasses = options.imagePasses;
   return created;
 }
@@ -291,8 +294,8 @@ Result<Frame> Renderer::render(const Scene& scene, const Look& look, double time
     // Write the uniforms.
     Setup& setup = *impl_->setup;
     SceneOnGpu& sceneOnGpu = *impl_->sceneOnGpu;
-    const shared::FrameUniforms uniforms = frameUniforms(
-        sceneOnGpu, look.data(), views, options.previousViews, time, configuration, options.seed);
+    const shared::FrameUniforms uniforms =
+        frameUniforms(sceneOnGpu, look.data(), views, options.previousViews, time, configuration);
     setup.frameSlice.write(uniforms);
     for (size_t m = 0; m < sceneOnGpu.materialCount(); ++m)
       sceneOnGpu.setMaterial(m, materialData(sceneOnGpu, m, look.data(), impl_->colorMaps));

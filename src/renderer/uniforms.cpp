@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "base/tileable_noise.h"
 #include "frame/light.h"
 #include "frame/palette.h"
 #include "passes/color/color.h"
+#include "passes/surface/surface.h"
 
 namespace scumble::renderer {
 
@@ -28,9 +28,18 @@ shared::ViewUniforms viewUniforms(const View& view, const View& previous) {
   return u;
 }
 
+View cyclopeanView(const std::vector<View>& views) {
+  if (views.size() == 1) return views[0];
+  const glm::mat4 left = glm::inverse(views[0].worldToEye), right = glm::inverse(views[1].worldToEye);
+  const glm::quat turn = glm::slerp(glm::quat_cast(glm::mat3(left)), glm::quat_cast(glm::mat3(right)), 0.5f);
+  glm::mat4 eyeToWorld = glm::mat4_cast(turn);
+  eyeToWorld[3] = 0.5f * (left[3] + right[3]);
+  return {glm::inverse(eyeToWorld), 0.5f * (views[0].eyeToClip + views[1].eyeToClip)};
+}
+
 shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const look::LookData& look,
                                     const std::vector<View>& views, const std::vector<View>& previousViews,
-                                    double time, const Configuration& configuration, uint32_t seed) {
+                                    double time, const Configuration& configuration) {
   shared::FrameUniforms u{};
   glm::vec3 viewer(0.0f);
   for (size_t i = 0; i < views.size(); ++i) {
@@ -42,8 +51,10 @@ shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const look::LookDat
   u.pixelScale = float(configuration.height) / 1080.0f;
   u.sceneCenter = scene.bounds().center();
   u.sceneRadius = std::max(scene.bounds().radius(), 1e-6f);
-  if (seed != 0)
-    u.patternShift = glm::vec2(float(hash(seed) & 0xFFFF), float(hash(seed + 1) & 0xFFFF)) / 65536.0f;
+  const View middle = cyclopeanView(views);
+  const shared::ViewUniforms cyclopean = viewUniforms(middle, middle);
+  u.worldToCyclopean = cyclopean.worldToClip;
+  u.cyclopeanNdcToEyeRay = cyclopean.ndcToEyeRay;
 
   const LightParams light = look.get<LightParams>();
   u.toLight = keyLightDirection(scene.data(), light);
@@ -81,6 +92,8 @@ shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const l
   transform(material.baseColorTexture, data.baseUvRowU, data.baseUvRowV, data.baseUvSet);
   transform(material.emissiveTexture, data.emissiveUvRowU, data.emissiveUvRowV, data.emissiveUvSet);
 
+  const bool isPainted = look.getForMaterial<passes::TextureParams>(scene.materialName(index)).amount > 0;
+
   // The sky is cooler than the colour in shadow, the ground warmer, at about equal brightness.
   const float tint = palette.skyTint;
   data.tintUp = glm::sqrt(1.0f + tint * glm::vec3(0.0f, 0.7f, 1.6f));
@@ -102,6 +115,9 @@ shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const l
     PaletteParams plain = palette;
     plain.darkest = 0, plain.lightest = 1, plain.litTintAmount = 0;
     setConstant(ground, glm::vec3(shadowedColor(plain, glm::dvec3(ground))));
+    data.baseColor = glm::vec4(ground, 1.0f);
+    data.lit = identityColorMap();
+    if (isPainted) data.shadowed = maps.get(plain).shadowed;
     return data;
   }
   const auto lit = [&](const glm::dvec3& c) { return litColor(palette, c); };
@@ -109,7 +125,7 @@ shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const l
   // A constant colour needs no fit: it goes through the rule itself.
   const glm::dvec3 base = glm::clamp(glm::dvec3(material.baseColor), 0.0, 1.0);
   glm::vec3 constantLit(lit(base)), constantShadowed(shadowed(base));
-  if (scene.isVaried(index)) {
+  if (scene.isVaried(index) || isPainted) {
     const ColorMaps::Pair& pair = maps.get(palette);
     data.lit = pair.lit, data.shadowed = pair.shadowed;
   }

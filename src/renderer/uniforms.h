@@ -13,7 +13,7 @@ shared::ViewUniforms viewUniforms(const View& view, const View& previous);
 
 shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const look::LookData& look,
                                     const std::vector<View>& views, const std::vector<View>& previousViews,
-                                    double time, const Configuration& configuration, uint32_t seed);
+                                    double time, const Configuration& configuration);
 
 // Fitted colour maps by palette, since a fit costs a tenth of a millisecond or more and most materials share
 // one.

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/file_bytes.h"
+#include "base/file_bytes.h"
 #include "scene/gltf_document.h"
 #include "scene/import_budget.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/file_bytes.h"
+#include "base/file_bytes.h"
 #include "scene/gltf_json.h"
 #include "scene/import_warnings.h"
 

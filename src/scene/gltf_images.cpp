@@ -1,7 +1,8 @@
+#include <cstring>
 #include <filesystem>
 
+#include "base/image_decode.h"
 #include "scene/gltf_import.h"
-#include "scene/image_decode.h"
 #include "scene/parallel.h"
 
 namespace scumble::scene {
@@ -42,6 +43,21 @@ void findBytes(const GltfImport& import, Task& task) {
     if (!import.buffers.imageFile(text, task.path, task.holder, task.bytes, task.problem)) return;
   }
   task.usable = true;
+}
+
+// The visible pattern for what cannot be used: a checker of magenta and grey.
+void makeStandIn(Image& image) {
+  constexpr uint32_t kSide = 64, kCell = 8;
+  image.width = image.height = kSide;
+  image.standIn = true;
+  image.rgba.resize(kSide * kSide * 4);
+  for (uint32_t y = 0; y < kSide; ++y)
+    for (uint32_t x = 0; x < kSide; ++x) {
+      const bool magenta = ((x / kCell) + (y / kCell)) % 2 == 0;
+      const uint8_t pixel[4] = {uint8_t(magenta ? 255 : 96), uint8_t(magenta ? 0 : 96),
+                                uint8_t(magenta ? 255 : 96), 255};
+      std::memcpy(&image.rgba[(y * kSide + x) * 4], pixel, 4);
+    }
 }
 
 }  // namespace

@@ -181,6 +181,18 @@ class AttributeReader {
       }
   }
 
+  // An attribute of the file's own, as Blender exports those whose names begin with an underscore.
+  void warpScales(Primitive& p) {
+    const std::optional<Accessor> accessor = source_.find("_WARP");
+    if (!accessor || !fits(*accessor, 1, 1)) return;
+    import_.budget.takeBytes(count() * sizeof(float), accessor->path);
+    p.warpScales.resize(count());
+    Accessor normalized = *accessor;
+    if (normalized.type != ComponentType::f32) normalized.normalized = true;
+    readFloats(normalized, selection_, 1, p.warpScales.data());
+    for (float& scale : p.warpScales) scale = scale > 0.0f ? std::min(scale, 64.0f) : 0.0f;
+  }
+
   void skinning(Primitive& p) {
     int sets = 0;
     std::optional<Accessor> joints[2], weights[2];
@@ -314,6 +326,7 @@ Primitive readPrimitive(const GltfImport& import, const JsonView& json, ImportWa
   p.normals = reader.optionalVectors<glm::vec3>("NORMAL");
   reader.uvs(p);
   reader.colors(p);
+  reader.warpScales(p);
   reader.skinning(p);
   reader.morphTargets(p, json);
   return p;

@@ -160,6 +160,23 @@ void makeFlat(Primitive& p) {
   p.generatedNormals = true;
 }
 
+// A mapping that closes on itself has vertices at one place whose coordinates differ by whole numbers. Where
+// other seams prevail it is an atlas, and such pairs are chance.
+void findWraps(Primitive& p, const std::vector<uint32_t>& representatives) {
+  if (p.uv0.empty() || representatives.empty()) return;
+  const auto isWhole = [](float d) { return std::abs(d - std::round(d)) < 1e-4f; };
+  size_t seams = 0, wraps[2] = {};
+  for (size_t i = 0; i < p.vertexCount(); ++i) {
+    const glm::vec2 d = p.uv0[i] - p.uv0[representatives[i]];
+    if (std::max(std::abs(d.x), std::abs(d.y)) < 1e-4f) continue;
+    ++seams;
+    if (!isWhole(d.x) || !isWhole(d.y)) continue;
+    for (int axis = 0; axis < 2; ++axis) wraps[axis] += std::abs(d[axis]) > 0.5f;
+  }
+  p.wrapsU = wraps[0] > 0 && 4 * wraps[0] >= seams;
+  p.wrapsV = wraps[1] > 0 && 4 * wraps[1] >= seams;
+}
+
 }  // namespace
 
 void gatherVertices(Primitive& p, const std::vector<uint32_t>& source) {
@@ -170,6 +187,7 @@ void gatherVertices(Primitive& p, const std::vector<uint32_t>& source) {
   gather(p.patternUv, source);
   gather(p.uv1, source);
   gather(p.colors, source);
+  gather(p.warpScales, source);
   gather(p.dPdu, source);
   gather(p.dPdv, source);
   gather(p.joints, source, static_cast<size_t>(p.influences));
@@ -185,6 +203,7 @@ void cleanPrimitive(Primitive& p, const std::string& path, ImportWarnings& warni
     warnings.add(path, "triangles with positions that are not finite or absurdly far away are left out");
 
   const std::vector<uint32_t> representatives = findRepresentatives(p.positions);
+  findWraps(p, representatives);
   const size_t degenerate = sumFaces(p, representatives);
   if (p.indices.empty()) {
     p = Primitive{.material = p.material};

@@ -135,6 +135,7 @@ void finishPrimitive(Primitive& p, float radius) {
     p.generatedUvs = true;
   } else if (!coversSurface(p, scale)) {
     p.patternUv = boxProjection(p, scale);
+    p.wrapsU = p.wrapsV = false;
   }
   makeTangents(p, scale);
 }

@@ -12,14 +12,14 @@
 #include <string>
 #include <vector>
 
+#include "base/pixels.h"
+
 namespace scumble::scene {
 
-// Pixels of one texture, row 0 at the top.
-struct Image {
+// One texture.
+struct Image : Pixels {
   std::string name;
-  uint32_t width = 0, height = 0;
-  std::vector<uint8_t> rgba;  // 4 bytes a pixel, sRGB-encoded colour, straight alpha
-  bool standIn = false;       // true where the file could not be used and a visible pattern stands in
+  bool standIn = false;  // true where the file could not be used and a visible pattern stands in
 };
 
 enum class Wrap : uint8_t { repeat, mirroredRepeat, clampToEdge };
@@ -75,7 +75,11 @@ struct Primitive {
   // Coordinates for patterns that need the surface's own extent (MetaTexture). Empty: uv0 serves. Generated
   // where uv0 maps a tenth of the surface or more to points and lines, as atlases of plain colours do.
   std::vector<glm::vec2> patternUv;
+  // Whether patternCoordinates() close on themselves after one unit of u or v, as around a cylinder.
+  bool wrapsU = false, wrapsV = false;
   std::vector<glm::u8vec4> colors;  // linear, may be empty
+  // Factors on the amount of Edge Breakup (the attribute _WARP), 0 to 64; may be empty.
+  std::vector<float> warpScales;
   // Tangent vectors dP/du and dP/dv of patternUv (else uv0) in object space (metres per unit of u and v),
   // area-weighted over the triangles at a vertex. Paper 000 eq. 9 and 10 need |grad_w u| = 1/|dP/du|; carried
   // as vectors they follow any deformation by its stretch. Zero where the mapping is degenerate.

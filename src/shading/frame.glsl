@@ -30,6 +30,13 @@ uint encodeNormal(vec3 n) {
   return packSnorm2x16(oct);
 }
 
+// The upper halves of two floats in one word.
+uint packBfloat(vec2 v) {
+  uvec2 bits = floatBitsToUint(v) + 0x8000u;
+  return bits.x >> 16 | (bits.y & 0xFFFF0000u);
+}
+vec2 unpackBfloat(uint word) { return uintBitsToFloat(uvec2(word << 16, word & 0xFFFF0000u)); }
+
 // Metres along the view axis, from a depth buffer's value; very far (1e30) where nothing is.
 const float kNothing = 1e30;
 float eyeDepth(float depth, int view) {

@@ -21,6 +21,8 @@ struct ViewUniforms {
 
 struct FrameUniforms {
   ViewUniforms views[kMaxViews];
+  mat4 worldToCyclopean;      // to the clip space of one view between both eyes; in mono that of the view
+  vec4 cyclopeanNdcToEyeRay;  // as ViewUniforms has it
   mat4 worldToLight;  // x, y in [-1, 1] over everything that casts shadows; z in [0, 1], growing away from
                       // the light
   vec3 toLight;       // unit, world
@@ -34,7 +36,6 @@ struct FrameUniforms {
   vec3 lightToWorldScale;  // metres per unit of light-space x, y, z
   float pixelScale;        // pixels per knob pixel: image height / 1080
   vec2 imageSize;          // pixels
-  vec2 patternShift;       // of all patterns, by the seed; in copies of the pattern
   float sceneRadius;       // metres
   vec3 sceneCenter;        // world
 };
@@ -47,6 +48,7 @@ struct ObjectData {
   uint id;          // from 1; the `id` AOV
   uint influences;  // joints a vertex: 0 (rigid), 4 or 8
   uint firstJoint;  // in the joint matrices
+  uint wraps;       // whether pattern coordinates close on themselves after one unit: 1 along u, 2 along v
 };
 
 // A chunk of vertices for `deform`: up to kDeformChunk vertices of one object.
@@ -78,7 +80,8 @@ struct VertexSkin {
 struct VertexSurface {
   vec2 uv0, uv1;
   vec2 patternUv;
-  uint color;  // unorm8 RGBA, linear
+  uint color;       // unorm8 RGBA, linear
+  float warpScale;  // factor on the amount of the warp
 };
 
 // Square root of a colour as a polynomial of the square root (r, g, b) of another; terms in the order

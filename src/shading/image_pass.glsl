@@ -1,6 +1,11 @@
 // An image pass is one function, vec4 shade(ivec2 pixel, int layer). This wrapper makes it a full-screen fragment
 // shader or, with SCUMBLE_COMPUTE defined, a compute shader; the build compiles both. A pass that writes another format
-// than rgba16f defines OUTPUT_FORMAT.
+// than rgba16f defines OUTPUT_FORMAT; one whose jobs share the pixels among them defines SHADES_SOME and
+// bool shades(ivec2 pixel, int layer).
+#ifndef SHADES_SOME
+bool shades(ivec2 pixel, int layer) { return true; }
+#endif
+
 #ifdef SCUMBLE_COMPUTE
 
 #ifndef OUTPUT_FORMAT
@@ -13,13 +18,18 @@ void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, imageSize(outputImage).xy))) return;
   int layer = int(gl_GlobalInvocationID.z);
-  imageStore(outputImage, ivec3(pixel, layer), shade(pixel, layer));
+  if (shades(pixel, layer)) imageStore(outputImage, ivec3(pixel, layer), shade(pixel, layer));
 }
 
 #else
 
 #include "view_index.glsl"
 layout(location = 0) out vec4 outputColor;
-void main() { outputColor = shade(ivec2(gl_FragCoord.xy), viewIndex()); }
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  int layer = viewIndex();
+  if (!shades(pixel, layer)) discard;
+  outputColor = shade(pixel, layer);
+}
 
 #endif

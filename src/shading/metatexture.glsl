@@ -1,74 +1,232 @@
-// MetaTexture (paper 000, section 3): an example texture that keeps its size and proportions on the screen while it
-// sticks to a surface. Copies at the nearest power-of-two scales are blended.
+// MetaTexture: an example texture that keeps its size and proportions on the screen while it sticks to a surface in
+// space (Curtis et al., paper 000, section 3). Copies of the example at scales that do not change are blended; which
+// ones is chosen at each point from the way the surface lies on the screen. Works for colours and for vector fields.
+//
+// This file includes nothing and may be taken alone. To use it in a surface shader:
+//
+//   MetaTexture m = ...;                                      // uniform; what it holds is said below
+//   MetaTextureChoice c = metaTextureChoose(m, dSdu, dSdv, 1.0);
+//   vec4 value = metaTextureSample(m, c, example, uv, vec2(0.0));
+//
+// dSdu, dSdv: the tangent vectors dP/du and dP/dv of the surface, projected to the screen, in pixels per unit of u and
+// v (x right, y down); metaTextureProject does that. Where there are no tangents, metaTextureFromDerivatives makes
+// them from dFdx(uv) and dFdy(uv). Values that are fixed in a shader, as `m.skew = kSkew`, specialise it: 4 samples at
+// most without skew, 8 with; with m.skip = 0 it has no loops.
 #ifndef SCUMBLE_METATEXTURE_GLSL
 #define SCUMBLE_METATEXTURE_GLSL
 
-struct MetaTextureParams {
-#define PARAM(type, name, defaultValue, low, high, unit, meaning) type name;
-#include "metatexture.params"
-#undef PARAM
+struct MetaTexture {
+  vec4 mean;            // of the example; contrast is restored around it
+  vec2 size;            // of the example on the screen, pixels
+  vec2 shift;           // added to the coordinates of every copy, in copies
+  float base;           // ratio between neighbouring scales, above 1
+  float levelRotation;  // radians by which each scale is turned against the one below
+  float blend;          // part of the way between two scales over which they blend, above 0 to 1
+  float skip;           // a share of a blend below this is not sampled, 0 to below 0.5
+  float lod;            // mip level of the example at its size on the screen, 0 or more
+  float skewLevels;     // n of eq. 16, 1 or more
+  float tiles;          // copies a unit of uv in mode 1
+  int mode;             // 0 MetaTexture; 1 object: ordinary mapping; 2 screen; 3 fractal: summed octaves
+  int skew;             // 0 off, 1 approximate (eq. 14), 2 exact
+  int orient;           // 1: the texture's horizontal runs across the foreshortening (section 3.5)
+  int contrast;         // 0 off, 1 by variance, 2 the example has a Gaussian histogram (metaTextureHistogram)
+  int wrapping;         // 1: some mapping closes on itself (`wraps` of metaTextureSample)
 };
 
-// Screen-space gradients of u and v (per pixel; x right, y down) from the projections of dP/du and dP/dv (pixels per
-// unit of u and v). Paper eq. 9 and 10 assume that these are perpendicular on the screen; the inverse of the 2 x 2
-// Jacobian needs no such assumption and is exact on a plane.
-void uvGradients(vec2 dSdu, vec2 dSdv, out vec2 gradU, out vec2 gradV) {
-  float det = dSdu.x * dSdv.y - dSdu.y * dSdv.x;
-  // Edge-on surfaces: keep the magnitude finite, at an angle of about 1 / 100.
-  float least = 0.01 * length(dSdu) * length(dSdv) + 1e-20;
+// The transforms chosen at one point. Arrays: the two neighbouring levels of skew.
+struct MetaTextureChoice {
+  vec2 exponent[2];    // eq. 2, of the coordinates after the skew is taken out
+  vec2 psi[2];         // cos, sin of the angle of eq. 20
+  float skewBlend;     // share of the second level, 0 to 1
+  float q;             // what the levels quantise: sin(2 psi) for exact skew, 2 tan(psi) for approximate
+  float orientBlend;   // share of the texture with its axes exchanged
+  vec2 gradU, gradV;   // of u and v on the screen, per pixel
+};
+
+const float kMetaTextureMaxSkew = 0.95;  // beyond it the transform nearly loses a dimension
+
+// Projects a tangent vector to pixels. `tangent`: x, y, w of (world to clip) * (tangent, 0); ndc and w of the point.
+vec2 metaTextureProject(vec3 tangent, vec2 ndc, float w, vec2 imageSize) {
+  return (tangent.xy - ndc * tangent.z) / w * 0.5 * imageSize;
+}
+
+// Gradients of u and v from the projected tangents, and back: each is the inverse of the 2 x 2 Jacobian. Paper eq. 9
+// and 10 assume that u and v are perpendicular; this assumes nothing, and is exact on a plane (FORMULAS 3). Where the
+// surface is seen from the edge, the angle between the two is kept above about 1 / 1000 radians; where a mapping is
+// degenerate everything is finite.
+void metaTextureInvert(vec2 a, vec2 b, out vec2 inverseA, out vec2 inverseB) {
+  float det = a.x * b.y - a.y * b.x;
+  float least = 1e-3 * length(a) * length(b) + 1e-18;
   float safe = abs(det) < least ? (det < 0.0 ? -least : least) : det;
-  gradU = vec2(dSdv.y, -dSdv.x) / safe;
-  gradV = vec2(-dSdu.y, dSdu.x) / safe;
+  inverseA = vec2(b.y, -b.x) / safe;
+  inverseB = vec2(-a.y, a.x) / safe;
 }
 
-// Projects a world-space tangent vector, given in clip space, to pixels at the point with the given clip w and ndc.
-vec2 projectTangent(vec3 tangentClip, vec2 ndc, float w, vec2 imageSize) {
-  return (tangentClip.xy - ndc * tangentClip.z) / w * 0.5 * imageSize;
+// dSdu and dSdv from differences of uv between pixels (dFdx(uv), dFdy(uv)): constant in each triangle.
+void metaTextureFromDerivatives(vec2 uvByX, vec2 uvByY, out vec2 dSdu, out vec2 dSdv) {
+  metaTextureInvert(vec2(uvByX.x, uvByY.x), vec2(uvByX.y, uvByY.y), dSdu, dSdv);
 }
 
-// The upper halves of two floats in one word.
-uint packBfloat(vec2 v) {
-  uvec2 bits = floatBitsToUint(v) + 0x8000u;
-  return bits.x >> 16 | (bits.y & 0xFFFF0000u);
-}
-vec2 unpackBfloat(uint word) { return uintBitsToFloat(uvec2(word << 16, word & 0xFFFF0000u)); }
-
-struct MetaTextureScale {
-  vec2 exponent;  // eq. 2
-  vec2 blend;     // eq. 7
-};
-
-// `size`: edge of the example texture on the screen, pixels. Where the surface is seen edge-on and u and v run askew,
-// both gradients point across the silhouette, and a scale chosen by them would stretch the texture along it. Their
-// magnitudes are therefore bounded by twice what they would be without skew, 1 / |dS/du| and 1 / |dS/dv|.
-MetaTextureScale metaTextureScale(vec2 gradU, vec2 gradV, vec2 dSdu, vec2 dSdv, float size) {
-  MetaTextureScale s;
-  vec2 magnitude = vec2(length(gradU), length(gradV));
-  vec2 bound = 2.0 / max(vec2(length(dSdu), length(dSdv)), vec2(1e-20));
-  magnitude = max(min(magnitude, bound), vec2(1e-20));
-  s.exponent = clamp(-log2(size * magnitude), vec2(-60.0), vec2(60.0));
-  vec2 t = s.exponent - floor(s.exponent);
-  s.blend = t * t * (3.0 - 2.0 * t);
-  return s;
+// Eq. 7: the cubic blend, over m.blend of the way; what is below m.skip becomes 0, without a jump.
+float metaTextureBlend(MetaTexture m, float t) {
+  t = clamp((t - 0.5) / m.blend + 0.5, 0.0, 1.0);
+  float b = t * t * (3.0 - 2.0 * t);
+  return clamp((b - m.skip) / (1.0 - 2.0 * m.skip), 0.0, 1.0);
 }
 
-// Variance of the blend relative to the texture's (eq. 24 and 25; FORMULAS 2: contrast is restored by its root).
-float metaTextureVariance(MetaTextureScale s) {
-  vec2 k = 2.0 * s.blend * s.blend - 2.0 * s.blend + 1.0;
-  return k.x * k.y;
+// Eq. 1, 2 and 11, from the squares of the gradients' lengths. A least length keeps the exponents finite.
+vec2 metaTextureExponent(MetaTexture m, vec2 squares, float alpha) {
+  vec2 size = alpha * m.size;
+  return clamp(-0.5 / log2(m.base) * log2(size * size * max(squares, vec2(1e-24))), vec2(-60.0), vec2(60.0));
 }
 
-// Eq. 3 to 8, with Bu going with the copy that doubles u (FORMULAS 1). `mean`: the texture's mean; `contrast`: 1
-// restores what blending takes away; `shift` moves every copy by as much of the texture.
-vec4 metaTexture(sampler2D image, vec2 uv, MetaTextureScale s, vec4 mean, float contrast, vec2 shift) {
-  vec2 u0 = exp2(floor(s.exponent)) * uv;
-  vec2 u3 = 2.0 * u0;
-  u0 += shift;
-  u3 += shift;
-  vec4 low = mix(textureLod(image, u0, 0.0), textureLod(image, vec2(u3.x, u0.y), 0.0), s.blend.x);
-  vec4 high = mix(textureLod(image, vec2(u0.x, u3.y), 0.0), textureLod(image, u3, 0.0), s.blend.x);
-  vec4 blended = mix(low, high, s.blend.y);
-  float gain = mix(1.0, inversesqrt(metaTextureVariance(s)), contrast);
-  return mean + (blended - mean) * gain;
+// `alpha`: radial angle compensation (eq. 11 to 13), 1 for none.
+MetaTextureChoice metaTextureChoose(MetaTexture m, vec2 dSdu, vec2 dSdv, float alpha) {
+  MetaTextureChoice c;
+  metaTextureInvert(dSdu, dSdv, c.gradU, c.gradV);
+  c.q = 0.0;
+  float uu = dot(c.gradU, c.gradU), vv = dot(c.gradV, c.gradV), uv = dot(c.gradU, c.gradV);
+  if (m.skew == 1 && uu * vv > 0.0) {
+    // Eq. 14 and 15, with the sign that lessens the skew (FORMULAS 5).
+    float epsilon = sqrt(min(uu, vv) / max(uu, vv));
+    c.q = -atan(epsilon) * uv * inversesqrt(uu) * inversesqrt(vv);
+  }
+  if (m.skew == 2 && uu + vv > 0.0)
+    c.q = clamp(-2.0 * uv / (uu + vv), -kMetaTextureMaxSkew, kMetaTextureMaxSkew);
+
+  float level = floor(m.skewLevels * c.q);
+  c.skewBlend = m.skew == 0 ? 0.0 : metaTextureBlend(m, m.skewLevels * c.q - level);
+  for (int k = 0; k < 2; ++k) {
+    float quantised = clamp((level + float(k)) / m.skewLevels, -kMetaTextureMaxSkew, kMetaTextureMaxSkew);
+    if (m.skew == 1) {
+      c.psi[k] = vec2(1.0, 0.5 * quantised) * inversesqrt(1.0 + 0.25 * quantised * quantised);
+    } else {
+      // cos and sin of asin(q) / 2.
+      float root = sqrt(1.0 - quantised * quantised);
+      c.psi[k] = vec2(sqrt(0.5 + 0.5 * root), (quantised < 0.0 ? -1.0 : 1.0) * sqrt(max(0.5 - 0.5 * root, 0.0)));
+    }
+    if (m.skew == 0) c.psi[k] = vec2(1.0, 0.0);
+    vec2 psi = c.psi[k], squared = psi * psi;
+    c.exponent[k] = metaTextureExponent(
+        m, squared * uu + squared.yx * vv + 2.0 * psi.x * psi.y * uv, alpha);
+  }
+  // From a quarter octave of foreshortening along u on, the texture turns; at three quarters it has.
+  c.orientBlend = m.orient == 0 ? 0.0 : metaTextureBlend(m, log2(max(uu, 1e-24) / max(vv, 1e-24)) - 0.5);
+  return c;
+}
+
+// The exponents between both levels of skew: continuous everywhere.
+vec2 metaTextureMeanExponent(MetaTextureChoice c) { return mix(c.exponent[0], c.exponent[1], c.skewBlend); }
+
+// Share of the second of two copies in each axis; 0 and 1 where one copy is all there is.
+vec2 metaTextureShares(MetaTexture m, vec2 exponent) {
+  vec2 t = exponent - floor(exponent);
+  return vec2(metaTextureBlend(m, t.x), metaTextureBlend(m, t.y));
+}
+
+// Eq. 24 and 25, for all axes: the variance of the blend relative to the example's, that is the sum of the squares of
+// the copies' shares.
+float metaTextureVariance(MetaTexture m, MetaTextureChoice c) {
+  float variance = 0.0;
+  for (int k = 0; k < 2; ++k) {
+    vec2 b = metaTextureShares(m, c.exponent[k]);
+    vec2 squares = 2.0 * b * b - 2.0 * b + 1.0;
+    float share = k == 0 ? 1.0 - c.skewBlend : c.skewBlend;
+    variance += share * share * squares.x * squares.y;
+  }
+  float o = c.orientBlend;
+  return variance * (2.0 * o * o - 2.0 * o + 1.0);
+}
+
+// FORMULAS 2: contrast is restored by the root of the variance.
+float metaTextureGain(MetaTexture m, float variance) { return m.contrast == 0 ? 1.0 : inversesqrt(variance); }
+
+// Coordinates that meet where a mapping wraps. Copies at whole multiples meet by themselves; others run to the middle
+// of the wrap and back again, mirrored. `wraps`: 1 for an axis that closes on itself after one unit.
+vec2 metaTextureFold(vec2 uv, vec2 wraps) {
+  return mix(uv, abs(uv - floor(uv + 0.5)), wraps);
+}
+
+// The copies of one level of skew: the coordinates of the coarser scale in x, of the finer one in y, for u and for v.
+void metaTextureCopies(MetaTexture m, vec2 uv, vec2 psi, vec2 level, vec2 wraps, out vec2 u, out vec2 v) {
+  vec2 coarse = exp2(level * log2(m.base)), fine = m.base * coarse;
+  vec2 turned = vec2(psi.x * uv.x + psi.y * uv.y, psi.x * uv.y + psi.y * uv.x);
+  u = vec2(coarse.x, fine.x) * turned.x;
+  v = vec2(coarse.y, fine.y) * turned.y;
+  if (m.wrapping == 1) {
+    vec2 folded = metaTextureFold(uv, wraps);
+    folded = vec2(psi.x * folded.x + psi.y * folded.y, psi.x * folded.y + psi.y * folded.x);
+    bool straight = psi.y == 0.0 && m.levelRotation == 0.0;
+    vec4 scales = vec4(coarse.x, fine.x, coarse.y, fine.y), whole = round(scales);
+    bvec4 meets = lessThan(abs(scales - whole), 1e-4 * scales);
+    u = mix(vec2(coarse.x, fine.x) * folded.x, whole.xy * turned.x, straight ? meets.xy : bvec2(false));
+    v = mix(vec2(coarse.y, fine.y) * folded.y, whole.zw * turned.y, straight ? meets.zw : bvec2(false));
+  }
+}
+
+vec4 metaTextureFetch(MetaTexture m, MetaTextureChoice c, sampler2D example, vec2 at, vec2 level) {
+  if (m.levelRotation != 0.0) {
+    float angle = 0.5 * (level.x + level.y) * m.levelRotation;
+    at = vec2(cos(angle) * at.x - sin(angle) * at.y, sin(angle) * at.x + cos(angle) * at.y);
+  }
+  at += m.shift;
+  vec4 value = textureLod(example, at, m.lod);
+  return m.orient == 0 ? value : mix(value, textureLod(example, at.yx, m.lod), c.orientBlend);
+}
+
+// Eq. 8 and 23 with the pairing of FORMULAS 1. `pixel`: where on the screen (mode 2 only).
+vec4 metaTextureSample(MetaTexture m, MetaTextureChoice c, sampler2D example, vec2 uv, vec2 wraps, vec2 pixel) {
+  vec4 sum = vec4(0.0);
+  float squares = 0.0;
+  if (m.mode == 0) {
+    // Where shares may be skipped, loops run from the first to the last copy that has one; else over all, and unroll.
+    bool skips = m.skip > 0.0;
+    int firstLevel = skips && c.skewBlend >= 1.0 ? 1 : 0;
+    int lastLevel = m.skew == 0 || (skips && c.skewBlend <= 0.0) ? 0 : 1;
+    for (int k = firstLevel; k <= lastLevel; ++k) {
+      float skewShare = k == 0 ? 1.0 - c.skewBlend : c.skewBlend;
+      vec2 exponent = k == 0 ? c.exponent[0] : c.exponent[1], psi = k == 0 ? c.psi[0] : c.psi[1];
+      vec2 level = floor(exponent), b = metaTextureShares(m, exponent), u, v;
+      metaTextureCopies(m, uv, psi, level, wraps, u, v);
+      ivec2 first = skips ? ivec2(greaterThanEqual(b, vec2(1.0))) : ivec2(0);
+      ivec2 last = skips ? ivec2(greaterThan(b, vec2(0.0))) : ivec2(1);
+      for (int j = first.y; j <= last.y; ++j)
+        for (int i = first.x; i <= last.x; ++i) {
+          float share = skewShare * (i == 0 ? 1.0 - b.x : b.x) * (j == 0 ? 1.0 - b.y : b.y);
+          vec2 at = vec2(i == 0 ? u.x : u.y, j == 0 ? v.x : v.y);
+          sum += share * metaTextureFetch(m, c, example, at, level + vec2(i, j));
+          squares += share * share;
+        }
+    }
+    squares *= 2.0 * c.orientBlend * c.orientBlend - 2.0 * c.orientBlend + 1.0;
+  } else if (m.mode == 1) {
+    // Ordinary texture mapping.
+    sum = textureGrad(example, uv * m.tiles + m.shift, vec2(c.gradU.x, c.gradV.x) * m.tiles,
+                      vec2(c.gradU.y, c.gradV.y) * m.tiles);
+    squares = 1.0;
+  } else if (m.mode == 2) {
+    sum = textureLod(example, pixel / m.size + m.shift, m.lod);
+    squares = 1.0;
+  } else {
+    // Summed octaves around one scale for both axes (Benard et al. 2009, "Dynamic solid textures"): as the exponent
+    // goes from one whole number to the next, each octave takes the place of the one before.
+    float exponent = max(c.exponent[0].x, c.exponent[0].y), t = exponent - floor(exponent);
+    vec4 shares = vec4(0.5 * (1.0 - t), vec3(2.0, 1.0, 0.0) / 6.0 + t / 6.0);
+    for (int i = 0; i < 4; ++i) {
+      vec2 at = exp2((floor(exponent) + float(i) - 1.0) * log2(m.base)) * uv + m.shift;
+      sum += shares[i] * textureLod(example, at, max(m.lod + (float(i) - 1.0 - t) * log2(m.base), 0.0));
+      squares += shares[i] * shares[i];
+    }
+  }
+  return m.mean + (sum - m.mean) * metaTextureGain(m, squares);
+}
+
+// Contrast 2 (Heitz and Neyret 2018): the example was replaced by one whose channels are Gaussian with mean 0.5 and
+// deviation 1 / 6; this takes the blend back to the example's own histogram. `inverse`: its channels' inverses, from
+// 0 to 1, in one row of 256 texels.
+vec4 metaTextureHistogram(sampler2D inverse, vec4 gaussian) {
+  vec4 at = clamp(gaussian, 0.0, 1.0) * (255.0 / 256.0) + 0.5 / 256.0;
+  return vec4(textureLod(inverse, vec2(at.r, 0.5), 0.0).r, textureLod(inverse, vec2(at.g, 0.5), 0.0).g,
+              textureLod(inverse, vec2(at.b, 0.5), 0.0).b, textureLod(inverse, vec2(at.a, 0.5), 0.0).a);
 }
 #endif

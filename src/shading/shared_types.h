@@ -29,6 +29,7 @@ using uint = uint32_t;
 #define toggle uint
 #define choice int
 #define srgb vec3
+#define picture int
 
 #endif
 #endif

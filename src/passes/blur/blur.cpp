@@ -65,7 +65,7 @@ class Blur : public Pass {
     const ImageShader shader{{shaders::blur_image_frag}, {shaders::blur_image_comp}};
     for (size_t i = 0; i < steps_.size(); ++i)
       steps_[i].declare(frame, "blur", shader, {{chain[i]}, {frame.slot(Slot::depth)}}, chain[i + 1],
-                        sizeof(shared::BlurStep), {}, {uint32_t(i == 0)});
+                        sizeof(shared::BlurStep), {uint32_t(i == 0)});
   }
 
   void create(FrameBuilder& frame, const FrameResources& resources) override {

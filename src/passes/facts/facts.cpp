@@ -5,7 +5,7 @@
 
 #include "frame/geometry_step.h"
 #include "frame/material_params.h"
-#include "frame/metatexture_params.h"
+#include "frame/metatexture.h"
 #include "shaders/facts_frag.h"
 #include "shaders/facts_vert.h"
 
@@ -18,6 +18,12 @@ namespace {
 constexpr std::array kFacts{Slot::factDepth,  Slot::position,    Slot::normal, Slot::uv,
                             Slot::uvGradient, Slot::metatexture, Slot::motion, Slot::id};
 
+// Mirrors the block of facts.frag.
+struct FactsMaterial {
+  MetaTexture meta;
+  TangentOptions tangents;
+};
+
 class Facts : public Pass {
  public:
   const char* name() const override { return "facts"; }
@@ -29,7 +35,7 @@ class Facts : public Pass {
                                        {depth_, gpu::Use::depthTarget}};
     for (const Slot fact : kFacts) uses.push_back({frame.slot(fact), gpu::Use::colorTarget});
     for (size_t i = 0; i < kFacts.size(); ++i) targets_[i] = frame.slot(kFacts[i]);
-    metaTextureParams_.declare(frame);
+    materials_.declare(frame);
     configuration_ = frame.configuration();
     frame.addStep("facts", std::move(uses), [this](VkCommandBuffer commands) { record(commands); });
   }
@@ -37,10 +43,11 @@ class Facts : public Pass {
   void create(FrameBuilder& frame, const FrameResources& resources) override {
     resources_ = &resources;
     scene_ = &frame.scene();
-    layout_ = gpu::SetLayout(frame.device(),
-                             {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VK_SHADER_STAGE_FRAGMENT_BIT}});
-    set_ = gpu::DescriptorSets(frame.device(), layout_);
-    metaTextureParams_.bind(set_, 0);
+    layout_ = gpu::SetLayout(frame.device(), {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC,
+                                               VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT}});
+    sets_ = gpu::DescriptorSets(frame.device(), layout_);
+    materials_.bind(sets_, 0);
+    examples_ = &frame.examples();
     GeometryStepDesc desc;
     desc.vertex = {shaders::facts_vert};
     desc.fragment = {shaders::facts_frag};
@@ -49,12 +56,17 @@ class Facts : public Pass {
     desc.viewMask = viewMask(configuration_);
     desc.viewCount = configuration_.viewCount;
     desc.passLayout = &layout_;
-    desc.materialStrides = {metaTextureParams_.kStride};
+    desc.materialStrides = {materials_.kStride};
     step_.create(frame.device(), resources, frame.scene(), desc);
   }
 
   void update(const FrameInput& input) override {
-    metaTextureParams_.update(input);
+    for (size_t m = 0; m < input.scene.materialCount(); ++m) {
+      const std::string& name = input.scene.materialName(m);
+      const auto params = input.look.getForMaterial<WarpMetaTextureParams>(name);
+      const MetaTextureUse use = metaTextureUse(params, 0b0011, input, *examples_, glm::vec2(0.0f));
+      materials_.write(m, {use.meta, tangentOptions(params)});
+    }
     eye_ = input.uniforms.views[0].eye;
   }
 
@@ -67,19 +79,20 @@ class Facts : public Pass {
     colors[0].clear.color = {{infinity, infinity, infinity, infinity}};
     const Target depth{&resources_->image(depth_), nullptr, {}};
     drawViews(commands, configuration_, colors, &depth, [&](uint32_t firstView) {
-      step_.draw(commands, *resources_, *scene_, set_[0], firstView, eye_);
+      step_.draw(commands, *resources_, *scene_, &sets_, firstView, eye_);
     });
   }
 
   std::array<gpu::ResourceId, kFacts.size()> targets_{};
   gpu::ResourceId depth_ = 0;
   Configuration configuration_;
-  MaterialParams<frame::WarpMetaTextureParams> metaTextureParams_;
+  MaterialBlocks<FactsMaterial> materials_;
+  ExampleTextures* examples_ = nullptr;
   const FrameResources* resources_ = nullptr;
   const SceneOnGpu* scene_ = nullptr;
   glm::vec3 eye_{0.0f};
   gpu::SetLayout layout_;
-  gpu::DescriptorSets set_;
+  gpu::DescriptorSets sets_;
   GeometryStep step_;
 };
 

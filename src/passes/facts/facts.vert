@@ -2,7 +2,10 @@
 #extension GL_GOOGLE_include_directive : require
 #include "../../shading/frame.glsl"
 #include "../../shading/material.glsl"
+#include "../../shading/metatexture.glsl"
+#include "../../shading/surface_tangents.glsl"
 #include "../../shading/view_index.glsl"
+#include "facts.glsl"
 
 layout(constant_id = 0) const int kAlphaMode = 0;
 
@@ -23,6 +26,9 @@ layout(location = 4) out vec3 outTangentV;
 layout(location = 5) out vec4 outPrevious;
 layout(location = 6) flat out uint outObject;
 layout(location = 7) out vec3 outBaseUvAlpha;
+layout(location = 8) out vec3 outMetaTangentU;  // in the view that MetaTexture counts by
+layout(location = 9) out vec3 outMetaTangentV;
+layout(location = 10) out vec3 outMetaPoint;
 
 void main() {
   mat4 worldToClip = VIEW_FIELD(worldToClip, viewIndex());
@@ -32,6 +38,10 @@ void main() {
   outUv = inPatternUv;
   outTangentU = (worldToClip * vec4(inDPdu, 0.0)).xyw;
   outTangentV = (worldToClip * vec4(inDPdv, 0.0)).xyw;
+  mat4 tangentClip = tangentView(facts.tangents, worldToClip);
+  outMetaTangentU = tangentToClip(tangentClip, inDPdu);
+  outMetaTangentV = tangentToClip(tangentClip, inDPdv);
+  outMetaPoint = pointInTangentView(facts.tangents, worldToClip, inPosition);
   outPrevious = VIEW_FIELD(previousWorldToClip, viewIndex()) * vec4(inPosition, 1.0);
   outObject = gl_InstanceIndex;
   if (kAlphaMode != 0) outBaseUvAlpha = vec3(baseUv(inUv0, inUv1), inColor.a);

@@ -27,7 +27,7 @@ class FinalColor : public Pass {
                    {frame.slot(Slot::warp)},
                    {frame.slot(Slot::depth)},
                    {frame.slot(Slot::blur), true}},
-                  frame.slot(Slot::finalColor), sizeof(shared::FinalColorUniforms), {}, {uint32_t(glows)});
+                  frame.slot(Slot::finalColor), sizeof(shared::FinalColorUniforms), {uint32_t(glows)});
   }
   void create(FrameBuilder& frame, const FrameResources& resources) override {
     step_.create(frame, resources);

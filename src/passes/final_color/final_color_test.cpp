@@ -93,7 +93,7 @@ TEST_P(FinalColorTest, equalsItsReference) {
         EXPECT_EQ(wrong, 0u) << difference.text() << (aware ? ", depth-aware" : ", paper");
         EXPECT_LT(difference.mean(), 5e-4);
         EXPECT_LT(undecided, size_t(kWidth * kHeight / 30));
-        EXPECT_GT(moved, 3000u);
+        EXPECT_GT(moved, 2000u);
         EXPECT_GE(kept, aware ? 100u : 0u);
       }
     }

@@ -36,6 +36,7 @@ class FinalShadow : public Pass {
     uniforms.softness = params.softness;
     uniforms.innerGlow = params.innerGlow;
     uniforms.indication = params.indication;
+    uniforms.dither = params.dither;
     uniforms.indicationSteps = params.indicationSteps;
     const BlurFacts blur = blurFacts_(input.look, input.uniforms.pixelScale);
     uniforms.blurAmount = blur.amount;

@@ -41,7 +41,11 @@ vec4 shade(ivec2 pixel, int layer) {
   vec2 slope = 0.25 * vec2(mix(lights[1] - lights[0], lights[3] - lights[2], f.y),
                            mix(lights[2] - lights[0], lights[3] - lights[1], f.x));
   float width = max(0.5 * u.softness * length(slope), 1e-3);
-  float lit = smoothstep(u.threshold - width, u.threshold + width, light);
+
+  // A dither of the ramp: the breakup map moves the threshold; where it does, its own slope softens the edge.
+  float dither = u.dither * (0.5 - warped.b) * float(warped.a > 0.0);
+  width = max(width, 0.05 * u.dither);
+  float lit = smoothstep(u.threshold - width, u.threshold + width, light - dither);
 
   // Texture indication: where the breakup map is set, marks push the blurred light over the threshold in a few more
   // steps, each a flat shape.

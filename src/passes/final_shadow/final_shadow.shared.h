@@ -8,6 +8,7 @@ struct FinalShadowUniforms {
   float softness;  // pixels
   float innerGlow;
   float indication;
+  float dither;
   int indicationSteps;
   float depthSharpness;  // as the blur's
   float blurAmount;      // 1; less where the knob asks for less roundness than the blur can be small

@@ -52,7 +52,7 @@ class Plain : public Pass {
         &resources_->image(drawn_), samples_ > 1 ? &resources_->image(resolved_) : nullptr, {}};
     const Target depth{&resources_->image(depth_), nullptr, {}};
     drawViews(commands, configuration_, {&color, 1}, &depth, [&](uint32_t firstView) {
-      step_.draw(commands, *resources_, *scene_, VK_NULL_HANDLE, firstView, eye_);
+      step_.draw(commands, *resources_, *scene_, nullptr, firstView, eye_);
     });
   }
 

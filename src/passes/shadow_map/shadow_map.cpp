@@ -39,7 +39,7 @@ class ShadowMap : public Pass {
     Target depth{&resources_->image(map_), nullptr, {}};
     depth.clear.depthStencil = {1.0f, 0};
     drawOnce(commands, depth, [&] {
-      step_.draw(commands, *resources_, *scene_, VK_NULL_HANDLE, 0, glm::vec3(0.0f),
+      step_.draw(commands, *resources_, *scene_, nullptr, 0, glm::vec3(0.0f),
                  [](const Draw& draw) { return draw.casts; });
     });
   }

@@ -6,6 +6,7 @@
 #include "frame/geometry_step.h"
 #include "frame/light.h"
 #include "frame/material_params.h"
+#include "frame/metatexture.h"
 #include "shaders/surface_frag.h"
 #include "shaders/surface_vert.h"
 
@@ -18,6 +19,14 @@ namespace {
 // Mirrors SurfaceUniforms in surface.glsl.
 struct SurfaceUniforms {
   float terminator, terminatorSharpness;
+};
+
+// Mirrors PaintedMaterial in surface.glsl.
+struct PaintedMaterial {
+  MetaTexture meta;
+  TangentOptions tangents;
+  float amount;
+  int32_t blend;
 };
 
 class Surface : public Pass {
@@ -41,27 +50,40 @@ class Surface : public Pass {
     }
     uniforms_ = frame.uniform(sizeof(SurfaceUniforms));
     params_.declare(frame);
+    painted_.declare(frame);
     frame.addStep("surface", std::move(uses), [this](VkCommandBuffer commands) { record(commands); });
   }
 
   void create(FrameBuilder& frame, const FrameResources& resources) override {
     resources_ = &resources;
     scene_ = &frame.scene();
+    frame_ = &frame;
+    constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+    constexpr VkDescriptorType kTexture = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     layout_ = gpu::SetLayout(frame.device(),
                              {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VK_SHADER_STAGE_FRAGMENT_BIT},
+                              {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, kBoth},
                               {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_FRAGMENT_BIT},
-                              {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}});
-    set_ = gpu::DescriptorSets(frame.device(), layout_);
-    params_.bind(set_, 0);
-    set_.writeBuffer(0, 1, uniforms_.buffer, uniforms_.offset, uniforms_.size);
+                              {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
+                              {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
+                              {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT}});
+    // One set for each material, since each may have a texture of its own.
+    const size_t materials = frame.scene().materialCount();
+    sets_ = gpu::DescriptorSets(frame.device(), layout_, uint32_t(materials));
+    boundTextures_.resize(materials);
     gpu::SamplerDesc compare;
     compare.compareLess = true;
-    set_.writeTexture(0, 2, resources.image(shadowMap_).view(), frame.samplers().get(compare));
+    for (size_t m = 0; m < materials; ++m) {
+      params_.bind(sets_, 0, m);
+      painted_.bind(sets_, 1, m);
+      sets_.writeBuffer(m, 2, uniforms_.buffer, uniforms_.offset, uniforms_.size);
+      sets_.writeTexture(m, 3, resources.image(shadowMap_).view(), frame.samplers().get(compare));
+    }
 
     GeometryStepDesc desc;
     desc.vertex = {shaders::surface_vert};
     desc.fragment = {shaders::surface_frag};
-    desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor;
+    desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor | kDPdu | kDPdv | kPatternUv;
     for (const Slot slot : kTargets)
       if (slot != Slot::depth) desc.colorFormats.push_back(slotInfo(slot).format);
     desc.samples = samples_;
@@ -69,7 +91,7 @@ class Surface : public Pass {
     desc.viewCount = configuration_.viewCount;
     desc.blends = true;
     desc.passLayout = &layout_;
-    desc.materialStrides = {params_.kStride};
+    desc.materialStrides = {params_.kStride, painted_.kStride};
     step_.create(frame.device(), resources, frame.scene(), desc);
   }
 
@@ -78,6 +100,23 @@ class Surface : public Pass {
     eye_ = input.uniforms.views[0].eye;
     const LightParams light = input.look.get<LightParams>();
     uniforms_.write(SurfaceUniforms{light.terminator, light.terminatorSharpness});
+
+    std::vector<bool> painted;
+    for (size_t m = 0; m < input.scene.materialCount(); ++m) {
+      const std::string& name = input.scene.materialName(m);
+      const TextureParams texture = input.look.getForMaterial<TextureParams>(name);
+      const auto metaParams = sameRows(input.look.getForMaterial<TextureMetaTextureParams>(name));
+      const MetaTextureUse use =
+          metaTextureUse(metaParams, 0b0111, input, frame_->examples(), patternShift(input.seed));
+      painted_.write(m, {use.meta, tangentOptions(metaParams), texture.amount, texture.blend});
+      painted.push_back(texture.amount > 0);
+      const std::pair views{use.image().view(), use.inverse().view()};
+      if (boundTextures_[m] == views) continue;
+      boundTextures_[m] = views;
+      sets_.writeTexture(m, 4, views.first, frame_->samplers().get(ExampleTextures::kSampler));
+      sets_.writeTexture(m, 5, views.second, frame_->samplers().get(ExampleTextures::kInverseSampler));
+    }
+    step_.setPainted(input.scene, std::move(painted));
   }
 
  private:
@@ -90,7 +129,7 @@ class Surface : public Pass {
     };
     const Target colors[] = {target(0), target(1), target(2)}, depth = target(3);
     drawViews(commands, configuration_, colors, &depth, [&](uint32_t firstView) {
-      step_.draw(commands, *resources_, *scene_, set_[0], firstView, eye_);
+      step_.draw(commands, *resources_, *scene_, &sets_, firstView, eye_);
     });
   }
 
@@ -100,11 +139,14 @@ class Surface : public Pass {
   Configuration configuration_;
   UniformSlice uniforms_;
   MaterialParams<SurfaceParams> params_;
+  MaterialBlocks<PaintedMaterial> painted_;
+  FrameBuilder* frame_ = nullptr;
   const FrameResources* resources_ = nullptr;
   const SceneOnGpu* scene_ = nullptr;
   glm::vec3 eye_{0.0f};
   gpu::SetLayout layout_;
-  gpu::DescriptorSets set_;
+  gpu::DescriptorSets sets_;
+  std::vector<std::pair<VkImageView, VkImageView>> boundTextures_;  // by material
   GeometryStep step_;
 };
 

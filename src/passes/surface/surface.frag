@@ -6,24 +6,51 @@
 #include "../../shading/color_map.glsl"
 #include "../../shading/light_space.glsl"
 #include "../../shading/material.glsl"
+#include "../../shading/metatexture.glsl"
+#include "../../shading/surface_tangents_at_pixel.glsl"
+#include "../../shading/view_index.glsl"
 #include "surface.glsl"
 
 layout(constant_id = 0) const int kAlphaMode = 0;  // 0 opaque, 1 masked, 2 blended
 layout(constant_id = 1) const int kVaried = 0;
 layout(constant_id = 2) const int kTextured = 0;
+layout(constant_id = 4) const int kPainted = 0;
 
 layout(set = 2, binding = 0, scalar) uniform ParamsBlock { SurfaceParams params; };
-layout(set = 2, binding = 1, scalar) uniform SurfaceBlock { SurfaceUniforms surface; };
-layout(set = 2, binding = 2) uniform sampler2DArrayShadow shadowMap;
+layout(set = 2, binding = 1, scalar) uniform PaintedBlock { PaintedMaterial painted; };
+layout(set = 2, binding = 2, scalar) uniform SurfaceBlock { SurfaceUniforms surface; };
+layout(set = 2, binding = 3) uniform sampler2DArrayShadow shadowMap;
+layout(set = 2, binding = 4) uniform sampler2D paintedExample;
+layout(set = 2, binding = 5) uniform sampler2D paintedInverse;
 
 layout(location = 0) in vec3 inLightSpace;
 layout(location = 1) in vec2 inFacing;
 layout(location = 2) in vec4 inColor;
 layout(location = 3) in vec4 inUvs;
+layout(location = 4) in vec2 inPatternUv;
+layout(location = 5) in vec3 inTangentU;
+layout(location = 6) in vec3 inTangentV;
+layout(location = 7) in vec3 inPoint;
+layout(location = 8) flat in uint inWraps;
 
 layout(location = 0) out vec4 outShadow;
 layout(location = 1) out vec4 outLit;
 layout(location = 2) out vec4 outShadowed;
+
+// A texture that the look paints over the square root of a colour.
+vec3 paint(vec3 root) {
+  vec2 dSdu, dSdv;
+  surfaceTangents(painted.tangents, inTangentU, inTangentV, inPoint, inPatternUv, viewIndex(), dSdu, dSdv);
+  MetaTextureChoice chosen = metaTextureChoose(painted.meta, dSdu, dSdv, 1.0);
+  vec4 value = metaTextureSample(painted.meta, chosen, paintedExample, inPatternUv,
+                                 vec2(inWraps & 1u, inWraps >> 1), gl_FragCoord.xy);
+  if (painted.meta.contrast == 2) value = metaTextureHistogram(paintedInverse, value);
+  vec3 over = clamp(value.rgb, 0.0, 1.0), result = over;
+  if (painted.blend == 0) result = root * over;
+  if (painted.blend == 1)
+    result = mix(2.0 * root * over, 1.0 - 2.0 * (1.0 - root) * (1.0 - over), greaterThan(root, vec3(0.5)));
+  return mix(root, result, painted.amount);
+}
 
 void main() {
   vec2 facing = gl_FrontFacing ? inFacing : -inFacing;
@@ -43,6 +70,7 @@ void main() {
     }
     alpha = albedo.a;
     vec3 root = sqrt(clamp(albedo.rgb, 0.0, 1.0));
+    if (kPainted != 0) root = paint(root);
     lit = applyColorMap(material.lit, root);
     shadowed = mix(applyColorMap(material.shadowed, root), sqrt(material.shadowedColor), material.hasShadowedColor) *
                mix(material.tintDown, material.tintUp, up);

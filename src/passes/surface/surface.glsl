@@ -3,6 +3,13 @@ struct SurfaceParams {
 #include "surface.params"
 #undef PARAM
 };
+// What a material has where the look paints a texture on it.
+struct PaintedMaterial {
+  MetaTexture meta;
+  SurfaceTangents tangents;
+  float amount;
+  int blend;  // 0 multiply, 1 overlay, 2 replace
+};
 struct SurfaceUniforms {
   float terminator;
   float terminatorSharpness;

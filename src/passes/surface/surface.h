@@ -12,6 +12,13 @@ namespace scumble::passes {
 #define PARAMS_PER_MATERIAL true
 #include "look/define_params.h"
 
+// A texture that the look paints on a material, by MetaTexture.
+#define PARAMS_STRUCT TextureParams
+#define PARAMS_FILE "passes/surface/texture.params"
+#define PARAMS_PATH "texture"
+#define PARAMS_PER_MATERIAL true
+#include "look/define_params.h"
+
 std::unique_ptr<frame::Pass> makeSurface();
 
 }  // namespace scumble::passes

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/tileable_noise.h"
 #include "frame/geometry_step.h"
 #include "frame/image_step.h"
 #include "frame/material_params.h"
-#include "frame/metatexture_params.h"
+#include "frame/metatexture.h"
+#include "passes/warp/warp.shared.h"
 #include "shaders/warp_image_comp.h"
 #include "shaders/warp_image_frag.h"
 #include "shaders/warp_surface_frag.h"
@@ -19,26 +19,36 @@ using namespace frame;
 
 namespace {
 
-constexpr uint32_t kNoiseSize = 256;  // texels; one texel a pixel at the default size
+// Mirrors WarpMaterial in warp.glsl.
+struct WarpMaterial {
+  float amount, inflation, distance, setup;
+  TangentOptions tangents;
+};
 
-// The example texture: two independent fields in red and green, rough at every scale down to a few texels, so
-// that edges are torn and not wavy; in blue the breakup map: palette-knife marks, longer than wide, with flat
-// tops and sharp sides.
-std::vector<uint8_t> makeExample() {
-  const std::vector<float> x = selfSimilarNoise(kNoiseSize, 14, 3, 0.62f, 11);
-  const std::vector<float> y = selfSimilarNoise(kNoiseSize, 14, 3, 0.62f, 23);
-  std::vector<uint8_t> texels(size_t(kNoiseSize) * kNoiseSize * 4, 255);
-  const auto byte = [](float v) {
-    return uint8_t(std::lround(std::clamp(0.5f + v / 4.0f, 0.0f, 1.0f) * 255));
-  };
-  const std::vector<float> marks = selfSimilarNoise(kNoiseSize, 32, 3, 0.6f, 5, 4.0f);
-  for (size_t i = 0; i < x.size(); ++i) {
-    texels[4 * i] = byte(x[i]);
-    texels[4 * i + 1] = byte(y[i]);
-    texels[4 * i + 2] = uint8_t(std::lround((0.5f + 0.5f * std::tanh(1.6f * marks[i])) * 255));
+// Mirrors the block of warp.image.glsl.
+struct SetupUniforms {
+  MetaTexture field, marks;
+  float setup, marksAmount;
+};
+
+// Materials that share textures and knobs are evaluated together: a setup, one job of the image step.
+struct WarpSetup {
+  MetaTextureUse field, marks;
+  float marksAmount = 1;
+  bool operator==(const WarpSetup&) const = default;
+
+  // One evaluation serves both where the marks are the field's blue channel.
+  bool isApart() const { return !(field == marks); }
+  uint32_t needs() const {
+    uint32_t bits = isApart() ? shared::kWarpApart : 0;
+    for (const MetaTexture& m : {field.meta, marks.meta}) {
+      if (m.contrast == kContrastHistogram) bits |= shared::kWarpHistogram;
+      if (m.mode != 0 || m.orient != 0 || m.base != 2 || m.levelRotation != 0) bits |= shared::kWarpUnusual;
+      if (m.skip > 0) bits |= shared::kWarpSkip;
+    }
+    return bits;
   }
-  return texels;
-}
+};
 
 class Warp : public Pass {
  public:
@@ -49,8 +59,7 @@ class Warp : public Pass {
     pattern_ = frame.transient("warp pattern", {kPatternFormat, c.width, c.height, c.viewCount});
     knobs_ = frame.transient("warp knobs", {kKnobsFormat, c.width, c.height, c.viewCount});
     depth_ = frame.transient("warp depth", {VK_FORMAT_D32_SFLOAT, c.width, c.height, c.viewCount});
-    params_.declare(frame);
-    metaTextureParams_.declare(frame);
+    materials_.declare(frame);
     frame.addStep("warp",
                   {{frame.finalVertices(), gpu::Use::vertexBuffer},
                    {pattern_, gpu::Use::colorTarget},
@@ -58,13 +67,9 @@ class Warp : public Pass {
                    {depth_, gpu::Use::depthTarget}},
                   [this](VkCommandBuffer commands) { record(commands); });
 
-    gpu::Uploader uploader(frame.device());
-    const std::vector<uint8_t> example = makeExample();
-    const std::span<const std::byte> level = std::as_bytes(std::span(example));
-    example_ = uploader.texture({&level, 1}, VK_FORMAT_R8G8B8A8_UNORM, kNoiseSize, kNoiseSize);
-    uploader.flush();
     image_.declare(frame, "warp", {{shaders::warp_image_frag}, {shaders::warp_image_comp}},
-                   {{pattern_}, {knobs_}, {depth_}}, frame.slot(Slot::warp), 0, {{&example_, kRepeating}});
+                   {{pattern_}, {knobs_}, {depth_}}, frame.slot(Slot::warp), sizeof(SetupUniforms), {}, 4,
+                   uint32_t(std::max<size_t>(1, frame.scene().materialCount())));
   }
 
   void create(FrameBuilder& frame, const FrameResources& resources) override {
@@ -72,42 +77,79 @@ class Warp : public Pass {
     scene_ = &frame.scene();
     configuration_ = frame.configuration();
     constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
-    layout_ = gpu::SetLayout(frame.device(), {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, kStages},
-                                              {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, kStages}});
-    set_ = gpu::DescriptorSets(frame.device(), layout_);
-    params_.bind(set_, 0);
-    metaTextureParams_.bind(set_, 1);
+    layout_ = gpu::SetLayout(frame.device(), {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, kStages}});
+    sets_ = gpu::DescriptorSets(frame.device(), layout_);
+    materials_.bind(sets_, 0);
 
     GeometryStepDesc desc;
     desc.vertex = {shaders::warp_surface_vert};
     desc.fragment = {shaders::warp_surface_frag};
-    desc.inputs = kPosition | kUv0 | kUv1 | kColor | kDPdu | kSmoothNormal | kDPdv | kPatternUv;
+    desc.inputs = kPosition | kUv0 | kUv1 | kColor | kDPdu | kSmoothNormal | kDPdv | kPatternUv | kWarpScale;
     desc.colorFormats = {kPatternFormat, kKnobsFormat};
     desc.viewMask = viewMask(configuration_);
     desc.viewCount = configuration_.viewCount;
     desc.passLayout = &layout_;
-    desc.materialStrides = {params_.kStride, metaTextureParams_.kStride};
+    desc.materialStrides = {materials_.kStride};
     step_.create(frame.device(), resources, frame.scene(), desc);
     image_.create(frame, resources);
+    examples_ = &frame.examples();
+    const auto& draws = frame.scene().draws();
+    wraps_ = std::any_of(draws.begin(), draws.end(), [](const Draw& draw) { return draw.wraps; });
   }
 
   void update(const FrameInput& input) override {
-    params_.update(input);
-    metaTextureParams_.update(input);
     eye_ = input.uniforms.views[0].eye;
+    std::vector<WarpSetup> setups;
+    const float pixelScale = input.uniforms.pixelScale;
+    for (size_t m = 0; m < input.scene.materialCount(); ++m) {
+      const std::string& name = input.scene.materialName(m);
+      const WarpParams params = input.look.getForMaterial<WarpParams>(name);
+      const auto metaParams = input.look.getForMaterial<WarpMetaTextureParams>(name);
+      const WarpSetup setup = setupOf(input, name, params, metaParams);
+      const size_t index = size_t(std::find(setups.begin(), setups.end(), setup) - setups.begin());
+      if (index == setups.size()) setups.push_back(setup);
+      const float inflation = params.inflationUnit == 0
+                                  ? params.inflation * pixelScale
+                                  : params.inflation * 0.01f * input.uniforms.imageSize.y;
+      materials_.write(m, {params.amount * pixelScale, inflation, params.distance, float(index + 1),
+                           tangentOptions(metaParams)});
+    }
+
+    std::vector<ImageStep::Job> jobs;
+    const uint32_t ofAll = (setups.size() > 1 ? shared::kWarpSeveral : 0) | (wraps_ ? shared::kWarpWrap : 0);
+    for (size_t i = 0; i < setups.size(); ++i) {
+      const WarpSetup& setup = setups[i];
+      image_.update(SetupUniforms{setup.field.meta, setup.marks.meta, float(i + 1), setup.marksAmount}, i);
+      jobs.push_back(
+          {{setup.needs() | ofAll, uint32_t(setup.field.meta.skew), uint32_t(setup.marks.meta.skew)},
+           {{&setup.field.image(), setup.field.sampler()},
+            {&setup.field.inverse(), ExampleTextures::kInverseSampler},
+            {&setup.marks.image(), setup.marks.sampler()},
+            {&setup.marks.inverse(), ExampleTextures::kInverseSampler}}});
+    }
+    image_.setJobs(std::move(jobs));
   }
 
  private:
   static constexpr VkFormat kPatternFormat = VK_FORMAT_R32G32B32A32_UINT,
-                            kKnobsFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
-  static constexpr gpu::SamplerDesc kRepeating{VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT,
-                                               VK_SAMPLER_ADDRESS_MODE_REPEAT};
+                            kKnobsFormat = VK_FORMAT_R32G32_SFLOAT;
+
+  WarpSetup setupOf(const FrameInput& input, const std::string& material, const WarpParams& params,
+                    const WarpMetaTextureParams& metaParams) const {
+    const BreakupParams breakup = input.look.getForMaterial<BreakupParams>(material);
+    const auto breakupMeta = sameRows(input.look.getForMaterial<BreakupMetaTextureParams>(material));
+    glm::vec2 shift = patternShift(input.seed);
+    if (const int drawing = boilDrawing(params, input.uniforms.time))
+      shift += params.boil * patternShift(0x5EA0u + 2 * uint32_t(drawing));
+    return {metaTextureUse(metaParams, 0b0011, input, *examples_, shift),
+            metaTextureUse(breakupMeta, 0b0100, input, *examples_, shift), breakup.amount};
+  }
 
   void record(VkCommandBuffer commands) const {
     const Target colors[] = {{&resources_->image(pattern_)}, {&resources_->image(knobs_)}};
     const Target depth{&resources_->image(depth_), nullptr, {}};
     drawViews(commands, configuration_, colors, &depth, [&](uint32_t firstView) {
-      step_.draw(commands, *resources_, *scene_, set_[0], firstView, eye_);
+      step_.draw(commands, *resources_, *scene_, &sets_, firstView, eye_);
     });
   }
 
@@ -116,16 +158,23 @@ class Warp : public Pass {
   const SceneOnGpu* scene_ = nullptr;
   Configuration configuration_;
   glm::vec3 eye_{0.0f};
-  MaterialParams<WarpParams> params_;
-  MaterialParams<frame::WarpMetaTextureParams> metaTextureParams_;
-  gpu::Image example_;
+  MaterialBlocks<WarpMaterial> materials_;
+  ExampleTextures* examples_ = nullptr;
+  bool wraps_ = false;
   gpu::SetLayout layout_;
-  gpu::DescriptorSets set_;
+  gpu::DescriptorSets sets_;
   GeometryStep step_;
   ImageStep image_;
 };
 
 }  // namespace
+
+int boilDrawing(const WarpParams& params, double time) {
+  // A ten-thousandth of a frame keeps n / 24 seconds from falling short of frame n.
+  const double frame = std::floor(time * 24 + 1e-4);
+  const double drawing = std::floor(frame / params.boilHold);
+  return int(drawing - params.boilDrawings * std::floor(drawing / params.boilDrawings));
+}
 
 std::unique_ptr<Pass> makeWarp() {
   return std::make_unique<Warp>();

@@ -1,8 +1,9 @@
-// Knobs of the warp pass, one entry a material.
-struct WarpParams {
-#define PARAM(type, name, defaultValue, low, high, unit, meaning) type name;
-#include "warp.params"
-#undef PARAM
+// What the warp pass reads of a material instead of its knobs.
+struct WarpMaterial {
+  float amount;     // pixels
+  float inflation;  // pixels
+  float distance;   // 1 / metre
+  float setup;      // number of the material's setup, from 1
+  SurfaceTangents tangents;
 };
-layout(set = 2, binding = 0, scalar) uniform WarpBlock { WarpParams warp; };
-layout(set = 2, binding = 1, scalar) uniform MetaTextureBlock { MetaTextureParams meta; };
+layout(set = 2, binding = 0, scalar) uniform WarpBlock { WarpMaterial warp; };

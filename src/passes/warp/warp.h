@@ -11,6 +11,16 @@ namespace scumble::passes {
 #define PARAMS_PER_MATERIAL true
 #include "look/define_params.h"
 
+#define PARAMS_STRUCT BreakupParams
+#define PARAMS_FILE "passes/warp/breakup.params"
+#define PARAMS_PATH "breakup"
+#define PARAMS_PER_MATERIAL true
+#include "look/define_params.h"
+
+// The drawing that line boil shows at a time, from 0: it changes on the grid of 24 frames a second only,
+// however often the picture is drawn (FORMULAS 11).
+int boilDrawing(const WarpParams& params, double time);
+
 std::unique_ptr<frame::Pass> makeWarp();
 
 }  // namespace scumble::passes

@@ -1,34 +1,78 @@
 #version 460
-// Warp vectors and breakup marks, attached to the surface by MetaTexture (paper 000, section 4).
+// Warp vectors and breakup marks, attached to the surface by MetaTexture (paper 000, section 4), for the pixels of one
+// setup: materials that share a texture and its knobs.
 // Out: R, G: vector in pixels (x right, y down); B: breakup marks in [0, 1]; A: eye depth of the inflated surface, 0 where
 // there is none.
 #extension GL_GOOGLE_include_directive : require
 #include "../../shading/frame.glsl"
 #include "../../shading/metatexture.glsl"
+#include "warp.shared.h"
 
+layout(constant_id = 0) const int kNeeds = 0;
+layout(constant_id = 1) const int kFieldSkew = 0;  // 0: 4 samples, else 8
+layout(constant_id = 2) const int kMarksSkew = 0;
+
+layout(set = 1, binding = 0, scalar) uniform Block {
+  MetaTexture field, marks;
+  float setup;  // from 1; setup 1 also has the pixels where nothing is
+  float marksAmount;
+} u;
 layout(set = 1, binding = 1) uniform usampler2DArray pattern;
 layout(set = 1, binding = 2) uniform sampler2DArray knobs;
 layout(set = 1, binding = 3) uniform sampler2DArray depth;
-layout(set = 1, binding = 4) uniform sampler2D example;
+layout(set = 1, binding = 4) uniform sampler2D fieldExample;
+layout(set = 1, binding = 5) uniform sampler2D fieldInverse;
+layout(set = 1, binding = 6) uniform sampler2D marksExample;
+layout(set = 1, binding = 7) uniform sampler2D marksInverse;
+
+// Without what no material of the setup needs.
+MetaTexture specialised(MetaTexture m, int skew) {
+  m.skew = skew;
+  if ((kNeeds & kWarpUnusual) == 0) m.mode = 0, m.orient = 0, m.base = 2.0, m.levelRotation = 0.0;
+  if ((kNeeds & kWarpSkip) == 0) m.skip = 0.0;
+  m.wrapping = (kNeeds & kWarpWrap) != 0 ? 1 : 0;
+  return m;
+}
+
+vec4 valueOf(MetaTexture m, sampler2D example, sampler2D inverse, vec2 uv, vec2 dSdu, vec2 dSdv, vec2 wraps, vec2 at,
+             out MetaTextureChoice chosen) {
+  chosen = metaTextureChoose(m, dSdu, dSdv, 1.0);
+  vec4 value = metaTextureSample(m, chosen, example, uv, wraps, at);
+  if ((kNeeds & kWarpHistogram) != 0 && m.contrast == 2) value = metaTextureHistogram(inverse, value);
+  return value;
+}
 
 vec4 shade(ivec2 pixel, int layer) {
   ivec3 at = ivec3(pixel, layer);
-  vec4 knob = texelFetch(knobs, at, 0);
+  vec2 knob = texelFetch(knobs, at, 0).rg;
   uvec4 packed = texelFetch(pattern, at, 0);
-  vec2 dSdu = unpackBfloat(packed.z), dSdv = unpackBfloat(packed.w);
-  vec2 gradU, gradV;
-  uvGradients(dSdu, dSdv, gradU, gradV);
-  MetaTextureScale scale = metaTextureScale(gradU, gradV, dSdu, dSdv, exp2(knob.g * 16.0));
-  vec3 sampled = metaTexture(example, uintBitsToFloat(packed.xy), scale, vec4(0.5), knob.b, frame.patternShift).rgb;
+  vec2 uv = uintBitsToFloat(packed.xy), dSdu = unpackBfloat(packed.z), dSdv = unpackBfloat(packed.w);
+  float wrapping = knob.g - 4.0 * floor(0.25 * knob.g);
+  vec2 wraps = vec2(mod(wrapping, 2.0), floor(0.5 * wrapping));
+  MetaTextureChoice chosen;
+  vec4 value = valueOf(specialised(u.field, kFieldSkew), fieldExample, fieldInverse, uv, dSdu, dSdv, wraps, vec2(pixel) + 0.5, chosen);
+  vec2 vector = (value.xy - u.field.mean.xy) * 2.0;
+  float marks = value.b;
+  if ((kNeeds & kWarpApart) != 0) {
+    MetaTextureChoice other;
+    marks = valueOf(specialised(u.marks, kMarksSkew), marksExample, marksInverse, uv, dSdu, dSdv, wraps, vec2(pixel) + 0.5, other).b;
+  }
+  marks = clamp((marks - u.marks.mean.b) * u.marksAmount + u.marks.mean.b, 0.0, 1.0);
 
   // Camera roll (section 4.3): the frame of reference follows the gradient of u, so the pattern sticks to the surface.
-  float lengthU = length(gradU);
-  vec2 axis = lengthU > 0.0 ? gradU / lengthU : vec2(1.0, 0.0);
-  vec2 vector = sampled.xy * 2.0 - 1.0;
-  vector = vec2(axis.x * vector.x - axis.y * vector.y, axis.y * vector.x + axis.x * vector.y);
-  vector *= knob.r * 64.0 * frame.pixelScale;
+  // Its direction is across dS/dv, on the side that does not change where a mapping is mirrored along u.
+  float lengthV = length(dSdv);
+  vec2 axis = lengthV > 0.0 && u.field.mode != 2 ? vec2(dSdv.y, -dSdv.x) / lengthV : vec2(1.0, 0.0);
+  vector = vec2(axis.x * vector.x - axis.y * vector.y, axis.y * vector.x + axis.x * vector.y) * knob.r;
   float far = min(eyeDepth(texelFetch(depth, at, 0).r, layer), 60000.0);
-  return knob.a > 0.0 ? vec4(vector, clamp(sampled.b, 0.0, 1.0), far) : vec4(0.0);
+  return knob.g > 0.0 ? vec4(vector, marks, far) : vec4(0.0);
+}
+
+#define SHADES_SOME
+bool shades(ivec2 pixel, int layer) {
+  if ((kNeeds & kWarpSeveral) == 0) return true;
+  float setup = floor(0.25 * texelFetch(knobs, ivec3(pixel, layer), 0).g);
+  return setup == u.setup || (setup == 0.0 && u.setup == 1.0);
 }
 
 #include "../../shading/image_pass.glsl"

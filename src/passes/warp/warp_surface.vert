@@ -4,6 +4,7 @@
 #include "../../shading/frame.glsl"
 #include "../../shading/material.glsl"
 #include "../../shading/metatexture.glsl"
+#include "../../shading/surface_tangents.glsl"
 #include "../../shading/view_index.glsl"
 #include "warp.glsl"
 
@@ -17,12 +18,14 @@ layout(location = 5) in vec3 inDPdu;
 layout(location = 6) in vec2 inSmoothNormal;
 layout(location = 7) in vec3 inDPdv;
 layout(location = 8) in vec2 inPatternUv;
+layout(location = 9) in float inWarpScale;
 
-layout(location = 0) out vec2 outUv;
-layout(location = 1) out vec3 outTangentU;  // clip-space x, y, w of dP/du
+layout(location = 0) out vec3 outUvScale;    // pattern uv; the vertex's own share of the amount
+layout(location = 1) out vec3 outTangentU;
 layout(location = 2) out vec3 outTangentV;
 layout(location = 3) out vec3 outBaseUvAlpha;
-layout(location = 4) flat out vec2 outSizeContrast;  // as target 1 has them
+layout(location = 4) flat out float outCode;  // as target 1 has it
+layout(location = 5) out vec3 outPoint;
 
 void main() {
   mat4 worldToClip = VIEW_FIELD(worldToClip, viewIndex());
@@ -36,16 +39,15 @@ void main() {
   float pixelsPerMetre = 0.5 * frame.imageSize.y / (VIEW_FIELD(ndcToEyeRay, viewIndex()).y * clip.w);
   float size = length(outward);
   float turned = smoothstep(0.05, 0.35, abs(size / pixelsPerMetre));
-  if (clip.w > 0.0 && size > 0.0) {
-    float pixels = warp.inflation * frame.pixelScale * turned;
-    clip.xy += outward / size * pixels / (0.5 * frame.imageSize) * clip.w;
-  }
+  if (clip.w > 0.0 && size > 0.0)
+    clip.xy += outward / size * warp.inflation * inWarpScale * turned / (0.5 * frame.imageSize) * clip.w;
   gl_Position = clip;
 
-  outSizeContrast = vec2(log2(meta.size * frame.pixelScale) / 16.0, float(meta.contrast));
-  outUv = inPatternUv;
-  vec3 toPixels = vec3(0.5 * frame.imageSize, 1.0);
-  outTangentU = toPixels * (worldToClip * vec4(inDPdu, 0.0)).xyw;
-  outTangentV = toPixels * (worldToClip * vec4(inDPdv, 0.0)).xyw;
+  mat4 tangentClip = tangentView(warp.tangents, worldToClip);
+  outUvScale = vec3(inPatternUv, inWarpScale);
+  outTangentU = tangentToClip(tangentClip, inDPdu);
+  outTangentV = tangentToClip(tangentClip, inDPdv);
+  if (kViewCount > 1) outPoint = pointInTangentView(warp.tangents, worldToClip, inPosition);
+  outCode = 4.0 * warp.setup + float(objects[gl_InstanceIndex].wraps);
   if (kAlphaMode != 0) outBaseUvAlpha = vec3(baseUv(inUv0, inUv1), inColor.a);
 }

@@ -7,8 +7,9 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "base/tileable_noise.h"
+#include "frame/metatexture.h"
 #include "tests/support/aov.h"
+#include "tests/support/metatexture_reference.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
 
@@ -17,64 +18,26 @@ namespace {
 
 using namespace test;
 
-constexpr int kTexels = 256;
-
-// The example texture as the pass makes it, in [0, 1].
-struct Example {
-  std::vector<glm::dvec3> texels{size_t(kTexels) * kTexels};
-  Example() {
-    const auto x = selfSimilarNoise(kTexels, 14, 3, 0.62f, 11),
-               y = selfSimilarNoise(kTexels, 14, 3, 0.62f, 23);
-    const auto marks = selfSimilarNoise(kTexels, 32, 3, 0.6f, 5, 4.0f);
-    const auto byte = [](double v) { return std::round(std::clamp(v, 0.0, 1.0) * 255) / 255; };
-    for (size_t i = 0; i < texels.size(); ++i)
-      texels[i] = {byte(0.5 + x[i] / 4), byte(0.5 + y[i] / 4), byte(0.5 + 0.5 * std::tanh(1.6 * marks[i]))};
-  }
-  glm::dvec3 sample(const glm::dvec2& uv) const {
-    const glm::dvec2 at = uv * double(kTexels) - 0.5, corner = glm::floor(at), f = at - corner;
-    const auto texel = [&](int dx, int dy) {
-      const auto wrap = [](double v) { return size_t(int64_t(v) & (kTexels - 1)); };
-      return texels[wrap(corner.y + dy) * kTexels + wrap(corner.x + dx)];
-    };
-    return glm::mix(glm::mix(texel(0, 0), texel(1, 0), f.x), glm::mix(texel(0, 1), texel(1, 1), f.x), f.y);
-  }
-};
-const Example& example() {
-  static const Example made;
-  return made;
-}
-
 double bfloat(double value) {
   return std::bit_cast<float>((std::bit_cast<uint32_t>(float(value)) + 0x8000u) & 0xFFFF0000u);
 }
 
-// The texture's colour at a point; gradients in 1 / pixel, size in pixels.
-glm::dvec3 metaTexture(const glm::dvec2& uv, const glm::dvec2& gradU, const glm::dvec2& gradV, double size,
-                       bool contrast) {
-  const double det = gradU.x * gradV.y - gradU.y * gradV.x;
-  const glm::dvec2 dSdu(gradV.y / det, -gradV.x / det), dSdv(-gradU.y / det, gradU.x / det);
-  const auto exponent = [&](const glm::dvec2& grad, const glm::dvec2& dS) {
-    return -std::log2(size * std::min(glm::length(grad), 2 / glm::length(dS)));
-  };
-  const double eu = exponent(gradU, dSdu), ev = exponent(gradV, dSdv);
-  const double bu = smoothstep(0, 1, eu - std::floor(eu)), bv = smoothstep(0, 1, ev - std::floor(ev));
-  // Four copies: u and v at the nearest powers of two below and above. Bu goes with the doubled u (FORMULAS
-  // 1).
-  const double u0 = std::exp2(std::floor(eu)) * uv.x, v0 = std::exp2(std::floor(ev)) * uv.y;
-  const glm::dvec3 sum =
-      (1 - bu) * (1 - bv) * example().sample({u0, v0}) + bu * (1 - bv) * example().sample({2 * u0, v0}) +
-      (1 - bu) * bv * example().sample({u0, 2 * v0}) + bu * bv * example().sample({2 * u0, 2 * v0});
-  // The standard deviation of the blend of independent copies (FORMULAS 2).
-  const double deviation = std::sqrt((bu * bu + (1 - bu) * (1 - bu)) * (bv * bv + (1 - bv) * (1 - bv)));
-  return contrast ? 0.5 + (sum - 0.5) / deviation : sum;
-}
-
-// Knobs reach the texture as half floats: the amount over 64 pixels, and a sixteenth of the size's logarithm.
-double amountInHalves(double amount) {
-  return toHalf(amount / 64) * 64;
-}
-double sizeInHalves(double pixels) {
-  return std::exp2(toHalf(std::log2(pixels) / 16) * 16);
+// The level of the example that is drawn at a size in pixels, by means of 2 x 2.
+Pixels mipLevel(Pixels pixels, double size) {
+  for (int level = int(std::max(0.0, std::floor(std::log2(pixels.width / size) + 0.4))); level > 0; --level) {
+    Pixels half{pixels.width / 2, pixels.height / 2, {}};
+    half.rgba.resize(pixels.rgba.size() / 4);
+    for (uint32_t y = 0; y < half.height; ++y)
+      for (uint32_t x = 0; x < half.width; ++x)
+        for (uint32_t c = 0; c < 4; ++c) {
+          uint32_t sum = 2;
+          for (uint32_t k = 0; k < 4; ++k)
+            sum += pixels.rgba[((2 * y + k / 2) * pixels.width + 2 * x + k % 2) * 4 + c];
+          half.rgba[(y * half.width + x) * 4 + c] = uint8_t(sum / 4);
+        }
+    pixels = std::move(half);
+  }
+  return pixels;
 }
 
 class WarpTest : public BothEyes {
@@ -92,7 +55,12 @@ class WarpTest : public BothEyes {
     return quietLook({{"warp.amount", std::to_string(amount)},
                       {"warp.inflation", "0"},
                       {"warp.metatexture.size", std::to_string(size)},
-                      {"warp.metatexture.contrast", contrast ? "on" : "off"}});
+                      {"warp.metatexture.contrast", contrast ? "gaussian" : "off"},
+                      {"warp.metatexture.cyclopean", "off"},
+                      {"breakup.metatexture.cyclopean", "off"},
+                      {"breakup.metatexture.size", std::to_string(size)},
+                      {"breakup.metatexture.contrast", contrast ? "gaussian" : "off"},
+                      {"breakup.amount", "1"}});
   }
 };
 INSTANTIATE_BOTH_EYES(WarpTest);
@@ -109,6 +77,12 @@ TEST_P(WarpTest, equalsItsReference) {
           draw(scene, lookOf(48, size, contrast), views,
                sized(kWidth, kHeight, {"warp", "uv", "uv-gradient", "depth", "id", "metatexture"}));
       const double scale = kHeight / 1080.0;
+      MetaTextureReference reference;
+      reference.texture.pixels = mipLevel(frame::builtInExample(0), size * scale);
+      reference.mean = frame::measure(frame::builtInExample(0)).mean;
+      reference.size = size * scale;
+      reference.skew = MetaTextureReference::exact;
+      reference.contrast = contrast;
       for (size_t v = 0; v < viewCount(); ++v) {
         Difference vectors(0.06), marks(0.06), exponents(0.01), depth(2e-3);
         for (int y = 0; y < kHeight; ++y)
@@ -122,23 +96,24 @@ TEST_P(WarpTest, equalsItsReference) {
             glm::dvec2 gradU(gradients.x, gradients.y), gradV(gradients.z, gradients.w);
             const double turn = gradU.x * gradV.y - gradU.y * gradV.x;
             const double skew = std::abs(turn) / glm::length(gradU) / glm::length(gradV);
-            if (skew < 0.02) continue;  // edge-on: bounded
-            const auto shown = [&](const glm::dvec2& grad, const glm::dvec2& other) {
-              return -std::log2(size * scale *
-                                std::min(glm::length(grad), 2 * std::abs(turn) / glm::length(other)));
-            };
-            exponents.add(texel(aov(frame, "metatexture", v), x, y).x, shown(gradU, gradV));
-            exponents.add(texel(aov(frame, "metatexture", v), x, y).y, shown(gradV, gradU));
+            if (skew < 0.02) continue;  // seen from the edge
+            const auto shown = reference.at({0, 0}, gradU, gradV);
+            const glm::dvec4 chosen = texel(aov(frame, "metatexture", v), x, y);
+            exponents.add(chosen.x, shown.exponent.x);
+            exponents.add(chosen.y, shown.exponent.y);
+            exponents.add(chosen.z, shown.q);
+            exponents.add(chosen.w, contrast ? 1 / std::sqrt(shown.variance) : 1.0);
             // The pass packs dS/du and dS/dv in 16 bits each.
             const glm::dvec2 dSdu(bfloat(gradV.y / turn), bfloat(-gradV.x / turn)),
                 dSdv(bfloat(-gradU.y / turn), bfloat(gradU.x / turn));
             const double det = dSdu.x * dSdv.y - dSdu.y * dSdv.x;
             gradU = glm::dvec2(dSdv.y, -dSdv.x) / det, gradV = glm::dvec2(-dSdu.y, dSdu.x) / det;
             const glm::dvec2 uv(texel(aov(frame, "uv", v), x, y));
-            const glm::dvec3 e = metaTexture(uv, gradU, gradV, sizeInHalves(size * scale), contrast);
-            // The vector is turned along the gradient of u.
-            const glm::dvec2 axis = glm::normalize(gradU), w = glm::dvec2(e) * 2.0 - 1.0;
-            const double amount = amountInHalves(48) * scale;
+            const glm::dvec4 e = reference.at(uv, gradU, gradV).value;
+            // The vector is turned along the gradient of u, on the side where u and v turn to the right.
+            const glm::dvec2 axis = glm::normalize(gradU) * (turn < 0 ? -1.0 : 1.0),
+                             w = (glm::dvec2(e) - glm::dvec2(reference.mean)) * 2.0;
+            const double amount = 48 * scale;
             vectors.add(got.x / amount, axis.x * w.x - axis.y * w.y);
             vectors.add(got.y / amount, axis.y * w.x + axis.x * w.y);
             marks.add(got.z, std::clamp(e.z, 0.0, 1.0));

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <string>
 
-#include "scene/file_bytes.h"
-#include "scene/scene_data.h"
+#include "base/file_bytes.h"
+#include "base/pixels.h"
 
-namespace scumble::scene {
+namespace scumble {
 
 constexpr uint32_t kMaxImageSide = 16384;
 
@@ -17,9 +17,6 @@ bool readImageSize(Bytes bytes, uint32_t& width, uint32_t& height, std::string& 
 
 // Fills width, height and pixels. False when that is not possible. A picture that is damaged but can be shown
 // succeeds with a `problem`.
-bool decodeImage(Bytes bytes, Image& image, std::string& problem);
+bool decodeImage(Bytes bytes, Pixels& image, std::string& problem);
 
-// The visible pattern for what cannot be used: a checker of magenta and grey.
-void makeStandIn(Image& image);
-
-}  // namespace scumble::scene
+}  // namespace scumble

@@ -3,14 +3,14 @@
 
 #include <string>
 
-#include "scene/file_bytes.h"
-#include "scene/scene_data.h"
+#include "base/file_bytes.h"
+#include "base/pixels.h"
 
-namespace scumble::scene {
+namespace scumble {
 
 bool readJpegSize(Bytes bytes, uint32_t& width, uint32_t& height, std::string& problem);
 
 // `image` has its size and room for its pixels.
-bool decodeJpeg(Bytes bytes, Image& image, std::string& problem);
+bool decodeJpeg(Bytes bytes, Pixels& image, std::string& problem);
 
-}  // namespace scumble::scene
+}  // namespace scumble

@@ -1,4 +1,4 @@
-#include "scene/image_decode.h"
+#include "base/image_decode.h"
 
 #include <png.h>
 #include <webp/decode.h>
@@ -7,9 +7,9 @@
 #include <cstring>
 #include <memory>
 
-#include "scene/image_decode_jpeg.h"
+#include "base/image_decode_jpeg.h"
 
-namespace scumble::scene {
+namespace scumble {
 
 namespace {
 
@@ -49,7 +49,7 @@ void pngWarning(png_structp, png_const_charp) {}  // what libpng can live with, 
 
 // No object with a destructor lives between setjmp and a call that may jump: the vectors belong to the
 // caller.
-bool decodePngInto(png_structp png, png_infop info, PngSource& source, Image& image,
+bool decodePngInto(png_structp png, png_infop info, PngSource& source, Pixels& image,
                    std::vector<png_bytep>& rows) {
   if (setjmp(png_jmpbuf(png))) return false;
   png_set_read_fn(png, &source, readPng);
@@ -70,7 +70,7 @@ bool decodePngInto(png_structp png, png_infop info, PngSource& source, Image& im
   return true;  // what follows the pixels does not matter
 }
 
-bool decodePng(Bytes bytes, Image& image, std::string& problem) {
+bool decodePng(Bytes bytes, Pixels& image, std::string& problem) {
   PngSource source{bytes, 0, &problem};
   std::vector<png_bytep> rows(image.height);
   png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, pngError, pngWarning);
@@ -128,7 +128,7 @@ bool readImageSize(Bytes bytes, uint32_t& width, uint32_t& height, std::string& 
   return true;
 }
 
-bool decodeImage(Bytes bytes, Image& image, std::string& problem) {
+bool decodeImage(Bytes bytes, Pixels& image, std::string& problem) {
   if (!readImageSize(bytes, image.width, image.height, problem)) return false;
   image.rgba.resize(size_t(image.width) * image.height * 4);
   switch (formatOf(bytes)) {
@@ -145,18 +145,4 @@ bool decodeImage(Bytes bytes, Image& image, std::string& problem) {
   }
 }
 
-void makeStandIn(Image& image) {
-  constexpr uint32_t kSide = 64, kCell = 8;
-  image.width = image.height = kSide;
-  image.standIn = true;
-  image.rgba.resize(kSide * kSide * 4);
-  for (uint32_t y = 0; y < kSide; ++y)
-    for (uint32_t x = 0; x < kSide; ++x) {
-      const bool magenta = ((x / kCell) + (y / kCell)) % 2 == 0;
-      const uint8_t pixel[4] = {uint8_t(magenta ? 255 : 96), uint8_t(magenta ? 0 : 96),
-                                uint8_t(magenta ? 255 : 96), 255};
-      std::memcpy(&image.rgba[(y * kSide + x) * 4], pixel, 4);
-    }
-}
-
-}  // namespace scumble::scene
+}  // namespace scumble

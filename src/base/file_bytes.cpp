@@ -1,4 +1,4 @@
-#include "scene/file_bytes.h"
+#include "base/file_bytes.h"
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -9,7 +9,7 @@
 #include <cstring>
 #include <utility>
 
-namespace scumble::scene {
+namespace scumble {
 
 FileBytes::FileBytes(FileBytes&& other) noexcept
     : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
@@ -53,4 +53,4 @@ bool FileBytes::open(const std::string& path, std::string& problem) {
   return true;
 }
 
-}  // namespace scumble::scene
+}  // namespace scumble

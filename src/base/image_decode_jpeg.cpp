@@ -1,4 +1,4 @@
-#include "scene/image_decode_jpeg.h"
+#include "base/image_decode_jpeg.h"
 
 #include <csetjmp>
 #include <cstdio>
@@ -6,7 +6,7 @@
 // jpeglib.h needs stdio.h before it.
 #include <jpeglib.h>
 
-namespace scumble::scene {
+namespace scumble {
 
 namespace {
 
@@ -75,7 +75,7 @@ bool readSizeGuarded(JpegDecoder& decoder, Bytes bytes, uint32_t& width, uint32_
   return true;
 }
 
-bool decodeGuarded(JpegDecoder& decoder, Bytes bytes, Image& image, uint8_t* cmykRow) {
+bool decodeGuarded(JpegDecoder& decoder, Bytes bytes, Pixels& image, uint8_t* cmykRow) {
   if (setjmp(decoder.jump)) return false;
   start(decoder, bytes);
   jpeg_decompress_struct& info = decoder.info;
@@ -103,7 +103,7 @@ bool readJpegSize(Bytes bytes, uint32_t& width, uint32_t& height, std::string& p
   return good;
 }
 
-bool decodeJpeg(Bytes bytes, Image& image, std::string& problem) {
+bool decodeJpeg(Bytes bytes, Pixels& image, std::string& problem) {
   JpegDecoder decoder;
   std::vector<uint8_t> row(size_t(image.width) * 4);
   const bool good = decodeGuarded(decoder, bytes, image, row.data());
@@ -116,4 +116,4 @@ bool decodeJpeg(Bytes bytes, Image& image, std::string& problem) {
   return good;
 }
 
-}  // namespace scumble::scene
+}  // namespace scumble

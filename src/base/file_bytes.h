@@ -5,7 +5,7 @@
 #include <span>
 #include <string>
 
-namespace scumble::scene {
+namespace scumble {
 
 using Bytes = std::span<const uint8_t>;
 
@@ -27,4 +27,4 @@ class FileBytes {
   size_t size_ = 0;
 };
 
-}  // namespace scumble::scene
+}  // namespace scumble

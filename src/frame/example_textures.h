@@ -1,0 +1,52 @@
+// Example textures: what MetaTexture repeats. Some are built in, others are pictures that a look names.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <string>
+
+#include "frame/histogram.h"
+#include "gpu/pipeline.h"
+#include "gpu/resources.h"
+#include "look/look_data.h"
+
+namespace scumble::frame {
+
+// The built-in ones, in the order of the rows in .params files: "torn|strokes|paper".
+//   torn     red, green: two independent fields, rough down to a few texels, so that edges are torn and not
+//   wavy;
+//            blue: palette-knife marks
+//   strokes  the marks alone, grey
+//   paper    grain, grey
+constexpr uint32_t kBuiltInSize = 256;  // texels; one texel a pixel at the default size
+Pixels builtInExample(int index);
+
+struct ExampleTexture {
+  // Values as the file has them (no sRGB decoding), with mip levels; and the Gaussian twin with its inverse.
+  gpu::Image image, gaussian, inverse;
+  Statistics statistics, gaussianStatistics;
+  uint32_t width = 1, height = 1;
+};
+
+class ExampleTextures {
+ public:
+  explicit ExampleTextures(gpu::Device& device) : device_(device) {}
+  // Uploaded at its first use; stays.
+  const ExampleTexture& get(const look::LookData& look, look::Picture picture);
+
+  // How they are sampled: repeating, between mip levels.
+  static constexpr gpu::SamplerDesc kSampler{VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT,
+                                             VK_SAMPLER_ADDRESS_MODE_REPEAT, true};
+  static constexpr gpu::SamplerDesc kInverseSampler{VK_FILTER_LINEAR};
+
+ private:
+  struct Known {
+    int builtIn;        // or -1
+    uint64_t contents;  // a hash of the file's pixels
+    std::unique_ptr<ExampleTexture> texture;
+  };
+  gpu::Device& device_;
+  std::deque<Known> known_;
+};
+
+}  // namespace scumble::frame

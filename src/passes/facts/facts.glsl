@@ -1,0 +1,6 @@
+// What the warp pass makes of a material's knobs, for the metatexture AOV.
+struct FactsMaterial {
+  MetaTexture meta;
+  SurfaceTangents tangents;
+};
+layout(set = 2, binding = 0, scalar) uniform FactsBlock { FactsMaterial facts; };

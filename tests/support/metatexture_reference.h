@@ -1,0 +1,43 @@
+// MetaTexture in double precision, written from paper 000 and FORMULAS, not from the shader.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "base/pixels.h"
+
+namespace scumble::test {
+
+// A repeating picture of bytes, between texels as GPUs have it.
+struct RepeatingTexture {
+  Pixels pixels;
+  glm::dvec4 sample(const glm::dvec2& uv) const;
+};
+
+struct MetaTextureReference {
+  RepeatingTexture texture;
+  glm::dvec4 mean{0.5};
+  double size = 256, base = 2, levelRotation = 0, blend = 1, skip = 0;  // pixels, ratio, radians a level
+  int skewLevels = 4;
+  enum { off, approximate, exact } skew = off;
+  bool contour = false, contrast = true;
+  glm::dvec2 shift{0.0};
+
+  struct Copy {
+    double share;
+    glm::dvec2 at;            // coordinates in the texture
+    glm::dvec2 gradU, gradV;  // of those coordinates' axes before levelRotation, per pixel
+  };
+  struct Result {
+    glm::dvec4 value;
+    glm::dvec2 exponent;  // between both levels of skew
+    double q, variance;
+    std::vector<Copy> copies;
+  };
+  // gradU, gradV: of u and v on the screen, per pixel. `wraps`: whether u and v close on themselves after one
+  // unit.
+  Result at(const glm::dvec2& uv, const glm::dvec2& gradU, const glm::dvec2& gradV, double alpha = 1,
+            const glm::bvec2& wraps = glm::bvec2(false)) const;
+};
+
+}  // namespace scumble::test
