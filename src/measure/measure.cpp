@@ -32,9 +32,9 @@ constexpr float kDollyStep = 0.02f;                                     // of th
 constexpr float kOrbitStep = 1, kRollStep = 1, kObjectTurnStep = 0.5f;  // degrees
 constexpr float kObjectStep = 0.01f;                                    // of the picture's width
 
-constexpr int kZooms = 13;  // half octaves from 1/8 to 8
+constexpr int kZooms = 13, kFraming = 6;  // half octaves from 1/8 to 8; the one that is the framing
 double zoomAt(int i) {
-  return std::exp2(0.5 * (i - (kZooms - 1) / 2));
+  return std::exp2(0.5 * (i - kFraming));
 }
 // A small region holds few marks: more seeds make up for it.
 int seedsAt(int i) {
@@ -147,6 +147,18 @@ View magnified(View view, float zoom, const glm::vec2& centre) {
   return view;
 }
 
+// Keeps the part of a picture that `magnified` by so much shows.
+void keepMagnified(Field& field, double zoom, const glm::vec2& centre) {
+  const auto shows = [&](int i, int count, float fixed) {
+    const double place = 2 * (i + 0.5) / count - 1;
+    return std::abs(fixed + (place - fixed) * zoom) < 1;
+  };
+  for (size_t pixel = 0; pixel < field.pixelCount(); ++pixel)
+    if (!shows(int(pixel % size_t(field.width)), field.width, centre.x) ||
+        !shows(int(pixel / size_t(field.width)), field.height, centre.y))
+      field.valid[pixel] = 0;
+}
+
 class Measurer {
  public:
   Measurer(Renderer& renderer, const Scene& scene, const Look& look, const MeasureOptions& options)
@@ -184,9 +196,7 @@ class Measurer {
       everywhere("warp.amount", std::to_string(kAmount));
     }
     for (const auto& [path, value] : settings)
-      if (const Status status = look.set(path, value);
-          !status && path.find(".metatexture.") == std::string::npos)
-        return status.error();  // TODO: knobs of modes are not there before the merge
+      if (const Status status = look.set(path, value); !status) return status.error();
     return look;
   }
 
@@ -225,7 +235,7 @@ class Measurer {
     Result<Look> look = lookOf("metatexture", true);
     if (!look) return look.error();
     for (const char* knob : {"warp.metatexture.base", "materials.*.warp.metatexture.base"})
-      if (const Status status = look->set(knob, "2"); !status) break;
+      if (const Status status = look->set(knob, "2"); !status) return status.error();
     const Result<Frame> frame = render(scene_, *look, {view_}, {"id", "metatexture"});
     if (!frame) return frame.error();
     const Image& id = layer(*frame, "id");
@@ -350,6 +360,11 @@ class Measurer {
   Status measureZoom(ModeMeasurements& mode) {
     const Result<Look> look = lookOf(mode.mode, true);
     if (!look) return look.error();
+    // Both fields, and the number of each.
+    constexpr std::pair<Field Fields::*, double PerField::*> kFields[] = {
+        {&Fields::vectors, &PerField::vectors}, {&Fields::marks, &PerField::marks}};
+    // Frequency in the part of the picture before that this one shows, where it is deeper than the framing.
+    PerField frequencyBefore;
     for (int i = 0; i < kZooms; ++i) {
       const View view = magnified(view_, float(zoomAt(i)), zoomCentre_);
       std::vector<Fields> samples;
@@ -360,15 +375,17 @@ class Measurer {
       }
       ZoomPoint point;
       point.zoom = zoomAt(i);
-      const bool isFraming = 2 * i == kZooms - 1 - (kZooms - 1) % 2;
-      const auto measureOne = [&](Field Fields::*member, double PerField::*number) {
-        const std::vector<Field> fields = membersOf(samples, member);
+      for (const auto& [member, number] : kFields) {
+        std::vector<Field> fields = membersOf(samples, member);
         point.frequency.*number = dominantFrequency(fields);
         point.contrast.*number = exampleSpread_.*number > 0 ? spread(fields) / exampleSpread_.*number : 0;
-        if (isFraming) mode.flatness.*number = cooccurrenceError(membersOf(example_, member), fields);
-      };
-      measureOne(&Fields::vectors, &PerField::vectors);
-      measureOne(&Fields::marks, &PerField::marks);
+        if (i == kFraming) mode.flatness.*number = cooccurrenceError(membersOf(example_, member), fields);
+        if (i > kFraming && frequencyBefore.*number > 0)
+          point.frequency.*number *= mode.zoom.back().frequency.*number / (frequencyBefore.*number);
+        if (i < kFraming) continue;
+        for (Field& field : fields) keepMagnified(field, zoomAt(i + 1) / zoomAt(i), zoomCentre_);
+        frequencyBefore.*number = dominantFrequency(fields);
+      }
       mode.zoom.push_back(point);
     }
     for (double PerField::*number : {&PerField::vectors, &PerField::marks}) {
