@@ -71,15 +71,23 @@ bool coversSurface(const Primitive& p, float scale) {
 
 // For each vertex the first one at its place on the surface: files split vertices where faces meet, or all of
 // them, also where surface and mapping go on. Their tangents must be the same there, or the pattern breaks
-// along every edge. At a crease each side keeps its own, since a mean would lie in neither.
-std::vector<uint32_t> samePlaces(const Primitive& p) {
+// along every edge. At a crease, and where a mapping is mirrored, each side keeps its own, since a mean would
+// lie in neither.
+std::vector<uint32_t> samePlaces(const Primitive& p, float scale) {
   constexpr float kCrease = 0.8f;  // cosine of the angle between normals
+  std::vector<float> balance(p.vertexCount(), 0.0f);
+  for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
+    const Mapping mapping = mappingOf(p, i, scale);
+    for (size_t k = 0; k < 3; ++k)
+      balance[p.indices[i + k]] += mapping.mirrored ? -mapping.area : mapping.area;
+  }
   const std::vector<glm::vec2>& uv = p.patternCoordinates();
   PositionTable table(p.vertexCount());
   std::vector<uint32_t> first(p.vertexCount());
   for (uint32_t v = 0; v < first.size(); ++v)
     first[v] = table.findOrAddIf(p.positions[v], v, [&](uint32_t stored) {
       return p.positions[stored] == p.positions[v] && uv[stored] == uv[v] &&
+             (balance[stored] < 0.0f) == (balance[v] < 0.0f) &&
              glm::dot(p.normals[stored], p.normals[v]) > kCrease;
     });
   return first;
@@ -87,7 +95,7 @@ std::vector<uint32_t> samePlaces(const Primitive& p) {
 
 void makeTangents(Primitive& p, float scale) {
   const size_t count = p.vertexCount();
-  const std::vector<uint32_t> first = samePlaces(p);
+  const std::vector<uint32_t> first = samePlaces(p, scale);
   p.dPdu.assign(count, glm::vec3(0.0f));
   p.dPdv.assign(count, glm::vec3(0.0f));
   std::vector<float> areas(count, 0.0f);
