@@ -1,6 +1,6 @@
 // Measuring a scene: which frames are rendered, and what is asked of them. It knows the renderer by its
 // public face only. It is one thing, though long: every measure is a list of frames and what is asked of
-// them. public face only.
+// them.
 #include "scumble/measure.h"
 
 #include <algorithm>
