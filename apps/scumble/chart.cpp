@@ -265,8 +265,9 @@ void barPanel(Canvas& canvas, const Box& box, const std::string& title, const st
       const double value = groups[g].valueOf(measured.modes[m]), height = plot.height * axis.at(value);
       const double x = middle - whole / 2 + double(m) * (barWidth + gap);
       canvas.rectangle(x, plot.bottom() - height, barWidth, height, styleOf(measured.modes[m].mode).color);
-      canvas.text(x + barWidth / 2, plot.bottom() - height - 5,
-                  fmt::format("{:.2f}", value).substr(value < 1 ? 1 : 0), 10.5, kQuiet, Align::center);
+      std::string label = fmt::format("{:.2f}", value);
+      if (label[0] == '0') label.erase(0, 1);
+      canvas.text(x + barWidth / 2, plot.bottom() - height - 5, label, 10.5, kQuiet, Align::center);
     }
     canvas.text(middle, plot.bottom() + 21, groups[g].name, 13, kInk, Align::center);
   }

@@ -1,5 +1,6 @@
 // Measuring a scene: which frames are rendered, and what is asked of them. It knows the renderer by its
-// public face only.
+// public face only. It is one thing, though long: every measure is a list of frames and what is asked of
+// them.
 #include "scumble/measure.h"
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 
 #include "measure/cooccurrence.h"
 #include "measure/field.h"
+#include "measure/magnify.h"
 #include "measure/reprojection.h"
 #include "measure/statistics.h"
 
@@ -111,54 +113,6 @@ constexpr const char* kSheet = R"({"asset": {"version": "2.0"}, "scene": 0, "sce
   "bufferViews": [{"buffer": 0, "byteLength": 36}],
   "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AACAvwAAgL8AAAAAAABAQAAAgL8AAAAAAACAvwAAQEAAAAAA"}]})";
 
-// The place in the picture (x right, y down, -1 to 1) that zooming keeps, such that the deepest zoom shows as
-// much of the scene as possible; of equals the one nearest to the middle.
-glm::vec2 zoomCentre(const Field& seen) {
-  const int w = seen.width, h = seen.height, zoom = int(zoomAt(kZooms - 1));
-  const int windowW = std::max(1, w / zoom), windowH = std::max(1, h / zoom);
-  std::vector<uint32_t> sums(size_t(w + 1) * size_t(h + 1));
-  const auto sumAt = [&](int x, int y) -> uint32_t& { return sums[size_t(y) * size_t(w + 1) + size_t(x)]; };
-  for (int y = 0; y < h; ++y)
-    for (int x = 0; x < w; ++x)
-      sumAt(x + 1, y + 1) =
-          sumAt(x, y + 1) + sumAt(x + 1, y) - sumAt(x, y) + seen.valid[size_t(y) * size_t(w) + size_t(x)];
-  uint32_t most = 0;
-  float nearest = 0;
-  glm::vec2 best(0.0f);
-  for (int y = 0; y + windowH <= h; ++y)
-    for (int x = 0; x + windowW <= w; ++x) {
-      const uint32_t covered =
-          sumAt(x + windowW, y + windowH) - sumAt(x, y + windowH) - sumAt(x + windowW, y) + sumAt(x, y);
-      const glm::vec2 middle((2.0f * float(x) + float(windowW)) / float(w) - 1,
-                             (2.0f * float(y) + float(windowH)) / float(h) - 1);
-      const float distance = glm::length(middle);
-      if (covered > most || (covered == most && distance < nearest))
-        most = covered, nearest = distance, best = middle;
-    }
-  // Magnified around a fixed place n, the picture's middle shows what was at n (1 - 1 / zoom).
-  return glm::clamp(best / (1 - 1 / float(zoom)), -1.0f, 1.0f);
-}
-
-View magnified(View view, float zoom, const glm::vec2& centre) {
-  glm::mat4 magnify(1.0f);
-  magnify[0][0] = magnify[1][1] = zoom;
-  magnify[3][0] = centre.x * (1 - zoom), magnify[3][1] = centre.y * (1 - zoom);
-  view.eyeToClip = magnify * view.eyeToClip;
-  return view;
-}
-
-// Keeps the part of a picture that `magnified` by so much shows.
-void keepMagnified(Field& field, double zoom, const glm::vec2& centre) {
-  const auto shows = [&](int i, int count, float fixed) {
-    const double place = 2 * (i + 0.5) / count - 1;
-    return std::abs(fixed + (place - fixed) * zoom) < 1;
-  };
-  for (size_t pixel = 0; pixel < field.pixelCount(); ++pixel)
-    if (!shows(int(pixel % size_t(field.width)), field.width, centre.x) ||
-        !shows(int(pixel / size_t(field.width)), field.height, centre.y))
-      field.valid[pixel] = 0;
-}
-
 class Measurer {
  public:
   Measurer(Renderer& renderer, const Scene& scene, const Look& look, const MeasureOptions& options)
@@ -248,7 +202,7 @@ class Measurer {
       if (exponents.valid[pixel]) sum += exponents.at(pixel)[0] + exponents.at(pixel)[1];
     result_.tiles = std::clamp(std::exp2(sum / (2 * double(seen))), 0.01, 10000.0);  // the knob's range
     result_.visible = double(seen) / double(exponents.pixelCount());
-    zoomCentre_ = zoomCentre(exponents);
+    zoomCentre_ = zoomCentre(exponents, int(zoomAt(kZooms - 1)));
     return Done{};
   }
 
