@@ -29,6 +29,7 @@ TABLE = {
     "src/ink": PASS,
     "src/painting": PASS,
     "src/film": [PUBLIC, "src/base"],
+    "src/measure": [PUBLIC, "src/base"],
     "src/xr": [PUBLIC, "src/base", "src/gpu", "src/frame"],
     "apps/scumble": [PUBLIC],
     "examples": [PUBLIC],
@@ -44,7 +45,7 @@ TEST_ALSO = ["tests/support"]
 # Libraries by the first part of an angle include; a room that is not listed may use any.
 LIBRARIES = {
     PUBLIC: ["std", "glm"],
-    "apps/scumble": ["std", "system", "CLI", "fmt", "nlohmann"],
+    "apps/scumble": ["std", "system", "CLI", "fmt", "nlohmann", "cairo"],
     "examples": ["std", "glm", "nlohmann"],
 }
 # The one public header for engines that bring their own device.

@@ -118,6 +118,7 @@ void addBench(CLI::App& program, int& exitCode) {
   args->scene.addTo(*command);
   args->look.addTo(*command);
   args->picture.addTo(*command);
+  args->picture.addStereoTo(*command);
   command->add_option("--runs", args->runs, "Frames to take the median of")->capture_default_str();
   command->add_option("--json", args->json, "Also write the result here")->type_name("FILE");
   command->footer("Example: scumble bench boat.glb --samples 1 --json boat.json");

@@ -23,6 +23,7 @@ int run(int argc, char** argv) {
     app::addRender(program, exitCode);
     app::addDescriptions(program, exitCode);
     app::addBench(program, exitCode);
+    app::addMeasure(program, exitCode);
     program.footer(
         "Example: scumble render boat.glb -o boat.png\n`scumble COMMAND --help` shows a command's options.");
 

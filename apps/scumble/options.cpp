@@ -119,13 +119,16 @@ void PictureArguments::addTo(CLI::App& command) {
   command.add_option("--fov", fov, "Vertical field of view, degrees");
   command.add_option("--size", size, "Width and height in pixels")->type_name("WxH")->capture_default_str();
   command.add_option("--samples", samples, "Anti-aliasing: 1 or 4")->capture_default_str();
-  command.add_option("--stereo", stereo, "Two views: side-by-side, over-under or separate");
-  command.add_option("--ipd", ipd, "Distance between the eyes, metres")->capture_default_str();
   command.add_option("--device", device, "A GPU by name or number, or cpu (`scumble devices` lists them)");
   command.add_option("--seed", seed, "Moves every pattern; the same seed gives the same picture")
       ->capture_default_str();
   command.add_flag("--validate", validate,
                    "Run under the Vulkan validation layers; a message from them is an error");
+}
+
+void PictureArguments::addStereoTo(CLI::App& command) {
+  command.add_option("--stereo", stereo, "Two views: side-by-side, over-under or separate");
+  command.add_option("--ipd", ipd, "Distance between the eyes, metres")->capture_default_str();
 }
 
 Result<RenderOptions> PictureArguments::renderOptions() const {
@@ -143,7 +146,7 @@ Result<RenderOptions> PictureArguments::renderOptions() const {
   return options;
 }
 
-Result<std::vector<View>> PictureArguments::views(const Scene& scene) const {
+Result<Viewpoint> PictureArguments::viewpoint() const {
   Viewpoint viewpoint;
   viewpoint.camera = camera;
   viewpoint.roll = roll;
@@ -168,11 +171,17 @@ Result<std::vector<View>> PictureArguments::views(const Scene& scene) const {
     return usage("--target " + target + " is no point", "write it like 0,1,0");
   if (!std::isfinite(roll) || !std::isfinite(ipd) || ipd < 0)
     return usage("--roll or --ipd is out of range", "use degrees, and metres from 0 on");
+  return viewpoint;
+}
+
+Result<std::vector<View>> PictureArguments::views(const Scene& scene) const {
+  const Result<Viewpoint> from = viewpoint();
+  if (!from) return from.error();
   const Result<RenderOptions> options = renderOptions();
   if (!options) return options.error();
   if (options->width == 0 || options->height == 0)
     return usage("'" + size + "' has no area", "write it like 1280x720");
-  return makeViews(scene, viewpoint, float(options->width) / float(options->height),
+  return makeViews(scene, *from, float(options->width) / float(options->height),
                    isStereo() ? Stereo::stereo : Stereo::mono, ipd);
 }
 

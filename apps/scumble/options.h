@@ -39,8 +39,10 @@ struct PictureArguments {
   bool validate = false;
 
   void addTo(CLI::App& command);
+  void addStereoTo(CLI::App& command);  // for commands that draw one view or two
   bool isStereo() const { return !stereo.empty(); }
   Result<RenderOptions> renderOptions() const;
+  Result<Viewpoint> viewpoint() const;
   Result<std::vector<View>> views(const Scene& scene) const;
   RendererOptions rendererOptions() const;
 };

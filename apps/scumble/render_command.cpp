@@ -184,6 +184,7 @@ void addRender(CLI::App& program, int& exitCode) {
       "sequence (default: the scene's name + .png in the current folder)");
   args->look.addTo(*command);
   args->picture.addTo(*command);
+  args->picture.addStereoTo(*command);
   command->add_option("--time", args->time, "Seconds")->capture_default_str();
   command->add_option("--frames", args->frames, "A range of frames; frame n is at n / fps seconds")
       ->type_name("A..B");

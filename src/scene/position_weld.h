@@ -18,12 +18,18 @@ class PositionTable {
   // a stored number to its position.
   template <class PositionOf>
   uint32_t findOrAdd(const glm::vec3& position, uint32_t number, const PositionOf& positionOf) {
+    return findOrAddIf(position, number, [&](uint32_t stored) { return positionOf(stored) == position; });
+  }
+
+  // The same where more than the position tells vertices apart: `isSame` of a stored number.
+  template <class IsSame>
+  uint32_t findOrAddIf(const glm::vec3& position, uint32_t number, const IsSame& isSame) {
     for (size_t slot = hash(position) & mask_;; slot = (slot + 1) & mask_) {
       if (slots_[slot] == kEmpty) {
         slots_[slot] = number;
         return number;
       }
-      if (positionOf(slots_[slot]) == position) return slots_[slot];
+      if (isSame(slots_[slot])) return slots_[slot];
     }
   }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/position_weld.h"
 #include "scene/prepare_mesh.h"
 
 namespace scumble::scene {
@@ -68,8 +69,33 @@ bool coversSurface(const Primitive& p, float scale) {
   return mapped >= 0.9f * all;
 }
 
+// For each vertex the first one at its place on the surface: files split vertices where faces meet, or all of
+// them, also where surface and mapping go on. Their tangents must be the same there, or the pattern breaks
+// along every edge. At a crease, and where a mapping is mirrored, each side keeps its own, since a mean would
+// lie in neither.
+std::vector<uint32_t> samePlaces(const Primitive& p, float scale) {
+  constexpr float kCrease = 0.8f;  // cosine of the angle between normals
+  std::vector<float> balance(p.vertexCount(), 0.0f);
+  for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
+    const Mapping mapping = mappingOf(p, i, scale);
+    for (size_t k = 0; k < 3; ++k)
+      balance[p.indices[i + k]] += mapping.mirrored ? -mapping.area : mapping.area;
+  }
+  const std::vector<glm::vec2>& uv = p.patternCoordinates();
+  PositionTable table(p.vertexCount());
+  std::vector<uint32_t> first(p.vertexCount());
+  for (uint32_t v = 0; v < first.size(); ++v)
+    first[v] = table.findOrAddIf(p.positions[v], v, [&](uint32_t stored) {
+      return p.positions[stored] == p.positions[v] && uv[stored] == uv[v] &&
+             (balance[stored] < 0.0f) == (balance[v] < 0.0f) &&
+             glm::dot(p.normals[stored], p.normals[v]) > kCrease;
+    });
+  return first;
+}
+
 void makeTangents(Primitive& p, float scale) {
   const size_t count = p.vertexCount();
+  const std::vector<uint32_t> first = samePlaces(p, scale);
   p.dPdu.assign(count, glm::vec3(0.0f));
   p.dPdv.assign(count, glm::vec3(0.0f));
   std::vector<float> areas(count, 0.0f);
@@ -79,7 +105,7 @@ void makeTangents(Primitive& p, float scale) {
     if (mapping.area <= 0.0f) continue;
     (mapping.mirrored ? anyMirrored : anyPlain) = true;
     for (size_t k = 0; k < 3; ++k) {
-      const uint32_t v = p.indices[i + k];
+      const uint32_t v = first[p.indices[i + k]];
       p.dPdu[v] += mapping.area * mapping.dPdu;
       p.dPdv[v] += mapping.area * mapping.dPdv;
       areas[v] += mapping.area;
@@ -93,7 +119,7 @@ void makeTangents(Primitive& p, float scale) {
     for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
       const Mapping mapping = mappingOf(p, i, scale);
       for (size_t k = 0; k < 3; ++k)
-        balance[p.indices[i + k]] += mapping.mirrored ? -mapping.area : mapping.area;
+        balance[first[p.indices[i + k]]] += mapping.mirrored ? -mapping.area : mapping.area;
     }
     const auto isSeam = [&](uint32_t v) { return std::abs(balance[v]) < 0.999f * areas[v]; };
     std::vector<float> seamAreas(count, 0.0f);
@@ -101,7 +127,7 @@ void makeTangents(Primitive& p, float scale) {
       const Mapping mapping = mappingOf(p, i, scale);
       if (mapping.area <= 0.0f) continue;
       for (size_t k = 0; k < 3; ++k) {
-        const uint32_t v = p.indices[i + k];
+        const uint32_t v = first[p.indices[i + k]];
         if (!isSeam(v) || mapping.mirrored != (balance[v] < 0.0f)) continue;
         if (seamAreas[v] == 0.0f) p.dPdu[v] = p.dPdv[v] = glm::vec3(0.0f);
         p.dPdu[v] += mapping.area * mapping.dPdu;
@@ -119,6 +145,7 @@ void makeTangents(Primitive& p, float scale) {
     p.dPdv[v] *= share;
     if (!isFinite(p.dPdu[v]) || !isFinite(p.dPdv[v])) p.dPdu[v] = p.dPdv[v] = glm::vec3(0.0f);
   }
+  for (size_t v = 0; v < count; ++v) p.dPdu[v] = p.dPdu[first[v]], p.dPdv[v] = p.dPdv[first[v]];
 }
 
 }  // namespace

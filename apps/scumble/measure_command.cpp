@@ -1,0 +1,225 @@
+// scumble measure: coherence in numbers, for MetaTexture and its rivals.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "chart.h"
+#include "commands.h"
+#include "options.h"
+#include "outputs.h"
+#include "progress.h"
+#include "report.h"
+#include "scumble/measure.h"
+
+namespace scumble::app {
+
+namespace {
+
+struct MeasureArguments {
+  SceneArguments scene;
+  LookArguments look;
+  PictureArguments picture;
+  std::optional<float> ipd;
+  std::string plot;
+  bool json = false, quiet = false;
+};
+
+// One row of the table a number, one column a mode.
+using NumberOf = std::function<double(const ModeMeasurements&)>;
+using FieldNumberOf = std::function<PerField(const ModeMeasurements&)>;
+struct FieldRow {
+  const char* name;
+  FieldNumberOf of;
+};
+const FieldRow kFieldRows[] = {
+    {"warp error, dolly", [](const ModeMeasurements& m) { return m.temporal.dolly; }},
+    {"warp error, orbit", [](const ModeMeasurements& m) { return m.temporal.orbit; }},
+    {"warp error, roll", [](const ModeMeasurements& m) { return m.temporal.roll; }},
+    {"warp error, moving object", [](const ModeMeasurements& m) { return m.temporal.object; }},
+    {"warp error, mean", [](const ModeMeasurements& m) { return m.temporal.mean(); }},
+    {"frequency drift, octaves", [](const ModeMeasurements& m) { return m.frequencyDrift; }},
+    {"contrast, from its mean", [](const ModeMeasurements& m) { return m.contrastDeviation; }},
+    {"contrast, from the example's", [](const ModeMeasurements& m) { return m.contrastError; }},
+    {"flatness error", [](const ModeMeasurements& m) { return m.flatness; }},
+    {"stereo difference", [](const ModeMeasurements& m) { return m.stereo.warp; }},
+};
+
+void printRow(const std::string& name, const Measurements& measured, const NumberOf& numberOf,
+              const char* format = "{:14.3f}") {
+  std::string line = fmt::format("  {:29}", name);
+  for (const ModeMeasurements& mode : measured.modes)
+    line += fmt::format(fmt::runtime(format), numberOf(mode));
+  std::puts(line.c_str());
+}
+
+void printHead(const std::string& name, const Measurements& measured) {
+  std::string line = fmt::format("\n{:31}", name);
+  for (const ModeMeasurements& mode : measured.modes) line += fmt::format("{:>14}", mode.mode);
+  std::puts(line.c_str());
+}
+
+std::string zoomText(double zoom) {
+  return zoom < 1 ? fmt::format("1/{:.3g}", 1 / zoom) : fmt::format("{:.3g}", zoom);
+}
+
+void printTable(const Measurements& measured, const std::string& heading) {
+  std::puts(heading.c_str());
+  const std::pair<const char*, double PerField::*> fields[] = {{"warp vectors", &PerField::vectors},
+                                                               {"breakup marks", &PerField::marks}};
+  for (const auto& [name, member] : fields) {
+    printHead(name, measured);
+    for (const FieldRow& row : kFieldRows)
+      printRow(row.name, measured,
+               [&, number = member](const ModeMeasurements& m) { return row.of(m).*number; });
+  }
+  printHead("pictures, rms in stereo", measured);
+  printRow(
+      "final-shadow", measured, [](const ModeMeasurements& m) { return m.stereo.finalShadow; }, "{:14.4f}");
+  printRow(
+      "color", measured, [](const ModeMeasurements& m) { return m.stereo.color; }, "{:14.4f}");
+  printRow(
+      "final-color", measured, [](const ModeMeasurements& m) { return m.stereo.finalColor; }, "{:14.4f}");
+  printHead("zoom: cycles a pixel", measured);
+  const std::vector<ZoomPoint>& zoom = measured.modes[0].zoom;
+  for (size_t i = 0; i < zoom.size(); ++i)
+    printRow(
+        zoomText(zoom[i].zoom), measured,
+        [i](const ModeMeasurements& m) { return m.zoom[i].frequency.vectors; }, "{:14.4f}");
+  printHead("zoom: contrast", measured);
+  for (size_t i = 0; i < zoom.size(); ++i)
+    printRow(zoomText(zoom[i].zoom), measured,
+             [i](const ModeMeasurements& m) { return m.zoom[i].contrast.vectors; });
+  std::puts("\ntargets");
+  for (const MeasureTarget& target : measured.targets)
+    std::puts(fmt::format("  {:7} {:60} {:6.3f} (at most {:.3f})", target.isKept() ? "kept" : "missed",
+                          target.meaning, target.value, target.limit)
+                  .c_str());
+}
+
+nlohmann::json toJson(const PerField& number) {
+  return {{"vectors", number.vectors}, {"marks", number.marks}};
+}
+
+nlohmann::json toJson(const ModeMeasurements& mode) {
+  nlohmann::json zoom = nlohmann::json::array();
+  for (const ZoomPoint& point : mode.zoom)
+    zoom.push_back(
+        {{"zoom", point.zoom}, {"frequency", toJson(point.frequency)}, {"contrast", toJson(point.contrast)}});
+  const TemporalError& t = mode.temporal;
+  return {{"temporal",
+           {{"dolly", toJson(t.dolly)},
+            {"orbit", toJson(t.orbit)},
+            {"roll", toJson(t.roll)},
+            {"object", toJson(t.object)},
+            {"mean", toJson(t.mean())}}},
+          {"zoom", zoom},
+          {"frequencyDrift", toJson(mode.frequencyDrift)},
+          {"contrastDeviation", toJson(mode.contrastDeviation)},
+          {"contrastError", toJson(mode.contrastError)},
+          {"flatness", toJson(mode.flatness)},
+          {"stereo",
+           {{"warp", toJson(mode.stereo.warp)},
+            {"final-shadow", mode.stereo.finalShadow},
+            {"color", mode.stereo.color},
+            {"final-color", mode.stereo.finalColor}}}};
+}
+
+int run(const MeasureArguments& args) {
+  // Check everything that can be checked before anything is drawn.
+  const Result<RenderOptions> picture = args.picture.renderOptions();
+  if (!picture) return fail(picture.error());
+  const Result<Viewpoint> viewpoint = args.picture.viewpoint();
+  if (!viewpoint) return fail(viewpoint.error());
+  std::vector<std::string> inputs = args.scene.files;
+  if (!args.look.look.empty()) inputs.push_back(args.look.look);
+  if (!args.plot.empty() && !args.plot.ends_with(".png"))
+    return failUsage("a chart cannot go into '" + args.plot + "'", "name it like chart.png");
+  if (const Status status = checkWritable(args.plot, inputs); !status) return fail(status.error());
+  const Result<Look> look = args.look.load(args.scene.files[0]);
+  if (!look) return fail(look.error());
+  const Result<Scene> scene = args.scene.load(args.quiet);
+  if (!scene) return fail(scene.error());
+  Result<std::unique_ptr<Renderer>> renderer = Renderer::create(args.picture.rendererOptions());
+  if (!renderer) return fail(renderer.error());
+
+  MeasureOptions options;
+  options.width = picture->width, options.height = picture->height;
+  options.samples = picture->samples;
+  options.seed = picture->seed;
+  options.viewpoint = *viewpoint;
+  options.ipd = args.ipd;
+  std::optional<Progress> progress;
+  options.progress = [&](int, int total) {
+    if (!progress) progress.emplace(total, args.quiet);
+    progress->done("measuring");
+  };
+  const Result<Measurements> measured = measure(**renderer, *scene, *look, options);
+  progress.reset();
+  if (!measured) return fail(measured.error());
+  if ((*renderer)->validationMessages() > 0)
+    return fail(
+        Error{ErrorKind::internal, "", 0, "", "the validation layers found mistakes", "please report them"});
+
+  std::string names;
+  for (const std::string& file : args.scene.files)
+    names += (names.empty() ? "" : ", ") + std::filesystem::path(file).filename().string();
+  const std::string conditions =
+      fmt::format("{} x {}, {} sample{}, the scene covers {:.0f} % of the picture, eyes {:.3g} m apart",
+                  options.width, options.height, options.samples, options.samples == 1 ? "" : "s",
+                  100 * measured->visible, measured->ipd);
+  if (!args.plot.empty())
+    if (const Status status = writeChart(args.plot, *measured, "Coherence: " + names, conditions); !status)
+      return fail(status.error());
+  if (!args.json) {
+    printTable(*measured, names + ", " + conditions);
+    return kDone;
+  }
+  nlohmann::json modes = nlohmann::json::object(), targets = nlohmann::json::array();
+  for (const ModeMeasurements& mode : measured->modes) modes[mode.mode] = toJson(mode);
+  for (const MeasureTarget& target : measured->targets)
+    targets.push_back({{"name", target.name},
+                       {"meaning", target.meaning},
+                       {"value", target.value},
+                       {"limit", target.limit},
+                       {"kept", target.isKept()}});
+  const nlohmann::json report{{"scene", args.scene.files},
+                              {"device", (*renderer)->gpu().name},
+                              {"size", {options.width, options.height}},
+                              {"samples", options.samples},
+                              {"seed", options.seed},
+                              {"visible", measured->visible},
+                              {"tiles", measured->tiles},
+                              {"ipd", measured->ipd},
+                              {"exampleFrequency", toJson(measured->exampleFrequency)},
+                              {"modes", modes},
+                              {"targets", targets}};
+  std::puts(report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  return kDone;
+}
+
+}  // namespace
+
+void addMeasure(CLI::App& program, int& exitCode) {
+  auto args = std::make_shared<MeasureArguments>();
+  args->picture.size = "960x540";
+  args->picture.samples = 1;
+  CLI::App* command =
+      program.add_subcommand("measure", "Coherence in numbers: temporal, scale, flatness, stereo");
+  args->scene.addTo(*command);
+  args->look.addTo(*command);
+  args->picture.addTo(*command);
+  command->add_option(
+      "--ipd", args->ipd,
+      "Distance between the eyes, metres (default: 1/40 of the distance to the scene's centre)");
+  command->add_flag("--json", args->json, "Print JSON instead of the table");
+  command->add_option("--plot", args->plot, "Also draw a chart")->type_name("FILE.png");
+  command->add_flag("--quiet", args->quiet, "No warnings and no progress");
+  command->footer("Example: scumble measure boat.glb --plot boat.png");
+  command->callback([args, &exitCode] { exitCode = run(*args); });
+}
+
+}  // namespace scumble::app

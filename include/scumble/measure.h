@@ -1,0 +1,88 @@
+// Coherence in numbers: how well a texture that is attached to a scene's surfaces keeps both to them and to
+// the screen. docs/measure.md tells how each number is found and what it cannot tell.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scumble/renderer.h"
+
+namespace scumble {
+
+struct MeasureOptions {
+  uint32_t width = 960, height = 540;  // pixels, 16 to 4096
+  uint32_t samples = 1;                // 1 or 4
+  uint32_t seed = 0;                   // the first of those that are used
+  Viewpoint viewpoint;                 // the framing that everything starts from
+  std::optional<float> ipd;            // metres; default: 1/40 of the distance to the scene's centre
+  // Called after each of `total` steps.
+  std::function<void(int done, int total)> progress;
+};
+
+// A number for each of the two fields on the surface: the vectors that tear edges, and the breakup marks.
+struct PerField {
+  double vectors = 0, marks = 0;
+};
+
+// How far a field is from having moved with the surface: the rms difference between a frame and the one
+// before, carried along by the exact motion, over sqrt(2) standard deviations. 0: it sticks; 1: nothing is
+// left of it.
+struct TemporalError {
+  PerField dolly, orbit, roll, object;
+  PerField mean() const;
+};
+
+// What stands on the screen when the picture is magnified.
+struct ZoomPoint {
+  double zoom = 1;     // 1: the framing
+  PerField frequency;  // dominant, cycles a pixel, at most about 1/4; 0: coarser than the region shows
+  PerField contrast;   // standard deviation relative to the flat example's
+};
+
+// The left picture carried into the right one by exact depth: rms differences, where both eyes see the same.
+struct StereoDifference {
+  PerField warp;           // over sqrt(2) standard deviations, as TemporalError
+  double finalShadow = 0;  // of 1; so are the colours, linear, over three channels
+  double color = 0, finalColor = 0;
+};
+
+// One way to put the texture on the surface.
+struct ModeMeasurements {
+  std::string mode;  // metatexture, object, screen or fractal: a value of warp.metatexture.mode
+  TemporalError temporal;
+  std::vector<ZoomPoint> zoom;  // 1/8 to 8 in half octaves
+  PerField frequencyDrift;      // octaves from the lowest to the highest frequency of the zoom
+  PerField contrastDeviation;   // greatest distance of the contrast from its mean, relative to that mean
+  PerField contrastError;       // greatest distance of the contrast from the flat example's
+  PerField flatness;            // average co-occurrence error at zoom 1: 0 as the flat example, 1 different
+  StereoDifference stereo;
+};
+
+// What was promised of the vectors, and what was found.
+struct MeasureTarget {
+  std::string name, meaning;
+  double value = 0, limit = 0;  // it is kept where value <= limit
+  bool isKept() const { return value <= limit; }
+};
+
+struct Measurements {
+  std::vector<ModeMeasurements> modes;  // metatexture first
+  PerField exampleFrequency;            // of the flat example, cycles a pixel
+  double visible = 0;                   // part of the framing that the scene covers
+  double tiles = 0;  // copies a unit of uv that mode `object` was given: MetaTexture's at zoom 1
+  double ipd = 0;    // metres
+  std::vector<MeasureTarget> targets;
+};
+
+// Measures MetaTexture and its three rivals (ordinary mapping, screen space, summed octaves) in one scene, as
+// `look` sets them. Of the look, these are set otherwise: no ground, and for the fields warp.inflation 0,
+// warp.distance 0 and warp.amount 64. Renders some 400 frames. The same call gives the same numbers.
+//
+// Fails with usage for options out of range and where too little of the scene can be followed, and as
+// Renderer::render.
+Result<Measurements> measure(Renderer& renderer, const Scene& scene, const Look& look,
+                             const MeasureOptions& options = {});
+
+}  // namespace scumble

@@ -1,0 +1,98 @@
+#include "measure/reprojection.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "measure/statistics.h"
+#include "measure/test_fields.h"
+#include "scumble/view.h"
+
+namespace scumble::measuring {
+namespace {
+
+using namespace test;
+
+constexpr int kSize = 64;
+
+// A wall at 10 m across the picture and a narrower one before it at 5 m, seen from (x, 0, 0) along -z.
+struct Walls {
+  View view;
+  Surface surface;
+  Field pattern{kSize, kSize, 1};  // attached to the walls
+  explicit Walls(float x) : surface{Field(kSize, kSize, 3), Field(kSize, kSize, 1)} {
+    view.worldToEye = glm::translate(glm::mat4(1.0f), glm::vec3(-x, 0, 0));
+    view.eyeToClip = perspectiveProjection(glm::radians(40.0f), 1, 0.1f);
+    const float perMetre = std::tan(glm::radians(20.0f)) * 2 / kSize;
+    surface.pixel = perMetre;
+    for (size_t pixel = 0; pixel < surface.position.pixelCount(); ++pixel) {
+      const float rayX = (float(pixel % kSize) + 0.5f - kSize / 2) * perMetre,
+                  rayY = -(float(pixel / kSize) + 0.5f - kSize / 2) * perMetre;
+      const float depth = std::abs(rayX * 5 + x) < 0.6f ? 5.0f : 10.0f;
+      const glm::vec3 point(rayX * depth + x, rayY * depth, -depth);
+      for (int c = 0; c < 3; ++c) surface.position.at(pixel)[c] = point[c];
+      *surface.depth.at(pixel) = depth;
+      *pattern.at(pixel) = std::sin(3 * point.x) + std::sin(2 * point.y + point.z);
+      surface.position.valid[pixel] = surface.depth.valid[pixel] = pattern.valid[pixel] = 1;
+    }
+  }
+};
+
+Field motionOf(const Surface& now, const View& view, const View& earlier) {
+  Field motion(kSize, kSize, 2);
+  motion.valid.assign(motion.pixelCount(), 1);
+  for (size_t pixel = 0; pixel < motion.pixelCount(); ++pixel) {
+    const float* p = now.position.at(pixel);
+    const auto place = [&](const View& v) {
+      const glm::vec4 clip = v.eyeToClip * v.worldToEye * glm::vec4(p[0], p[1], p[2], 1);
+      return (glm::vec2(clip) / clip.w * 0.5f + 0.5f) * float(kSize);
+    };
+    const glm::vec2 moved = place(view) - place(earlier);
+    motion.at(pixel)[0] = moved.x, motion.at(pixel)[1] = moved.y;
+  }
+  return motion;
+}
+
+TEST(Reprojection, whatIsAttachedToTheSurfaceDoesNotChange) {
+  const Walls earlier(0), now(0.37f);
+  for (const Places& places :
+       {placesByMotion(motionOf(now.surface, now.view, earlier.view), now.surface, earlier.surface),
+        placesByProjection(now.surface, earlier.surface, earlier.view.eyeToClip * earlier.view.worldToEye)}) {
+    const FieldDifference moved = difference(sampleAt(earlier.pattern, places), now.pattern);
+    EXPECT_GT(moved.pixels, size_t(kSize * kSize / 3));
+    EXPECT_LT(moved.relative, 0.01);
+  }
+  EXPECT_GT(difference(earlier.pattern, now.pattern).relative, 0.3);
+}
+
+TEST(Reprojection, whatWasHiddenDoesNotCount) {
+  const Walls earlier(0), now(1);
+  const Places places =
+      placesByProjection(now.surface, earlier.surface, earlier.view.eyeToClip * earlier.view.worldToEye);
+  const float edge = 0.6f;  // seen from 0, the near wall hides twice its size of the far one
+  for (size_t pixel = 0; pixel < places.pixelCount(); ++pixel) {
+    const float* p = now.surface.position.at(pixel);
+    if (p[2] > -9) continue;
+    if (std::abs(p[0]) < 2 * edge - 0.2f) {
+      EXPECT_FALSE(places.valid[pixel]) << p[0];
+    }
+    const bool inPicture = std::abs(p[0]) < 3 && std::abs(p[1]) < 3;
+    if (std::abs(p[0]) > 2 * edge + 0.5f && inPicture) {
+      EXPECT_TRUE(places.valid[pixel]) << p[0];
+    }
+  }
+}
+
+TEST(Reprojection, emptyPixelsDoNotCount) {
+  Walls earlier(0), now(0);
+  earlier.surface.position.valid[20 * kSize + 20] = 0;
+  now.surface.position.valid[40 * kSize + 40] = 0;
+  const Places places =
+      placesByProjection(now.surface, earlier.surface, earlier.view.eyeToClip * earlier.view.worldToEye);
+  EXPECT_FALSE(places.valid[20 * kSize + 20]);
+  EXPECT_FALSE(places.valid[40 * kSize + 40]);
+  EXPECT_TRUE(places.valid[30 * kSize + 12]);
+}
+
+}  // namespace
+}  // namespace scumble::measuring
