@@ -82,11 +82,17 @@ std::vector<uint32_t> samePlaces(const Primitive& p, float scale) {
       balance[p.indices[i + k]] += mapping.mirrored ? -mapping.area : mapping.area;
   }
   const std::vector<glm::vec2>& uv = p.patternCoordinates();
+  // Where a mapping closes on itself the place is the same one unit further on.
+  const auto sameUv = [&](uint32_t a, uint32_t b) {
+    const glm::vec2 d = uv[a] - uv[b],
+                    whole(p.wrapsU ? std::round(d.x) : 0.0f, p.wrapsV ? std::round(d.y) : 0.0f);
+    return glm::length(d - whole) < 1e-5f;
+  };
   PositionTable table(p.vertexCount());
   std::vector<uint32_t> first(p.vertexCount());
   for (uint32_t v = 0; v < first.size(); ++v)
     first[v] = table.findOrAddIf(p.positions[v], v, [&](uint32_t stored) {
-      return p.positions[stored] == p.positions[v] && uv[stored] == uv[v] &&
+      return p.positions[stored] == p.positions[v] && sameUv(stored, v) &&
              (balance[stored] < 0.0f) == (balance[v] < 0.0f) &&
              glm::dot(p.normals[stored], p.normals[v]) > kCrease;
     });

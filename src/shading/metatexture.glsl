@@ -37,6 +37,7 @@ struct MetaTexture {
 struct MetaTextureChoice {
   vec2 exponent[2];    // eq. 2, of the coordinates after the skew is taken out
   vec2 psi[2];         // cos, sin of the angle of eq. 20
+  float skewLevel;      // number of the first level
   float skewBlend;     // share of the second level, 0 to 1
   float q;             // what the levels quantise: sin(2 psi) for exact skew, 2 tan(psi) for approximate
   float orientBlend;   // share of the texture with its axes exchanged
@@ -95,6 +96,7 @@ MetaTextureChoice metaTextureChoose(MetaTexture m, vec2 dSdu, vec2 dSdv, float a
     c.q = clamp(-2.0 * uv / (uu + vv), -kMetaTextureMaxSkew, kMetaTextureMaxSkew);
 
   float level = floor(m.skewLevels * c.q);
+  c.skewLevel = level;
   c.skewBlend = m.skew == 0 ? 0.0 : metaTextureBlend(m, m.skewLevels * c.q - level);
   for (int k = 0; k < 2; ++k) {
     float quantised = clamp((level + float(k)) / m.skewLevels, -kMetaTextureMaxSkew, kMetaTextureMaxSkew);
@@ -172,12 +174,14 @@ void metaTextureCopies(MetaTexture m, vec2 uv, vec2 psi, vec2 level, vec2 wraps,
   }
 }
 
-vec4 metaTextureFetch(MetaTexture m, MetaTextureChoice c, sampler2D example, vec2 at, vec2 level) {
+// Each copy starts elsewhere in the texture, at a place that depends on its level only. Otherwise all copies would show
+// the same near the origin of uv, and a blend of equals has more contrast than eq. 24 counts with.
+vec4 metaTextureFetch(MetaTexture m, MetaTextureChoice c, sampler2D example, vec2 at, vec2 level, float skewLevel) {
   if (m.levelRotation != 0.0) {
     float angle = 0.5 * (level.x + level.y) * m.levelRotation;
     at = vec2(cos(angle) * at.x - sin(angle) * at.y, sin(angle) * at.x + cos(angle) * at.y);
   }
-  at += m.shift;
+  at += m.shift + 0.618034 * level + skewLevel * vec2(0.3711, 0.7133);
   vec4 value = textureLod(example, at, m.lod);
   return m.orient == 0 ? value : mix(value, textureLod(example, at.yx, m.lod), c.orientBlend);
 }
@@ -202,7 +206,8 @@ vec4 metaTextureSample(MetaTexture m, MetaTextureChoice c, sampler2D example, ve
         for (int i = first.x; i <= last.x; ++i) {
           float share = skewShare * (i == 0 ? 1.0 - b.x : b.x) * (j == 0 ? 1.0 - b.y : b.y);
           vec2 at = vec2(i == 0 ? u.x : u.y, j == 0 ? v.x : v.y);
-          sum += share * metaTextureFetch(m, c, example, at, level + vec2(i, j));
+          sum += share * metaTextureFetch(m, c, example, at, level + vec2(i, j),
+                                          m.skew == 0 ? 0.0 : c.skewLevel + float(k));
           squares += share * share;
         }
     }

@@ -40,7 +40,8 @@ MetaTextureReference::Result MetaTextureReference::at(const glm::dvec2& uv, cons
     const double psi = skew == off ? 0 : skew == exact ? 0.5 * std::asin(q) : std::atan(0.5 * q);
     const double c = std::cos(psi), s = std::sin(psi);
     const glm::dvec2 gu = c * gradU + s * gradV, gv = s * gradU + c * gradV;
-    // Below 45 degrees between them the extent along counts instead of the gradient: 1 / |dS/du'|, times sqrt 2.
+    // Below 45 degrees between them the extent along counts instead of the gradient: 1 / |dS/du'|, times
+    // sqrt 2.
     const double sine = std::abs(gu.x * gv.y - gu.y * gv.x) / glm::length(gu) / glm::length(gv);
     const double along = skew == off ? 1 : std::min(1.0, std::sqrt(2.0) * sine);
     const glm::dvec2 e =
@@ -69,7 +70,9 @@ MetaTextureReference::Result MetaTextureReference::at(const glm::dvec2& uv, cons
         const double angle = 0.5 * (whole.x + i + whole.y + j) * levelRotation;
         at = {std::cos(angle) * at.x - std::sin(angle) * at.y,
               std::sin(angle) * at.x + std::cos(angle) * at.y};
-        at += shift;
+        // Copies start at different places, so that they are independent.
+        at += shift + 0.618034 * (whole + glm::dvec2(i, j));
+        if (skew != off) at += (lower + level) * glm::dvec2(0.3711, 0.7133);
         const double part = share * (i ? b.x : 1 - b.x) * (j ? b.y : 1 - b.y);
         for (const bool swapped : {false, true}) {
           const double orientShare = part * (swapped ? turned : 1 - turned);

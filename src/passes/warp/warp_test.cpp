@@ -82,6 +82,7 @@ TEST_P(WarpTest, equalsItsReference) {
       reference.mean = frame::measure(frame::builtInExample(0)).mean;
       reference.size = size * scale;
       reference.skew = MetaTextureReference::exact;
+      reference.skewLevels = 2;
       reference.contrast = contrast;
       for (size_t v = 0; v < viewCount(); ++v) {
         Difference vectors(0.06), marks(0.06), exponents(0.01), depth(2e-3);
