@@ -22,8 +22,8 @@ class ImageStep {
   };
   // A texture that is none of the frame's images; bound after the inputs.
   struct Texture {
-    const gpu::Image* image;
-    gpu::SamplerDesc sampler;
+    const gpu::Image* image = nullptr;
+    gpu::SamplerDesc sampler{};
     bool operator==(const Texture&) const = default;
   };
   // One run of the shader over the whole picture. Most steps have one job; where several share the pixels

@@ -14,6 +14,7 @@ struct Knobs {
   double threshold = 0.5, softness = 1, innerGlow = 0.16, indication = 0.55;
   int steps = 2;
   double radius = 60, depthEdge = 0.03;
+  double dither = 0;
 };
 
 class FinalShadowTest : public BothEyes {
@@ -26,6 +27,7 @@ class FinalShadowTest : public BothEyes {
                       {"shadow.innerGlow", std::to_string(k.innerGlow)},
                       {"shadow.indication", std::to_string(k.indication)},
                       {"shadow.indicationSteps", std::to_string(k.steps)},
+                      {"shadow.dither", std::to_string(k.dither)},
                       {"blur.radius", std::to_string(k.radius)},
                       {"blur.depthEdge", std::to_string(k.depthEdge)}});
   }
@@ -56,8 +58,9 @@ class FinalShadowTest : public BothEyes {
     // Threshold: as wide as the slope needs for `softness` pixels.
     const glm::dvec2 slope = 0.25 * glm::dvec2(glm::mix(lights[1] - lights[0], lights[3] - lights[2], f.y),
                                                glm::mix(lights[2] - lights[0], lights[3] - lights[1], f.x));
-    const double width = std::max(0.5 * k.softness * glm::length(slope), 1e-3);
-    double lit = smoothstep(k.threshold - width, k.threshold + width, light);
+    const double width = std::max({0.5 * k.softness * glm::length(slope), 1e-3, 0.05 * k.dither});
+    const double dithered = light - k.dither * (0.5 - marks);
+    double lit = smoothstep(k.threshold - width, k.threshold + width, dithered);
     // Indication.
     if (own.z > 0) {
       double pushed = 0;
@@ -81,7 +84,9 @@ TEST_P(FinalShadowTest, equalsItsReference) {
   soft.threshold = 0.3, soft.softness = 12, soft.innerGlow = 0.8, soft.indication = 1, soft.steps = 5;
   Knobs sharp;
   sharp.radius = 4, sharp.indication = 0, sharp.depthEdge = 0;
-  for (const Knobs& k : {Knobs(), soft, sharp}) {
+  Knobs dry;
+  dry.dither = 0.6, dry.radius = 40;
+  for (const Knobs& k : {Knobs(), soft, sharp, dry}) {
     const Frame frame = draw(scene, lookOf(k), views,
                              sized(kWidth, kHeight, {"shadow", "warp", "depth", "blur", "final-shadow"}));
     for (size_t v = 0; v < viewCount(); ++v) {

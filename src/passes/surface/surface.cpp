@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "frame/geometry_step.h"
+#include "frame/image_step.h"
 #include "frame/light.h"
 #include "frame/material_params.h"
 #include "frame/metatexture.h"
@@ -117,11 +118,12 @@ class Surface : public Pass {
           metaTextureUse(metaParams, 0b0111, input, frame_->examples(), patternShift(input.seed));
       painted_.write(m, {use.meta, tangentOptions(metaParams), texture.amount, texture.blend});
       painted.push_back(texture.amount > 0);
-      const std::pair views{use.image().view(), use.inverse().view()};
-      if (boundTextures_[m] == views) continue;
-      boundTextures_[m] = views;
-      sets_.writeTexture(m, 4, views.first, frame_->samplers().get(ExampleTextures::kSampler));
-      sets_.writeTexture(m, 5, views.second, frame_->samplers().get(ExampleTextures::kInverseSampler));
+      const std::array textures{ImageStep::Texture{&use.image(), use.sampler()},
+                                ImageStep::Texture{&use.inverse(), ExampleTextures::kInverseSampler}};
+      if (boundTextures_[m] == textures) continue;
+      boundTextures_[m] = textures;
+      for (uint32_t i = 0; i < textures.size(); ++i)
+        sets_.writeTexture(m, 4 + i, textures[i].image->view(), frame_->samplers().get(textures[i].sampler));
     }
     step_.setPainted(input.scene, std::move(painted));
   }
@@ -158,7 +160,7 @@ class Surface : public Pass {
   glm::vec3 eye_{0.0f};
   gpu::SetLayout layout_;
   gpu::DescriptorSets sets_;
-  std::vector<std::pair<VkImageView, VkImageView>> boundTextures_;  // by material
+  std::vector<std::array<ImageStep::Texture, 2>> boundTextures_;  // by material
   GeometryStep step_;
 };
 

@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "frame/light.h"
+#include "frame/metatexture.h"
 #include "frame/palette.h"
 #include "tests/support/aov.h"
+#include "tests/support/metatexture_reference.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
 
@@ -211,6 +213,56 @@ TEST_P(SurfaceTest, blendedFromFarToNear) {
       EXPECT_NEAR(got.w, coverage, 3 * kByte);
       expectColor(got, glm::dvec3((sum / coverage) * (sum / coverage)), 4);
     }
+}
+
+// A texture of the look, painted by MetaTexture on colours that the scene has: against the reference, in each
+// way of painting.
+TEST_P(SurfaceTest, paintsTexturesOfTheLook) {
+  TestScene s;
+  s.json()["extensionsUsed"].push_back("KHR_materials_unlit");
+  Json wall = TestScene::colored("Wall", {0.36f, 0.16f, 0.64f, 1});
+  wall["extensions"]["KHR_materials_unlit"] = Json::object();
+  s.add(gridMesh({-4, -3, 0}, {8, 0, 0}, {0, 6, 0}, 1, {5, 3}), s.material(wall));
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{3, 1, 4}, {0, 0, 0}}, kWidth, kHeight, GetParam());
+  const glm::dvec3 root(0.6, 0.4, 0.8);
+  for (const char* blend : {"multiply", "overlay", "replace"}) {
+    const double amount = 0.75;
+    const Look look = quietLook({{"texture.amount", std::to_string(amount)},
+                                 {"texture.blend", blend},
+                                 {"texture.metatexture.example", "paper"},
+                                 {"texture.metatexture.size", "3000"},
+                                 {"texture.metatexture.cyclopean", "off"}});
+    const Frame frame = draw(scene, look, views, sized(kWidth, kHeight, {"lit", "uv", "uv-gradient", "id"}));
+    MetaTextureReference reference;
+    reference.texture.pixels = frame::builtInExample(2);
+    reference.mean = frame::measure(reference.texture.pixels).mean;
+    reference.size = 3000.0 * kHeight / 1080;
+    reference.skew = MetaTextureReference::exact;
+    reference.skewLevels = 2;
+    for (size_t v = 0; v < viewCount(); ++v) {
+      Difference colors(0.02);
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+          if (texel(aov(frame, "id", v), x, y).x == 0) continue;
+          const glm::dvec4 g = texel(aov(frame, "uv-gradient", v), x, y);
+          const glm::dvec2 uv(texel(aov(frame, "uv", v), x, y));
+          const glm::dvec3 over = glm::clamp(glm::dvec3(reference.at(uv, {g.x, g.y}, {g.z, g.w}).value),
+                                             glm::dvec3(0.0), glm::dvec3(1.0));
+          glm::dvec3 painted = over;
+          for (int c = 0; c < 3; ++c) {
+            if (blend[0] == 'm') painted[c] = root[c] * over[c];
+            if (blend[0] == 'o')
+              painted[c] = root[c] > 0.5 ? 1 - 2 * (1 - root[c]) * (1 - over[c]) : 2 * root[c] * over[c];
+            colors.add(std::sqrt(texel(aov(frame, "lit", v), x, y)[c]),
+                       glm::mix(root[c], painted[c], amount));
+          }
+        }
+      EXPECT_GT(colors.count, 3000u);
+      EXPECT_LT(colors.beyondPart(), 0.01) << blend << ": " << colors.text();
+      EXPECT_LT(colors.mean(), 5e-3) << blend << ": " << colors.text();
+    }
+  }
 }
 
 }  // namespace
