@@ -49,8 +49,9 @@ void GeometryStep::create(gpu::Device& device, const FrameResources& resources, 
   makePipelines(scene);
 }
 
-void GeometryStep::setPainted(const SceneOnGpu& scene, std::vector<bool> painted) {
-  if (painted_ == painted) return;
+void GeometryStep::specialise(const SceneOnGpu& scene, uint32_t constant, std::vector<bool> painted) {
+  if (constant_ == constant && painted_ == painted) return;
+  constant_ = constant;
   painted_ = std::move(painted);
   makePipelines(scene);
 }
@@ -61,12 +62,15 @@ void GeometryStep::makePipelines(const SceneOnGpu& scene) {
     if (made) continue;
     const bool depthOnly = draw.alpha == AlphaMode::opaque && !desc_.depthOnlyVertex.words.empty();
     gpu::GraphicsPipelineDesc pipeline;
-    pipeline.vertex = depthOnly ? desc_.depthOnlyVertex : desc_.vertex;
-    if (!depthOnly) pipeline.fragment = desc_.fragment;
-    pipeline.constants = {uint32_t(draw.alpha), draw.varied || isPainted(draw),
-                          draw.textured,        desc_.viewCount,
-                          isPainted(draw),      desc_.constant};
-    addVertexInput(pipeline, depthOnly ? uint32_t(kPosition) : desc_.inputs);
+    pipeline.vertex = depthOnly         ? desc_.depthOnlyVertex
+                      : isPainted(draw) ? desc_.paintedVertex
+                                        : desc_.vertex;
+    if (!depthOnly) pipeline.fragment = isPainted(draw) ? desc_.paintedFragment : desc_.fragment;
+    pipeline.constants = {uint32_t(draw.alpha), draw.varied || isPainted(draw), draw.textured,
+                          desc_.viewCount, constant_};
+    addVertexInput(pipeline, depthOnly         ? uint32_t(kPosition)
+                             : isPainted(draw) ? desc_.paintedInputs
+                                               : desc_.inputs);
     pipeline.colorFormats = desc_.colorFormats;
     pipeline.depthFormat = VK_FORMAT_D32_SFLOAT;
     pipeline.depthCompare = desc_.depthCompare;
@@ -110,7 +114,7 @@ void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resource
   int cull = -1, front = -1;
   std::vector<uint32_t> offsetsOfMaterial(desc_.materialStrides.size());
   for (const Draw* draw : order) {
-    const gpu::Pipeline& pipeline = pipelines_[variant(*draw)];
+    const gpu::Pipeline& pipeline = pipelines_.at(variant(*draw));
     if (bound != &pipeline) {
       pipeline.bind(commands);
       pipeline.bindSet(commands, 0, resources.frameSet());

@@ -1,8 +1,8 @@
 // What the geometry passes share: the vertex streams, and one pipeline for each kind of material.
 #pragma once
 
-#include <array>
 #include <functional>
+#include <map>
 
 #include "frame/pass.h"
 
@@ -24,14 +24,16 @@ enum VertexInput : uint32_t {
 
 struct GeometryStepDesc {
   gpu::Shader vertex, fragment;
-  uint32_t inputs = 0;          // VertexInput bits that `vertex` reads
+  uint32_t inputs = 0;  // VertexInput bits that `vertex` reads
+  // Instead of both, with more inputs, for materials that the look paints textures on; may be empty.
+  gpu::Shader paintedVertex, paintedFragment;
+  uint32_t paintedInputs = 0;
   gpu::Shader depthOnlyVertex;  // instead of both for opaque surfaces: position in, depth out; may be empty
   std::vector<VkFormat> colorFormats;
   VkCompareOp depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
   uint32_t samples = 1, viewMask = 0;  // mask 0: the shaders know no views
   uint32_t viewCount = 1;
-  uint32_t constant = 0;  // specialisation constant 5, the pass's own
-  bool blends = false;    // blended surfaces are composited; else they are drawn like masked ones
+  bool blends = false;  // blended surfaces are composited; else they are drawn like masked ones
   // Set 2, or null for none. Its first bindings are dynamic uniforms, one for each of `materialStrides`: the
   // step from one material's knobs to the next one's, in bytes.
   const gpu::SetLayout* passLayout = nullptr;
@@ -42,9 +44,10 @@ class GeometryStep {
  public:
   void create(gpu::Device& device, const FrameResources& resources, const SceneOnGpu& scene,
               const GeometryStepDesc& desc);
-  // Materials whose colours vary more than the scene says, because the look paints textures on them:
-  // constant 4. Makes the pipelines that are still missing.
-  void setPainted(const SceneOnGpu& scene, std::vector<bool> painted);
+  // What of the look goes into the pipelines: specialisation constant 4, the pass's own; and by material,
+  // whether the look paints textures on it, so that its colours vary. Makes the pipelines that are still
+  // missing.
+  void specialise(const SceneOnGpu& scene, uint32_t constant, std::vector<bool> painted = {});
   // Draws what `includes` lets through: opaque, then masked, then blended surfaces from far to near as `eye`
   // sees them. `passSets`: set 2, one for all or one for each material; null for none.
   void draw(VkCommandBuffer commands, const FrameResources& resources, const SceneOnGpu& scene,
@@ -52,21 +55,22 @@ class GeometryStep {
             const std::function<bool(const Draw&)>& includes = {}) const;
 
  private:
-  // Specialised by alpha mode (constant 0), by whether colours vary (1), by whether the scene's textures are
-  // read (2) and by whether the look's are (4).
+  // Pipelines by alpha mode (constant 0), by whether colours vary (1), by whether the scene's textures are
+  // read (2), by whether the look paints, and by the pass's own constant (4).
   bool isPainted(const Draw& draw) const {
     return draw.material < painted_.size() && painted_[draw.material];
   }
-  size_t variant(const Draw& draw) const {
-    return size_t(draw.alpha) * 8 + isPainted(draw) * 4 + draw.varied * 2 + draw.textured;
+  uint32_t variant(const Draw& draw) const {
+    return constant_ * 32 + uint32_t(draw.alpha) * 8 + isPainted(draw) * 4 + draw.varied * 2 + draw.textured;
   }
   void makePipelines(const SceneOnGpu& scene);
 
   gpu::Device* device_ = nullptr;
   GeometryStepDesc desc_;
   std::vector<VkDescriptorSetLayout> setLayouts_;
+  uint32_t constant_ = 0;
   std::vector<bool> painted_;
-  std::array<gpu::Pipeline, 24> pipelines_;
+  std::map<uint32_t, gpu::Pipeline> pipelines_;
 };
 
 }  // namespace scumble::frame

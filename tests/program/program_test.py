@@ -164,7 +164,8 @@ class Program(unittest.TestCase):
     def put(self, name, content):
         path = self.folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(content)
+        path.write_bytes(content.encode() if isinstance(content, str) else content)
+        self.before = self.before | {name} if hasattr(self, "before") else set()
         return str(path)
 
     def files(self):

@@ -1,6 +1,7 @@
 # scumble_shaders(FILES...): compiles GLSL to SPIR-V, validates it, and makes for each FOO.vert a header
 # shaders/FOO_vert.h with the array scumble::shaders::FOO_vert. NAME.image.glsl is compiled twice, as
-# NAME_image_frag and NAME_image_comp (src/shading/image_pass.glsl).
+# NAME_image_frag and NAME_image_comp (src/shading/image_pass.glsl). scumble_shader_variant(FOO.vert WORD DEFINE): once
+# more with that macro, as foo_WORD_vert.
 function(scumble_compile_shader source name stage defines)
   set(dir ${CMAKE_BINARY_DIR}/generated/shaders)
   set(spirv ${dir}/${name}.spv)
@@ -33,4 +34,10 @@ function(scumble_shaders)
       scumble_compile_shader(${source} ${base} ${CMAKE_MATCH_2} "")
     endif()
   endforeach()
+endfunction()
+
+function(scumble_shader_variant file word define)
+  string(REGEX MATCH "^(.*)\\.(vert|frag|comp)$" matched ${file})
+  scumble_compile_shader(${CMAKE_CURRENT_SOURCE_DIR}/${file} ${CMAKE_MATCH_1}_${word}_${CMAKE_MATCH_2} ${CMAKE_MATCH_2}
+                         -D${define})
 endfunction()

@@ -9,6 +9,8 @@
 #include "frame/material_params.h"
 #include "frame/metatexture.h"
 #include "shaders/surface_frag.h"
+#include "shaders/surface_painted_frag.h"
+#include "shaders/surface_painted_vert.h"
 #include "shaders/surface_vert.h"
 
 namespace scumble::passes {
@@ -91,13 +93,15 @@ class Surface : public Pass {
     GeometryStepDesc desc;
     desc.vertex = {shaders::surface_vert};
     desc.fragment = {shaders::surface_frag};
-    desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor | kDPdu | kDPdv | kPatternUv;
+    desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor;
+    desc.paintedVertex = {shaders::surface_painted_vert};
+    desc.paintedFragment = {shaders::surface_painted_frag};
+    desc.paintedInputs = desc.inputs | kDPdu | kDPdv | kPatternUv;
     for (size_t i = 0; i < kDepthTarget; ++i) desc.colorFormats.push_back(slotInfo(targets_[i]).format);
     desc.samples = samples_;
     desc.viewMask = viewMask(configuration_);
     desc.viewCount = configuration_.viewCount;
     desc.blends = !isBehind_;
-    desc.constant = isBehind_;
     desc.passLayout = &layout_;
     desc.materialStrides = {params_.kStride, painted_.kStride};
     step_.create(frame.device(), resources, frame.scene(), desc);
@@ -125,7 +129,7 @@ class Surface : public Pass {
       for (uint32_t i = 0; i < textures.size(); ++i)
         sets_.writeTexture(m, 4 + i, textures[i].image->view(), frame_->samplers().get(textures[i].sampler));
     }
-    step_.setPainted(input.scene, std::move(painted));
+    step_.specialise(input.scene, isBehind_, std::move(painted));
   }
 
  private:

@@ -14,30 +14,31 @@
 layout(constant_id = 0) const int kAlphaMode = 0;  // 0 opaque, 1 masked, 2 blended
 layout(constant_id = 1) const int kVaried = 0;
 layout(constant_id = 2) const int kTextured = 0;
-layout(constant_id = 4) const int kPainted = 0;
-layout(constant_id = 5) const int kBehind = 0;  // only what lies behind the first surface
+layout(constant_id = 4) const int kBehind = 0;  // only what lies behind the first surface
 
 layout(set = 2, binding = 0, scalar) uniform ParamsBlock { SurfaceParams params; };
-layout(set = 2, binding = 1, scalar) uniform PaintedBlock { PaintedMaterial painted; };
 layout(set = 2, binding = 2, scalar) uniform SurfaceBlock { SurfaceUniforms surface; };
 layout(set = 2, binding = 3) uniform sampler2DArrayShadow shadowMap;
-layout(set = 2, binding = 4) uniform sampler2D paintedExample;
-layout(set = 2, binding = 5) uniform sampler2D paintedInverse;
 layout(set = 2, binding = 6) uniform sampler2DArray firstDepth;
 
 layout(location = 0) in vec3 inLightSpace;
 layout(location = 1) in vec2 inFacing;
 layout(location = 2) in vec4 inColor;
 layout(location = 3) in vec4 inUvs;
+
+layout(location = 0) out vec4 outShadow;
+layout(location = 1) out vec4 outLit;
+layout(location = 2) out vec4 outShadowed;
+
+#ifdef PAINTED
+layout(set = 2, binding = 1, scalar) uniform PaintedBlock { PaintedMaterial painted; };
+layout(set = 2, binding = 4) uniform sampler2D paintedExample;
+layout(set = 2, binding = 5) uniform sampler2D paintedInverse;
 layout(location = 4) in vec2 inPatternUv;
 layout(location = 5) in vec3 inTangentU;
 layout(location = 6) in vec3 inTangentV;
 layout(location = 7) in vec3 inPoint;
 layout(location = 8) flat in uint inWraps;
-
-layout(location = 0) out vec4 outShadow;
-layout(location = 1) out vec4 outLit;
-layout(location = 2) out vec4 outShadowed;
 
 // A texture that the look paints over the square root of a colour.
 vec3 paint(vec3 root) {
@@ -53,6 +54,7 @@ vec3 paint(vec3 root) {
     result = mix(2.0 * root * over, 1.0 - 2.0 * (1.0 - root) * (1.0 - over), greaterThan(root, vec3(0.5)));
   return mix(root, result, painted.amount);
 }
+#endif
 
 void main() {
   if (kBehind != 0) {
@@ -76,7 +78,9 @@ void main() {
     }
     alpha = albedo.a;
     vec3 root = sqrt(clamp(albedo.rgb, 0.0, 1.0));
-    if (kPainted != 0) root = paint(root);
+#ifdef PAINTED
+    root = paint(root);
+#endif
     lit = applyColorMap(material.lit, root);
     shadowed = mix(applyColorMap(material.shadowed, root), sqrt(material.shadowedColor), material.hasShadowedColor) *
                mix(material.tintDown, material.tintUp, up);

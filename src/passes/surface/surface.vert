@@ -11,28 +11,29 @@
 
 layout(constant_id = 1) const int kVaried = 0;    // colours vary: vertex colours or textures
 layout(constant_id = 2) const int kTextured = 0;
-layout(constant_id = 4) const int kPainted = 0;  // the look paints a texture on it
 
+#ifdef PAINTED  // the look paints a texture on it
 layout(set = 2, binding = 1, scalar) uniform PaintedBlock { PaintedMaterial painted; };
+layout(location = 5) in vec3 inDPdu;
+layout(location = 7) in vec3 inDPdv;
+layout(location = 8) in vec2 inPatternUv;
+layout(location = 4) out vec2 outPatternUv;
+layout(location = 5) out vec3 outTangentU;
+layout(location = 6) out vec3 outTangentV;
+layout(location = 7) out vec3 outPoint;
+layout(location = 8) flat out uint outWraps;
+#endif
 
 layout(location = 0) in vec3 inPosition;
 layout(location = 1) in vec2 inNormal;
 layout(location = 2) in vec2 inUv0;
 layout(location = 3) in vec2 inUv1;
 layout(location = 4) in vec4 inColor;
-layout(location = 5) in vec3 inDPdu;
-layout(location = 7) in vec3 inDPdv;
-layout(location = 8) in vec2 inPatternUv;
 
 layout(location = 0) out vec3 outLightSpace;  // the sigmoid's argument, and depth from the light
 layout(location = 1) out vec2 outFacing;      // towards the light, and upwards: cosines of the front side
 layout(location = 2) out vec4 outColor;
 layout(location = 3) out vec4 outUvs;
-layout(location = 4) out vec2 outPatternUv;
-layout(location = 5) out vec3 outTangentU;
-layout(location = 6) out vec3 outTangentV;
-layout(location = 7) out vec3 outPoint;
-layout(location = 8) flat out uint outWraps;
 
 void main() {
   mat4 worldToClip = VIEW_FIELD(worldToClip, viewIndex());
@@ -50,13 +51,13 @@ void main() {
 
   outFacing = vec2(lambert, normal.y);
   if (kVaried != 0) outColor = inColor;
-  if (kPainted != 0) {
-    mat4 tangentClip = tangentView(painted.tangents, worldToClip);
-    outPatternUv = inPatternUv;
-    outTangentU = tangentToClip(tangentClip, inDPdu);
-    outTangentV = tangentToClip(tangentClip, inDPdv);
-    outPoint = pointInTangentView(painted.tangents, worldToClip, inPosition);
-    outWraps = objects[gl_InstanceIndex].wraps;
-  }
+#ifdef PAINTED
+  mat4 tangentClip = tangentView(painted.tangents, worldToClip);
+  outPatternUv = inPatternUv;
+  outTangentU = tangentToClip(tangentClip, inDPdu);
+  outTangentV = tangentToClip(tangentClip, inDPdv);
+  outPoint = pointInTangentView(painted.tangents, worldToClip, inPosition);
+  outWraps = objects[gl_InstanceIndex].wraps;
+#endif
   if (kTextured != 0) outUvs = vec4(baseUv(inUv0, inUv1), emissiveUv(inUv0, inUv1));
 }

@@ -100,6 +100,7 @@ class Warp : public Pass {
   void update(const FrameInput& input) override {
     eye_ = input.uniforms.views[0].eye;
     std::vector<WarpSetup> setups;
+    uint32_t needs = 0;
     const float pixelScale = input.uniforms.pixelScale;
     for (size_t m = 0; m < input.scene.materialCount(); ++m) {
       const std::string& name = input.scene.materialName(m);
@@ -111,9 +112,14 @@ class Warp : public Pass {
       const float inflation = params.inflationUnit == 0
                                   ? params.inflation * pixelScale
                                   : params.inflation * 0.01f * input.uniforms.imageSize.y;
-      materials_.write(m, {params.amount * pixelScale, inflation, params.distance, float(index + 1),
-                           tangentOptions(metaParams)});
+      const TangentOptions tangents = tangentOptions(metaParams);
+      if (tangents.fragmentGradients) needs |= shared::kWarpFragmentGradients;
+      if (tangents.radial) needs |= shared::kWarpRadial;
+      if (params.distance > 0) needs |= shared::kWarpDistance;
+      materials_.write(m,
+                       {params.amount * pixelScale, inflation, params.distance, float(index + 1), tangents});
     }
+    step_.specialise(input.scene, needs);
 
     std::vector<ImageStep::Job> jobs;
     const uint32_t ofAll = (setups.size() > 1 ? shared::kWarpSeveral : 0) | (wraps_ ? shared::kWarpWrap : 0);

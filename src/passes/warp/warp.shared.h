@@ -10,5 +10,9 @@ const int kWarpUnusual = 4;    // another mode than MetaTexture, another base th
 const int kWarpSkip = 8;       // samples are skipped
 const int kWarpWrap = 16;      // a mapping closes on itself
 const int kWarpSeveral = 32;   // there are other setups: most pixels are another's
+// Specialisation constant 4 of the geometry step: what any material needs.
+const int kWarpFragmentGradients = 1;
+const int kWarpRadial = 2;
+const int kWarpDistance = 4;
 SHARED_END
 #endif

@@ -13,8 +13,10 @@
 #include "../../shading/surface_tangents_at_pixel.glsl"
 #include "../../shading/view_index.glsl"
 #include "warp.glsl"
+#include "warp.shared.h"
 
 layout(constant_id = 0) const int kAlphaMode = 0;
+layout(constant_id = 4) const int kNeeds = 0;
 
 layout(location = 0) in vec3 inUvScale;
 layout(location = 1) in vec3 inTangentU;
@@ -27,10 +29,17 @@ layout(location = 1) out vec2 outKnobs;
 
 void main() {
   vec2 dSdu, dSdv;
-  surfaceTangents(warp.tangents, inTangentU, inTangentV, inPoint, inUvScale.xy, viewIndex(), dSdu, dSdv);
+  SurfaceTangents options = warp.tangents;
+  if ((kNeeds & kWarpFragmentGradients) == 0) options.fragmentGradients = 0;
+  if ((kNeeds & kWarpRadial) == 0) options.radial = 0;
+  surfaceTangents(options, inTangentU, inTangentV, inPoint, inUvScale.xy, viewIndex(), dSdu, dSdv);
   if (kAlphaMode != 0 && isHole(inBaseUvAlpha.xy, inBaseUvAlpha.z, kAlphaMode)) discard;
   outPattern = uvec4(floatBitsToUint(inUvScale.xy), packBfloat(dSdu), packBfloat(dSdv));
   // Paper 000, eq. 26; FORMULAS 12: the distance has a scale.
-  float far = warp.distance * eyeDepth(gl_FragCoord.z, viewIndex());
-  outKnobs = vec2(warp.amount * inUvScale.z / (1.0 + far * far), inCode);
+  float amount = warp.amount * inUvScale.z;
+  if ((kNeeds & kWarpDistance) != 0) {
+    float far = warp.distance * eyeDepth(gl_FragCoord.z, viewIndex());
+    amount /= 1.0 + far * far;
+  }
+  outKnobs = vec2(amount, inCode);
 }
