@@ -88,9 +88,10 @@ int main(int argc, char** argv) {
   for (size_t i = 0; i < cases.size(); ++i) {
     WarpMetaTextureParams params;
     params.skip = cases[i].skip;
-    const Block block{{float(width), float(height)},
-                      cases[i].askew,
-                      metaTexture(params, example, 0b0111, float(height) / 1080.0f, glm::vec2(0.0f))};
+    const Block block{
+        {float(width), float(height)},
+        cases[i].askew,
+        metaTextureUse(params, 0b0111, {}, examples, float(height) / 1080.0f, glm::vec2(0.0f)).meta};
     std::memcpy(uniforms.mapped() + i * kStride, &block, sizeof(block));
     sets.writeBuffer(i, 0, uniforms.handle(), i * kStride, sizeof(block));
     sets.writeTexture(i, 1, example.image.view(),

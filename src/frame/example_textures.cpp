@@ -30,13 +30,6 @@ Pixels grey(const std::vector<uint8_t>& values) {
   return pixels;
 }
 
-uint64_t hashOf(const Pixels& pixels) {
-  // FNV-1a.
-  uint64_t h = 14695981039346656037ull ^ pixels.width;
-  for (const uint8_t byte : pixels.rgba) h = (h ^ byte) * 1099511628211ull;
-  return h;
-}
-
 // Means of 2 x 2 bytes down to one texel: these are values, not light.
 std::vector<std::vector<uint8_t>> halves(const Pixels& pixels) {
   std::vector<std::vector<uint8_t>> levels{pixels.rgba};
@@ -89,28 +82,42 @@ Pixels builtInExample(int index) {
   return pixels;
 }
 
-const ExampleTexture& ExampleTextures::get(const look::LookData& look, look::Picture picture) {
-  const bool builtIn = picture.index >= 0;
-  const Pixels made = builtIn ? Pixels{} : look.pictures[size_t(-1 - picture.index)]->pixels;
-  const uint64_t contents = builtIn ? 0 : hashOf(made);
-  for (const Known& known : known_)
-    if (builtIn ? known.builtIn == picture.index : known.builtIn < 0 && known.contents == contents)
-      return *known.texture;
+namespace {
 
-  const Pixels pixels = builtIn ? builtInExample(picture.index) : made;
-  const GaussianTwin twin = gaussianTwin(pixels);
+Pixels pixelsOf(const look::LookData& look, look::Picture picture) {
+  return picture.index >= 0 ? builtInExample(picture.index)
+                            : look.pictures[size_t(-1 - picture.index)]->pixels;
+}
+
+}  // namespace
+
+ExampleTexture& ExampleTextures::find(const look::LookData& look, look::Picture picture) {
+  const int builtIn = std::max(picture.index, -1);
+  const uint64_t contents = builtIn >= 0 ? 0 : look.pictures[size_t(-1 - picture.index)]->contents;
+  for (const Known& known : known_)
+    if (known.builtIn == builtIn && known.contents == contents) return *known.texture;
+
+  const Pixels pixels = pixelsOf(look, picture);
   auto texture = std::make_unique<ExampleTexture>();
   texture->width = pixels.width, texture->height = pixels.height;
   texture->statistics = measure(pixels);
-  texture->gaussianStatistics = measure(twin.pixels);
   gpu::Uploader uploader(device_);
   texture->image = upload(uploader, pixels);
-  texture->gaussian = upload(uploader, twin.pixels);
-  const std::span<const std::byte> row = std::as_bytes(std::span(twin.inverse));
-  texture->inverse = uploader.texture({&row, 1}, VK_FORMAT_R8G8B8A8_UNORM, 256, 1);
-  uploader.flush();
-  known_.push_back({builtIn ? picture.index : -1, contents, std::move(texture)});
+  known_.push_back({builtIn, contents, std::move(texture)});
   return *known_.back().texture;
+}
+
+const ExampleTexture& ExampleTextures::getWithTwin(const look::LookData& look, look::Picture picture) {
+  ExampleTexture& texture = find(look, picture);
+  if (texture.gaussian.handle()) return texture;
+  const GaussianTwin twin = gaussianTwin(pixelsOf(look, picture));
+  texture.gaussianStatistics = measure(twin.pixels);
+  gpu::Uploader uploader(device_);
+  texture.gaussian = upload(uploader, twin.pixels);
+  const std::span<const std::byte> row = std::as_bytes(std::span(twin.inverse));
+  texture.inverse = uploader.texture({&row, 1}, VK_FORMAT_R8G8B8A8_UNORM, 256, 1);
+  uploader.flush();
+  return texture;
 }
 
 }  // namespace scumble::frame

@@ -22,17 +22,21 @@ constexpr uint32_t kBuiltInSize = 256;  // texels; one texel a pixel at the defa
 Pixels builtInExample(int index);
 
 struct ExampleTexture {
-  // Values as the file has them (no sRGB decoding), with mip levels; and the Gaussian twin with its inverse.
-  gpu::Image image, gaussian, inverse;
-  Statistics statistics, gaussianStatistics;
+  // Values as the file has them (no sRGB decoding), with mip levels.
+  gpu::Image image;
+  Statistics statistics;
   uint32_t width = 1, height = 1;
+  // The Gaussian twin and its inverse, where they were asked for; else they are empty.
+  gpu::Image gaussian, inverse;
+  Statistics gaussianStatistics;
 };
 
 class ExampleTextures {
  public:
   explicit ExampleTextures(gpu::Device& device) : device_(device) {}
   // Uploaded at its first use; stays.
-  const ExampleTexture& get(const look::LookData& look, look::Picture picture);
+  const ExampleTexture& get(const look::LookData& look, look::Picture picture) { return find(look, picture); }
+  const ExampleTexture& getWithTwin(const look::LookData& look, look::Picture picture);
 
   // How they are sampled: repeating, between mip levels.
   static constexpr gpu::SamplerDesc kSampler{VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT,
@@ -42,9 +46,11 @@ class ExampleTextures {
  private:
   struct Known {
     int builtIn;        // or -1
-    uint64_t contents;  // a hash of the file's pixels
+    uint64_t contents;  // of the file
     std::unique_ptr<ExampleTexture> texture;
   };
+  ExampleTexture& find(const look::LookData& look, look::Picture picture);
+
   gpu::Device& device_;
   std::deque<Known> known_;
 };

@@ -17,23 +17,22 @@ bool isGaussianEnough(const Statistics& statistics, uint32_t channels) {
 
 }  // namespace
 
-MetaTexture metaTexture(const WarpMetaTextureParams& params, const ExampleTexture& example, uint32_t channels,
-                        float pixelScale, const glm::vec2& shift) {
+MetaTextureUse metaTextureUse(const WarpMetaTextureParams& params, uint32_t channels,
+                              const look::LookData& look, ExampleTextures& examples, float pixelScale,
+                              const glm::vec2& shift) {
+  const ExampleTexture* example = &examples.get(look, params.example);
   MetaTexture m;
-  switch (params.contrast) {
-    case 0:
-      m.contrast = isGaussianEnough(example.statistics, channels) ? kContrastVariance : kContrastHistogram;
-      break;
-    default:
-      m.contrast = params.contrast - 1;
-  }
+  m.contrast = params.contrast - 1;
+  if (m.contrast < 0)
+    m.contrast = isGaussianEnough(example->statistics, channels) ? kContrastVariance : kContrastHistogram;
+  if (m.contrast == kContrastHistogram) example = &examples.getWithTwin(look, params.example);
   m.mode = params.mode;
   // Rivals are what they are elsewhere: their scales know no skew.
   m.skew = m.mode == 0 ? int(params.skew) : 0;
   m.orient = m.mode == 0 ? int(params.orient) : 0;
-  m.mean = (m.contrast == kContrastHistogram ? example.gaussianStatistics : example.statistics).mean;
+  m.mean = (m.contrast == kContrastHistogram ? example->gaussianStatistics : example->statistics).mean;
   const float width = params.size * pixelScale;
-  m.size = {width, width * float(example.height) / float(example.width)};
+  m.size = {width, width * float(example->height) / float(example->width)};
   m.shift = shift;
   m.base = params.base;
   m.levelRotation = glm::radians(params.levelRotation);
@@ -41,21 +40,15 @@ MetaTexture metaTexture(const WarpMetaTextureParams& params, const ExampleTextur
   m.skip = params.skip;
   // Copies stand at up to the ratio of two scales around their size, most of them near it; a whole level
   // costs one bilinear sample where a fraction costs two.
-  m.lod = std::max(0.0f, std::floor(std::log2(float(example.width) / width) + 0.4f));
+  m.lod = std::max(0.0f, std::floor(std::log2(float(example->width) / width) + 0.4f));
   m.skewLevels = float(params.skewLevels);
   m.tiles = params.tiles;
-  return m;
+  return {m, example};
 }
 
 glm::vec2 patternShift(uint32_t seed) {
   return seed == 0 ? glm::vec2(0.0f)
                    : glm::vec2(float(hash(seed) & 0xFFFF), float(hash(seed + 1) & 0xFFFF)) / 65536.0f;
-}
-
-MetaTextureUse metaTextureUse(const WarpMetaTextureParams& params, uint32_t channels, const FrameInput& input,
-                              ExampleTextures& examples, const glm::vec2& shift) {
-  const ExampleTexture& example = examples.get(input.look, params.example);
-  return {metaTexture(params, example, channels, input.uniforms.pixelScale, shift), &example};
 }
 
 TangentOptions tangentOptions(const WarpMetaTextureParams& params) {

@@ -47,7 +47,7 @@ enum MetaTextureContrast : int32_t { kContrastOff, kContrastVariance, kContrastH
 MetaTexture metaTexture(const WarpMetaTextureParams& params, const ExampleTexture& example, uint32_t channels,
                         float pixelScale, const glm::vec2& shift);
 
-// A use and its textures.
+// A use, ready for the shaders, and its textures.
 struct MetaTextureUse {
   MetaTexture meta;
   const ExampleTexture* example = nullptr;
@@ -56,7 +56,8 @@ struct MetaTextureUse {
   const gpu::Image& image() const {
     return meta.contrast == kContrastHistogram ? example->gaussian : example->image;
   }
-  const gpu::Image& inverse() const { return example->inverse; }
+  // The way back from the twin; any image where nothing reads it.
+  const gpu::Image& inverse() const { return example->inverse.handle() ? example->inverse : example->image; }
   // MetaTexture and screen space read one mip level; the other modes need them all.
   gpu::SamplerDesc sampler() const {
     gpu::SamplerDesc desc = ExampleTextures::kSampler;
@@ -64,11 +65,15 @@ struct MetaTextureUse {
     return desc;
   }
 };
+
+// `channels`: which of the example's channels are read (1 for R, 2 for G, ...); they decide what contrast
+// `auto` means. `pixelScale`: as in FrameUniforms; `shift`: of every copy.
+MetaTextureUse metaTextureUse(const WarpMetaTextureParams& params, uint32_t channels,
+                              const look::LookData& look, ExampleTextures& examples, float pixelScale,
+                              const glm::vec2& shift);
+
 // By the seed, in copies of a texture, from 0 to 1; none for seed 0.
 glm::vec2 patternShift(uint32_t seed);
-
-MetaTextureUse metaTextureUse(const WarpMetaTextureParams& params, uint32_t channels, const FrameInput& input,
-                              ExampleTextures& examples, const glm::vec2& shift);
 
 // All blocks of MetaTexture knobs have the same rows.
 template <class Params>

@@ -28,6 +28,7 @@ struct Assignment {
 struct LookPicture {
   std::string file;
   Pixels pixels;
+  uint64_t contents = 0;  // contentsOf(pixels)
 };
 
 struct LookData {

@@ -79,7 +79,7 @@ Result<look::LookPicture> loadPicture(const std::string& file) {
                  "give a PNG, JPEG or WebP of at most " + std::to_string(kMaxPictureSide) +
                      " pixels a side, or a picture that is built in"};
   };
-  look::LookPicture picture{file, {}};
+  look::LookPicture picture{file, {}, 0};
   FileBytes bytes;
   std::string problem;
   if (!bytes.open(file, problem)) return fail(problem);
@@ -87,6 +87,7 @@ Result<look::LookPicture> loadPicture(const std::string& file) {
   if (!readImageSize(bytes.bytes(), width, height, problem)) return fail(problem);
   if (width > kMaxPictureSide || height > kMaxPictureSide) return fail("this picture is too large");
   if (!decodeImage(bytes.bytes(), picture.pixels, problem)) return fail(problem);
+  picture.contents = contentsOf(picture.pixels);
   return picture;
 }
 

@@ -6,7 +6,7 @@
 //
 //   MetaTexture m = ...;                                      // uniform; what it holds is said below
 //   MetaTextureChoice c = metaTextureChoose(m, dSdu, dSdv, 1.0);
-//   vec4 value = metaTextureSample(m, c, example, uv, vec2(0.0));
+//   vec4 value = metaTextureSample(m, c, example, uv, vec2(0.0), gl_FragCoord.xy);
 //
 // dSdu, dSdv: the tangent vectors dP/du and dP/dv of the surface, projected to the screen, in pixels per unit of u and
 // v (x right, y down); metaTextureProject does that. Where there are no tangents, metaTextureFromDerivatives makes

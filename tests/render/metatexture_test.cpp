@@ -56,7 +56,9 @@ class MetaTextureTest : public ::testing::Test {
                                  look::Picture example = 0, bool specialised = false,
                                  const look::LookData& look = {}) {
     Gpu& g = gpuOfTests();
-    const frame::ExampleTexture& texture = g.examples->get(look, example);
+    const frame::ExampleTexture& texture = meta.contrast == frame::kContrastHistogram
+                                               ? g.examples->getWithTwin(look, example)
+                                               : g.examples->get(look, example);
     const frame::MetaTextureUse use{meta, &texture};
     constexpr VkShaderStageFlags kStage = VK_SHADER_STAGE_COMPUTE_BIT;
     gpu::SetLayout layout(*g.device, {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kStage},
@@ -283,7 +285,9 @@ TEST_F(MetaTextureTest, histogramOfATextureOfTwoValues) {
   EXPECT_GT(example.statistics.distanceToGaussian.x, 0.3f);
   frame::WarpMetaTextureParams params;
   params.size = 64;
-  MetaTexture m = frame::metaTexture(params, example, 0b0111, 1, glm::vec2(0.0f));
+  params.example = look::Picture(-1);
+  MetaTexture m =
+      frame::metaTextureUse(params, 0b0111, look, *gpuOfTests().examples, 1, glm::vec2(0.0f)).meta;
   EXPECT_EQ(m.contrast, frame::kContrastHistogram) << "chosen by itself";
   std::vector<Query> queries(8000);
   for (Query& query : queries) {

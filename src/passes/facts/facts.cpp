@@ -64,7 +64,8 @@ class Facts : public Pass {
     for (size_t m = 0; m < input.scene.materialCount(); ++m) {
       const std::string& name = input.scene.materialName(m);
       const auto params = input.look.getForMaterial<WarpMetaTextureParams>(name);
-      const MetaTextureUse use = metaTextureUse(params, 0b0011, input, *examples_, glm::vec2(0.0f));
+      const MetaTextureUse use =
+          metaTextureUse(params, 0b0011, input.look, *examples_, input.uniforms.pixelScale, glm::vec2(0.0f));
       materials_.write(m, {use.meta, tangentOptions(params)});
     }
     eye_ = input.uniforms.views[0].eye;

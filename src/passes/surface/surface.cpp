@@ -117,9 +117,11 @@ class Surface : public Pass {
     for (size_t m = 0; m < input.scene.materialCount(); ++m) {
       const std::string& name = input.scene.materialName(m);
       const TextureParams texture = input.look.getForMaterial<TextureParams>(name);
-      const auto metaParams = sameRows(input.look.getForMaterial<TextureMetaTextureParams>(name));
-      const MetaTextureUse use =
-          metaTextureUse(metaParams, 0b0111, input, frame_->examples(), patternShift(input.seed));
+      auto metaParams = sameRows(input.look.getForMaterial<TextureMetaTextureParams>(name));
+      // What is not painted needs no texture of its own.
+      if (texture.amount <= 0) metaParams = WarpMetaTextureParams();
+      const MetaTextureUse use = metaTextureUse(metaParams, 0b0111, input.look, frame_->examples(),
+                                                input.uniforms.pixelScale, patternShift(input.seed));
       painted_.write(m, {use.meta, tangentOptions(metaParams), texture.amount, texture.blend});
       painted.push_back(texture.amount > 0);
       const std::array textures{ImageStep::Texture{&use.image(), use.sampler()},

@@ -147,8 +147,9 @@ class Warp : public Pass {
     glm::vec2 shift = patternShift(input.seed);
     if (const int drawing = boilDrawing(params, input.uniforms.time))
       shift += params.boil * patternShift(0x5EA0u + 2 * uint32_t(drawing));
-    return {metaTextureUse(metaParams, 0b0011, input, *examples_, shift),
-            metaTextureUse(breakupMeta, 0b0100, input, *examples_, shift), breakup.amount};
+    const float pixelScale = input.uniforms.pixelScale;
+    return {metaTextureUse(metaParams, 0b0011, input.look, *examples_, pixelScale, shift),
+            metaTextureUse(breakupMeta, 0b0100, input.look, *examples_, pixelScale, shift), breakup.amount};
   }
 
   void record(VkCommandBuffer commands) const {
