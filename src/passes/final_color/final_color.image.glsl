@@ -49,10 +49,14 @@ vec4 shade(ivec2 pixel, int layer) {
     if (outside && movedDepth + fall < beyond) moved = own;
     // About to fetch something before the surface that covers this pixel: what is there, inflated, does not reach here.
     if (movedDepth > depthOf(0.97 * vector.a, layer) + rise) moved = own;
-    // Torn off: the object's own pixel, where what lies behind it is to show; if that is what the displaced sample
-    // would show a piece of. Inside a fold there is nothing behind but the rest of the world.
-    if (kLayered != 0 && !outside && movedDepth + fall + rise < beyond)
-      revealed = texelFetch(behindDepth, at, 0).r >= 0.8 * movedDepth;
+    // Torn off: the object's own pixel, and a sample from outside the silhouette. What lies behind the pixel shows
+    // instead, if that is what the sample shows a piece of: inside a fold there is nothing behind but the rest of the
+    // world.
+    if (kLayered != 0 && !outside && movedDepth + rise < beyond) {
+      float there = texelFetch(warp, ivec3(ivec2(moved), layer), 0).a;
+      bool beside = there == 0.0 || movedDepth < depthOf(1.15 * there, layer);
+      revealed = beside && texelFetch(behindDepth, at, 0).r >= 0.8 * movedDepth;
+    }
   }
   vec4 result = textureLod(color, vec3(moved / frame.imageSize, layer), 0.0);
   if (kLayered != 0 && revealed) result = texelFetch(behind, at, 0);
