@@ -6,9 +6,10 @@
     --out FOLDER    where the PNGs go; default: beside this script
     --small         a quarter of the size, for trying
 
-Every figure is a function below, and makes its own scene. Numbers in parentheses are the paper's.
+Every figure is a function below, and makes its own scene. docs/figures.md says what is to be seen.
 """
 import math
+import random
 import subprocess
 import sys
 import tempfile
@@ -17,7 +18,6 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(HERE))
-import panels  # noqa: E402
 from panels import WHITE, Field, Picture, above, beside, histogram, mix, table  # noqa: E402  (tests/support is in the path now)
 from gltf import Gltf  # noqa: E402
 from png import encode_png, make_png  # noqa: E402
@@ -86,7 +86,6 @@ def painted(example, **meta):
 
 def dabs():
     """An example texture: round dabs of three sizes on paper, 256 x 256, the dark share about a half."""
-    import random
     chance, circles = random.Random(3), []
     for radius, count in ((20, 14), (12, 22), (7, 40)):
         for _ in range(400):
@@ -137,7 +136,7 @@ def band(exponent):
 
 @figure
 def scales(studio):
-    """(5)"""
+    """The paper's figure 5."""
     camera = ("--eye", "0,2.0,4.4", "--target", "0,-0.3,0.3", "--fov", 42)
     size = 396, 300
     example = studio.put("dabs.png", dabs())
@@ -164,7 +163,7 @@ def tile(example, width, height, studio):
 
 @figure
 def gradients(studio):
-    """(6)"""
+    """The paper's figure 6."""
     g = Gltf()
     g.ball(1, unlit(g, "Ball"), rows=8, columns=14, repeat=(2, 1))
     camera = ("--eye", "1.2,1.2,-2.3", "--target", "0,0,0", "--fov", 42.5)
@@ -180,10 +179,10 @@ def gradients(studio):
 
 @figure
 def radial(studio):
-    """(3.3)"""
+    """The paper's section 3.3."""
     example = studio.put("dabs.png", dabs())
     camera = ("--eye", "0,0,1", "--target", "0,0,0", "--fov", 84)
-    pictures = [studio.render(wall(size=8, mapped=4), 1194, 800, painted(example, radial=on, size=300), *camera) for on in (False, True)]
+    pictures = [studio.render(wall(size=8, mapped=4), 1194, 800, painted(example, radial=on, size=320, base=1.3, blend=0.2), *camera) for on in (False, True)]
 
     def by_angle(picture):
         """As the eye has it: pixels of equal angle from the middle; half as large."""
@@ -205,7 +204,7 @@ def radial(studio):
 
 @figure
 def skew(studio):
-    """(7)"""
+    """The paper's figure 7."""
     example = studio.put("dabs.png", dabs())
     # A step of straightening that meets this mapping's own, and scales so close that nothing else is left to see.
     look = dict(size=420, base=1.1, skewLevels=3, blend=0.01)
@@ -215,7 +214,7 @@ def skew(studio):
 
 @figure
 def contour(studio):
-    """(8)"""
+    """The paper's figure 8."""
     g = Gltf()
     g.ball(1, unlit(g, "Ball"), 64, 128, repeat=(2, 1))
     example = studio.put("dashes.png", dashes())
@@ -225,7 +224,6 @@ def contour(studio):
 
 def dashes():
     """An example texture: horizontal dashes, 256 x 256."""
-    import random
     chance, lines = random.Random(4), []
     for _ in range(4000):
         x, y = chance.randrange(256), chance.randrange(256)
@@ -241,7 +239,7 @@ def dashes():
 
 @figure
 def contrast(studio):
-    """(9)"""
+    """The paper's figure 9."""
     columns = []
     two = studio.put("two.png", blotches())
     for example in ("paper", two):
@@ -257,10 +255,9 @@ def contrast(studio):
 
 def blotches():
     """An example texture of two values: noise against a threshold, 128 x 128."""
-    import random
     chance, n = random.Random(5), 128
-    waves = [(chance.randrange(-7, 8), chance.randrange(-7, 8), chance.random() * 7) for _ in range(40)]
-    height = [[sum(math.cos(2 * math.pi * (a * x + b * y) / n + c) for a, b, c in waves) for x in range(n)] for y in range(n)]
+    components = [(chance.randrange(-7, 8), chance.randrange(-7, 8), chance.random() * 7) for _ in range(40)]
+    height = [[sum(math.cos(2 * math.pi * (a * x + b * y) / n + c) for a, b, c in components) for x in range(n)] for y in range(n)]
     return encode_png(n, n, Picture.of(n, n, lambda x, y: (40,) * 3 if height[y][x] < 1.5 else (215,) * 3).rows)
 
 
@@ -279,6 +276,7 @@ def curve(points, steps=6):
 
 
 def vessel():
+    """A jug on a table."""
     g = Gltf()
     clay, ground = g.material("Clay", (0.62, 0.26, 0.16, 1)), g.material("Table", (0.78, 0.72, 0.6, 1))
     g.lathe(curve([(0.01, 1.6), (0.15, 1.61), (0.33, 1.6), (0.24, 1.42), (0.26, 1.27), (0.52, 1.05), (0.7, 0.75), (0.66, 0.4), (0.5, 0.12),
@@ -301,7 +299,7 @@ def arrows(r, g, b, a):
 
 @figure
 def breakup(studio):
-    """(10)"""
+    """The paper's figure 10."""
     camera = ("--eye", "0,1.6,4.2", "--target", "0,0.85,0", "--fov", 30)
     knobs = torn(16)
     size = 296, 400
@@ -320,15 +318,15 @@ def srgb(*values):
 
 @figure
 def inflation(studio):
-    """(11)"""
+    """The paper's figure 11."""
     camera = ("--eye", "0,1.6,4.2", "--target", "0,0.85,0", "--fov", 30)
-    pictures = [studio.render(vessel(), 597, 420, torn(14, amount), *camera) for amount in (0, 14)]
+    pictures = [studio.render(vessel(), 597, 420, torn(14, inflation=amount), *camera) for amount in (0, 14)]
     return beside(*(p.crop(p.width // 4, p.height // 16, p.width // 2, p.height // 3 * 2).enlarged(2) for p in pictures))
 
 
 @figure
 def boil(studio):
-    """(12)"""
+    """The paper's figure 12."""
     camera = ("--eye", "0,1.5,2.6", "--target", "0.05,1.38,0", "--fov", 17)
     pictures = [studio.render(vessel(), 294, 240, torn(20, **{"warp.boil": 0.5}), *camera, "--time", 2 * i / 24) for i in range(4)]
     return beside(*pictures)
@@ -336,7 +334,7 @@ def boil(studio):
 
 @figure
 def roll(studio):
-    """(13)"""
+    """The paper's figure 13."""
     camera = ("--eye", "0,1.6,4.2", "--target", "0.1,0.85,0", "--fov", 27)
     pictures = []
     for mode in ("metatexture", "screen"):
@@ -349,7 +347,7 @@ def roll(studio):
 
 @figure
 def distance(studio):
-    """(14)"""
+    """The paper's figure 14."""
     camera = ("--eye", "0,1.6,14", "--target", "-0.2,1.05,0", "--fov", 11)
     return beside(*(studio.render(sailor(), 597, 400, torn(9, **{"warp.distance": amount, "warp.metatexture.size": 256}), *camera)
                     for amount in (0, 0.1)))
@@ -372,11 +370,11 @@ def sailor():
 
 @figure
 def ripple(studio):
-    """(23)"""
+    """The paper's figure 23."""
     g = Gltf()
     board = unlit(g, "Board", (1, 1, 1, 1))
     g.texture(board, make_png(256, 256, lambda x, y: (235, 232, 225) if (x // 8 + y // 8) % 2 else (60, 66, 80)))
-    g.quad(6, board, (0, -3, -0.5))
+    g.quad(9.6, board, (0, -4.8, -3))
     g.torus(0.75, 0.28, g.material("Ring", (0.72, 0.2, 0.13, 1)))
     camera = ("--eye", "0,0,4.6", "--target", "0,0,0", "--fov", 32)
     return beside(*(studio.render(g.text(), 396, 396, torn(16, 40, **{"materials.Board.warp.amount": 0, "surface.simplify": 0, "final.ripple": kind}), *camera)
@@ -387,7 +385,7 @@ def ripple(studio):
 
 @figure
 def bases(studio):
-    """(7.4)"""
+    """The paper's section 7.4."""
     examples = studio.put("dabs.png", dabs()), studio.put("dashes.png", dashes())
     g = Gltf()
     g.floor(40, unlit(g, "Floor"))
@@ -398,7 +396,7 @@ def bases(studio):
 
 @figure
 def modes(studio):
-    """(3)"""
+    """The paper's section 3."""
     g = Gltf()
     g.ball(1, unlit(g, "Ball"), 64, 128, repeat=(2, 1))
     example, result = studio.put("dabs.png", dabs()), []
@@ -412,7 +410,7 @@ def modes(studio):
 
 @figure
 def cyclopean(studio):
-    """(3.2)"""
+    """The paper's section 3.2."""
     g = Gltf()
     g.grid(4, 12, lambda u, v: ((0, 2 - 4 * v, 1 - 6 * u), (1, 0, 0)), unlit(g, "Wall"))
     example, result = studio.put("dabs.png", dabs()), []

@@ -45,19 +45,14 @@ class Picture:
     def halved(self):
         """Means of 2 x 2 pixels."""
         rows = []
-        for above_, below in zip(self.rows[0::2], self.rows[1::2]):
-            sums = [a + b for a, b in zip(above_, below)]
+        for upper, lower in zip(self.rows[0::2], self.rows[1::2]):
+            sums = [a + b for a, b in zip(upper, lower)]
             rows.append(bytes((sums[i + c] + sums[i + 3 + c]) // 4 for i in range(0, 6 * (self.width // 2), 6) for c in range(3)))
         return Picture(self.width // 2, self.height // 2, rows)
 
     def turned(self):
         """A quarter turn with the clock."""
         return Picture.of(self.height, self.width, lambda x, y: self.at(y, self.height - 1 - x))
-
-    def framed(self, color=(150, 150, 150)):
-        """With a line of one pixel around it, inside."""
-        inner = [bytes(color) + row[3:-3] + bytes(color) for row in self.rows[1:-1]]
-        return Picture(self.width, self.height, [bytes(color) * self.width, *inner, bytes(color) * self.width])
 
     def save(self, path):
         Path(path).write_bytes(encode_png(self.width, self.height, self.rows))
