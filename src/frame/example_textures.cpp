@@ -67,7 +67,15 @@ gpu::Image upload(gpu::Uploader& uploader, const Pixels& pixels) {
 }  // namespace
 
 Pixels builtInExample(int index) {
-  if (index == 1) return grey(knifeMarks());
+  if (index == 1) {
+    // Lying, as `orient` wants them.
+    const std::vector<uint8_t> standing = knifeMarks();
+    std::vector<uint8_t> lying(standing.size());
+    for (uint32_t y = 0; y < kBuiltInSize; ++y)
+      for (uint32_t x = 0; x < kBuiltInSize; ++x)
+        lying[y * kBuiltInSize + x] = standing[x * kBuiltInSize + y];
+    return grey(lying);
+  }
   if (index == 2) {
     const std::vector<float> grain = selfSimilarNoise(kBuiltInSize, 24, 4, 0.7f, 31);
     std::vector<uint8_t> bytes(grain.size());

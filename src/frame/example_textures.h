@@ -16,7 +16,7 @@ namespace scumble::frame {
 //   torn     red, green: two independent fields, rough down to a few texels, so that edges are torn and not
 //   wavy;
 //            blue: palette-knife marks
-//   strokes  the marks alone, grey
+//   strokes  the marks alone, grey, lying along u
 //   paper    grain, grey
 constexpr uint32_t kBuiltInSize = 256;  // texels; one texel a pixel at the default size
 Pixels builtInExample(int index);

@@ -1,4 +1,4 @@
-// Finds vertices that share a position, to the bit.
+// Finds vertices that share a position: to the bit, or on a grid.
 #pragma once
 
 #include <bit>
@@ -7,6 +7,17 @@
 #include <vector>
 
 namespace scumble::scene {
+
+// Positions on a grid of 1 / 65536 of the extent: the two sides of a seam are often computed, and differ by a
+// rounding. Round numbers lie in the middle of a cell.
+class PositionGrid {
+ public:
+  explicit PositionGrid(float inverseExtent) : scale_(65536.0f * inverseExtent) {}
+  glm::vec3 operator()(const glm::vec3& p) const { return glm::round(p * scale_); }
+
+ private:
+  float scale_;
+};
 
 // An open-addressing hash table of positions; values are the caller's vertex numbers.
 class PositionTable {

@@ -73,20 +73,9 @@ float inverseExtent(const std::vector<glm::vec3>& positions) {
   return extent > 1e-30f ? 1.0f / extent : 0.0f;
 }
 
-// Positions on a grid of 1 / 65536 of the extent: the two sides of a seam are often computed, and differ by a
-// rounding. Round numbers lie in the middle of a cell.
-class Grid {
- public:
-  explicit Grid(float inverseExtent) : scale_(65536.0f * inverseExtent) {}
-  glm::vec3 operator()(const glm::vec3& p) const { return glm::round(p * scale_); }
-
- private:
-  float scale_;
-};
-
 // representatives[v]: the first vertex at v's position. Empty when all positions differ.
 std::vector<uint32_t> findRepresentatives(const std::vector<glm::vec3>& positions) {
-  const Grid grid(inverseExtent(positions));
+  const PositionGrid grid(inverseExtent(positions));
   std::vector<uint32_t> representatives(positions.size());
   PositionTable table(positions.size());
   const auto positionOf = [&](uint32_t i) { return grid(positions[i]); };
@@ -177,10 +166,13 @@ void makeFlat(Primitive& p) {
 void findWraps(Primitive& p, const std::vector<uint32_t>& representatives) {
   if (p.uv0.empty() || representatives.empty()) return;
   const auto isWhole = [](float d) { return std::abs(d - std::round(d)) < 1e-4f; };
+  std::vector<uint32_t> met(p.vertexCount(), 0);
+  for (const uint32_t first : representatives) ++met[first];
   size_t seams = 0, wraps[2] = {};
   for (size_t i = 0; i < p.vertexCount(); ++i) {
     const glm::vec2 d = p.uv0[i] - p.uv0[representatives[i]];
-    if (std::max(std::abs(d.x), std::abs(d.y)) < 1e-4f) continue;
+    // Where many meet there is a pole, which tells nothing.
+    if (std::max(std::abs(d.x), std::abs(d.y)) < 1e-4f || met[representatives[i]] > 8) continue;
     ++seams;
     if (!isWhole(d.x) || !isWhole(d.y)) continue;
     for (int axis = 0; axis < 2; ++axis) wraps[axis] += std::abs(d[axis]) > 0.5f;
@@ -242,7 +234,7 @@ void weldSmoothNormals(Mesh& mesh) {
   if (mesh.primitives.size() < 2) return;
   size_t count = 0;
   for (const Primitive& p : mesh.primitives) count += p.vertexCount();
-  const Grid grid(0.5f / std::max(boundingRadius(mesh), 1e-30f));
+  const PositionGrid grid(0.5f / std::max(boundingRadius(mesh), 1e-30f));
 
   // One entry a position; a primitive's sum is the same at all its vertices there, and counts once.
   struct Entry {

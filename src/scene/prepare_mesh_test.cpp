@@ -160,5 +160,59 @@ TEST(PrepareMesh, undrawableTrianglesAreLeftOut) {
   EXPECT_EQ(scene.warnings().size(), 1u);
 }
 
+// A ball as modellers make it, with two poles and a seam whose sides were computed: the mapping closes on
+// itself along u, and both sides of the seam have the same tangents and smooth normals, whether corners share
+// vertices or none do.
+TEST(PrepareMesh, aBallClosesOnItself) {
+  constexpr int kColumns = 24, kRows = 12;
+  for (const bool shares : {true, false}) {
+    std::vector<float> position, normal, uv;
+    std::vector<uint16_t> indices;
+    for (int row = 0; row <= kRows; ++row)
+      for (int column = 0; column <= kColumns; ++column) {
+        const float u = float(column) / kColumns, v = float(row) / kRows;
+        const float a = 6.2831853f * u, b = 3.14159265f * v;
+        const float p[3] = {std::sin(b) * std::cos(a), std::cos(b), -std::sin(b) * std::sin(a)};
+        position.insert(position.end(), p, p + 3);
+        normal.insert(normal.end(), p, p + 3);
+        uv.insert(uv.end(), {u, v});
+      }
+    for (int row = 0; row < kRows; ++row)
+      for (int column = 0; column < kColumns; ++column) {
+        const uint16_t i = uint16_t(row * (kColumns + 1) + column), j = uint16_t(i + kColumns + 1);
+        for (const int k : {int(i), int(j), j + 1, int(i), j + 1, i + 1}) indices.push_back(uint16_t(k));
+      }
+    if (!shares) {
+      const auto split = [&](std::vector<float>& values, size_t n) {
+        std::vector<float> corners;
+        for (const uint16_t i : indices) corners.insert(corners.end(), &values[i * n], &values[i * n] + n);
+        values = corners;
+      };
+      split(position, 3), split(normal, 3), split(uv, 2);
+    }
+    TestGltf g;
+    const TestGltf::Json attributes = {{"POSITION", g.addFloats(position, 3)},
+                                       {"NORMAL", g.addFloats(normal, 3)},
+                                       {"TEXCOORD_0", g.addFloats(uv, 2)}};
+    g.addMesh(attributes, shares ? g.addIndices(indices) : -1);
+    const Scene scene = loaded(g);
+    const Primitive& p = scene.data().meshes[0].primitives[0];
+    EXPECT_TRUE(p.wrapsU);
+    EXPECT_FALSE(p.wrapsV);
+    // One tangent at each place between the poles.
+    std::map<std::pair<int, int>, size_t> first;
+    for (size_t v = 0; v < p.vertexCount(); ++v) {
+      const int row = int(std::lround(p.uv0[v].y * kRows)),
+                column = int(std::lround(p.uv0[v].x * kColumns)) % kColumns;
+      if (row == 0 || row == kRows) continue;
+      const size_t other = first.try_emplace({row, column}, v).first->second;
+      EXPECT_LT(glm::length(p.dPdu[v] - p.dPdu[other]), 1e-4f) << row << ", " << column;
+      EXPECT_LT(glm::length(p.dPdv[v] - p.dPdv[other]), 1e-4f) << row << ", " << column;
+      EXPECT_LT(glm::length(p.smoothNormals[v] - p.smoothNormals[other]), 1e-5f) << row << ", " << column;
+    }
+    EXPECT_EQ(first.size(), size_t((kRows - 1) * kColumns));
+  }
+}
+
 }  // namespace
 }  // namespace scumble::scene

@@ -88,11 +88,12 @@ std::vector<uint32_t> samePlaces(const Primitive& p, float scale) {
                     whole(p.wrapsU ? std::round(d.x) : 0.0f, p.wrapsV ? std::round(d.y) : 0.0f);
     return glm::length(d - whole) < 1e-5f;
   };
+  const PositionGrid grid(0.5f * scale);
   PositionTable table(p.vertexCount());
   std::vector<uint32_t> first(p.vertexCount());
   for (uint32_t v = 0; v < first.size(); ++v)
-    first[v] = table.findOrAddIf(p.positions[v], v, [&](uint32_t stored) {
-      return p.positions[stored] == p.positions[v] && sameUv(stored, v) &&
+    first[v] = table.findOrAddIf(grid(p.positions[v]), v, [&](uint32_t stored) {
+      return grid(p.positions[stored]) == grid(p.positions[v]) && sameUv(stored, v) &&
              (balance[stored] < 0.0f) == (balance[v] < 0.0f) &&
              glm::dot(p.normals[stored], p.normals[v]) > kCrease;
     });

@@ -5,16 +5,13 @@
 """
 import json
 import struct
-import sys
 import unittest
 import zlib
-from pathlib import Path
 
 import program_test
 from program_test import UNUSABLE, USAGE, Program
+from png import make_png as png  # program_test knows where
 
-sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "golden"))
-from scenes import png  # noqa: E402
 
 
 def stripes(size=32):

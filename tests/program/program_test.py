@@ -15,8 +15,11 @@ import subprocess
 import sys
 import tempfile
 import unittest
-import zlib
 from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
+from png import read_png as png  # noqa: E402
 
 SMALL = ["--size", "160x90", "--samples", "1", "--validate"]
 TINY = ["--size", "32x18", "--samples", "1", "--validate"]
@@ -66,42 +69,6 @@ def gltf(color=(0.8, 0.5, 0.2), camera=False, **more):
 
 
 # -- Pictures
-
-def png(path):
-    """Width, height, channels and rows of an 8 bit PNG."""
-    data = Path(path).read_bytes()
-    assert data[:8] == b"\x89PNG\r\n\x1a\n", f"{path} is no PNG"
-    width, height, depth, color = struct.unpack(">IIBB", data[16:26])
-    assert depth == 8 and color in (2, 6), (depth, color)
-    channels = {2: 3, 6: 4}[color]
-    packed, at = b"", 8
-    while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        if kind == b"IDAT":
-            packed += data[at + 8:at + 8 + length]
-        at += 12 + length
-    raw, rows, before = zlib.decompress(packed), [], bytearray(width * channels)
-    stride = width * channels + 1
-    for y in range(height):
-        kind, row = raw[y * stride], bytearray(raw[y * stride + 1:(y + 1) * stride])
-        for i in range(len(row)):
-            a = row[i - channels] if i >= channels else 0
-            b = before[i]
-            c = before[i - channels] if i >= channels else 0
-            if kind == 1:
-                row[i] = (row[i] + a) & 255
-            elif kind == 2:
-                row[i] = (row[i] + b) & 255
-            elif kind == 3:
-                row[i] = (row[i] + (a + b) // 2) & 255
-            elif kind == 4:
-                p = a + b - c
-                pa, pb, pc = abs(p - a), abs(p - b), abs(p - c)
-                row[i] = (row[i] + (a if pa <= pb and pa <= pc else b if pb <= pc else c)) & 255
-        rows.append(bytes(row))
-        before = row
-    return width, height, channels, rows
-
 
 def exr(path):
     """The header of an EXR: its attributes by name, "channels" as a list of (name, type), type 2 being float."""

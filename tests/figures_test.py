@@ -1,0 +1,38 @@
+#!/usr/bin/env python3
+"""docs/figures/make.py still works: one figure, very small; and page, folder and script agree on which figures there are.
+
+    tests/figures_test.py PROGRAM
+"""
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(ROOT / "tests/support"))
+from png import read_png  # noqa: E402
+
+
+def make(*arguments):
+    return subprocess.run([sys.executable, ROOT / "docs/figures/make.py", *arguments], capture_output=True, text=True, check=True).stdout
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    listed = make("--list").split()
+    shown = re.findall(r"\]\(figures/([\w-]+)\.png\)", (ROOT / "docs/figures.md").read_text(encoding="utf-8"))
+    there = [path.stem for path in (ROOT / "docs/figures").glob("*.png")]
+    assert sorted(listed) == sorted(shown) == sorted(there), f"script {sorted(listed)}, page {sorted(shown)}, folder {sorted(there)}"
+    with tempfile.TemporaryDirectory() as folder:
+        make(sys.argv[1], "breakup", "--small", "--out", folder)
+        width, height, _, rows = read_png(Path(folder) / "breakup.png")
+    assert width > 250 and height == 100, (width, height)
+    assert len({row[i:i + 3] for row in rows for i in range(0, len(row), 3)}) > 50, "hardly anything in the picture"
+    print(f"figures: {len(listed)}, and breakup can be drawn")
+
+
+if __name__ == "__main__":
+    main()
