@@ -37,7 +37,7 @@ struct MetaTexture {
 struct MetaTextureChoice {
   vec2 exponent[2];    // eq. 2, of the coordinates after the skew is taken out
   vec2 psi[2];         // cos, sin of the angle of eq. 20
-  float skewLevel;      // number of the first level
+  float skewLevel;     // number of the first level
   float skewBlend;     // share of the second level, 0 to 1
   float q;             // what the levels quantise: sin(2 psi) for exact skew, 2 tan(psi) for approximate
   float orientBlend;   // share of the texture with its axes exchanged

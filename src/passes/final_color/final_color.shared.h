@@ -4,7 +4,7 @@
 
 SHARED_BEGIN
 struct FinalColorUniforms {
-  vec3 bloom;  // colour times amount
+  vec3 bloom;       // colour times amount
   float inflation;  // pixels, the most of any material
   int ripple;       // 0 paper, 1 depth-aware, 2 layered
 };

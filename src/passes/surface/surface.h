@@ -19,8 +19,8 @@ namespace scumble::passes {
 #define PARAMS_PER_MATERIAL true
 #include "look/define_params.h"
 
-// Which surface of a pixel: the first, or the next one behind it (one sample a pixel, light as it is thresholded without
-// a blur).
+// Which surface of a pixel: the first, or the next one behind it (one sample a pixel, light as it is
+// thresholded without a blur).
 enum class SurfaceLayer { first, behind };
 std::unique_ptr<frame::Pass> makeSurface(SurfaceLayer layer);
 
