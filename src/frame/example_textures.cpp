@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/tileable_noise.h"
+#include "frame/mipmaps.h"
 
 namespace scumble::frame {
 
@@ -30,38 +31,16 @@ Pixels grey(const std::vector<uint8_t>& values) {
   return pixels;
 }
 
-// Means of 2 x 2 bytes down to one texel: these are values, not light.
-std::vector<std::vector<uint8_t>> halves(const Pixels& pixels) {
-  std::vector<std::vector<uint8_t>> levels{pixels.rgba};
-  uint32_t width = pixels.width, height = pixels.height;
-  while (width > 1 || height > 1) {
-    const uint32_t w = std::max(width / 2, 1u), h = std::max(height / 2, 1u);
-    std::vector<uint8_t> level(size_t(w) * h * 4);
-    const std::vector<uint8_t>& above = levels.back();
-    for (uint32_t y = 0; y < h; ++y)
-      for (uint32_t x = 0; x < w; ++x)
-        for (uint32_t c = 0; c < 4; ++c) {
-          const uint32_t x0 = std::min(2 * x, width - 1), x1 = std::min(2 * x + 1, width - 1);
-          const uint32_t y0 = std::min(2 * y, height - 1), y1 = std::min(2 * y + 1, height - 1);
-          const auto at = [&](uint32_t i, uint32_t j) {
-            return uint32_t(above[(size_t(j) * width + i) * 4 + c]);
-          };
-          level[(size_t(y) * w + x) * 4 + c] =
-              uint8_t((at(x0, y0) + at(x1, y0) + at(x0, y1) + at(x1, y1) + 2) / 4);
-        }
-    levels.push_back(std::move(level));
-    width = w, height = h;
-  }
-  return levels;
+gpu::Image upload(gpu::Uploader& uploader, const Pixels& pixels) {
+  const auto smaller = makeValueMipmaps(pixels.rgba, pixels.width, pixels.height);
+  std::vector<std::span<const std::byte>> levels{std::as_bytes(std::span(pixels.rgba))};
+  for (const auto& level : smaller) levels.push_back(std::as_bytes(std::span(level)));
+  return uploader.texture(levels, VK_FORMAT_R8G8B8A8_UNORM, pixels.width, pixels.height);
 }
 
-gpu::Image upload(gpu::Uploader& uploader, const Pixels& pixels) {
-  const auto levels = halves(pixels);
-  std::vector<std::span<const std::byte>> spans;
-  for (const auto& level : levels) spans.push_back(std::as_bytes(std::span(level)));
-  gpu::Image image = uploader.texture(spans, VK_FORMAT_R8G8B8A8_UNORM, pixels.width, pixels.height);
-  uploader.flush();
-  return image;
+Pixels pixelsOf(const look::LookData& look, look::Picture picture) {
+  return picture.index >= 0 ? builtInExample(picture.index)
+                            : look.pictures[size_t(-1 - picture.index)]->pixels;
 }
 
 }  // namespace
@@ -90,29 +69,21 @@ Pixels builtInExample(int index) {
   return pixels;
 }
 
-namespace {
-
-Pixels pixelsOf(const look::LookData& look, look::Picture picture) {
-  return picture.index >= 0 ? builtInExample(picture.index)
-                            : look.pictures[size_t(-1 - picture.index)]->pixels;
-}
-
-}  // namespace
-
 ExampleTexture& ExampleTextures::find(const look::LookData& look, look::Picture picture) {
   const int builtIn = std::max(picture.index, -1);
   const uint64_t contents = builtIn >= 0 ? 0 : look.pictures[size_t(-1 - picture.index)]->contents;
-  for (const Known& known : known_)
-    if (known.builtIn == builtIn && known.contents == contents) return *known.texture;
+  for (Known& known : known_)
+    if (known.builtIn == builtIn && known.contents == contents) return known.texture;
 
   const Pixels pixels = pixelsOf(look, picture);
-  auto texture = std::make_unique<ExampleTexture>();
-  texture->width = pixels.width, texture->height = pixels.height;
-  texture->statistics = measure(pixels);
+  ExampleTexture texture;
+  texture.width = pixels.width, texture.height = pixels.height;
+  texture.statistics = measure(pixels);
   gpu::Uploader uploader(device_);
-  texture->image = upload(uploader, pixels);
+  texture.image = upload(uploader, pixels);
+  uploader.flush();
   known_.push_back({builtIn, contents, std::move(texture)});
-  return *known_.back().texture;
+  return known_.back().texture;
 }
 
 const ExampleTexture& ExampleTextures::getWithTwin(const look::LookData& look, look::Picture picture) {

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <deque>
-#include <memory>
-#include <string>
 
 #include "frame/histogram.h"
 #include "gpu/pipeline.h"
@@ -13,9 +11,8 @@
 namespace scumble::frame {
 
 // The built-in ones, in the order of the rows in .params files: "torn|strokes|paper".
-//   torn     red, green: two independent fields, rough down to a few texels, so that edges are torn and not
-//   wavy;
-//            blue: palette-knife marks
+//   torn     red, green: two independent fields, rough down to a few texels, so that edges are torn and
+//            not wavy; blue: palette-knife marks
 //   strokes  the marks alone, grey, lying along u
 //   paper    grain, grey
 constexpr uint32_t kBuiltInSize = 256;  // texels; one texel a pixel at the default size
@@ -47,12 +44,12 @@ class ExampleTextures {
   struct Known {
     int builtIn;        // or -1
     uint64_t contents;  // of the file
-    std::unique_ptr<ExampleTexture> texture;
+    ExampleTexture texture;
   };
   ExampleTexture& find(const look::LookData& look, look::Picture picture);
 
   gpu::Device& device_;
-  std::deque<Known> known_;
+  std::deque<Known> known_;  // they are referred to, and stay where they are
 };
 
 }  // namespace scumble::frame

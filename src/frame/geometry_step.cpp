@@ -44,6 +44,7 @@ void GeometryStep::create(gpu::Device& device, const FrameResources& resources, 
                           const GeometryStepDesc& desc) {
   device_ = &device;
   desc_ = desc;
+  constant_ = desc.constant;
   setLayouts_ = {resources.frameLayout().handle(), scene.materialLayout().handle()};
   if (desc.passLayout) setLayouts_.push_back(desc.passLayout->handle());
   makePipelines(scene);

@@ -33,7 +33,8 @@ struct GeometryStepDesc {
   VkCompareOp depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
   uint32_t samples = 1, viewMask = 0;  // mask 0: the shaders know no views
   uint32_t viewCount = 1;
-  bool blends = false;  // blended surfaces are composited; else they are drawn like masked ones
+  uint32_t constant = 0;  // specialisation constant 4, to begin with
+  bool blends = false;    // blended surfaces are composited; else they are drawn like masked ones
   // Set 2, or null for none. Its first bindings are dynamic uniforms, one for each of `materialStrides`: the
   // step from one material's knobs to the next one's, in bytes.
   const gpu::SetLayout* passLayout = nullptr;

@@ -40,7 +40,6 @@ void ImageStep::create(FrameBuilder& frame, const FrameResources& resources) {
   bindings.resize(1 + inputs_.size() + textureCount_, {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, stage});
   inputLayout_ = gpu::SetLayout(device, bindings);
   inputSets_ = gpu::DescriptorSets(device, inputLayout_, maxJobs_);
-  boundTextures_.resize(maxJobs_);
   for (uint32_t job = 0; job < maxJobs_; ++job) {
     inputSets_.writeBuffer(job, 0, uniforms_.buffer, uniforms_.offset + job * uniformStride_, uniformStride_);
     for (uint32_t i = 0; i < inputs_.size(); ++i) {
@@ -63,12 +62,11 @@ void ImageStep::setJobs(std::vector<Job> jobs) {
   jobs_.clear();
   for (size_t job = 0; job < jobs.size(); ++job) {
     assert(jobs[job].textures.size() == textureCount_);
-    const std::vector<Texture>& textures = jobs[job].textures;
-    if (boundTextures_[job] != textures)
-      for (uint32_t i = 0; i < textureCount_; ++i)
-        inputSets_.writeTexture(job, uint32_t(1 + inputs_.size() + i), textures[i].image->view(),
-                                frame_->samplers().get(textures[i].sampler));
-    boundTextures_[job] = textures;
+    for (uint32_t i = 0; i < textureCount_; ++i) {
+      const Texture& texture = jobs[job].textures[i];
+      inputSets_.writeTexture(job, uint32_t(1 + inputs_.size() + i), texture.image->view(),
+                              frame_->samplers().get(texture.sampler));
+    }
     jobs_.push_back(&pipelineFor(jobs[job].constants));
   }
 }

@@ -3,7 +3,6 @@
 // the second).
 #pragma once
 
-#include <deque>
 #include <map>
 
 #include "frame/pass.h"
@@ -24,7 +23,6 @@ class ImageStep {
   struct Texture {
     const gpu::Image* image = nullptr;
     gpu::SamplerDesc sampler{};
-    bool operator==(const Texture&) const = default;
   };
   // One run of the shader over the whole picture. Most steps have one job; where several share the pixels
   // among them, the shader has SHADES_SOME (src/shading/image_pass.glsl).
@@ -63,7 +61,6 @@ class ImageStep {
   gpu::SetLayout inputLayout_, outputLayout_;
   gpu::DescriptorSets inputSets_, outputSet_;
   std::map<std::vector<uint32_t>, gpu::Pipeline> pipelines_;
-  std::vector<std::vector<Texture>> boundTextures_;  // by job
   std::vector<const gpu::Pipeline*> jobs_;
 };
 

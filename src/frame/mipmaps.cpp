@@ -31,12 +31,10 @@ const std::array<uint8_t, 4096>& toSrgb() {
   return table;
 }
 
-}  // namespace
-
-std::vector<std::vector<uint8_t>> makeMipmaps(std::span<const uint8_t> rgba, uint32_t width,
-                                              uint32_t height) {
-  const auto& linear = toLinear();
-  const auto& srgb = toSrgb();
+// `mean` makes a pixel of the 2 x 2 above it.
+template <class Mean>
+std::vector<std::vector<uint8_t>> halve(std::span<const uint8_t> rgba, uint32_t width, uint32_t height,
+                                        const Mean& mean) {
   std::vector<std::vector<uint8_t>> levels;
   const uint8_t* above = rgba.data();
   while (width > 1 || height > 1) {
@@ -49,16 +47,7 @@ std::vector<std::vector<uint8_t>> makeMipmaps(std::span<const uint8_t> rgba, uin
         const uint8_t* texels[4] = {
             above + 4 * (size_t(y0) * width + x0), above + 4 * (size_t(y0) * width + x1),
             above + 4 * (size_t(y1) * width + x0), above + 4 * (size_t(y1) * width + x1)};
-        float sum[3] = {}, alpha = 0;
-        for (const uint8_t* t : texels) {
-          // A little weight for what is transparent, so that a level without alpha keeps its colour.
-          const float weight = float(t[3]) + 1e-3f;
-          for (int c = 0; c < 3; ++c) sum[c] += weight * linear[t[c]];
-          alpha += weight;
-        }
-        uint8_t* out = &level[4 * (size_t(y) * w + x)];
-        for (int c = 0; c < 3; ++c) out[c] = srgb[size_t(sum[c] / alpha * 4095.0f + 0.5f)];
-        out[3] = uint8_t(alpha / 4.0f + 0.4f);
+        mean(texels, &level[4 * (size_t(y) * w + x)]);
       }
     }
     levels.push_back(std::move(level));
@@ -66,6 +55,33 @@ std::vector<std::vector<uint8_t>> makeMipmaps(std::span<const uint8_t> rgba, uin
     width = w, height = h;
   }
   return levels;
+}
+
+}  // namespace
+
+std::vector<std::vector<uint8_t>> makeMipmaps(std::span<const uint8_t> rgba, uint32_t width,
+                                              uint32_t height) {
+  const auto& linear = toLinear();
+  const auto& srgb = toSrgb();
+  return halve(rgba, width, height, [&](const uint8_t* const texels[4], uint8_t* out) {
+    float sum[3] = {}, alpha = 0;
+    for (int i = 0; i < 4; ++i) {
+      const uint8_t* t = texels[i];
+      // A little weight for what is transparent, so that a level without alpha keeps its colour.
+      const float weight = float(t[3]) + 1e-3f;
+      for (int c = 0; c < 3; ++c) sum[c] += weight * linear[t[c]];
+      alpha += weight;
+    }
+    for (int c = 0; c < 3; ++c) out[c] = srgb[size_t(sum[c] / alpha * 4095.0f + 0.5f)];
+    out[3] = uint8_t(alpha / 4.0f + 0.4f);
+  });
+}
+
+std::vector<std::vector<uint8_t>> makeValueMipmaps(std::span<const uint8_t> rgba, uint32_t width,
+                                                   uint32_t height) {
+  return halve(rgba, width, height, [](const uint8_t* const t[4], uint8_t* out) {
+    for (int c = 0; c < 4; ++c) out[c] = uint8_t((t[0][c] + t[1][c] + t[2][c] + t[3][c] + 2) / 4);
+  });
 }
 
 }  // namespace scumble::frame

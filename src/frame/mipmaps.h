@@ -13,4 +13,8 @@ namespace scumble::frame {
 // above, in linear light and weighted by alpha. `rgba`: 4 bytes a pixel, sRGB colour, straight alpha.
 std::vector<std::vector<uint8_t>> makeMipmaps(std::span<const uint8_t> rgba, uint32_t width, uint32_t height);
 
+// The same of bytes that are values and not light: plain means, alpha like the others.
+std::vector<std::vector<uint8_t>> makeValueMipmaps(std::span<const uint8_t> rgba, uint32_t width,
+                                                   uint32_t height);
+
 }  // namespace scumble::frame

@@ -144,18 +144,14 @@ void drawViews(VkCommandBuffer commands, const Configuration& configuration, std
   for (Target& target : kept) target.before = Target::Before::kept;
   keptDepth = depth ? *depth : Target{};
   keptDepth.before = Target::Before::kept;
-  VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-  barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT |
-                                                VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT |
-                                                VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT;
-  barrier.srcAccessMask =
+  constexpr VkPipelineStageFlags2 kStages = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT |
+                                            VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT |
+                                            VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT;
+  constexpr VkAccessFlags2 kWrites =
       VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
-  barrier.dstAccessMask = barrier.srcAccessMask | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT |
-                          VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT;
-  VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-  dependency.memoryBarrierCount = 1;
-  dependency.pMemoryBarriers = &barrier;
-  vkCmdPipelineBarrier2(commands, &dependency);
+  constexpr VkAccessFlags2 kReads =
+      VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT;
+  gpu::memoryBarrier(commands, kStages, kWrites, kStages, kWrites | kReads);
   beginRendering(commands, 0, (1u << configuration.viewCount) - 1, kept, depth ? &keptDepth : nullptr);
   vkCmdEndRendering(commands);
 }

@@ -69,7 +69,7 @@ void SetLayout::swap(SetLayout& other) {
 }
 
 DescriptorSets::DescriptorSets(Device& device, const SetLayout& layout, uint32_t count)
-    : device_(&device), bindings_(layout.bindings()) {
+    : device_(&device), bindings_(layout.bindings()), textures_(count * bindings_.size()) {
   std::map<VkDescriptorType, uint32_t> counts;
   for (const Binding& binding : bindings_) counts[binding.type] += count;
   std::vector<VkDescriptorPoolSize> sizes;
@@ -97,6 +97,7 @@ void DescriptorSets::swap(DescriptorSets& other) {
   std::swap(pool_, other.pool_);
   std::swap(sets_, other.sets_);
   std::swap(bindings_, other.bindings_);
+  std::swap(textures_, other.textures_);
 }
 
 void DescriptorSets::write(size_t set, uint32_t binding, const VkDescriptorBufferInfo* buffer,
@@ -118,6 +119,9 @@ void DescriptorSets::writeBuffer(size_t set, uint32_t binding, VkBuffer buffer, 
 }
 
 void DescriptorSets::writeTexture(size_t set, uint32_t binding, VkImageView view, VkSampler sampler) {
+  std::pair<VkImageView, VkSampler>& last = textures_[set * bindings_.size() + binding];
+  if (last == std::pair(view, sampler)) return;
+  last = {view, sampler};
   const VkDescriptorImageInfo info{sampler, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
   write(set, binding, nullptr, &info);
 }

@@ -55,6 +55,8 @@ class DescriptorSets {
   size_t size() const { return sets_.size(); }
   void writeBuffer(size_t set, uint32_t binding, VkBuffer buffer, uint64_t offset = 0,
                    uint64_t size = VK_WHOLE_SIZE);
+  // Does nothing where this very texture was the last one written there: passes may say it every frame. Views
+  // that are written stay as long as the sets.
   void writeTexture(size_t set, uint32_t binding, VkImageView view, VkSampler sampler);
   void writeStorageImage(size_t set, uint32_t binding, VkImageView view);
 
@@ -66,6 +68,7 @@ class DescriptorSets {
   VkDescriptorPool pool_ = VK_NULL_HANDLE;
   std::vector<VkDescriptorSet> sets_;
   std::vector<Binding> bindings_;
+  std::vector<std::pair<VkImageView, VkSampler>> textures_;  // by set, then by binding
 };
 
 enum class Blend : uint8_t { none, over };
@@ -132,8 +135,8 @@ struct SamplerDesc {
                        wrapV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
   bool mipmaps = false;
   bool compareLess = false;  // depth comparison, for shadow maps
-  float onlyLevel =
-      -1;  // the one mip level that is read, which saves drivers its computation; -1: all of them
+  // The one mip level that is read, which saves drivers its computation; -1: all of them.
+  float onlyLevel = -1;
   bool operator==(const SamplerDesc&) const = default;
 };
 

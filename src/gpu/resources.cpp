@@ -139,6 +139,19 @@ void Image::swap(Image& other) {
   std::swap(desc_, other.desc_);
 }
 
+void memoryBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 sourceStages, VkAccessFlags2 sourceAccess,
+                   VkPipelineStageFlags2 targetStages, VkAccessFlags2 targetAccess) {
+  VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+  barrier.srcStageMask = sourceStages;
+  barrier.srcAccessMask = sourceAccess;
+  barrier.dstStageMask = targetStages;
+  barrier.dstAccessMask = targetAccess;
+  VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+  dependency.memoryBarrierCount = 1;
+  dependency.pMemoryBarriers = &barrier;
+  vkCmdPipelineBarrier2(commands, &dependency);
+}
+
 bool isDepthFormat(VkFormat format) {
   return format == VK_FORMAT_D32_SFLOAT || format == VK_FORMAT_D16_UNORM;
 }

@@ -72,6 +72,10 @@ class Image {
 bool isDepthFormat(VkFormat format);
 uint32_t bytesPerPixel(VkFormat format);
 
+// What was written before is there for what comes after.
+void memoryBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 sourceStages, VkAccessFlags2 sourceAccess,
+                   VkPipelineStageFlags2 targetStages, VkAccessFlags2 targetAccess);
+
 // Gathers uploads and sends them in few submissions. Memory that the CPU sees is written directly.
 class Uploader {
  public:

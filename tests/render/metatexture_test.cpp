@@ -89,15 +89,9 @@ class MetaTextureTest : public ::testing::Test {
       pipeline.bind(commands);
       pipeline.bindSet(commands, 0, sets[0]);
       vkCmdDispatch(commands, uint32_t(queries.size() + 63) / 64, 1, 1);
-      VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-      barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-      barrier.srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-      barrier.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
-      barrier.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
-      VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-      dependency.memoryBarrierCount = 1;
-      dependency.pMemoryBarriers = &barrier;
-      vkCmdPipelineBarrier2(commands, &dependency);
+      gpu::memoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                         VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, VK_PIPELINE_STAGE_2_HOST_BIT,
+                         VK_ACCESS_2_HOST_READ_BIT);
     });
     std::vector<Answer> answers(queries.size());
     std::memcpy(answers.data(), out.mapped(), answers.size() * sizeof(Answer));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <stdexcept>
@@ -52,6 +53,15 @@ TestMesh sphereMesh(const glm::vec3& center, float radius, int segments) {
   return mesh;
 }
 
+void append(TestMesh& mesh, const TestMesh& part, const glm::vec4& color) {
+  const uint32_t first = uint32_t(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), part.positions.begin(), part.positions.end());
+  mesh.normals.insert(mesh.normals.end(), part.normals.begin(), part.normals.end());
+  mesh.uvs.insert(mesh.uvs.end(), part.uvs.begin(), part.uvs.end());
+  mesh.colors.insert(mesh.colors.end(), part.positions.size(), color);
+  for (const uint32_t i : part.indices) mesh.indices.push_back(first + i);
+}
+
 TestMesh boxMesh(const glm::vec3& low, const glm::vec3& high) {
   TestMesh mesh;
   for (int axis = 0; axis < 3; ++axis)
@@ -97,6 +107,11 @@ TestScene::TestScene() {
 }
 
 int TestScene::material(const Json& material) {
+  if (material.contains("extensions")) {
+    Json& used = json()["extensionsUsed"];
+    for (const auto& [name, extension] : material["extensions"].items())
+      if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
+  }
   json()["materials"].push_back(material);
   return int(json()["materials"].size()) - 1;
 }
@@ -104,6 +119,12 @@ int TestScene::material(const Json& material) {
 Json TestScene::colored(const std::string& name, const glm::vec4& linear) {
   return {{"name", name},
           {"pbrMetallicRoughness", {{"baseColorFactor", {linear.r, linear.g, linear.b, linear.a}}}}};
+}
+
+Json TestScene::unlit(const std::string& name, const glm::vec4& linear) {
+  Json json = colored(name, linear);
+  json["extensions"]["KHR_materials_unlit"] = Json::object();
+  return json;
 }
 
 int TestScene::texture(const Image& image) {

@@ -32,6 +32,8 @@ TestMesh gridMesh(const glm::vec3& corner, const glm::vec3& alongU, const glm::v
                   const glm::vec2& uvs = {1, 1});
 TestMesh sphereMesh(const glm::vec3& center, float radius, int segments = 32);
 TestMesh boxMesh(const glm::vec3& low, const glm::vec3& high);
+// Adds `part` to `mesh` in one colour, linear; `mesh` has colours only if all its parts do.
+void append(TestMesh& mesh, const TestMesh& part, const glm::vec4& color);
 
 // A triangle where the world has it.
 struct WorldTriangle {
@@ -44,9 +46,10 @@ class TestScene {
  public:
   TestScene();
 
-  // glTF's own words for a material; the index is for add().
+  // glTF's own words for a material, whose extensions are declared; the index is for add().
   int material(const Json& json);
   static Json colored(const std::string& name, const glm::vec4& linear);
+  static Json unlit(const std::string& name, const glm::vec4& linear);
   // A texture of this picture (linear, straight alpha), not interpolated; the index is for baseColorTexture.
   int texture(const Image& image);
   int textureFile(const std::vector<uint8_t>& bytes, const std::string& mimeType);

@@ -120,22 +120,13 @@ TEST_P(FinalColorTest, rippleKeepsOffTheBackground) {
   // A still checkerboard that is not torn itself, and a ball before it that is.
   const auto makeScene = [](bool withBall) {
     TestScene s;
-    s.json()["extensionsUsed"].push_back("KHR_materials_unlit");
-    Json board = TestScene::colored("Board", {1, 1, 1, 1}),
-         ball = TestScene::colored("Ball", {0.8f, 0.1f, 0.1f, 1});
-    board["extensions"]["KHR_materials_unlit"] = ball["extensions"]["KHR_materials_unlit"] = Json::object();
+    Json board = TestScene::unlit("Board", {1, 1, 1, 1}),
+         ball = TestScene::unlit("Ball", {0.8f, 0.1f, 0.1f, 1});
     TestMesh mesh;
     for (int y = -20; y < 20; ++y)
       for (int x = -20; x < 20; ++x) {
-        const TestMesh cell =
-            gridMesh({0.25f * float(x), 0.25f * float(y), -2}, {0.25f, 0, 0}, {0, 0.25f, 0});
-        const uint32_t first = uint32_t(mesh.positions.size());
-        mesh.positions.insert(mesh.positions.end(), cell.positions.begin(), cell.positions.end());
-        mesh.normals.insert(mesh.normals.end(), cell.normals.begin(), cell.normals.end());
-        mesh.uvs.insert(mesh.uvs.end(), cell.uvs.begin(), cell.uvs.end());
-        for (const uint32_t i : cell.indices) mesh.indices.push_back(first + i);
-        mesh.colors.insert(mesh.colors.end(), 4,
-                           (x + y) & 1 ? glm::vec4(0.9f, 0.9f, 0.9f, 1) : glm::vec4(0.05f, 0.05f, 0.05f, 1));
+        append(mesh, gridMesh({0.25f * float(x), 0.25f * float(y), -2}, {0.25f, 0, 0}, {0, 0.25f, 0}),
+               (x + y) & 1 ? glm::vec4(0.9f, 0.9f, 0.9f, 1) : glm::vec4(0.05f, 0.05f, 0.05f, 1));
       }
     s.add(mesh, s.material(board));
     if (withBall) s.add(sphereMesh({0, 0, 0}, 1, 32), s.material(ball));
@@ -181,10 +172,8 @@ TEST_P(FinalColorTest, rippleKeepsOffTheBackground) {
 // vectors reach.
 TEST_P(FinalColorTest, noColourBeyondTheInflatedSurface) {
   TestScene s;
-  s.json()["extensionsUsed"].push_back("KHR_materials_unlit");
-  Json wall = TestScene::colored("Wall", {0.1f, 0.1f, 0.8f, 1}),
-       ball = TestScene::colored("Ball", {0.9f, 0.05f, 0.05f, 1});
-  wall["extensions"]["KHR_materials_unlit"] = ball["extensions"]["KHR_materials_unlit"] = Json::object();
+  Json wall = TestScene::unlit("Wall", {0.1f, 0.1f, 0.8f, 1}),
+       ball = TestScene::unlit("Ball", {0.9f, 0.05f, 0.05f, 1});
   s.add(gridMesh({-8, -6, -2}, {16, 0, 0}, {0, 12, 0}, 8, {9, 7}), s.material(wall));
   s.add(sphereMesh({0, 0, 0}, 1, 48), s.material(ball));
   const Scene scene = s.load();
@@ -211,9 +200,7 @@ TEST_P(FinalColorTest, noColourBeyondTheInflatedSurface) {
 // Edges are torn off as far inside a round silhouette as they are torn out, whatever the object's depth.
 TEST_P(FinalColorTest, roundSilhouettesAreTornInwardsToo) {
   TestScene s;
-  s.json()["extensionsUsed"].push_back("KHR_materials_unlit");
-  Json ball = TestScene::colored("Ball", {0.9f, 0.05f, 0.05f, 1});
-  ball["extensions"]["KHR_materials_unlit"] = Json::object();
+  Json ball = TestScene::unlit("Ball", {0.9f, 0.05f, 0.05f, 1});
   s.add(sphereMesh({0, 0, 0}, 1, 64), s.material(ball));
   const Scene scene = s.load();
   const auto views = viewsFrom(scene, {{0, 0, 3.2f}, {0, 0, 0}, 45}, kWidth, kHeight, GetParam());
@@ -242,20 +229,12 @@ TEST_P(FinalColorTest, layeredShowsWhatLiesBehind) {
   // Stripes behind a ball; the ball alone is torn.
   const auto makeScene = [](bool withBall) {
     TestScene s;
-    s.json()["extensionsUsed"].push_back("KHR_materials_unlit");
-    Json stripes = TestScene::colored("Stripes", {1, 1, 1, 1}),
-         ball = TestScene::colored("Ball", {0.8f, 0.1f, 0.1f, 1});
-    stripes["extensions"]["KHR_materials_unlit"] = ball["extensions"]["KHR_materials_unlit"] = Json::object();
+    Json stripes = TestScene::unlit("Stripes", {1, 1, 1, 1}),
+         ball = TestScene::unlit("Ball", {0.8f, 0.1f, 0.1f, 1});
     TestMesh mesh;
     for (int x = -40; x < 40; ++x) {
-      const TestMesh cell = gridMesh({0.15f * float(x), -6, -2}, {0.15f, 0, 0}, {0, 12, 0});
-      const uint32_t first = uint32_t(mesh.positions.size());
-      mesh.positions.insert(mesh.positions.end(), cell.positions.begin(), cell.positions.end());
-      mesh.normals.insert(mesh.normals.end(), cell.normals.begin(), cell.normals.end());
-      mesh.uvs.insert(mesh.uvs.end(), cell.uvs.begin(), cell.uvs.end());
-      for (const uint32_t i : cell.indices) mesh.indices.push_back(first + i);
-      mesh.colors.insert(mesh.colors.end(), 4,
-                         x & 1 ? glm::vec4(0.05f, 0.9f, 0.05f, 1) : glm::vec4(0.05f, 0.05f, 0.9f, 1));
+      append(mesh, gridMesh({0.15f * float(x), -6, -2}, {0.15f, 0, 0}, {0, 12, 0}),
+             x & 1 ? glm::vec4(0.05f, 0.9f, 0.05f, 1) : glm::vec4(0.05f, 0.05f, 0.9f, 1));
     }
     s.add(mesh, s.material(stripes));
     if (withBall) s.add(sphereMesh({0, 0, 0}, 1, 48), s.material(ball));

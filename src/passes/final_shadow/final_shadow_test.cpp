@@ -115,10 +115,7 @@ TEST_P(FinalShadowTest, equalsItsReference) {
 // FORMULAS 15: an edge is about `softness` pixels wide, however round the shapes are.
 TEST_F(FinalShadowTest, edgesAreAsWideAsAskedFor) {
   TestScene s;
-  Json bright = TestScene::colored("Bright", {1, 1, 1, 1});
-  bright["extensions"]["KHR_materials_unlit"] = Json::object();
-  s.json()["extensionsUsed"].push_back("KHR_materials_unlit");
-  s.add(gridMesh({-8, -3, 0}, {8, 0, 0}, {0, 6, 0}), s.material(bright));
+  s.add(gridMesh({-8, -3, 0}, {8, 0, 0}, {0, 6, 0}), s.material(TestScene::unlit("Bright", {1, 1, 1, 1})));
   s.add(gridMesh({0, -3, 0}, {8, 0, 0}, {0, 6, 0}), s.material(TestScene::colored("Dark", {1, 1, 1, 1})));
   s.light({0, 0.2f, -1});
   const Scene scene = s.load();

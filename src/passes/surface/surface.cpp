@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "frame/geometry_step.h"
-#include "frame/image_step.h"
 #include "frame/light.h"
 #include "frame/material_params.h"
 #include "frame/metatexture.h"
@@ -77,7 +76,6 @@ class Surface : public Pass {
     // One set for each material, since each may have a texture of its own.
     const size_t materials = frame.scene().materialCount();
     sets_ = gpu::DescriptorSets(frame.device(), layout_, uint32_t(materials));
-    boundTextures_.resize(materials);
     gpu::SamplerDesc compare;
     compare.compareLess = true;
     for (size_t m = 0; m < materials; ++m) {
@@ -102,6 +100,7 @@ class Surface : public Pass {
     desc.viewMask = viewMask(configuration_);
     desc.viewCount = configuration_.viewCount;
     desc.blends = !isBehind_;
+    desc.constant = isBehind_;
     desc.passLayout = &layout_;
     desc.materialStrides = {params_.kStride, painted_.kStride};
     step_.create(frame.device(), resources, frame.scene(), desc);
@@ -124,12 +123,9 @@ class Surface : public Pass {
                                                 input.uniforms.pixelScale, patternShift(input.seed));
       painted_.write(m, {use.meta, tangentOptions(metaParams), texture.amount, texture.blend});
       painted.push_back(texture.amount > 0);
-      const std::array textures{ImageStep::Texture{&use.image(), use.sampler()},
-                                ImageStep::Texture{&use.inverse(), ExampleTextures::kInverseSampler}};
-      if (boundTextures_[m] == textures) continue;
-      boundTextures_[m] = textures;
-      for (uint32_t i = 0; i < textures.size(); ++i)
-        sets_.writeTexture(m, 4 + i, textures[i].image->view(), frame_->samplers().get(textures[i].sampler));
+      sets_.writeTexture(m, 4, use.image().view(), frame_->samplers().get(use.sampler()));
+      sets_.writeTexture(m, 5, use.inverse().view(),
+                         frame_->samplers().get(ExampleTextures::kInverseSampler));
     }
     step_.specialise(input.scene, isBehind_, std::move(painted));
   }
@@ -166,7 +162,6 @@ class Surface : public Pass {
   glm::vec3 eye_{0.0f};
   gpu::SetLayout layout_;
   gpu::DescriptorSets sets_;
-  std::vector<std::array<ImageStep::Texture, 2>> boundTextures_;  // by material
   GeometryStep step_;
 };
 

@@ -29,11 +29,6 @@ class SurfaceTest : public BothEyes {
     for (int c = 0; c < 3; ++c)
       EXPECT_NEAR(std::sqrt(got[c]), std::sqrt(std::max(expected[c], 0.0)), roots * kByte) << "channel " << c;
   }
-  static Json unlit(const std::string& name, const glm::vec4& color) {
-    Json json = TestScene::colored(name, color);
-    json["extensions"]["KHR_materials_unlit"] = Json::object();
-    return json;
-  }
 };
 INSTANTIATE_BOTH_EYES(SurfaceTest);
 
@@ -124,10 +119,10 @@ TEST_F(SurfaceTest, ownShadowedColor) {
 
 TEST_P(SurfaceTest, unlitAndEmissive) {
   TestScene s;
-  s.json()["extensionsUsed"].push_back("KHR_materials_unlit");
   Json lamp = TestScene::colored("Lamp", {0.2f, 0.2f, 0.2f, 1});
   lamp["emissiveFactor"] = {0.4, 0.2, 0.1};
-  s.add(gridMesh({-2, -1, 0}, {2, 0, 0}, {0, 2, 0}), s.material(unlit("Sign", {0.3f, 0.6f, 0.2f, 1})));
+  s.add(gridMesh({-2, -1, 0}, {2, 0, 0}, {0, 2, 0}),
+        s.material(TestScene::unlit("Sign", {0.3f, 0.6f, 0.2f, 1})));
   s.add(gridMesh({0, -1, 0}, {2, 0, 0}, {0, 2, 0}), s.material(lamp));
   s.light({0, 0.2f, -1});  // from behind: both would be in shadow
   const Scene scene = s.load();
@@ -219,10 +214,8 @@ TEST_P(SurfaceTest, blendedFromFarToNear) {
 // way of painting.
 TEST_P(SurfaceTest, paintsTexturesOfTheLook) {
   TestScene s;
-  s.json()["extensionsUsed"].push_back("KHR_materials_unlit");
-  Json wall = TestScene::colored("Wall", {0.36f, 0.16f, 0.64f, 1});
-  wall["extensions"]["KHR_materials_unlit"] = Json::object();
-  s.add(gridMesh({-4, -3, 0}, {8, 0, 0}, {0, 6, 0}, 1, {5, 3}), s.material(wall));
+  s.add(gridMesh({-4, -3, 0}, {8, 0, 0}, {0, 6, 0}, 1, {5, 3}),
+        s.material(TestScene::unlit("Wall", {0.36f, 0.16f, 0.64f, 1})));
   const Scene scene = s.load();
   const auto views = viewsFrom(scene, {{3, 1, 4}, {0, 0, 0}}, kWidth, kHeight, GetParam());
   const glm::dvec3 root(0.6, 0.4, 0.8);
