@@ -72,15 +72,9 @@ bool coversSurface(const Primitive& p, float scale) {
 // For each vertex the first one at its place on the surface: files split vertices where faces meet, or all of
 // them, also where surface and mapping go on. Their tangents must be the same there, or the pattern breaks
 // along every edge. At a crease, and where a mapping is mirrored, each side keeps its own, since a mean would
-// lie in neither.
-std::vector<uint32_t> samePlaces(const Primitive& p, float scale) {
+// lie in neither. `balance`: by vertex, the area of the plain triangles at it less that of the mirrored ones.
+std::vector<uint32_t> samePlaces(const Primitive& p, float scale, const std::vector<float>& balance) {
   constexpr float kCrease = 0.8f;  // cosine of the angle between normals
-  std::vector<float> balance(p.vertexCount(), 0.0f);
-  for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
-    const Mapping mapping = mappingOf(p, i, scale);
-    for (size_t k = 0; k < 3; ++k)
-      balance[p.indices[i + k]] += mapping.mirrored ? -mapping.area : mapping.area;
-  }
   const std::vector<glm::vec2>& uv = p.patternCoordinates();
   // Where a mapping closes on itself the place is the same one unit further on.
   const auto sameUv = [&](uint32_t a, uint32_t b) {
@@ -102,13 +96,21 @@ std::vector<uint32_t> samePlaces(const Primitive& p, float scale) {
 
 void makeTangents(Primitive& p, float scale) {
   const size_t count = p.vertexCount();
-  const std::vector<uint32_t> first = samePlaces(p, scale);
+  std::vector<Mapping> mappings;
+  mappings.reserve(p.indices.size() / 3);
+  std::vector<float> balance(count, 0.0f);
+  for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
+    const Mapping& mapping = mappings.emplace_back(mappingOf(p, i, scale));
+    for (size_t k = 0; k < 3; ++k)
+      balance[p.indices[i + k]] += mapping.mirrored ? -mapping.area : mapping.area;
+  }
+  const std::vector<uint32_t> first = samePlaces(p, scale, balance);
   p.dPdu.assign(count, glm::vec3(0.0f));
   p.dPdv.assign(count, glm::vec3(0.0f));
   std::vector<float> areas(count, 0.0f);
   bool anyPlain = false, anyMirrored = false;
   for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
-    const Mapping mapping = mappingOf(p, i, scale);
+    const Mapping& mapping = mappings[i / 3];
     if (mapping.area <= 0.0f) continue;
     (mapping.mirrored ? anyMirrored : anyPlain) = true;
     for (size_t k = 0; k < 3; ++k) {
@@ -122,16 +124,13 @@ void makeTangents(Primitive& p, float scale) {
   // On the seam of a mirrored mapping the two sides point against each other and would cancel: there the
   // larger side alone decides.
   if (anyPlain && anyMirrored) {
-    std::vector<float> balance(count, 0.0f);
-    for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
-      const Mapping mapping = mappingOf(p, i, scale);
-      for (size_t k = 0; k < 3; ++k)
-        balance[first[p.indices[i + k]]] += mapping.mirrored ? -mapping.area : mapping.area;
-    }
+    // Of all vertices at a place together.
+    for (size_t v = 0; v < count; ++v)
+      if (first[v] != v) balance[first[v]] += balance[v];
     const auto isSeam = [&](uint32_t v) { return std::abs(balance[v]) < 0.999f * areas[v]; };
     std::vector<float> seamAreas(count, 0.0f);
     for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
-      const Mapping mapping = mappingOf(p, i, scale);
+      const Mapping& mapping = mappings[i / 3];
       if (mapping.area <= 0.0f) continue;
       for (size_t k = 0; k < 3; ++k) {
         const uint32_t v = first[p.indices[i + k]];
