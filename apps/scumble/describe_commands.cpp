@@ -65,6 +65,19 @@ int info(const SceneArguments& args, bool asJson) {
   return kDone;
 }
 
+// Where else than at its own path a block of knobs may stand in a look.
+std::string placesOf(const Knob& knob, const std::string& block) {
+  std::string places;
+  bool isForScene = false;
+  for (const std::string& target : knob.targets) {
+    if (target == "scene")
+      isForScene = true;
+    else
+      places += (places.empty() ? "" : ", ") + target + ".PATTERN." + block;
+  }
+  return places.empty() ? "" : (isForScene ? "  (also " : "  (only ") + places + ")";
+}
+
 int params(const std::string& prefix) {
   bool any = false;
   std::string block;
@@ -73,8 +86,7 @@ int params(const std::string& prefix) {
     any = true;
     const std::string own = knob.path.substr(0, knob.path.rfind('.'));
     if (own != block) {
-      print(fmt::format("{}{}{}\n", block.empty() ? "" : "\n", own,
-                        knob.perMaterial ? "  (also materials.PATTERN." + own + ")" : ""));
+      print(fmt::format("{}{}{}\n", block.empty() ? "" : "\n", own, placesOf(knob, own)));
       block = own;
     }
     const bool ranged = knob.type == "number" || knob.type == "integer";

@@ -2,7 +2,7 @@
 // prints the file's JSON schema.
 //
 //   { "description": "Low sun, torn edges.",
-//     "shadow": { "threshold": 0.4 },
+//     "shadow": { "threshold": { "keys": [[0, 0.4], [2.5, 0.6]] } },
 //     "materials": { "Sail*": { "warp": { "amount": 2 } } } }
 #pragma once
 
@@ -25,7 +25,9 @@ struct ShippedLook {
 // A knob as `scumble params` shows it; numbers as text in the form that set() reads.
 struct Knob {
   std::string path, type, defaultValue, min, max, unit, meaning;
-  bool perMaterial = false;
+  // What it may be set for: "scene" by its path alone; "materials", "nodes" and "clips" for those whose names
+  // match a pattern, as in "materials.PATTERN." + path.
+  std::vector<std::string> targets;
 };
 
 // Values for knobs; what is not set has its default. Copies are cheap.
@@ -38,9 +40,9 @@ class Look {
   static Result<Look> load(const std::string& nameOrFile);
   static Result<Look> fromJson(const std::string& text, const std::string& file);
 
-  // Sets one knob, e.g. ("shadow.threshold", "0.4") or ("materials.Sail*.warp.amount", "2"). A setting for
-  // some materials wins over one for the whole scene; of two alike the later one wins. Fails with
-  // ErrorKind::usage.
+  // Sets one knob, e.g. ("shadow.threshold", "0.4") or ("materials.Sail*.warp.amount", "2"), likewise
+  // below "nodes" and "clips". It wins over the file's values and tracks; a setting for some names wins over
+  // one for the whole scene; of two alike the later one wins. Fails with ErrorKind::usage.
   Status set(const std::string& path, const std::string& value);
 
   const std::string& description() const;

@@ -9,7 +9,7 @@ namespace scumble::frame {
 #define PARAMS_STRUCT LightParams
 #define PARAMS_FILE "frame/light.params"
 #define PARAMS_PATH "light"
-#define PARAMS_PER_MATERIAL false
+#define PARAMS_TARGETS kScene
 #include "look/define_params.h"
 
 // Unit vector towards the key light, in the world. Depends on the scene and the look, not on the views.

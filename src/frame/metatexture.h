@@ -10,7 +10,7 @@ namespace scumble::frame {
 #define PARAMS_STRUCT WarpMetaTextureParams
 #define PARAMS_FILE "shading/metatexture.params"
 #define PARAMS_PATH "warp.metatexture"
-#define PARAMS_PER_MATERIAL true
+#define PARAMS_TARGETS kScene | kMaterials
 #include "look/define_params.h"
 #undef METATEXTURE_EXAMPLE
 
@@ -18,7 +18,7 @@ namespace scumble::frame {
 #define PARAMS_STRUCT BreakupMetaTextureParams
 #define PARAMS_FILE "shading/metatexture.params"
 #define PARAMS_PATH "breakup.metatexture"
-#define PARAMS_PER_MATERIAL true
+#define PARAMS_TARGETS kScene | kMaterials
 #include "look/define_params.h"
 #undef METATEXTURE_EXAMPLE
 
@@ -26,7 +26,7 @@ namespace scumble::frame {
 #define PARAMS_STRUCT TextureMetaTextureParams
 #define PARAMS_FILE "shading/metatexture.params"
 #define PARAMS_PATH "texture.metatexture"
-#define PARAMS_PER_MATERIAL true
+#define PARAMS_TARGETS kScene | kMaterials
 #include "look/define_params.h"
 #undef METATEXTURE_EXAMPLE
 

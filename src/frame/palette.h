@@ -13,13 +13,13 @@ namespace scumble::frame {
 #define PARAMS_STRUCT PaletteParams
 #define PARAMS_FILE "frame/palette.params"
 #define PARAMS_PATH "palette"
-#define PARAMS_PER_MATERIAL true
+#define PARAMS_TARGETS kScene | kMaterials
 #include "look/define_params.h"
 
 #define PARAMS_STRUCT GroundParams
 #define PARAMS_FILE "frame/ground.params"
 #define PARAMS_PATH "ground"
-#define PARAMS_PER_MATERIAL false
+#define PARAMS_TARGETS kScene
 #include "look/define_params.h"
 
 // The rule itself, in OKLab. Linear RGB in and out, clipped to sRGB.

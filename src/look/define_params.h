@@ -1,11 +1,11 @@
 // Included once for each .params file, with PARAMS_STRUCT (the struct's name), PARAMS_FILE (quoted) and
-// PARAMS_PATH (quoted) defined, and PARAMS_PER_MATERIAL as true or false. Defines the struct and its table of
-// rows:
+// PARAMS_PATH (quoted) defined, and PARAMS_TARGETS as the set of what they may be set for. Defines the struct
+// and its table of rows:
 //
 //   #define PARAMS_STRUCT BlurParams
 //   #define PARAMS_FILE "passes/blur/blur.params"
 //   #define PARAMS_PATH "blur"
-//   #define PARAMS_PER_MATERIAL false
+//   #define PARAMS_TARGETS kScene | kMaterials
 //   #include "look/define_params.h"
 //
 // No include guard: it is a template.
@@ -24,8 +24,9 @@ struct PARAMS_STRUCT {
 };
 
 inline const ::scumble::look::ParamBlock& PARAMS_STRUCT::block() {
+  using enum ::scumble::look::Target;
   static const ::scumble::look::ParamBlock table{PARAMS_PATH,
-                                                 PARAMS_PER_MATERIAL,
+                                                 PARAMS_TARGETS,
                                                  {
 #define PARAM(type, name, defaultValue, min, max, unit, meaning)                                   \
   {#name,   ::scumble::look::kindOf<type>(), double(defaultValue), double(min), double(max), unit, \
@@ -40,4 +41,4 @@ inline const ::scumble::look::ParamBlock& PARAMS_STRUCT::block() {
 #undef PARAMS_STRUCT
 #undef PARAMS_FILE
 #undef PARAMS_PATH
-#undef PARAMS_PER_MATERIAL
+#undef PARAMS_TARGETS

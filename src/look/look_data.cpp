@@ -40,6 +40,10 @@ Error badValue(std::string problem, std::string advice) {
   return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
 }
 
+bool sets(const Assignment& a, const ParamBlock& block, const char* row, Target target) {
+  return a.block == &block && a.target == target && std::strcmp(a.row->name, row) == 0;
+}
+
 size_t editDistance(const std::string& a, const std::string& b) {
   std::vector<size_t> row(b.size() + 1);
   for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -55,21 +59,84 @@ size_t editDistance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
+// The candidate nearest to `word`, or empty when all are farther than `most` letters.
+std::string nearestWithin(const std::string& word, const std::vector<std::string>& candidates, size_t most) {
+  std::string best;
+  size_t bestDistance = most + 1;
+  for (const std::string& candidate : candidates) {
+    const size_t distance = editDistance(word.substr(0, 64), candidate);
+    if (distance < bestDistance) best = candidate, bestDistance = distance;
+  }
+  return best;
+}
+
+std::string firstWord(const std::string& path) {
+  return path.substr(0, path.find('.'));
+}
+
+std::string lastWord(const std::string& path) {
+  return path.substr(path.rfind('.') + 1);
+}
+
+// The knob that was probably meant, or empty.
+std::string suggestionFor(const std::string& path, const std::vector<std::string>& known) {
+  const std::string slip = nearestWithin(path, known, 2);
+  if (!slip.empty()) return slip;
+  // A right word in a wrong place below the right group (texture.example for texture.metatexture.example) ...
+  std::vector<std::string> ofGroup;
+  for (const std::string& candidate : known)
+    if (firstWord(candidate) == firstWord(path)) ofGroup.push_back(lastWord(candidate));
+  const std::string row = nearest(lastWord(path), ofGroup);
+  for (const std::string& candidate : known)
+    if (firstWord(candidate) == firstWord(path) && lastWord(candidate) == row) return candidate;
+  const std::string far = nearest(path, known);
+  if (!far.empty()) return far;
+  // ... or in a wrong group.
+  for (const std::string& candidate : known)
+    if (lastWord(candidate) == lastWord(path)) return candidate;
+  return "";
+}
+
 }  // namespace
+
+bool LookData::isAnimated() const {
+  return std::any_of(assignments.begin(), assignments.end(), [](const Assignment& a) { return a.track; });
+}
+
+LookData LookData::at(double time) const {
+  LookData moment = *this;
+  for (Assignment& a : moment.assignments)
+    if (a.track) {
+      a.value = a.track->at(*a.row, time);
+      a.track.reset();
+    }
+  return moment;
+}
 
 void LookData::fill(const ParamBlock& block, void* out) const {
   for (const bool byHand : {false, true})
     for (const Assignment& a : assignments)
-      if (a.block == &block && a.byHand == byHand && a.materialPattern.empty()) store(*a.row, a.value, out);
+      if (a.block == &block && a.byHand == byHand && a.target == kScene) store(*a.row, a.value, out);
 }
 
-void LookData::fillForMaterial(const ParamBlock& block, const std::string& material, void* out) const {
+void LookData::fillFor(const ParamBlock& block, Target target, const std::string& name, void* out) const {
   for (const bool byHand : {false, true})
-    for (const bool forMaterials : {false, true})
+    for (const Target wanted : {kScene, target})
       for (const Assignment& a : assignments)
-        if (a.block == &block && a.byHand == byHand && a.materialPattern.empty() != forMaterials &&
-            (!forMaterials || matches(a.materialPattern, material)))
+        if (a.block == &block && a.byHand == byHand && a.target == wanted &&
+            (wanted == kScene || matches(a.pattern, name)))
           store(*a.row, a.value, out);
+}
+
+bool LookData::names(const ParamBlock& block, const char* row, Target target, const std::string& name) const {
+  return std::any_of(assignments.begin(), assignments.end(), [&](const Assignment& a) {
+    return sets(a, block, row, target) && matches(a.pattern, name);
+  });
+}
+
+bool LookData::setsAny(const ParamBlock& block, const char* row, Target target) const {
+  return std::any_of(assignments.begin(), assignments.end(),
+                     [&](const Assignment& a) { return sets(a, block, row, target); });
 }
 
 bool matches(const std::string& pattern, const std::string& name) {
@@ -93,13 +160,7 @@ bool matches(const std::string& pattern, const std::string& name) {
 }
 
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
-  std::string best;
-  size_t bestDistance = std::max<size_t>(2, std::min<size_t>(word.size(), 64) / 3) + 1;
-  for (const std::string& candidate : candidates) {
-    const size_t distance = editDistance(word.substr(0, 64), candidate);
-    if (distance < bestDistance) best = candidate, bestDistance = distance;
-  }
-  return best;
+  return nearestWithin(word, candidates, std::max<size_t>(2, std::min<size_t>(word.size(), 64) / 3));
 }
 
 Result<KnobRef> findKnob(const std::string& path) {
@@ -109,16 +170,17 @@ Result<KnobRef> findKnob(const std::string& path) {
       known.push_back(std::string(block->path) + "." + row.name);
       if (known.back() == path) return KnobRef{block, &row};
     }
-  std::string suggestion = nearest(path, known);
-  if (suggestion.empty()) {
-    // A right name under the wrong block is a frequent slip.
-    const std::string last = path.substr(path.rfind('.') + 1);
-    for (const std::string& candidate : known)
-      if (candidate.substr(candidate.rfind('.') + 1) == last) suggestion = candidate;
-  }
+  const std::string suggestion = suggestionFor(path, known);
   return badValue("there is no knob '" + path + "'", suggestion.empty()
                                                          ? "`scumble params` lists them all"
                                                          : "did you mean '" + suggestion + "'?");
+}
+
+bool isKnob(const std::string& path) {
+  for (const ParamBlock* block : allBlocks())
+    for (const ParamRow& row : block->rows)
+      if (path == std::string(block->path) + "." + row.name) return true;
+  return false;
 }
 
 Result<Value> parseValue(const ParamRow& row, const std::string& text) {

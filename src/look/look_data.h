@@ -7,21 +7,19 @@
 
 #include "base/pixels.h"
 #include "look/param.h"
+#include "look/track.h"
 #include "scumble/result.h"
 
 namespace scumble::look {
 
-struct Value {
-  double number = 0;       // all kinds but color
-  glm::vec3 linear{0.0f};  // color
-};
-
 struct Assignment {
-  std::string materialPattern;  // '*' and '?' match; empty: the whole scene
+  std::string pattern;  // of names, '*' and '?' match; empty: the whole scene
   const ParamBlock* block;
   const ParamRow* row;
-  Value value;
+  Value value;          // of a track, the one at time 0
   bool byHand = false;  // by Look::set, not by the look's file
+  Target target = kScene;
+  std::shared_ptr<const Track> track = nullptr;  // where the value changes with time
 };
 
 // A picture file that a look names.
@@ -36,12 +34,23 @@ struct LookData {
   std::vector<Assignment> assignments;
   std::vector<std::shared_ptr<const LookPicture>> pictures;
 
+  // Whether a setting changes with time.
+  bool isAnimated() const;
+  // The look of one moment, in seconds: a pure function of time, without tracks. Pictures are shared.
+  LookData at(double time) const;
+
+  // What follows reads tracks as they are at time 0: ask at(time) where there is a time.
+  //
   // The order in which settings count, the last one winning: the file's for the whole scene, the file's for
-  // materials, those by hand for the whole scene, those by hand for materials; of two alike the later one.
+  // some names, those by hand for the whole scene, those by hand for some names; of two alike the later one.
   // Fills a block's struct with what holds for the whole scene.
   void fill(const ParamBlock& block, void* out) const;
-  // With what holds for one material.
-  void fillForMaterial(const ParamBlock& block, const std::string& material, void* out) const;
+  // With what holds for one material, node or clip.
+  void fillFor(const ParamBlock& block, Target target, const std::string& name, void* out) const;
+
+  // Whether a setting for some materials, nodes or clips sets this row, for this name or for any pattern.
+  bool names(const ParamBlock& block, const char* row, Target target, const std::string& name) const;
+  bool setsAny(const ParamBlock& block, const char* row, Target target) const;
 
   template <class Params>
   Params get() const {
@@ -50,10 +59,14 @@ struct LookData {
     return params;
   }
   template <class Params>
-  Params getForMaterial(const std::string& material) const {
+  Params getFor(Target target, const std::string& name) const {
     Params params;
-    fillForMaterial(Params::block(), material, &params);
+    fillFor(Params::block(), target, name, &params);
     return params;
+  }
+  template <class Params>
+  Params getForMaterial(const std::string& material) const {
+    return getFor<Params>(kMaterials, material);
   }
 };
 
@@ -66,6 +79,7 @@ struct KnobRef {
   const ParamRow* row;
 };
 Result<KnobRef> findKnob(const std::string& path);
+bool isKnob(const std::string& path);
 
 // The candidate nearest to `word`, or empty when none is near.
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);

@@ -12,8 +12,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "look/look_data.h"
+#include "look/setting_path.h"
 #include "look/shipped_looks.h"
+#include "look/test_rows.h"
 
 namespace scumble {
 namespace {
@@ -25,67 +26,15 @@ using look::ParamKind;
 using look::ParamRow;
 using nlohmann::json;
 
-struct Row {
-  const ParamBlock* block;
-  const ParamRow* row;
-  std::string path() const { return std::string(block->path) + "." + row->name; }
-  bool isNumber() const { return row->kind == ParamKind::number || row->kind == ParamKind::integer; }
-};
-
-std::vector<Row> allRows() {
-  std::vector<Row> rows;
-  for (const ParamBlock* block : look::allBlocks())
-    for (const ParamRow& row : block->rows) rows.push_back({block, &row});
-  return rows;
-}
-
-// "a.b.c" and a value as a look file.
-std::string nested(const std::string& path, const json& value) {
-  json root = value;
-  std::string rest = path;
-  while (!rest.empty()) {
-    const size_t dot = rest.rfind('.');
-    root = json{{dot == std::string::npos ? rest : rest.substr(dot + 1), root}};
-    rest = dot == std::string::npos ? "" : rest.substr(0, dot);
-  }
-  return root.dump();
-}
-
-// A value that is not the default, as text for set() and as JSON for files.
-struct Sample {
-  std::string text;
-  json value;
-};
-Sample sampleOf(const ParamRow& row) {
-  switch (row.kind) {
-    case ParamKind::color:
-      return {"#12AB9f", "#12AB9f"};
-    case ParamKind::picture:
-    case ParamKind::choice: {
-      const std::vector<std::string> names = look::choiceNames(row);
-      const std::string& name = names[row.defaultValue == 0 ? names.size() - 1 : 0];
-      return {name, name};
-    }
-    case ParamKind::toggle:
-      return {row.defaultValue == 0 ? "true" : "false", row.defaultValue == 0};
-    case ParamKind::integer: {
-      const int value = int(row.defaultValue == row.max ? row.min : row.max);
-      return {std::to_string(value), value};
-    }
-    case ParamKind::number:
-      break;
-  }
-  const double value = row.min + 0.375 * (row.max - row.min);
-  return {json(value).dump(), value};
-}
-
-// The bytes of a block under a look, for the whole scene or for one material.
+// The bytes of a block under a look, for all or for one material.
 std::vector<char> bytesOf(const ParamBlock& block, const Look& look, const std::string* material = nullptr) {
   std::vector<char> bytes(block.structSize, 0);
   if (material)
-    look.data().fillForMaterial(block, *material, bytes.data());
-  else
+    look.data().fillFor(block, look::kMaterials, *material, bytes.data());
+  else if (block.targets & look::kScene)
     look.data().fill(block, bytes.data());
+  else
+    look.data().fillFor(block, look::kClips, "any", bytes.data());
   return bytes;
 }
 
@@ -97,7 +46,7 @@ float numberIn(const std::vector<char>& bytes, const ParamRow& row) {
 
 void expectRefused(const Row& row, const std::string& text) {
   Look look;
-  const Status status = look.set(row.path(), text);
+  const Status status = look.set(row.settingPath(), text);
   ASSERT_FALSE(status.ok()) << row.path() << "=" << text;
   EXPECT_EQ(status.error().kind, ErrorKind::usage);
   EXPECT_NE(status.error().message().find(row.path()), std::string::npos) << status.error().message();
@@ -110,6 +59,12 @@ Look mustRead(const std::string& text) {
   return look.ok() ? look.value() : Look();
 }
 
+const ParamBlock* blockAt(const std::string& path) {
+  for (const ParamBlock* block : look::allBlocks())
+    if (block->path == path) return block;
+  return nullptr;
+}
+
 // -- Every knob
 
 TEST(Look, thereAreKnobsAndTheirRowsMakeSense) {
@@ -118,7 +73,9 @@ TEST(Look, thereAreKnobsAndTheirRowsMakeSense) {
   std::set<std::string> paths;
   for (const Row& row : rows) {
     EXPECT_TRUE(paths.insert(row.path()).second) << row.path() << " is there twice";
-    EXPECT_NE(row.path().substr(0, 10), "materials.") << "the name of the group for single materials";
+    for (const char* section : {"materials.", "nodes.", "clips."})
+      EXPECT_NE(row.path().substr(0, std::strlen(section)), section) << "the name of a section";
+    EXPECT_NE(row.row->name, std::string("keys")) << "a track's word";
     EXPECT_NE(*row.row->meaning, '\0') << row.path();
     EXPECT_LT(row.row->min, row.row->max) << row.path();
     EXPECT_GE(row.row->defaultValue, row.row->min) << row.path();
@@ -139,11 +96,14 @@ TEST(Look, theListOfKnobsSaysWhatTheRowsSay) {
   ASSERT_EQ(knobs.size(), rows.size());
   for (size_t i = 0; i < rows.size(); ++i) {
     EXPECT_EQ(knobs[i].path, rows[i].path());
-    EXPECT_EQ(knobs[i].perMaterial, rows[i].block->perMaterial);
+    look::Targets targets = 0;
+    for (const std::string& name : knobs[i].targets)
+      targets |= name == "scene" ? look::kScene : look::findSection(name)->target;
+    EXPECT_EQ(targets, rows[i].block->targets) << knobs[i].path;
     EXPECT_EQ(knobs[i].meaning, rows[i].row->meaning);
     // What the list shows, set() reads: and it means the default.
     Look look;
-    const Status status = look.set(knobs[i].path, knobs[i].defaultValue);
+    const Status status = look.set(rows[i].settingPath(), knobs[i].defaultValue);
     ASSERT_TRUE(status.ok()) << status.error().message();
     if (rows[i].isNumber()) {
       EXPECT_FLOAT_EQ(float(look.data().assignments[0].value.number), float(rows[i].row->defaultValue));
@@ -160,13 +120,13 @@ TEST(Look, theEndsOfARangeAreInIt) {
     if (!row.isNumber()) continue;
     for (const double end : {row.row->min, row.row->max}) {
       Look look;
-      EXPECT_TRUE(look.set(row.path(), json(end).dump()).ok()) << row.path();
-      EXPECT_TRUE(Look::fromJson(nested(row.path(), end), "f").ok()) << row.path();
+      EXPECT_TRUE(look.set(row.settingPath(), json(end).dump()).ok()) << row.path();
+      EXPECT_TRUE(Look::fromJson(nested(row.settingPath(), end), "f").ok()) << row.path();
     }
     const double step = row.row->kind == ParamKind::integer ? 1 : 1e-3 * (row.row->max - row.row->min);
     for (const double beyond : {row.row->min - step, row.row->max + step, -1e300, 1e300}) {
       expectRefused(row, json(beyond).dump());
-      EXPECT_FALSE(Look::fromJson(nested(row.path(), beyond), "f").ok()) << row.path();
+      EXPECT_FALSE(Look::fromJson(nested(row.settingPath(), beyond), "f").ok()) << row.path();
     }
   }
 }
@@ -176,14 +136,14 @@ TEST(Look, setAndFileGiveTheSameAndChangeOnlyThatKnob) {
   for (const Row& row : allRows()) {
     const Sample sample = sampleOf(*row.row);
     Look bySet;
-    const Status status = bySet.set(row.path(), sample.text);
+    const Status status = bySet.set(row.settingPath(), sample.text);
     ASSERT_TRUE(status.ok()) << status.error().message();
-    const Look byFile = mustRead(nested(row.path(), sample.value));
+    const Look byFile = mustRead(nested(row.settingPath(), sample.value));
     EXPECT_EQ(bytesOf(*row.block, bySet), bytesOf(*row.block, byFile)) << row.path();
     // Only the row's own bytes may differ from an untouched block.
     const size_t size = row.row->kind == ParamKind::color ? 12 : 4;
     std::vector<char> filled(row.block->structSize, 0x55), untouched = filled;
-    bySet.data().fill(*row.block, filled.data());
+    bySet.data().fillFor(*row.block, look::kClips, "any", filled.data());
     for (size_t i = 0; i < filled.size(); ++i)
       if (i < row.row->offset || i >= row.row->offset + size) {
         ASSERT_EQ(filled[i], untouched[i]) << row.path();
@@ -204,7 +164,7 @@ TEST(Look, everyNameOfAChoiceIsItsPlace) {
     const std::vector<std::string> names = look::choiceNames(*row.row);
     for (size_t i = 0; i < names.size(); ++i) {
       Look look;
-      ASSERT_TRUE(look.set(row.path(), names[i]).ok()) << row.path() << "=" << names[i];
+      ASSERT_TRUE(look.set(row.settingPath(), names[i]).ok()) << row.path() << "=" << names[i];
       int32_t index = -1;
       std::memcpy(&index, bytesOf(*row.block, look).data() + row.row->offset, 4);
       EXPECT_EQ(index, int(i));
@@ -235,7 +195,7 @@ TEST(Look, valuesOfAWrongTypeAreRefused) {
         for (const char* text : {"", "no such picture", "0"}) expectRefused(row, text);
         for (const char* text : {"no-such-file.png", "/no/such.png", "../torn.png"}) {
           Look look;
-          const Status status = look.set(row.path(), text);
+          const Status status = look.set(row.settingPath(), text);
           ASSERT_FALSE(status.ok()) << text;
           EXPECT_EQ(status.error().kind, ErrorKind::unusableFile);
           EXPECT_TRUE(look.data().assignments.empty() && look.data().pictures.empty());
@@ -250,11 +210,11 @@ TEST(Look, valuesOfAWrongTypeAreRefused) {
         break;
     }
     for (const json& value : wrong) {
-      const Result<Look> look = Look::fromJson(nested(row.path(), value), "dir/my.json");
+      const Result<Look> look = Look::fromJson(nested(row.settingPath(), value), "dir/my.json");
       ASSERT_FALSE(look.ok()) << row.path() << " = " << value;
       EXPECT_EQ(look.error().kind, ErrorKind::unusableFile);
       EXPECT_EQ(look.error().file, "dir/my.json");
-      EXPECT_EQ(look.error().jsonPath.substr(0, row.path().size()), row.path());
+      EXPECT_EQ(look.error().jsonPath.substr(0, row.settingPath().size()), row.settingPath());
     }
   }
 }
@@ -263,7 +223,7 @@ TEST(Look, wholeNumbersAreWhole) {
   for (const Row& row : allRows()) {
     if (row.row->kind != ParamKind::integer) continue;
     expectRefused(row, json(row.row->min + 0.5).dump());
-    EXPECT_FALSE(Look::fromJson(nested(row.path(), row.row->min + 0.5), "f").ok());
+    EXPECT_FALSE(Look::fromJson(nested(row.settingPath(), row.row->min + 0.5), "f").ok());
   }
 }
 
@@ -293,6 +253,16 @@ TEST(Look, aRightNameInTheWrongPlaceIsSuggestedToo) {
   EXPECT_NE(status.error().advice.find(".indicationSteps'"), std::string::npos) << status.error().message();
 }
 
+// The row of a deeper block of the group, rather than one of the same name elsewhere or of a similar path.
+TEST(Look, rowsOfTheOwnGroupAreSuggestedFirst) {
+  for (const std::string group : {"texture", "warp", "breakup"})
+    for (const char* slip : {".example", ".exampel", ".meta.example", ".metatexture.deeper.example"}) {
+      const Status status = Look().set(group + slip, "1");
+      EXPECT_NE(status.error().advice.find(group + ".metatexture.example"), std::string::npos)
+          << group << slip << ": " << status.error().advice;
+    }
+}
+
 TEST(Look, whatResemblesNothingHasOtherAdvice) {
   for (const char* path :
        {"", ".", "..", "qqqqqqqqqqqq", "shadow", "materials", "materials.", "materials..", "materials.*"}) {
@@ -308,7 +278,8 @@ TEST(Look, whatResemblesNothingHasOtherAdvice) {
 const Row& knobForMaterials() {
   static const Row found = [] {
     for (const Row& row : allRows())
-      if (row.block->perMaterial && row.row->kind == ParamKind::number && row.row->min == 0) return row;
+      if ((row.block->targets & look::kMaterials) && row.row->kind == ParamKind::number && row.row->min == 0)
+        return row;
     return Row{};
   }();
   return found;
@@ -396,19 +367,102 @@ TEST(LookMaterials, setWinsOverTheFile) {
   EXPECT_EQ(forMaterial(before, "Hull"), float(level(1)));
 }
 
-TEST(LookMaterials, knobsOfTheWholeSceneAreRefusedThere) {
-  for (const Row& row : allRows()) {
-    const Sample sample = sampleOf(*row.row);
-    Look look;
-    const Status status = look.set("materials.Sail." + row.path(), sample.text);
-    EXPECT_EQ(status.ok(), row.block->perMaterial) << row.path();
-    const json inner = json::parse(nested(row.path(), sample.value));
-    const Result<Look> file = Look::fromJson(json{{"materials", {{"Sail", inner}}}}.dump(), "f");
-    EXPECT_EQ(file.ok(), row.block->perMaterial) << row.path();
-    if (!row.block->perMaterial) {
-      EXPECT_NE(status.error().message().find("whole scene"), std::string::npos) << status.error().message();
-      EXPECT_EQ(file.error().jsonPath, "materials.Sail." + row.path());
+// Every knob in every section, and outside of them.
+TEST(LookMaterials, knobsAreRefusedWhereTheyDoNotHold) {
+  for (const Row& row : allRows())
+    for (const std::string section : {"", "materials", "nodes", "clips"}) {
+      const Sample sample = sampleOf(*row.row);
+      const look::Target target = section.empty() ? look::kScene : look::findSection(section)->target;
+      const bool holds = row.block->targets & target;
+      const std::string path = (section.empty() ? "" : section + ".Sail.") + row.path();
+      Look look;
+      const Status status = look.set(path, sample.text);
+      EXPECT_EQ(status.ok(), holds) << path;
+      const Result<Look> file = Look::fromJson(nested(path, sample.value), "f");
+      EXPECT_EQ(file.ok(), holds) << path;
+      if (holds) {
+        EXPECT_EQ(look.data().assignments[0].target, target);
+        EXPECT_EQ(file->data().assignments[0].target, target);
+        EXPECT_EQ(file->data().assignments[0].pattern, section.empty() ? "" : "Sail");
+        continue;
+      }
+      EXPECT_EQ(status.error().kind, ErrorKind::usage);
+      const char* reason = row.block->targets & look::kScene ? "for the whole scene" : "for clips";
+      EXPECT_NE(status.error().message().find(reason), std::string::npos) << status.error().message();
+      EXPECT_NE(file.error().message().find(reason), std::string::npos) << file.error().message();
+      EXPECT_FALSE(status.error().advice.empty() || file.error().advice.empty());
+      EXPECT_EQ(file.error().jsonPath, path);
     }
+  Look look;
+  const Status status = look.set("play.weight", "1");
+  EXPECT_NE(status.error().message().find("clips.NAME.play.weight"), std::string::npos)
+      << status.error().message();
+}
+
+// -- Nodes and clips
+
+TEST(LookSections, namesMayHoldDotsBarsAndSpaces) {
+  Look look;
+  ASSERT_TRUE(look.set("nodes.Gull.001|left wing.animation.hold", "3").ok());
+  ASSERT_TRUE(look.set("clips.Armature|Walk.cycle 2.play.weight", "0.5").ok());
+  const std::vector<Assignment>& assignments = look.data().assignments;
+  EXPECT_EQ(assignments[0].pattern, "Gull.001|left wing");
+  EXPECT_EQ(assignments[1].pattern, "Armature|Walk.cycle 2");
+  EXPECT_EQ(assignments[1].target, look::kClips);
+}
+
+TEST(LookSections, sectionsDoNotMixAndSayWhomTheyName) {
+  const Look look = mustRead(R"({"animation": {"hold": 1},
+      "materials": {"Gull": {"animation": {"hold": 4}}}, "nodes": {"Gull*": {"animation": {"hold": 3}}},
+      "clips": {"Walk": {"play": {"weight": 0.5}}}})");
+  const auto hold = [&](look::Target target, const std::string& name) {
+    int value = 2;
+    look.data().fillFor(*blockAt("animation"), target, name, &value);
+    return value;
+  };
+  EXPECT_EQ(hold(look::kNodes, "Gull"), 3);
+  EXPECT_EQ(hold(look::kMaterials, "Gull"), 4);
+  EXPECT_EQ(hold(look::kNodes, "Boat"), 1);
+  EXPECT_EQ(hold(look::kMaterials, "Gulls"), 1);
+
+  const LookData& data = look.data();
+  const ParamBlock &animation = *blockAt("animation"), &play = *blockAt("play");
+  EXPECT_TRUE(data.names(animation, "hold", look::kNodes, "Gulls"));
+  EXPECT_FALSE(data.names(animation, "hold", look::kNodes, "Boat"));
+  EXPECT_FALSE(data.names(animation, "hold", look::kMaterials, "Gulls"));
+  EXPECT_TRUE(data.setsAny(play, "weight", look::kClips));
+  EXPECT_FALSE(data.setsAny(play, "speed", look::kClips));
+  EXPECT_FALSE(data.setsAny(play, "weight", look::kNodes));
+  EXPECT_FALSE(data.setsAny(*blockAt("warp"), "amount", look::kMaterials));
+}
+
+TEST(LookSections, theOrderIsThatOfMaterials) {
+  Look look = mustRead(R"({"nodes": {"Gull": {"animation": {"hold": 3}}}, "animation": {"hold": 4}})");
+  const auto hold = [&] {
+    int value = 2;
+    look.data().fillFor(*blockAt("animation"), look::kNodes, "Gull", &value);
+    return value;
+  };
+  EXPECT_EQ(hold(), 3) << "narrowed over the whole scene";
+  ASSERT_TRUE(look.set("nodes.G*.animation.hold", "6").ok());
+  ASSERT_TRUE(look.set("animation.hold", "5").ok());
+  EXPECT_EQ(hold(), 6) << "by hand over the file, narrowed over the whole scene";
+}
+
+TEST(LookSections, mistakesNameTheirPath) {
+  for (const std::string section : {"materials", "nodes", "clips"}) {
+    const std::string one = section.substr(0, section.size() - 1);
+    for (const std::string& path : {section + ".", section + "..", section + ".x"}) {
+      Look look;
+      const Status status = look.set(path, "1");
+      ASSERT_FALSE(status.ok()) << path;
+      EXPECT_NE(status.error().advice.find(section + "."), std::string::npos) << status.error().message();
+    }
+    const Result<Look> noObject = Look::fromJson(json{{section, 3}}.dump(), "a.json");
+    EXPECT_EQ(noObject.error().jsonPath, section);
+    EXPECT_NE(noObject.error().advice.find(one), std::string::npos);
+    const Result<Look> empty = Look::fromJson(json{{section, {{"", json::object()}}}}.dump(), "a.json");
+    EXPECT_NE(empty.error().message().find("a " + one + "'s pattern is empty"), std::string::npos);
   }
 }
 
@@ -534,50 +588,6 @@ TEST_F(LookLoad, unknownNamesAreUsageErrorsWithASuggestion) {
   ASSERT_FALSE(far.ok());
   EXPECT_EQ(far.error().kind, ErrorKind::usage);
   EXPECT_NE(far.error().advice.find("scumble looks"), std::string::npos) << far.error().message();
-}
-
-// -- The schema
-
-TEST(LookSchema, isJsonAndDescribesEveryKnob) {
-  const json schema = json::parse(Look::jsonSchema());
-  EXPECT_EQ(schema["type"], "object");
-  EXPECT_EQ(schema["additionalProperties"], false);
-  EXPECT_TRUE(schema.contains("$schema"));
-  const json& material = schema["properties"]["materials"]["additionalProperties"];
-  for (const Row& row : allRows()) {
-    std::string pointer = "/properties/";
-    for (const char c : row.path()) pointer += c == '.' ? std::string("/properties/") : std::string(1, c);
-    const json::json_pointer at(pointer);
-    ASSERT_TRUE(schema.contains(at)) << row.path();
-    const json& entry = schema[at];
-    EXPECT_NE(entry["description"].get<std::string>().find(row.row->meaning), std::string::npos);
-    EXPECT_TRUE(entry.contains("default")) << row.path();
-    if (row.isNumber()) {
-      EXPECT_EQ(entry["minimum"], row.row->min);
-      EXPECT_EQ(entry["maximum"], row.row->max);
-    }
-    EXPECT_EQ(material.contains(at), row.block->perMaterial) << row.path();
-    // The schema's default is a value that the reader takes.
-    EXPECT_TRUE(Look::fromJson(nested(row.path(), entry["default"]), "f").ok()) << row.path();
-  }
-  EXPECT_EQ(schema["properties"]["description"]["type"], "string");
-}
-
-// Every group forbids what it does not know, so that an editor shows the same mistakes as the program.
-TEST(LookSchema, groupsForbidUnknownKnobs) {
-  const json schema = json::parse(Look::jsonSchema());
-  size_t groups = 0;
-  const std::function<void(const json&)> visit = [&](const json& at) {
-    if (at.contains("properties")) {
-      ++groups;
-      EXPECT_EQ(at.value("additionalProperties", json(true)), json(false));
-      for (const auto& [name, child] : at["properties"].items())
-        if (name != "materials" && name != "$schema") visit(child);
-    }
-  };
-  visit(schema);
-  visit(schema["properties"]["materials"]["additionalProperties"]);
-  EXPECT_GT(groups, look::allBlocks().size());
 }
 
 // -- Small parts

@@ -29,12 +29,21 @@ struct ParamRow {
   size_t offset;  // in the block's struct
 };
 
+// What a setting holds for: the whole scene, or the materials, nodes or clips whose names match a pattern.
+enum Target : uint32_t { kScene = 1, kMaterials = 2, kNodes = 4, kClips = 8 };
+using Targets = uint32_t;  // a set of them
+
 // The rows of one .params file under their common path.
 struct ParamBlock {
   const char* path;  // e.g. "shadow" or "warp.metatexture"
-  bool perMaterial;  // whether `materials.PATTERN.path.row` may set them for some materials only
+  Targets targets;   // what `path.row`, `materials.PATTERN.path.row` ... may set them for
   std::vector<ParamRow> rows;
   size_t structSize;
+};
+
+struct Value {
+  double number = 0;       // all kinds but color
+  glm::vec3 linear{0.0f};  // color
 };
 
 glm::vec3 linearFromSrgb(uint32_t rrggbb);

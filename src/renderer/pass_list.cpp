@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "frame/animation_params.h"
 #include "frame/light.h"
 #include "frame/metatexture.h"
 #include "frame/palette.h"
@@ -29,7 +30,8 @@ const std::vector<const ParamBlock*>& allBlocks() {
       &passes::WarpParams::block(),       &frame::WarpMetaTextureParams::block(),
       &passes::BreakupParams::block(),    &frame::BreakupMetaTextureParams::block(),
       &passes::BackgroundParams::block(), &frame::GroundParams::block(),
-      &passes::FinalColorParams::block()};
+      &passes::FinalColorParams::block(), &frame::AnimationParams::block(),
+      &frame::PlayParams::block()};
   return blocks;
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "frame/animation_params.h"
 #include "frame/light.h"
 #include "frame/metatexture.h"
 #include "frame/palette.h"
@@ -83,6 +84,8 @@ TEST(PassList, structsStartWithTheirRowsDefaults) {
   expectRowsDefaults<WarpMetaTextureParams>(seen);
   expectRowsDefaults<BreakupMetaTextureParams>(seen);
   expectRowsDefaults<TextureMetaTextureParams>(seen);
+  expectRowsDefaults<AnimationParams>(seen);
+  expectRowsDefaults<PlayParams>(seen);
   for (const look::ParamBlock* block : look::allBlocks())
     EXPECT_TRUE(seen.count(block)) << block->path << ": a new block of knobs; add its struct to this test";
   EXPECT_EQ(look::allBlocks().size(), seen.size())

@@ -8,7 +8,7 @@ namespace scumble::passes {
 #define PARAMS_STRUCT BlurParams
 #define PARAMS_FILE "passes/blur/blur.params"
 #define PARAMS_PATH "blur"
-#define PARAMS_PER_MATERIAL false
+#define PARAMS_TARGETS kScene
 #include "look/define_params.h"
 
 // How the blur's variance is shared among its steps.

@@ -8,7 +8,7 @@ namespace scumble::passes {
 #define PARAMS_STRUCT BackgroundParams
 #define PARAMS_FILE "passes/color/color.params"
 #define PARAMS_PATH "background"
-#define PARAMS_PER_MATERIAL false
+#define PARAMS_TARGETS kScene
 #include "look/define_params.h"
 
 std::unique_ptr<frame::Pass> makeColor();

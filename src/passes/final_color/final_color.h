@@ -8,7 +8,7 @@ namespace scumble::passes {
 #define PARAMS_STRUCT FinalColorParams
 #define PARAMS_FILE "passes/final_color/final_color.params"
 #define PARAMS_PATH "final"
-#define PARAMS_PER_MATERIAL false
+#define PARAMS_TARGETS kScene
 #include "look/define_params.h"
 
 // The choices of final.ripple.

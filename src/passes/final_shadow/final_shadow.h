@@ -8,7 +8,7 @@ namespace scumble::passes {
 #define PARAMS_STRUCT FinalShadowParams
 #define PARAMS_FILE "passes/final_shadow/final_shadow.params"
 #define PARAMS_PATH "shadow"
-#define PARAMS_PER_MATERIAL false
+#define PARAMS_TARGETS kScene
 #include "look/define_params.h"
 
 // What the blur tells of its result, for a look and a scale of pixels.

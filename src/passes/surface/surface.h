@@ -9,14 +9,14 @@ namespace scumble::passes {
 #define PARAMS_STRUCT SurfaceParams
 #define PARAMS_FILE "passes/surface/surface.params"
 #define PARAMS_PATH "surface"
-#define PARAMS_PER_MATERIAL true
+#define PARAMS_TARGETS kScene | kMaterials
 #include "look/define_params.h"
 
 // A texture that the look paints on a material, by MetaTexture.
 #define PARAMS_STRUCT TextureParams
 #define PARAMS_FILE "passes/surface/texture.params"
 #define PARAMS_PATH "texture"
-#define PARAMS_PER_MATERIAL true
+#define PARAMS_TARGETS kScene | kMaterials
 #include "look/define_params.h"
 
 // Which surface of a pixel: the first, or the next one behind it (one sample a pixel, light as it is

@@ -8,13 +8,13 @@ namespace scumble::passes {
 #define PARAMS_STRUCT WarpParams
 #define PARAMS_FILE "passes/warp/warp.params"
 #define PARAMS_PATH "warp"
-#define PARAMS_PER_MATERIAL true
+#define PARAMS_TARGETS kScene | kMaterials
 #include "look/define_params.h"
 
 #define PARAMS_STRUCT BreakupParams
 #define PARAMS_FILE "passes/warp/breakup.params"
 #define PARAMS_PATH "breakup"
-#define PARAMS_PER_MATERIAL true
+#define PARAMS_TARGETS kScene | kMaterials
 #include "look/define_params.h"
 
 // The inflation in pixels of a picture.

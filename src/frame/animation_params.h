@@ -1,0 +1,23 @@
+// Knobs of movement: how long poses stand, and which of a scene's clips play.
+#pragma once
+
+#include "look/look_data.h"
+
+namespace scumble::frame {
+
+#define PARAMS_STRUCT AnimationParams
+#define PARAMS_FILE "frame/animation.params"
+#define PARAMS_PATH "animation"
+#define PARAMS_TARGETS kScene | kMaterials | kNodes
+#include "look/define_params.h"
+
+#define PARAMS_STRUCT PlayParams
+#define PARAMS_FILE "frame/play.params"
+#define PARAMS_PATH "play"
+#define PARAMS_TARGETS kClips
+#include "look/define_params.h"
+
+// PlayParams::repeat, in the order of its names.
+enum ClipRepeat : int { kRepeatLoop, kRepeatOnce, kRepeatPingPong };
+
+}  // namespace scumble::frame

@@ -1,0 +1,50 @@
+#include "look/read_value.h"
+
+#include <filesystem>
+
+#include "base/image_decode.h"
+
+namespace scumble::look {
+
+namespace {
+
+// A picture that fits a knob is no photograph of a landscape.
+constexpr uint32_t kMaxPictureSide = 4096;
+
+Result<LookPicture> loadPicture(const std::string& file) {
+  const auto fail = [&](std::string problem) {
+    return Error{ErrorKind::unusableFile,
+                 file,
+                 0,
+                 "",
+                 std::move(problem),
+                 "give a PNG, JPEG or WebP of at most " + std::to_string(kMaxPictureSide) +
+                     " pixels a side, or a picture that is built in"};
+  };
+  LookPicture picture{file, {}, 0};
+  FileBytes bytes;
+  std::string problem;
+  if (!bytes.open(file, problem)) return fail(problem);
+  uint32_t width = 0, height = 0;
+  if (!readImageSize(bytes.bytes(), width, height, problem)) return fail(problem);
+  if (width > kMaxPictureSide || height > kMaxPictureSide) return fail("this picture is too large");
+  if (!decodeImage(bytes.bytes(), picture.pixels, problem)) return fail(problem);
+  picture.contents = contentsOf(picture.pixels);
+  return picture;
+}
+
+}  // namespace
+
+Result<Value> readValue(const ParamRow& row, const std::string& text, const std::string& folder,
+                        LookData& data) {
+  const Result<Value> parsed = parseValue(row, text);
+  if (parsed || row.kind != ParamKind::picture) return parsed;
+  // A word without a dot is a slip in a built-in name rather than a file.
+  if (text.find('.') == std::string::npos) return parsed;
+  Result<LookPicture> picture = loadPicture((std::filesystem::path(folder) / text).string());
+  if (!picture) return picture.error();
+  data.pictures.push_back(std::make_shared<const LookPicture>(std::move(picture).value()));
+  return Value{-double(data.pictures.size()), {}};
+}
+
+}  // namespace scumble::look

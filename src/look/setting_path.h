@@ -1,0 +1,30 @@
+// Paths of settings: which section of a look they stand in, and for which names.
+#pragma once
+
+#include "look/look_data.h"
+
+namespace scumble::look {
+
+// A section of a look for settings that hold only for what a pattern of names matches.
+struct Section {
+  Target target;
+  const char *name, *one, *example;  // of a setting in it, for advice
+};
+inline constexpr Section kSections[] = {{kMaterials, "materials", "material", "materials.Sail*.warp.amount"},
+                                        {kNodes, "nodes", "node", "nodes.Gull*.animation.hold"},
+                                        {kClips, "clips", "clip", "clips.Walk.play.weight"}};
+
+// The section of this name, or nullptr.
+const Section* findSection(const std::string& name);
+
+// The first section in which these may be set; there must be one.
+const Section& firstSection(Targets targets);
+
+// "the whole scene or materials"
+std::string listed(Targets targets);
+
+// Reads "shadow.threshold" or "materials.Sail*.warp.amount": an assignment without its value. Names may
+// contain dots, so the knob is the shortest tail that is one. Fails with ErrorKind::usage.
+Result<Assignment> parseSettingPath(const std::string& path);
+
+}  // namespace scumble::look

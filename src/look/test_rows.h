@@ -1,0 +1,68 @@
+// Every knob that there is, and values for it; for the tests of this room.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "look/look_data.h"
+
+namespace scumble {
+
+struct Row {
+  const look::ParamBlock* block;
+  const look::ParamRow* row;
+  std::string path() const { return std::string(block->path) + "." + row->name; }
+  // Where a setting for all stands: below a section, where the knob is not for the whole scene.
+  std::string settingPath() const { return (block->targets & look::kScene ? "" : "clips.*.") + path(); }
+  bool isNumber() const {
+    return row->kind == look::ParamKind::number || row->kind == look::ParamKind::integer;
+  }
+};
+
+inline std::vector<Row> allRows() {
+  std::vector<Row> rows;
+  for (const look::ParamBlock* block : look::allBlocks())
+    for (const look::ParamRow& row : block->rows) rows.push_back({block, &row});
+  return rows;
+}
+
+// "a.b.c" and a value as a look file.
+inline std::string nested(const std::string& path, const nlohmann::json& value) {
+  nlohmann::json root = value;
+  std::string rest = path;
+  while (!rest.empty()) {
+    const size_t dot = rest.rfind('.');
+    root = nlohmann::json{{dot == std::string::npos ? rest : rest.substr(dot + 1), root}};
+    rest = dot == std::string::npos ? "" : rest.substr(0, dot);
+  }
+  return root.dump();
+}
+
+// A value that is not the default, as text for set() and as JSON for files.
+struct Sample {
+  std::string text;
+  nlohmann::json value;
+};
+inline Sample sampleOf(const look::ParamRow& row) {
+  switch (row.kind) {
+    case look::ParamKind::color:
+      return {"#12AB9f", "#12AB9f"};
+    case look::ParamKind::picture:
+    case look::ParamKind::choice: {
+      const std::vector<std::string> names = look::choiceNames(row);
+      const std::string& name = names[row.defaultValue == 0 ? names.size() - 1 : 0];
+      return {name, name};
+    }
+    case look::ParamKind::toggle:
+      return {row.defaultValue == 0 ? "true" : "false", row.defaultValue == 0};
+    case look::ParamKind::integer: {
+      const int value = int(row.defaultValue == row.max ? row.min : row.max);
+      return {std::to_string(value), value};
+    }
+    case look::ParamKind::number:
+      break;
+  }
+  const double value = row.min + 0.375 * (row.max - row.min);
+  return {nlohmann::json(value).dump(), value};
+}
+
+}  // namespace scumble
