@@ -177,9 +177,12 @@ Result<KnobRef> findKnob(const std::string& path) {
 }
 
 bool isKnob(const std::string& path) {
+  const size_t dot = path.rfind('.');
+  if (dot == std::string::npos) return false;
   for (const ParamBlock* block : allBlocks())
-    for (const ParamRow& row : block->rows)
-      if (path == std::string(block->path) + "." + row.name) return true;
+    if (path.compare(0, dot, block->path) == 0)
+      for (const ParamRow& row : block->rows)
+        if (path.compare(dot + 1, std::string::npos, row.name) == 0) return true;
   return false;
 }
 

@@ -136,8 +136,9 @@ Result<Value> readJsonValue(const ParamRow& row, const Json& value, const JsonPl
     if (leadsOutside(text))
       return place.fail("this picture lies outside of the look's folder", "put it beside the look");
     // A track may name a picture many times.
+    const std::string file = (folder / text).string();
     for (size_t i = 0; i < data.pictures.size(); ++i)
-      if (data.pictures[i]->file == (folder / text).string()) return Value{-1 - double(i), {}};
+      if (data.pictures[i]->file == file) return Value{-1 - double(i), {}};
   }
   const Result<Value> parsed = readValue(row, text, folder.string(), data);
   if (parsed) return parsed;

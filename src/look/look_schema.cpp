@@ -32,10 +32,7 @@ Json valueSchema(const ParamRow& row) {
 // A track of any values; each row says of its own which they are.
 Json trackSchema(std::vector<std::string> interpolations, const char* usual) {
   const Json time = Json::object({{"type", "number"}});
-  const Json key{{"type", "array"},
-                 {"prefixItems", Json::array({time})},
-                 {"minItems", 2},
-                 {"maxItems", 2}};
+  const Json key{{"type", "array"}, {"prefixItems", Json::array({time})}, {"minItems", 2}, {"maxItems", 2}};
   const Json keys{{"description", "Pairs of a time in seconds and a value; times increase."},
                   {"type", "array"},
                   {"minItems", 1},

@@ -565,6 +565,33 @@ TEST_F(LookLoad, filesThatCannotBeReadAreUnusable) {
   }
 }
 
+// A track that flips between two pictures a thousand times holds two pictures.
+TEST_F(LookLoad, picturesOfATrackAreReadOnce) {
+  // One orange pixel.
+  static const unsigned char kPng[] = {0x89, 0x50, 0x4E, 0x47, 0x0D, 0x0A, 0x1A, 0x0A, 0x00, 0x00, 0x00, 0x0D,
+                                       0x49, 0x48, 0x44, 0x52, 0x00, 0x00, 0x00, 0x01, 0x00, 0x00, 0x00, 0x01,
+                                       0x08, 0x02, 0x00, 0x00, 0x00, 0x90, 0x77, 0x53, 0xDE, 0x00, 0x00, 0x00,
+                                       0x0C, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9C, 0x63, 0xF8, 0xDF, 0xC0, 0x00,
+                                       0x00, 0x04, 0x01, 0x01, 0x80, 0xC5, 0x2A, 0x18, 0x5D, 0x00, 0x00, 0x00,
+                                       0x00, 0x49, 0x45, 0x4E, 0x44, 0xAE, 0x42, 0x60, 0x82};
+  const std::string png(reinterpret_cast<const char*>(kPng), sizeof(kPng));
+  put("a.png", png), put("b.png", png);
+  json keys = json::array();
+  for (int i = 0; i < 1000; ++i) keys.push_back({i, i % 2 ? "a.png" : "b.png"});
+  const std::string file = put("look.json", nested("materials.*.warp.metatexture.example", {{"keys", keys}}));
+  const Result<Look> look = Look::load(file);
+  ASSERT_TRUE(look.ok()) << look.error().message();
+  EXPECT_EQ(look->data().pictures.size(), 2u);
+  EXPECT_EQ(look->data().at(7).assignments[0].value.number, -2);
+  EXPECT_EQ(look->data().at(7).pictures, look->data().pictures);
+  // The place of a picture that is not there is the key's.
+  const Result<Look> absent =
+      Look::load(put("look.json", nested("warp.metatexture.example",
+                                         json::parse(R"({"keys": [[0, "paper"], [1, "c.png"]]})"))));
+  EXPECT_EQ(absent.error().jsonPath, "warp.metatexture.example.keys[1][1]");
+  EXPECT_EQ(absent.error().file, file);
+}
+
 TEST_F(LookLoad, everyLookThatShipsLoadsAndSaysWhatItIs) {
   const std::vector<ShippedLook> looks = Look::shipped();
   ASSERT_FALSE(looks.empty());
