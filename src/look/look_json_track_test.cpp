@@ -11,14 +11,7 @@ namespace scumble {
 namespace {
 
 using look::LookData;
-using look::ParamBlock;
 using nlohmann::json;
-
-Look mustRead(const std::string& text) {
-  const Result<Look> look = Look::fromJson(text, "test.json");
-  EXPECT_TRUE(look.ok()) << look.error().message();
-  return look.ok() ? look.value() : Look();
-}
 
 // A number or whole number of a look, for the whole scene or for a name.
 template <class T>

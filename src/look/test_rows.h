@@ -1,9 +1,13 @@
-// Every knob that there is, and values for it; for the tests of this room.
+// Every knob that there is, values for it, and what a look makes of it; for the tests of this room.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "look/look_data.h"
+#include "scumble/look.h"
 
 namespace scumble {
 
@@ -63,6 +67,37 @@ inline Sample sampleOf(const look::ParamRow& row) {
   }
   const double value = row.min + 0.375 * (row.max - row.min);
   return {nlohmann::json(value).dump(), value};
+}
+
+// The bytes of a block under a look, for all or for one material.
+inline std::vector<char> bytesOf(const look::ParamBlock& block, const Look& look,
+                                 const std::string* material = nullptr) {
+  std::vector<char> bytes(block.structSize, 0);
+  if (material)
+    look.data().fillFor(block, look::kMaterials, *material, bytes.data());
+  else if (block.targets & look::kScene)
+    look.data().fill(block, bytes.data());
+  else
+    look.data().fillFor(block, look::kClips, "any", bytes.data());
+  return bytes;
+}
+
+inline float numberIn(const std::vector<char>& bytes, const look::ParamRow& row) {
+  float value = 0;
+  std::memcpy(&value, bytes.data() + row.offset, sizeof(value));
+  return value;
+}
+
+inline Look mustRead(const std::string& text) {
+  const Result<Look> look = Look::fromJson(text, "test.json");
+  EXPECT_TRUE(look.ok()) << look.error().message();
+  return look.ok() ? look.value() : Look();
+}
+
+inline const look::ParamBlock* blockAt(const std::string& path) {
+  for (const look::ParamBlock* block : look::allBlocks())
+    if (block->path == path) return block;
+  return nullptr;
 }
 
 }  // namespace scumble
