@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,8 +43,9 @@ struct RenderOptions {
   bool transparent = false;             // leave the background out: alpha 0 where nothing is
   uint32_t seed = 0;
   bool plain = false;  // the yardstick: the scene once, unlit, one pass, nothing else
-  // The views one frame earlier, for the motion AOV; empty: the same as now.
+  // The views and the time (seconds) one frame earlier, for the motion AOV; empty: the same as now.
   std::vector<View> previousViews;
+  std::optional<double> previousTime;
 };
 
 struct PassTime {
@@ -54,7 +56,7 @@ struct PassTime {
 struct FrameStats {
   std::vector<PassTime> passes;  // in order; empty where the device has no timestamps
   double gpuMilliseconds = 0;    // first to last timestamp
-  double cpuMilliseconds = 0;    // preparing: uniforms and passes' updates
+  double cpuMilliseconds = 0;    // poses, uniforms, passes' updates, recording; beside the GPU's work
   double readbackMilliseconds = 0;
   double uploadMilliseconds = 0;  // building the scene's GPU data; 0 once it is there
   double setupMilliseconds = 0;   // images and pipelines; 0 once they are there
@@ -79,10 +81,19 @@ class Renderer {
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  // Renders one frame: `time` in seconds, one view or two (left, right). Uploads the scene at its first use.
-  // Fails with usage for options out of range, noUsableGpu when the device is lost or out of memory.
+  // Renders one frame: `time` in seconds (up to a million), one view or two (left, right). Clips play as the
+  // look says. Uploads the scene at its first use. Fails with usage for options out of range, noUsableGpu
+  // when the device is lost or out of memory.
   Result<Frame> render(const Scene& scene, const Look& look, double time, const std::vector<View>& views,
                        const RenderOptions& options);
+
+  // The same in two halves, for films: begin() returns while the device still draws, finish() waits for the
+  // oldest frame that was begun and gives it. With kMaxBegun frames begun the device always has work. After a
+  // failure of either with noUsableGpu or internal, no frame is under way any more.
+  static constexpr int kMaxBegun = 2;
+  Status begin(const Scene& scene, const Look& look, double time, const std::vector<View>& views,
+               const RenderOptions& options);
+  Result<Frame> finish();
 
   // Names of everything that can be saved beside the picture.
   static std::vector<std::string> aovNames();

@@ -38,9 +38,12 @@ struct Viewpoint {
 
 enum class Stereo { mono, stereo };
 
-// One view, or the left and the right one (ipd metres apart, parallel axes). Fails with ErrorKind::usage for
-// an unknown camera and for a viewpoint that sees nothing (eye on the target).
+// One view, or the left and the right one (ipd metres apart, parallel axes), at a time in seconds. A camera
+// of the scene goes where the clips that the look plays take it, held by nothing; every other viewpoint
+// stands still, and sees what the scene takes up while they play. Fails with ErrorKind::usage for an unknown
+// camera and for a viewpoint that sees nothing (eye on the target).
 Result<std::vector<View>> makeViews(const Scene& scene, const Viewpoint& viewpoint, float aspect,
-                                    Stereo stereo = Stereo::mono, float ipd = 0.063f);
+                                    Stereo stereo = Stereo::mono, float ipd = 0.063f,
+                                    const Look& look = Look(), double time = 0);
 
 }  // namespace scumble

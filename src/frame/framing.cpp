@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "frame/playing.h"
+#include "scene/posed_bounds.h"
 #include "scumble/view.h"
 
 namespace scumble {
@@ -19,8 +21,7 @@ constexpr float kDefaultFov = 34;        // degrees, vertical
 constexpr float kFill = 0.82f;           // of the frame that the subject may take
 }  // namespace
 
-glm::mat4 cameraWorld(const SceneData& scene, size_t camera) {
-  const std::vector<glm::mat4> world = scene::worldMatrices(scene);
+glm::mat4 cameraWorld(const SceneData& scene, size_t camera, const std::vector<glm::mat4>& world) {
   for (size_t n = 0; n < scene.nodes.size(); ++n)
     if (scene.nodes[n].camera == int(camera)) return world[n];
   return glm::mat4(1.0f);
@@ -33,7 +34,7 @@ glm::vec3 orbitDirection(float azimuth, float elevation) {
 
 glm::vec3 defaultEyeDirection(const SceneData& scene) {
   if (!scene.cameras.empty()) {
-    const glm::vec3 backward(cameraWorld(scene, 0)[2]);
+    const glm::vec3 backward(cameraWorld(scene, 0, scene::worldMatrices(scene))[2]);
     if (glm::length(glm::vec2(backward.x, backward.z)) > 1e-3f * glm::length(backward))
       return glm::normalize(backward);
   }
@@ -107,36 +108,39 @@ View lookAt(const glm::vec3& eye, const glm::vec3& target, float rollDegrees) {
 }  // namespace
 
 Result<std::vector<View>> makeViews(const Scene& scene, const Viewpoint& viewpoint, float aspect,
-                                    Stereo stereo, float ipd) {
+                                    Stereo stereo, float ipd, const Look& look, double time) {
   using namespace frame;
   if (scene.empty()) return badViewpoint("the scene is empty", "load one with Scene::load");
   const SceneData& data = scene.data();
-  const float radius = std::max(data.bounds.radius(), 1e-6f);
-  const float near = 1e-3f * radius;
   float fov = glm::radians(viewpoint.verticalFov.value_or(kDefaultFov));
   if (!(fov > 0.001f && fov < 3.1f))
     return badViewpoint("a field of view of that size sees nothing", "use 1 to 170 degrees");
   if (!(aspect > 0)) return badViewpoint("the picture has no area", "give a size like 1280x720");
 
   View view;
-  if (viewpoint.eye || viewpoint.target) {
-    const glm::vec3 target = viewpoint.target.value_or(data.bounds.center());
-    const glm::vec3 eye =
-        viewpoint.eye.value_or(target + framingDistance(data.bounds, defaultEyeDirection(data), fov, aspect) *
-                                            defaultEyeDirection(data));
-    if (glm::length(target - eye) < 1e-9f * radius)
-      return badViewpoint("the eye stands on its target", "move one of them");
-    view = lookAt(eye, target, viewpoint.roll);
-    view.eyeToClip = perspectiveProjection(fov, aspect, std::min(near, 0.1f * glm::length(target - eye)));
-  } else if (viewpoint.orbit || (viewpoint.camera.empty() && data.cameras.empty())) {
-    const glm::vec3 direction = viewpoint.orbit ? orbitDirection(viewpoint.azimuth, viewpoint.elevation)
-                                                : orbitDirection(kDefaultAzimuth, kDefaultElevation);
-    const float distance = viewpoint.distance ? *viewpoint.distance * radius
-                                              : framingDistance(data.bounds, direction, fov, aspect);
-    if (!(distance > 0))
-      return badViewpoint("the orbit's distance is not above zero", "give it in scene radii, e.g. 3");
-    view = lookAt(data.bounds.center() + distance * direction, data.bounds.center(), viewpoint.roll);
-    view.eyeToClip = perspectiveProjection(fov, aspect, std::min(near, 0.1f * distance));
+  if (viewpoint.eye || viewpoint.target || viewpoint.orbit ||
+      (viewpoint.camera.empty() && data.cameras.empty())) {
+    const scene::Bounds bounds = scene::playedBounds(data, everPlayed(data, look.data()));
+    const float radius = std::max(bounds.radius(), 1e-6f), near = 1e-3f * radius;
+    if (viewpoint.eye || viewpoint.target) {
+      const glm::vec3 target = viewpoint.target.value_or(bounds.center());
+      const glm::vec3 eye =
+          viewpoint.eye.value_or(target + framingDistance(bounds, defaultEyeDirection(data), fov, aspect) *
+                                              defaultEyeDirection(data));
+      if (glm::length(target - eye) < 1e-9f * radius)
+        return badViewpoint("the eye stands on its target", "move one of them");
+      view = lookAt(eye, target, viewpoint.roll);
+      view.eyeToClip = perspectiveProjection(fov, aspect, std::min(near, 0.1f * glm::length(target - eye)));
+    } else {
+      const glm::vec3 direction = viewpoint.orbit ? orbitDirection(viewpoint.azimuth, viewpoint.elevation)
+                                                  : orbitDirection(kDefaultAzimuth, kDefaultElevation);
+      const float distance =
+          viewpoint.distance ? *viewpoint.distance * radius : framingDistance(bounds, direction, fov, aspect);
+      if (!(distance > 0))
+        return badViewpoint("the orbit's distance is not above zero", "give it in scene radii, e.g. 3");
+      view = lookAt(bounds.center() + distance * direction, bounds.center(), viewpoint.roll);
+      view.eyeToClip = perspectiveProjection(fov, aspect, std::min(near, 0.1f * distance));
+    }
   } else {
     const std::optional<size_t> index = viewpoint.camera.empty() ? 0 : findCamera(data, viewpoint.camera);
     if (!index) {
@@ -149,11 +153,13 @@ Result<std::vector<View>> makeViews(const Scene& scene, const Viewpoint& viewpoi
     }
     const scene::Camera& camera = data.cameras[*index];
     // Scale in a camera's matrix means nothing.
-    glm::mat4 world = cameraWorld(data, *index);
+    const std::vector<scene::PlayedClip> clips = playedClips(data, look.data().at(time));
+    glm::mat4 world = cameraWorld(data, *index, scene::poseAt(data, clips, time).world);
     for (int axis = 0; axis < 3; ++axis)
       if (const float length = glm::length(glm::vec3(world[axis])); length > 1e-12f) world[axis] /= length;
     view.worldToEye =
         glm::rotate(glm::mat4(1.0f), glm::radians(viewpoint.roll), glm::vec3(0, 0, 1)) * glm::inverse(world);
+    const float radius = std::max(data.bounds.radius(), 1e-6f);
     if (camera.perspective) {
       if (!viewpoint.verticalFov) fov = std::clamp(camera.verticalFov, 0.001f, 3.1f);
       view.eyeToClip = perspectiveProjection(fov, aspect, std::max(camera.near, 1e-6f * radius));

@@ -5,11 +5,11 @@
 
 namespace scumble::frame {
 
-// World matrix of the first node that carries this camera; identity when none does.
-glm::mat4 cameraWorld(const scene::SceneData& scene, size_t camera);
+// Of the nodes' world matrices, that of the first node that carries this camera; identity when none does.
+glm::mat4 cameraWorld(const scene::SceneData& scene, size_t camera, const std::vector<glm::mat4>& world);
 
-// Direction from the scene's centre to the default viewpoint: its first camera, else three-quarter view from
-// the front.
+// Direction from the scene's centre to the default viewpoint: its first camera at rest, else three-quarter
+// view from the front.
 glm::vec3 defaultEyeDirection(const scene::SceneData& scene);
 
 // Direction for an azimuth and elevation in degrees (see Viewpoint).

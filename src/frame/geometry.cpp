@@ -6,7 +6,6 @@
 #include <map>
 
 #include "frame/tessellate.h"
-#include "scene/pose.h"
 
 namespace scumble::frame {
 
@@ -51,19 +50,6 @@ scene::Primitive makeGround(const scene::Bounds& bounds) {
   return ground;
 }
 
-// The rest pose of morph targets, with the given weights.
-scene::Primitive morphed(const scene::Primitive& primitive, const std::vector<float>& weights) {
-  scene::Primitive result = primitive;
-  for (size_t t = 0; t < primitive.morphTargets.size() && t < weights.size(); ++t) {
-    const scene::MorphTarget& target = primitive.morphTargets[t];
-    for (size_t v = 0; v < target.positions.size(); ++v)
-      result.positions[v] += weights[t] * target.positions[v];
-    for (size_t v = 0; v < target.normals.size(); ++v) result.normals[v] += weights[t] * target.normals[v];
-  }
-  for (glm::vec3& n : result.normals) n = glm::length(n) > 1e-6f ? glm::normalize(n) : glm::vec3(0, 1, 0);
-  return result;
-}
-
 float largestScale(const glm::mat4& m) {
   return std::max({glm::length(glm::vec3(m[0])), glm::length(glm::vec3(m[1])), glm::length(glm::vec3(m[2]))});
 }
@@ -82,39 +68,44 @@ float longestEdge(float shadowWarp) {
 
 Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& options, int groundMaterial) {
   Geometry geometry;
+  geometry.bounds = scene::playedBounds(scene, options.clips);
   const std::vector<glm::mat4> world = scene::worldMatrices(scene);
-  geometry.joints = scene::jointMatrices(scene, world);
 
   // One item for each primitive of each node, and for each of its instances.
-  std::map<std::pair<const scene::Primitive*, std::vector<float>>, const scene::Primitive*> morphs;
+  std::map<const scene::Primitive*, const scene::PrimitiveExtent*> extents;
   for (size_t n = 0; n < scene.nodes.size(); ++n) {
     const scene::Node& node = scene.nodes[n];
     if (node.mesh < 0) continue;
-    const scene::Mesh& mesh = scene.meshes[size_t(node.mesh)];
-    const std::vector<float>& weights = node.morphWeights.empty() ? mesh.morphWeights : node.morphWeights;
-    const bool morphs_ = std::any_of(weights.begin(), weights.end(), [](float w) { return w != 0; });
-    for (const scene::Primitive& primitive : mesh.primitives) {
+    for (const scene::Primitive& primitive : scene.meshes[size_t(node.mesh)].primitives) {
       if (primitive.indices.empty()) continue;
-      GeometryItem item{&primitive, world[n], -1, uint32_t(primitive.material), uint32_t(n + 1), true, {}};
-      if (morphs_ && !primitive.morphTargets.empty()) {
-        const scene::Primitive*& known = morphs[{&primitive, weights}];
-        if (!known) known = &geometry.made.emplace_back(morphed(primitive, weights));
-        item.primitive = known;
-      }
+      const scene::PrimitiveExtent*& extent = extents[&primitive];
+      if (!extent) extent = &geometry.extents.emplace_back(scene::extentOf(primitive));
+      GeometryItem item;
+      item.primitive = &primitive;
+      item.node = n;
+      item.material = uint32_t(primitive.material);
+      item.id = uint32_t(n + 1);
+      item.casts = options.casts[item.material];
+      item.extent = extent;
       if (node.skin >= 0 && primitive.influences > 0) item.skin = node.skin;
       const std::vector<glm::mat4> one{glm::mat4(1.0f)};
       for (const glm::mat4& instance : node.instances.empty() || item.skin >= 0 ? one : node.instances) {
+        item.instance = instance;
         item.model = world[n] * instance;
-        scene::Node alone;
-        alone.skin = item.skin;
-        item.bounds = scene::posedBounds(*item.primitive, alone, item.model, geometry.joints);
-        geometry.bounds.add(item.bounds.min);
-        geometry.bounds.add(item.bounds.max);
-        item.casts = options.casts[item.material];
         geometry.items.push_back(item);
       }
     }
   }
+
+  scene::forEachPose(scene, options.clips, [&](const scene::Pose& pose) {
+    std::vector<std::vector<glm::mat4>> joints;
+    for (const scene::Skin& skin : scene.skins) joints.push_back(scene::jointMatrices(skin, pose.world));
+    for (GeometryItem& item : geometry.items)
+      item.reach.add(scene::posedBounds(*item.extent, pose.world[item.node] * item.instance,
+                                        item.skin >= 0 ? std::span<const glm::mat4>(joints[size_t(item.skin)])
+                                                       : std::span<const glm::mat4>(),
+                                        pose.morphWeights[item.node]));
+  });
 
   // Split casters that are too long for the shadow map's sigmoid: by the largest scale at which a primitive
   // is drawn.
@@ -122,8 +113,7 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
   scene::Bounds casters;
   for (const GeometryItem& item : geometry.items) {
     if (!item.casts) continue;
-    casters.add(item.bounds.min);
-    casters.add(item.bounds.max);
+    casters.add(item.reach);
     float& scale = scales[item.primitive];
     scale = std::max(scale, largestScale(item.model));
   }
@@ -137,16 +127,14 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
     if (const auto it = split.find(item.primitive); it != split.end()) item.primitive = it->second;
 
   if (groundMaterial >= 0) {
-    GeometryItem item{&geometry.made.emplace_back(makeGround(geometry.bounds)),
-                      glm::mat4(1.0f),
-                      -1,
-                      uint32_t(groundMaterial),
-                      0,
-                      false,
-                      {}};
-    for (const glm::vec3& p : item.primitive->positions) item.bounds.add(p);
+    GeometryItem item;
+    item.primitive = &geometry.made.emplace_back(makeGround(geometry.bounds));
+    item.node = GeometryItem::kNoNode;
+    item.material = uint32_t(groundMaterial);
+    item.extent = &geometry.extents.emplace_back(scene::extentOf(*item.primitive));
     item.id = uint32_t(scene.nodes.size() + 1);
     item.casts = false;
+    item.reach = item.extent->box;
     geometry.items.push_back(item);
   }
   return geometry;

@@ -4,25 +4,40 @@
 
 #include <deque>
 
-#include "frame/scene_on_gpu.h"
+#include "scene/posed_bounds.h"
 
 namespace scumble::frame {
 
+constexpr uint32_t kShadowMapSize = 2048;
+
+// What of the look goes into a scene's geometry; when it changes, the scene is built anew.
+struct GeometryOptions {
+  bool ground = false;
+  float shadowWarp = 0;     // strength of the shadow map's sigmoid, which long triangles cannot follow
+  std::vector<bool> casts;  // by material: whether it casts shadows
+  std::vector<int> clips;   // those that play at any time: they tell what space the scene takes up
+  bool operator==(const GeometryOptions&) const = default;
+};
+
 struct GeometryItem {
   const scene::Primitive* primitive;
-  glm::mat4 model{1.0f};  // ignored where `skin` is set
+  size_t node = 0;           // kNoNode for the ground
+  glm::mat4 instance{1.0f};  // to the node's space
+  glm::mat4 model{1.0f};     // to the world, at rest; ignored where `skin` is set
   int skin = -1;
   uint32_t material = 0;
-  uint32_t id = 0;       // whole number from 1, one a node
-  bool casts = true;     // shadows
-  scene::Bounds bounds;  // world
+  uint32_t id = 0;    // whole number from 1, one a node
+  bool casts = true;  // shadows
+  const scene::PrimitiveExtent* extent = nullptr;
+  scene::Bounds reach;  // in the world: where clips take it, as far as is known before
+  static constexpr size_t kNoNode = ~size_t(0);
 };
 
 struct Geometry {
   std::vector<GeometryItem> items;
   std::deque<scene::Primitive> made;  // primitives that the scene does not have: subdivided ones, the ground
-  std::vector<std::vector<glm::mat4>> joints;  // matrices of each skin
-  scene::Bounds bounds;                        // without the ground
+  std::deque<scene::PrimitiveExtent> extents;
+  scene::Bounds bounds;  // of all that clips do, without the ground
 };
 
 // `groundMaterial`: the material index of the ground, or -1 for none.

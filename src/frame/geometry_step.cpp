@@ -24,16 +24,18 @@ void addVertexInput(gpu::GraphicsPipelineDesc& pipeline, uint32_t inputs) {
       {1, VK_FORMAT_R32G32B32_SFLOAT, offsetof(VertexFrame, dPdv)},
       {2, VK_FORMAT_R32G32_SFLOAT, offsetof(VertexSurface, patternUv)},
       {2, VK_FORMAT_R32_SFLOAT, offsetof(VertexSurface, warpScale)},
+      {3, VK_FORMAT_R32G32B32_SFLOAT, 0},
   };
-  static constexpr uint32_t kStrides[] = {sizeof(VertexCore), sizeof(VertexFrame), sizeof(VertexSurface)};
-  bool used[3] = {};
+  static constexpr uint32_t kStrides[] = {sizeof(VertexCore), sizeof(VertexFrame), sizeof(VertexSurface),
+                                          sizeof(glm::vec3)};
+  bool used[std::size(kStrides)] = {};
   for (uint32_t location = 0; location < std::size(kAttributes); ++location) {
     if (!(inputs >> location & 1)) continue;
     const Attribute& a = kAttributes[location];
     pipeline.vertexAttributes.push_back({location, a.binding, a.format, a.offset});
     used[a.binding] = true;
   }
-  for (uint32_t binding = 0; binding < 3; ++binding)
+  for (uint32_t binding = 0; binding < std::size(kStrides); ++binding)
     if (used[binding])
       pipeline.vertexBindings.push_back({binding, kStrides[binding], VK_VERTEX_INPUT_RATE_VERTEX});
 }
@@ -92,9 +94,9 @@ void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resource
                         const gpu::DescriptorSets* passSets, uint32_t firstView, const glm::vec3& eye,
                         const std::function<bool(const Draw&)>& includes) const {
   const VkBuffer buffers[] = {scene.finalCore().handle(), scene.finalFrame().handle(),
-                              scene.surface().handle()};
-  const VkDeviceSize offsets[] = {0, 0, 0};
-  vkCmdBindVertexBuffers(commands, 0, 3, buffers, offsets);
+                              scene.surface().handle(), scene.previousPositions().handle()};
+  const VkDeviceSize offsets[] = {0, 0, 0, 0};
+  vkCmdBindVertexBuffers(commands, 0, uint32_t(std::size(buffers)), buffers, offsets);
   vkCmdBindIndexBuffer(commands, scene.indices().handle(), 0, VK_INDEX_TYPE_UINT32);
 
   // Opaque surfaces by pipeline and from near to far, so that what is hidden is not shaded; blended ones from

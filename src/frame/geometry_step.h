@@ -20,6 +20,7 @@ enum VertexInput : uint32_t {
   kDPdv = 1 << 7,
   kPatternUv = 1 << 8,
   kWarpScale = 1 << 9,
+  kPreviousPosition = 1 << 10,  // a frame ago; only where the configuration has facts
 };
 
 struct GeometryStepDesc {

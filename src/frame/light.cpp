@@ -7,9 +7,9 @@
 
 namespace scumble::frame {
 
-glm::vec3 keyLightDirection(const scene::SceneData& scene, const LightParams& params) {
+glm::vec3 keyLightDirection(const scene::SceneData& scene, const LightParams& params,
+                            const std::vector<glm::mat4>& world) {
   if (params.source == 0) {
-    const std::vector<glm::mat4> world = scene::worldMatrices(scene);
     for (size_t n = 0; n < scene.nodes.size(); ++n) {
       const int light = scene.nodes[n].light;
       if (light < 0 || scene.lights[size_t(light)].kind != scene::LightKind::directional) continue;
@@ -37,10 +37,13 @@ void setLightSpace(shared::FrameUniforms& uniforms, const SceneOnGpu& scene, con
   scene::Bounds box;
   for (const Draw& draw : scene.draws()) {
     if (!draw.casts) continue;
+    // What a thing reaches at any time, so that the map's texels stay where they are from frame to frame.
+    scene::Bounds reach = draw.reach;
+    reach.add(draw.bounds);
     for (int corner = 0; corner < 8; ++corner)
-      box.add(toLightAxes * glm::vec3(corner & 1 ? draw.bounds.max.x : draw.bounds.min.x,
-                                      corner & 2 ? draw.bounds.max.y : draw.bounds.min.y,
-                                      corner & 4 ? draw.bounds.max.z : draw.bounds.min.z));
+      box.add(toLightAxes * glm::vec3(corner & 1 ? reach.max.x : reach.min.x,
+                                      corner & 2 ? reach.max.y : reach.min.y,
+                                      corner & 4 ? reach.max.z : reach.min.z));
   }
   if (box.empty) box.add(glm::vec3(0.0f));
   // A margin of one percent, and no flat box.

@@ -12,8 +12,10 @@ namespace scumble::frame {
 #define PARAMS_TARGETS kScene
 #include "look/define_params.h"
 
-// Unit vector towards the key light, in the world. Depends on the scene and the look, not on the views.
-glm::vec3 keyLightDirection(const scene::SceneData& scene, const LightParams& params);
+// Unit vector towards the key light, in the world. Depends on scene, look and time, not on the views.
+// `world`: the nodes' matrices at the time.
+glm::vec3 keyLightDirection(const scene::SceneData& scene, const LightParams& params,
+                            const std::vector<glm::mat4>& world);
 
 // Fills the light's part of the frame's uniforms. `viewer`: where the map is to be finest (world).
 void setLightSpace(shared::FrameUniforms& uniforms, const SceneOnGpu& scene, const LightParams& params,

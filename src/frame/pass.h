@@ -46,7 +46,8 @@ struct Configuration {
 
 // What changes from frame to frame.
 struct FrameInput {
-  const look::LookData& look;
+  const look::LookData& look;  // at the frame's time
+  double time = 0;             // seconds
   const shared::FrameUniforms& uniforms;
   const SceneOnGpu& scene;
   bool transparent = false;

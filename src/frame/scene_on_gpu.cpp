@@ -47,12 +47,34 @@ VkSamplerAddressMode addressMode(scene::Wrap wrap) {
 
 // From one material's data to the next: no device wants uniforms at larger steps than 256.
 constexpr uint64_t kMaterialStride = (sizeof(shared::MaterialData) + 255) / 256 * 256;
-constexpr size_t kDeformRow = 32768;  // a row of deform's workgroups at most
 
 // Where a primitive's data lies in the rest buffers.
 struct RestRange {
   uint32_t vertex = 0, index = 0, skin = 0;
+  uint32_t morph = shared::kNoMorph;  // first entry in the list of where displacements begin
 };
+
+// The displacements of all targets, vertex by vertex; `starts` has one more entry than vertices.
+void listDisplacements(const scene::Primitive& primitive, std::vector<uint32_t>& starts,
+                       std::vector<shared::MorphDisplacement>& list) {
+  const auto at = [](const std::vector<glm::vec3>& values, size_t v) {
+    return values.empty() ? glm::vec3(0.0f) : values[v];
+  };
+  for (size_t v = 0; v < primitive.vertexCount(); ++v) {
+    starts.push_back(uint32_t(list.size()));
+    for (size_t t = 0; t < primitive.morphTargets.size(); ++t) {
+      const scene::MorphTarget& target = primitive.morphTargets[t];
+      const shared::MorphDisplacement d{uint32_t(t),           at(target.positions, v),
+                                        at(target.normals, v), at(target.smoothNormals, v),
+                                        at(target.dPdu, v),    at(target.dPdv, v)};
+      const glm::vec3 zero(0.0f);
+      if (d.position != zero || d.normal != zero || d.smoothNormal != zero || d.dPdu != zero ||
+          d.dPdv != zero)
+        list.push_back(d);
+    }
+  }
+  starts.push_back(uint32_t(list.size()));
+}
 
 // A buffer that is filled in place: in device memory where the CPU sees it, else by way of staging.
 template <class T>
@@ -72,44 +94,55 @@ Stream<T> reserve(gpu::Uploader& uploader, uint64_t count, VkBufferUsageFlags us
   return stream;
 }
 
+gpu::Buffer positionBuffer(gpu::Device& device, uint64_t count) {
+  return gpu::Buffer(device, count * sizeof(glm::vec3),
+                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
+                     gpu::MemoryKind::device);
+}
+
 }  // namespace
 
 SceneOnGpu::SceneOnGpu(gpu::Device& device, gpu::Samplers& samplers, const scene::SceneData& scene,
                        const GeometryOptions& options)
-    : data_(&scene), options_(options) {
+    : device_(&device), data_(&scene), options_(options) {
   for (const scene::Material& material : scene.materials) materialNames_.push_back(material.name);
   if (options.ground) {
     groundMaterial_ = int(materialNames_.size());
     materialNames_.push_back("Ground");
   }
   gpu::Uploader uploader(device);
-  const Geometry geometry = collectGeometry(scene, options, groundMaterial_);
-  bounds_ = geometry.bounds;
-  buildGeometry(device, uploader, geometry);
-  measureColors(geometry);
+  geometry_ = collectGeometry(scene, options, groundMaterial_);
+  buildGeometry(device, uploader);
+  measureColors();
   buildMaterials(device, samplers, uploader);
   uploader.flush();
 }
 
-void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, const Geometry& geometry) {
+void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader) {
   // Lay out: rest data once for each primitive, final and static vertices once for each item.
   std::map<const scene::Primitive*, RestRange> ranges;
   std::vector<const scene::Primitive*> primitives;
   uint64_t restVertices = 0, indexCount = 0, skinEntries = 0, finalVertices = 0;
-  for (const GeometryItem& item : geometry.items) {
+  std::vector<uint32_t> morphStarts;
+  std::vector<shared::MorphDisplacement> morphs;
+  for (const GeometryItem& item : geometry_.items) {
     const scene::Primitive& primitive = *item.primitive;
-    if (ranges
-            .try_emplace(&primitive,
-                         RestRange{uint32_t(restVertices), uint32_t(indexCount), uint32_t(skinEntries)})
-            .second) {
+    const auto [range, isNew] = ranges.try_emplace(
+        &primitive, RestRange{uint32_t(restVertices), uint32_t(indexCount), uint32_t(skinEntries)});
+    if (isNew) {
       primitives.push_back(&primitive);
+      if (!primitive.morphTargets.empty()) {
+        range->second.morph = uint32_t(morphStarts.size());
+        listDisplacements(primitive, morphStarts, morphs);
+      }
       restVertices += primitive.vertexCount();
       indexCount += primitive.indices.size();
       skinEntries += primitive.vertexCount() * size_t(primitive.influences / 4);
     }
     finalVertices += primitive.vertexCount();
   }
-  const uint64_t largest = std::max(restVertices, finalVertices) * sizeof(shared::VertexFrame);
+  const uint64_t largest = std::max(std::max(restVertices, finalVertices) * sizeof(shared::VertexFrame),
+                                    morphs.size() * sizeof(shared::MorphDisplacement));
   if (largest > device.limits().maxStorageBufferRange || indexCount > (1ull << 31))
     throw gpu::VulkanError{"the scene's vertices", VK_ERROR_OUT_OF_DEVICE_MEMORY};
 
@@ -141,67 +174,60 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
   });
 
   // Objects, draws and deform's work.
-  std::vector<uint32_t> firstJoints;
-  std::vector<glm::mat4> joints;
-  for (const auto& matrices : geometry.joints) {
-    firstJoints.push_back(uint32_t(joints.size()));
-    joints.insert(joints.end(), matrices.begin(), matrices.end());
-  }
-  if (joints.empty()) joints.emplace_back(1.0f);
-  std::vector<shared::ObjectData> objects;
   std::vector<shared::DeformChunk> chunks;
   uint32_t finalVertex = 0;
-  for (const GeometryItem& item : geometry.items) {
+  for (const GeometryItem& item : geometry_.items) {
     const scene::Primitive& primitive = *item.primitive;
     const RestRange range = ranges.at(&primitive);
     const bool isGround = int(item.material) == groundMaterial_;
     static const scene::Material kGroundMaterial{};
     const scene::Material& material = isGround ? kGroundMaterial : data_->materials[item.material];
-    const glm::mat3 linear(item.model);
 
     Draw draw;
     draw.firstIndex = range.index;
     draw.indexCount = uint32_t(primitive.indices.size());
     draw.vertexOffset = int32_t(finalVertex);
-    draw.object = uint32_t(objects.size());
+    draw.object = uint32_t(objects_.size());
     draw.material = item.material;
     draw.alpha = alphaMode(material);
     draw.cullsBack = !material.doubleSided;
-    draw.mirrored = item.skin < 0 && glm::determinant(linear) < 0;
     draw.textured = material.baseColorTexture.image >= 0 || material.emissiveTexture.image >= 0;
     draw.varied = draw.textured || !primitive.colors.empty();
     draw.wraps = primitive.wrapsU || primitive.wrapsV;
     draw.casts = item.casts;
-    draw.bounds = item.bounds;
+    draw.reach = item.reach;
     draws_.push_back(draw);
     triangleCount_ += draw.indexCount / 3;
 
     shared::ObjectData object{};
-    object.model = item.model;
-    // The cofactor matrix is the inverse transpose times the determinant, and exists for flat matrices too.
-    object.normal = glm::mat3(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
-                              glm::cross(linear[0], linear[1]));
-    // Its entries are products of two lengths; divide by the largest, so that tiny and huge scales keep
-    // precision.
-    float most = 0;
-    for (int i = 0; i < 9; ++i) most = std::max(most, std::abs(object.normal[i / 3][i % 3]));
-    object.normal *= (draw.mirrored ? -1.0f : 1.0f) / (most > 0 && std::isfinite(most) ? most : 1.0f);
     object.material = item.material;
     object.id = item.id;
     object.wraps = uint32_t(primitive.wrapsU) + 2 * uint32_t(primitive.wrapsV);
     object.influences = item.skin >= 0 ? uint32_t(primitive.influences) : 0;
-    object.firstJoint = item.skin >= 0 ? firstJoints[size_t(item.skin)] : 0;
-    objects.push_back(object);
+    objects_.push_back(object);
+
+    MovingObject moving;
+    moving.node = item.node;
+    moving.instance = item.instance;
+    moving.skin = item.skin;
+    moving.mesh = isGround ? -1 : data_->nodes[item.node].mesh;
+    moving.material = item.material;
+    moving.extent = item.extent;
+    moving.morphs = range.morph != shared::kNoMorph;
+    moving.firstChunk = uint32_t(chunks.size());
 
     const uint32_t count = uint32_t(primitive.vertexCount());
     for (uint32_t v = 0; v < count; v += shared::kDeformChunk)
       chunks.push_back({draw.object, range.vertex + v, finalVertex + v,
                         std::min(count - v, uint32_t(shared::kDeformChunk)),
-                        range.skin + v * uint32_t(primitive.influences / 4)});
+                        range.skin + v * uint32_t(primitive.influences / 4),
+                        moving.morphs ? range.morph + v : shared::kNoMorph});
     finalVertex += count;
+    moving.chunkCount = uint32_t(chunks.size()) - moving.firstChunk;
+    moving_.push_back(moving);
   }
-  scene::parallelFor(geometry.items.size(), scene::threadCount(0), [&](size_t i) {
-    const scene::Primitive& primitive = *geometry.items[i].primitive;
+  scene::parallelFor(geometry_.items.size(), scene::threadCount(0), [&](size_t i) {
+    const scene::Primitive& primitive = *geometry_.items[i].primitive;
     shared::VertexSurface* out = surface.data + draws_[i].vertexOffset;
     for (size_t v = 0; v < primitive.vertexCount(); ++v) {
       uint32_t color = 0xFFFFFFFFu;
@@ -217,23 +243,49 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
   restSkin_ = std::move(skins.buffer);
   surface_ = std::move(surface.buffer);
   indices_ = std::move(indices.buffer);
-  // `deform` dispatches whole rows: pad with empty chunks.
   chunkCount_ = uint32_t(chunks.size());
-  if (chunks.size() > kDeformRow) chunks.resize((chunks.size() + kDeformRow - 1) / kDeformRow * kDeformRow);
+  finalVertexCount_ = std::max(1u, finalVertex);
   const auto upload = [&](const auto& array) {
     auto stream =
         reserve<std::remove_cvref_t<decltype(array[0])>>(uploader, array.size(), kStorage, uploadedBytes_);
     std::copy(array.begin(), array.end(), stream.data);
     return std::move(stream.buffer);
   };
-  objects_ = upload(objects);
   chunks_ = upload(chunks);
-  joints_ = upload(joints);
-  const uint64_t finals = std::max<uint64_t>(1, finalVertices);
+  morphStarts_ = upload(morphStarts);
+  morphs_ = upload(morphs);
+  const uint64_t finals = finalVertexCount_;
   finalCore_ =
       gpu::Buffer(device, finals * sizeof(shared::VertexCore), kStorage | kVertex, gpu::MemoryKind::device);
   finalFrame_ =
       gpu::Buffer(device, finals * sizeof(shared::VertexFrame), kStorage | kVertex, gpu::MemoryKind::device);
+  previousPositions_ = positionBuffer(device, 1);
+  motion_.emplace(device, *data_, materialNames_, moving_, objects_, chunkCount_);
+}
+
+void SceneOnGpu::pose(const look::LookData& look, double time) {
+  motion_->pose(look, time);
+  for (size_t i = 0; i < draws_.size(); ++i) {
+    draws_[i].bounds = motion_->bounds()[i];
+    draws_[i].mirrored = motion_->mirrored()[i];
+  }
+}
+
+void SceneOnGpu::forgetPoses() {
+  motion_->touchAll();
+  if (previousMotion_) previousMotion_->touchAll();
+}
+
+void SceneOnGpu::keepPrevious() {
+  if (previousMotion_) return;
+  previousPositions_ = positionBuffer(*device_, finalVertexCount_);
+  previousMotion_.emplace(*device_, *data_, materialNames_, moving_, objects_, chunkCount_);
+}
+
+void SceneOnGpu::addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) {
+  motion_->addUploads(uploads);
+  if (previousMotion_) previousMotion_->addUploads(uploads);
+  uploads.push_back(&materialData_);
 }
 
 void SceneOnGpu::buildMaterials(gpu::Device& device, gpu::Samplers& samplers, gpu::Uploader& uploader) {
@@ -262,8 +314,8 @@ void SceneOnGpu::buildMaterials(gpu::Device& device, gpu::Samplers& samplers, gp
                                             {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
                                             {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT}});
   materialSets_ = gpu::DescriptorSets(device, materialLayout_, uint32_t(materialNames_.size()));
-  materialData_ = gpu::Buffer(device, materialNames_.size() * kMaterialStride,
-                              VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, gpu::MemoryKind::upload);
+  materialData_ = gpu::PerFrameBuffer(device, materialNames_.size() * kMaterialStride,
+                                      VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
   const auto write = [&](size_t set, uint32_t binding, const scene::TextureUse& use) {
     gpu::SamplerDesc desc;
     desc.wrapU = addressMode(use.sampler.wrapU);
@@ -287,10 +339,10 @@ bool SceneOnGpu::isVaried(size_t material) const {
 }
 
 void SceneOnGpu::setMaterial(size_t material, const shared::MaterialData& data) {
-  std::memcpy(materialData_.mapped() + material * kMaterialStride, &data, sizeof(data));
+  std::memcpy(materialData_.contents() + material * kMaterialStride, &data, sizeof(data));
 }
 
-void SceneOnGpu::measureColors(const Geometry& geometry) {
+void SceneOnGpu::measureColors() {
   // Mean of each image, from a grid of its pixels.
   constexpr uint32_t kGrid = 16;
   std::vector<glm::vec3> imageMeans;
@@ -311,7 +363,7 @@ void SceneOnGpu::measureColors(const Geometry& geometry) {
   constexpr size_t kTriangles = 64;
   glm::dvec3 sum(0.0);
   double total = 0;
-  for (const GeometryItem& item : geometry.items) {
+  for (const GeometryItem& item : geometry_.items) {
     if (int(item.material) == groundMaterial_) continue;
     const scene::Primitive& primitive = *item.primitive;
     const scene::Material& material = data_->materials[item.material];

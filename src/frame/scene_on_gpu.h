@@ -4,18 +4,17 @@
 
 #include <array>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "frame/geometry.h"
+#include "frame/scene_motion.h"
+#include "gpu/frames_in_flight.h"
 #include "gpu/pipeline.h"
-#include "gpu/resources.h"
-#include "scene/scene_data.h"
-#include "shading/frame.shared.h"
 
 namespace scumble::frame {
-
-constexpr uint32_t kShadowMapSize = 2048;
 
 enum class AlphaMode : uint8_t { opaque, mask, blend };
 
@@ -25,12 +24,13 @@ struct Draw {
   uint32_t object = 0, material = 0;
   AlphaMode alpha = AlphaMode::opaque;
   bool cullsBack = true;  // single-sided
-  bool mirrored = false;  // the object's matrix turns triangles inside out
+  bool mirrored = false;  // the object's matrix turns triangles inside out, in the frame's pose
   bool varied = false;    // vertex colours or textures vary the material's colour
   bool textured = false;
   bool wraps = false;    // its mapping closes on itself
   bool casts = true;     // shadows
-  scene::Bounds bounds;  // world, rest pose
+  scene::Bounds bounds;  // world, in the frame's pose
+  scene::Bounds reach;   // world, at any time as far as is known before
 };
 
 // What the automatic choices of colours need to know.
@@ -38,19 +38,9 @@ struct SceneColors {
   glm::vec3 meanRootRgb{0.5f};  // square root of linear RGB, averaged over the surface
 };
 
-// What of the look goes into a scene's geometry; when it changes, the scene is built anew.
-struct GeometryOptions {
-  bool ground = false;
-  float shadowWarp = 0;     // strength of the shadow map's sigmoid, which long triangles cannot follow
-  std::vector<bool> casts;  // by material: whether it casts shadows
-  bool operator==(const GeometryOptions&) const = default;
-};
-
-struct Geometry;
-
 class SceneOnGpu {
  public:
-  // Throws gpu::VulkanError when it does not fit.
+  // Throws gpu::VulkanError when it does not fit. `scene` and `options` stay.
   SceneOnGpu(gpu::Device& device, gpu::Samplers& samplers, const scene::SceneData& scene,
              const GeometryOptions& options);
 
@@ -65,19 +55,34 @@ class SceneOnGpu {
   bool isVaried(size_t material) const;
   int groundMaterial() const { return groundMaterial_; }
   const SceneColors& colors() const { return colors_; }
-  const scene::Bounds& bounds() const { return bounds_; }  // without the ground
 
-  const gpu::Buffer& objects() const { return objects_; }
+  // Sets what moves to its place at a time (seconds). The look is one at that time (LookData::at).
+  void pose(const look::LookData& look, double time);
+  // Where it was a frame ago; after keepPrevious() only.
+  void posePrevious(const look::LookData& look, double time) { previousMotion_->pose(look, time); }
+  // The last poses are not on their way to the device after all.
+  void forgetPoses();
+  // Makes room for the positions of a frame ago, unless there is.
+  void keepPrevious();
+  const SceneMotion& motion() const { return *motion_; }
+  const SceneMotion* previousMotion() const { return previousMotion_ ? &*previousMotion_ : nullptr; }
+  // What the CPU writes for each frame.
+  void addUploads(std::vector<gpu::PerFrameBuffer*>& uploads);
+
   const gpu::Buffer& chunks() const { return chunks_; }
-  uint32_t chunkCount() const { return chunkCount_; }
   const gpu::Buffer& restCore() const { return restCore_; }
   const gpu::Buffer& restFrame() const { return restFrame_; }
   const gpu::Buffer& restSkin() const { return restSkin_; }
-  const gpu::Buffer& joints() const { return joints_; }
+  const gpu::Buffer& morphStarts() const { return morphStarts_; }
+  const gpu::Buffer& morphs() const { return morphs_; }
   const gpu::Buffer& finalCore() const { return finalCore_; }
   const gpu::Buffer& finalFrame() const { return finalFrame_; }
+  // One vec3 a final vertex; of one vertex only before keepPrevious().
+  const gpu::Buffer& previousPositions() const { return previousPositions_; }
   const gpu::Buffer& surface() const { return surface_; }
   const gpu::Buffer& indices() const { return indices_; }
+  // What the scene takes up, whatever its clips do.
+  const scene::Bounds& bounds() const { return geometry_.bounds; }  // without the ground
   // Set 1 of geometry passes: a material's facts and its textures.
   const gpu::SetLayout& materialLayout() const { return materialLayout_; }
   VkDescriptorSet materialSet(uint32_t material) const { return materialSets_[material]; }
@@ -88,22 +93,26 @@ class SceneOnGpu {
   uint64_t uploadedBytes() const { return uploadedBytes_; }
 
  private:
-  void buildGeometry(gpu::Device& device, gpu::Uploader& uploader, const Geometry& geometry);
+  void buildGeometry(gpu::Device& device, gpu::Uploader& uploader);
   void buildMaterials(gpu::Device& device, gpu::Samplers& samplers, gpu::Uploader& uploader);
-  void measureColors(const Geometry& geometry);
+  void measureColors();
 
+  gpu::Device* device_;
   const scene::SceneData* data_;
   GeometryOptions options_;
   std::vector<std::string> materialNames_;
   int groundMaterial_ = -1;
   std::vector<Draw> draws_;
   SceneColors colors_;
-  scene::Bounds bounds_;
-  gpu::Buffer objects_, chunks_, restCore_, restFrame_, restSkin_, joints_, finalCore_, finalFrame_, surface_,
-      indices_;
-  uint32_t chunkCount_ = 0;
+  Geometry geometry_;
+  gpu::Buffer chunks_, restCore_, restFrame_, restSkin_, morphStarts_, morphs_, finalCore_, finalFrame_,
+      previousPositions_, surface_, indices_;
+  uint32_t chunkCount_ = 0, finalVertexCount_ = 0;
+  std::vector<shared::ObjectData> objects_;  // without what moves
+  std::vector<MovingObject> moving_;
+  std::optional<SceneMotion> motion_, previousMotion_;
   std::vector<gpu::Image> images_;
-  gpu::Buffer materialData_;
+  gpu::PerFrameBuffer materialData_;
   gpu::SetLayout materialLayout_;
   gpu::DescriptorSets materialSets_;
   uint64_t triangleCount_ = 0, uploadedBytes_ = 0;

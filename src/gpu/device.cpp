@@ -348,6 +348,10 @@ void Device::savePipelineCache() {
   cacheSizeOnDisk_ = size;
 }
 
+void Device::waitForSubmissions() {
+  if (underWay_ > 0) SCUMBLE_VK(vkQueueWaitIdle(queue_));
+}
+
 void Device::runOnce(const std::function<void(VkCommandBuffer)>& record) {
   const VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool_,
                                          VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};

@@ -60,6 +60,12 @@ class Device {
   // Records with `record` into a command buffer of its own, submits it and waits for the end.
   void runOnce(const std::function<void(VkCommandBuffer)>& record);
 
+  // Submissions tell when they are under way (see frames_in_flight.h). Whoever changes what they use waits
+  // first.
+  void submissionBegan() { ++underWay_; }
+  void submissionEnded() { --underWay_; }
+  void waitForSubmissions();
+
   // Writes the compiled pipelines to the cache folder, if there is one and something new was compiled.
   void savePipelineCache();
 
@@ -83,6 +89,7 @@ class Device {
   std::unique_ptr<MemoryPool> memory_;
   DeviceInfo info_;
   VkPhysicalDeviceLimits limits_{};
+  int underWay_ = 0;
   bool supports4Samples_ = false, isLlvmpipe_ = false;
   std::atomic<int> validationMessages_ = 0;
 };

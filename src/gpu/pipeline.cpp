@@ -102,6 +102,7 @@ void DescriptorSets::swap(DescriptorSets& other) {
 
 void DescriptorSets::write(size_t set, uint32_t binding, const VkDescriptorBufferInfo* buffer,
                            const VkDescriptorImageInfo* image) {
+  device_->waitForSubmissions();
   VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
   write.dstSet = sets_[set];
   write.dstBinding = binding;

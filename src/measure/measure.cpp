@@ -176,7 +176,8 @@ class Measurer {
 
   Status frameScene() {
     const float aspect = float(options_.width) / float(options_.height);
-    const Result<std::vector<View>> views = makeViews(scene_, options_.viewpoint, aspect);
+    const Result<std::vector<View>> views =
+        makeViews(scene_, options_.viewpoint, aspect, Stereo::mono, 0, look_);
     if (!views) return views.error();
     view_ = views->front();
     const SceneSummary summary = scene_.summary();

@@ -105,8 +105,8 @@ void Readback::declare(FrameBuilder& frame, Slot slot) {
                                                                    : VK_IMAGE_ASPECT_COLOR_BIT),
         0, 0, image.desc().layers};
     copy.imageExtent = {image.desc().width, image.desc().height, 1};
-    vkCmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer_.handle(),
-                           1, &copy);
+    vkCmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                           buffers_[frame_].handle(), 1, &copy);
     gpu::memoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                        VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
   });
@@ -115,12 +115,12 @@ void Readback::declare(FrameBuilder& frame, Slot slot) {
 void Readback::create(FrameBuilder& frame, const FrameResources& resources) {
   resources_ = &resources;
   const gpu::ImageDesc& desc = resources.image(image_).desc();
-  buffer_ = gpu::Buffer(frame.device(),
-                        uint64_t(desc.width) * desc.height * desc.layers * gpu::bytesPerPixel(desc.format),
-                        VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryKind::readback);
+  const uint64_t bytes = uint64_t(desc.width) * desc.height * desc.layers * gpu::bytesPerPixel(desc.format);
+  for (gpu::Buffer& buffer : buffers_)
+    buffer = gpu::Buffer(frame.device(), bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryKind::readback);
 }
 
-std::vector<Image> Readback::images(uint32_t width, uint32_t height) const {
+std::vector<Image> Readback::images(uint32_t frame, uint32_t width, uint32_t height) const {
   static const char* const kNames[] = {"R", "G", "B", "A"};
   const gpu::ImageDesc& desc = resources_->image(image_).desc();
   const uint32_t channels = slotInfo(slot_).channels;
@@ -136,7 +136,7 @@ std::vector<Image> Readback::images(uint32_t width, uint32_t height) const {
       const size_t last = std::min(first + size_t(kRows) * desc.width, pixelsALayer);
       for (size_t i = first; i < last; ++i) {
         float* out = &image.pixels[i * channels];
-        readPixel(desc.format, buffer_.mapped(), layer * pixelsALayer + i, channels, out);
+        readPixel(desc.format, buffers_[frame].mapped(), layer * pixelsALayer + i, channels, out);
         if (isPremultiplied(slot_) && out[3] > 0.0f && out[3] < 1.0f)
           for (uint32_t c = 0; c < (slot_ == Slot::blur ? 2u : 3u); ++c)
             out[c] /= out[3];  // the blur's B is depth

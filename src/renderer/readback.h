@@ -13,15 +13,18 @@ class Readback {
  public:
   void declare(FrameBuilder& frame, Slot slot);
   void create(FrameBuilder& frame, const FrameResources& resources);
-  // One image a view (or one, for what is drawn once). Linear, straight alpha. What is drawn at a fraction of
-  // the frame's size (blur) is enlarged by linear interpolation.
-  std::vector<scumble::Image> images(uint32_t width, uint32_t height) const;
+  // Before a frame is recorded: which of those in flight it is.
+  void setFrame(uint32_t frame) { frame_ = frame; }
+  // One image a view (or one, for what is drawn once), of a frame that the device has ended. Linear, straight
+  // alpha. What is drawn at a fraction of the frame's size (blur) is enlarged by linear interpolation.
+  std::vector<scumble::Image> images(uint32_t frame, uint32_t width, uint32_t height) const;
 
  private:
   Slot slot_ = Slot::finalColor;
   gpu::ResourceId image_ = 0;
   const FrameResources* resources_ = nullptr;
-  gpu::Buffer buffer_;
+  gpu::Buffer buffers_[gpu::kFramesInFlight];
+  uint32_t frame_ = 0;
 };
 
 }  // namespace scumble::renderer

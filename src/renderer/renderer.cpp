@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <optional>
 
 #include "frame/framing.h"
 #include "frame/light.h"
 #include "frame/palette.h"
+#include "frame/playing.h"
 #include "renderer/pass_list.h"
 #include "renderer/readback.h"
 #include "renderer/uniforms.h"
@@ -25,6 +27,7 @@ double millisecondsSince(Clock::time_point start) {
 }
 
 constexpr uint32_t kMaxSize = 16384;
+constexpr double kMaxTime = 1e6;  // seconds; a float still tells hundredths apart
 
 Error usage(std::string problem, std::string advice) {
   return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
@@ -64,7 +67,7 @@ GpuInfo toPublic(const gpu::DeviceInfo& info) {
 // Everything that lives as long as scene and configuration stay the same.
 struct Setup {
   Configuration configuration;
-  gpu::Buffer uniformBuffer;
+  gpu::PerFrameBuffer uniformBuffer;
   UniformSlice frameSlice;
   std::optional<FrameBuilder> builder;
   gpu::SetLayout frameLayout;
@@ -73,11 +76,20 @@ struct Setup {
   std::vector<std::unique_ptr<Pass>> passes;
   std::vector<std::unique_ptr<Readback>> readbacks;  // in the order of configuration.readBack
   std::vector<std::vector<gpu::Barrier>> barriers;
-  VkQueryPool queries = VK_NULL_HANDLE;
+  VkQueryPool queries[gpu::kFramesInFlight] = {};  // null where there are no timestamps
   VkDevice device = VK_NULL_HANDLE;
   ~Setup() {
-    if (queries) vkDestroyQueryPool(device, queries, nullptr);
+    for (VkQueryPool pool : queries)
+      if (pool) vkDestroyQueryPool(device, pool, nullptr);
   }
+};
+
+// A frame between begin() and finish().
+struct Begun {
+  uint32_t slot;  // of those in flight
+  RenderOptions options;
+  Frame frame;  // statistics so far; the pictures, where they had to be fetched early
+  bool fetched = false;
 };
 
 }  // namespace
@@ -91,8 +103,12 @@ struct Renderer::Impl {
   std::optional<SceneOnGpu> sceneOnGpu;
   std::unique_ptr<Setup> setup;
   ColorMaps colorMaps;
+  std::optional<gpu::Submission> submissions[gpu::kFramesInFlight];
+  std::deque<Begun> begun;  // the oldest first
+  uint32_t nextSlot = 0;
 
   ~Impl() {
+    for (auto& submission : submissions) submission.reset();
     setup.reset();
     sceneOnGpu.reset();
     examples.reset();
@@ -101,6 +117,7 @@ struct Renderer::Impl {
 
   void useScene(const Scene& wanted, const GeometryOptions& options) {
     if (sceneOnGpu && &scene->data() == &wanted.data() && sceneOnGpu->options() == options) return;
+    fetchAll();
     setup.reset();
     sceneOnGpu.reset();
     scene = wanted;
@@ -108,12 +125,37 @@ struct Renderer::Impl {
   }
 
   void useConfiguration(const Configuration& configuration);
-  void record(VkCommandBuffer commands);
-  void readTimes(FrameStats& stats);
+  void record(VkCommandBuffer commands, uint32_t slot);
+  void readTimes(uint32_t slot, FrameStats& stats);
+  // Waits for a frame and fetches its pictures, unless that has been done.
+  void fetch(Begun& frame);
+  // Before anything goes that frames under way use.
+  void fetchAll() {
+    for (Begun& frame : begun) fetch(frame);
+  }
+  // After an unexpected result of Vulkan: nothing that is under way can be trusted.
+  void abandon() {
+    for (auto& submission : submissions) submission.reset();
+    begun.clear();
+    setup.reset();
+    if (sceneOnGpu) sceneOnGpu->forgetPoses();
+  }
+  Error failure(const gpu::VulkanError& error) {
+    abandon();
+    const bool internal = error.result == VK_ERROR_UNKNOWN || error.result == VK_ERROR_VALIDATION_FAILED_EXT;
+    return {internal ? ErrorKind::internal : ErrorKind::noUsableGpu, "", 0, "", error.message(),
+            "use a smaller picture or scene, or another --device"};
+  }
+  Error outOfMemory() {
+    abandon();
+    return {ErrorKind::noUsableGpu,          "", 0, "", "there is not enough memory",
+            "use a smaller picture or scene"};
+  }
 };
 
 void Renderer::Impl::useConfiguration(const Configuration& configuration) {
   if (setup && setup->configuration == configuration) return;
+  fetchAll();
   setup.reset();
   auto next = std::make_unique<Setup>();
   next->device = device->handle();
@@ -121,11 +163,11 @@ void Renderer::Impl::useConfiguration(const Configuration& configuration) {
 
   // Uniform memory: what holds for the frame, then what each material has in each pass.
   const uint64_t size = (64 << 10) + sceneOnGpu->materialCount() * 2048;
-  next->uniformBuffer =
-      gpu::Buffer(*device, size, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                  gpu::MemoryKind::upload);
+  next->uniformBuffer = gpu::PerFrameBuffer(
+      *device, size, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  if (configuration.facts) sceneOnGpu->keepPrevious();
   next->builder.emplace(*device, *samplers, *examples, configuration, *sceneOnGpu,
-                        UniformSlice{next->uniformBuffer.handle(), 0, size, next->uniformBuffer.mapped()});
+                        UniformSlice{next->uniformBuffer.handle(), 0, size, next->uniformBuffer.contents()});
   next->frameSlice = next->builder->uniform(sizeof(shared::FrameUniforms));
 
   // Passes declare what they read and write; then images, and with them pipelines and descriptor sets, can be
@@ -138,7 +180,7 @@ void Renderer::Impl::useConfiguration(const Configuration& configuration) {
                                                {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_ALL}});
   next->frameSet = gpu::DescriptorSets(*device, next->frameLayout);
   next->frameSet.writeBuffer(0, 0, next->frameSlice.buffer, next->frameSlice.offset, next->frameSlice.size);
-  next->frameSet.writeBuffer(0, 1, sceneOnGpu->objects().handle());
+  next->frameSet.writeBuffer(0, 1, sceneOnGpu->motion().objects());
   next->resources.emplace(*device, *next->builder, next->frameLayout, next->frameSet[0]);
   for (const auto& pass : next->passes) pass->create(*next->builder, *next->resources);
   for (const auto& readback : next->readbacks) readback->create(*next->builder, *next->resources);
@@ -148,18 +190,23 @@ void Renderer::Impl::useConfiguration(const Configuration& configuration) {
     VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     info.queryType = VK_QUERY_TYPE_TIMESTAMP;
     info.queryCount = uint32_t(next->barriers.size() + 1);
-    SCUMBLE_VK(vkCreateQueryPool(device->handle(), &info, nullptr, &next->queries));
+    for (VkQueryPool& pool : next->queries)
+      SCUMBLE_VK(vkCreateQueryPool(device->handle(), &info, nullptr, &pool));
   }
   setup = std::move(next);
 }
 
-void Renderer::Impl::record(VkCommandBuffer commands) {
+void Renderer::Impl::record(VkCommandBuffer commands, uint32_t slot) {
   const gpu::FrameGraph& graph = setup->builder->graph();
+  const VkQueryPool queries = setup->queries[slot];
   const auto stamp = [&](uint32_t query) {
-    if (setup->queries)
-      vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, setup->queries, query);
+    if (queries) vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries, query);
   };
-  if (setup->queries) vkCmdResetQueryPool(commands, setup->queries, 0, uint32_t(setup->barriers.size() + 1));
+  for (const auto& readback : setup->readbacks) readback->setFrame(slot);
+  if (queries) vkCmdResetQueryPool(commands, queries, 0, uint32_t(setup->barriers.size() + 1));
+  std::vector<gpu::PerFrameBuffer*> uploads{&setup->uniformBuffer};
+  sceneOnGpu->addUploads(uploads);
+  gpu::recordUploads(commands, uploads, slot);
   stamp(0);
   for (size_t s = 0; s < graph.steps().size(); ++s) {
     std::vector<VkImageMemoryBarrier2> images;
@@ -194,11 +241,11 @@ void Renderer::Impl::record(VkCommandBuffer commands) {
   }
 }
 
-void Renderer::Impl::readTimes(FrameStats& stats) {
-  if (!setup->queries) return;
+void Renderer::Impl::readTimes(uint32_t slot, FrameStats& stats) {
+  if (!setup->queries[slot]) return;
   const auto& steps = setup->builder->graph().steps();
   std::vector<uint64_t> stamps(steps.size() + 1);
-  SCUMBLE_VK(vkGetQueryPoolResults(device->handle(), setup->queries, 0, uint32_t(stamps.size()),
+  SCUMBLE_VK(vkGetQueryPoolResults(device->handle(), setup->queries[slot], 0, uint32_t(stamps.size()),
                                    stamps.size() * 8, stamps.data(), 8,
                                    VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
   const double unit = double(device->limits().timestampPeriod) * 1e-6;
@@ -210,6 +257,23 @@ void Renderer::Impl::readTimes(FrameStats& stats) {
       stats.passes.push_back({steps[s].name, time});
   }
   stats.gpuMilliseconds = double(stamps.back() - stamps.front()) * unit;
+}
+
+void Renderer::Impl::fetch(Begun& frame) {
+  if (frame.fetched) return;
+  submissions[frame.slot]->wait();
+  FrameStats& stats = frame.frame.stats;
+  readTimes(frame.slot, stats);
+  const Clock::time_point start = Clock::now();
+  const Configuration& configuration = setup->configuration;
+  std::vector<Frame::Layer>& layers = frame.frame.layers;
+  for (size_t i = 0; i < setup->readbacks.size(); ++i)
+    layers.push_back({i == 0 ? "" : slotInfo(configuration.readBack[i]).aov,
+                      setup->readbacks[i]->images(frame.slot, frame.options.width, frame.options.height)});
+  for (const std::string& aov : frame.options.aovs)
+    if (slotOfAov(aov) == Slot::finalColor) layers.push_back({aov, layers.front().views});
+  stats.readbackMilliseconds = millisecondsSince(start);
+  frame.fetched = true;
 }
 
 Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
@@ -232,6 +296,14 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
 
 Result<Frame> Renderer::render(const Scene& scene, const Look& look, double time,
                                const std::vector<View>& views, const RenderOptions& options) {
+  if (!impl_->begun.empty())
+    return usage("other frames have been begun", "call finish() until all are finished");
+  if (const Status status = begin(scene, look, time, views, options); !status) return status.error();
+  return finish();
+}
+
+Status Renderer::begin(const Scene& scene, const Look& look, double time, const std::vector<View>& views,
+                       const RenderOptions& options) {
   // Check what the caller wants.
   if (scene.empty()) return usage("the scene is empty", "load one with Scene::load");
   const uint32_t largest = std::min(kMaxSize, impl_->device->limits().maxImageDimension2D);
@@ -249,7 +321,11 @@ Result<Frame> Renderer::render(const Scene& scene, const Look& look, double time
   for (const View& view : views)
     if (!isFinite(view.worldToEye) || !isFinite(view.eyeToClip))
       return usage("a view is not finite", "check the camera");
-  if (!std::isfinite(time)) return usage("the time is not finite", "give it in seconds");
+  const double previousTime = options.previousTime.value_or(time);
+  if (!(std::abs(time) < kMaxTime && std::abs(previousTime) < kMaxTime))
+    return usage("the time is out of range", "give it in seconds, up to a million");
+  if (impl_->begun.size() >= size_t(kMaxBegun))
+    return usage("too many frames have been begun", "call finish() first");
 
   Configuration configuration;
   configuration.width = options.width;
@@ -257,7 +333,8 @@ Result<Frame> Renderer::render(const Scene& scene, const Look& look, double time
   configuration.samples = options.samples;
   configuration.viewCount = uint32_t(views.size());
   configuration.plain = options.plain;
-  configuration.layered = !options.plain && wantsLayers(look.data());
+  const look::LookData now = look.data().at(time);
+  configuration.layered = !options.plain && wantsLayers(now);
   configuration.multiview = impl_->device->multiviewWorks();
   configuration.computeImagePasses =
       impl_->imagePasses == ImagePassKind::compute ||
@@ -276,7 +353,8 @@ Result<Frame> Renderer::render(const Scene& scene, const Look& look, double time
   }
 
   try {
-    Frame frame;
+    Begun next{impl_->nextSlot, options, {}};
+    FrameStats& stats = next.frame.stats;
     auto start = Clock::now();
     const auto lap = [&] {
       const double elapsed = millisecondsSince(start);
@@ -284,51 +362,58 @@ Result<Frame> Renderer::render(const Scene& scene, const Look& look, double time
       return elapsed;
     };
     GeometryOptions geometry;
-    geometry.ground = hasGround(scene.data(), look.data()) && !options.transparent;
-    geometry.shadowWarp = look.data().get<LightParams>().shadowWarp;
-    geometry.casts = shadowCasters(scene.data(), look.data());
+    geometry.ground = hasGround(scene.data(), now) && !options.transparent;
+    geometry.shadowWarp = now.get<LightParams>().shadowWarp;
+    geometry.casts = shadowCasters(scene.data(), now);
+    geometry.clips = everPlayed(scene.data(), look.data());
     impl_->useScene(scene, geometry);
-    frame.stats.uploadMilliseconds = lap();
+    stats.uploadMilliseconds = lap();
     impl_->useConfiguration(configuration);
-    frame.stats.setupMilliseconds = lap();
+    stats.setupMilliseconds = lap();
 
-    // Write the uniforms.
+    // Everything to its place, then the uniforms.
     Setup& setup = *impl_->setup;
     SceneOnGpu& sceneOnGpu = *impl_->sceneOnGpu;
+    sceneOnGpu.pose(now, time);
+    if (configuration.facts) sceneOnGpu.posePrevious(look.data().at(previousTime), previousTime);
     const shared::FrameUniforms uniforms =
-        frameUniforms(sceneOnGpu, look.data(), views, options.previousViews, time, configuration);
+        frameUniforms(sceneOnGpu, now, views, options.previousViews, time, configuration);
     setup.frameSlice.write(uniforms);
     for (size_t m = 0; m < sceneOnGpu.materialCount(); ++m)
-      sceneOnGpu.setMaterial(m, materialData(sceneOnGpu, m, look.data(), impl_->colorMaps));
-    const FrameInput input{look.data(), uniforms, sceneOnGpu, options.transparent, options.seed};
+      sceneOnGpu.setMaterial(m, materialData(sceneOnGpu, m, now, impl_->colorMaps));
+    const FrameInput input{now, time, uniforms, sceneOnGpu, options.transparent, options.seed};
     for (const auto& pass : setup.passes) pass->update(input);
-    frame.stats.cpuMilliseconds = lap();
 
-    impl_->device->runOnce([&](VkCommandBuffer commands) { impl_->record(commands); });
-    impl_->readTimes(frame.stats);
+    std::optional<gpu::Submission>& submission = impl_->submissions[next.slot];
+    if (!submission) submission.emplace(*impl_->device);
+    submission->submit([&](VkCommandBuffer commands) { impl_->record(commands, next.slot); });
+    stats.cpuMilliseconds = lap();
     impl_->device->savePipelineCache();
+    stats.triangles = sceneOnGpu.triangleCount();
+    stats.drawCalls = sceneOnGpu.draws().size();
+    stats.deviceBytes = impl_->device->memory().bytesInUse();
+    stats.uploadedBytes = sceneOnGpu.uploadedBytes();
+    impl_->begun.push_back(std::move(next));
+    impl_->nextSlot = (impl_->nextSlot + 1) % gpu::kFramesInFlight;
+    return Done{};
+  } catch (const gpu::VulkanError& error) {
+    return impl_->failure(error);
+  } catch (const std::bad_alloc&) {
+    return impl_->outOfMemory();
+  }
+}
 
-    // Bring the pictures back.
-    start = Clock::now();
-    for (size_t i = 0; i < setup.readbacks.size(); ++i)
-      frame.layers.push_back({i == 0 ? "" : slotInfo(configuration.readBack[i]).aov,
-                              setup.readbacks[i]->images(options.width, options.height)});
-    for (const std::string& aov : options.aovs)
-      if (slotOfAov(aov) == Slot::finalColor) frame.layers.push_back({aov, frame.layers.front().views});
-    frame.stats.readbackMilliseconds = lap();
-    frame.stats.triangles = sceneOnGpu.triangleCount();
-    frame.stats.drawCalls = sceneOnGpu.draws().size();
-    frame.stats.deviceBytes = impl_->device->memory().bytesInUse();
-    frame.stats.uploadedBytes = sceneOnGpu.uploadedBytes();
+Result<Frame> Renderer::finish() {
+  if (impl_->begun.empty()) return usage("no frame has been begun", "call begin() first");
+  try {
+    impl_->fetch(impl_->begun.front());
+    Frame frame = std::move(impl_->begun.front().frame);
+    impl_->begun.pop_front();
     return frame;
   } catch (const gpu::VulkanError& error) {
-    impl_->setup.reset();
-    const bool internal = error.result == VK_ERROR_UNKNOWN || error.result == VK_ERROR_VALIDATION_FAILED_EXT;
-    return Error{internal ? ErrorKind::internal : ErrorKind::noUsableGpu, "", 0, "", error.message(),
-                 "use a smaller picture or scene, or another --device"};
+    return impl_->failure(error);
   } catch (const std::bad_alloc&) {
-    return Error{ErrorKind::noUsableGpu,          "", 0, "", "there is not enough memory",
-                 "use a smaller picture or scene"};
+    return impl_->outOfMemory();
   }
 }
 

@@ -57,7 +57,7 @@ shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const look::LookDat
   u.cyclopeanNdcToEyeRay = cyclopean.ndcToEyeRay;
 
   const LightParams light = look.get<LightParams>();
-  u.toLight = keyLightDirection(scene.data(), light);
+  u.toLight = keyLightDirection(scene.data(), light, scene.motion().world());
   setLightSpace(u, scene, light, viewer);
   return u;
 }

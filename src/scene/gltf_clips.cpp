@@ -102,6 +102,8 @@ bool readChannel(const GltfImport& import, const GltfMaps& maps, const SceneData
   const int64_t node = target.index("node", maps.nodes.size(), "node");
   if (node < 0 || maps.nodes[node] < 0) return false;
   channel.node = maps.nodes[node];
+  if (scene.nodes[channel.node].localMatrix)
+    target.failAt("node", "names a node whose matrix is no composition of translation, rotation and scale");
   if (!propertyOf(target.text("path"), channel.property)) target.failAt("path", "is not a known property");
 
   const JsonView sampler =
@@ -165,6 +167,7 @@ void readClips(const GltfImport& import, const GltfMaps& maps, SceneData& scene)
     try {
       const JsonView json = list.at(i), channels = json.list("channels"), samplers = json.list("samplers");
       clip.name = json.text("name");
+      if (clip.name.empty()) clip.name = "clip " + std::to_string(i);
       for (size_t k = 0; k < channels.size(); ++k) {
         try {
           Channel channel;

@@ -248,14 +248,17 @@ class AttributeReader {
             if (!(std::abs(v[c]) < 1e15f)) v[c] = 0.0f, broken = true;
         return values;
       };
-      p.morphTargets.push_back({displacements("POSITION"), displacements("NORMAL")});
+      import_.budget.takeBytes(count() * 4 * sizeof(glm::vec3), target.path());  // what preparation adds
+      p.morphTargets.push_back({displacements("POSITION"), displacements("NORMAL"), {}, {}, {}});
     }
     if (broken) warnings_.add(targets.path(), "displacements that are not finite become zero");
   }
 
  private:
   void normalizeWeights(Primitive& p, const std::string& path) {
-    bool broken = false;
+    // Bytes round by up to half of one each.
+    const float tolerance = 0.01f * float(p.influences);
+    bool broken = false, uneven = false;
     for (size_t i = 0; i < count(); ++i) {
       float* weights = p.weights.data() + i * p.influences;
       uint16_t* joints = p.joints.data() + i * p.influences;
@@ -269,8 +272,10 @@ class AttributeReader {
         weights[0] = sum = 1.0f;
         broken = true;
       }
+      uneven |= std::abs(sum - 1.0f) > tolerance;
       for (int k = 0; k < p.influences; ++k) weights[k] /= sum;
     }
+    if (uneven) warnings_.add(path, "skin weights that do not sum to one are scaled");
     if (broken) warnings_.add(path, "skin weights that are negative, not finite or all zero are replaced");
   }
 

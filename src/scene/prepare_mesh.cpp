@@ -197,8 +197,9 @@ void gatherVertices(Primitive& p, const std::vector<uint32_t>& source) {
   gather(p.joints, source, static_cast<size_t>(p.influences));
   gather(p.weights, source, static_cast<size_t>(p.influences));
   for (MorphTarget& target : p.morphTargets) {
-    gather(target.positions, source);
-    gather(target.normals, source);
+    for (auto list : {&MorphTarget::positions, &MorphTarget::normals, &MorphTarget::smoothNormals,
+                      &MorphTarget::dPdu, &MorphTarget::dPdv})
+      gather(target.*list, source);
   }
 }
 

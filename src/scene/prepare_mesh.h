@@ -7,6 +7,7 @@
 //   finishPrimitive     on every primitive
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "scene/import_warnings.h"
@@ -32,7 +33,12 @@ Bounds boxOf(const std::vector<glm::vec3>& points);
 // Half the diagonal of the mesh's box.
 float boundingRadius(const Mesh& mesh);
 
-// Unit smooth normals; uv0 where there is none (one unit of uv is `radius` metres); dPdu and dPdv.
+// What targets do to normals, smooth normals and tangents; `makeTangents` sets those of a primitive whose
+// positions are displaced.
+void finishMorphTargets(Primitive& primitive, const std::function<void(Primitive&)>& makeTangents);
+
+// Unit smooth normals; uv0 where there is none (one unit of uv is `radius` metres); dPdu and dPdv; all
+// that morph targets displace.
 void finishPrimitive(Primitive& primitive, float radius);
 
 // Keeps the given vertices only, in this order, in all arrays but the indices.

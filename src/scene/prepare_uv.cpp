@@ -94,7 +94,8 @@ std::vector<uint32_t> samePlaces(const Primitive& p, float scale, const std::vec
   return first;
 }
 
-void makeTangents(Primitive& p, float scale) {
+// `first`: as samePlaces() has it; made here where it is empty.
+void makeTangents(Primitive& p, float scale, std::vector<uint32_t>& first) {
   const size_t count = p.vertexCount();
   std::vector<Mapping> mappings;
   mappings.reserve(p.indices.size() / 3);
@@ -104,7 +105,7 @@ void makeTangents(Primitive& p, float scale) {
     for (size_t k = 0; k < 3; ++k)
       balance[p.indices[i + k]] += mapping.mirrored ? -mapping.area : mapping.area;
   }
-  const std::vector<uint32_t> first = samePlaces(p, scale, balance);
+  if (first.empty()) first = samePlaces(p, scale, balance);
   p.dPdu.assign(count, glm::vec3(0.0f));
   p.dPdv.assign(count, glm::vec3(0.0f));
   std::vector<float> areas(count, 0.0f);
@@ -170,7 +171,9 @@ void finishPrimitive(Primitive& p, float radius) {
     p.patternUv = boxProjection(p, scale);
     p.wrapsU = p.wrapsV = false;
   }
-  makeTangents(p, scale);
+  std::vector<uint32_t> places;
+  makeTangents(p, scale, places);
+  finishMorphTargets(p, [&](Primitive& morphed) { makeTangents(morphed, scale, places); });
 }
 
 }  // namespace scumble::scene

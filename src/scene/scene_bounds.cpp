@@ -6,6 +6,7 @@
 #include <map>
 
 #include "scene/import_budget.h"
+#include "scene/posed_bounds.h"
 #include "scene/prepare_mesh.h"
 
 namespace scumble::scene {
@@ -74,18 +75,12 @@ bool addBox(const Bounds& box, const glm::mat4& matrix, Bounds& bounds) {
 // it is not drawable. `morphedOwn` is the mesh's own box with its morph targets.
 Bounds skinnedBox(const Mesh& mesh, const Skin& skin, const std::vector<glm::mat4>& world, const Bounds& own,
                   const Bounds& morphedOwn) {
-  std::vector<glm::mat4> joints(skin.joints.size());
-  for (size_t i = 0; i < joints.size(); ++i) joints[i] = world[skin.joints[i]] * skin.inverseBindMatrices[i];
+  const std::vector<glm::mat4> joints = jointMatrices(skin, world);
   Bounds bounds;
   for (const Primitive& p : mesh.primitives)
     for (size_t i = 0; i < p.vertexCount(); ++i) {
-      glm::vec3 position = p.influences == 0 ? p.positions[i] : glm::vec3(0.0f);
-      for (int k = 0; k < p.influences; ++k) {
-        const float weight = p.weights[i * p.influences + k];
-        if (weight > 0.0f)
-          position +=
-              weight * glm::vec3(joints[p.joints[i * p.influences + k]] * glm::vec4(p.positions[i], 1.0f));
-      }
+      const glm::vec3 position =
+          p.influences == 0 ? p.positions[i] : skinnedPosition(p, i, p.positions[i], joints);
       if (!isDrawable(position)) return Bounds();
       bounds.add(position);
     }

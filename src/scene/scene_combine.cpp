@@ -60,8 +60,11 @@ void addScene(SceneData& all, const SceneData& one) {
   }
   for (Skin& skin : Tail<Skin>{all.skins, skins})
     for (int& joint : skin.joints) moveBy(joint, nodes);
-  for (Clip& clip : Tail<Clip>{all.clips, clips})
+  const int files = clips > 0 ? all.clips[clips - 1].file + 1 : 0;
+  for (Clip& clip : Tail<Clip>{all.clips, clips}) {
+    clip.file += files;
     for (Channel& channel : clip.channels) moveBy(channel.node, nodes);
+  }
   appendNew(all.extensionsUsed, one.extensionsUsed);
   appendNew(all.extensionsNotSupported, one.extensionsNotSupported);
   appendNew(all.warnings, one.warnings);

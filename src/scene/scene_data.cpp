@@ -19,6 +19,12 @@ void Bounds::add(const glm::vec3& p) {
   empty = false;
 }
 
+void Bounds::add(const Bounds& other) {
+  if (other.empty) return;
+  add(other.min);
+  add(other.max);
+}
+
 std::vector<glm::mat4> worldMatrices(const SceneData& scene) {
   std::vector<glm::mat4> world(scene.nodes.size());
   for (size_t i = 0; i < scene.nodes.size(); ++i) {
@@ -27,6 +33,10 @@ std::vector<glm::mat4> worldMatrices(const SceneData& scene) {
     world[i] = node.parent >= 0 ? world[node.parent] * local : local;
   }
   return world;
+}
+
+const std::vector<float>& restMorphWeights(const SceneData& scene, const Node& node) {
+  return node.morphWeights.empty() ? scene.meshes[size_t(node.mesh)].morphWeights : node.morphWeights;
 }
 
 }  // namespace scumble::scene

@@ -59,8 +59,10 @@ struct Material {
 
 constexpr int kMaxMorphTargets = 64;
 
+// Displacements at weight 1; each list is empty or has one a vertex. Between weights they are linear, also
+// those of normals and tangents, which is an approximation.
 struct MorphTarget {
-  std::vector<glm::vec3> positions, normals;  // displacements; empty or one a vertex
+  std::vector<glm::vec3> positions, normals, smoothNormals, dPdu, dPdv;
 };
 
 // Triangles with one material. All non-empty vertex arrays have vertexCount() entries.
@@ -162,8 +164,9 @@ struct Channel {
 };
 
 struct Clip {
-  std::string name;
+  std::string name;       // never empty
   float duration = 0.0f;  // seconds
+  int file = 0;           // which of the files that were combined it comes from
   std::vector<Channel> channels;
 };
 
@@ -171,6 +174,7 @@ struct Bounds {
   glm::vec3 min{0.0f}, max{0.0f};
   bool empty = true;
   void add(const glm::vec3& p);
+  void add(const Bounds& other);
   glm::vec3 center() const { return 0.5f * (min + max); }
   float radius() const { return empty ? 1.0f : 0.5f * glm::length(max - min); }
 };
@@ -192,5 +196,8 @@ struct SceneData {
 
 // World matrix of every node in the rest pose.
 std::vector<glm::mat4> worldMatrices(const SceneData& scene);
+
+// Morph weights in the rest pose of a node that has a mesh.
+const std::vector<float>& restMorphWeights(const SceneData& scene, const Node& node);
 
 }  // namespace scumble::scene

@@ -45,10 +45,11 @@ struct ObjectData {
   mat4 model;   // object to world
   mat3 normal;  // inverse transpose of its linear part, up to a positive factor
   uint material;
-  uint id;          // from 1; the `id` AOV
-  uint influences;  // joints a vertex: 0 (rigid), 4 or 8
-  uint firstJoint;  // in the joint matrices
-  uint wraps;       // whether pattern coordinates close on themselves after one unit: 1 along u, 2 along v
+  uint id;                // from 1; the `id` AOV
+  uint influences;        // joints a vertex: 0 (rigid), 4 or 8
+  uint firstJoint;        // in the joint matrices
+  uint firstMorphWeight;  // in the morph weights
+  uint wraps;  // whether pattern coordinates close on themselves after one unit: 1 along u, 2 along v
 };
 
 // A chunk of vertices for `deform`: up to kDeformChunk vertices of one object.
@@ -58,8 +59,10 @@ struct DeformChunk {
   uint restVertex;   // first vertex in the rest buffers
   uint finalVertex;  // first vertex in the final buffers
   uint count;
-  uint skinVertex;  // first entry in the skin buffer
+  uint skinVertex;   // first entry in the skin buffer
+  uint morphVertex;  // first entry in the list of where vertices' displacements begin; kNoMorph: none move
 };
+const uint kNoMorph = 0xFFFFFFFFu;
 
 // A vertex as deform reads and writes it; two streams, so that depth-only passes fetch 16 bytes.
 struct VertexCore {
@@ -75,6 +78,11 @@ struct VertexFrame {
 struct VertexSkin {
   uvec2 joints;  // 4 x 16 bits
   vec4 weights;
+};
+// What one morph target does to one vertex at weight 1.
+struct MorphDisplacement {
+  uint target;
+  vec3 position, normal, smoothNormal, dPdu, dPdv;
 };
 // What never deforms.
 struct VertexSurface {

@@ -1,25 +1,52 @@
 #version 460
-// Deform once, draw many: final world-space vertices of everything, once a frame. Every other pass draws from them.
+// Deform once, draw many: final world-space vertices of everything that has moved, once a frame. Every other pass
+// draws from them. A second time, with kPositionsOnly, for where they were a frame ago.
 #extension GL_GOOGLE_include_directive : require
 #include "../../shading/frame.glsl"
 #include "deform.shared.h"
 
+layout(constant_id = 0) const bool kPositionsOnly = false;
+
 layout(local_size_x = kDeformThreads) in;
 
 layout(set = 1, binding = 0, scalar) readonly buffer ChunkBlock { DeformChunk chunks[]; };
-layout(set = 1, binding = 1, scalar) readonly buffer RestCore { VertexCore restCore[]; };
-layout(set = 1, binding = 2, scalar) readonly buffer RestFrame { VertexFrame restFrame[]; };
-layout(set = 1, binding = 3, scalar) readonly buffer RestSkin { VertexSkin restSkin[]; };
-layout(set = 1, binding = 4, scalar) readonly buffer Joints { mat4 jointMatrices[]; };
-layout(set = 1, binding = 5, scalar) writeonly buffer FinalCore { VertexCore finalCore[]; };
-layout(set = 1, binding = 6, scalar) writeonly buffer FinalFrame { VertexFrame finalFrame[]; };
+layout(set = 1, binding = 1, scalar) readonly buffer MovedBlock { uint moved[]; };
+layout(set = 1, binding = 2, scalar) readonly buffer PlacedObjects { ObjectData placed[]; };
+layout(set = 1, binding = 3, scalar) readonly buffer Joints { mat4 jointMatrices[]; };
+layout(set = 1, binding = 4, scalar) readonly buffer MorphWeights { float morphWeights[]; };
+layout(set = 1, binding = 5, scalar) readonly buffer RestCore { VertexCore restCore[]; };
+layout(set = 1, binding = 6, scalar) readonly buffer RestFrame { VertexFrame restFrame[]; };
+layout(set = 1, binding = 7, scalar) readonly buffer RestSkin { VertexSkin restSkin[]; };
+layout(set = 1, binding = 8, scalar) readonly buffer MorphStarts { uint morphStarts[]; };
+layout(set = 1, binding = 9, scalar) readonly buffer Morphs { MorphDisplacement morphs[]; };
+layout(set = 1, binding = 10, scalar) writeonly buffer FinalCore { VertexCore finalCore[]; };
+layout(set = 1, binding = 11, scalar) writeonly buffer FinalFrame { VertexFrame finalFrame[]; };
+layout(set = 1, binding = 12, scalar) writeonly buffer PreviousPosition { vec3 previousPosition[]; };
+
+layout(push_constant, scalar) uniform Push { uint movedCount; };
 
 void main() {
-  DeformChunk chunk = chunks[gl_WorkGroupID.x + gl_WorkGroupID.y * kMaxGroupsX];
-  ObjectData object = objects[chunk.object];
+  uint group = gl_WorkGroupID.x + gl_WorkGroupID.y * kMaxGroupsX;
+  if (group >= movedCount) return;
+  DeformChunk chunk = chunks[moved[group]];
+  ObjectData object = placed[chunk.object];
   for (uint i = gl_LocalInvocationID.x; i < chunk.count; i += kDeformThreads) {
     VertexCore core = restCore[chunk.restVertex + i];
     VertexFrame around = restFrame[chunk.restVertex + i];
+    vec3 normal = decodeNormal(unpackSnorm2x16(core.normal));
+    vec3 smoothNormal = decodeNormal(unpackSnorm2x16(around.smoothNormal));
+
+    // Morph targets, in the object's own space.
+    if (chunk.morphVertex != kNoMorph)
+      for (uint k = morphStarts[chunk.morphVertex + i]; k < morphStarts[chunk.morphVertex + i + 1]; ++k) {
+        MorphDisplacement d = morphs[k];
+        float weight = morphWeights[object.firstMorphWeight + d.target];
+        core.position += weight * d.position;
+        normal += weight * d.normal;
+        smoothNormal += weight * d.smoothNormal;
+        around.dPdu += weight * d.dPdu;
+        around.dPdv += weight * d.dPdv;
+      }
 
     // From the rest pose to the world: the object's matrix, or the blend of its joints' (linear blend skinning).
     mat4 toWorld = object.model;
@@ -40,10 +67,14 @@ void main() {
     }
 
     core.position = (toWorld * vec4(core.position, 1.0)).xyz;
-    core.normal = encodeNormal(normalToWorld * decodeNormal(unpackSnorm2x16(core.normal)));
+    if (kPositionsOnly) {
+      previousPosition[chunk.finalVertex + i] = core.position;
+      continue;
+    }
+    core.normal = encodeNormal(normalToWorld * normal);
     around.dPdu = mat3(toWorld) * around.dPdu;
     around.dPdv = mat3(toWorld) * around.dPdv;
-    around.smoothNormal = encodeNormal(normalToWorld * decodeNormal(unpackSnorm2x16(around.smoothNormal)));
+    around.smoothNormal = encodeNormal(normalToWorld * smoothNormal);
     finalCore[chunk.finalVertex + i] = core;
     finalFrame[chunk.finalVertex + i] = around;
   }

@@ -1,7 +1,6 @@
 #include "passes/deform/deform.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "passes/deform/deform.shared.h"
 #include "shaders/deform_comp.h"
@@ -15,44 +14,73 @@ class Deform : public frame::Pass {
   const char* name() const override { return "deform"; }
 
   void declare(frame::FrameBuilder& frame) override {
+    // What has not moved keeps the vertices that an earlier frame wrote: they would come out the same.
     frame.addStep("deform", {{frame.finalVertices(), gpu::Use::storageBufferWrite}},
                   [this](VkCommandBuffer commands) {
-                    // Nothing moves yet: the first frame's vertices are every frame's.
-                    if (std::exchange(done_, true)) return;
-                    pipeline_.bind(commands);
-                    pipeline_.bindSet(commands, 0, frameSet_);
-                    pipeline_.bindSet(commands, 1, set_[0]);
-                    const uint32_t x = std::min(chunkCount_, uint32_t(shared::kMaxGroupsX));
-                    // Whole rows; chunks beyond the end are empty (SceneOnGpu pads the list).
-                    if (x > 0) vkCmdDispatch(commands, x, (chunkCount_ + x - 1) / x, 1);
+                    now_.record(commands, frameSet_, scene_->motion());
+                    if (keepsPrevious_) previous_.record(commands, frameSet_, *scene_->previousMotion());
                   });
   }
 
   void create(frame::FrameBuilder& frame, const frame::FrameResources& resources) override {
-    const frame::SceneOnGpu& scene = frame.scene();
-    const gpu::Buffer* buffers[] = {&scene.chunks(),    &scene.restCore(), &scene.restFrame(),
-                                    &scene.restSkin(),  &scene.joints(),   &scene.finalCore(),
-                                    &scene.finalFrame()};
-    layout_ = gpu::SetLayout(frame.device(),
-                             std::vector<gpu::Binding>(std::size(buffers), {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                                                            VK_SHADER_STAGE_COMPUTE_BIT}));
-    set_ = gpu::DescriptorSets(frame.device(), layout_);
-    for (uint32_t i = 0; i < std::size(buffers); ++i) set_.writeBuffer(0, i, buffers[i]->handle());
-    gpu::ComputePipelineDesc desc;
-    desc.shader = {shaders::deform_comp};
-    desc.sets = {resources.frameLayout().handle(), layout_.handle()};
-    pipeline_ = gpu::Pipeline(frame.device(), desc);
+    scene_ = &frame.scene();
     frameSet_ = resources.frameSet();
-    chunkCount_ = scene.chunkCount();
+    keepsPrevious_ = frame.configuration().facts;
+    layout_ = gpu::SetLayout(frame.device(), std::vector<gpu::Binding>(13, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                                                            VK_SHADER_STAGE_COMPUTE_BIT}));
+    now_.create(frame, resources, layout_, scene_->motion(), false);
+    if (keepsPrevious_) previous_.create(frame, resources, layout_, *scene_->previousMotion(), true);
   }
 
  private:
+  // Of one of the two poses.
+  struct Work {
+    gpu::DescriptorSets set;
+    gpu::Pipeline pipeline;
+
+    void create(frame::FrameBuilder& frame, const frame::FrameResources& resources,
+                const gpu::SetLayout& layout, const frame::SceneMotion& motion, bool positionsOnly) {
+      const frame::SceneOnGpu& scene = frame.scene();
+      const VkBuffer buffers[] = {scene.chunks().handle(),
+                                  motion.moved(),
+                                  motion.objects(),
+                                  motion.joints(),
+                                  motion.morphWeights(),
+                                  scene.restCore().handle(),
+                                  scene.restFrame().handle(),
+                                  scene.restSkin().handle(),
+                                  scene.morphStarts().handle(),
+                                  scene.morphs().handle(),
+                                  scene.finalCore().handle(),
+                                  scene.finalFrame().handle(),
+                                  scene.previousPositions().handle()};
+      set = gpu::DescriptorSets(frame.device(), layout);
+      for (uint32_t i = 0; i < std::size(buffers); ++i) set.writeBuffer(0, i, buffers[i]);
+      gpu::ComputePipelineDesc desc;
+      desc.shader = {shaders::deform_comp};
+      desc.constants = {positionsOnly};
+      desc.sets = {resources.frameLayout().handle(), layout.handle()};
+      desc.pushConstantBytes = 4;
+      pipeline = gpu::Pipeline(frame.device(), desc);
+    }
+
+    void record(VkCommandBuffer commands, VkDescriptorSet frameSet, const frame::SceneMotion& motion) const {
+      const uint32_t count = motion.movedCount();
+      if (count == 0) return;
+      pipeline.bind(commands);
+      pipeline.bindSet(commands, 0, frameSet);
+      pipeline.bindSet(commands, 1, set[0]);
+      pipeline.push(commands, count);
+      const uint32_t x = std::min(count, uint32_t(shared::kMaxGroupsX));
+      vkCmdDispatch(commands, x, (count + x - 1) / x, 1);
+    }
+  };
+
   gpu::SetLayout layout_;
-  gpu::DescriptorSets set_;
-  gpu::Pipeline pipeline_;
+  Work now_, previous_;
+  const frame::SceneOnGpu* scene_ = nullptr;
   VkDescriptorSet frameSet_ = VK_NULL_HANDLE;
-  uint32_t chunkCount_ = 0;
-  bool done_ = false;
+  bool keepsPrevious_ = false;
 };
 
 }  // namespace

@@ -51,7 +51,7 @@ class Facts : public Pass {
     GeometryStepDesc desc;
     desc.vertex = {shaders::facts_vert};
     desc.fragment = {shaders::facts_frag};
-    desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor | kDPdu | kDPdv | kPatternUv;
+    desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor | kDPdu | kDPdv | kPatternUv | kPreviousPosition;
     for (const Slot fact : kFacts) desc.colorFormats.push_back(slotInfo(fact).format);
     desc.viewMask = viewMask(configuration_);
     desc.viewCount = configuration_.viewCount;

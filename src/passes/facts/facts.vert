@@ -17,6 +17,7 @@ layout(location = 4) in vec4 inColor;
 layout(location = 5) in vec3 inDPdu;
 layout(location = 7) in vec3 inDPdv;
 layout(location = 8) in vec2 inPatternUv;
+layout(location = 10) in vec3 inPreviousPosition;
 
 layout(location = 0) out vec3 outPosition;
 layout(location = 1) out vec3 outNormal;
@@ -42,7 +43,7 @@ void main() {
   outMetaTangentU = tangentToClip(tangentClip, inDPdu);
   outMetaTangentV = tangentToClip(tangentClip, inDPdv);
   outMetaPoint = pointInTangentView(facts.tangents, worldToClip, inPosition);
-  outPrevious = VIEW_FIELD(previousWorldToClip, viewIndex()) * vec4(inPosition, 1.0);
+  outPrevious = VIEW_FIELD(previousWorldToClip, viewIndex()) * vec4(inPreviousPosition, 1.0);
   outObject = gl_InstanceIndex;
   if (kAlphaMode != 0) outBaseUvAlpha = vec3(baseUv(inUv0, inUv1), inColor.a);
 }

@@ -7,6 +7,7 @@
 #include "frame/image_step.h"
 #include "frame/material_params.h"
 #include "frame/metatexture.h"
+#include "frame/playing.h"
 #include "passes/warp/warp.shared.h"
 #include "shaders/warp_image_comp.h"
 #include "shaders/warp_image_frag.h"
@@ -145,7 +146,7 @@ class Warp : public Pass {
     const BreakupParams breakup = input.look.getForMaterial<BreakupParams>(material);
     const auto breakupMeta = sameRows(input.look.getForMaterial<BreakupMetaTextureParams>(material));
     glm::vec2 shift = patternShift(input.seed);
-    if (const int drawing = boilDrawing(params, input.uniforms.time))
+    if (const int drawing = boilDrawing(params, input.time))
       shift += params.boil * patternShift(0x5EA0u + 2 * uint32_t(drawing));
     const float pixelScale = input.uniforms.pixelScale;
     return {metaTextureUse(metaParams, 0b0011, input.look, *examples_, pixelScale, shift),
@@ -181,9 +182,7 @@ float inflationPixels(const WarpParams& params, float imageHeight) {
 }
 
 int boilDrawing(const WarpParams& params, double time) {
-  // A ten-thousandth of a frame keeps n / 24 seconds from falling short of frame n.
-  const double frame = std::floor(time * 24 + 1e-4);
-  const double drawing = std::floor(frame / params.boilHold);
+  const double drawing = std::round(frame::heldTime(time, params.boilHold) * 24 / params.boilHold);
   return int(drawing - params.boilDrawings * std::floor(drawing / params.boilDrawings));
 }
 

@@ -1,0 +1,167 @@
+#include "frame/scene_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+
+#include "frame/playing.h"
+#include "scene/parallel.h"
+
+namespace scumble::frame {
+
+namespace {
+
+// Fewer objects than this are placed sooner than threads start.
+constexpr size_t kManyObjects = 2000;
+
+constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+
+template <class T>
+gpu::PerFrameBuffer bufferOf(gpu::Device& device, size_t count) {
+  return gpu::PerFrameBuffer(device, std::max<size_t>(1, count) * sizeof(T), kStorage);
+}
+
+// Writes and says whether anything is new.
+template <class T>
+bool replace(T* target, const T* source, size_t count) {
+  if (std::memcmp(target, source, count * sizeof(T)) == 0) return false;
+  std::memcpy(target, source, count * sizeof(T));
+  return true;
+}
+
+// Inverse transpose of the linear part, up to a positive factor.
+glm::mat3 normalMatrix(const glm::mat3& linear, bool mirrored) {
+  // The cofactor matrix is the inverse transpose times the determinant, and exists for flat matrices too.
+  glm::mat3 normal(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                   glm::cross(linear[0], linear[1]));
+  // Its entries are products of two lengths; divide by the largest, so that tiny and huge scales keep
+  // precision.
+  float most = 0;
+  for (int i = 0; i < 9; ++i) most = std::max(most, std::abs(normal[i / 3][i % 3]));
+  return normal * ((mirrored ? -1.0f : 1.0f) / (most > 0 && std::isfinite(most) ? most : 1.0f));
+}
+
+}  // namespace
+
+SceneMotion::SceneMotion(gpu::Device& device, const scene::SceneData& scene,
+                         const std::vector<std::string>& materialNames,
+                         const std::vector<MovingObject>& moving, std::vector<shared::ObjectData> objects,
+                         uint32_t chunkCount)
+    : scene_(scene),
+      materialNames_(materialNames),
+      moving_(moving),
+      isJoint_(scene.nodes.size(), false),
+      skinUseOf_(moving.size(), 0),
+      bounds_(moving.size()),
+      mirrored_(moving.size(), 0) {
+  for (const scene::Skin& skin : scene.skins)
+    for (const int joint : skin.joints) isJoint_[size_t(joint)] = true;
+
+  std::map<std::pair<int, uint32_t>, uint32_t> uses;
+  size_t joints = 0, weights = 0;
+  for (size_t i = 0; i < moving.size(); ++i) {
+    const MovingObject& object = moving[i];
+    if (object.skin >= 0) {
+      const auto [use, isNew] = uses.try_emplace({object.skin, object.material}, uint32_t(skinUses_.size()));
+      if (isNew) {
+        skinUses_.push_back({object.skin, object.material, uint32_t(joints)});
+        joints += scene.skins[size_t(object.skin)].joints.size();
+      }
+      skinUseOf_[i] = use->second;
+      objects[i].firstJoint = skinUses_[use->second].firstJoint;
+    }
+    if (object.morphs) {
+      objects[i].firstMorphWeight = uint32_t(weights);
+      weights += scene.meshes[size_t(object.mesh)].morphWeights.size();
+    }
+  }
+  objects_ = bufferOf<shared::ObjectData>(device, objects.size());
+  joints_ = bufferOf<glm::mat4>(device, joints);
+  morphWeights_ = bufferOf<float>(device, weights);
+  moved_ = bufferOf<uint32_t>(device, chunkCount);
+  std::copy(objects.begin(), objects.end(), objects_.as<shared::ObjectData>());
+}
+
+void SceneMotion::pose(const look::LookData& look, double time) {
+  movedCount_ = 0;
+  const std::vector<scene::PlayedClip> clips = playedClips(scene_, look);
+  if (clips.empty() && isAtRest_ && written_) return;
+  isAtRest_ = clips.empty();
+
+  // One pose for each length of time that poses stand: joints and morph weights are held for as long as the
+  // material that they move says, whatever the look names as long as it says.
+  const std::vector<int> named = namedHolds(scene_, look);
+  const auto poseHeldFor = [&](int frames) {
+    scene::NodeTimes times;
+    for (size_t n = 0; n < scene_.nodes.size(); ++n) {
+      const double held = heldTime(time, named[n] >= 0 ? named[n] : frames);
+      times.transforms.push_back(named[n] >= 0 || isJoint_[n] ? held : time);
+      times.morphWeights.push_back(held);
+    }
+    return scene::poseAt(scene_, clips, times);
+  };
+  std::map<int, scene::Pose> poses;
+  std::vector<const scene::Pose*> poseOf;
+  for (const std::string& material : materialNames_) {
+    const int frames = look.getForMaterial<AnimationParams>(material).hold;
+    const auto [pose, isNew] = poses.try_emplace(frames);
+    if (isNew) pose->second = poseHeldFor(frames);
+    poseOf.push_back(&pose->second);
+  }
+  world_ = scene::poseAt(scene_, clips, time).world;
+
+  // Joints.
+  std::vector<uint8_t> bends(skinUses_.size());
+  for (size_t i = 0; i < skinUses_.size(); ++i) {
+    const SkinUse& use = skinUses_[i];
+    const std::vector<glm::mat4> matrices =
+        scene::jointMatrices(scene_.skins[size_t(use.skin)], poseOf[use.material]->world);
+    bends[i] = replace(joints_.as<glm::mat4>() + use.firstJoint, matrices.data(), matrices.size());
+  }
+
+  // Objects.
+  std::vector<uint8_t> moves(moving_.size());
+  scene::parallelFor(
+      moving_.size(), moving_.size() < kManyObjects ? 1 : scene::threadCount(0), [&](size_t i) {
+        const MovingObject& object = moving_[i];
+        const scene::Pose& pose = *poseOf[object.material];
+        shared::ObjectData& data = objects_.as<shared::ObjectData>()[i];
+        const glm::mat4 model = object.node == MovingObject::kNoNode
+                                    ? object.instance
+                                    : pose.world[object.node] * object.instance;
+        bool changes = !written_ || (object.skin >= 0 && bends[skinUseOf_[i]]);
+        if (replace(&data.model, &model, 1) || !written_) {
+          const glm::mat3 linear(model);
+          mirrored_[i] = object.skin < 0 && glm::determinant(linear) < 0;
+          data.normal = normalMatrix(linear, mirrored_[i]);
+          changes |= object.skin < 0;
+        }
+        std::span<const float> weights;
+        if (object.morphs) {
+          weights = pose.morphWeights[object.node];
+          changes |=
+              replace(morphWeights_.as<float>() + data.firstMorphWeight, weights.data(), weights.size());
+        }
+        moves[i] = changes;
+        if (!changes) return;
+        std::span<const glm::mat4> joints;
+        if (object.skin >= 0)
+          joints = {joints_.as<glm::mat4>() + data.firstJoint,
+                    scene_.skins[size_t(object.skin)].joints.size()};
+        bounds_[i] = scene::posedBounds(*object.extent, model, joints, weights);
+      });
+  written_ = true;
+
+  uint32_t* moved = moved_.as<uint32_t>();
+  for (size_t i = 0; i < moving_.size(); ++i)
+    if (moves[i])
+      for (uint32_t c = 0; c < moving_[i].chunkCount; ++c) moved[movedCount_++] = moving_[i].firstChunk + c;
+}
+
+void SceneMotion::addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) {
+  for (gpu::PerFrameBuffer* buffer : {&objects_, &joints_, &morphWeights_, &moved_})
+    uploads.push_back(buffer);
+}
+
+}  // namespace scumble::frame

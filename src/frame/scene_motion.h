@@ -1,0 +1,74 @@
+// What moves in a scene: where objects and joints are at a frame's time and how far morph targets are in, in
+// device memory, and which vertices have to be written anew for that.
+#pragma once
+
+#include "frame/geometry.h"
+#include "gpu/frames_in_flight.h"
+#include "look/look_data.h"
+#include "scene/posed_bounds.h"
+#include "shading/frame.shared.h"
+
+namespace scumble::frame {
+
+// One drawn thing as far as it moves.
+struct MovingObject {
+  size_t node = 0;  // kNoNode: it stands still, as the ground does
+  glm::mat4 instance{1.0f};
+  int skin = -1;  // -1: rigid
+  int mesh = -1;
+  uint32_t material = 0;
+  uint32_t firstChunk = 0, chunkCount = 0;  // of its vertices
+  const scene::PrimitiveExtent* extent = nullptr;
+  bool morphs = false;
+  static constexpr size_t kNoNode = ~size_t(0);
+};
+
+class SceneMotion {
+ public:
+  // `objects` with all that does not move (material, id ...); matrices, joints and weights are filled in
+  // here. All references stay alive as long as this does.
+  SceneMotion(gpu::Device& device, const scene::SceneData& scene,
+              const std::vector<std::string>& materialNames, const std::vector<MovingObject>& moving,
+              std::vector<shared::ObjectData> objects, uint32_t chunkCount);
+
+  // The pose at a time, in seconds; the look is one at that time (LookData::at).
+  void pose(const look::LookData& look, double time);
+
+  // World bounds of each object in the pose.
+  const std::vector<scene::Bounds>& bounds() const { return bounds_; }
+  // Whether triangles are turned inside out, by object.
+  const std::vector<uint8_t>& mirrored() const { return mirrored_; }
+  // World matrices of nodes at the time itself: what holds poses does not hold lights and cameras.
+  const std::vector<glm::mat4>& world() const { return world_; }
+
+  // Chunks of vertices whose final ones are out of date; the next pose starts from these being written.
+  uint32_t movedCount() const { return movedCount_; }
+  // Forgets what was written before: everything has moved.
+  void touchAll() { written_ = false; }
+
+  VkBuffer objects() const { return objects_.handle(); }
+  VkBuffer joints() const { return joints_.handle(); }
+  VkBuffer morphWeights() const { return morphWeights_.handle(); }
+  VkBuffer moved() const { return moved_.handle(); }
+  void addUploads(std::vector<gpu::PerFrameBuffer*>& uploads);
+
+ private:
+  struct SkinUse {
+    int skin;
+    uint32_t material, firstJoint;
+  };
+  const scene::SceneData& scene_;
+  const std::vector<std::string>& materialNames_;
+  const std::vector<MovingObject>& moving_;
+  std::vector<bool> isJoint_;        // by node
+  std::vector<SkinUse> skinUses_;    // a skin is posed once for each material that is drawn with it
+  std::vector<uint32_t> skinUseOf_;  // by object
+  gpu::PerFrameBuffer objects_, joints_, morphWeights_, moved_;
+  std::vector<scene::Bounds> bounds_;
+  std::vector<uint8_t> mirrored_;
+  std::vector<glm::mat4> world_;
+  uint32_t movedCount_ = 0;
+  bool written_ = false, isAtRest_ = false;
+};
+
+}  // namespace scumble::frame

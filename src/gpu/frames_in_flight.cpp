@@ -1,0 +1,76 @@
+#include "gpu/frames_in_flight.h"
+
+#include <cstring>
+
+namespace scumble::gpu {
+
+Submission::Submission(Device& device) : device_(device) {
+  const VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr,
+                                         VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, device.queueFamily()};
+  SCUMBLE_VK(vkCreateCommandPool(device.handle(), &poolInfo, nullptr, &pool_));
+  const VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool_,
+                                         VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+  SCUMBLE_VK(vkAllocateCommandBuffers(device.handle(), &info, &commands_));
+  const VkFenceCreateInfo fenceInfo{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+  SCUMBLE_VK(vkCreateFence(device.handle(), &fenceInfo, nullptr, &done_));
+}
+
+Submission::~Submission() {
+  // A lost device has nothing under way.
+  if (underWay_) {
+    vkWaitForFences(device_.handle(), 1, &done_, VK_TRUE, UINT64_MAX);
+    device_.submissionEnded();
+  }
+  if (done_) vkDestroyFence(device_.handle(), done_, nullptr);
+  if (pool_) vkDestroyCommandPool(device_.handle(), pool_, nullptr);
+}
+
+void Submission::submit(const std::function<void(VkCommandBuffer)>& record) {
+  wait();
+  SCUMBLE_VK(vkResetCommandPool(device_.handle(), pool_, 0));
+  const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr,
+                                       VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
+  SCUMBLE_VK(vkBeginCommandBuffer(commands_, &begin));
+  record(commands_);
+  SCUMBLE_VK(vkEndCommandBuffer(commands_));
+  const VkCommandBufferSubmitInfo submitted{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, nullptr, commands_,
+                                            0};
+  VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+  submit.commandBufferInfoCount = 1;
+  submit.pCommandBufferInfos = &submitted;
+  SCUMBLE_VK(vkQueueSubmit2(device_.queue(), 1, &submit, done_));
+  underWay_ = true;
+  device_.submissionBegan();
+}
+
+void Submission::wait() {
+  if (!underWay_) return;
+  // Whatever comes of it, there is nothing to wait for any more.
+  underWay_ = false;
+  device_.submissionEnded();
+  SCUMBLE_VK(vkWaitForFences(device_.handle(), 1, &done_, VK_TRUE, UINT64_MAX));
+  SCUMBLE_VK(vkResetFences(device_.handle(), 1, &done_));
+}
+
+PerFrameBuffer::PerFrameBuffer(Device& device, uint64_t size, VkBufferUsageFlags usage)
+    : onDevice_(device, size, usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::device), contents_(size) {
+  for (Buffer& staging : staging_)
+    staging = Buffer(device, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::upload);
+}
+
+void PerFrameBuffer::upload(VkCommandBuffer commands, uint32_t frame) {
+  std::memcpy(staging_[frame].mapped(), contents_.data(), contents_.size());
+  const VkBufferCopy copy{0, 0, contents_.size()};
+  vkCmdCopyBuffer(commands, staging_[frame].handle(), onDevice_.handle(), 1, &copy);
+}
+
+void recordUploads(VkCommandBuffer commands, std::span<PerFrameBuffer* const> buffers, uint32_t frame) {
+  memoryBarrier(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_NONE,
+                VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+  for (PerFrameBuffer* buffer : buffers) buffer->upload(commands, frame);
+  memoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_UNIFORM_READ_BIT);
+}
+
+}  // namespace scumble::gpu

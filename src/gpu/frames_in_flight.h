@@ -1,0 +1,59 @@
+// Several frames under way: while the device draws one, the CPU prepares the next. The device runs frames one
+// after the other, so that only what the CPU writes or reads needs copies.
+#pragma once
+
+#include "gpu/resources.h"
+
+namespace scumble::gpu {
+
+constexpr uint32_t kFramesInFlight = 2;
+
+// Commands that are recorded and sent without waiting for them.
+class Submission {
+ public:
+  explicit Submission(Device& device);
+  ~Submission();
+  Submission(const Submission&) = delete;
+  Submission& operator=(const Submission&) = delete;
+
+  // Records anew and submits; waits for what was submitted before.
+  void submit(const std::function<void(VkCommandBuffer)>& record);
+  // Ends when the device has done it; at once where nothing is under way.
+  void wait();
+
+ private:
+  Device& device_;
+  VkCommandPool pool_ = VK_NULL_HANDLE;
+  VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  VkFence done_ = VK_NULL_HANDLE;
+  bool underWay_ = false;
+};
+
+// A buffer that the CPU writes anew for each frame while the device may still read an earlier one's contents.
+class PerFrameBuffer {
+ public:
+  PerFrameBuffer() = default;
+  PerFrameBuffer(Device& device, uint64_t size, VkBufferUsageFlags usage);
+  VkBuffer handle() const { return onDevice_.handle(); }
+  uint64_t size() const { return onDevice_.size(); }
+  // The CPU's own copy, which stays as it is from frame to frame; null for a buffer that was not made.
+  std::byte* contents() { return contents_.data(); }
+  template <class T>
+  T* as() {
+    return reinterpret_cast<T*>(contents_.data());
+  }
+  // Records the copy of contents() as they are now; `frame` is below kFramesInFlight, and its last turn is
+  // over. Callers put recordUploads() around all of them.
+  void upload(VkCommandBuffer commands, uint32_t frame);
+
+ private:
+  Buffer onDevice_;
+  Buffer staging_[kFramesInFlight];
+  std::vector<std::byte> contents_;
+};
+
+// Sends buffers with a frame's own commands: after all that an earlier frame does with them, before all that
+// this one does.
+void recordUploads(VkCommandBuffer commands, std::span<PerFrameBuffer* const> buffers, uint32_t frame);
+
+}  // namespace scumble::gpu

@@ -1,0 +1,44 @@
+// How large things are in a pose.
+#pragma once
+
+#include <functional>
+
+#include "scene/animation.h"
+
+namespace scumble::scene {
+
+// For each joint of a skin, the matrix that takes vertices from mesh space to the world: joint world x
+// inverse bind.
+std::vector<glm::mat4> jointMatrices(const Skin& skin, const std::vector<glm::mat4>& world);
+
+// Position of vertex `v` in the world under a skin's matrices (linear blend skinning); `position` is where
+// the vertex is in mesh space.
+glm::vec3 skinnedPosition(const Primitive& primitive, size_t v, const glm::vec3& position,
+                          std::span<const glm::mat4> joints);
+
+// What the box of a primitive in any pose is found from, without its vertices.
+struct PrimitiveExtent {
+  Bounds box;  // all vertices, at rest, in mesh space
+  struct Joint {
+    uint16_t joint;
+    Bounds box;  // those that it moves
+  };
+  std::vector<Joint> joints;    // of skinned primitives
+  std::vector<Bounds> targets;  // by morph target: displacements
+};
+PrimitiveExtent extentOf(const Primitive& primitive);
+
+// A box around a primitive in the world, never too small: a skinned vertex lies between the places where its
+// joints alone would put it. `joints`: empty for what is not skinned, which `model` places.
+Bounds posedBounds(const PrimitiveExtent& extent, const glm::mat4& model, std::span<const glm::mat4> joints,
+                   std::span<const float> morphWeights);
+
+// Poses from all over each of the clips, one clip at a time; without clips, the rest pose.
+void forEachPose(const SceneData& scene, std::span<const int> clips,
+                 const std::function<void(const Pose&)>& body);
+
+// What the whole scene takes up while each of the clips plays, found at some times of it from the vertices
+// themselves: close, and up to a little too small. Without clips: the scene's own bounds.
+Bounds playedBounds(const SceneData& scene, std::span<const int> clips);
+
+}  // namespace scumble::scene
