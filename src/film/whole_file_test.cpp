@@ -134,17 +134,9 @@ TEST_P(WholeFileTest, picturesThatContradictThemselvesAreRefused) {
   EXPECT_EQ(folder.count(), 0u);
 }
 
-// Whether files of this folder can be without a name; elsewhere a killed process leaves one.
-bool hasNamelessFiles(const TestFolder& folder) {
-  const PassingFile file = openPassingFile(folder.file(""));
-  close(file.descriptor);
-  if (!file.name.empty()) unlink(file.name.c_str());
-  return file.name.empty();
-}
-
 TEST(WholeFile, aKilledProcessLeavesNothing) {
   TestFolder folder;
-  if (!hasNamelessFiles(folder)) GTEST_SKIP() << "the file system of temporary files knows no O_TMPFILE";
+  if (!folder.hasNamelessFiles()) GTEST_SKIP() << "the file system of temporary files knows no O_TMPFILE";
   const std::string path = folder.file("picture"), bytes(1 << 20, 'x');
   for (const bool there : {false, true}) {
     if (there) putContent(path, "old");
