@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 
@@ -235,6 +236,55 @@ TEST(Exr, cryptomattesHaveViews) {
   EXPECT_EQ(Imf::channelsInView("right", file.header().channels(), {"left", "right"})
                 .findChannel("CryptoObject01.left.A"),
             nullptr);
+}
+
+// Programs that others use read all of it.
+TEST(Exr, otherProgramsReadIt) {
+  TestFolder folder;
+  const std::string path = folder.file("a.exr");
+  const Image beauty = pattern(4, 2, {"R", "G", "B", "A"}), depth = pattern(4, 2, {"Z"}),
+              objects = ranks(4, 2);
+  ExrOptions given;
+  given.compression = ExrCompression::piz;
+  given.cryptomattes = {{"CryptoObject", kObjects}};
+  ASSERT_TRUE(writeExr(path,
+                       {{"", "left", &beauty, true},
+                        {"", "right", &beauty, true},
+                        {"depth", "left", &depth},
+                        {"depth", "right", &depth},
+                        {"CryptoObject", "left", &objects},
+                        {"CryptoObject", "right", &objects}},
+                       given)
+                  .ok());
+  const struct {
+    const char *program, *command;
+    std::vector<const char*> says;
+  } readers[] = {
+      {"exrheader",
+       "exrheader",
+       {"compression (type compression): piz", "multiView (type stringvector):",
+        "CryptoObject00.left.A, 32-bit floating-point", "right.R, 16-bit floating-point",
+        R"(cryptomatte/3ae39a5/manifest (type string): "{"bunny":"13851a76","default":"42c9679f"}")"}},
+      {"oiiotool",
+       "oiiotool --info -v --stats",
+       {"4 x    2, 26 channel", "multiView: \"left\", \"right\"",
+        "cryptomatte/3ae39a5/conversion: \"uint32_to_float32\"",
+        "cryptomatte/3ae39a5/hash: \"MurmurHash3_32\"", "CryptoObject01.right.B (float)", "right.G (half)",
+        "compression: \"piz\""}}};
+  size_t missing = 0;
+  for (const auto& reader : readers) {
+    if (system(("command -v " + std::string(reader.program) + " >/dev/null").c_str()) != 0) {
+      ++missing;
+      continue;
+    }
+    const std::string said = folder.file("said");
+    ASSERT_EQ(system((std::string(reader.command) + " '" + path + "' >'" + said + "' 2>&1").c_str()), 0)
+        << film::contentOf(said);
+    for (const char* expected : reader.says)
+      EXPECT_NE(film::contentOf(said).find(expected), std::string::npos)
+          << reader.program << " does not say: " << expected << "\nbut: " << film::contentOf(said);
+  }
+  if (missing > 0) GTEST_SKIP() << "exrheader or oiiotool is not installed";
 }
 
 TEST(Exr, cryptomattesThatMakeNoSenseAreRefused) {

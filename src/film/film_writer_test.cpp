@@ -281,6 +281,16 @@ TEST(FilmWriter, placesThatCannotBeWrittenAreKnownAtOnce) {
   }
 }
 
+TEST(FilmWriter, aHostThatIgnoresItsChildrenGetsItsFilm) {
+  NEEDS_FFMPEG();
+  TestFolder folder;
+  const auto handler = signal(SIGCHLD, SIG_IGN);
+  const Status status = write(folder.file("a.mp4"), options(64, 64), {stripes(64, 64, 0)});
+  signal(SIGCHLD, handler);
+  ASSERT_TRUE(status.ok()) << status.error().message();
+  EXPECT_EQ(facts(folder.file("a.mp4"), "stream=nb_frames"), "nb_frames=1\n");
+}
+
 // A limit on a file's size fails ffmpeg's write just as a full disk does.
 TEST(FilmWriter, fullDiskIsNamedAndLeavesTheOldFile) {
   NEEDS_FFMPEG();
