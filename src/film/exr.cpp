@@ -15,6 +15,7 @@
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -177,10 +178,10 @@ Status writeExrThrowing(const std::string& path, const std::vector<ImageLayer>& 
     int number = 0;
     for (Image& image : film::cryptomatteLayers(*layer.image, cryptomatte->objects)) {
       content.made.push_back(std::move(image));
-      const std::string digits = (number < 10 ? "0" : "") + std::to_string(number);
-      ++number;
       // Never half: a number must come back bit by bit.
-      if (const Status status = add({layer.name + digits, layer.view, &content.made.back()}); !status)
+      if (const Status status =
+              add({fmt::format("{}{:02}", layer.name, number++), layer.view, &content.made.back()});
+          !status)
         return status;
     }
   }
