@@ -25,6 +25,27 @@ struct ImageLayer {
   std::string name;  // e.g. "final-shadow"
   std::string view;  // "left", "right", or empty where there is one view only
   const Image* image = nullptr;
+  bool half = false;  // 16-bit floats instead of 32-bit ones; finite values are clamped to +-65504
+};
+
+enum class ExrCompression {
+  zip,  // fast; good for flat and for synthetic layers
+  piz   // slower to read; smaller where a picture is noisy or grainy
+};
+
+// Mattes of objects by their names (Cryptomatte specification 1.2.0). The layer of this name is given as
+// pairs of channels by rank, largest coverage first: the object's number, 1 ... objects.size() or 0 for
+// nothing, and the part of the pixel that it covers, in [0, 1]. It is written as layers NAME00, NAME01 ...
+// with two ranks each in R, G, B, A, always 32-bit floats, and described in the header. Every view of the
+// layer is written so. Objects of one name are one matte.
+struct Cryptomatte {
+  std::string layer;                 // e.g. "CryptoObject"
+  std::vector<std::string> objects;  // UTF-8; objects[n - 1] is the name of object n
+};
+
+struct ExrOptions {
+  ExrCompression compression = ExrCompression::zip;
+  std::vector<Cryptomatte> cryptomattes;
 };
 
 // 8 bit sRGB, straight alpha (kept when `image` has four channels and is not opaque everywhere).
@@ -34,12 +55,14 @@ Status writePng(const std::string& path, const Image& image);
 // Reads what writePng writes, and any other PNG, as linear floats (R, G, B, A).
 Result<Image> readPng(const std::string& path);
 
-// 32-bit float, ZIP compressed; alpha is straight, as in Image. Channels are named LAYER.CHANNEL. In stereo
+// Float, compressed without loss; alpha is straight, as in Image. Channels are named LAYER.CHANNEL. In stereo
 // (layers with views) the standard multiView attribute lists the views, "left" first; the picture's channels
 // are R, G, B, A for the left eye and right.R ... for the right one, those of layers LAYER.left.CHANNEL and
 // LAYER.right.CHANNEL, since OpenEXR gives only names without a period to the default view. All layers have
-// one size.
-Status writeExr(const std::string& path, const std::vector<ImageLayer>& layers);
+// one size. Fails with ErrorKind::usage for layers that do not fit together, and with
+// ErrorKind::outputNotWritten.
+Status writeExr(const std::string& path, const std::vector<ImageLayer>& layers,
+                const ExrOptions& options = {});
 
 // A report beside pictures, e.g. JSON. The file appears whole or not at all. Fails with
 // ErrorKind::outputNotWritten.

@@ -13,20 +13,26 @@
 #include <OpenEXR/ImfMultiView.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <deque>
 #include <mutex>
-#include <set>
 #include <stdexcept>
 #include <thread>
 
 #include "film/checks.h"
+#include "film/cryptomatte.h"
 #include "film/whole_file.h"
 #include "scumble/image.h"
 
 namespace scumble {
 namespace {
+
+constexpr float kLargestHalf = 65504;
 
 class StreamToWholeFile : public Imf::OStream {
  public:
@@ -61,7 +67,13 @@ std::string channelName(const ImageLayer& layer, const std::string& channel, con
   return Imf::insertViewName(name, views, int(view - views.begin()));
 }
 
-std::string problemWith(const std::vector<ImageLayer>& layers) {
+const Cryptomatte* cryptomatteOf(const ImageLayer& layer, const ExrOptions& options) {
+  for (const Cryptomatte& cryptomatte : options.cryptomattes)
+    if (cryptomatte.layer == layer.name) return &cryptomatte;
+  return nullptr;
+}
+
+std::string problemWith(const std::vector<ImageLayer>& layers, const ExrOptions& options) {
   if (layers.empty()) return "there is no layer to write";
   for (const ImageLayer& layer : layers) {
     if (!layer.image) return "the layer '" + layer.name + "' has no picture";
@@ -72,6 +84,16 @@ std::string problemWith(const std::vector<ImageLayer>& layers) {
       return "the view '" + layer.view + "' has a period or a space in its name";
     for (const std::string& channel : layer.image->channels)
       if (channel.empty()) return "a channel of the layer '" + layer.name + "' has no name";
+    if (const Cryptomatte* cryptomatte = cryptomatteOf(layer, options)) {
+      const std::string problem = film::problemWithCryptomatte(*layer.image, cryptomatte->objects);
+      if (!problem.empty()) return "the layer '" + layer.name + "' is no Cryptomatte: " + problem;
+    }
+  }
+  for (const Cryptomatte& cryptomatte : options.cryptomattes) {
+    if (cryptomatte.layer.empty()) return "a Cryptomatte has no name";
+    if (std::none_of(layers.begin(), layers.end(),
+                     [&](const ImageLayer& layer) { return layer.name == cryptomatte.layer; }))
+      return "there is no layer '" + cryptomatte.layer + "' for the Cryptomatte of that name";
   }
   return "";
 }
@@ -93,34 +115,81 @@ void startThreads() {
   });
 }
 
+// Finite values beyond what half can hold become the largest one that it can: an infinity would spread over
+// everything that is filtered with it.
+std::vector<half> halves(const std::vector<float>& values) {
+  std::vector<half> result(values.size());
+  std::transform(values.begin(), values.end(), result.begin(), [](float value) {
+    return half(std::isfinite(value) ? std::clamp(value, -kLargestHalf, kLargestHalf) : value);
+  });
+  return result;
+}
+
+// What goes into the file: its channels, and the pixels that are not in the caller's pictures.
+struct Content {
+  Imf::FrameBuffer frame;
+  std::deque<Image> made;  // a deque, as the frame buffer points into what is there
+  std::deque<std::vector<half>> madeHalf;
+};
+
+Status addLayer(const std::string& path, const ImageLayer& layer, const Imf::StringVector& views,
+                Imf::Header& header, Content& content) {
+  const Image& image = *layer.image;
+  const size_t channels = image.channels.size();
+  // OpenEXR reads through this pointer only; its type is shared with reading.
+  char* base = reinterpret_cast<char*>(const_cast<float*>(image.pixels.data()));
+  if (layer.half) {
+    content.madeHalf.push_back(halves(image.pixels));
+    base = reinterpret_cast<char*>(content.madeHalf.back().data());
+  }
+  const Imf::PixelType type = layer.half ? Imf::HALF : Imf::FLOAT;
+  const size_t size = layer.half ? sizeof(half) : sizeof(float);
+  for (size_t c = 0; c < channels; ++c) {
+    const std::string name = channelName(layer, image.channels[c], views);
+    if (header.channels().findChannel(name)) return usage(path, "the channel '" + name + "' is there twice");
+    header.channels().insert(name, Imf::Channel(type));
+    content.frame.insert(name,
+                         Imf::Slice(type, base + c * size, channels * size, channels * size * image.width));
+  }
+  return Done{};
+}
+
 Status writeExrThrowing(const std::string& path, const std::vector<ImageLayer>& layers,
-                        film::WholeFile& file) {
+                        const ExrOptions& options, film::WholeFile& file) {
   const int width = int(layers[0].image->width), height = int(layers[0].image->height);
   Imf::Header header(width, height);
-  header.compression() = Imf::ZIP_COMPRESSION;
+  header.compression() =
+      options.compression == ExrCompression::piz ? Imf::PIZ_COMPRESSION : Imf::ZIP_COMPRESSION;
   const Imf::StringVector views = viewsOf(layers);
   if (!views.empty()) Imf::addMultiView(header, views);
   if (views.size() == 1) header.setView(views[0]);
+  for (const Cryptomatte& cryptomatte : options.cryptomattes)
+    for (const auto& [name, text] : film::cryptomatteAttributes(cryptomatte.layer, cryptomatte.objects))
+      header.insert(name, Imf::StringAttribute(text));
 
-  Imf::FrameBuffer frame;
+  Content content;
+  const auto add = [&](const ImageLayer& layer) { return addLayer(path, layer, views, header, content); };
   for (const ImageLayer& layer : layers) {
-    const Image& image = *layer.image;
-    const size_t pixelBytes = image.channels.size() * sizeof(float);
-    for (size_t c = 0; c < image.channels.size(); ++c) {
-      const std::string name = channelName(layer, image.channels[c], views);
-      if (header.channels().findChannel(name))
-        return usage(path, "the channel '" + name + "' is there twice");
-      header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-      // OpenEXR reads through this pointer only; its type is shared with reading.
-      char* base = reinterpret_cast<char*>(const_cast<float*>(image.pixels.data() + c));
-      frame.insert(name, Imf::Slice(Imf::FLOAT, base, pixelBytes, pixelBytes * image.width));
+    const Cryptomatte* cryptomatte = cryptomatteOf(layer, options);
+    if (!cryptomatte) {
+      if (const Status status = add(layer); !status) return status;
+      continue;
+    }
+    int number = 0;
+    for (Image& image : film::cryptomatteLayers(*layer.image, cryptomatte->objects)) {
+      content.made.push_back(std::move(image));
+      // Never half: a number must come back bit by bit.
+      if (const Status status =
+              add({fmt::format("{}{:02}", layer.name, number++), layer.view, &content.made.back()});
+          !status)
+        return status;
     }
   }
   startThreads();
   StreamToWholeFile stream(&file, path.c_str());
   {
     Imf::OutputFile output(stream, header, Imf::globalThreadCount());
-    output.setFrameBuffer(frame);
+    output.setFrameBuffer(content.frame);
     output.writePixels(height);
   }  // the table of lines is written here
   return file.commit();
@@ -128,14 +197,15 @@ Status writeExrThrowing(const std::string& path, const std::vector<ImageLayer>& 
 
 }  // namespace
 
-Status writeExr(const std::string& path, const std::vector<ImageLayer>& layers) {
+Status writeExr(const std::string& path, const std::vector<ImageLayer>& layers, const ExrOptions& options) {
   std::string reason = "not enough memory";
   try {
-    if (const std::string problem = problemWith(layers); !problem.empty()) return usage(path, problem);
+    if (const std::string problem = problemWith(layers, options); !problem.empty())
+      return usage(path, problem);
     film::WholeFile file(path);
     if (!file.ok()) return file.commit();
     try {
-      return writeExrThrowing(path, layers, file);
+      return writeExrThrowing(path, layers, options, file);
     } catch (const std::bad_alloc&) {
     } catch (const std::exception& exception) {
       if (!file.ok()) return file.commit();

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <memory>
 #include <new>
 #include <system_error>
 #include <thread>
@@ -24,7 +25,12 @@ namespace {
 using film::SrgbEncoder;
 
 constexpr size_t kStripeBytes = 256 << 10;  // large enough that cutting costs no compression to speak of
-constexpr int kLevel = 1;                   // zlib's usual 6: 10 to 17 percent smaller, five times the time
+
+// Pictures of paint are flat areas and soft gradients: differences of neighbours are runs of one value, and
+// zlib that looks for runs only (so that its level does not count) is faster on them than its level 1 and
+// makes smaller files of them (0.6 to 0.9 times, measured on rendered scenes).
+constexpr int kLevel = 1;
+constexpr int kStrategy = Z_RLE;
 
 uint8_t alphaCode(float alpha) {
   if (!(alpha > 0)) return 0;
@@ -67,17 +73,28 @@ void encodeRows(const Image& image, uint32_t begin, uint32_t end, uint8_t* out, 
   *opaque = leastAlpha == 255;
 }
 
-// Filter type 2, "Up": one for all rows, as trying several takes longer than it saves.
-void filterRow(const uint8_t* row, const uint8_t* above, uint32_t width, uint32_t samples, uint8_t* out) {
-  *out++ = 2;
-  for (uint32_t x = 0; x < width; ++x, row += 4) {
-    for (uint32_t s = 0; s < samples; ++s) *out++ = uint8_t(row[s] - (above ? above[s] : 0));
-    if (above) above += 4;
-  }
+// Filter type 1, "Sub": one for all rows, as trying several takes longer than it saves.
+template <uint32_t kSamples>
+void filterRow(const uint8_t* row, uint32_t width, uint8_t* out) {
+  *out++ = 1;
+  for (uint32_t s = 0; s < kSamples; ++s) *out++ = row[s];
+  for (uint32_t x = 1; x < width; ++x, row += 4)
+    for (uint32_t s = 0; s < kSamples; ++s) *out++ = uint8_t(row[4 + s] - row[s]);
 }
 
+// Bytes that are not written before their time, as a vector's would be.
+struct Bytes {
+  std::unique_ptr<uint8_t[]> data;
+  size_t size = 0;
+
+  void take(size_t wanted) {
+    data = std::make_unique_for_overwrite<uint8_t[]>(wanted);
+    size = wanted;
+  }
+};
+
 struct Stripe {
-  std::vector<uint8_t> filtered, deflated;
+  Bytes filtered, deflated;
   uint32_t firstRow = 0, endRow = 0;
   uLong checksum = 0;
   bool opaque = true;
@@ -88,17 +105,17 @@ struct Stripe {
 // start, so they can be made apart and joined.
 void deflateStripe(Stripe& stripe, bool last) {
   z_stream stream = {};
-  stripe.failed = deflateInit2(&stream, kLevel, Z_DEFLATED, -15, 9, Z_DEFAULT_STRATEGY) != Z_OK;
+  stripe.failed = deflateInit2(&stream, kLevel, Z_DEFLATED, -15, 9, kStrategy) != Z_OK;
   if (stripe.failed) return;
-  stream.next_in = stripe.filtered.data();
-  stream.avail_in = uInt(stripe.filtered.size());
-  stream.next_out = stripe.deflated.data();
-  stream.avail_out = uInt(stripe.deflated.size());
+  stream.next_in = stripe.filtered.data.get();
+  stream.avail_in = uInt(stripe.filtered.size);
+  stream.next_out = stripe.deflated.data.get();
+  stream.avail_out = uInt(stripe.deflated.size);
   const int result = deflate(&stream, last ? Z_FINISH : Z_SYNC_FLUSH);
   stripe.failed = result != (last ? Z_STREAM_END : Z_OK) || stream.avail_in != 0;
-  stripe.deflated.resize(stripe.deflated.size() - stream.avail_out);
+  stripe.deflated.size -= stream.avail_out;
   deflateEnd(&stream);
-  stripe.checksum = adler32(adler32(0, nullptr, 0), stripe.filtered.data(), uInt(stripe.filtered.size()));
+  stripe.checksum = adler32(adler32(0, nullptr, 0), stripe.filtered.data.get(), uInt(stripe.filtered.size));
 }
 
 void putBigEndian(uint8_t* out, uint32_t value) {
@@ -146,13 +163,14 @@ Status writePngThrowing(const std::string& path, const Image& image) {
   const size_t rowBytes = size_t(width) * 4;
   const uint32_t stripeRows = uint32_t(std::clamp<size_t>(kStripeBytes / rowBytes, 1, height));
   std::vector<Stripe> stripes((height + stripeRows - 1) / stripeRows);
-  std::vector<uint8_t> encoded(rowBytes * height);
+  Bytes encoded;
+  encoded.take(rowBytes * height);
   for (size_t i = 0; i < stripes.size(); ++i) {
     stripes[i].firstRow = uint32_t(i) * stripeRows;
     stripes[i].endRow = std::min(height, stripes[i].firstRow + stripeRows);
   }
   forEachStripe(uint32_t(stripes.size()), [&](uint32_t i) {
-    encodeRows(image, stripes[i].firstRow, stripes[i].endRow, encoded.data(), &stripes[i].opaque);
+    encodeRows(image, stripes[i].firstRow, stripes[i].endRow, encoded.data.get(), &stripes[i].opaque);
   });
   const bool opaque = std::all_of(stripes.begin(), stripes.end(), [](const Stripe& s) { return s.opaque; });
 
@@ -160,16 +178,15 @@ Status writePngThrowing(const std::string& path, const Image& image) {
   const uint32_t samples = opaque ? 3 : 4;
   const size_t filteredRow = 1 + size_t(width) * samples;
   for (Stripe& stripe : stripes) {
-    stripe.filtered.resize(filteredRow * (stripe.endRow - stripe.firstRow));
-    stripe.deflated.resize(compressBound(uLong(stripe.filtered.size())) +
-                           64);  // 64: the flush and its marker
+    stripe.filtered.take(filteredRow * (stripe.endRow - stripe.firstRow));
+    stripe.deflated.take(compressBound(uLong(stripe.filtered.size)) + 64);  // 64: the flush and its marker
   }
   forEachStripe(uint32_t(stripes.size()), [&](uint32_t i) {
     Stripe& stripe = stripes[i];
     for (uint32_t y = stripe.firstRow; y < stripe.endRow; ++y) {
-      const uint8_t* row = encoded.data() + rowBytes * y;
-      filterRow(row, y ? row - rowBytes : nullptr, width, samples,
-                stripe.filtered.data() + filteredRow * (y - stripe.firstRow));
+      const uint8_t* row = encoded.data.get() + rowBytes * y;
+      (opaque ? filterRow<3>
+              : filterRow<4>)(row, width, stripe.filtered.data.get() + filteredRow * (y - stripe.firstRow));
     }
     deflateStripe(stripe, i + 1 == stripes.size());
   });
@@ -188,12 +205,12 @@ Status writePngThrowing(const std::string& path, const Image& image) {
   uLong checksum = adler32(0, nullptr, 0);
   for (size_t i = 0; i < stripes.size(); ++i) {
     const Stripe& stripe = stripes[i];
-    checksum = adler32_combine(checksum, stripe.checksum, z_off_t(stripe.filtered.size()));
+    checksum = adler32_combine(checksum, stripe.checksum, z_off_t(stripe.filtered.size));
     uint8_t trailer[4];
     putBigEndian(trailer, uint32_t(checksum));
     writeChunk(file, "IDAT",
                {{"\x78\x01", i == 0 ? size_t(2) : 0},
-                {stripe.deflated.data(), stripe.deflated.size()},
+                {stripe.deflated.data.get(), stripe.deflated.size},
                 {trailer, i + 1 == stripes.size() ? sizeof trailer : 0}});
   }
   writeChunk(file, "IEND", {});

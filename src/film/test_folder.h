@@ -2,11 +2,14 @@
 #pragma once
 
 #include <stdlib.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
+
+#include "film/passing_file.h"
 
 namespace scumble::film {
 
@@ -24,6 +27,14 @@ class TestFolder {
   size_t count() const {
     return size_t(
         std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator()));
+  }
+
+  // Whether files here can be without a name. Elsewhere a killed process leaves one.
+  bool hasNamelessFiles() const {
+    const PassingFile passing = openPassingFile(file(""));
+    close(passing.descriptor);
+    if (!passing.name.empty()) unlink(passing.name.c_str());
+    return passing.name.empty();
   }
 
  private:

@@ -4,20 +4,17 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <climits>
 #include <cstdlib>
 #include <cstring>
 #include <system_error>
+#include <utility>
+
+#include "film/passing_file.h"
 
 namespace scumble::film {
 namespace {
-
-std::string folderOf(const std::string& path) {
-  const size_t slash = path.rfind('/');
-  return slash == std::string::npos ? "" : path.substr(0, slash + 1);
-}
 
 std::string resolveLinks(const std::string& path) {
   char* resolved = realpath(path.c_str(), nullptr);
@@ -67,28 +64,16 @@ int WholeFile::openPassing() {
   if (exists && !S_ISREG(old.st_mode)) return EINVAL;
   if (exists && access(target_.c_str(), W_OK) != 0) return errno;
 
-  // The passing name is short (the target's may already be as long as a name can be), and unique over threads
-  // and processes; O_EXCL catches what a killed process with our id has left.
-  static std::atomic<unsigned> counter{0};
-  int descriptor = -1;
-  for (int attempt = 0; attempt < 100 && descriptor < 0; ++attempt) {
-    passing_ = folderOf(target_) + ".scumble-" + std::to_string(getpid()) + "-" +
-               std::to_string(counter.fetch_add(1)) + ".tmp";
-    descriptor = open(passing_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
-    if (descriptor < 0 && errno != EEXIST) break;
-  }
-  if (descriptor < 0) {
-    const int code = errno;
-    passing_.clear();
-    return code;
-  }
-  if (exists && fchmod(descriptor, old.st_mode & 0777) != 0) {
+  PassingFile passing = openPassingFile(folderOf(target_));
+  if (passing.descriptor < 0) return errno;
+  passing_ = std::move(passing.name);
+  if (exists && fchmod(passing.descriptor, old.st_mode & 0777) != 0) {
     // Some file systems know no modes; the content matters more.
   }
-  file_ = fdopen(descriptor, "wb");
+  file_ = fdopen(passing.descriptor, "wb");
   if (file_) return 0;
   const int code = errno;
-  close(descriptor);
+  close(passing.descriptor);
   return code;
 }
 
@@ -113,12 +98,18 @@ void WholeFile::seek(uint64_t position) {
 
 Status WholeFile::commit() {
   if (file_) {
-    // A full disk may show only here, when the last buffer goes out.
+    // A full disk may show only here, when the last buffer goes out. The second descriptor keeps a file
+    // without a name alive.
+    const int descriptor = fcntl(fileno(file_), F_DUPFD_CLOEXEC, 0);
+    if (descriptor < 0) fail(errno);
     errno = 0;
     if (fclose(file_) != 0) fail(errno);
     file_ = nullptr;
+    if (ok()) {
+      if (const int code = putInPlace(descriptor, passing_, target_); code != 0) fail(code);
+    }
+    if (descriptor >= 0) close(descriptor);
   }
-  if (ok() && rename(passing_.c_str(), target_.c_str()) != 0) fail(errno);
   if (ok()) {
     passing_.clear();
     return Done{};

@@ -1,6 +1,6 @@
-// An output file that appears whole or not at all: it is written under a passing name beside its target and
-// renamed at the end. Whatever goes wrong on the way, the target stays as it was and the passing file is
-// removed.
+// An output file that appears whole or not at all: it is written as a passing file (passing_file.h) in its
+// target's folder and put in its place at the end. Whatever goes wrong on the way, the target stays as it was
+// and the passing file is removed.
 #pragma once
 
 #include <cstddef>
@@ -35,7 +35,7 @@ class WholeFile {
 
   std::string path_;     // as the user named it
   std::string target_;   // with symbolic links resolved, so that a link stays a link
-  std::string passing_;  // empty once there is nothing to remove
+  std::string passing_;  // the passing name; empty where there is none to remove
   FILE* file_ = nullptr;
   uint64_t position_ = 0;
   int errno_ = 0;  // last: opening fills the members above

@@ -4,9 +4,13 @@
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstring>
 
+#include "film/passing_file.h"
 #include "film/test_folder.h"
 #include "scumble/image.h"
 
@@ -128,6 +132,64 @@ TEST_P(WholeFileTest, picturesThatContradictThemselvesAreRefused) {
     EXPECT_EQ(status.error().kind, ErrorKind::usage);
   }
   EXPECT_EQ(folder.count(), 0u);
+}
+
+TEST(WholeFile, aKilledProcessLeavesNothing) {
+  TestFolder folder;
+  if (!folder.hasNamelessFiles()) GTEST_SKIP() << "the file system of temporary files knows no O_TMPFILE";
+  const std::string path = folder.file("picture"), bytes(1 << 20, 'x');
+  for (const bool there : {false, true}) {
+    if (there) putContent(path, "old");
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      WholeFile file(path);
+      file.write(bytes.data(), bytes.size());
+      if (file.ok()) kill(getpid(), SIGKILL);
+      _exit(1);
+    }
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+    EXPECT_EQ(folder.count(), there ? 1u : 0u);
+    EXPECT_EQ(contentOf(path), there ? "old" : "");
+  }
+}
+
+// Both ways of putting a file in its place, whichever of them this file system takes by itself.
+TEST(PassingFile, namedAndNamelessTakeTheirPlace) {
+  TestFolder folder;
+  const std::string path = folder.file("picture");
+  for (const bool named : {false, true})
+    for (const bool there : {false, true}) {
+      std::filesystem::remove(path);
+      if (there) putContent(path, "an older and longer one");
+      PassingFile file = openPassingFile(folder.file(""));
+      ASSERT_GE(file.descriptor, 0) << strerror(errno);
+      if (named && file.name.empty()) {
+        file.name = folder.file("passing");
+        ASSERT_EQ(putInPlace(file.descriptor, "", file.name), 0);
+      }
+      ASSERT_EQ(write(file.descriptor, "new", 3), 3);
+      EXPECT_EQ(putInPlace(file.descriptor, file.name, path), 0);
+      close(file.descriptor);
+      EXPECT_EQ(contentOf(path), "new");
+      EXPECT_EQ(folder.count(), 1u);
+    }
+}
+
+TEST(PassingFile, aFailureSaysWhyAndLeavesNothing) {
+  TestFolder folder;
+  std::filesystem::create_directory(folder.file("inner"));
+  EXPECT_LT(openPassingFile(folder.file("missing/")).descriptor, 0);
+  EXPECT_EQ(errno, ENOENT);
+  const PassingFile file = openPassingFile(folder.file(""));
+  ASSERT_GE(file.descriptor, 0);
+  EXPECT_EQ(putInPlace(file.descriptor, file.name, folder.file("inner")), EISDIR);
+  EXPECT_EQ(putInPlace(file.descriptor, file.name, folder.file("missing/picture")), ENOENT);
+  close(file.descriptor);
+  if (!file.name.empty()) unlink(file.name.c_str());
+  EXPECT_EQ(folder.count(), 1u);
 }
 
 }  // namespace

@@ -1,0 +1,143 @@
+#include "film/child_process.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+extern char** environ;
+
+namespace scumble::film {
+namespace {
+
+constexpr size_t kKept = 8 << 10;  // of what it says
+
+// Out of the way of the numbers that descriptors get in the child.
+int moveUp(int descriptor) {
+  if (descriptor < 0) return descriptor;
+  const int moved = fcntl(descriptor, F_DUPFD_CLOEXEC, ChildProcess::kPassed + 1);
+  const int code = errno;
+  close(descriptor);
+  errno = code;
+  return moved;
+}
+
+void closeIfOpen(int& descriptor) {
+  if (descriptor >= 0) close(descriptor);
+  descriptor = -1;
+}
+
+}  // namespace
+
+ChildProcess::~ChildProcess() {
+  if (process_ > 0) {
+    kill(process_, SIGKILL);
+    while (waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
+    }
+  }
+  closeIfOpen(input_);
+  closeIfOpen(errors_);
+}
+
+int ChildProcess::start(const std::vector<std::string>& command, int passed) {
+  // Descriptors: ours, and the child's ends of them.
+  int pair[2] = {-1, -1}, stream[2] = {-1, -1};
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) != 0) return errno;
+  if (pipe2(stream, O_CLOEXEC) != 0) {
+    const int code = errno;
+    close(pair[0]);
+    close(pair[1]);
+    return code;
+  }
+  input_ = pair[0];
+  errors_ = stream[0];
+  int childInput = moveUp(pair[1]), childErrors = moveUp(stream[1]);
+  int childPassed = fcntl(passed, F_DUPFD_CLOEXEC, kPassed + 1);
+  int code = childInput < 0 || childErrors < 0 || childPassed < 0 ? errno : 0;
+
+  // The child.
+  if (code == 0) {
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawnattr_init(&attributes);
+    posix_spawn_file_actions_adddup2(&actions, childInput, STDIN_FILENO);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_adddup2(&actions, childErrors, STDERR_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, childPassed, kPassed);
+    // A group of its own: Ctrl-C is for us, and what becomes of the child is our decision.
+    sigset_t none, pipe;
+    sigemptyset(&none);
+    sigemptyset(&pipe);
+    sigaddset(&pipe, SIGPIPE);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setsigdefault(&attributes, &pipe);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setflags(&attributes,
+                             POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+    std::vector<char*> arguments;
+    for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    code = posix_spawnp(&process_, arguments[0], &actions, &attributes, arguments.data(), environ);
+    if (code != 0) process_ = -1;
+    posix_spawn_file_actions_destroy(&actions);
+    posix_spawnattr_destroy(&attributes);
+  }
+  closeIfOpen(childInput);
+  closeIfOpen(childErrors);
+  closeIfOpen(childPassed);
+  return code;
+}
+
+bool ChildProcess::send(const void* bytes, size_t size) {
+  const char* next = static_cast<const char*>(bytes);
+  while (size > 0) {
+    if (input_ < 0) return false;
+    // Listening too: a child that waits for us to read would never take more.
+    pollfd ready[2] = {{input_, POLLOUT, 0}, {errors_, POLLIN, 0}};
+    if (poll(ready, 2, -1) < 0) {
+      if (errno == EINTR) continue;
+      return false;
+    }
+    if (ready[1].revents != 0) listen();
+    if (ready[0].revents == 0) continue;
+    const ssize_t sent = ::send(input_, next, size, MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (sent >= 0) {
+      next += sent;
+      size -= size_t(sent);
+    } else if (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR) {
+      closeIfOpen(input_);
+    }
+  }
+  return true;
+}
+
+std::string ChildProcess::finish() {
+  closeIfOpen(input_);
+  while (errors_ >= 0) listen();
+  int status = 0;
+  while (process_ > 0 && waitpid(process_, &status, 0) < 0)
+    if (errno != EINTR) break;  // the host ignores SIGCHLD, and nobody knows how it ended
+  process_ = -1;
+  if (WIFSIGNALED(status)) return std::string("was ended: ") + strsignal(WTERMSIG(status));
+  if (WEXITSTATUS(status) != 0) return "ended with code " + std::to_string(WEXITSTATUS(status));
+  return "";
+}
+
+// Takes what the child has said; waits for it if there is nothing yet.
+void ChildProcess::listen() {
+  char bytes[1024];
+  const ssize_t count = read(errors_, bytes, sizeof bytes);
+  if (count < 0 && errno == EINTR) return;
+  if (count <= 0) return closeIfOpen(errors_);
+  said_.append(bytes, size_t(count));
+  if (said_.size() > kKept) said_.erase(0, said_.size() - kKept);
+}
+
+}  // namespace scumble::film

@@ -1,0 +1,45 @@
+// A program run as a child: bytes go to its standard input, and the end of what it says on standard error is
+// kept. Its standard output is discarded.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace scumble::film {
+
+class ChildProcess {
+ public:
+  static constexpr int kPassed = 3;  // the child's number of the descriptor that it is given
+
+  ChildProcess() = default;
+  ~ChildProcess();  // kills it if it still runs
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  // command[0] is looked for on the PATH; no shell is involved. Signals from the terminal do not reach the
+  // child. Returns 0 or the reason why not (ENOENT: there is no such program).
+  int start(const std::vector<std::string>& command, int passed);
+
+  // Waits until the child has taken all of it; false when it takes no more.
+  bool send(const void* bytes, size_t size);
+
+  // Ends the child's input and waits for its end. Empty if it succeeded, otherwise how it ended ("ended with
+  // code 1"). A host that ignores SIGCHLD makes every end a success.
+  std::string finish();
+
+  // The last 8 KiB.
+  const std::string& said() const { return said_; }
+
+ private:
+  void listen();
+
+  pid_t process_ = -1;
+  int input_ = -1;   // a socket: unlike a pipe, it can be written to without SIGPIPE
+  int errors_ = -1;  // its standard error; -1 once that has ended
+  std::string said_;
+};
+
+}  // namespace scumble::film
