@@ -33,11 +33,13 @@ int run(const BenchArguments& args) {
   if (const Status status = checkWritable(args.json, args.scene.files); !status) return fail(status.error());
   const Result<RenderOptions> options = args.picture.renderOptions();
   if (!options) return fail(options.error());
-  const Result<Look> look = args.look.load(args.scene.files[0]);
+  Result<Look> look = args.look.load(args.scene.files[0]);
   if (!look) return fail(look.error());
   const Result<Scene> scene = args.scene.load(false);
   if (!scene) return fail(scene.error());
-  const Result<std::vector<View>> views = args.picture.views(*scene);
+  look = args.look.withClip(*look, *scene);
+  if (!look) return fail(look.error());
+  const Result<std::vector<View>> views = args.picture.views(*scene, *look);
   if (!views) return fail(views.error());
   // One renderer each, so that both keep their images and pipelines while they take turns.
   Result<std::unique_ptr<Renderer>> painter = Renderer::create(args.picture.rendererOptions());

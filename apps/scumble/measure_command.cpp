@@ -139,10 +139,12 @@ int run(const MeasureArguments& args) {
   if (!args.plot.empty() && !args.plot.ends_with(".png"))
     return failUsage("a chart cannot go into '" + args.plot + "'", "name it like chart.png");
   if (const Status status = checkWritable(args.plot, inputs); !status) return fail(status.error());
-  const Result<Look> look = args.look.load(args.scene.files[0]);
+  Result<Look> look = args.look.load(args.scene.files[0]);
   if (!look) return fail(look.error());
   const Result<Scene> scene = args.scene.load(args.quiet);
   if (!scene) return fail(scene.error());
+  look = args.look.withClip(*look, *scene);
+  if (!look) return fail(look.error());
   Result<std::unique_ptr<Renderer>> renderer = Renderer::create(args.picture.rendererOptions());
   if (!renderer) return fail(renderer.error());
 

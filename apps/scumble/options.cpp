@@ -84,6 +84,10 @@ void LookArguments::addTo(CLI::App& command) {
       .add_option("--set", settings, "Any knob, e.g. shadow.threshold=0.4; repeatable; wins over the look")
       ->type_name("PATH=VALUE")
       ->allow_extra_args(false);
+  command.add_option(
+      "--clip", clip,
+      "Play this clip of the scene alone, by name or number (`scumble info` lists them; default: "
+      "as the look says, else the first one)");
 }
 
 Result<Look> LookArguments::load(const std::string& sceneFile) const {
@@ -97,13 +101,40 @@ Result<Look> LookArguments::load(const std::string& sceneFile) const {
   }
   Result<Look> result = Look::load(name);
   if (!result) return result.error();
+  if (const Status status = applySettings(*result); !status) return status.error();
+  return result;
+}
+
+Status LookArguments::applySettings(Look& look_) const {
   for (const std::string& setting : settings) {
     const size_t equals = setting.find('=');
     if (equals == std::string::npos)
       return usage("'" + setting + "' sets nothing", "write it like shadow.threshold=0.4");
-    const Status status = result->set(setting.substr(0, equals), setting.substr(equals + 1));
+    const Status status = look_.set(setting.substr(0, equals), setting.substr(equals + 1));
     if (!status) return status.error();
   }
+  return Done{};
+}
+
+Result<Look> LookArguments::withClip(const Look& from, const Scene& scene) const {
+  if (clip.empty()) return from;
+  const std::vector<SceneSummary::Clip> clips = scene.summary().clips;
+  std::string found;
+  for (const SceneSummary::Clip& known : clips)
+    if (known.name == clip) found = clip;
+  if (found.empty() && clip.size() < 7 && clip.find_first_not_of("0123456789") == std::string::npos)
+    if (const size_t number = size_t(std::stoul(clip)); number < clips.size()) found = clips[number].name;
+  if (found.empty()) {
+    std::string names;
+    for (const SceneSummary::Clip& known : clips) names += (names.empty() ? "" : ", ") + known.name;
+    return usage("the scene has no clip '" + clip + "'",
+                 names.empty() ? "it has none at all" : "it has: " + names);
+  }
+  Look result = from;
+  for (const auto& [pattern, weight] : {std::pair<std::string, const char*>{"*", "0"}, {found, "1"}})
+    if (const Status status = result.set("clips." + pattern + ".play.weight", weight); !status)
+      return status.error();
+  if (const Status status = applySettings(result); !status) return status.error();
   return result;
 }
 
@@ -174,7 +205,12 @@ Result<Viewpoint> PictureArguments::viewpoint() const {
   return viewpoint;
 }
 
-Result<std::vector<View>> PictureArguments::views(const Scene& scene) const {
+bool PictureArguments::usesSceneCamera(const Scene& scene) const {
+  return eye.empty() && target.empty() && orbit.empty() &&
+         (!camera.empty() || !scene.summary().cameras.empty());
+}
+
+Result<std::vector<View>> PictureArguments::views(const Scene& scene, const Look& look, double time) const {
   const Result<Viewpoint> from = viewpoint();
   if (!from) return from.error();
   const Result<RenderOptions> options = renderOptions();
@@ -182,7 +218,7 @@ Result<std::vector<View>> PictureArguments::views(const Scene& scene) const {
   if (options->width == 0 || options->height == 0)
     return usage("'" + size + "' has no area", "write it like 1280x720");
   return makeViews(scene, *from, float(options->width) / float(options->height),
-                   isStereo() ? Stereo::stereo : Stereo::mono, ipd);
+                   isStereo() ? Stereo::stereo : Stereo::mono, ipd, look, time);
 }
 
 RendererOptions PictureArguments::rendererOptions() const {

@@ -22,10 +22,16 @@ struct SceneArguments {
 
 struct LookArguments {
   std::string look;  // empty: SCENE.look.json if there is one, else the default look
+  std::string clip;  // the only one that plays, by name or number; empty: as the look has it
   std::vector<std::string> settings;
 
   void addTo(CLI::App& command);
+  // The look with all settings, which win over the clip.
   Result<Look> load(const std::string& sceneFile) const;
+  Result<Look> withClip(const Look& look, const Scene& scene) const;
+
+ private:
+  Status applySettings(Look& look) const;
 };
 
 struct PictureArguments {
@@ -43,7 +49,9 @@ struct PictureArguments {
   bool isStereo() const { return !stereo.empty(); }
   Result<RenderOptions> renderOptions() const;
   Result<Viewpoint> viewpoint() const;
-  Result<std::vector<View>> views(const Scene& scene) const;
+  // At a time in seconds; of all times the same where the camera is none of the scene's.
+  Result<std::vector<View>> views(const Scene& scene, const Look& look, double time = 0) const;
+  bool usesSceneCamera(const Scene& scene) const;
   RendererOptions rendererOptions() const;
 };
 

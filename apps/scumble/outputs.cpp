@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -20,9 +21,14 @@ std::string withPart(const std::string& path, const std::string& part, const std
   return (p.parent_path() / (p.stem().string() + "." + part + extension)).string();
 }
 
-Image arrange(const std::vector<Image>& views, const std::string& layout) {
+// All views in one picture; `made` holds it where it has to be made.
+const Image& arrange(const std::vector<Image>& views, const std::string& layout, Image& made) {
   if (views.size() < 2) return views[0];
-  return layout == "over-under" ? overUnder(views[0], views[1]) : sideBySide(views[0], views[1]);
+  return made = layout == "over-under" ? overUnder(views[0], views[1]) : sideBySide(views[0], views[1]);
+}
+
+Error badOutput(std::string problem, std::string advice) {
+  return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
 }
 
 }  // namespace
@@ -47,29 +53,32 @@ Status checkWritable(const std::string& path, const std::vector<std::string>& in
 }
 
 Result<OutputPlan> OutputPlan::make(const std::string& given, const std::string& sceneFile,
-                                    const std::string& layout, bool hasFrames,
+                                    const std::string& layout, bool hasFrames, const RenderOptions& options,
                                     const std::vector<std::string>& inputs) {
   OutputPlan plan;
   plan.layout = layout;
   plan.path = given.empty() ? fs::path(sceneFile).stem().string() + ".png" : given;
   plan.separateEyes = layout == "separate";
+  plan.viewCount = layout.empty() ? 1 : 2;
+  plan.width = options.width, plan.height = options.height;
+  plan.aovs = options.aovs;
   const std::string extension = fs::path(plan.path).extension().string();
-  plan.exr = extension == ".exr";
-  if (!plan.exr && extension != ".png")
-    return Error{ErrorKind::usage,
-                 "",
-                 0,
-                 "",
-                 "'" + plan.path + "' ends neither in .png nor in .exr",
-                 "name the output like picture.png"};
+  if (extension == ".exr")
+    plan.kind = OutputKind::exr;
+  else if (extension == ".mp4")
+    plan.kind = OutputKind::film;
+  else if (extension != ".png")
+    return badOutput("'" + plan.path + "' ends in none of .png, .exr and .mp4",
+                     "name the output like picture.png");
+  if (plan.isSequence() && plan.kind == OutputKind::film)
+    return badOutput("'" + plan.path + "' names a sequence of films", "name one film, or name.####.png");
+  if (plan.kind == OutputKind::film && !options.aovs.empty())
+    return badOutput("a film holds the picture only", "write AOVs to name.####.exr");
   if (plan.isSequence() && !hasFrames)
-    return Error{ErrorKind::usage,
-                 "",
-                 0,
-                 "",
-                 "'" + plan.path + "' names a sequence, but there is no range of frames",
-                 "add --frames A..B, or name one picture"};
-  if (const Status status = checkWritable(plan.path, inputs); !status) return status.error();
+    return badOutput("'" + plan.path + "' names a sequence, but there is no range of frames",
+                     "add --frames A..B, or name one picture");
+  for (const std::string& path : plan.picturePaths(plan.path))
+    if (const Status status = checkWritable(path, inputs); !status) return status.error();
   return plan;
 }
 
@@ -83,62 +92,106 @@ std::string OutputPlan::framePath(std::optional<int> number) const {
   return path.substr(0, first) + (*number < 0 ? "-" : "") + digits + path.substr(last);
 }
 
-bool OutputPlan::isThere(const std::string& target, size_t viewCount) const {
-  std::error_code ignored;
-  if (!separateEyes || viewCount < 2) return fs::exists(target, ignored);
-  const std::string extension = fs::path(target).extension().string();
-  return fs::exists(withPart(target, kEyes[0], extension), ignored) &&
-         fs::exists(withPart(target, kEyes[1], extension), ignored);
+bool OutputPlan::isCryptomatte(const std::string& layer) const {
+  return std::any_of(exr.cryptomattes.begin(), exr.cryptomattes.end(),
+                     [&](const Cryptomatte& cryptomatte) { return cryptomatte.layer == layer; });
 }
 
-Status OutputPlan::write(const Frame& frame, const std::string& target) const {
-  const size_t viewCount = frame.layers[0].views.size();
-  const size_t files = separateEyes ? viewCount : 1;
-  for (size_t file = 0; file < files; ++file) {
-    const std::string path_ = separateEyes && viewCount > 1
-                                  ? withPart(target, kEyes[file], fs::path(target).extension().string())
-                                  : target;
-    // The picture of one layer as it stands in this file.
-    const auto picture = [&](const Frame::Layer& layer) {
-      if (layer.views.size() == 1) return layer.views[0];
-      return separateEyes ? layer.views[file] : arrange(layer.views, layout);
-    };
-    if (!exr) {
-      if (const Status status = writePng(path_, picture(frame.layers[0])); !status) return status.error();
-      for (size_t i = 1; i < frame.layers.size(); ++i) {
-        const Image image = picture(frame.layers[i]);
-        const ImageLayer layer{"", "", &image};
-        if (const Status status = writeExr(withPart(path_, frame.layers[i].name, ".exr"), {layer}); !status)
-          return status.error();
-      }
-      continue;
-    }
-    // All layers of an EXR have one size; what has another goes into a file of its own. One EXR of two eyes
-    // holds them as views (the standard's multiView), which is what compositors read; layouts are for players
-    // of flat pictures.
-    const bool asViews = viewCount > 1 && !separateEyes;
-    std::vector<Image> images;
-    std::vector<std::pair<std::string, std::string>> names;
-    for (const Frame::Layer& layer : frame.layers) {
-      const bool otherSize = layer.views.size() != viewCount ||
-                             layer.views[0].width != frame.layers[0].views[0].width ||
-                             layer.views[0].height != frame.layers[0].views[0].height;
-      if (otherSize) {
-        const ImageLayer alone{"", "", &layer.views[0]};
-        if (const Status status = writeExr(withPart(path_, layer.name, ".exr"), {alone}); !status)
-          return status.error();
-        continue;
-      }
-      for (size_t view = 0; view < (asViews ? viewCount : 1); ++view) {
-        images.push_back(asViews ? layer.views[view] : picture(layer));
-        names.emplace_back(layer.name, asViews ? kEyes[view] : "");
-      }
-    }
-    std::vector<ImageLayer> layers;
-    for (size_t i = 0; i < images.size(); ++i)
-      layers.push_back({names[i].first, names[i].second, &images[i]});
-    if (const Status status = writeExr(path_, layers); !status) return status.error();
+std::vector<std::string> OutputPlan::picturePaths(const std::string& framePath_) const {
+  if (!asFiles()) return {framePath_};
+  const std::string extension = fs::path(framePath_).extension().string();
+  return {withPart(framePath_, kEyes[0], extension), withPart(framePath_, kEyes[1], extension)};
+}
+
+bool OutputPlan::isThere(const std::string& framePath_) const {
+  const bool together = viewCount > 1 && !separateEyes && kind == OutputKind::png;
+  const uint32_t across = together && layout != "over-under" ? 2 : 1;
+  const uint32_t down = together && layout == "over-under" ? 2 : 1;
+  for (const std::string& path_ : picturePaths(framePath_)) {
+    if (!isWholePicture(path_, width * across, height * down)) return false;
+    if (kind != OutputKind::png) continue;
+    for (const std::string& aov : aovs)
+      if (!isWholePicture(withPart(path_, aov, ".exr"))) return false;
   }
+  return true;
+}
+
+Status OutputPlan::write(const Frame& frame, const std::string& framePath_) const {
+  const std::vector<std::string> paths = picturePaths(framePath_);
+  for (size_t file = 0; file < paths.size(); ++file)
+    if (const Status status = kind == OutputKind::png ? writePicturePng(frame, file, paths[file])
+                                                      : writeLayeredExr(frame, file, paths[file]);
+        !status)
+      return status.error();
+  return Done{};
+}
+
+Status OutputPlan::writePicturePng(const Frame& frame, size_t file, const std::string& path_) const {
+  Image made;
+  const auto picture = [&](const Frame::Layer& layer) -> const Image& {
+    return asFiles() && layer.views.size() > 1 ? layer.views[file] : arrange(layer.views, layout, made);
+  };
+  for (size_t i = 1; i < frame.layers.size(); ++i) {
+    const std::string& name = frame.layers[i].name;
+    const ImageLayer layer{isCryptomatte(name) ? name : "", "", &picture(frame.layers[i]), isHalf(name)};
+    if (const Status status = writeExr(withPart(path_, name, ".exr"), {layer}, exr); !status)
+      return status.error();
+  }
+  return writePng(path_, picture(frame.layers[0]));
+}
+
+Status OutputPlan::writeLayeredExr(const Frame& frame, size_t file, const std::string& path_) const {
+  // All layers of an EXR have one size; what has another goes into a file of its own. One EXR of two eyes
+  // holds them as views (the standard's multiView), which is what compositors read; layouts are for players
+  // of flat pictures.
+  std::vector<ImageLayer> layers;
+  for (const Frame::Layer& layer : frame.layers) {
+    const bool otherSize = layer.views.size() != frame.layers[0].views.size() ||
+                           layer.views[0].width != width || layer.views[0].height != height;
+    if (otherSize) {
+      const ImageLayer alone{"", "", &layer.views[0], isHalf(layer.name)};
+      if (const Status status = writeExr(withPart(path_, layer.name, ".exr"), {alone}, exr); !status)
+        return status.error();
+    } else if (asFiles() || viewCount == 1) {
+      layers.push_back({layer.name, "", &layer.views[viewCount == 1 ? 0 : file], isHalf(layer.name)});
+    } else {
+      for (size_t view = 0; view < viewCount; ++view)
+        layers.push_back({layer.name, kEyes[view], &layer.views[view], isHalf(layer.name)});
+    }
+  }
+  return writeExr(path_, layers, exr);
+}
+
+Result<FilmOutput> FilmOutput::create(const OutputPlan& plan, double fps, int quality) {
+  FilmOptions options;
+  options.width = plan.width, options.height = plan.height;
+  options.fps = fps;
+  options.quality = quality;
+  FilmOutput output;
+  output.layout_ = plan.layout;
+  if (plan.layout == "side-by-side") options.width *= 2, options.layout = FilmLayout::sideBySide;
+  if (plan.layout == "over-under") options.height *= 2, options.layout = FilmLayout::overUnder;
+  for (const std::string& path : plan.picturePaths(plan.path)) {
+    Result<std::unique_ptr<FilmWriter>> film = FilmWriter::create(path, options);
+    if (!film) return film.error();
+    output.films_.push_back(std::move(film).value());
+  }
+  return output;
+}
+
+Status FilmOutput::add(const Frame& frame) {
+  const std::vector<Image>& views = frame.layers[0].views;
+  Image made;
+  for (size_t i = 0; i < films_.size(); ++i)
+    if (const Status status = films_[i]->add(films_.size() > 1 ? views[i] : arrange(views, layout_, made));
+        !status)
+      return status.error();
+  return Done{};
+}
+
+Status FilmOutput::finish() {
+  for (const auto& film : films_)
+    if (const Status status = film->finish(); !status) return status.error();
   return Done{};
 }
 

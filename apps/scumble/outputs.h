@@ -1,35 +1,66 @@
 // Where pictures go: the names of the files, and which layers go into which.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "scumble/film.h"
 #include "scumble/renderer.h"
 
 namespace scumble::app {
 
+enum class OutputKind { png, exr, film };
+
 struct OutputPlan {
   std::string path;  // as given, or made from the scene's name
-  bool exr = false;  // else PNG
+  OutputKind kind = OutputKind::png;
   bool separateEyes = false;
   std::string layout;  // "", "side-by-side", "over-under" or "separate"
+  size_t viewCount = 1;
+  uint32_t width = 0, height = 0;  // of one view
+  std::vector<std::string> aovs;
+  bool half = false;  // EXR: layers that 16 bits are enough for
+  ExrOptions exr;
 
   // Fails with usage for a name whose ending is not known, and with outputNotWritten where it cannot be
   // written at all.
   static Result<OutputPlan> make(const std::string& given, const std::string& sceneFile,
-                                 const std::string& layout, bool hasFrames,
+                                 const std::string& layout, bool hasFrames, const RenderOptions& options,
                                  const std::vector<std::string>& inputs);
 
   // The path of frame `number`: #### is replaced by the number, zero-padded.
   std::string framePath(std::optional<int> number) const;
   bool isSequence() const { return path.find('#') != std::string::npos; }
 
-  // Whether every picture of this frame is there (AOVs beside it are written after it and not looked for).
-  bool isThere(const std::string& framePath, size_t viewCount) const;
+  // Whether every file of this frame is there, whole, and of the right size.
+  bool isThere(const std::string& framePath) const;
 
-  // Writes the picture and its AOVs: layers of an EXR, or beside a PNG as NAME.AOV.exr.
+  // Writes the picture and its AOVs: layers of an EXR, or beside a PNG as NAME.AOV.exr. The picture comes
+  // last: where it is, the others are.
   Status write(const Frame& frame, const std::string& framePath) const;
+
+ private:
+  friend class FilmOutput;
+  bool asFiles() const { return separateEyes && viewCount > 1; }
+  bool isHalf(const std::string& layer) const { return half && !Renderer::needsFloat(layer); }
+  bool isCryptomatte(const std::string& layer) const;
+  std::vector<std::string> picturePaths(const std::string& framePath) const;
+  Status writePicturePng(const Frame& frame, size_t file, const std::string& path) const;
+  Status writeLayeredExr(const Frame& frame, size_t file, const std::string& path) const;
+};
+
+// A film, or two where each eye has its own.
+class FilmOutput {
+ public:
+  static Result<FilmOutput> create(const OutputPlan& plan, double fps, int quality);
+  Status add(const Frame& frame);
+  Status finish();
+
+ private:
+  std::string layout_;
+  std::vector<std::unique_ptr<FilmWriter>> films_;
 };
 
 // Whether a file could be written (an empty path: none is wanted), before long work begins: no input (scene,

@@ -1,4 +1,4 @@
-// scumble render: one image, or a range of frames.
+// scumble render: one image, a range of frames, or a film.
 #include <sys/resource.h>
 
 #include <chrono>
@@ -7,8 +7,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "commands.h"
+#include "frame_writer.h"
 #include "options.h"
 #include "outputs.h"
 #include "progress.h"
@@ -27,13 +29,15 @@ struct RenderArguments {
   SceneArguments scene;
   LookArguments look;
   PictureArguments picture;
-  std::string output, frames, background, stats;
+  std::string output, frames, background, stats, exr = "float,zip";
   std::vector<std::string> aovs;
   double time = 0, fps = 24;
+  int quality = FilmOptions().quality;
   bool quiet = false, resume = false;
 };
 
 constexpr int kMostFrame = 10'000'000;
+constexpr unsigned kMostWriters = 4;  // beyond them disks are slower than encoders
 
 // "3..17"; nothing when it is not of that form.
 std::optional<std::pair<int, int>> parseFrames(const std::string& text) {
@@ -62,6 +66,123 @@ nlohmann::json statsJson(const FrameStats& stats) {
           {"uploadedBytes", stats.uploadedBytes}};
 }
 
+// "half,piz" and the like.
+Status readExrOptions(const std::string& text, OutputPlan& output) {
+  std::stringstream words(text);
+  for (std::string word; std::getline(words, word, ',');) {
+    if (word == "float" || word == "half")
+      output.half = word == "half";
+    else if (word == "zip" || word == "piz")
+      output.exr.compression = word == "zip" ? ExrCompression::zip : ExrCompression::piz;
+    else
+      return Error{ErrorKind::usage,
+                   "",
+                   0,
+                   "",
+                   "--exr " + text + " is not known",
+                   "use float or half, and zip or piz, like half,piz"};
+  }
+  return Done{};
+}
+
+Result<RenderOptions> renderOptions(const RenderArguments& args) {
+  Result<RenderOptions> options = args.picture.renderOptions();
+  if (!options) return options;
+  for (const std::string& name : args.aovs) {
+    if (name == "all") {
+      for (const std::string& every : Renderer::aovNames()) options->aovs.push_back(every);
+    } else if (!name.empty()) {
+      options->aovs.push_back(name);
+    }
+  }
+  options->transparent = args.background == "transparent";
+  return options;
+}
+
+// The look with what --background sets.
+Result<Look> loadLook(const RenderArguments& args) {
+  LookArguments arguments = args.look;
+  if (args.background[0] == '#') {
+    for (const char* knob : {"background.horizon=", "background.zenith=", "ground.tint="})
+      arguments.settings.push_back(knob + args.background);
+    arguments.settings.push_back("background.mode=look");
+  } else if (!args.background.empty() && args.background != "transparent") {
+    return Error{ErrorKind::usage,
+                 "",
+                 0,
+                 "",
+                 "'" + args.background + "' is no background",
+                 "use #RRGGBB or transparent"};
+  }
+  return arguments.load(args.scene.files[0]);
+}
+
+// The numbers of all frames that are wanted; nothing for one picture.
+Result<std::vector<int>> frameNumbers(const RenderArguments& args, const OutputPlan& output,
+                                      const Scene& scene, const Look& look) {
+  std::vector<int> numbers;
+  if (args.frames.empty()) {
+    if (output.kind != OutputKind::film) return numbers;
+    const double frames = std::ceil(playedSeconds(scene, look) * args.fps - 1e-3);
+    if (!(frames >= 1))
+      return Error{ErrorKind::usage,   "", 0, "", "nothing says how long the film is: no clip plays",
+                   "add --frames A..B"};
+    for (int number = 0; number < std::min(frames, double(kMostFrame)); ++number) numbers.push_back(number);
+    return numbers;
+  }
+  const auto range = *parseFrames(args.frames);
+  for (int number = range.first; number <= range.second; ++number)
+    if (!args.resume || !output.isThere(output.framePath(number))) numbers.push_back(number);
+  return numbers;
+}
+
+// Two frames are under way on the device while earlier ones are written.
+class FrameLoop {
+ public:
+  FrameLoop(const RenderArguments& args, const Scene& scene, const Look& look, const RenderOptions& options,
+            Renderer& renderer)
+      : args_(args), scene_(scene), look_(look), options_(options), renderer_(renderer) {}
+
+  // One frame for each time; `take` gets them in this order.
+  Status draw(const std::vector<double>& times, const std::function<Status(size_t, Frame)>& take) {
+    const bool moves = args_.picture.usesSceneCamera(scene_);
+    Result<std::vector<View>> still = args_.picture.views(scene_, look_, times.empty() ? 0 : times[0]);
+    if (!still) return still.error();
+    const auto viewsAt = [&](double time) {
+      return moves ? args_.picture.views(scene_, look_, time) : still;
+    };
+    for (size_t next = 0, done = 0; done < times.size();) {
+      if (next < times.size() && next - done < size_t(Renderer::kMaxBegun)) {
+        const Result<std::vector<View>> views = viewsAt(times[next]);
+        if (!views) return views.error();
+        RenderOptions options = options_;
+        options.previousTime = times[next] - 1 / args_.fps;
+        const Result<std::vector<View>> previous = viewsAt(*options.previousTime);
+        if (!previous) return previous.error();
+        options.previousViews = *previous;
+        if (const Status status = renderer_.begin(scene_, look_, times[next], *views, options); !status)
+          return status.error();
+        ++next;
+        continue;
+      }
+      Result<Frame> frame = renderer_.finish();
+      if (!frame) return frame.error();
+      if (args_.picture.validate && renderer_.validationMessages() > 0)
+        return Error{ErrorKind::internal, "", 0, "", "the validation layers found mistakes",
+                     "please report them"};
+      if (const Status status = take(done++, std::move(frame).value()); !status) return status.error();
+    }
+    return Done{};
+  }
+
+ private:
+  const RenderArguments& args_;
+  const Scene& scene_;
+  const Look& look_;
+  const RenderOptions& options_;
+  Renderer& renderer_;
+};
+
 int run(const RenderArguments& args) {
   const auto start = Clock::now();
   nlohmann::json steps = nlohmann::json::object();
@@ -72,79 +193,80 @@ int run(const RenderArguments& args) {
   };
 
   // Check everything that can be checked before anything is drawn.
-  Result<RenderOptions> options = args.picture.renderOptions();
+  const Result<RenderOptions> options = renderOptions(args);
   if (!options) return fail(options.error());
   std::vector<std::string> inputs = args.scene.files;
   if (!args.look.look.empty()) inputs.push_back(args.look.look);
-  const Result<OutputPlan> output =
-      OutputPlan::make(args.output, args.scene.files[0], args.picture.stereo, !args.frames.empty(), inputs);
+  Result<OutputPlan> output = OutputPlan::make(args.output, args.scene.files[0], args.picture.stereo,
+                                               !args.frames.empty(), *options, inputs);
   if (!output) return fail(output.error());
+  if (const Status status = readExrOptions(args.exr, *output); !status) return fail(status.error());
   std::vector<std::string> statsInputs = inputs;
   statsInputs.push_back(output->path);
   if (const Status status = checkWritable(args.stats, statsInputs); !status) return fail(status.error());
-  std::optional<std::pair<int, int>> frames;
-  if (!args.frames.empty() && !(frames = parseFrames(args.frames)))
-    return failUsage("--frames " + args.frames + " is no range",
-                     "write it like 0..23, with numbers up to 10000000");
-  if (frames && frames->first != frames->second && !output->isSequence())
-    return failUsage("several frames cannot go into one '" + output->path + "'",
-                     "name it like picture.####.png");
+  const bool isFilm = output->kind == OutputKind::film;
+  if (!args.frames.empty()) {
+    const auto range = parseFrames(args.frames);
+    if (!range)
+      return failUsage("--frames " + args.frames + " is no range",
+                       "write it like 0..23, with numbers up to 10000000");
+    if (range->first != range->second && !output->isSequence() && !isFilm)
+      return failUsage("several frames cannot go into one '" + output->path + "'",
+                       "name it like picture.####.png, or picture.mp4");
+  }
+  if (isFilm && args.resume)
+    return failUsage("a film cannot be resumed",
+                     "write name.####.png with --resume, then make the film of those");
   if (!std::isfinite(args.time) || !(args.fps > 0) || !std::isfinite(args.fps))
     return failUsage("--time or --fps is out of range", "time is in seconds, fps above 0");
-  for (const std::string& name : args.aovs) {
-    if (name == "all") {
-      for (const std::string& every : Renderer::aovNames()) options->aovs.push_back(every);
-    } else if (!name.empty()) {
-      options->aovs.push_back(name);
-    }
-  }
-  LookArguments lookArguments = args.look;
-  if (!args.background.empty()) {
-    if (args.background == "transparent") {
-      options->transparent = true;
-    } else if (args.background[0] == '#') {
-      for (const char* knob : {"background.horizon=", "background.zenith=", "ground.tint="})
-        lookArguments.settings.push_back(knob + args.background);
-      lookArguments.settings.push_back("background.mode=look");
-    } else {
-      return failUsage("'" + args.background + "' is no background", "use #RRGGBB or transparent");
-    }
-  }
-  const Result<Look> look = lookArguments.load(args.scene.files[0]);
+  Result<Look> look = loadLook(args);
   if (!look) return fail(look.error());
   const Result<Scene> scene = args.scene.load(args.quiet);
   if (!scene) return fail(scene.error());
-  const Result<std::vector<View>> views = args.picture.views(*scene);
-  if (!views) return fail(views.error());
+  look = args.look.withClip(*look, *scene);
+  if (!look) return fail(look.error());
+  // A camera that does not exist is found before there is a device.
+  if (const Result<std::vector<View>> views = args.picture.views(*scene, *look); !views)
+    return fail(views.error());
+  const Result<std::vector<int>> numbers = frameNumbers(args, *output, *scene, *look);
+  if (!numbers) return fail(numbers.error());
+  const bool isPicture = args.frames.empty() && !isFilm;
+  std::vector<double> times;
+  for (const int number : *numbers) times.push_back(number / args.fps);
+  if (isPicture && !(args.resume && output->isThere(output->path))) times.push_back(args.time);
   lap("sceneMilliseconds");
   Result<std::unique_ptr<Renderer>> renderer = Renderer::create(args.picture.rendererOptions());
   if (!renderer) return fail(renderer.error());
   lap("deviceMilliseconds");
 
-  nlohmann::json frameStats = nlohmann::json::array();
-  const int first = frames ? frames->first : 0, last = frames ? frames->second : 0;
-  double rendering = 0, writing = 0;
-  Progress progress(last - first + 1, args.quiet);
-  for (int number = first; number <= last; ++number) {
-    const std::string path = output->framePath(frames ? std::optional(number) : std::nullopt);
-    if (args.resume && output->isThere(path, views->size())) {
-      progress.done("frame " + std::to_string(number));
-      continue;
-    }
-    const double time = frames ? number / args.fps : args.time;
-    lapStart = Clock::now();
-    const Result<Frame> frame = (*renderer)->render(*scene, *look, time, *views, *options);
-    if (!frame) return fail(frame.error());
-    if (args.picture.validate && (*renderer)->validationMessages() > 0)
-      return fail(Error{ErrorKind::internal, "", 0, "", "the validation layers found mistakes",
-                        "please report them"});
-    rendering += millisecondsSince(lapStart);
-    lapStart = Clock::now();
-    if (const Status status = output->write(*frame, path); !status) return fail(status.error());
-    writing += millisecondsSince(lapStart);
-    frameStats.push_back(statsJson(frame->stats));
-    progress.done("frame " + std::to_string(number));
+  // Draw, and write beside it: pictures on several threads, a film in order.
+  std::optional<FilmOutput> film;
+  if (isFilm) {
+    Result<FilmOutput> created = FilmOutput::create(*output, args.fps, args.quality);
+    if (!created) return fail(created.error());
+    film = std::move(created).value();
   }
+  Progress progress(int(times.size()), args.quiet);
+  const int writers = isFilm ? 1 : int(std::clamp(std::thread::hardware_concurrency() / 2, 1u, kMostWriters));
+  FrameWriter writer(
+      writers,
+      [&](const Frame& frame, int number) {
+        return film ? film->add(frame)
+                    : output->write(frame,
+                                    output->framePath(isPicture ? std::nullopt : std::optional(number)));
+      },
+      [&](int number) { progress.done("frame " + std::to_string(number)); });
+  nlohmann::json frameStats = nlohmann::json::array();
+  FrameLoop loop(args, *scene, *look, *options, **renderer);
+  Status status = loop.draw(times, [&](size_t i, Frame frame) {
+    frameStats.push_back(statsJson(frame.stats));
+    return writer.add(isPicture ? 0 : (*numbers)[i], std::move(frame));
+  });
+  // What has been drawn is kept, whatever came after it.
+  if (const Status written = writer.finish(); status && !written) status = written;
+  if (status && film) status = film->finish();
+  if (!status) return fail(status.error());
+  const double rendering = millisecondsSince(lapStart);
 
   if (!args.stats.empty()) {
     rusage usage{};
@@ -154,7 +276,7 @@ int run(const RenderArguments& args) {
                                 {"driver", (*renderer)->gpu().driver},
                                 {"size", {options->width, options->height}},
                                 {"samples", options->samples},
-                                {"views", views->size()},
+                                {"views", output->viewCount},
                                 {"import",
                                  {{"read", import.read},
                                   {"parse", import.parse},
@@ -162,12 +284,12 @@ int run(const RenderArguments& args) {
                                   {"images", import.images}}},
                                 {"steps", steps},
                                 {"renderMilliseconds", rendering},
-                                {"writeMilliseconds", writing},
+                                {"writeMilliseconds", writer.milliseconds()},
                                 {"totalMilliseconds", millisecondsSince(start)},
                                 {"peakResidentBytes", uint64_t(usage.ru_maxrss) * 1024},
                                 {"frames", frameStats}};
-    if (const Status status = writeText(args.stats, report.dump(2) + "\n"); !status)
-      return fail(status.error());
+    if (const Status written = writeText(args.stats, report.dump(2) + "\n"); !written)
+      return fail(written.error());
   }
   return kDone;
 }
@@ -176,20 +298,28 @@ int run(const RenderArguments& args) {
 
 void addRender(CLI::App& program, int& exitCode) {
   auto args = std::make_shared<RenderArguments>();
-  CLI::App* command = program.add_subcommand("render", "Render one image, or a range of frames");
+  CLI::App* command = program.add_subcommand("render", "Render one image, a range of frames, or a film");
   args->scene.addTo(*command);
   command->add_option(
       "-o,--output", args->output,
       "The picture: .png (8 bit sRGB) or .exr (linear float, both eyes as views); name.####.png for a "
-      "sequence (default: the scene's name + .png in the current folder)");
+      "sequence; .mp4 for a film, by ffmpeg (default: the scene's name + .png in the current folder)");
   args->look.addTo(*command);
   args->picture.addTo(*command);
   args->picture.addStereoTo(*command);
   command->add_option("--time", args->time, "Seconds")->capture_default_str();
-  command->add_option("--frames", args->frames, "A range of frames; frame n is at n / fps seconds")
+  command
+      ->add_option(
+          "--frames", args->frames,
+          "A range of frames; frame n is at n / fps seconds (default for films: as long as clips play)")
       ->type_name("A..B");
   command->add_option("--fps", args->fps, "Frames a second")->capture_default_str();
-  command->add_flag("--resume", args->resume, "Leave out frames whose file is there already");
+  command->add_flag("--resume", args->resume, "Leave out frames whose files are there, whole");
+  command
+      ->add_option("--quality", args->quality, "Films: constant quality, 0 to 51; lower is better and larger")
+      ->capture_default_str();
+  command->add_option("--exr", args->exr, "EXR: float or half (facts stay float), zip or piz")
+      ->capture_default_str();
   std::string names;
   for (const std::string& name : Renderer::aovNames()) names += (names.empty() ? "" : ", ") + name;
   command

@@ -64,6 +64,10 @@ Result<Image> readPng(const std::string& path);
 Status writeExr(const std::string& path, const std::vector<ImageLayer>& layers,
                 const ExrOptions& options = {});
 
+// Whether a file is a PNG or EXR with all its pixels, of this size unless it is 0; false where it cannot be
+// read. Pixels themselves are not checked.
+bool isWholePicture(const std::string& path, uint32_t width = 0, uint32_t height = 0);
+
 // A report beside pictures, e.g. JSON. The file appears whole or not at all. Fails with
 // ErrorKind::outputNotWritten.
 Status writeText(const std::string& path, const std::string& text);

@@ -74,6 +74,9 @@ struct Frame {
   FrameStats stats;
 };
 
+// Seconds after which every clip that a look plays has played once; 0 where none does.
+double playedSeconds(const Scene& scene, const Look& look);
+
 class Renderer {
  public:
   static Result<std::unique_ptr<Renderer>> create(const RendererOptions& options = {});
@@ -95,8 +98,10 @@ class Renderer {
                const RenderOptions& options);
   Result<Frame> finish();
 
-  // Names of everything that can be saved beside the picture.
+  // Names of everything that can be saved beside the picture, and whether what one holds (metres, positions,
+  // numbers of objects) needs 32 bits; the picture's own name is empty.
   static std::vector<std::string> aovNames();
+  static bool needsFloat(const std::string& aov);
 
   GpuInfo gpu() const;
   int validationMessages() const;  // since the start

@@ -424,6 +424,22 @@ std::vector<std::string> Renderer::aovNames() {
   return names;
 }
 
+bool Renderer::needsFloat(const std::string& aov) {
+  const std::optional<Slot> slot = slotOfAov(aov);
+  if (!slot) return false;
+  const VkFormat format = slotInfo(*slot).format;
+  return format == VK_FORMAT_R32G32B32A32_SFLOAT || gpu::isDepthFormat(format);
+}
+
+double playedSeconds(const Scene& scene, const Look& look) {
+  if (scene.empty()) return 0;
+  double seconds = 0;
+  for (const scene::PlayedClip& played : playedClips(scene.data(), look.data().at(0)))
+    if (played.speed != 0)
+      seconds = std::max(seconds, scene.data().clips[size_t(played.clip)].duration / std::abs(played.speed));
+  return seconds;
+}
+
 GpuInfo Renderer::gpu() const {
   GpuInfo info = toPublic(impl_->device->info());
   info.wouldBeUsed = true;

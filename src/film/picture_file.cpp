@@ -1,0 +1,53 @@
+// Whether a picture's file is whole, without reading its pixels.
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+
+#include <array>
+#include <cstring>
+#include <fstream>
+
+#include "scumble/image.h"
+
+namespace scumble {
+namespace {
+
+constexpr unsigned char kPngStart[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+// The chunk that ends every PNG: no data, its name, its check sum.
+constexpr unsigned char kPngEnd[] = {0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
+constexpr unsigned char kExrStart[] = {0x76, 0x2f, 0x31, 0x01};
+
+uint32_t bigEndian(const unsigned char* bytes) {
+  return uint32_t(bytes[0]) << 24 | uint32_t(bytes[1]) << 16 | uint32_t(bytes[2]) << 8 | bytes[3];
+}
+
+bool fits(uint32_t wanted, uint32_t found) {
+  return wanted == 0 || wanted == found;
+}
+
+}  // namespace
+
+bool isWholePicture(const std::string& path, uint32_t width, uint32_t height) {
+  try {
+    std::ifstream file(path, std::ios::binary);
+    std::array<unsigned char, 24> start{};
+    std::array<unsigned char, sizeof(kPngEnd)> end{};
+    if (!file.read(reinterpret_cast<char*>(start.data()), start.size())) return false;
+    if (std::memcmp(start.data(), kExrStart, sizeof(kExrStart)) == 0) {
+      file.close();
+      const Imf::InputFile exr(path.c_str());
+      const auto window = exr.header().dataWindow();
+      return exr.isComplete() && fits(width, uint32_t(window.max.x - window.min.x + 1)) &&
+             fits(height, uint32_t(window.max.y - window.min.y + 1));
+    }
+    if (std::memcmp(start.data(), kPngStart, sizeof(kPngStart)) != 0) return false;
+    // The header's chunk comes first: length, name, width, height.
+    if (!fits(width, bigEndian(&start[16])) || !fits(height, bigEndian(&start[20]))) return false;
+    file.seekg(-int(end.size()), std::ios::end);
+    return file.read(reinterpret_cast<char*>(end.data()), end.size()) &&
+           std::memcmp(end.data(), kPngEnd, sizeof(kPngEnd)) == 0;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+}  // namespace scumble
