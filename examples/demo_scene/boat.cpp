@@ -1,4 +1,4 @@
-// The boat as a whole: hull, rig, sails, and the sailor who steers her.
+// The boat as a whole: hull, rig, sails, and the sailor who hauls in her sheet.
 #include "hull_form.h"
 #include "parts.h"
 
@@ -18,15 +18,9 @@ int addBoat(Document& document, int parent) {
   addRig(document, boat);
   addSails(document, boat);
 
-  // He sits on the after deck, a little to windward, and faces ahead: out of the sails' shadow, in clear
-  // profile.
-  constexpr float kTurn = 0.26f, kScale = 1.14f;
-  const glm::vec3 seat = {-2.06f, 0.75f, 0.27f};
-  const glm::quat facing = glm::angleAxis(0.5f * kPi + kTurn, glm::vec3(0, 1, 0));
-  const glm::vec3 tiller = {-1.50f, 1.045f, -0.20f};
-  const glm::vec3 hand = glm::inverse(facing) * (tiller - seat) / kScale;
   addFoam(document, parent, document.worldMatrix(boat));
-  addSailor(document, boat, seat, facing, kScale, hand);
+  addSailor(document, boat);
+  addSheet(document, boat);
   return boat;
 }
 

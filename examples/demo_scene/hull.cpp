@@ -206,7 +206,7 @@ Mesh makeTiller() {
   MeshBuilder mesh("Tiller");
   mesh.setMaterial(kMast);
   const auto path = smoothCurve(
-      {{-2.78f, 0.93f, 0.0f}, {-2.4f, 0.97f, -0.04f}, {-2.0f, 0.98f, -0.11f}, {-1.44f, 1.05f, -0.215f}}, 4);
+      {{-2.78f, 0.93f, 0.0f}, {-2.4f, 0.97f, -0.07f}, {-2.0f, 0.98f, -0.17f}, {-1.44f, 1.03f, -0.33f}}, 4);
   std::vector<float> radii;
   for (size_t i = 0; i < path.size(); ++i)
     radii.push_back(glm::mix(0.042f, 0.028f, float(i) / float(path.size())));

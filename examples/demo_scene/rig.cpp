@@ -93,6 +93,7 @@ Mesh makeRunningRigging() {
   rope(mesh, mastPoint(4.4f) + glm::vec3(0.09f, 0, 0.06f), mastPoint(0.95f) + glm::vec3(0.12f, 0, 0.08f));
   mesh.setMaterial(kTrim);
   mesh.box(block + glm::vec3(-0.02f, -0.1f, 0), {0.07f, 0.12f, 0.05f});
+  mesh.box(sheetBlock() + glm::vec3(0, 0.03f, 0), {0.07f, 0.13f, 0.05f});
   mesh.box(horse + glm::vec3(0, 0.02f, 0), {0.08f, 0.12f, 0.05f});
   mesh.box(mastPoint(kMastTop - 0.57f) + glm::vec3(-0.08f, 0, 0), {0.06f, 0.11f, 0.05f});
   return mesh.take();

@@ -1,0 +1,56 @@
+// The part of the sheet that the old sailor hauls on: from the block under the boom to his fists, and its slack
+// down into the cockpit.
+#include "haul.h"
+#include "parts.h"
+#include "rig_form.h"
+#include "timing.h"
+
+namespace demo {
+namespace {
+
+using namespace meshkit;
+
+enum Joint : int { kAtBlock, kInHands, kOnSole };
+
+Binding mixed(int a, int b, float t) {
+  if (t <= 0.0f) return {{uint16_t(a), 0, 0, 0}, {1, 0, 0, 0}};
+  if (t >= 1.0f) return {{uint16_t(b), 0, 0, 0}, {1, 0, 0, 0}};
+  return {{uint16_t(a), uint16_t(b), 0, 0}, {1.0f - t, t, 0, 0}};
+}
+
+// Where his lower hand lets the sheet go, in the boat.
+glm::vec3 gripAt(float time) {
+  return glm::vec3(sailorInBoat() * glm::vec4(haulAt(time * kFrameRate).grip, 1.0f));
+}
+
+// Joints only move, they do not turn: so what is bound to two of them in parts is a straight line.
+Mesh makeSheet(glm::vec3 block, glm::vec3 grip, glm::vec3 sole) {
+  MeshBuilder mesh("Sheet");
+  mesh.setMaterial(kRope);
+  constexpr float kRadius = 0.019f;
+  mesh.setBinding([=](glm::vec3 p) {
+    const glm::vec3 line = grip - block;
+    return mixed(kAtBlock, kInHands, glm::dot(p - block, line) / glm::dot(line, line));
+  });
+  mesh.tube({block, glm::mix(block, grip, 0.33f), glm::mix(block, grip, 0.67f), grip}, {kRadius}, 6);
+  // The slack falls to the near side of his knee.
+  mesh.setBinding([=](glm::vec3 p) { return mixed(kOnSole, kInHands, (p.y - sole.y) / (grip.y - sole.y)); });
+  mesh.tube(smoothCurve({grip, glm::mix(grip, sole, 0.12f) + glm::vec3(0.03f, -0.08f, -0.10f),
+                         glm::mix(grip, sole, 0.5f) + glm::vec3(0.10f, -0.02f, -0.16f), sole},
+                        4),
+            {kRadius}, 6);
+  return mesh.take();
+}
+
+}  // namespace
+
+void addSheet(Document& document, int boat) {
+  const glm::vec3 block = sheetBlock(), grip = gripAt(0.0f), sole = {-1.52f, kSole + 0.02f, 0.02f};
+  const int atBlock = document.addNode({"SheetAtBlock", boat, block}),
+            inHands = document.addNode({"SheetInHands", boat, grip}),
+            onSole = document.addNode({"SheetOnSole", boat, sole});
+  document.addBoundMesh(makeSheet(block, grip, sole), {atBlock, inHands, onSole}, boat);
+  sailing(document).channels.push_back(translationKeys(inHands, onTwos(), gripAt));
+}
+
+}  // namespace demo
