@@ -47,22 +47,22 @@ class Curve {
 // Frames: 0 hangs on straight arms, 14 has drawn to the chest, 22 to 34 left hand over right, 36 to 48 right
 // over left while he comes forward, 60 reaches furthest, 72 has thrown himself back.
 const Curve kLean{  // degrees forward
-    {{0, -25}, {14, -31}, {22, -28}, {34, -12}, {48, 20}, {60, 28}, {66, 12}, {72, -17}, {84, -22}}};
+    {{0, -36}, {14, -44}, {22, -40}, {34, -16}, {48, 16}, {60, 25}, {66, 10}, {72, -24}, {84, -31}}};
 const Curve kTwist{  // degrees, the left shoulder back
-    {{0, 4}, {14, -6}, {22, -4}, {32, -18}, {36, -16}, {46, 16}, {52, 10}, {60, 0}, {72, 6}}};
+    {{0, 4}, {14, -8}, {22, -6}, {32, -20}, {36, -18}, {46, 18}, {52, 12}, {60, 0}, {72, 8}}};
 const Curve kForward{  // metres, of the hips
-    {{0, -0.05f}, {14, -0.06f}, {30, -0.03f}, {48, 0.12f}, {58, 0.15f}, {64, -0.02f}, {70, -0.07f}}};
+    {{0, -0.06f}, {14, -0.07f}, {30, -0.03f}, {48, 0.05f}, {58, 0.07f}, {64, -0.03f}, {70, -0.08f}}};
 const Curve kUp{  // metres, of the hips
-    {{0, -0.01f}, {14, -0.015f}, {34, 0}, {50, 0.06f}, {58, 0.075f}, {66, -0.02f}, {72, -0.015f}}};
+    {{0, -0.01f}, {14, -0.015f}, {34, 0}, {50, 0.05f}, {58, 0.06f}, {66, -0.02f}, {72, -0.015f}}};
 const Curve kNod{  // degrees, chin down
-    {{0, 8}, {14, 14}, {30, 2}, {50, -10}, {60, 4}, {72, 14}, {84, 9}}};
+    {{0, 6}, {14, 14}, {30, 2}, {50, -12}, {60, 2}, {72, 14}, {84, 8}}};
 
 // How far from the block each hand holds the sheet, metres of his space. Where it says 0 the arm is straight.
-const Curve kHoldLeft{{{0, 0}, {14, 0.92f}, {22, 0.91f}, {32, 0.55f}, {48, 0.54f}, {53, 0.40f}, {62, 0.40f}, {66, 0}}};
-const Curve kHoldRight{{{0, 0}, {14, 0.79f}, {36, 0.78f}, {46, 0.24f}, {62, 0.24f}, {66, 0}}};
+const Curve kHoldLeft{{{0, 0}, {14, 1.24f}, {22, 1.23f}, {32, 0.76f}, {48, 0.75f}, {54, 0.39f}, {62, 0.39f}, {66, 0}}};
+const Curve kHoldRight{{{0, 0}, {14, 1.08f}, {36, 1.08f}, {46, 0.23f}, {62, 0.23f}, {66, 0}}};
 // Metres that a hand is off the sheet, on its way.
-const Curve kOffLeft{{{22, 0}, {27, 0.10f}, {32, 0}}};
-const Curve kOffRight{{{36, 0}, {41, 0.10f}, {46, 0}}};
+const Curve kOffLeft{{{22, 0}, {27, 0.12f}, {32, 0}}};
+const Curve kOffRight{{{36, 0}, {41, 0.12f}, {46, 0}}};
 // Which hand is the lower one: 1 the left.
 const Curve kLowerLeft{{{0, 1}, {21, 1}, {25, 0}, {35, 0}, {39, 1}}};
 
@@ -143,8 +143,8 @@ void poseArms(Figure& figure, float f) {
   static const glm::mat4 fromBoat = glm::inverse(sailorInBoat());
   static const glm::vec3 block = glm::vec3(fromBoat * glm::vec4(sheetBlock(), 1.0f));
   // The sheet runs from the block to before his breastbone.
-  const glm::vec3 along = glm::normalize(figure.place(kChest, {0.0f, 0.40f, 0.16f}) - block);
-  constexpr float kArm = 0.60f, kBetween = 0.125f;
+  const glm::vec3 along = glm::normalize(figure.place(kChest, {0.05f, 0.34f, 0.27f}) - block);
+  constexpr float kArm = 0.60f, kBetween = 0.15f;
   auto hold = [&](int arm, float keyed) {
     return std::max(keyed, nearestHold(block, along, figure.place(kChest, sailorBones()[size_t(arm)].at), kArm));
   };

@@ -85,10 +85,10 @@ Mesh makeRunningRigging() {
   // Peak halyard in two parts, topping lift, and the sheet from the boom to the deck at the stern.
   rope(mesh, mastPoint(kMastTop - 0.55f), gaffPoint(0.92f));
   rope(mesh, mastPoint(kMastTop - 0.80f), gaffPoint(0.52f));
-  const glm::vec3 block = boomPoint(0.70f);
-  const glm::vec3 horse = {-0.55f, kSole + 0.03f, -0.06f};
+  const glm::vec3 block = boomPoint(0.60f);
+  const glm::vec3 horse = {-0.48f, kSole + 0.03f, -0.06f};
   rope(mesh, block, horse, 0.0f);
-  rope(mesh, boomPoint(0.78f), horse + glm::vec3(-0.06f, 0, 0.02f), 0.0f);
+  rope(mesh, boomPoint(0.68f), horse + glm::vec3(-0.06f, 0, 0.02f), 0.0f);
   // Halyard falls along the mast down to a pin.
   rope(mesh, mastPoint(4.4f) + glm::vec3(0.09f, 0, 0.06f), mastPoint(0.95f) + glm::vec3(0.12f, 0, 0.08f));
   mesh.setMaterial(kTrim);

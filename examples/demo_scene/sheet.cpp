@@ -35,8 +35,8 @@ Mesh makeSheet(glm::vec3 block, glm::vec3 grip, glm::vec3 sole) {
   mesh.tube({block, glm::mix(block, grip, 0.33f), glm::mix(block, grip, 0.67f), grip}, {kRadius}, 6);
   // The slack falls to the near side of his knee.
   mesh.setBinding([=](glm::vec3 p) { return mixed(kOnSole, kInHands, (p.y - sole.y) / (grip.y - sole.y)); });
-  mesh.tube(smoothCurve({grip, glm::mix(grip, sole, 0.12f) + glm::vec3(0.03f, -0.08f, -0.10f),
-                         glm::mix(grip, sole, 0.5f) + glm::vec3(0.10f, -0.02f, -0.16f), sole},
+  mesh.tube(smoothCurve({grip, glm::mix(grip, sole, 0.15f) + glm::vec3(0.04f, -0.06f, -0.13f),
+                         glm::mix(grip, sole, 0.5f) + glm::vec3(0.10f, -0.02f, -0.17f), sole},
                         4),
             {kRadius}, 6);
   return mesh.take();
