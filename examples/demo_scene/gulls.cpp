@@ -78,7 +78,7 @@ Mesh makeGull(const std::string& name) {
 struct Flight {
   glm::vec3 start;      // where it is when the clip begins
   float heading, bank;  // radians, then; heading 0 flies towards the viewer, a positive bank turns right
-  float radius, rise;   // metres
+  float radius, rise;   // metres; halfway it is twice `rise` higher
   float beatsFrom, beats, lift;  // seconds; how many; radians, of the wings when it glides
 };
 constexpr float kBeat = 2.0f / 3.0f;  // seconds: eight drawn poses
@@ -103,7 +103,7 @@ glm::vec3 placeAt(const Flight& flight, float time) {
   // The heading turns with the circle: what was on its right at the start is the centre.
   const glm::vec3 center = flight.start + right(flight.heading);
   return center - right(flight.heading - angle) +
-         glm::vec3(0, flight.rise * std::sin(phase(time, kLoop)), 0);
+         glm::vec3(0, flight.rise * (1.0f - std::cos(phase(time, kLoop))), 0);
 }
 
 glm::quat attitudeAt(const Flight& flight, float time) {
@@ -155,9 +155,9 @@ void addGull(Document& document, int parent, const std::string& name, const Flig
 
 int addGulls(Document& document, int parent) {
   const int gulls = document.addNode({"Gulls", parent});
-  const Flight flights[] = {{{-2.5f, 7.0f, 1.0f}, -2.05f, 0.42f, 3.4f, 0.35f, 1.5f, 4.0f, 0.42f},
-                            {{-2.2f, 12.4f, -31.0f}, -2.3f, -0.34f, 7.0f, 0.6f, 5.0f, 3.0f, 0.30f},
-                            {{8.3f, 11.6f, -14.0f}, -1.2f, 0.34f, 5.5f, 0.5f, 3.4f, 5.0f, 0.50f}};
+  const Flight flights[] = {{{-1.6f, 7.0f, 1.0f}, -2.05f, 0.42f, 3.4f, 0.45f, 1.5f, 4.0f, 0.42f},
+                            {{2.0f, 13.2f, -31.0f}, -2.3f, 0.34f, 7.0f, 0.5f, 5.0f, 3.0f, 0.30f},
+                            {{8.3f, 11.6f, -14.0f}, -1.2f, 0.34f, 4.5f, 0.9f, 3.4f, 5.0f, 0.50f}};
   int number = 1;
   for (const Flight& f : flights) addGull(document, gulls, "Gull" + std::to_string(number++), f);
   return gulls;

@@ -27,18 +27,18 @@ glm::vec3 gripAt(float time) {
 Mesh makeSheet(glm::vec3 block, glm::vec3 grip, glm::vec3 sole) {
   MeshBuilder mesh("Sheet");
   mesh.setMaterial(kRope);
-  constexpr float kRadius = 0.019f;
+  constexpr float kTaut = 0.018f, kSlack = 0.0135f;  // metres; the hauled part is the picture's line
   mesh.setBinding([=](glm::vec3 p) {
     const glm::vec3 line = grip - block;
     return mixed(kAtBlock, kInHands, glm::dot(p - block, line) / glm::dot(line, line));
   });
-  mesh.tube({block, glm::mix(block, grip, 0.33f), glm::mix(block, grip, 0.67f), grip}, {kRadius}, 6);
+  mesh.tube({block, glm::mix(block, grip, 0.33f), glm::mix(block, grip, 0.67f), grip}, {kTaut}, 6);
   // The slack falls to the near side of his knee.
   mesh.setBinding([=](glm::vec3 p) { return mixed(kOnSole, kInHands, (p.y - sole.y) / (grip.y - sole.y)); });
   mesh.tube(smoothCurve({grip, glm::mix(grip, sole, 0.15f) + glm::vec3(0.04f, -0.06f, -0.13f),
-                         glm::mix(grip, sole, 0.5f) + glm::vec3(0.10f, -0.02f, -0.17f), sole},
+                         glm::mix(grip, sole, 0.5f) + glm::vec3(0.13f, -0.10f, -0.18f), sole},
                         4),
-            {kRadius}, 6);
+            {kSlack}, 6);
   return mesh.take();
 }
 
