@@ -13,10 +13,6 @@ enum Joint : int { kBody, kInner, kOuter, kInnerRight, kOuterRight, kJointCount 
 // The left wing's shoulder and wrist.
 constexpr glm::vec3 kShoulder = {0.05f, 0.03f, 0.02f}, kWrist = {0.42f, 0.03f, 0.06f};
 
-Binding only(int joint) {
-  return {{uint16_t(joint), 0, 0, 0}, {1, 0, 0, 0}};
-}
-
 // A wing bends at the shoulder and at the wrist.
 Binding wing(glm::vec3 p) {
   const int right = p.x < 0 ? 2 : 0;
@@ -25,15 +21,13 @@ Binding wing(glm::vec3 p) {
   const float t = atWrist ? glm::smoothstep(kWrist.x - 0.08f, kWrist.x + 0.08f, out)
                           : glm::smoothstep(0.03f, 0.12f, out);
   const int from = atWrist ? kInner + right : int(kBody), to = (atWrist ? kOuter : kInner) + right;
-  if (t <= 0.0f) return only(from);
-  if (t >= 1.0f) return only(to);
-  return {{uint16_t(from), uint16_t(to), 0, 0}, {1.0f - t, t, 0, 0}};
+  return boundBetween(from, to, t);
 }
 
 // Flies towards +Z, its wings level.
 Mesh makeGull(const std::string& name) {
   MeshBuilder mesh(name);
-  mesh.setBinding([](glm::vec3) { return only(kBody); });
+  mesh.setBinding([](glm::vec3) { return boundTo(kBody); });
   mesh.setMaterial(kGull);
   auto ring = [](float z, float y, float width, float height) {
     return ellipseRing({0, y, z}, {width, 0, 0}, {0, height, 0}, 8);

@@ -58,8 +58,8 @@ const Curve kNod{  // degrees, chin down
     {{0, 6}, {14, 14}, {30, 2}, {50, -12}, {60, 2}, {72, 14}, {84, 8}}};
 
 // How far from the block each hand holds the sheet, metres of his space. Where it says 0 the arm is straight.
-const Curve kHoldLeft{{{0, 0}, {14, 1.24f}, {22, 1.23f}, {32, 0.76f}, {48, 0.75f}, {54, 0.39f}, {62, 0.39f}, {66, 0}}};
-const Curve kHoldRight{{{0, 0}, {14, 1.08f}, {36, 1.08f}, {46, 0.23f}, {62, 0.23f}, {66, 0}}};
+const Curve kHoldLeft{{{0, 0}, {14, 1.15f}, {22, 1.14f}, {32, 0.74f}, {48, 0.75f}, {54, 0.39f}, {62, 0.39f}, {66, 0}}};
+const Curve kHoldRight{{{0, 0}, {14, 1.00f}, {36, 1.00f}, {46, 0.23f}, {62, 0.23f}, {66, 0}}};
 // Metres that a hand is off the sheet, on its way.
 const Curve kOffLeft{{{22, 0}, {27, 0.12f}, {32, 0}}};
 const Curve kOffRight{{{36, 0}, {41, 0.12f}, {46, 0}}};
@@ -143,7 +143,7 @@ void poseArms(Figure& figure, float f) {
   static const glm::mat4 fromBoat = glm::inverse(sailorInBoat());
   static const glm::vec3 block = glm::vec3(fromBoat * glm::vec4(sheetBlock(), 1.0f));
   // The sheet runs from the block to before his breastbone.
-  const glm::vec3 along = glm::normalize(figure.place(kChest, {0.05f, 0.34f, 0.27f}) - block);
+  const glm::vec3 along = glm::normalize(figure.place(kChest, {0.09f, 0.34f, 0.29f}) - block);
   constexpr float kArm = 0.60f, kBetween = 0.15f;
   auto hold = [&](int arm, float keyed) {
     return std::max(keyed, nearestHold(block, along, figure.place(kChest, sailorBones()[size_t(arm)].at), kArm));
@@ -155,7 +155,7 @@ void poseArms(Figure& figure, float f) {
   auto put = [&](int arm, float held, float off, float side) {
     const glm::vec3 away = glm::normalize(glm::vec3(0.7f * side, 0.7f, 0.0f));
     reach(figure, arm, block + along * held + away * off,
-          figure.turn[kChest] * glm::vec3(0.75f * side, -0.65f, -0.1f));
+          figure.turn[kChest] * glm::vec3(0.65f * side, -0.45f, -0.6f));
     figure.pose(arm + 2, glm::quat(1, 0, 0, 0));
   };
   put(kUpperArm, left, kOffLeft.at(f), 1.0f);
@@ -166,7 +166,7 @@ void poseArms(Figure& figure, float f) {
 void poseLegs(Figure& figure) {
   static const glm::mat4 fromBoat = glm::inverse(sailorInBoat());
   // The left foot stands on the sole, the right one is braced against the far bench.
-  const glm::vec3 stands[] = {{-1.40f, kSole + 0.115f, 0.22f}, {-1.24f, kBench + 0.115f, 0.46f}};
+  const glm::vec3 stands[] = {{-1.40f, kSole + 0.115f, 0.22f}, {-1.24f, kBench + 0.115f, 0.43f}};
   for (int side = 0; side < 2; ++side) {
     const int thigh = kThigh + side * kRightSide;
     reach(figure, thigh, glm::vec3(fromBoat * glm::vec4(stands[side], 1.0f)),

@@ -123,8 +123,7 @@ Mesh makePennant() {
     // Between the two joints that are nearest along it.
     const float u = std::clamp(-p.x / (0.93f * 0.88f) * float(kPennantJoints), 0.0f, kPennantJoints - 1.0f);
     const int joint = std::min(int(u), kPennantJoints - 2);
-    const float t = glm::smoothstep(0.0f, 1.0f, u - float(joint));
-    return Binding{{uint16_t(joint), uint16_t(t > 0 ? joint + 1 : 0), 0, 0}, {1.0f - t, t, 0, 0}};
+    return boundBetween(joint, joint + 1, glm::smoothstep(0.0f, 1.0f, u - float(joint)));
   });
   Grid cloth(5, kColumns);
   for (size_t c = 0; c < kColumns; ++c)

@@ -24,21 +24,11 @@ std::vector<std::vector<glm::vec3>> rings(const std::vector<Section>& sections, 
   return result;
 }
 
-Binding only(int a) {
-  return {{uint16_t(a), 0, 0, 0}, {1, 0, 0, 0}};
-}
-
-Binding between(int a, int b, float t) {
-  if (t <= 0.0f) return only(a);
-  if (t >= 1.0f) return only(b);
-  return {{uint16_t(a), uint16_t(b), 0, 0}, {1.0f - t, t, 0, 0}};
-}
-
 // The coat bends over three bones and its collar a little with the neck.
 Binding torso(glm::vec3 p) {
-  if (p.y < 0.16f) return between(kHips, kSpine, glm::smoothstep(0.02f, 0.16f, p.y));
-  if (p.y < 0.50f) return between(kSpine, kChest, glm::smoothstep(0.20f, 0.40f, p.y));
-  return between(kChest, kNeck, 0.4f * glm::smoothstep(0.58f, 0.67f, p.y));
+  if (p.y < 0.16f) return boundBetween(kHips, kSpine, glm::smoothstep(0.02f, 0.16f, p.y));
+  if (p.y < 0.50f) return boundBetween(kSpine, kChest, glm::smoothstep(0.20f, 0.40f, p.y));
+  return boundBetween(kChest, kNeck, 0.4f * glm::smoothstep(0.58f, 0.67f, p.y));
 }
 
 // A limb of three bones: each joint bends over `soft` metres to both sides.
@@ -46,8 +36,8 @@ Binding limb(int first, float soft, glm::vec3 p) {
   const glm::vec3 a = bone(first), b = bone(first + 1), c = bone(first + 2);
   const glm::vec3 upper = glm::normalize(b - a), lower = glm::normalize(c - b);
   const float atEnd = glm::dot(p - c, lower);
-  if (atEnd > -0.03f) return between(first + 1, first + 2, glm::smoothstep(-0.03f, 0.0f, atEnd));
-  return between(first, first + 1,
+  if (atEnd > -0.03f) return boundBetween(first + 1, first + 2, glm::smoothstep(-0.03f, 0.0f, atEnd));
+  return boundBetween(first, first + 1,
                  glm::smoothstep(-soft, soft, glm::dot(p - b, glm::normalize(upper + lower))));
 }
 
@@ -67,12 +57,12 @@ void addArm(MeshBuilder& mesh, int upperArm) {
     radii.push_back(glm::mix(0.100f, 0.068f, float(i - 5) / float(path.size() - 6)));
   mesh.tube(path, radii, 10);
   // Turned-up cuff, then the fist around the sheet, with a thumb.
-  mesh.setBinding([=](glm::vec3) { return only(upperArm + 1); });
+  mesh.setBinding([=](glm::vec3) { return boundTo(upperArm + 1); });
   mesh.setMaterial(kCoatDark);
   mesh.tube({wrist - along * 0.06f, wrist + along * 0.012f}, {0.076f, 0.080f}, 9);
   mesh.setMaterial(kSkin);
   mesh.tube({wrist - along * 0.01f, wrist + along * 0.02f}, {0.040f, 0.044f}, 8);
-  mesh.setBinding([=](glm::vec3) { return only(upperArm + 2); });
+  mesh.setBinding([=](glm::vec3) { return boundTo(upperArm + 2); });
   mesh.tube({hand - along * 0.062f, hand - along * 0.04f, hand, hand + along * 0.035f, hand + along * 0.052f},
             {0.034f, 0.052f, 0.061f, 0.052f, 0.026f}, 9);
 }
@@ -105,7 +95,7 @@ void addCoat(MeshBuilder& mesh) {
   mesh.setMaterial(kCoat);
   for (int thigh : {kThigh, kThighRight}) {
     const float side = bone(thigh).x < 0 ? -1.0f : 1.0f;
-    mesh.setBinding([=](glm::vec3 p) { return between(kHips, thigh, glm::smoothstep(-0.02f, 0.14f, p.z)); });
+    mesh.setBinding([=](glm::vec3 p) { return boundBetween(kHips, thigh, glm::smoothstep(-0.02f, 0.14f, p.z)); });
     mesh.tube({{side * 0.10f, 0.02f, 0.02f}, {side * 0.115f, 0.035f, 0.18f}, {side * 0.125f, 0.03f, 0.31f}},
               {0.14f, 0.13f, 0.118f}, 10);
   }
@@ -122,12 +112,12 @@ void addLeg(MeshBuilder& mesh, int thigh) {
                         2),
             {0.10f, 0.10f, 0.10f, 0.098f, 0.094f, 0.090f, 0.085f, 0.08f, 0.075f}, 9);
   // Turned-over top, shaft, and a foot with a heel.
-  mesh.setBinding([=](glm::vec3) { return only(thigh + 1); });
+  mesh.setBinding([=](glm::vec3) { return boundTo(thigh + 1); });
   mesh.setMaterial(kBoots);
   mesh.tube({{x, -0.235f, 0.475f}, {x, -0.135f, 0.488f}}, {0.094f, 0.104f}, 9);
   mesh.setBinding([=](glm::vec3 p) { return limb(thigh, 0.08f, p); });
   mesh.tube({{x, -0.45f, 0.45f}, {x, -0.36f, 0.455f}, {x, -0.20f, 0.48f}}, {0.070f, 0.066f, 0.085f}, 9);
-  mesh.setBinding([=](glm::vec3) { return only(thigh + 2); });
+  mesh.setBinding([=](glm::vec3) { return boundTo(thigh + 2); });
   mesh.loft({ellipseRing({x, -0.47f, 0.375f}, {0.045f, 0, 0}, {0, 0.035f, 0}, 8, 0.7f),
              ellipseRing({x, -0.445f, 0.44f}, {0.062f, 0, 0}, {0, 0.068f, 0}, 8, 0.7f),
              ellipseRing({x, -0.455f, 0.54f}, {0.066f, 0, 0}, {0, 0.058f, 0}, 8, 0.7f),
@@ -222,7 +212,7 @@ Mesh makeSailor() {
   addLeg(mesh, kThigh);
   addLeg(mesh, kThighRight);
   // Beard and cap are the head's. A head a little large reads better from afar.
-  mesh.setBinding([](glm::vec3) { return only(kHead); });
+  mesh.setBinding([](glm::vec3) { return boundTo(kHead); });
   mesh.setTransform(glm::scale(glm::translate(glm::mat4(1.0f), bone(kHead)), glm::vec3(1.26f)));
   addFace(mesh);
   addBeard(mesh);

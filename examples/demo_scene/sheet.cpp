@@ -12,12 +12,6 @@ using namespace meshkit;
 
 enum Joint : int { kAtBlock, kInHands, kOnSole };
 
-Binding mixed(int a, int b, float t) {
-  if (t <= 0.0f) return {{uint16_t(a), 0, 0, 0}, {1, 0, 0, 0}};
-  if (t >= 1.0f) return {{uint16_t(b), 0, 0, 0}, {1, 0, 0, 0}};
-  return {{uint16_t(a), uint16_t(b), 0, 0}, {1.0f - t, t, 0, 0}};
-}
-
 // Where his lower hand lets the sheet go, in the boat.
 glm::vec3 gripAt(float time) {
   return glm::vec3(sailorInBoat() * glm::vec4(haulAt(time * kFrameRate).grip, 1.0f));
@@ -30,11 +24,11 @@ Mesh makeSheet(glm::vec3 block, glm::vec3 grip, glm::vec3 sole) {
   constexpr float kTaut = 0.018f, kSlack = 0.0135f;  // metres; the hauled part is the picture's line
   mesh.setBinding([=](glm::vec3 p) {
     const glm::vec3 line = grip - block;
-    return mixed(kAtBlock, kInHands, glm::dot(p - block, line) / glm::dot(line, line));
+    return boundBetween(kAtBlock, kInHands, glm::dot(p - block, line) / glm::dot(line, line));
   });
   mesh.tube({block, glm::mix(block, grip, 0.33f), glm::mix(block, grip, 0.67f), grip}, {kTaut}, 6);
   // The slack falls to the near side of his knee.
-  mesh.setBinding([=](glm::vec3 p) { return mixed(kOnSole, kInHands, (p.y - sole.y) / (grip.y - sole.y)); });
+  mesh.setBinding([=](glm::vec3 p) { return boundBetween(kOnSole, kInHands, (p.y - sole.y) / (grip.y - sole.y)); });
   mesh.tube(smoothCurve({grip, glm::mix(grip, sole, 0.15f) + glm::vec3(0.04f, -0.06f, -0.13f),
                          glm::mix(grip, sole, 0.5f) + glm::vec3(0.13f, -0.10f, -0.18f), sole},
                         4),

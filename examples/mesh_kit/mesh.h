@@ -16,6 +16,17 @@ struct Binding {
   glm::vec4 weights{0.0f};
 };
 
+inline Binding boundTo(int joint) {
+  return {{uint16_t(joint), 0, 0, 0}, {1.0f, 0.0f, 0.0f, 0.0f}};
+}
+
+// `t` of the way from one joint to the other. glTF wants joints without weight to be 0.
+inline Binding boundBetween(int from, int to, float t) {
+  if (t <= 0.0f) return boundTo(from);
+  if (t >= 1.0f) return boundTo(to);
+  return {{uint16_t(from), uint16_t(to), 0, 0}, {1.0f - t, t, 0.0f, 0.0f}};
+}
+
 struct Vertex {
   glm::vec3 position, normal;
   glm::vec2 uv;
