@@ -18,8 +18,8 @@ Binding wing(glm::vec3 p) {
   const int right = p.x < 0 ? 2 : 0;
   const float out = std::abs(p.x);
   const bool atWrist = out > 0.25f;
-  const float t = atWrist ? glm::smoothstep(kWrist.x - 0.08f, kWrist.x + 0.08f, out)
-                          : glm::smoothstep(0.03f, 0.12f, out);
+  const float t =
+      atWrist ? glm::smoothstep(kWrist.x - 0.08f, kWrist.x + 0.08f, out) : glm::smoothstep(0.03f, 0.12f, out);
   const int from = atWrist ? kInner + right : int(kBody), to = (atWrist ? kOuter : kInner) + right;
   return boundBetween(from, to, t);
 }
@@ -138,8 +138,8 @@ void addGull(Document& document, int parent, const std::string& name, const Flig
     }));
     channels.push_back(rotationKeys(joints[size_t(kOuter + right)], onTwos(), [&, side](float time) {
       const Stroke stroke = strokeAt(flight, time);
-      const float lift = -0.85f * flight.lift - 0.12f +
-                         stroke.strength * (0.55f * std::sin(stroke.phase - 1.5f) - 0.15f);
+      const float lift =
+          -0.85f * flight.lift - 0.12f + stroke.strength * (0.55f * std::sin(stroke.phase - 1.5f) - 0.15f);
       return glm::angleAxis(side * lift, glm::vec3(0, 0, 1));
     }));
   }

@@ -46,20 +46,23 @@ class Curve {
 
 // Frames: 0 hangs on straight arms, 14 has drawn to the chest, 22 to 34 left hand over right, 36 to 48 right
 // over left while he comes forward, 60 reaches furthest, 72 has thrown himself back.
-const Curve kLean{  // degrees forward
-    {{0, -36}, {14, -44}, {22, -40}, {34, -16}, {48, 16}, {60, 25}, {66, 10}, {72, -24}, {84, -31}}};
-const Curve kTwist{  // degrees, the left shoulder back
-    {{0, 4}, {14, -8}, {22, -6}, {32, -20}, {36, -18}, {46, 18}, {52, 12}, {60, 0}, {72, 8}}};
-const Curve kForward{  // metres, of the hips
-    {{0, -0.06f}, {14, -0.07f}, {30, -0.03f}, {48, 0.05f}, {58, 0.07f}, {64, -0.03f}, {70, -0.08f}}};
-const Curve kUp{  // metres, of the hips
-    {{0, -0.01f}, {14, -0.015f}, {34, 0}, {50, 0.05f}, {58, 0.06f}, {66, -0.02f}, {72, -0.015f}}};
-const Curve kNod{  // degrees, chin down
-    {{0, 6}, {14, 14}, {30, 2}, {50, -12}, {60, 2}, {72, 14}, {84, 8}}};
+const Curve kLean{
+    // degrees forward
+    {{0, -36}, {14, -44}, {22, -40}, {34, -16}, {48, 12}, {60, 20}, {66, 6}, {72, -24}, {84, -31}}};
+const Curve kTwist{// degrees, the left shoulder back
+                   {{0, 4}, {14, -8}, {22, -6}, {32, -20}, {36, -18}, {46, 18}, {52, 12}, {60, 0}, {72, 8}}};
+const Curve kForward{
+    // metres, of the hips
+    {{0, -0.06f}, {14, -0.07f}, {30, -0.03f}, {48, 0.03f}, {58, 0.05f}, {64, -0.03f}, {70, -0.08f}}};
+const Curve kUp{// metres, of the hips
+                {{0, -0.01f}, {14, -0.015f}, {34, 0}, {50, 0.05f}, {58, 0.06f}, {66, -0.02f}, {72, -0.015f}}};
+const Curve kNod{// degrees, chin down
+                 {{0, 6}, {14, 14}, {30, 2}, {50, -12}, {60, 2}, {72, 14}, {84, 8}}};
 
 // How far from the block each hand holds the sheet, metres of his space. Where it says 0 the arm is straight.
-const Curve kHoldLeft{{{0, 0}, {14, 1.15f}, {22, 1.14f}, {32, 0.74f}, {48, 0.75f}, {54, 0.39f}, {62, 0.39f}, {66, 0}}};
-const Curve kHoldRight{{{0, 0}, {14, 1.00f}, {36, 1.00f}, {46, 0.23f}, {62, 0.23f}, {66, 0}}};
+const Curve kHoldLeft{
+    {{0, 0}, {14, 1.15f}, {22, 1.14f}, {32, 0.74f}, {48, 0.75f}, {54, 0.35f}, {62, 0.35f}, {66, 0}}};
+const Curve kHoldRight{{{0, 0}, {14, 1.00f}, {36, 1.00f}, {46, 0.20f}, {62, 0.20f}, {66, 0}}};
 // Metres that a hand is off the sheet, on its way.
 const Curve kOffLeft{{{22, 0}, {27, 0.12f}, {32, 0}}};
 const Curve kOffRight{{{36, 0}, {41, 0.12f}, {46, 0}}};
@@ -117,8 +120,8 @@ void reach(Figure& figure, int upper, glm::vec3 target, glm::vec3 bend) {
   const glm::vec3 side = glm::normalize(bend - along * glm::dot(bend, along));
   const glm::vec3 joint = from + along * a + side * h;
   const glm::vec3 bendBuilt = middle - glm::mix(root, end, 0.5f);
-  figure.poseInWorld(upper, glm::quat_cast(frame(joint - from, side) *
-                                           glm::transpose(frame(middle - root, bendBuilt))));
+  figure.poseInWorld(
+      upper, glm::quat_cast(frame(joint - from, side) * glm::transpose(frame(middle - root, bendBuilt))));
   figure.poseInWorld(upper + 1, glm::quat_cast(frame(from + along * length - joint, side) *
                                                glm::transpose(frame(end - middle, bendBuilt))));
 }
@@ -144,9 +147,11 @@ void poseArms(Figure& figure, float f) {
   static const glm::vec3 block = glm::vec3(fromBoat * glm::vec4(sheetBlock(), 1.0f));
   // The sheet runs from the block to before his breastbone.
   const glm::vec3 along = glm::normalize(figure.place(kChest, {0.09f, 0.34f, 0.29f}) - block);
-  constexpr float kArm = 0.60f, kBetween = 0.15f;
+  constexpr float kArm = 0.665f,
+                  kBetween = 0.15f;  // metres; his arm, all but straight, and from hand to hand
   auto hold = [&](int arm, float keyed) {
-    return std::max(keyed, nearestHold(block, along, figure.place(kChest, sailorBones()[size_t(arm)].at), kArm));
+    return std::max(keyed,
+                    nearestHold(block, along, figure.place(kChest, sailorBones()[size_t(arm)].at), kArm));
   };
   const float right = hold(kUpperArmRight, kHoldRight.at(f));
   float left = hold(kUpperArm, kHoldLeft.at(f));

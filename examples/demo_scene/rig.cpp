@@ -140,7 +140,8 @@ void addPennant(Document& document, int mast) {
   for (int i = 0; i < kPennantJoints; ++i) {
     const glm::vec3 at = pennantPoint(pennantJoint(i), 0.5f);
     const glm::vec3 before = i == 0 ? glm::vec3(0.0f) : pennantPoint(pennantJoint(i - 1), 0.5f);
-    joints.push_back(document.addNode({"Pennant" + std::to_string(i + 1), i == 0 ? top : joints.back(), at - before}));
+    joints.push_back(
+        document.addNode({"Pennant" + std::to_string(i + 1), i == 0 ? top : joints.back(), at - before}));
     sailing(document).channels.push_back(rotationKeys(joints.back(), onTwos(), [i](float time) {
       const float wave = std::sin(phase(time, 1.0f) - 1.1f * float(i)), reach = 0.07f + 0.055f * float(i);
       return glm::angleAxis(1.2f * reach * wave, glm::vec3(0, 1, 0)) *

@@ -38,7 +38,7 @@ Binding limb(int first, float soft, glm::vec3 p) {
   const float atEnd = glm::dot(p - c, lower);
   if (atEnd > -0.03f) return boundBetween(first + 1, first + 2, glm::smoothstep(-0.03f, 0.0f, atEnd));
   return boundBetween(first, first + 1,
-                 glm::smoothstep(-soft, soft, glm::dot(p - b, glm::normalize(upper + lower))));
+                      glm::smoothstep(-soft, soft, glm::dot(p - b, glm::normalize(upper + lower))));
 }
 
 void addArm(MeshBuilder& mesh, int upperArm) {
@@ -49,8 +49,8 @@ void addArm(MeshBuilder& mesh, int upperArm) {
   // The sleeve begins with a round shoulder, so that it fits the coat whatever way the arm points.
   mesh.setMaterial(kCoat);
   const std::vector<glm::vec3> path =
-      smoothCurve({shoulder - upper * 0.095f, shoulder - upper * 0.06f, shoulder, glm::mix(shoulder, bend, 0.5f),
-                   bend, glm::mix(bend, wrist, 0.5f), wrist},
+      smoothCurve({shoulder - upper * 0.095f, shoulder - upper * 0.06f, shoulder,
+                   glm::mix(shoulder, bend, 0.5f), bend, glm::mix(bend, wrist, 0.5f), wrist},
                   2);
   std::vector<float> radii = {0.03f, 0.07f, 0.085f, 0.096f, 0.102f};
   for (size_t i = radii.size(); i < path.size(); ++i)
@@ -95,7 +95,8 @@ void addCoat(MeshBuilder& mesh) {
   mesh.setMaterial(kCoat);
   for (int thigh : {kThigh, kThighRight}) {
     const float side = bone(thigh).x < 0 ? -1.0f : 1.0f;
-    mesh.setBinding([=](glm::vec3 p) { return boundBetween(kHips, thigh, glm::smoothstep(-0.02f, 0.14f, p.z)); });
+    mesh.setBinding(
+        [=](glm::vec3 p) { return boundBetween(kHips, thigh, glm::smoothstep(-0.02f, 0.14f, p.z)); });
     mesh.tube({{side * 0.10f, 0.02f, 0.02f}, {side * 0.115f, 0.035f, 0.18f}, {side * 0.125f, 0.03f, 0.31f}},
               {0.14f, 0.13f, 0.118f}, 10);
   }
@@ -108,9 +109,10 @@ void addLeg(MeshBuilder& mesh, int thigh) {
   const float x = ankle.x;
   mesh.setBinding([=](glm::vec3 p) { return limb(thigh, 0.08f, p); });
   mesh.setMaterial(kTrousers);
-  mesh.tube(smoothCurve({hip, glm::mix(hip, knee, 0.5f), {x, 0.018f, 0.43f}, {x, -0.06f, 0.488f}, {x, -0.28f, 0.47f}},
-                        2),
-            {0.10f, 0.10f, 0.10f, 0.098f, 0.094f, 0.090f, 0.085f, 0.08f, 0.075f}, 9);
+  mesh.tube(
+      smoothCurve(
+          {hip, glm::mix(hip, knee, 0.5f), {x, 0.018f, 0.43f}, {x, -0.06f, 0.488f}, {x, -0.28f, 0.47f}}, 2),
+      {0.10f, 0.10f, 0.10f, 0.098f, 0.094f, 0.090f, 0.085f, 0.08f, 0.075f}, 9);
   // Turned-over top, shaft, and a foot with a heel.
   mesh.setBinding([=](glm::vec3) { return boundTo(thigh + 1); });
   mesh.setMaterial(kBoots);
@@ -236,14 +238,12 @@ int addSailor(Document& document, int boat) {
   document.addBoundMesh(makeSailor(), joints, sailor);
 
   std::vector<Channel>& channels = sailing(document).channels;
-  channels.push_back(translationKeys(joints[kHips], onTwos(), [](float time) {
-    return haulAt(time * kFrameRate).hips;
-  }));
+  channels.push_back(
+      translationKeys(joints[kHips], onTwos(), [](float time) { return haulAt(time * kFrameRate).hips; }));
   for (int i = 0; i < kBoneCount; ++i) {
     if (i == kHand || i == kHandRight) continue;  // they go with their forearms
-    channels.push_back(rotationKeys(joints[size_t(i)], onTwos(), [i](float time) {
-      return haulAt(time * kFrameRate).turns[size_t(i)];
-    }));
+    channels.push_back(rotationKeys(joints[size_t(i)], onTwos(),
+                                    [i](float time) { return haulAt(time * kFrameRate).turns[size_t(i)]; }));
   }
   return sailor;
 }

@@ -48,8 +48,8 @@ inline const std::array<BoneForm, kBoneCount>& sailorBones() {
     b[kHead] = {"Head", kNeck, {0, 0.645f, 0.055f}};
     // The bends of elbows and knees lie in the middle of what they will do.
     b[kUpperArm] = {"UpperArmLeft", kChest, {0.205f, 0.485f, 0.02f}};
-    b[kForearm] = {"ForearmLeft", kUpperArm, {0.285f, 0.345f, 0.285f}};
-    b[kHand] = {"HandLeft", kForearm, {0.21f, 0.44f, 0.565f}};
+    b[kForearm] = {"ForearmLeft", kUpperArm, {0.293f, 0.331f, 0.312f}};
+    b[kHand] = {"HandLeft", kForearm, {0.21f, 0.436f, 0.62f}};
     b[kThigh] = {"ThighLeft", kHips, {0.10f, 0.0f, 0.03f}};
     b[kShin] = {"ShinLeft", kThigh, {0.13f, 0.02f, 0.48f}};
     b[kFoot] = {"FootLeft", kShin, {0.13f, -0.43f, 0.455f}};

@@ -121,13 +121,16 @@ void addSails(Document& document, int boat) {
   Mesh mainsail = makeMainsail(kMainDepth), jib = makeJib(kJibDepth);
   mainsail.addTarget(makeMainsail(kMainDepth + kBreath));
   jib.addTarget(makeJib(kJibDepth + kBreath));
-  const int main = document.addMesh(std::move(mainsail), sails), fore = document.addMesh(std::move(jib), sails);
+  const int main = document.addMesh(std::move(mainsail), sails),
+            fore = document.addMesh(std::move(jib), sails);
   auto breath = [](float time) {
     return 0.7f * std::sin(phase(time, 4.0f)) + 0.3f * std::sin(phase(time, 2.0f) + 0.5f);
   };
   std::vector<Channel>& channels = sailing(document).channels;
-  channels.push_back(weightKeys(main, onTwos(), [&](float time) { return std::vector<float>{breath(time)}; }));
-  channels.push_back(weightKeys(fore, onTwos(), [&](float time) { return std::vector<float>{breath(time + 0.4f)}; }));
+  channels.push_back(
+      weightKeys(main, onTwos(), [&](float time) { return std::vector<float>{breath(time)}; }));
+  channels.push_back(
+      weightKeys(fore, onTwos(), [&](float time) { return std::vector<float>{breath(time + 0.4f)}; }));
 }
 
 }  // namespace demo

@@ -1,5 +1,5 @@
-// The part of the sheet that the old sailor hauls on: from the block under the boom to his fists, and its slack
-// down into the cockpit.
+// The part of the sheet that the old sailor hauls on: from the block under the boom to his fists, and its
+// slack down into the cockpit.
 #include "haul.h"
 #include "parts.h"
 #include "rig_form.h"
@@ -28,7 +28,8 @@ Mesh makeSheet(glm::vec3 block, glm::vec3 grip, glm::vec3 sole) {
   });
   mesh.tube({block, glm::mix(block, grip, 0.33f), glm::mix(block, grip, 0.67f), grip}, {kTaut}, 6);
   // The slack falls to the near side of his knee.
-  mesh.setBinding([=](glm::vec3 p) { return boundBetween(kOnSole, kInHands, (p.y - sole.y) / (grip.y - sole.y)); });
+  mesh.setBinding(
+      [=](glm::vec3 p) { return boundBetween(kOnSole, kInHands, (p.y - sole.y) / (grip.y - sole.y)); });
   mesh.tube(smoothCurve({grip, glm::mix(grip, sole, 0.15f) + glm::vec3(0.04f, -0.06f, -0.13f),
                          glm::mix(grip, sole, 0.5f) + glm::vec3(0.13f, -0.10f, -0.18f), sole},
                         4),

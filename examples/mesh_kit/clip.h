@@ -18,8 +18,8 @@ struct Channel {
   Path path = Path::translation;
   Interpolation interpolation = Interpolation::linear;
   std::vector<float> times;  // seconds, rising
-  // Flat: 3, 4 (x, y, z, w), 3, or one for each morph target. A cubic spline has three for each time: in-tangent,
-  // value, out-tangent.
+  // Flat: 3, 4 (x, y, z, w), 3, or one for each morph target. A cubic spline has three for each time:
+  // in-tangent, value, out-tangent.
   std::vector<float> values;
 };
 

@@ -157,9 +157,10 @@ class Writer {
   void addSkin(const Skin& skin) {
     const size_t view =
         addView(skin.inverseBinds.data(), skin.inverseBinds.size() * sizeof(glm::mat4), kNoTarget);
-    root_["skins"].push_back({{"name", skin.name},
-                              {"inverseBindMatrices", addAccessor(view, kFloat, skin.inverseBinds.size(), "MAT4")},
-                              {"joints", skin.joints}});
+    root_["skins"].push_back(
+        {{"name", skin.name},
+         {"inverseBindMatrices", addAccessor(view, kFloat, skin.inverseBinds.size(), "MAT4")},
+         {"joints", skin.joints}});
   }
 
   // Channels that have their keys at the same moments share them.

@@ -49,7 +49,7 @@ struct Primitive {
 struct Mesh {
   std::string name;
   std::vector<Primitive> primitives;
-  bool bound = false;           // its vertices follow joints
+  bool bound = false;            // its vertices follow joints
   std::vector<float> weights{};  // of the morph targets, at rest
 
   size_t triangleCount() const {
