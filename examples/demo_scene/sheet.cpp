@@ -10,7 +10,7 @@ namespace {
 
 using namespace meshkit;
 
-enum Joint : int { kAtBlock, kInHands, kOnSole };
+enum Joint : int { kAtBlock, kInHands, kOnLap };
 
 // Where his lower hand lets the sheet go, in the boat.
 glm::vec3 gripAt(float time) {
@@ -18,7 +18,7 @@ glm::vec3 gripAt(float time) {
 }
 
 // Joints only move, they do not turn: so what is bound to two of them in parts is a straight line.
-Mesh makeSheet(glm::vec3 block, glm::vec3 grip, glm::vec3 sole) {
+Mesh makeSheet(glm::vec3 block, glm::vec3 grip, glm::vec3 lap) {
   MeshBuilder mesh("Sheet");
   mesh.setMaterial(kRope);
   constexpr float kTaut = 0.018f, kSlack = 0.0135f;  // metres; the hauled part is the picture's line
@@ -27,12 +27,16 @@ Mesh makeSheet(glm::vec3 block, glm::vec3 grip, glm::vec3 sole) {
     return boundBetween(kAtBlock, kInHands, glm::dot(p - block, line) / glm::dot(line, line));
   });
   mesh.tube({block, glm::mix(block, grip, 0.33f), glm::mix(block, grip, 0.67f), grip}, {kTaut}, 6);
-  // The slack falls to the near side of his knee.
-  mesh.setBinding(
-      [=](glm::vec3 p) { return boundBetween(kOnSole, kInHands, (p.y - sole.y) / (grip.y - sole.y)); });
-  mesh.tube(smoothCurve({grip, glm::mix(grip, sole, 0.15f) + glm::vec3(0.04f, -0.06f, -0.13f),
-                         glm::mix(grip, sole, 0.5f) + glm::vec3(0.13f, -0.10f, -0.18f), sole},
-                        4),
+  // The slack hangs from his hands to between his knees, and from there lies still.
+  const glm::vec3 sole = {-1.46f, kSole + 0.02f, 0.34f};
+  mesh.setBinding([=](glm::vec3 p) {
+    const glm::vec3 line = grip - lap;
+    return boundBetween(kOnLap, kInHands, glm::dot(p - lap, line) / glm::dot(line, line));
+  });
+  mesh.tube(smoothCurve({grip, glm::mix(grip, lap, 0.35f) + glm::vec3(0.02f, -0.04f, -0.03f),
+                         glm::mix(grip, lap, 0.7f) + glm::vec3(0.02f, -0.03f, -0.02f), lap,
+                         glm::mix(lap, sole, 0.5f) + glm::vec3(0.06f, 0.0f, 0.0f), sole},
+                        3),
             {kSlack}, 6);
   return mesh.take();
 }
@@ -40,11 +44,11 @@ Mesh makeSheet(glm::vec3 block, glm::vec3 grip, glm::vec3 sole) {
 }  // namespace
 
 void addSheet(Document& document, int boat) {
-  const glm::vec3 block = sheetBlock(), grip = gripAt(0.0f), sole = {-1.52f, kSole + 0.02f, 0.02f};
+  const glm::vec3 block = sheetBlock(), grip = gripAt(0.0f), lap = {-1.64f, 1.0f, 0.335f};
   const int atBlock = document.addNode({"SheetAtBlock", boat, block}),
             inHands = document.addNode({"SheetInHands", boat, grip}),
-            onSole = document.addNode({"SheetOnSole", boat, sole});
-  document.addBoundMesh(makeSheet(block, grip, sole), {atBlock, inHands, onSole}, boat);
+            onLap = document.addNode({"SheetOnLap", boat, lap});
+  document.addBoundMesh(makeSheet(block, grip, lap), {atBlock, inHands, onLap}, boat);
   sailing(document).channels.push_back(translationKeys(inHands, onTwos(), gripAt));
 }
 
