@@ -28,14 +28,14 @@ Mesh makeSheet(glm::vec3 block, glm::vec3 grip, glm::vec3 lap) {
   });
   mesh.tube({block, glm::mix(block, grip, 0.33f), glm::mix(block, grip, 0.67f), grip}, {kTaut}, 6);
   // The slack hangs from his hands to between his knees, and from there lies still.
-  const glm::vec3 sole = {-1.46f, kSole + 0.02f, 0.34f};
+  const glm::vec3 sole = {-1.42f, kSole + 0.02f, 0.34f};
   mesh.setBinding([=](glm::vec3 p) {
     const glm::vec3 line = grip - lap;
     return boundBetween(kOnLap, kInHands, glm::dot(p - lap, line) / glm::dot(line, line));
   });
   mesh.tube(smoothCurve({grip, glm::mix(grip, lap, 0.35f) + glm::vec3(0.02f, -0.04f, -0.03f),
                          glm::mix(grip, lap, 0.7f) + glm::vec3(0.02f, -0.03f, -0.02f), lap,
-                         glm::mix(lap, sole, 0.5f) + glm::vec3(0.06f, 0.0f, 0.0f), sole},
+                         glm::mix(lap, sole, 0.5f) + glm::vec3(0.03f, 0.0f, 0.0f), sole},
                         3),
             {kSlack}, 6);
   return mesh.take();
@@ -44,7 +44,7 @@ Mesh makeSheet(glm::vec3 block, glm::vec3 grip, glm::vec3 lap) {
 }  // namespace
 
 void addSheet(Document& document, int boat) {
-  const glm::vec3 block = sheetBlock(), grip = gripAt(0.0f), lap = {-1.64f, 1.0f, 0.335f};
+  const glm::vec3 block = sheetBlock(), grip = gripAt(0.0f), lap = {-1.54f, 0.96f, 0.335f};
   const int atBlock = document.addNode({"SheetAtBlock", boat, block}),
             inHands = document.addNode({"SheetInHands", boat, grip}),
             onLap = document.addNode({"SheetOnLap", boat, lap});

@@ -37,15 +37,14 @@ void Document::addSun(glm::vec3 towardsSun, glm::vec3 color, float intensity) {
 void Document::restAtStartOf(const Clip& clip) {
   for (const Channel& channel : clip.channels) {
     Node& node = nodes[size_t(channel.node)];
-    const size_t size = channel.path == Path::rotation ? 4 : 3;
+    const size_t keys = channel.times.size() * (channel.interpolation == Interpolation::cubicSpline ? 3 : 1);
+    const size_t size = channel.values.size() / keys;
     const float* v = channel.values.data() + (channel.interpolation == Interpolation::cubicSpline ? size : 0);
     if (channel.path == Path::translation) node.translation = {v[0], v[1], v[2]};
     if (channel.path == Path::rotation) node.rotation = glm::quat(v[3], v[0], v[1], v[2]);
     if (channel.path == Path::scale) node.scale = {v[0], v[1], v[2]};
-    if (channel.path == Path::weights && node.mesh >= 0) {
-      std::vector<float>& weights = meshes[size_t(node.mesh)].weights;
-      weights.assign(channel.values.begin(), channel.values.begin() + long(weights.size()));
-    }
+    if (channel.path == Path::weights && node.mesh >= 0)
+      meshes[size_t(node.mesh)].weights.assign(v, v + size);
   }
 }
 
