@@ -47,17 +47,16 @@ class Curve {
 
 // Frames: 0 hangs on straight arms, 14 has drawn to the chest, 22 to 34 left hand over right, 36 to 48 right
 // over left while he comes forward, 60 reaches furthest, 72 has thrown himself back.
+
 // Degrees forward.
 const Curve kLean{
     {{0, -36}, {14, -44}, {22, -40}, {34, -16}, {48, 12}, {60, 20}, {66, 6}, {72, -24}, {84, -31}}};
 // Degrees, the left shoulder back.
-const Curve kTwist{
-    {{0, 4}, {14, -8}, {22, -6}, {32, -20}, {36, -18}, {46, 18}, {52, 12}, {60, 0}, {72, 8}}};
+const Curve kTwist{{{0, 4}, {14, -8}, {22, -6}, {32, -20}, {36, -18}, {46, 18}, {52, 12}, {60, 0}, {72, 8}}};
 // Metres of the hips, ahead and up.
 const Curve kForward{
     {{0, -0.06f}, {14, -0.07f}, {30, -0.03f}, {48, 0.03f}, {58, 0.05f}, {64, -0.03f}, {70, -0.08f}}};
-const Curve kUp{
-    {{0, -0.01f}, {14, -0.015f}, {34, 0}, {50, 0.05f}, {58, 0.06f}, {66, -0.02f}, {72, -0.015f}}};
+const Curve kUp{{{0, -0.01f}, {14, -0.015f}, {34, 0}, {50, 0.05f}, {58, 0.06f}, {66, -0.02f}, {72, -0.015f}}};
 // Degrees, chin down.
 const Curve kNod{{{0, 6}, {14, 14}, {30, 2}, {50, -12}, {60, 2}, {72, 14}, {84, 8}}};
 
