@@ -2,6 +2,7 @@
 #include "hull_form.h"
 #include "mesh_kit/random.h"
 #include "parts.h"
+#include "timing.h"
 
 namespace demo {
 namespace {
@@ -32,6 +33,7 @@ void addFoam(Document& document, int parent, const glm::mat4& boat) {
   MeshBuilder mesh("Foam");
   mesh.setMaterial(kFoam);
   Random random(21);
+  const glm::vec3 middle = {boat[3].x, 0.0f, boat[3].z};
   const glm::vec2 ahead = glm::normalize(glm::vec2(boat[0].x, boat[0].z));
   for (float side : {-1.0f, 1.0f}) {
     const glm::vec2 abeam = side * glm::normalize(glm::vec2(boat[2].x, boat[2].z));
@@ -44,12 +46,18 @@ void addFoam(Document& document, int parent, const glm::mat4& boat) {
       const glm::vec2 at = {hull.x, hull.z};
       const float curl = std::exp(-18.0f * (s - 0.80f) * (s - 0.80f));
       const float width = (0.30f + 0.45f * curl) * random.between(0.6f, 1.2f);
-      strip.at(0, i) = onWater(at - 0.10f * abeam);
-      strip.at(1, i) = onWater(at + width * abeam - 0.6f * width * ahead);
+      // Well under the hull, which rolls in it.
+      strip.at(0, i) = onWater(at - 0.20f * abeam) - middle;
+      strip.at(1, i) = onWater(at + width * abeam - 0.6f * width * ahead) - middle;
     }
     mesh.grid(strip, {.flip = side < 0});
   }
-  document.addMesh(mesh.take(), parent);
+  // It spreads as she comes down and draws in as she rises.
+  const int foam = document.addMesh(mesh.take(), parent, middle);
+  sailing(document).channels.push_back(meshkit::smoothScale(foam, slowKeys(), [](float time) {
+    const float spread = std::sin(phase(time, 4.0f) + 2.4f);
+    return glm::vec3(1.0f + 0.012f * spread, 1.0f, 1.0f + 0.05f * spread);
+  }));
 }
 
 }  // namespace demo

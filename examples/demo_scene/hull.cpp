@@ -206,11 +206,17 @@ Mesh makeTiller() {
   MeshBuilder mesh("Tiller");
   mesh.setMaterial(kMast);
   const auto path = smoothCurve(
-      {{-2.78f, 0.93f, 0.0f}, {-2.4f, 0.97f, -0.04f}, {-2.0f, 0.98f, -0.11f}, {-1.44f, 1.05f, -0.215f}}, 4);
+      {{-2.78f, 0.93f, 0.0f}, {-2.4f, 0.97f, -0.07f}, {-2.0f, 0.98f, -0.17f}, {-1.44f, 1.03f, -0.33f}}, 4);
   std::vector<float> radii;
   for (size_t i = 0; i < path.size(); ++i)
     radii.push_back(glm::mix(0.042f, 0.028f, float(i) / float(path.size())));
   mesh.tube(path, radii, 7);
+  // Lashed to the near coaming while his hands are busy.
+  mesh.setMaterial(kRope);
+  const glm::vec3 grip = glm::mix(path[path.size() - 3], path[path.size() - 2], 0.5f);
+  mesh.tube({grip + glm::vec3(0.035f, 0, 0.01f), grip - glm::vec3(0.035f, 0, 0.01f)}, {0.046f}, 8);
+  mesh.tube({grip, {grip.x + 0.06f, deckHeight(grip.x, 0.54f) + 0.12f, -cockpitHalfWidth(grip.x) - 0.02f}},
+            {0.014f}, 5);
   return mesh.take();
 }
 

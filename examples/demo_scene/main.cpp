@@ -3,6 +3,7 @@
 
 #include "mesh_kit/glb_writer.h"
 #include "parts.h"
+#include "timing.h"
 
 namespace {
 
@@ -35,6 +36,7 @@ Document makeScene() {
   document.addCamera({"Sailor", 0.46f}, {2.6f, 1.9f, 5.2f}, {4.3f, 1.30f, 0.0f});
   document.addCamera({"Pier", 0.56f}, {-14.3f, 3.2f, 0.8f}, {-12.1f, 1.5f, -13.0f});
   document.addCamera({"Wide", 0.62f}, {10.6f, 7.6f, 26.5f}, {-2.6f, 4.1f, -6.0f});
+  document.restAtStartOf(sailing(document));
   return document;
 }
 

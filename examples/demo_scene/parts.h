@@ -18,9 +18,9 @@ void addSails(Document& document, int boat);
 // The foam where the hull meets the water, in the space of `parent`.
 void addFoam(Document& document, int parent, const glm::mat4& boat);
 
-// Faces +Z, sits with the hip at the origin; `handOnTiller` is in his own space, metres.
-int addSailor(Document& document, int parent, glm::vec3 position, glm::quat rotation, float scale,
-              glm::vec3 handOnTiller);
+int addSailor(Document& document, int boat);
+// What he hauls on.
+void addSheet(Document& document, int boat);
 
 int addPier(Document& document, int parent, glm::vec3 root, glm::vec3 head);
 int addShore(Document& document, int parent);

@@ -1,6 +1,7 @@
 // Spars and rigging: mast, boom, gaff, bowsprit, stays, shrouds, halyards, sheet, pennant and lantern.
 #include "parts.h"
 #include "rig_form.h"
+#include "timing.h"
 
 namespace demo {
 namespace {
@@ -85,39 +86,69 @@ Mesh makeRunningRigging() {
   // Peak halyard in two parts, topping lift, and the sheet from the boom to the deck at the stern.
   rope(mesh, mastPoint(kMastTop - 0.55f), gaffPoint(0.92f));
   rope(mesh, mastPoint(kMastTop - 0.80f), gaffPoint(0.52f));
-  const glm::vec3 block = boomPoint(0.70f);
-  const glm::vec3 horse = {-0.55f, kSole + 0.03f, -0.06f};
+  const glm::vec3 block = boomPoint(0.60f);
+  const glm::vec3 horse = {-0.48f, kSole + 0.03f, -0.06f};
   rope(mesh, block, horse, 0.0f);
-  rope(mesh, boomPoint(0.78f), horse + glm::vec3(-0.06f, 0, 0.02f), 0.0f);
+  rope(mesh, boomPoint(0.68f), horse + glm::vec3(-0.06f, 0, 0.02f), 0.0f);
   // Halyard falls along the mast down to a pin.
   rope(mesh, mastPoint(4.4f) + glm::vec3(0.09f, 0, 0.06f), mastPoint(0.95f) + glm::vec3(0.12f, 0, 0.08f));
   mesh.setMaterial(kTrim);
   mesh.box(block + glm::vec3(-0.02f, -0.1f, 0), {0.07f, 0.12f, 0.05f});
+  mesh.box(sheetBlock() + glm::vec3(0, 0.03f, 0), {0.07f, 0.13f, 0.05f});
   mesh.box(horse + glm::vec3(0, 0.02f, 0), {0.08f, 0.12f, 0.05f});
   mesh.box(mastPoint(kMastTop - 0.57f) + glm::vec3(-0.08f, 0, 0), {0.06f, 0.11f, 0.05f});
   return mesh.take();
 }
 
-// Streams to leeward and aft in two slow waves, and ends in a swallowtail.
+// Streams to leeward and aft in two slow waves, and ends in a swallowtail. u from the mast to the end, v from
+// foot to head.
+glm::vec3 pennantPoint(float u, float v) {
+  const float wave = 0.045f * std::sin(u * 6.5f + 0.6f) * (0.3f + u);
+  const float width = glm::mix(0.30f, 0.15f, u);
+  const float tail = 0.20f * (1.0f - std::abs(2.0f * v - 1.0f)) * u;  // the notch of the swallowtail
+  const float length = 0.88f * u - tail * u;
+  return {-length * 0.93f, (v - 0.5f) * width - 0.10f * u * u + 0.3f * wave, 0.36f * length + wave};
+}
+
+constexpr int kPennantJoints = 4;
+float pennantJoint(int joint) {
+  return 0.25f * float(joint);
+}
+
 Mesh makePennant() {
   MeshBuilder mesh("Pennant");
   mesh.setMaterial(kPennant);
   constexpr size_t kColumns = 16;
+  mesh.setBinding([](glm::vec3 p) {
+    // Between the two joints that are nearest along it.
+    const float u = std::clamp(-p.x / (0.93f * 0.88f) * float(kPennantJoints), 0.0f, kPennantJoints - 1.0f);
+    const int joint = std::min(int(u), kPennantJoints - 2);
+    return boundBetween(joint, joint + 1, glm::smoothstep(0.0f, 1.0f, u - float(joint)));
+  });
   Grid cloth(5, kColumns);
-  for (size_t c = 0; c < kColumns; ++c) {
-    const float u = float(c) / float(kColumns - 1);
-    const float wave = 0.045f * std::sin(u * 6.5f + 0.6f) * (0.3f + u);
-    for (size_t r = 0; r < 5; ++r) {
-      const float v = float(r) / 4.0f;
-      const float width = glm::mix(0.30f, 0.15f, u);
-      const float tail = 0.20f * (1.0f - std::abs(2.0f * v - 1.0f)) * u;  // the notch of the swallowtail
-      const float length = 0.88f * u - tail * u;
-      cloth.at(r, c) =
-          glm::vec3(-length * 0.93f, (v - 0.5f) * width - 0.10f * u * u + 0.3f * wave, 0.36f * length + wave);
-    }
-  }
+  for (size_t c = 0; c < kColumns; ++c)
+    for (size_t r = 0; r < 5; ++r)
+      cloth.at(r, c) = pennantPoint(float(c) / float(kColumns - 1), float(r) / 4.0f);
   mesh.grid(cloth, {.shading = Shading::smooth, .projectAlong = {0, 0, 1}});
   return mesh.take();
+}
+
+// A wave runs along it every second, wider towards the end.
+void addPennant(Document& document, int mast) {
+  const int top = document.addNode({"Pennant", mast, mastPoint(kMastTop - 0.12f) + glm::vec3(-0.04f, 0, 0)});
+  std::vector<int> joints;
+  for (int i = 0; i < kPennantJoints; ++i) {
+    const glm::vec3 at = pennantPoint(pennantJoint(i), 0.5f);
+    const glm::vec3 before = i == 0 ? glm::vec3(0.0f) : pennantPoint(pennantJoint(i - 1), 0.5f);
+    joints.push_back(
+        document.addNode({"Pennant" + std::to_string(i + 1), i == 0 ? top : joints.back(), at - before}));
+    sailing(document).channels.push_back(rotationKeys(joints.back(), onTwos(), [i](float time) {
+      const float wave = std::sin(phase(time, 1.0f) - 1.1f * float(i)), reach = 0.07f + 0.055f * float(i);
+      return glm::angleAxis(1.2f * reach * wave, glm::vec3(0, 1, 0)) *
+             glm::angleAxis(reach * std::sin(phase(time, 1.0f) - 1.1f * float(i) + 0.7f), glm::vec3(0, 0, 1));
+    }));
+  }
+  document.addBoundMesh(makePennant(), joints, top);
 }
 
 Mesh makeLantern() {
@@ -139,7 +170,7 @@ void addRig(Document& document, int boat) {
   document.addMesh(makeBowsprit(), boat);
   document.addMesh(makeStandingRigging(), mast);
   document.addMesh(makeRunningRigging(), mast);
-  document.addMesh(makePennant(), mast, mastPoint(kMastTop - 0.12f) + glm::vec3(-0.04f, 0, 0));
+  addPennant(document, mast);
   document.addMesh(makeLantern(), boat, {-2.38f, deckHeight(-2.38f, 0.36f) + 0.09f, -0.40f});
 }
 

@@ -33,4 +33,9 @@ inline glm::vec3 bowspritPoint(float u) {
   return glm::mix(glm::vec3(2.0f, 1.06f, 0), glm::vec3(3.72f, 1.42f, 0), u);
 }
 
+// The block under the boom that the sheet comes from to the sailor's hands.
+inline glm::vec3 sheetBlock() {
+  return boomPoint(0.84f) + glm::vec3(0.0f, -0.15f, 0.0f);
+}
+
 }  // namespace demo

@@ -1,11 +1,16 @@
-// The old sailor: peaked cap, white beard, heavy coat, boots; one hand on the tiller, one on the knee.
-// His space: he faces +Z, +Y is up, his left is +X; the hip is at the origin. Metres of a man of 1.75 m.
+// The old sailor: peaked cap, white beard, heavy coat, boots. One mesh, bound to the bones of sailor_form.h.
+#include "haul.h"
 #include "parts.h"
+#include "timing.h"
 
 namespace demo {
 namespace {
 
 using namespace meshkit;
+
+glm::vec3 bone(int index) {
+  return sailorBones()[size_t(index)].at;
+}
 
 struct Section {
   float y, halfWidth, halfDepth, forward;
@@ -19,38 +24,51 @@ std::vector<std::vector<glm::vec3>> rings(const std::vector<Section>& sections, 
   return result;
 }
 
-// Where the elbow is, given both ends and the lengths of the bones; `towards` is where it points.
-glm::vec3 elbow(glm::vec3 shoulder, glm::vec3 hand, float upper, float lower, glm::vec3 towards) {
-  const glm::vec3 line = hand - shoulder;
-  const float reach = std::min(glm::length(line), upper + lower - 0.001f);
-  const glm::vec3 along = glm::normalize(line);
-  const float a = (upper * upper - lower * lower + reach * reach) / (2.0f * reach);
-  const float h = std::sqrt(std::max(upper * upper - a * a, 0.0f));
-  const glm::vec3 off = glm::normalize(towards - along * glm::dot(towards, along));
-  return shoulder + along * a + off * h;
+// The coat bends over three bones and its collar a little with the neck.
+Binding torso(glm::vec3 p) {
+  if (p.y < 0.16f) return boundBetween(kHips, kSpine, glm::smoothstep(0.02f, 0.16f, p.y));
+  if (p.y < 0.50f) return boundBetween(kSpine, kChest, glm::smoothstep(0.20f, 0.40f, p.y));
+  return boundBetween(kChest, kNeck, 0.4f * glm::smoothstep(0.58f, 0.67f, p.y));
 }
 
-void addArm(MeshBuilder& mesh, glm::vec3 shoulder, glm::vec3 hand, glm::vec3 elbowTowards) {
-  const glm::vec3 bend = elbow(shoulder, hand, 0.31f, 0.30f, elbowTowards);
+// A limb of three bones: each joint bends over `soft` metres to both sides.
+Binding limb(int first, float soft, glm::vec3 p) {
+  const glm::vec3 a = bone(first), b = bone(first + 1), c = bone(first + 2);
+  const glm::vec3 upper = glm::normalize(b - a), lower = glm::normalize(c - b);
+  const float atEnd = glm::dot(p - c, lower);
+  if (atEnd > -0.03f) return boundBetween(first + 1, first + 2, glm::smoothstep(-0.03f, 0.0f, atEnd));
+  return boundBetween(first, first + 1,
+                      glm::smoothstep(-soft, soft, glm::dot(p - b, glm::normalize(upper + lower))));
+}
+
+void addArm(MeshBuilder& mesh, int upperArm) {
+  const glm::vec3 shoulder = bone(upperArm), bend = bone(upperArm + 1), hand = bone(upperArm + 2);
+  const glm::vec3 upper = glm::normalize(bend - shoulder), along = glm::normalize(hand - bend);
   const glm::vec3 wrist = glm::mix(bend, hand, 0.80f);
+  mesh.setBinding([=](glm::vec3 p) { return limb(upperArm, 0.06f, p); });
+  // The sleeve begins with a round shoulder, so that it fits the coat whatever way the arm points.
   mesh.setMaterial(kCoat);
-  const auto path =
-      smoothCurve({shoulder, glm::mix(shoulder, bend, 0.5f), bend, glm::mix(bend, wrist, 0.5f), wrist}, 2);
-  std::vector<float> radii;
-  for (size_t i = 0; i < path.size(); ++i)
-    radii.push_back(glm::mix(0.098f, 0.066f, float(i) / float(path.size() - 1)));
-  mesh.tube(path, radii, 9);
-  // Turned-up cuff, then the fist.
+  const std::vector<glm::vec3> path =
+      smoothCurve({shoulder - upper * 0.095f, shoulder - upper * 0.06f, shoulder,
+                   glm::mix(shoulder, bend, 0.5f), bend, glm::mix(bend, wrist, 0.5f), wrist},
+                  2);
+  std::vector<float> radii = {0.03f, 0.07f, 0.085f, 0.096f, 0.102f};
+  for (size_t i = radii.size(); i < path.size(); ++i)
+    radii.push_back(glm::mix(0.100f, 0.068f, float(i - 5) / float(path.size() - 6)));
+  mesh.tube(path, radii, 10);
+  // Turned-up cuff, then the fist around the sheet, with a thumb.
+  mesh.setBinding([=](glm::vec3) { return boundTo(upperArm + 1); });
   mesh.setMaterial(kCoatDark);
-  const glm::vec3 along = glm::normalize(hand - bend);
-  mesh.tube({wrist - along * 0.06f, wrist + along * 0.012f}, {0.074f, 0.076f}, 9);
+  mesh.tube({wrist - along * 0.06f, wrist + along * 0.012f}, {0.076f, 0.080f}, 9);
   mesh.setMaterial(kSkin);
-  mesh.tube({wrist - along * 0.01f, wrist + along * 0.03f, hand, hand + along * 0.04f, hand + along * 0.055f},
-            {0.036f, 0.044f, 0.054f, 0.044f, 0.02f}, 8);
+  mesh.tube({wrist - along * 0.01f, wrist + along * 0.02f}, {0.040f, 0.044f}, 8);
+  mesh.setBinding([=](glm::vec3) { return boundTo(upperArm + 2); });
+  mesh.tube({hand - along * 0.062f, hand - along * 0.04f, hand, hand + along * 0.035f, hand + along * 0.052f},
+            {0.034f, 0.052f, 0.061f, 0.052f, 0.026f}, 9);
 }
 
-Mesh makeCoat(glm::vec3 tillerHand) {
-  MeshBuilder mesh("Coat");
+void addCoat(MeshBuilder& mesh) {
+  mesh.setBinding(torso);
   mesh.setMaterial(kCoat);
   // The skirt spreads over the seat and the thighs; the back is a little bent.
   mesh.loft(rings({{-0.10f, 0.275f, 0.235f, 0.06f},
@@ -64,11 +82,6 @@ Mesh makeCoat(glm::vec3 tillerHand) {
                    {0.62f, 0.10f, 0.095f, 0.05f}},
                   14, 0.82f),
             {.shading = Shading::smooth});
-  // The two halves of the skirt lie over the thighs.
-  for (float side : {-1.0f, 1.0f}) {
-    mesh.tube({{side * 0.10f, 0.02f, 0.02f}, {side * 0.115f, 0.035f, 0.18f}, {side * 0.125f, 0.03f, 0.31f}},
-              {0.14f, 0.13f, 0.118f}, 10);
-  }
   // Collar, turned up against the wind.
   mesh.setMaterial(kCoatDark);
   mesh.loft(rings({{0.555f, 0.165f, 0.135f, 0.035f},
@@ -78,40 +91,45 @@ Mesh makeCoat(glm::vec3 tillerHand) {
                    {0.60f, 0.10f, 0.09f, 0.05f}},
                   12, 0.9f),
             {.shading = Shading::flat});
-  addArm(mesh, {0.215f, 0.485f, 0.02f}, tillerHand, {0.9f, -0.1f, -0.3f});
-  addArm(mesh, {-0.215f, 0.485f, 0.02f}, {-0.145f, 0.135f, 0.36f}, {-0.9f, -0.3f, -0.25f});
-  return mesh.take();
+  // The two halves of the skirt lie over the thighs.
+  mesh.setMaterial(kCoat);
+  for (int thigh : {kThigh, kThighRight}) {
+    const float side = bone(thigh).x < 0 ? -1.0f : 1.0f;
+    mesh.setBinding(
+        [=](glm::vec3 p) { return boundBetween(kHips, thigh, glm::smoothstep(-0.02f, 0.14f, p.z)); });
+    mesh.tube({{side * 0.10f, 0.02f, 0.02f}, {side * 0.115f, 0.035f, 0.18f}, {side * 0.125f, 0.03f, 0.31f}},
+              {0.14f, 0.13f, 0.118f}, 10);
+  }
+  addArm(mesh, kUpperArm);
+  addArm(mesh, kUpperArmRight);
 }
 
-Mesh makeLegs() {
-  MeshBuilder mesh("Legs");
-  for (float side : {-1.0f, 1.0f}) {
-    const float x = side * 0.13f;
-    mesh.setMaterial(kTrousers);
-    mesh.tube(smoothCurve({{side * 0.10f, 0.0f, 0.05f},
-                           {x, 0.03f, 0.28f},
-                           {x, 0.015f, 0.45f},
-                           {x, -0.10f, 0.49f},
-                           {x, -0.28f, 0.47f}},
-                          2),
-              {0.10f, 0.10f, 0.095f, 0.092f, 0.09f, 0.088f, 0.085f, 0.08f, 0.075f}, 9);
-    mesh.setMaterial(kBoots);
-    // Turned-over top, shaft, and a foot with a heel.
-    mesh.tube({{x, -0.235f, 0.475f}, {x, -0.135f, 0.488f}}, {0.094f, 0.104f}, 9);
-    mesh.tube({{x, -0.45f, 0.45f}, {x, -0.36f, 0.455f}, {x, -0.20f, 0.48f}}, {0.070f, 0.066f, 0.085f}, 9);
-    mesh.loft({ellipseRing({x, -0.47f, 0.375f}, {0.045f, 0, 0}, {0, 0.035f, 0}, 8, 0.7f),
-               ellipseRing({x, -0.445f, 0.44f}, {0.062f, 0, 0}, {0, 0.068f, 0}, 8, 0.7f),
-               ellipseRing({x, -0.455f, 0.54f}, {0.066f, 0, 0}, {0, 0.058f, 0}, 8, 0.7f),
-               ellipseRing({x, -0.475f, 0.65f}, {0.064f, 0, 0}, {0, 0.040f, 0}, 8, 0.7f),
-               ellipseRing({x, -0.485f, 0.70f}, {0.038f, 0, 0}, {0, 0.026f, 0}, 8, 0.7f)},
-              {.shading = Shading::smooth});
-  }
-  return mesh.take();
+void addLeg(MeshBuilder& mesh, int thigh) {
+  const glm::vec3 hip = bone(thigh), knee = bone(thigh + 1), ankle = bone(thigh + 2);
+  const float x = ankle.x;
+  mesh.setBinding([=](glm::vec3 p) { return limb(thigh, 0.08f, p); });
+  mesh.setMaterial(kTrousers);
+  mesh.tube(
+      smoothCurve(
+          {hip, glm::mix(hip, knee, 0.5f), {x, 0.018f, 0.43f}, {x, -0.06f, 0.488f}, {x, -0.28f, 0.47f}}, 2),
+      {0.10f, 0.10f, 0.10f, 0.098f, 0.094f, 0.090f, 0.085f, 0.08f, 0.075f}, 9);
+  // Turned-over top, shaft, and a foot with a heel.
+  mesh.setBinding([=](glm::vec3) { return boundTo(thigh + 1); });
+  mesh.setMaterial(kBoots);
+  mesh.tube({{x, -0.235f, 0.475f}, {x, -0.135f, 0.488f}}, {0.094f, 0.104f}, 9);
+  mesh.setBinding([=](glm::vec3 p) { return limb(thigh, 0.08f, p); });
+  mesh.tube({{x, -0.45f, 0.45f}, {x, -0.36f, 0.455f}, {x, -0.20f, 0.48f}}, {0.070f, 0.066f, 0.085f}, 9);
+  mesh.setBinding([=](glm::vec3) { return boundTo(thigh + 2); });
+  mesh.loft({ellipseRing({x, -0.47f, 0.375f}, {0.045f, 0, 0}, {0, 0.035f, 0}, 8, 0.7f),
+             ellipseRing({x, -0.445f, 0.44f}, {0.062f, 0, 0}, {0, 0.068f, 0}, 8, 0.7f),
+             ellipseRing({x, -0.455f, 0.54f}, {0.066f, 0, 0}, {0, 0.058f, 0}, 8, 0.7f),
+             ellipseRing({x, -0.475f, 0.65f}, {0.064f, 0, 0}, {0, 0.040f, 0}, 8, 0.7f),
+             ellipseRing({x, -0.485f, 0.70f}, {0.038f, 0, 0}, {0, 0.026f, 0}, 8, 0.7f)},
+            {.shading = Shading::smooth});
 }
 
 // The neck is at the origin.
-Mesh makeHead() {
-  MeshBuilder mesh("Head");
+void addFace(MeshBuilder& mesh) {
   mesh.setMaterial(kSkin);
   mesh.loft(rings({{-0.06f, 0.055f, 0.06f, -0.01f},
                    {0.02f, 0.066f, 0.08f, 0.012f},
@@ -128,11 +146,9 @@ Mesh makeHead() {
   mesh.triangle(bridge, right, tip);
   mesh.triangle(left, tip, right);
   for (float side : {-1.0f, 1.0f}) mesh.box({side * 0.086f, 0.105f, 0.0f}, {0.022f, 0.06f, 0.04f}, 0.8f);
-  return mesh.take();
 }
 
-Mesh makeBeard() {
-  MeshBuilder mesh("Beard");
+void addBeard(MeshBuilder& mesh) {
   mesh.setMaterial(kBeard);
   mesh.loft(rings({{-0.175f, 0.018f, 0.02f, 0.115f},
                    {-0.13f, 0.052f, 0.052f, 0.105f},
@@ -151,11 +167,9 @@ Mesh makeBeard() {
                   12, 0.92f),
             {.shading = Shading::smooth});
   for (float side : {-1.0f, 1.0f}) mesh.box({side * 0.038f, 0.142f, 0.108f}, {0.052f, 0.016f, 0.026f});
-  return mesh.take();
 }
 
-Mesh makeCap() {
-  MeshBuilder mesh("Cap");
+void addCap(MeshBuilder& mesh) {
   mesh.setMaterial(kCap);
   // Band, then a soft crown wider than the band, pulled down to the front.
   mesh.loft(rings({{0.146f, 0.095f, 0.117f, 0.002f},
@@ -192,23 +206,45 @@ Mesh makeCap() {
     mesh.quad(bottom.at(r, 0), bottom.at(r + 1, 0), top.at(r + 1, 0), top.at(r, 0));
     mesh.quad(bottom.at(r + 1, 8), bottom.at(r, 8), top.at(r, 8), top.at(r + 1, 8));
   }
+}
+
+Mesh makeSailor() {
+  MeshBuilder mesh("Sailor");
+  addCoat(mesh);
+  addLeg(mesh, kThigh);
+  addLeg(mesh, kThighRight);
+  // Beard and cap are the head's. A head a little large reads better from afar.
+  mesh.setBinding([](glm::vec3) { return boundTo(kHead); });
+  mesh.setTransform(glm::scale(glm::translate(glm::mat4(1.0f), bone(kHead)), glm::vec3(1.26f)));
+  addFace(mesh);
+  addBeard(mesh);
+  addCap(mesh);
   return mesh.take();
 }
 
 }  // namespace
 
-int addSailor(Document& document, int parent, glm::vec3 position, glm::quat rotation, float scale,
-              glm::vec3 handOnTiller) {
-  const int sailor = document.addNode({"Sailor", parent, position, rotation, glm::vec3(scale)});
-  document.addMesh(makeCoat(handOnTiller), sailor);
-  document.addMesh(makeLegs(), sailor);
-  // He looks ahead, past his right shoulder; a head a little large reads better from afar.
-  const int head = document.addMesh(
-      makeHead(), sailor, {0, 0.645f, 0.055f},
-      glm::angleAxis(-0.62f, glm::vec3(0, 1, 0)) * glm::angleAxis(0.06f, glm::vec3(1, 0, 0)));
-  document.nodes[size_t(head)].scale = glm::vec3(1.26f);
-  document.addMesh(makeBeard(), head);
-  document.addMesh(makeCap(), head);
+int addSailor(Document& document, int boat) {
+  const glm::mat4 place = sailorInBoat();
+  Node node{"Sailor", boat, glm::vec3(place[3]), glm::quat_cast(glm::mat3(place) / kSailorScale)};
+  node.scale = glm::vec3(kSailorScale);
+  const int sailor = document.addNode(std::move(node));
+  std::vector<int> joints;
+  for (const BoneForm& form : sailorBones()) {
+    const bool top = form.parent < 0;
+    const glm::vec3 offset = top ? form.at : form.at - bone(form.parent);
+    joints.push_back(document.addNode({form.name, top ? sailor : joints[size_t(form.parent)], offset}));
+  }
+  document.addBoundMesh(makeSailor(), joints, sailor);
+
+  std::vector<Channel>& channels = sailing(document).channels;
+  channels.push_back(
+      translationKeys(joints[kHips], onTwos(), [](float time) { return haulAt(time * kFrameRate).hips; }));
+  for (int i = 0; i < kBoneCount; ++i) {
+    if (i == kHand || i == kHandRight) continue;  // they go with their forearms
+    channels.push_back(rotationKeys(joints[size_t(i)], onTwos(),
+                                    [i](float time) { return haulAt(time * kFrameRate).turns[size_t(i)]; }));
+  }
   return sailor;
 }
 

@@ -2,6 +2,7 @@
 // nothing lies upon anything and nothing flickers.
 #include "parts.h"
 #include "rig_form.h"
+#include "timing.h"
 
 namespace demo {
 namespace {
@@ -25,8 +26,8 @@ GridOptions cloth(const std::vector<Patch>& patches, bool flip) {
           }};
 }
 
-// u from luff to leech, v from foot to head.
-Mesh makeMainsail() {
+// u from luff to leech, v from foot to head; `depth` is its belly's, metres.
+Mesh makeMainsail(float depth) {
   MeshBuilder mesh("Mainsail");
   constexpr size_t kColumns = 29, kRows = 35;
   const glm::vec3 tack = boomPoint(0.0f) + glm::vec3(0, 0.10f, 0),
@@ -44,7 +45,7 @@ Mesh makeMainsail() {
       const float draft = std::max(std::sin(kPi * std::pow(u, 0.76f)), 0.0f);
       // The sine of pi is a hair below zero in floats, and a power of that is not a number.
       const float swell = std::max(std::sin(kPi * std::pow(glm::mix(0.16f, 1.0f, v), 0.85f)), 0.0f);
-      const float belly = 0.30f * draft * std::pow(swell, 0.8f);
+      const float belly = depth * draft * std::pow(swell, 0.8f);
       p += glm::vec3(-0.22f, 0.0f, 0.97f) * belly;
       // The foot hangs in a curve, the leech is cut slightly hollow.
       p.y -= 0.10f * std::sin(kPi * u) * (1.0f - v) * (1.0f - v);
@@ -80,7 +81,7 @@ Mesh makeMainsail() {
   return mesh.take();
 }
 
-Mesh makeJib() {
+Mesh makeJib(float depth) {
   MeshBuilder mesh("Jib");
   constexpr size_t kColumns = 19, kRows = 25;
   const glm::vec3 stayFoot = bowspritPoint(0.95f), stayHead = mastPoint(4.54f);
@@ -94,7 +95,7 @@ Mesh makeJib() {
       const float u = float(c) / float(kColumns - 1);
       glm::vec3 p = glm::mix(luff, leech, u);
       const float belly =
-          0.24f * std::sin(kPi * std::pow(u, 0.8f)) * std::sin(kPi * glm::mix(0.22f, 1.0f, v));
+          depth * std::sin(kPi * std::pow(u, 0.8f)) * std::sin(kPi * glm::mix(0.22f, 1.0f, v));
       p += glm::vec3(-0.15f, 0.0f, 0.98f) * std::max(belly, 0.0f);
       p.y -= 0.10f * std::sin(kPi * u) * (1.0f - v) * (1.0f - v);
       sail.at(r, c) = p;
@@ -115,8 +116,21 @@ Mesh makeJib() {
 
 void addSails(Document& document, int boat) {
   const int sails = document.addNode({"Sails", boat});
-  document.addMesh(makeMainsail(), sails);
-  document.addMesh(makeJib(), sails);
+  // They breathe with the swell, the jib ahead of the main.
+  constexpr float kMainDepth = 0.30f, kJibDepth = 0.24f, kBreath = 0.06f;  // metres
+  Mesh mainsail = makeMainsail(kMainDepth), jib = makeJib(kJibDepth);
+  mainsail.addTarget(makeMainsail(kMainDepth + kBreath));
+  jib.addTarget(makeJib(kJibDepth + kBreath));
+  const int main = document.addMesh(std::move(mainsail), sails),
+            fore = document.addMesh(std::move(jib), sails);
+  auto breath = [](float time) {
+    return 0.7f * std::sin(phase(time, 4.0f)) + 0.3f * std::sin(phase(time, 2.0f) + 0.5f);
+  };
+  std::vector<Channel>& channels = sailing(document).channels;
+  channels.push_back(
+      weightKeys(main, onTwos(), [&](float time) { return std::vector<float>{breath(time)}; }));
+  channels.push_back(
+      weightKeys(fore, onTwos(), [&](float time) { return std::vector<float>{breath(time + 0.4f)}; }));
 }
 
 }  // namespace demo

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh_kit/clip.h"
 #include "mesh_kit/mesh.h"
 
 namespace meshkit {
@@ -31,7 +32,7 @@ struct Node {
   glm::vec3 translation{0.0f};
   glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
   glm::vec3 scale{1.0f};
-  int mesh = -1, camera = -1;
+  int mesh = -1, camera = -1, skin = -1;
   bool sun = false;
 };
 
@@ -40,6 +41,8 @@ struct Document {
   std::vector<Mesh> meshes;
   std::vector<Camera> cameras;
   std::vector<Node> nodes;  // parents before children
+  std::vector<Skin> skins;
+  std::vector<Clip> clips;
   glm::vec3 sunColor{1.0f};
   float sunIntensity = 3.0f;  // lux, in glTF's loose sense
 
@@ -57,8 +60,14 @@ struct Document {
     }
     return addNode(std::move(node));
   }
+  // A mesh that follows joints: it was built in the space of the node `space`, around the joints as they
+  // stand now. Its own node stands at the root, because glTF lets joints alone place such a mesh.
+  int addBoundMesh(Mesh mesh, const std::vector<int>& joints, int space);
   void addCamera(Camera camera, glm::vec3 eye, glm::vec3 target, int parent = -1);
   void addSun(glm::vec3 towardsSun, glm::vec3 color, float intensity);
+
+  // Puts every node where the first keys of the clip want it, so that the scene at rest is the clip's start.
+  void restAtStartOf(const Clip& clip);
 
   glm::mat4 worldMatrix(int node) const;
   size_t triangleCount() const;  // as drawn, with every use of a mesh

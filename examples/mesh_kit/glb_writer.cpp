@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 namespace meshkit {
@@ -14,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // glTF's numbers for what a buffer view is bound as, and for component types.
-constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963;
+constexpr int kArrayBuffer = 34962, kElementArrayBuffer = 34963, kNoTarget = 0;
 constexpr int kUnsignedShort = 5123, kUnsignedInt = 5125, kFloat = 5126;
 
 static_assert(std::endian::native == std::endian::little, "GLB is little-endian");
@@ -45,6 +46,8 @@ class Writer {
            {"perspective",
             {{"yfov", c.verticalFov}, {"aspectRatio", c.aspect}, {"znear", c.near}, {"zfar", c.far}}}});
     }
+    for (const Skin& s : document_.skins) addSkin(s);
+    for (const Clip& c : document_.clips) addClip(c);
     addNodes();
     root_["buffers"] = Json::array({{{"byteLength", bytes_.size()}}});
     return root_;
@@ -71,8 +74,9 @@ class Writer {
     const size_t offset = bytes_.size();
     bytes_.insert(bytes_.end(), static_cast<const char*>(data), static_cast<const char*>(data) + size);
     bytes_.resize((bytes_.size() + 3) & ~size_t(3));
-    root_["bufferViews"].push_back(
-        {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", size}, {"target", target}});
+    Json view = {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", size}};
+    if (target != kNoTarget) view["target"] = target;
+    root_["bufferViews"].push_back(std::move(view));
     return root_["bufferViews"].size() - 1;
   }
 
@@ -82,13 +86,43 @@ class Writer {
     return root_["accessors"].size() - 1;
   }
 
-  template <class T>
-  size_t addAttribute(const Primitive& p, T Vertex::*member, const char* type) {
-    std::vector<T> values;
-    values.reserve(p.vertices.size());
-    for (const Vertex& v : p.vertices) values.push_back(v.*member);
-    const size_t view = addView(values.data(), values.size() * sizeof(T), kArrayBuffer);
-    return addAccessor(view, kFloat, values.size(), type);
+  template <class Item, class Pick>
+  size_t addAttribute(const std::vector<Item>& items, Pick pick, const char* type, int component = kFloat) {
+    std::vector<std::decay_t<decltype(pick(items.front()))>> values;
+    values.reserve(items.size());
+    for (const Item& item : items) values.push_back(pick(item));
+    const size_t view = addView(values.data(), values.size() * sizeof(values.front()), kArrayBuffer);
+    return addAccessor(view, component, values.size(), type);
+  }
+
+  // Positions, for which glTF wants the range said.
+  template <class Item>
+  size_t addPositions(const std::vector<Item>& items) {
+    glm::vec3 low = items.front().position, high = low;
+    for (const Item& item : items) {
+      low = glm::min(low, item.position);
+      high = glm::max(high, item.position);
+    }
+    const size_t position = addAttribute(
+        items, [](const Item& item) { return item.position; }, "VEC3");
+    root_["accessors"][position]["min"] = {low.x, low.y, low.z};
+    root_["accessors"][position]["max"] = {high.x, high.y, high.z};
+    return position;
+  }
+
+  Json attributes(const Primitive& p, bool bound) {
+    Json json = {{"POSITION", addPositions(p.vertices)}};
+    json["NORMAL"] = addAttribute(
+        p.vertices, [](const Vertex& v) { return v.normal; }, "VEC3");
+    json["TEXCOORD_0"] = addAttribute(
+        p.vertices, [](const Vertex& v) { return v.uv; }, "VEC2");
+    if (bound) {
+      json["JOINTS_0"] = addAttribute(
+          p.vertices, [](const Vertex& v) { return v.binding.joints; }, "VEC4", kUnsignedShort);
+      json["WEIGHTS_0"] = addAttribute(
+          p.vertices, [](const Vertex& v) { return v.binding.weights; }, "VEC4");
+    }
+    return json;
   }
 
   size_t addIndices(const Primitive& p) {
@@ -106,21 +140,60 @@ class Writer {
     Json primitives = Json::array();
     for (const Primitive& p : mesh.primitives) {
       if (p.indices.empty()) continue;
-      glm::vec3 low = p.vertices.front().position, high = low;
-      for (const Vertex& v : p.vertices) {
-        low = glm::min(low, v.position);
-        high = glm::max(high, v.position);
+      Json primitive = {{"attributes", attributes(p, mesh.bound)}, {"indices", addIndices(p)}};
+      primitive["material"] = p.material;
+      for (const std::vector<VertexChange>& target : p.targets) {
+        const size_t normal = addAttribute(
+            target, [](const VertexChange& c) { return c.normal; }, "VEC3");
+        primitive["targets"].push_back({{"POSITION", addPositions(target)}, {"NORMAL", normal}});
       }
-      const size_t position = addAttribute(p, &Vertex::position, "VEC3");
-      root_["accessors"][position]["min"] = {low.x, low.y, low.z};
-      root_["accessors"][position]["max"] = {high.x, high.y, high.z};
-      const size_t normal = addAttribute(p, &Vertex::normal, "VEC3");
-      const size_t uv = addAttribute(p, &Vertex::uv, "VEC2");
-      primitives.push_back({{"attributes", {{"POSITION", position}, {"NORMAL", normal}, {"TEXCOORD_0", uv}}},
-                            {"indices", addIndices(p)},
-                            {"material", p.material}});
+      primitives.push_back(std::move(primitive));
     }
-    root_["meshes"].push_back({{"name", mesh.name}, {"primitives", primitives}});
+    Json json = {{"name", mesh.name}, {"primitives", std::move(primitives)}};
+    if (!mesh.weights.empty()) json["weights"] = mesh.weights;
+    root_["meshes"].push_back(std::move(json));
+  }
+
+  void addSkin(const Skin& skin) {
+    const size_t view =
+        addView(skin.inverseBinds.data(), skin.inverseBinds.size() * sizeof(glm::mat4), kNoTarget);
+    root_["skins"].push_back(
+        {{"name", skin.name},
+         {"inverseBindMatrices", addAccessor(view, kFloat, skin.inverseBinds.size(), "MAT4")},
+         {"joints", skin.joints}});
+  }
+
+  // Channels that have their keys at the same moments share them.
+  size_t addTimes(const std::vector<float>& times) {
+    const auto [found, isNew] = times_.try_emplace(times, 0);
+    if (isNew) {
+      const size_t view = addView(times.data(), times.size() * sizeof(float), kNoTarget);
+      found->second = addAccessor(view, kFloat, times.size(), "SCALAR");
+      root_["accessors"][found->second]["min"] = {times.front()};
+      root_["accessors"][found->second]["max"] = {times.back()};
+    }
+    return found->second;
+  }
+
+  void addClip(const Clip& clip) {
+    static constexpr const char* kPaths[] = {"translation", "rotation", "scale", "weights"};
+    static constexpr const char* kInterpolations[] = {"LINEAR", "STEP", "CUBICSPLINE"};
+    static constexpr const char* kTypes[] = {"VEC3", "VEC4", "VEC3", "SCALAR"};
+    static constexpr size_t kSizes[] = {3, 4, 3, 1};
+    Json channels = Json::array(), samplers = Json::array();
+    for (const Channel& c : clip.channels) {
+      const size_t path = size_t(c.path);
+      const size_t input = addTimes(c.times);
+      const size_t view = addView(c.values.data(), c.values.size() * sizeof(float), kNoTarget);
+      const size_t output = addAccessor(view, kFloat, c.values.size() / kSizes[path], kTypes[path]);
+      channels.push_back(
+          {{"sampler", samplers.size()}, {"target", {{"node", c.node}, {"path", kPaths[path]}}}});
+      samplers.push_back({{"input", input},
+                          {"interpolation", kInterpolations[size_t(c.interpolation)]},
+                          {"output", output}});
+    }
+    root_["animations"].push_back(
+        {{"name", clip.name}, {"channels", std::move(channels)}, {"samplers", std::move(samplers)}});
   }
 
   void addNodes() {
@@ -139,6 +212,7 @@ class Writer {
         node["rotation"] = {n.rotation.x, n.rotation.y, n.rotation.z, n.rotation.w};
       if (n.scale != glm::vec3(1.0f)) node["scale"] = {n.scale.x, n.scale.y, n.scale.z};
       if (n.mesh >= 0) node["mesh"] = n.mesh;
+      if (n.skin >= 0) node["skin"] = n.skin;
       if (n.camera >= 0) node["camera"] = n.camera;
       if (n.sun) node["extensions"]["KHR_lights_punctual"]["light"] = 0;
       if (!children[i].empty()) node["children"] = children[i];
@@ -156,6 +230,7 @@ class Writer {
   const Document& document_;
   Json root_;
   std::vector<char> bytes_;
+  std::map<std::vector<float>, size_t> times_;
 };
 
 void append32(std::vector<char>& out, uint32_t value) {

@@ -31,6 +31,10 @@ Primitive& MeshBuilder::primitive(int material) {
   return mesh_.primitives.back();
 }
 
+void MeshBuilder::addVertex(Primitive& primitive, glm::vec3 place, glm::vec3 normal, glm::vec2 uv) {
+  primitive.vertices.push_back({place, normal, uv, binding_ ? binding_(place) : Binding{}});
+}
+
 void MeshBuilder::emit(int material, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
   if (degenerate(a, b, c)) return;
   const std::array<glm::vec3, 3> local{a, b, c};
@@ -41,7 +45,7 @@ void MeshBuilder::emit(int material, glm::vec3 a, glm::vec3 b, glm::vec3 c) {
   const glm::vec3 normal = glm::normalize(glm::cross(world[1] - world[0], world[2] - world[0]));
   for (int i = 0; i < 3; ++i) {
     p.indices.push_back(uint32_t(p.vertices.size()));
-    p.vertices.push_back({world[i], normal, planarUv(local[i], localNormal)});
+    addVertex(p, world[i], normal, planarUv(local[i], localNormal));
   }
 }
 
@@ -107,7 +111,7 @@ void MeshBuilder::grid(const Grid& grid, const GridOptions& options) {
                              ? kTexelDensity * glm::vec2(u[c], v[r])
                              : planarUv(point(r, c), options.projectAlong);
     if (options.shading == Shading::flat) {
-      p.vertices.push_back({world, flatNormal, uv});
+      addVertex(p, world, flatNormal, uv);
       return uint32_t(p.vertices.size() - 1);
     }
     Shared* found = nullptr;
@@ -122,7 +126,7 @@ void MeshBuilder::grid(const Grid& grid, const GridOptions& options) {
       glm::vec3 n = normals[r * columns + c % columns];
       n = glm::length(n) > 0.0f ? glm::normalize(turn * n) : flatNormal;
       index = uint32_t(p.vertices.size());
-      p.vertices.push_back({world, n, uv});
+      addVertex(p, world, n, uv);
     }
     return index;
   };

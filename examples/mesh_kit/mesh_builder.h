@@ -53,6 +53,11 @@ class MeshBuilder {
   void setMaterial(int material) { material_ = material; }
   void setTransform(const glm::mat4& transform) { transform_ = transform; }
   const glm::mat4& transform() const { return transform_; }
+  // What follows is bound to joints, by the place of each vertex.
+  void setBinding(std::function<Binding(glm::vec3 place)> binding) {
+    binding_ = std::move(binding);
+    mesh_.bound = true;
+  }
 
   // Flat faces, counter-clockwise seen from the front.
   void triangle(glm::vec3 a, glm::vec3 b, glm::vec3 c);
@@ -89,10 +94,12 @@ class MeshBuilder {
  private:
   Primitive& primitive(int material);
   void emit(int material, glm::vec3 a, glm::vec3 b, glm::vec3 c);
+  void addVertex(Primitive& primitive, glm::vec3 place, glm::vec3 normal, glm::vec2 uv);
 
   Mesh mesh_;
   int material_ = 0;
   glm::mat4 transform_{1.0f};
+  std::function<Binding(glm::vec3 place)> binding_;
 };
 
 // Points of a ring: an ellipse in the plane of `right` and `front` around `center`; squareness 1 is an
