@@ -14,6 +14,16 @@ struct Terrace {
   bool water;
 };
 
+// Everything sways in one clip, houses too, so that nothing is spared when it plays.
+constexpr float kSwellSeconds = 4.0f;
+
+Channel sway(int node, const glm::quat& turn, float phase) {
+  return smoothRotation(node, evenTimes(kSwellSeconds, 8), [=](float t) {
+    const float angle = 0.05f * std::sin(6.2831853f * t / kSwellSeconds + phase);
+    return turn * glm::angleAxis(angle, glm::vec3(0, 0, 1));
+  });
+}
+
 // Each row is as wide as the camera sees there, so that all of it is in the picture.
 constexpr float kEyeHeight = 18.0f, kEyeZ = 32.0f, kPitch = 0.262f;  // metres, metres, radians downward
 constexpr float kVerticalFov = 0.66f;                                // radians
@@ -95,6 +105,7 @@ Document makeHarbour(size_t triangles, size_t meshes) {
   const std::vector<Terrace> rows = terraces();
   document.addMesh(makeGround(rows), root);
   Random random(2024);
+  Clip swell{"Swell", {}};
 
   // Rows share the meshes by their width, and every mesh takes its part of the triangles that are still left,
   // so that rounding does not add up.
@@ -121,9 +132,11 @@ Document makeHarbour(size_t triangles, size_t meshes) {
       const int node = document.addMesh(std::move(mesh), root, at, turn);
       document.nodes[size_t(node)].scale =
           glm::vec3(std::min(0.56f * pitch, 2.2f) * random.between(0.85f, 1.1f));
+      swell.channels.push_back(sway(node, turn, 0.7f * float(made)));
     }
   }
 
+  document.clips.push_back(std::move(swell));
   document.addSun({-0.75f, 0.55f, 0.55f}, {1.0f, 0.9f, 0.75f}, 3.0f);
   document.addCamera({"Bench", kVerticalFov}, {0, kEyeHeight, kEyeZ},
                      {0, kEyeHeight - std::sin(kPitch), kEyeZ - std::cos(kPitch)});

@@ -91,25 +91,25 @@ void GeometryStep::makePipelines(const SceneOnGpu& scene) {
 }
 
 void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resources, const SceneOnGpu& scene,
-                        const gpu::DescriptorSets* passSets, uint32_t firstView, const glm::vec3& eye,
-                        const std::function<bool(const Draw&)>& includes) const {
+                        const gpu::DescriptorSets* passSets, uint32_t firstView, What what) const {
   const VkBuffer buffers[] = {scene.finalCore().handle(), scene.finalFrame().handle(),
                               scene.surface().handle(), scene.previousPositions().handle()};
   const VkDeviceSize offsets[] = {0, 0, 0, 0};
   vkCmdBindVertexBuffers(commands, 0, uint32_t(std::size(buffers)), buffers, offsets);
   vkCmdBindIndexBuffer(commands, scene.indices().handle(), 0, VK_INDEX_TYPE_UINT32);
 
-  // Opaque surfaces by pipeline and from near to far, so that what is hidden is not shaded; blended ones from
-  // far to near.
   std::vector<const Draw*> order;
   for (const Draw& draw : scene.draws())
-    if (!includes || includes(draw)) order.push_back(&draw);
-  const auto distance = [&](const Draw& d) { return glm::length(d.bounds.center() - eye); };
+    if (what == What::visible ? draw.visible : draw.casts) order.push_back(&draw);
   std::stable_sort(order.begin(), order.end(), [&](const Draw* a, const Draw* b) {
     if (a->alpha != b->alpha) return a->alpha < b->alpha;
-    if (a->alpha == AlphaMode::blend) return distance(*a) > distance(*b);
+    if (a->alpha == AlphaMode::blend) return a->distance > b->distance;
     if (variant(*a) != variant(*b)) return variant(*a) < variant(*b);
-    return distance(*a) < distance(*b);
+    if (a->material != b->material) {
+      const float nearA = scene.nearestOf(a->material), nearB = scene.nearestOf(b->material);
+      return nearA != nearB ? nearA < nearB : a->material < b->material;
+    }
+    return a->distance < b->distance;
   });
 
   const gpu::Pipeline* bound = nullptr;

@@ -1,7 +1,6 @@
 // What the geometry passes share: the vertex streams, and one pipeline for each kind of material.
 #pragma once
 
-#include <functional>
 #include <map>
 
 #include "frame/pass.h"
@@ -50,11 +49,11 @@ class GeometryStep {
   // whether the look paints textures on it, so that its colours vary. Makes the pipelines that are still
   // missing.
   void specialise(const SceneOnGpu& scene, uint32_t constant, std::vector<bool> painted = {});
-  // Draws what `includes` lets through: opaque, then masked, then blended surfaces from far to near as `eye`
-  // sees them. `passSets`: set 2, one for all or one for each material; null for none.
+  // Draws opaque, then masked, then blended surfaces: by pipeline and material, the nearest first; blended
+  // ones from far to near. `passSets`: set 2, one for all or one for each material; null for none.
+  enum class What : uint8_t { visible, casters };
   void draw(VkCommandBuffer commands, const FrameResources& resources, const SceneOnGpu& scene,
-            const gpu::DescriptorSets* passSets, uint32_t firstView, const glm::vec3& eye,
-            const std::function<bool(const Draw&)>& includes = {}) const;
+            const gpu::DescriptorSets* passSets, uint32_t firstView, What what = What::visible) const;
 
  private:
   // Pipelines by alpha mode (constant 0), by whether colours vary (1), by whether the scene's textures are

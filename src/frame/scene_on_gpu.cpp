@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "frame/geometry.h"
 #include "frame/mipmaps.h"
+#include "frame/visibility.h"
 #include "scene/parallel.h"
 
 namespace scumble::frame {
@@ -268,6 +270,18 @@ void SceneOnGpu::pose(const look::LookData& look, double time) {
   for (size_t i = 0; i < draws_.size(); ++i) {
     draws_[i].bounds = motion_->bounds()[i];
     draws_[i].mirrored = motion_->mirrored()[i];
+  }
+}
+
+void SceneOnGpu::look(const shared::FrameUniforms& uniforms, uint32_t viewCount, float marginPixels) {
+  const glm::vec2 margin = 2.0f * marginPixels / uniforms.imageSize;
+  nearestOf_.assign(materialCount(), std::numeric_limits<float>::infinity());
+  for (Draw& draw : draws_) {
+    draw.visible = false;
+    for (uint32_t v = 0; v < viewCount && !draw.visible; ++v)
+      draw.visible = mayBeSeen(draw.bounds, uniforms.views[v].worldToClip, margin);
+    draw.distance = glm::length(draw.bounds.center() - uniforms.views[0].eye);
+    if (draw.visible) nearestOf_[draw.material] = std::min(nearestOf_[draw.material], draw.distance);
   }
 }
 

@@ -31,6 +31,8 @@ struct Draw {
   bool casts = true;     // shadows
   scene::Bounds bounds;  // world, in the frame's pose
   scene::Bounds reach;   // world, at any time as far as is known before
+  bool visible = true;   // in one of the frame's views, or beside it as far as edges reach
+  float distance = 0;    // of its centre from the first view, metres
 };
 
 // What the automatic choices of colours need to know.
@@ -58,6 +60,10 @@ class SceneOnGpu {
 
   // Sets what moves to its place at a time (seconds). The look is one at that time (LookData::at).
   void pose(const look::LookData& look, double time);
+  // Finds out what can be seen from the frame's views, and up to so many pixels beside them; after pose().
+  void look(const shared::FrameUniforms& uniforms, uint32_t viewCount, float marginPixels);
+  // Metres from the first view to the nearest draw of a material.
+  float nearestOf(uint32_t material) const { return nearestOf_[material]; }
   // Where it was a frame ago; after keepPrevious() only.
   void posePrevious(const look::LookData& look, double time) { previousMotion_->pose(look, time); }
   // The last poses are not on their way to the device after all.
@@ -103,6 +109,7 @@ class SceneOnGpu {
   std::vector<std::string> materialNames_;
   int groundMaterial_ = -1;
   std::vector<Draw> draws_;
+  std::vector<float> nearestOf_;  // by material
   SceneColors colors_;
   Geometry geometry_;
   gpu::Buffer chunks_, restCore_, restFrame_, restSkin_, morphStarts_, morphs_, finalCore_, finalFrame_,

@@ -57,16 +57,17 @@ std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration
                              passes::depthSharpness(blur.depthEdge)};
   }));
   list.push_back(passes::makeColor());
-  list.push_back(passes::makeFinalColor([](const look::LookData& look, const SceneOnGpu& scene,
-                                           float imageHeight) {
-    float most = 0;
-    for (size_t m = 0; m < scene.materialCount(); ++m)
-      most = std::max(most, passes::inflationPixels(
-                                look.getForMaterial<passes::WarpParams>(scene.materialName(m)), imageHeight));
-    return most;
-  }));
+  list.push_back(passes::makeFinalColor(largestInflation));
   if (configuration.facts) list.push_back(passes::makeFacts());
   return list;
+}
+
+float largestInflation(const look::LookData& look, const SceneOnGpu& scene, float imageHeight) {
+  float most = 0;
+  for (size_t m = 0; m < scene.materialCount(); ++m)
+    most = std::max(most, passes::inflationPixels(
+                              look.getForMaterial<passes::WarpParams>(scene.materialName(m)), imageHeight));
+  return most;
 }
 
 bool wantsLayers(const look::LookData& look) {

@@ -12,6 +12,9 @@ using namespace frame;
 
 std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration);
 
+// How far outside of its silhouette any surface tears edges under a look, in pixels.
+float largestInflation(const look::LookData& look, const SceneOnGpu& scene, float imageHeight);
+
 // Whether the look needs what lies behind the first surfaces (Configuration::layered).
 bool wantsLayers(const look::LookData& look);
 

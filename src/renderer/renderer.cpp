@@ -379,6 +379,8 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
     const shared::FrameUniforms uniforms =
         frameUniforms(sceneOnGpu, now, views, options.previousViews, time, configuration);
     setup.frameSlice.write(uniforms);
+    sceneOnGpu.look(uniforms, configuration.viewCount,
+                    largestInflation(now, sceneOnGpu, uniforms.imageSize.y) + 1);
     for (size_t m = 0; m < sceneOnGpu.materialCount(); ++m)
       sceneOnGpu.setMaterial(m, materialData(sceneOnGpu, m, now, impl_->colorMaps));
     const FrameInput input{now, time, uniforms, sceneOnGpu, options.transparent, options.seed};

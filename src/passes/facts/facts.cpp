@@ -68,7 +68,6 @@ class Facts : public Pass {
           metaTextureUse(params, 0b0011, input.look, *examples_, input.uniforms.pixelScale, glm::vec2(0.0f));
       materials_.write(m, {use.meta, tangentOptions(params)});
     }
-    eye_ = input.uniforms.views[0].eye;
   }
 
  private:
@@ -79,9 +78,8 @@ class Facts : public Pass {
     static_assert(kFacts[0] == Slot::factDepth);
     colors[0].clear.color = {{infinity, infinity, infinity, infinity}};
     const Target depth{&resources_->image(depth_), nullptr, {}};
-    drawViews(commands, configuration_, colors, &depth, [&](uint32_t firstView) {
-      step_.draw(commands, *resources_, *scene_, &sets_, firstView, eye_);
-    });
+    drawViews(commands, configuration_, colors, &depth,
+              [&](uint32_t firstView) { step_.draw(commands, *resources_, *scene_, &sets_, firstView); });
   }
 
   std::array<gpu::ResourceId, kFacts.size()> targets_{};
@@ -91,7 +89,6 @@ class Facts : public Pass {
   ExampleTextures* examples_ = nullptr;
   const FrameResources* resources_ = nullptr;
   const SceneOnGpu* scene_ = nullptr;
-  glm::vec3 eye_{0.0f};
   gpu::SetLayout layout_;
   gpu::DescriptorSets sets_;
   GeometryStep step_;

@@ -44,16 +44,13 @@ class Plain : public Pass {
     step_.create(frame.device(), resources, frame.scene(), desc);
   }
 
-  void update(const FrameInput& input) override { eye_ = input.uniforms.views[0].eye; }
-
  private:
   void record(VkCommandBuffer commands) const {
     const Target color{
         &resources_->image(drawn_), samples_ > 1 ? &resources_->image(resolved_) : nullptr, {}};
     const Target depth{&resources_->image(depth_), nullptr, {}};
-    drawViews(commands, configuration_, {&color, 1}, &depth, [&](uint32_t firstView) {
-      step_.draw(commands, *resources_, *scene_, nullptr, firstView, eye_);
-    });
+    drawViews(commands, configuration_, {&color, 1}, &depth,
+              [&](uint32_t firstView) { step_.draw(commands, *resources_, *scene_, nullptr, firstView); });
   }
 
   gpu::ResourceId drawn_ = 0, resolved_ = 0, depth_ = 0;
@@ -61,7 +58,6 @@ class Plain : public Pass {
   Configuration configuration_;
   const FrameResources* resources_ = nullptr;
   const SceneOnGpu* scene_ = nullptr;
-  glm::vec3 eye_{0.0f};
   GeometryStep step_;
 };
 

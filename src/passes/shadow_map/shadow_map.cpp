@@ -38,10 +38,8 @@ class ShadowMap : public Pass {
   void record(VkCommandBuffer commands) const {
     Target depth{&resources_->image(map_), nullptr, {}};
     depth.clear.depthStencil = {1.0f, 0};
-    drawOnce(commands, depth, [&] {
-      step_.draw(commands, *resources_, *scene_, nullptr, 0, glm::vec3(0.0f),
-                 [](const Draw& draw) { return draw.casts; });
-    });
+    drawOnce(commands, depth,
+             [&] { step_.draw(commands, *resources_, *scene_, nullptr, 0, GeometryStep::What::casters); });
   }
 
   gpu::ResourceId map_ = 0;

@@ -108,7 +108,6 @@ class Surface : public Pass {
 
   void update(const FrameInput& input) override {
     params_.update(input);
-    eye_ = input.uniforms.views[0].eye;
     const LightParams light = input.look.get<LightParams>();
     uniforms_.write(SurfaceUniforms{light.terminator, light.terminatorSharpness});
 
@@ -142,9 +141,8 @@ class Surface : public Pass {
           &resources_->image(drawn_[i]), samples_ > 1 ? &resources_->image(resolved_[i]) : nullptr, {}};
     };
     const Target colors[] = {target(0), target(1), target(2)}, depth = target(3);
-    drawViews(commands, configuration_, colors, &depth, [&](uint32_t firstView) {
-      step_.draw(commands, *resources_, *scene_, &sets_, firstView, eye_);
-    });
+    drawViews(commands, configuration_, colors, &depth,
+              [&](uint32_t firstView) { step_.draw(commands, *resources_, *scene_, &sets_, firstView); });
   }
 
   bool isBehind_;
@@ -159,7 +157,6 @@ class Surface : public Pass {
   FrameBuilder* frame_ = nullptr;
   const FrameResources* resources_ = nullptr;
   const SceneOnGpu* scene_ = nullptr;
-  glm::vec3 eye_{0.0f};
   gpu::SetLayout layout_;
   gpu::DescriptorSets sets_;
   GeometryStep step_;

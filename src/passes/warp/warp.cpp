@@ -99,7 +99,6 @@ class Warp : public Pass {
   }
 
   void update(const FrameInput& input) override {
-    eye_ = input.uniforms.views[0].eye;
     std::vector<WarpSetup> setups;
     uint32_t needs = 0;
     const float pixelScale = input.uniforms.pixelScale;
@@ -156,16 +155,14 @@ class Warp : public Pass {
   void record(VkCommandBuffer commands) const {
     const Target colors[] = {{&resources_->image(pattern_)}, {&resources_->image(knobs_)}};
     const Target depth{&resources_->image(depth_), nullptr, {}};
-    drawViews(commands, configuration_, colors, &depth, [&](uint32_t firstView) {
-      step_.draw(commands, *resources_, *scene_, &sets_, firstView, eye_);
-    });
+    drawViews(commands, configuration_, colors, &depth,
+              [&](uint32_t firstView) { step_.draw(commands, *resources_, *scene_, &sets_, firstView); });
   }
 
   gpu::ResourceId pattern_ = 0, knobs_ = 0, depth_ = 0;
   const FrameResources* resources_ = nullptr;
   const SceneOnGpu* scene_ = nullptr;
   Configuration configuration_;
-  glm::vec3 eye_{0.0f};
   MaterialBlocks<WarpMaterial> materials_;
   ExampleTextures* examples_ = nullptr;
   bool wraps_ = false;
