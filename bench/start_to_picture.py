@@ -8,10 +8,8 @@ run, and the largest peak of resident memory. Options after -- go to `scumble re
 own times of each step are kept in the JSON (those of the median run).
 """
 import argparse
-import datetime
 import json
 import os
-import platform
 import statistics
 import subprocess
 import sys
@@ -19,7 +17,9 @@ import tempfile
 import time
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
+sys.dont_write_bytecode = True
+from surroundings import ROOT, surroundings  # noqa: E402
+
 PNG_END = b"\x00\x00\x00\x00IEND\xaeB`\x82"
 
 
@@ -75,33 +75,6 @@ def measure(program, scene, runs, options):
     }
 
 
-def first_line(path, start):
-    try:
-        for line in Path(path).read_text().splitlines():
-            if line.startswith(start):
-                return line.split(":", 1)[1].strip()
-    except OSError:
-        pass
-    return None
-
-
-def output_of(command):
-    try:
-        return subprocess.run(command, capture_output=True, text=True, check=True, cwd=ROOT).stdout.strip()
-    except (OSError, subprocess.CalledProcessError):
-        return None
-
-
-def machine():
-    return {
-        "system": platform.platform(),
-        "processor": first_line("/proc/cpuinfo", "model name") or platform.processor(),
-        "processors": len(os.sched_getaffinity(0)),
-        "memory": first_line("/proc/meminfo", "MemTotal"),
-        "loadBefore": os.getloadavg()[0],
-    }
-
-
 def main():
     parser = argparse.ArgumentParser(
         description=__doc__.splitlines()[0],
@@ -122,14 +95,7 @@ def main():
     if not os.access(chosen.program, os.X_OK):
         parser.error(f"{chosen.program} is not there; build it first (./demo)")
 
-    report = {
-        "date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
-        "revision": output_of(["git", "describe", "--always", "--dirty", "--abbrev=12"]),
-        "program": output_of([chosen.program, "--version"]),
-        "options": options,
-        "machine": machine(),
-        "results": [],
-    }
+    report = surroundings(chosen.program, options)
     print(f"{'scene':40} {'median s':>9} {'fastest':>9} {'slowest':>9} {'peak MiB':>9}")
     for scene in chosen.scenes:
         result = measure(chosen.program, scene, chosen.runs, options)

@@ -1,0 +1,270 @@
+#!/usr/bin/env python3
+"""Clips, sequences and films from outside.
+
+    tests/program/film_test.py SCUMBLE DEMO_SCENE [unittest's options]     as program_test.py
+"""
+import base64
+import json
+import os
+import random
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import time
+import unittest
+from pathlib import Path
+
+import program_test
+from program_test import NOT_WRITTEN, TINY, USAGE, Program, exr, gltf
+
+QUIET = [*TINY, "--quiet"]
+
+
+def clip(number, name, translation, seconds=1.0):
+    """An animation that moves node 0 from where it is to `translation`, in accessors of its own."""
+    data = struct.pack("<2f", 0, seconds) + struct.pack("<6f", 0, 0, 0, *translation)
+    uri = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
+    buffer, view, accessor = 1 + number, 2 + 2 * number, 2 + 2 * number
+    return {
+        "buffers": [{"byteLength": len(data), "uri": uri}],
+        "bufferViews": [{"buffer": buffer, "byteOffset": 0, "byteLength": 8}, {"buffer": buffer, "byteOffset": 8, "byteLength": 24}],
+        "accessors": [{"bufferView": view, "componentType": 5126, "type": "SCALAR", "count": 2, "min": [0], "max": [seconds]},
+                      {"bufferView": view + 1, "componentType": 5126, "type": "VEC3", "count": 2}],
+        "animations": [{"name": name, "samplers": [{"input": accessor, "output": accessor + 1}],
+                        "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}]}
+
+
+def moving(camera=True):
+    """The box with two clips: it rises, or walks aside, both for a second."""
+    scene = json.loads(gltf(camera=camera))
+    for number, (name, to) in enumerate((("Rise", (0, 1.5, 0)), ("Walk.001", (2, 0, 0)))):
+        for key, items in clip(number, name, to).items():
+            scene.setdefault(key, []).extend(items)
+    return json.dumps(scene)
+
+
+def probe(path, entries):
+    text = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_entries", entries, "-of", "json", str(path)],
+                          capture_output=True, text=True, check=True).stdout
+    return json.loads(text)
+
+
+class Film(Program):
+    def setUp(self):
+        super().setUp()
+        self.put("move.gltf", moving())
+        self.before = self.files()
+
+    def bytes(self, name):
+        return (self.folder / name).read_bytes()
+
+    def draw(self, *args, scene="move.gltf"):
+        self.good("render", scene, *args, *QUIET)
+
+
+class Clips(Film):
+    def test_the_first_clip_plays_and_others_when_asked_for(self):
+        for name, args in (("rest", ["--set", "clips.*.play.weight=0"]), ("first", []), ("rise", ["--clip", "Rise"]),
+                           ("zero", ["--clip", "0"]), ("walk", ["--clip", "Walk.001"]), ("one", ["--clip", "1"]),
+                           ("set", ["--set", "clips.Walk.001.play.weight=1"])):
+            self.draw("-o", name + ".png", "--time", "0.5", *args)
+        pictures = {name: self.bytes(name + ".png") for name in ("rest", "first", "rise", "zero", "walk", "one", "set")}
+        self.same(pictures["first"], pictures["rise"])
+        self.same(pictures["rise"], pictures["zero"])
+        self.same(pictures["walk"], pictures["one"])
+        self.same(pictures["walk"], pictures["set"])
+        self.assertEqual(len({pictures[name] for name in ("rest", "rise", "walk")}), 3)
+
+    def test_time_is_seconds_and_clips_begin_again(self):
+        for name, seconds in (("a", "0.25"), ("b", "1.25"), ("c", "-0.75"), ("d", "0.5")):
+            self.draw("-o", name + ".png", "--time", seconds)
+        self.same(self.bytes("a.png"), self.bytes("b.png"))
+        self.same(self.bytes("a.png"), self.bytes("c.png"))
+        self.different(self.bytes("a.png"), self.bytes("d.png"))
+
+    def test_a_clip_that_is_not_there(self):
+        self.bad(USAGE, "render", "move.gltf", "-o", "x.png", "--clip", "Run", *TINY, says=["'Run'", "Rise, Walk.001"])
+        self.bad(USAGE, "render", "move.gltf", "-o", "x.png", "--clip", "2", *TINY, says="'2'")
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.png", "--clip", "Rise", *TINY, says="none at all")
+
+    def test_poses_that_a_look_holds_stand_for_two_frames(self):
+        self.put("hold.json", '{"nodes": {"Box": {"animation": {"hold": 2}}}}')
+        self.before = self.files()
+        self.draw("-o", "held.#.png", "--frames", "0..5", "--look", "hold.json")
+        self.draw("-o", "free.#.png", "--frames", "0..5")
+        for frame in (0, 2, 4):
+            self.same(self.bytes(f"held.{frame}.png"), self.bytes(f"held.{frame + 1}.png"))
+            self.same(self.bytes(f"held.{frame}.png"), self.bytes(f"free.{frame}.png"))
+        self.assertEqual(len({self.bytes(f"free.{frame}.png") for frame in range(6)}), 6)
+
+    def test_a_track_in_the_look_moves_a_knob_and_set_wins(self):
+        self.put("track.json", '{"shadow": {"threshold": {"keys": [[0, 0.2], [1, 0.8]]}}}')
+        self.before = self.files()
+        for name, args in (("track", ["--time", "0.5"]), ("half", ["--set", "shadow.threshold=0.5"])):
+            self.draw("-o", name + ".png", "--look", "track.json", "--set", "clips.*.play.weight=0", *args)
+        self.same(self.bytes("track.png"), self.bytes("half.png"))
+        self.put("wrong.json", '{"shadow": {"threshold": {"keys": [[0, 0.2], [1, "much"]]}}}')
+        self.before = self.files()
+        self.bad(program_test.UNUSABLE, "render", "move.gltf", "-o", "x.png", "--look", "wrong.json", *TINY,
+                 says="(shadow.threshold.keys[1][1])")
+
+    def test_motion_is_what_a_frame_moved(self):
+        self.draw("-o", "m.exr", "--time", "0.5", "--aov", "motion", "--set", "nodes.Box.animation.hold=0")
+        self.draw("-o", "still.exr", "--time", "0.5", "--aov", "motion", "--set", "clips.*.play.weight=0")
+        self.different(self.bytes("m.exr"), self.bytes("still.exr"))
+
+
+class Sequences(Film):
+    def test_split_over_processes_and_alone_the_bytes_are_the_same(self):
+        self.draw("-o", "all.##.png", "--frames", "0..7")
+        self.draw("-o", "part.##.png", "--frames", "4..7")
+        self.draw("-o", "part.##.png", "--frames", "0..3")
+        self.draw("-o", "alone.png", "--time", str(5 / 24))
+        for frame in range(8):
+            self.same(self.bytes(f"all.{frame:02}.png"), self.bytes(f"part.{frame:02}.png"))
+        self.same(self.bytes("all.05.png"), self.bytes("alone.png"))
+
+    def test_layers_too_and_in_stereo(self):
+        for args in ([], ["--stereo", "side-by-side"]):
+            self.draw("-o", "all.#.exr", "--frames", "0..3", "--aov", "all", *args)
+            self.draw("-o", "part.#.exr", "--frames", "2..3", "--aov", "all", *args)
+            self.draw("-o", "part.#.exr", "--frames", "0..1", "--aov", "all", *args)
+            for frame in range(4):
+                self.same(self.bytes(f"all.{frame}.exr"), self.bytes(f"part.{frame}.exr"))
+
+    def test_resume_draws_what_is_not_whole(self):
+        args = ["-o", "x.#.png", "--frames", "0..4", "--aov", "id"]
+        self.draw(*args)
+        wanted = {name: self.bytes(name) for name in self.new_files()}
+        (self.folder / "x.0.png").write_bytes(b"")  # as a farm's lock would be
+        (self.folder / "x.1.png").write_bytes(wanted["x.1.png"][:-20])
+        (self.folder / "x.2.id.exr").unlink()
+        self.good("render", "box.gltf", "-o", "x.3.png", "--size", "20x20", "--samples", "1", "--quiet")
+        time.sleep(0.02)
+        before = (self.folder / "x.4.png").stat().st_mtime_ns
+        self.draw(*args, "--resume")
+        for name, content in wanted.items():
+            self.same(self.bytes(name), content, name)
+        self.assertEqual((self.folder / "x.4.png").stat().st_mtime_ns, before, "a whole frame is left as it is")
+
+    def test_killed_at_any_moment_nothing_is_half_written(self):
+        args = ["-o", "x.##.png", "--frames", "0..11", "--aov", "normal", "--size", "640x360", "--samples", "1", "--quiet"]
+        self.good("render", "move.gltf", *[word.replace("x.##", "whole.##") for word in args])
+        wanted = {name.replace("whole", "x"): self.bytes(name) for name in self.new_files()}
+        for name in self.new_files():
+            (self.folder / name).unlink()
+        environment = dict(os.environ, XDG_CACHE_HOME=str(program_test.shared / "cache"))
+        chance, most, kills = random.Random(7), 0, 0
+        while len(self.new_files()) < len(wanted):
+            process = subprocess.Popen([program_test.scumble, "render", "move.gltf", *args, "--resume"], cwd=self.folder,
+                                       env=environment, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL)
+            # Kills that come sooner than anything is written would never end: now and then one has more time.
+            try:
+                process.wait(chance.uniform(0.02, 0.8) if kills % 5 != 4 else 1.2)
+            except subprocess.TimeoutExpired:
+                process.send_signal(signal.SIGKILL)
+                kills += 1
+            process.communicate()
+            for name in self.new_files():
+                self.assertIn(name, wanted, "nothing but whole files is left")
+                self.same(self.bytes(name), wanted[name], name)
+            self.assertGreaterEqual(len(self.new_files()), most, "nothing is lost")
+            most = len(self.new_files())
+            self.assertLess(kills, 200)
+        self.assertGreater(kills, 2)
+
+    def test_what_the_exr_holds(self):
+        self.draw("-o", "a.exr", "--aov", "depth,shadow", "--exr", "half,piz")
+        types = dict(exr(self.folder / "a.exr")["channels"])
+        self.assertEqual((types["R"], types["shadow.R"], types["depth.R"]), (1, 1, 2))  # 1: half, 2: float
+        self.same(exr(self.folder / "a.exr")["compression"][1], b"\x04")  # PIZ
+        self.draw("-o", "b.exr")
+        self.same(exr(self.folder / "b.exr")["compression"][1], b"\x03")  # ZIP
+        self.before = self.files()
+        self.bad(USAGE, "render", "move.gltf", "-o", "x.exr", "--exr", "double", *TINY, says="half")
+
+    def test_progress_without_a_terminal_is_plain_lines(self):
+        done = self.run_program("render", "move.gltf", "-o", "x.#.png", "--frames", "0..2", *TINY)
+        self.assertRegex(done.stderr, r"scumble: frame 2, 3 of 3, 0 s left\n\Z")
+        self.assertNotIn("\r", done.stderr)
+
+
+class Films(Film):
+    def setUp(self):
+        if not (shutil.which("ffmpeg") and shutil.which("ffprobe")):
+            self.skipTest("ffmpeg is not installed")
+        super().setUp()
+
+    def test_frames_size_and_rate(self):
+        self.draw("-o", "a.mp4", "--frames", "3..12", "--fps", "25")
+        stream = probe(self.folder / "a.mp4", "stream=codec_name,width,height,nb_read_frames,r_frame_rate,color_space")["streams"][0]
+        self.assertEqual((stream["codec_name"], stream["width"], stream["height"]), ("h264", 32, 18))
+        self.assertEqual((stream["nb_read_frames"], stream["r_frame_rate"], stream["color_space"]), ("10", "25/1", "bt709"))
+        self.assertEqual(self.new_files(), {"a.mp4"})
+
+    def test_a_film_lasts_as_long_as_its_clip(self):
+        self.draw("-o", "a.mp4")
+        self.draw("-o", "b.mp4", "--set", "clips.Rise.play.weight=1", "--set", "clips.Rise.play.speed=2")
+        for name, frames in (("a.mp4", "24"), ("b.mp4", "12")):
+            self.assertEqual(probe(self.folder / name, "stream=nb_read_frames")["streams"][0]["nb_read_frames"], frames)
+        self.before = self.files()
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.mp4", *TINY, says="--frames A..B")
+
+    def test_players_learn_how_the_eyes_lie(self):
+        for layout, size, name in (("side-by-side", (64, 18), "side by side"), ("over-under", (32, 36), "top and bottom")):
+            self.draw("-o", layout + ".mp4", "--frames", "0..1", "--stereo", layout)
+            stream = probe(self.folder / (layout + ".mp4"), "stream=width,height:stream_side_data")["streams"][0]
+            self.assertEqual((stream["width"], stream["height"]), size)
+            self.assertEqual([data["type"] for data in stream["side_data_list"] if data["side_data_type"] == "Stereo 3D"], [name])
+        self.draw("-o", "two.mp4", "--frames", "0..1", "--stereo", "separate")
+        self.assertIn("two.left.mp4", self.new_files())
+        self.assertIn("two.right.mp4", self.new_files())
+        self.assertNotIn("two.mp4", self.new_files())
+
+    def test_quality_is_constant_quality(self):
+        sizes = []
+        for quality in ("0", "16", "45"):
+            self.good("render", "move.gltf", "-o", "q.mp4", "--frames", "0..5", "--quality", quality, "--size", "320x180",
+                      "--samples", "1", "--quiet")
+            sizes.append(len(self.bytes("q.mp4")))
+        self.assertEqual(sizes, sorted(sizes, reverse=True))
+        self.assertGreater(sizes[0], 1.5 * sizes[2])
+        self.before = self.files()
+        self.bad(USAGE, "render", "move.gltf", "-o", "x.mp4", "--quality", "52", *TINY, says="0")
+
+    def test_the_same_bytes_again(self):
+        self.draw("-o", "a.mp4", "--frames", "0..7")
+        self.draw("-o", "b.mp4", "--frames", "0..7")
+        self.same(self.bytes("a.mp4"), self.bytes("b.mp4"))
+
+    def test_what_cannot_be(self):
+        self.bad(USAGE, "render", "move.gltf", "-o", "x.mp4", "--aov", "depth", *TINY, says="film")
+        self.bad(USAGE, "render", "move.gltf", "-o", "x.##.mp4", "--frames", "0..1", *TINY, says="film")
+        self.bad(USAGE, "render", "move.gltf", "-o", "x.mp4", "--resume", *TINY, says="####")
+        self.bad(NOT_WRITTEN, "render", "move.gltf", "-o", "no/x.mp4", *TINY, says="no/x.mp4")
+
+    def test_ffmpeg_is_missing_or_fails(self):
+        self.bad(NOT_WRITTEN, "render", "move.gltf", "-o", "x.mp4", *QUIET, says=["ffmpeg", "####"],
+                 environment={"PATH": "/nonexistent"})
+        fake = Path(self.put("bin/ffmpeg", "#!/bin/sh\necho 'the disk is on fire' >&2\nexit 3\n"))
+        fake.chmod(0o755)
+        self.before = self.files()
+        self.bad(NOT_WRITTEN, "render", "move.gltf", "-o", "x.mp4", *QUIET, says="the disk is on fire",
+                 environment={"PATH": f"{fake.parent}:{os.environ['PATH']}"})
+
+    def test_a_killed_film_leaves_nothing(self):
+        process = subprocess.Popen([program_test.scumble, "render", "move.gltf", "-o", "x.mp4", "--frames", "0..5000", *QUIET],
+                                   cwd=self.folder, stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL,
+                                   env=dict(os.environ, XDG_CACHE_HOME=str(program_test.shared / "cache")))
+        time.sleep(1.5)
+        self.assertIsNone(process.poll())
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        time.sleep(0.3)
+        self.assertEqual(self.new_files(), set())
+
+
+if __name__ == "__main__":
+    program_test.main()
