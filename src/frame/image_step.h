@@ -17,7 +17,7 @@ class ImageStep {
  public:
   struct Input {
     gpu::ResourceId image;
-    bool linear = false;  // sampled between texels; else texelFetch only
+    bool linear = false;  // sampled between texels; else texelFetch only (of multisampled images: by sample)
   };
   // What a step writes: one image, or two of one size, for shaders with SHADES_TWO.
   struct Outputs {

@@ -113,8 +113,8 @@ TEST_P(MatteTest, coverageIsThatOfTheFramesSamples) {
 TEST_P(MatteTest, ranksOfInterpolatedSamples) {
   TestScene s;
   const int material = s.material(TestScene::unlit("Bar", {0.5f, 0.5f, 0.5f, 1}));
-  for (int i = -24; i < 24; ++i)
-    s.add(gridMesh({0.03f * float(i), -1.2f, 0.01f * float(i)}, {0.024f, 0, 0}, {0.3f, 2.4f, 0}, 4),
+  for (int i = -50; i < 50; ++i)
+    s.add(gridMesh({0.012f * float(i), -1.2f, 0.004f * float(i)}, {0.01f, 0, 0}, {0.3f, 2.4f, 0}, 4),
           material);
   const Scene scene = s.load();
   const auto views = viewsFrom(scene, {{0, 0, 5}, {0, 0, 0}}, kWidth, kHeight, GetParam());
@@ -183,10 +183,11 @@ TEST_P(MatteTest, sumsToOneWhereAllIsCovered) {
 // Colours of unlit objects, laid together by their mattes, are the picture: with torn edges, holes, things
 // behind things, and sky.
 TEST_P(MatteTest, fitsThePicture) {
-  Image leaf{16, 16, {"R", "G", "B", "A"}, {}};
-  for (int i = 0; i < 256; ++i) {
-    const float alpha = i % 16 < 5 || (i / 16) % 8 < 3 ? 1.0f : i % 3 ? 0.3f : 0.0f;
-    leaf.pixels.insert(leaf.pixels.end(), {1, 1, 1, alpha});
+  // Finer than the picture's pixels, so that holes depend on how much of its detail is left out.
+  Image leaf{128, 128, {"R", "G", "B", "A"}, {}};
+  for (int i = 0; i < 128 * 128; ++i) {
+    const int x = i % 128, y = i / 128;
+    leaf.pixels.insert(leaf.pixels.end(), {1, 1, 1, x % 40 < 16 || (x * x + 3 * y) % 7 < 3 ? 1.0f : 0.0f});
   }
   for (const uint32_t samples : {1u, 4u}) {
     // Four samples are averaged as roots of colours, from which the colours below must not be too far.
@@ -197,10 +198,11 @@ TEST_P(MatteTest, fitsThePicture) {
                                                                           {0.1f, 0.8f, 0.2f, 1}}
                                                  : std::vector<glm::vec4>{{0.5f, 0.45f, 0.2f, 1},
                                                                           {0.45f, 0.2f, 0.2f, 1},
-                                                                          {0.2f, 0.25f, 0.5f, 1},
-                                                                          {0.25f, 0.5f, 0.25f, 1}};
+                                                                          {0.2f, 0.26f, 0.5f, 1},
+                                                                          {0.26f, 0.5f, 0.26f, 1}};
     TestScene s;
     std::vector<int> materials;
+    s.json()["samplers"] = Json::array({{{"magFilter", 9729}, {"minFilter", 9987}}});
     const int texture = s.texture(leaf);
     for (size_t i = 0; i < colors.size(); ++i) {
       Json json = TestScene::unlit("Flat" + std::to_string(i), colors[i]);
