@@ -97,6 +97,16 @@ bool OutputPlan::isCryptomatte(const std::string& layer) const {
                      [&](const Cryptomatte& cryptomatte) { return cryptomatte.layer == layer; });
 }
 
+Status OutputPlan::writeLayers(const std::string& path_, const std::vector<ImageLayer>& layers) const {
+  // A file says nothing of mattes that it does not hold.
+  ExrOptions options = exr;
+  std::erase_if(options.cryptomattes, [&](const Cryptomatte& cryptomatte) {
+    return std::none_of(layers.begin(), layers.end(),
+                        [&](const ImageLayer& layer) { return layer.name == cryptomatte.layer; });
+  });
+  return writeExr(path_, layers, options);
+}
+
 std::vector<std::string> OutputPlan::picturePaths(const std::string& framePath_) const {
   if (!asFiles()) return {framePath_};
   const std::string extension = fs::path(framePath_).extension().string();
@@ -134,7 +144,7 @@ Status OutputPlan::writePicturePng(const Frame& frame, size_t file, const std::s
   for (size_t i = 1; i < frame.layers.size(); ++i) {
     const std::string& name = frame.layers[i].name;
     const ImageLayer layer{isCryptomatte(name) ? name : "", "", &picture(frame.layers[i]), isHalf(name)};
-    if (const Status status = writeExr(withPart(path_, name, ".exr"), {layer}, exr); !status)
+    if (const Status status = writeLayers(withPart(path_, name, ".exr"), {layer}); !status)
       return status.error();
   }
   return writePng(path_, picture(frame.layers[0]));
@@ -150,7 +160,7 @@ Status OutputPlan::writeLayeredExr(const Frame& frame, size_t file, const std::s
                            layer.views[0].width != width || layer.views[0].height != height;
     if (otherSize) {
       const ImageLayer alone{"", "", &layer.views[0], isHalf(layer.name)};
-      if (const Status status = writeExr(withPart(path_, layer.name, ".exr"), {alone}, exr); !status)
+      if (const Status status = writeLayers(withPart(path_, layer.name, ".exr"), {alone}); !status)
         return status.error();
     } else if (asFiles() || viewCount == 1) {
       layers.push_back({layer.name, "", &layer.views[viewCount == 1 ? 0 : file], isHalf(layer.name)});
@@ -159,7 +169,7 @@ Status OutputPlan::writeLayeredExr(const Frame& frame, size_t file, const std::s
         layers.push_back({layer.name, kEyes[view], &layer.views[view], isHalf(layer.name)});
     }
   }
-  return writeExr(path_, layers, exr);
+  return writeLayers(path_, layers);
 }
 
 Result<FilmOutput> FilmOutput::create(const OutputPlan& plan, double fps, int quality) {

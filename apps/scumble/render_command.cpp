@@ -223,6 +223,8 @@ int run(const RenderArguments& args) {
   if (!look) return fail(look.error());
   const Result<Scene> scene = args.scene.load(args.quiet);
   if (!scene) return fail(scene.error());
+  // Compositors know objects by their names.
+  output->exr.cryptomattes = {{"cryptomatte", scene->objectNames()}};
   look = args.look.withClip(*look, *scene);
   if (!look) return fail(look.error());
   // A camera that does not exist is found before there is a device.

@@ -8,11 +8,11 @@
 namespace scumble::frame {
 
 void ImageStep::declare(FrameBuilder& frame, const std::string& name, ImageShader shader,
-                        std::vector<Input> inputs, gpu::ResourceId output, uint64_t uniformBytes,
+                        std::vector<Input> inputs, const Outputs& outputs, uint64_t uniformBytes,
                         std::vector<uint32_t> constants, uint32_t textureCount, uint32_t maxJobs) {
   shader_ = shader;
   inputs_ = std::move(inputs);
-  output_ = output;
+  outputs_ = outputs.images;
   constants_ = std::move(constants);
   textureCount_ = textureCount;
   maxJobs_ = maxJobs;
@@ -27,7 +27,8 @@ void ImageStep::declare(FrameBuilder& frame, const std::string& name, ImageShade
     if (std::none_of(uses.begin(), uses.end(), isKnown))
       uses.push_back({input.image, compute_ ? gpu::Use::sampledByCompute : gpu::Use::sampledByFragment});
   }
-  uses.push_back({output, compute_ ? gpu::Use::storageImageWrite : gpu::Use::colorTarget});
+  for (const gpu::ResourceId output : outputs_)
+    uses.push_back({output, compute_ ? gpu::Use::storageImageWrite : gpu::Use::colorTarget});
   frame.addStep(name, std::move(uses), [this](VkCommandBuffer commands) { record(commands); });
 }
 
@@ -50,9 +51,11 @@ void ImageStep::create(FrameBuilder& frame, const FrameResources& resources) {
     }
   }
   if (compute_) {
-    outputLayout_ = gpu::SetLayout(device, {{VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, stage}});
+    const std::vector<gpu::Binding> written(outputs_.size(), {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, stage});
+    outputLayout_ = gpu::SetLayout(device, written);
     outputSet_ = gpu::DescriptorSets(device, outputLayout_);
-    outputSet_.writeStorageImage(0, 0, resources.image(output_).view());
+    for (uint32_t i = 0; i < outputs_.size(); ++i)
+      outputSet_.writeStorageImage(0, i, resources.image(outputs_[i]).view());
   }
   if (textureCount_ == 0) setJobs({{constants_, {}}});
 }
@@ -89,7 +92,8 @@ const gpu::Pipeline& ImageStep::pipelineFor(const std::vector<uint32_t>& constan
     desc.vertex = {shaders::fullscreen_vert};
     desc.fragment = shader_.fragment;
     desc.constants = std::move(all);
-    desc.colorFormats = {resources_->image(output_).desc().format};
+    for (const gpu::ResourceId output : outputs_)
+      desc.colorFormats.push_back(resources_->image(output).desc().format);
     desc.viewMask = viewMask(configuration_);
     desc.pushConstantBytes = 4;
     desc.sets = {resources_->frameLayout().handle(), inputLayout_.handle()};
@@ -99,7 +103,7 @@ const gpu::Pipeline& ImageStep::pipelineFor(const std::vector<uint32_t>& constan
 }
 
 void ImageStep::record(VkCommandBuffer commands) const {
-  const gpu::Image& output = resources_->image(output_);
+  const gpu::Image& output = resources_->image(outputs_.front());
   const uint32_t width = output.desc().width, height = output.desc().height;
   const auto bind = [&](size_t job) {
     jobs_[job]->bind(commands);
@@ -115,8 +119,10 @@ void ImageStep::record(VkCommandBuffer commands) const {
     }
     return;
   }
-  const Target target{&output, nullptr, {}, Target::Before::undefined};
-  drawViews(commands, configuration_, {&target, 1}, nullptr, [&](uint32_t firstView) {
+  std::vector<Target> targets;
+  for (const gpu::ResourceId id : outputs_)
+    targets.push_back({&resources_->image(id), nullptr, {}, Target::Before::undefined});
+  drawViews(commands, configuration_, targets, nullptr, [&](uint32_t firstView) {
     for (size_t job = 0; job < jobs_.size(); ++job) {
       bind(job);
       jobs_[job]->push(commands, firstView);

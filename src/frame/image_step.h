@@ -17,7 +17,13 @@ class ImageStep {
  public:
   struct Input {
     gpu::ResourceId image;
-    bool linear = false;  // sampled between texels; else texelFetch only
+    bool linear = false;  // sampled between texels; else texelFetch only (of multisampled images: by sample)
+  };
+  // What a step writes: one image, or two of one size, for shaders with SHADES_TWO.
+  struct Outputs {
+    Outputs(gpu::ResourceId one) : images{one} {}
+    Outputs(gpu::ResourceId one, gpu::ResourceId other) : images{one, other} {}
+    std::vector<gpu::ResourceId> images;
   };
   // A texture that is none of the frame's images; bound after the inputs.
   struct Texture {
@@ -33,7 +39,7 @@ class ImageStep {
   // `uniformBytes`: size of the step's uniform block (set 1, binding 0) for each job; 0 where the shader has
   // none.
   void declare(FrameBuilder& frame, const std::string& name, ImageShader shader, std::vector<Input> inputs,
-               gpu::ResourceId output, uint64_t uniformBytes, std::vector<uint32_t> constants = {},
+               const Outputs& outputs, uint64_t uniformBytes, std::vector<uint32_t> constants = {},
                uint32_t textureCount = 0, uint32_t maxJobs = 1);
   // Steps without textures have their one job from here on; others need setJobs before their first frame.
   void create(FrameBuilder& frame, const FrameResources& resources);
@@ -50,7 +56,7 @@ class ImageStep {
   ImageShader shader_;
   std::vector<Input> inputs_;
   std::vector<uint32_t> constants_;
-  gpu::ResourceId output_ = 0;
+  std::vector<gpu::ResourceId> outputs_;
   UniformSlice uniforms_;
   uint64_t uniformStride_ = 0;
   uint32_t textureCount_ = 0, maxJobs_ = 1;

@@ -37,6 +37,7 @@ struct Configuration {
   uint32_t width = 0, height = 0, samples = 1, viewCount = 1;
   bool computeImagePasses = false;
   bool facts = false;          // whether the facts pass runs
+  bool matte = false;          // whether the matte pass runs
   std::vector<Slot> readBack;  // what the caller gets
   bool layered = false;        // whether what lies behind the first surface is drawn as well
   bool plain = false;

@@ -20,7 +20,8 @@ const SlotInfo& slotInfo(Slot slot) {
       {"position", kFloat, Rate::perView, false, 3},     {"normal", kFloat, Rate::perView, false, 3},
       {"uv", kFloat, Rate::perView, false, 2},           {"uv-gradient", kFloat, Rate::perView, false, 4},
       {"metatexture", kFloat, Rate::perView, false, 4},  {"motion", kFloat, Rate::perView, false, 2},
-      {"id", kFloat, Rate::perView, false, 1},           {"plain", kSrgb, Rate::perView, true, 4},
+      {"id", kFloat, Rate::perView, false, 1},           {"cryptomatte", kFloat, Rate::perView, false, 4},
+      {"matte-rest", kFloat, Rate::perView, false, 4},   {"plain", kSrgb, Rate::perView, true, 4},
   }};
   return kInfos[size_t(slot)];
 }

@@ -35,6 +35,10 @@ enum class Slot : uint8_t {
   metatexture,
   motion,
   id,
+  // Mattes of objects by their coverage of the picture, drawn only when asked for: object's number and
+  // coverage of two ranks each, the greatest coverage first. One AOV.
+  matte,
+  matteRest,
   plain,  // the yardstick's picture
   count
 };

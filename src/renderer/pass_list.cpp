@@ -12,6 +12,7 @@
 #include "passes/facts/facts.h"
 #include "passes/final_color/final_color.h"
 #include "passes/final_shadow/final_shadow.h"
+#include "passes/matte/matte.h"
 #include "passes/plain/plain.h"
 #include "passes/shadow_map/shadow_map.h"
 #include "passes/surface/surface.h"
@@ -59,6 +60,18 @@ std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration
   list.push_back(passes::makeColor());
   list.push_back(passes::makeFinalColor(largestInflation));
   if (configuration.facts) list.push_back(passes::makeFacts());
+  if (configuration.matte)
+    list.push_back(passes::makeMatte({
+        .displacement =
+            [](const look::LookData& look, const SceneOnGpu& scene, float imageHeight) {
+              return shared::Displacement{largestInflation(look, scene, imageHeight),
+                                          look.get<passes::FinalColorParams>().ripple};
+            },
+        .simplify =
+            [](const look::LookData& look, const std::string& material) {
+              return look.getForMaterial<passes::SurfaceParams>(material).simplify;
+            },
+    }));
   return list;
 }
 

@@ -103,7 +103,7 @@ TEST(PassList, namesOfAovsAreThePromisedOnes) {
   // docs: PROGRAM.md promises these to scripts.
   for (const char* name :
        {"warp", "shadow-map", "shadow", "blur", "final-shadow", "lit", "shadowed", "color", "final-color",
-        "depth", "position", "normal", "uv", "uv-gradient", "metatexture", "motion", "id"})
+        "depth", "position", "normal", "uv", "uv-gradient", "metatexture", "motion", "id", "cryptomatte"})
     EXPECT_TRUE(unique.count(name)) << name;
 }
 

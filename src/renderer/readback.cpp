@@ -54,6 +54,17 @@ void readPixel(VkFormat format, const std::byte* data, size_t pixel, uint32_t ch
   }
 }
 
+uint64_t bytesOf(const gpu::ImageDesc& desc) {
+  return uint64_t(desc.width) * desc.height * desc.layers * gpu::bytesPerPixel(desc.format);
+}
+
+std::vector<std::string> channelNames(Slot slot) {
+  if (slot == Slot::matte)
+    return {"id0", "coverage0", "id1", "coverage1", "id2", "coverage2", "id3", "coverage3"};
+  static const char* const kNames[] = {"R", "G", "B", "A"};
+  return {kNames, kNames + slotInfo(slot).channels};
+}
+
 // What is accumulated under partial coverage comes back premultiplied by it.
 bool isPremultiplied(Slot slot) {
   switch (slot) {
@@ -96,17 +107,23 @@ Image enlarge(const Image& small, uint32_t width, uint32_t height) {
 
 void Readback::declare(FrameBuilder& frame, Slot slot) {
   slot_ = slot;
-  image_ = frame.slot(slot);
-  frame.addStep("readback", {{image_, gpu::Use::copySource}}, [this](VkCommandBuffer commands) {
-    const gpu::Image& image = resources_->image(image_);
-    VkBufferImageCopy copy{};
-    copy.imageSubresource = {
-        VkImageAspectFlags(gpu::isDepthFormat(image.desc().format) ? VK_IMAGE_ASPECT_DEPTH_BIT
-                                                                   : VK_IMAGE_ASPECT_COLOR_BIT),
-        0, 0, image.desc().layers};
-    copy.imageExtent = {image.desc().width, image.desc().height, 1};
-    vkCmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                           buffers_[frame_].handle(), 1, &copy);
+  images_ = {frame.slot(slot)};
+  if (slot == Slot::matte) images_.push_back(frame.slot(Slot::matteRest));
+  std::vector<gpu::ResourceUse> uses;
+  for (const gpu::ResourceId image : images_) uses.push_back({image, gpu::Use::copySource});
+  frame.addStep("readback", std::move(uses), [this](VkCommandBuffer commands) {
+    for (size_t i = 0; i < images_.size(); ++i) {
+      const gpu::Image& image = resources_->image(images_[i]);
+      VkBufferImageCopy copy{};
+      copy.bufferOffset = i * bytesOf(image.desc());
+      copy.imageSubresource = {
+          VkImageAspectFlags(gpu::isDepthFormat(image.desc().format) ? VK_IMAGE_ASPECT_DEPTH_BIT
+                                                                     : VK_IMAGE_ASPECT_COLOR_BIT),
+          0, 0, image.desc().layers};
+      copy.imageExtent = {image.desc().width, image.desc().height, 1};
+      vkCmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                             buffers_[frame_].handle(), 1, &copy);
+    }
     gpu::memoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                        VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
   });
@@ -114,21 +131,21 @@ void Readback::declare(FrameBuilder& frame, Slot slot) {
 
 void Readback::create(FrameBuilder& frame, const FrameResources& resources) {
   resources_ = &resources;
-  const gpu::ImageDesc& desc = resources.image(image_).desc();
-  const uint64_t bytes = uint64_t(desc.width) * desc.height * desc.layers * gpu::bytesPerPixel(desc.format);
+  const uint64_t bytes = images_.size() * bytesOf(resources.image(images_.front()).desc());
   for (gpu::Buffer& buffer : buffers_)
     buffer = gpu::Buffer(frame.device(), bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryKind::readback);
 }
 
 std::vector<Image> Readback::images(uint32_t frame, uint32_t width, uint32_t height) const {
-  static const char* const kNames[] = {"R", "G", "B", "A"};
-  const gpu::ImageDesc& desc = resources_->image(image_).desc();
-  const uint32_t channels = slotInfo(slot_).channels;
+  const gpu::ImageDesc& desc = resources_->image(images_.front()).desc();
+  const std::vector<std::string> names = channelNames(slot_);
+  const size_t channels = names.size();
+  const uint32_t channelsAnImage = slotInfo(slot_).channels;
   const size_t pixelsALayer = size_t(desc.width) * desc.height;
   std::vector<Image> images;
   halfTable();
   for (uint32_t layer = 0; layer < desc.layers; ++layer) {
-    Image image{desc.width, desc.height, {kNames, kNames + channels}, {}};
+    Image image{desc.width, desc.height, names, {}};
     image.pixels.resize(pixelsALayer * channels);
     constexpr uint32_t kRows = 64;
     scene::parallelFor((desc.height + kRows - 1) / kRows, scene::threadCount(0), [&](size_t band) {
@@ -136,7 +153,9 @@ std::vector<Image> Readback::images(uint32_t frame, uint32_t width, uint32_t hei
       const size_t last = std::min(first + size_t(kRows) * desc.width, pixelsALayer);
       for (size_t i = first; i < last; ++i) {
         float* out = &image.pixels[i * channels];
-        readPixel(desc.format, buffers_[frame].mapped(), layer * pixelsALayer + i, channels, out);
+        for (size_t part = 0; part < images_.size(); ++part)
+          readPixel(desc.format, buffers_[frame].mapped() + part * bytesOf(desc), layer * pixelsALayer + i,
+                    channelsAnImage, out + part * channelsAnImage);
         if (isPremultiplied(slot_) && out[3] > 0.0f && out[3] < 1.0f)
           for (uint32_t c = 0; c < (slot_ == Slot::blur ? 2u : 3u); ++c)
             out[c] /= out[3];  // the blur's B is depth

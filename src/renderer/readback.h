@@ -8,7 +8,8 @@ namespace scumble::renderer {
 
 using namespace frame;
 
-// One slot's image on its way back: declares the copy, and converts when the frame is done.
+// One AOV on its way back, in its slot's image, or several: declares the copy, and converts when the frame is
+// done.
 class Readback {
  public:
   void declare(FrameBuilder& frame, Slot slot);
@@ -21,7 +22,7 @@ class Readback {
 
  private:
   Slot slot_ = Slot::finalColor;
-  gpu::ResourceId image_ = 0;
+  std::vector<gpu::ResourceId> images_;  // of one size and format
   const FrameResources* resources_ = nullptr;
   gpu::Buffer buffers_[gpu::kFramesInFlight];
   uint32_t frame_ = 0;

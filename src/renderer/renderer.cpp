@@ -34,7 +34,8 @@ Error usage(std::string problem, std::string advice) {
 }
 
 bool isAov(Slot slot) {
-  return slot != Slot::depth && slot != Slot::plain && !(slot >= Slot::behindShadow && slot <= Slot::behind);
+  return slot != Slot::depth && slot != Slot::plain && slot != Slot::matteRest &&
+         !(slot >= Slot::behindShadow && slot <= Slot::behind);
 }
 bool isFact(Slot slot) {
   return slot >= Slot::factDepth && slot <= Slot::id;
@@ -349,6 +350,7 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
                                                         : "did you mean '" + suggestion + "'?");
     }
     configuration.facts |= isFact(*slot);
+    configuration.matte |= *slot == Slot::matte;
     if (*slot != Slot::finalColor) configuration.readBack.push_back(*slot);
   }
 

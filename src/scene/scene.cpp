@@ -116,6 +116,15 @@ const SceneTimings& Scene::timings() const {
   return timings_;
 }
 
+std::vector<std::string> Scene::objectNames() const {
+  if (!data_) return {};
+  std::vector<std::string> names;
+  for (const Node& node : data_->nodes)
+    names.push_back(node.name.empty() ? "node " + std::to_string(names.size() + 1) : node.name);
+  names.push_back("Ground");
+  return names;
+}
+
 SceneSummary Scene::summary() const {
   const SceneData& data = data_ ? *data_ : emptyScene();
   SceneSummary s;

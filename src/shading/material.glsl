@@ -19,8 +19,8 @@ vec2 emissiveUv(vec2 uv0, vec2 uv1) {
 
 // For passes that only need to know where a surface is: whether a masked one (mode 1) has a hole there, or a blended one
 // (mode 2) is nearly not there.
+bool isHole(float alpha, int alphaMode) { return alpha < (alphaMode == 1 ? material.alphaCutoff : 0.5); }
 bool isHole(vec2 uv, float vertexAlpha, int alphaMode) {
-  float alpha = vertexAlpha * material.baseColor.a * texture(baseTexture, uv).a;
-  return alpha < (alphaMode == 1 ? material.alphaCutoff : 0.5);
+  return isHole(vertexAlpha * material.baseColor.a * texture(baseTexture, uv).a, alphaMode);
 }
 #endif

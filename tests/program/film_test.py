@@ -185,6 +185,17 @@ class Sequences(Film):
         self.before = self.files()
         self.bad(USAGE, "render", "move.gltf", "-o", "x.exr", "--exr", "double", *TINY, says="half")
 
+    def test_mattes_by_name(self):
+        self.draw("-o", "a.exr", "--aov", "cryptomatte")
+        header = exr(self.folder / "a.exr")
+        names = {name for name, _ in header["channels"]}
+        self.assertLessEqual({"cryptomatte00.R", "cryptomatte01.A"}, names)
+        manifest, = (value for key, (kind, value) in ((key, value) for key, value in header.items() if isinstance(value, tuple))
+                     if kind == "string" and key.startswith("cryptomatte/") and key.endswith("/manifest"))
+        self.assertEqual(set(json.loads(manifest)), {"Box", "node 2", "node 3", "Ground"})
+        self.draw("-o", "b.png", "--aov", "cryptomatte")
+        self.assertIn("cryptomatte00.R", {name for name, _ in exr(self.folder / "b.cryptomatte.exr")["channels"]})
+
     def test_progress_without_a_terminal_is_plain_lines(self):
         done = self.run_program("render", "move.gltf", "-o", "x.#.png", "--frames", "0..2", *TINY)
         self.assertRegex(done.stderr, r"scumble: frame 2, 3 of 3, 0 s left\n\Z")

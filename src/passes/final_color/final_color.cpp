@@ -41,8 +41,7 @@ class FinalColor : public Pass {
     const FinalColorParams params = input.look.get<FinalColorParams>();
     shared::FinalColorUniforms uniforms{};
     uniforms.bloom = params.bloom * glm::vec3(params.bloomTint);
-    uniforms.inflation = inflation_(input.look, input.scene, input.uniforms.imageSize.y);
-    uniforms.ripple = params.ripple;
+    uniforms.displacement = {inflation_(input.look, input.scene, input.uniforms.imageSize.y), params.ripple};
     step_.update(uniforms);
   }
 

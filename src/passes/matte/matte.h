@@ -1,0 +1,19 @@
+// Mattes of objects with the coverage of the picture: the numbers of the objects whose samples a pixel's
+// colour comes from, wherever edges are torn, and how much of it each has. Drawn only when asked for.
+#pragma once
+
+#include "frame/pass.h"
+#include "shading/displacement.shared.h"
+
+namespace scumble::passes {
+
+// What other passes say, whose knobs decide what the picture shows.
+struct PictureFacts {
+  shared::Displacement (*displacement)(const look::LookData& look, const frame::SceneOnGpu& scene,
+                                       float imageHeight);
+  float (*simplify)(const look::LookData& look, const std::string& material);  // of textures, in mip levels
+};
+
+std::unique_ptr<frame::Pass> makeMatte(const PictureFacts& picture);
+
+}  // namespace scumble::passes
