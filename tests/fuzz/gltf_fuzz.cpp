@@ -1,6 +1,6 @@
 // libFuzzer target for the glTF importer: any bytes as a file in memory, with no folder to read from. What it
-// may find are sanitizer reports, data that breaks the promises of scene_data.h, and
-// poses that are not finite.
+// may find are sanitizer reports, data that breaks the promises of scene_data.h,
+// and poses that are not finite.
 //
 //   CC=clang-14 CXX=clang++-14 cmake -S . -B build-fuzz -G Ninja -DSCUMBLE_FUZZ=ON -DSCUMBLE_SANITIZE=ON
 //   ninja -C build-fuzz gltf_fuzz && mkdir -p build-fuzz/corpus
