@@ -31,6 +31,13 @@ Moments firstClipAt(const Scene& scene, double time) {
   return {{0, time - length * std::floor(time / length)}};
 }
 
+// Where the point that was hit is on the same triangle in another pose.
+glm::dvec3 placeOn(const std::vector<WorldTriangle>& triangles, const Hit& hit) {
+  glm::dvec3 place(0.0);
+  for (int k = 0; k < 3; ++k) place += hit.barycentric[k] * triangles[hit.triangle].positions[k];
+  return place;
+}
+
 Knobs unheld(Knobs more = {}) {
   more.insert(more.end(), {{"animation.hold", "0"}, {"light.shadowWarp", "0"}});
   return more;
@@ -506,12 +513,8 @@ TEST_P(AnimationDrawn, motion) {
             if (!hit || texel(aov(got, "id", v), x, y).x != hit->id) continue;
             ++hits;
             ids.insert(hit->id);
-            const WorldTriangle& was = then[hit->triangle];
-            const glm::dvec3 place = hit->barycentric.x * was.positions[0] +
-                                     hit->barycentric.y * was.positions[1] +
-                                     hit->barycentric.z * was.positions[2];
-            const glm::dvec2 moved =
-                glm::dvec2(x, y) + 0.5 - pixelOf(options.previousViews[v], place, kWidth, kHeight);
+            const glm::dvec2 moved = glm::dvec2(x, y) + 0.5 -
+                                     pixelOf(options.previousViews[v], placeOn(then, *hit), kWidth, kHeight);
             most = std::max(most, glm::length(moved));
             motion.add(texel(aov(got, "motion", v), x, y).x, moved.x);
             motion.add(texel(aov(got, "motion", v), x, y).y, moved.y);
@@ -523,6 +526,38 @@ TEST_P(AnimationDrawn, motion) {
             << "frame " << frame << ", held for " << hold << ", view " << v << ": " << motion.text();
       }
     }
+}
+
+// A clip whose share changes with time: where things were follows the look of then.
+TEST_P(AnimationDrawn, motionUnderALookThatChanges) {
+  const Scene scene = threeMovers(true, true, true).load();
+  Result<Look> look = Look::fromJson(
+      R"({"clips": {"Move": {"play": {"weight": {"keys": [[0, 0], [0.5, 1]]}}}}, "animation": {"hold": 0},
+          "ground": {"mode": "off"}, "light": {"shadowWarp": 0}})",
+      "test.json");
+  ASSERT_TRUE(look.ok()) << look.error().message();
+  const auto views = viewsFrom(scene, {{0, 0, 6}}, kWidth, kHeight, GetParam());
+  const double time = 0.45, before = 0.2;
+  RenderOptions options = sized(kWidth, kHeight, {"position", "normal", "id", "motion"});
+  options.previousTime = before;
+  const Frame frame = drawAt(scene, *look, time, views, options);
+  const auto now = posedTriangles(scene.data(), {{0, time, 2 * time}}),
+             then = posedTriangles(scene.data(), {{0, before, 2 * before}});
+  compare(frame, views, now, "now");
+  for (size_t v = 0; v < viewCount(); ++v) {
+    Difference motion(0.03);
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        const auto hit = castRay(pixelRay(views[v], x, y, kWidth, kHeight), now);
+        if (!hit || texel(aov(frame, "id", v), x, y).x != hit->id) continue;
+        const glm::dvec2 moved =
+            glm::dvec2(x, y) + 0.5 - pixelOf(views[v], placeOn(then, *hit), kWidth, kHeight);
+        motion.add(texel(aov(frame, "motion", v), x, y).x, moved.x);
+        motion.add(texel(aov(frame, "motion", v), x, y).y, moved.y);
+      }
+    EXPECT_GT(motion.count, 1000u);
+    EXPECT_LE(motion.beyondPart(), 0.01) << motion.text();
+  }
 }
 
 // Without a time before, everything stands; and it does where a pose is held and the view stays.
