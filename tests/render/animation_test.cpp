@@ -43,6 +43,45 @@ Knobs unheld(Knobs more = {}) {
   return more;
 }
 
+// A bar with a skin, a ball that swells and a box that is carried, side by side; materials by their names.
+AnimatedScene threeMovers(bool bar, bool ball, bool box) {
+  AnimatedScene s;
+  const auto named = [&](const char* name) {
+    return s.material(TestScene::colored(name, {0.5f, 0.5f, 0.5f, 1}));
+  };
+  const int clip = s.clip("Move");
+  if (bar) {
+    std::vector<int> joints;
+    std::vector<glm::mat4> binds;
+    int parent = s.node({{"name", "Hip"}, {"translation", {-1.2, 0, 0}}});
+    for (int k = 0; k < 4; ++k) {
+      const float y = -1 + 2 * float(k) / 3;
+      parent = s.node({{"translation", {0, k == 0 ? -1.0 : 2.0 / 3, 0}}}, parent);
+      joints.push_back(parent);
+      binds.push_back(glm::translate(glm::mat4(1.0f), {0, -y, 0}));
+      s.channel(clip, parent, "rotation", "LINEAR", {0, 1, 2}, turns({0, 0, 1}, {-25, 25, -25}));
+    }
+    s.node(
+        {{"name", "Bar"}, {"mesh", s.mesh(bendingBar(4), named("Cloth"))}, {"skin", s.skin(joints, binds)}});
+  }
+  if (ball) {
+    AnimatedMesh mesh{sphereMesh({0, 0, 0}, 0.5f, 16), 0, {}, {}, {}, {}};
+    mesh.targets = {swelling(mesh.shape, 0.5f, {0, 0.3f, 0})};
+    const int node = s.node({{"name", "Ball"}, {"mesh", s.mesh(mesh, named("Skin"))}});
+    s.channel(clip, node, "weights", "LINEAR", {0, 1, 2}, {0, 1, 0});
+  }
+  if (box) {
+    const int cart = s.node({{"name", "Cart"}});
+    s.node({{"name", "Box"},
+            {"mesh",
+             s.mesh({boxMesh({-0.3f, -0.3f, -0.3f}, {0.3f, 0.3f, 0.3f}), 0, {}, {}, {}, {}}, named("Wood"))}},
+           cart);
+    s.channel(clip, cart, "translation", "LINEAR", {0, 1, 2},
+              {1.2f, -0.5f, 0, 1.3f, 0.6f, 0, 1.2f, -0.5f, 0});
+  }
+  return s;
+}
+
 class AnimationDrawn : public BothEyes {
  protected:
   static constexpr int kWidth = 96, kHeight = 72;
@@ -256,6 +295,21 @@ TEST_P(AnimationDrawn, theTroupe) {
   compare(frame, views, posedTriangles(scene.data(), {{0, 1.7, 0.5}, {1, 0.9, 0.25}}), "two clips");
 }
 
+// A clip whose share goes to nothing leaves the rest pose, and comes back.
+TEST_P(AnimationDrawn, fading) {
+  const Scene scene = threeMovers(true, true, true).load();
+  Result<Look> look = Look::fromJson(
+      R"({"clips": {"Move": {"play": {"weight": {"keys": [[0, 1], [1, 0]]}}}}, "animation": {"hold": 0},
+          "ground": {"mode": "off"}, "light": {"shadowWarp": 0}})",
+      "test.json");
+  ASSERT_TRUE(look.ok()) << look.error().message();
+  const auto views = viewsFrom(scene, {{0, 0, 6}}, kWidth, kHeight, GetParam());
+  for (const double time : {0.25, 2.0, 2.0, 0.75, 3.0})
+    compare(drawAt(scene, *look, time, views, sized(kWidth, kHeight, {"position", "normal", "id"})), views,
+            posedTriangles(scene.data(), {{0, std::min(time, 1.0), std::max(1 - time, 0.0)}}),
+            "time " + std::to_string(time));
+}
+
 // The clips that play by default when files are combined: the first of each.
 TEST_P(AnimationDrawn, combinedFiles) {
   AnimatedScene s;
@@ -334,45 +388,6 @@ bool samePlaces(const Frame& a, const Frame& b) {
     for (size_t v = 0; v < a.layers[0].views.size(); ++v)
       if (!sameBytes(aov(a, name, v), aov(b, name, v))) return false;
   return true;
-}
-
-// A bar with a skin, a ball that swells and a box that is carried, side by side; materials by their names.
-AnimatedScene threeMovers(bool bar, bool ball, bool box) {
-  AnimatedScene s;
-  const auto named = [&](const char* name) {
-    return s.material(TestScene::colored(name, {0.5f, 0.5f, 0.5f, 1}));
-  };
-  const int clip = s.clip("Move");
-  if (bar) {
-    std::vector<int> joints;
-    std::vector<glm::mat4> binds;
-    int parent = s.node({{"name", "Hip"}, {"translation", {-1.2, 0, 0}}});
-    for (int k = 0; k < 4; ++k) {
-      const float y = -1 + 2 * float(k) / 3;
-      parent = s.node({{"translation", {0, k == 0 ? -1.0 : 2.0 / 3, 0}}}, parent);
-      joints.push_back(parent);
-      binds.push_back(glm::translate(glm::mat4(1.0f), {0, -y, 0}));
-      s.channel(clip, parent, "rotation", "LINEAR", {0, 1, 2}, turns({0, 0, 1}, {-25, 25, -25}));
-    }
-    s.node(
-        {{"name", "Bar"}, {"mesh", s.mesh(bendingBar(4), named("Cloth"))}, {"skin", s.skin(joints, binds)}});
-  }
-  if (ball) {
-    AnimatedMesh mesh{sphereMesh({0, 0, 0}, 0.5f, 16), 0, {}, {}, {}, {}};
-    mesh.targets = {swelling(mesh.shape, 0.5f, {0, 0.3f, 0})};
-    const int node = s.node({{"name", "Ball"}, {"mesh", s.mesh(mesh, named("Skin"))}});
-    s.channel(clip, node, "weights", "LINEAR", {0, 1, 2}, {0, 1, 0});
-  }
-  if (box) {
-    const int cart = s.node({{"name", "Cart"}});
-    s.node({{"name", "Box"},
-            {"mesh",
-             s.mesh({boxMesh({-0.3f, -0.3f, -0.3f}, {0.3f, 0.3f, 0.3f}), 0, {}, {}, {}, {}}, named("Wood"))}},
-           cart);
-    s.channel(clip, cart, "translation", "LINEAR", {0, 1, 2},
-              {1.2f, -0.5f, 0, 1.3f, 0.6f, 0, 1.2f, -0.5f, 0});
-  }
-  return s;
 }
 
 class OnTwos : public AnimationDrawn {
@@ -778,6 +793,23 @@ TEST_P(AnimationDrawn, shadowsGoWithWhatMoves) {
       EXPECT_LT(wrong, dark / 4) << "kind " << kind << ", of " << dark << " dark and " << lit << " lit";
     }
   }
+}
+
+// The map covers what things reach at any time, so that its texels stay where they are: what is carried away
+// is as large in it as before.
+TEST_F(AnimationDrawn, theShadowMapStandsStill) {
+  const Scene scene = farTraveller(0).load();
+  const auto views = viewsFrom(scene, {{37, 7, -6}, {39.5f, 0.5f, 4}}, 16, 12);
+  size_t covered[2];
+  for (const int time : {0, 1}) {
+    const Frame frame =
+        drawAt(scene, quietLook({{"light.shadowWarp", "0"}}), time, views, sized(16, 12, {"shadow-map"}));
+    covered[time] = 0;
+    for (const float depth : aov(frame, "shadow-map").pixels) covered[time] += depth < 1;
+  }
+  EXPECT_GT(covered[0], 100u);
+  EXPECT_LE(covered[0], covered[1]) << "the box hides the post";
+  EXPECT_GT(2 * covered[0], covered[1]);
 }
 
 // What the default view frames holds a character at every time of its clip.
