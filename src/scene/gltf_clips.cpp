@@ -35,7 +35,8 @@ void cleanKeys(Channel& channel, size_t perKey, const std::string& path, ImportW
   }
   for (size_t i = 1; i < order.size(); ++i)
     unsorted |= !(channel.times[order[i]] > channel.times[order[i - 1]]);
-  if (broken) warnings.add(path, "keys that are not finite are left out");
+  // Where none is left, the channel's own warning says so.
+  if (broken && !order.empty()) warnings.add(path, "keys that are not finite are left out");
   if (!broken && !unsorted) return;
   if (unsorted) {
     warnings.add(path, "keys are sorted by time, and those at a time that is taken are left out");

@@ -1,9 +1,13 @@
 // What makes a file unusable, what is only a warning, and that every message says where.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <limits>
 
+#include "scene/animation.h"
 #include "scene/gltf_uri.h"
 #include "scene/import_failure.h"
 #include "scene/scene_data.h"
@@ -235,6 +239,177 @@ TEST(GltfErrors, whatIsOptionalIsOnlyAWarning) {
   const TextureUse& texture = scene->data().materials[1].baseColorTexture;
   ASSERT_EQ(texture.image, 0);
   EXPECT_TRUE(scene->data().images[0].standIn);
+}
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN(),
+                kInfinity = std::numeric_limits<float>::infinity();
+
+// A quad with two morph targets and a clip of one channel.
+TestGltf clipOf(const char* path, int components, const std::vector<float>& times,
+                const std::vector<float>& values, const char* interpolation = "LINEAR") {
+  TestGltf g = quad();
+  const int target = g.addFloats(std::vector<float>(12, 0.5f), 3);
+  g.json["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", target}}, {{"POSITION", target}}};
+  const int input = g.addFloats(times, 1), output = g.addFloats(values, components);
+  g.json["animations"] = {
+      {{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", path}}}}}},
+       {"samplers", {{{"input", input}, {"output", output}, {"interpolation", interpolation}}}}}};
+  return g;
+}
+
+// Loads with so many warnings; every pose is a matrix of finite numbers.
+SceneData warned(const TestGltf& g, size_t warnings, const char* what) {
+  const Result<Scene> scene = load(g.glb());
+  EXPECT_TRUE(scene.ok()) << what << ": " << scene.error().message();
+  if (!scene) return {};
+  EXPECT_EQ(scene->warnings().size(), warnings) << what;
+  for (const std::string& line : scene->warnings()) {
+    if (scene->warnings().size() != warnings) ADD_FAILURE() << what << ": " << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos);
+  }
+  for (int clip = 0; clip < int(scene->data().clips.size()); ++clip)
+    for (const double time : {-1.0, 0.0, 0.4, 1.0, 7.3}) {
+      const PlayedClip played{clip};
+      const Pose pose = poseAt(scene->data(), {&played, 1}, time);
+      for (const glm::mat4& world : pose.world)
+        for (int i = 0; i < 16; ++i) EXPECT_TRUE(std::isfinite(world[i / 4][i % 4])) << what;
+      for (const std::vector<float>& weights : pose.morphWeights)
+        for (const float weight : weights) EXPECT_TRUE(std::isfinite(weight)) << what;
+    }
+  return scene->data();
+}
+
+TEST(GltfErrors, timesOfClips) {
+  const auto keys = [](const std::vector<float>& times, const std::vector<float>& xs, size_t warnings,
+                       const char* what) {
+    std::vector<float> values;
+    for (const float x : xs) values.insert(values.end(), {x, 0, 0});
+    const SceneData scene = warned(clipOf("translation", 3, times, values), warnings, what);
+    std::vector<float> kept;
+    if (scene.clips.size() == 1)
+      for (size_t k = 0; k < scene.clips[0].channels[0].times.size(); ++k) {
+        kept.push_back(scene.clips[0].channels[0].times[k]);
+        kept.push_back(scene.clips[0].channels[0].values[3 * k]);
+      }
+    return kept;
+  };
+  using List = std::vector<float>;
+  EXPECT_EQ(keys({0, 1, 2}, {5, 6, 7}, 0, "good"), (List{0, 5, 1, 6, 2, 7}));
+  EXPECT_EQ(keys({2, 0, 1}, {7, 5, 6}, 1, "unsorted"), (List{0, 5, 1, 6, 2, 7}));
+  EXPECT_EQ(keys({0, 1, 1, 2}, {5, 6, 9, 7}, 1, "doubled"), (List{0, 5, 1, 6, 2, 7}));
+  EXPECT_EQ(keys({0, kNan, 2}, {5, 6, 7}, 1, "a time that is no number"), (List{0, 5, 2, 7}));
+  EXPECT_EQ(keys({0, 1, kInfinity}, {5, 6, 7}, 1, "an infinite time"), (List{0, 5, 1, 6}));
+  EXPECT_EQ(keys({0, 1, 2}, {5, kNan, 7}, 1, "a value that is no number"), (List{0, 5, 2, 7}));
+  EXPECT_EQ(keys({0, 1, 2}, {5, kInfinity, 7}, 1, "an infinite value"), (List{0, 5, 2, 7}));
+  EXPECT_EQ(keys({kNan, kNan}, {5, 6}, 1, "no usable key").size(), 0u);
+  EXPECT_EQ(keys({-1, 0.5f}, {5, 6}, 0, "before the beginning"), (List{-1, 5, 0.5f, 6}));
+  EXPECT_EQ(keys({0}, {5}, 0, "a clip of no length"), (List{0, 5}));
+  EXPECT_EQ(keys({}, {}, 1, "no key").size(), 0u);
+}
+
+TEST(GltfErrors, countsOfClips) {
+  const std::vector<float> three{0, 1, 2};
+  const auto clips = [](const TestGltf& g, size_t warnings, const char* what) {
+    return warned(g, warnings, what).clips.size();
+  };
+  EXPECT_EQ(clips(clipOf("translation", 3, three, std::vector<float>(6, 1)), 1, "too few values"), 0u);
+  EXPECT_EQ(clips(clipOf("translation", 3, three, std::vector<float>(12, 1)), 1, "too many values"), 0u);
+  EXPECT_EQ(clips(clipOf("translation", 4, three, std::vector<float>(12, 1)), 1, "the wrong type"), 0u);
+  EXPECT_EQ(clips(clipOf("rotation", 3, three, std::vector<float>(9, 1)), 1, "a rotation of three"), 0u);
+  EXPECT_EQ(clips(clipOf("scale", 3, three, std::vector<float>(9, 1), "CUBICSPLINE"), 1, "no tangents"), 0u);
+  EXPECT_EQ(clips(clipOf("scale", 3, three, std::vector<float>(27, 1), "CUBICSPLINE"), 0, "tangents"), 1u);
+  EXPECT_EQ(clips(clipOf("scale", 3, three, std::vector<float>(9, 1), "BEZIER"), 1, "another interpolation"),
+            0u);
+  EXPECT_EQ(clips(clipOf("colour", 3, three, std::vector<float>(9, 1)), 1, "another path"), 0u);
+  EXPECT_EQ(clips(clipOf("weights", 1, three, std::vector<float>(6, 1)), 0, "two weights a key"), 1u);
+  EXPECT_EQ(clips(clipOf("weights", 1, three, std::vector<float>(3, 1)), 1, "too few weights"), 0u);
+  EXPECT_EQ(clips(clipOf("weights", 1, three, std::vector<float>(7, 1)), 1, "a weight too many"), 0u);
+  TestGltf g = clipOf("translation", 3, three, std::vector<float>(9, 1));
+  const auto changed = [&](const std::function<void(Json&)>& change, const char* what) {
+    TestGltf other = g;
+    change(other.json["animations"][0]);
+    return clips(other, 1, what);
+  };
+  EXPECT_EQ(changed([](Json& a) { a["channels"][0]["sampler"] = 4; }, "no such sampler"), 0u);
+  EXPECT_EQ(changed([](Json& a) { a["channels"][0]["target"]["node"] = 4; }, "no such node"), 0u);
+  EXPECT_EQ(changed([](Json& a) { a["channels"][0].erase("target"); }, "no target"), 0u);
+  EXPECT_EQ(changed([](Json& a) { a["samplers"][0]["input"] = 99; }, "no such accessor"), 0u);
+  EXPECT_EQ(changed([](Json& a) { a["samplers"][0]["input"] = 0; }, "times of the wrong type"), 0u);
+  // A channel without a node is an extension's affair.
+  g.json["animations"][0]["channels"][0]["target"].erase("node");
+  EXPECT_EQ(clips(g, 0, "no node"), 0u);
+}
+
+TEST(GltfErrors, transformsOfClips) {
+  SceneData scene =
+      warned(clipOf("rotation", 4, {0, 1}, {0, 0, 0, 0, 0, 3, 0, 4}), 0, "rotations of other lengths");
+  ASSERT_EQ(scene.clips.size(), 1u);
+  EXPECT_EQ(scene.clips[0].channels[0].values, (std::vector<float>{0, 0, 0, 1, 0, 0.6f, 0, 0.8f}));
+  warned(clipOf("scale", 3, {0, 1}, {0, 0, 0, 1e14f, 0, 1e14f}), 0, "scales of nothing and of much");
+  warned(clipOf("translation", 3, {0, 1}, {1e14f, 0, 0, -1e14f, 0, 0}), 0, "far away");
+  // A node whose matrix shears cannot be animated.
+  TestGltf g = clipOf("translation", 3, {0, 1}, {0, 0, 0, 1, 0, 0});
+  g.json["nodes"][0]["matrix"] = {1, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  EXPECT_TRUE(warned(g, 1, "a matrix that shears").clips.empty());
+  // One that can be taken apart is.
+  g.json["nodes"][0]["matrix"] = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 0, 0, 5, 1};
+  EXPECT_EQ(warned(g, 0, "a matrix that does not").clips.size(), 1u);
+}
+
+TEST(GltfErrors, skins) {
+  const auto skinned = [](const std::vector<float>& weights, std::vector<uint8_t> joints, const Json& skin) {
+    TestGltf g = quad();
+    Json& attributes = g.json["meshes"][0]["primitives"][0]["attributes"];
+    attributes["JOINTS_0"] = g.add(joints, 5121, "VEC4", 4);
+    attributes["WEIGHTS_0"] = g.addFloats(weights, 4);
+    g.json["nodes"][0]["skin"] = 0;
+    g.json["nodes"].push_back({{"translation", {0, 0, 7}}});
+    g.json["scenes"][0]["nodes"].push_back(1);
+    g.json["skins"] = {skin};
+    return g;
+  };
+  const std::vector<uint8_t> first(16, 0);
+  const Json oneJoint = {{"joints", {1}}};
+  const auto rows = [](const std::vector<float>& row) {
+    std::vector<float> all;
+    for (int v = 0; v < 4; ++v) all.insert(all.end(), row.begin(), row.end());
+    return all;
+  };
+  const auto expectWeight = [&](const std::vector<float>& row, float expected, size_t warnings,
+                                const char* what) {
+    const SceneData scene = warned(skinned(rows(row), first, oneJoint), warnings, what);
+    ASSERT_EQ(scene.meshes.size(), 1u);
+    const Primitive& p = scene.meshes[0].primitives[0];
+    for (size_t v = 0; v < 4; ++v) {
+      float sum = 0;
+      for (size_t k = 0; k < 4; ++k) sum += p.weights[4 * v + k];
+      EXPECT_NEAR(sum, 1, 1e-6f) << what;
+      EXPECT_NEAR(p.weights[4 * v], expected, 1e-6f) << what;
+    }
+  };
+  expectWeight({0.5f, 0.5f, 0, 0}, 0.5f, 0, "good");
+  expectWeight({2, 6, 0, 0}, 0.25f, 1, "they sum to eight");
+  expectWeight({0.1f, 0.1f, 0, 0}, 0.5f, 1, "they sum to a fifth");
+  expectWeight({0, 0, 0, 0}, 1, 1, "all are zero");
+  expectWeight({kNan, 1, 0, 0}, 0, 1, "one is no number");
+  expectWeight({-1, 1, 0, 0}, 0, 1, "one is negative");
+  const std::vector<float> good = rows({1, 0, 0, 0});
+  EXPECT_EQ(
+      warned(skinned(good, std::vector<uint8_t>(16, 9), oneJoint), 1, "a joint the skin lacks").nodes[0].skin,
+      -1);
+  // Where the weight is zero the joint does not count.
+  std::vector<uint8_t> unused = first;
+  unused[1] = 200;
+  EXPECT_EQ(warned(skinned(good, unused, oneJoint), 0, "an unused joint").nodes[0].skin, 0);
+  EXPECT_EQ(warned(skinned(good, first, {{"joints", {77}}}), 1, "a joint that is no node").nodes[0].skin, -1);
+  EXPECT_EQ(warned(skinned(good, first, {{"joints", Json::array()}}), 1, "no joints").nodes[0].skin, -1);
+  TestGltf g = skinned(good, first, oneJoint);
+  std::vector<float> bind(16, 0);
+  bind[3] = kNan;
+  g.json["skins"][0]["inverseBindMatrices"] = g.add(bind, 5126, "MAT4", 16);
+  EXPECT_EQ(warned(g, 1, "a bind pose that is no number").nodes[0].skin, -1);
+  g.json["skins"][0]["inverseBindMatrices"] = 0;
+  EXPECT_EQ(warned(g, 1, "a bind pose of vectors").nodes[0].skin, -1);
 }
 
 }  // namespace

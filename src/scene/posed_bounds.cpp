@@ -21,6 +21,7 @@ void addBox(Bounds& bounds, const Bounds& box, const glm::mat4& matrix) {
   const glm::vec3 center(matrix * glm::vec4(box.center(), 1.0f)), half = 0.5f * (box.max - box.min);
   const glm::vec3 reach = glm::abs(glm::vec3(matrix[0])) * half.x + glm::abs(glm::vec3(matrix[1])) * half.y +
                           glm::abs(glm::vec3(matrix[2])) * half.z;
+  if (!isDrawable(center - reach) || !isDrawable(center + reach)) return;
   bounds.add(center - reach);
   bounds.add(center + reach);
 }

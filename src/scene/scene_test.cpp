@@ -190,6 +190,61 @@ TEST(Scene, skinsMorphsAndClips) {
   EXPECT_EQ(clip.channels[1].componentsPerKey, 1);
 }
 
+// Joints, weights and displacements arrive as they were written: two sets of joints, indices of 16 bits,
+// targets dense and sparse.
+TEST(Scene, skinsOfEightAndSparseTargets) {
+  TestGltf g = quad();
+  Json& primitive = g.json["meshes"][0]["primitives"][0];
+  std::vector<uint16_t> joints[2];
+  std::vector<float> weights[2];
+  for (int v = 0; v < 4; ++v)
+    for (int k = 0; k < 8; ++k) {
+      joints[k / 4].push_back(uint16_t((300 * k + v) % 1000));
+      weights[k / 4].push_back(float(k + 1) / 36);
+    }
+  for (const int set : {0, 1}) {
+    primitive["attributes"]["JOINTS_" + std::to_string(set)] = g.add(joints[set], 5123, "VEC4", 4);
+    primitive["attributes"]["WEIGHTS_" + std::to_string(set)] = g.addFloats(weights[set], 4);
+  }
+  const int indices = g.addView<uint8_t>({1, 3}), values = g.addView<float>({1, 2, 3, 4, 5, 6});
+  const int sparse = g.addAccessor(-1, 5126, "VEC3", 4);
+  g.json["accessors"][size_t(sparse)]["sparse"] = {
+      {"count", 2},
+      {"indices", {{"bufferView", indices}, {"componentType", 5121}}},
+      {"values", {{"bufferView", values}}}};
+  const int dense = g.addFloats({1, 0, 0, 2, 0, 0, 3, 0, 0, 4, 0, 0}, 3);
+  primitive["targets"] = {{{"POSITION", sparse}}, {{"POSITION", dense}, {"NORMAL", dense}}, Json::object()};
+  g.json["meshes"][0]["weights"] = {0.5, 0, 2};
+  g.json["nodes"][0]["skin"] = 0;
+  g.json["nodes"][0]["weights"] = {1, 0, 0};
+  Json list = Json::array();
+  for (int j = 0; j < 1000; ++j) {
+    g.json["nodes"].push_back({{"translation", {0, 0, j}}});
+    g.json["scenes"][0]["nodes"].push_back(j + 1);
+    list.push_back(j + 1);
+  }
+  g.json["skins"] = {{{"joints", list}}};
+  const Scene scene = loaded(g);
+  EXPECT_TRUE(scene.warnings().empty());
+  const Mesh& mesh = scene.data().meshes[0];
+  const Primitive& p = mesh.primitives[0];
+  ASSERT_EQ(p.influences, 8);
+  ASSERT_EQ(p.vertexCount(), 4u);
+  for (size_t i = 0; i < 32; ++i) {
+    EXPECT_EQ(p.joints[i], (300 * (i % 8) + i / 8) % 1000);
+    EXPECT_NEAR(p.weights[i], float(i % 8 + 1) / 36, 1e-6f);
+  }
+  ASSERT_EQ(p.morphTargets.size(), 3u);
+  EXPECT_EQ(p.morphTargets[0].positions,
+            (std::vector<glm::vec3>{{0, 0, 0}, {1, 2, 3}, {0, 0, 0}, {4, 5, 6}}));
+  EXPECT_TRUE(p.morphTargets[0].normals.empty());
+  EXPECT_EQ(p.morphTargets[1].normals[2], glm::vec3(3, 0, 0));
+  EXPECT_TRUE(p.morphTargets[2].positions.empty());
+  EXPECT_EQ(mesh.morphWeights, (std::vector<float>{0.5f, 0, 2}));
+  EXPECT_EQ(scene.data().nodes[0].morphWeights, (std::vector<float>{1, 0, 0}));
+  EXPECT_EQ(scene.data().skins[0].joints.size(), 1000u);
+}
+
 TEST(Scene, combineMovesEveryIndex) {
   const Scene one = loaded(animated()), two = loaded(quad()), both = Scene::combine({two, one, one});
   const SceneData& d = both.data();

@@ -1,11 +1,13 @@
 // libFuzzer target for the glTF importer: any bytes as a file in memory, with no folder to read from. What it
-// may find are sanitizer reports, and data that breaks the promises of scene_data.h.
+// may find are sanitizer reports, data that breaks the promises of scene_data.h,
+// and poses that are not finite.
 //
 //   CC=clang-14 CXX=clang++-14 cmake -S . -B build-fuzz -G Ninja -DSCUMBLE_FUZZ=ON -DSCUMBLE_SANITIZE=ON
 //   ninja -C build-fuzz gltf_fuzz && mkdir -p build-fuzz/corpus
 //   build-fuzz/gltf_fuzz --write-seeds=build-fuzz/corpus
 //   build-fuzz/gltf_fuzz -dict=tests/fuzz/gltf.dict -max_total_time=60 -timeout=20 -rss_limit_mb=4096
 //   build-fuzz/corpus
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -13,7 +15,9 @@
 #include <cstring>
 #include <fstream>
 #include <string>
+#include <vector>
 
+#include "scene/posed_bounds.h"
 #include "scene/scene_data.h"
 #include "scene/test_gltf.h"
 #include "scumble/scene.h"
@@ -95,6 +99,32 @@ void check(const SceneData& scene) {
   }
 }
 
+// Clips at some times: matrices are finite (zero where they could not be), and so is what holds them.
+void checkPoses(const SceneData& scene) {
+  std::vector<int> all;
+  std::vector<PlayedClip> played;
+  for (size_t c = 0; c < std::min<size_t>(scene.clips.size(), 4); ++c) {
+    all.push_back(static_cast<int>(c));
+    played.push_back({static_cast<int>(c), 0.4f, c % 2 ? -1.5 : 1.0, 0.1, Repeat(c % 3)});
+  }
+  for (const double time : {-1.5, 0.0, 0.3, 1.0, 1e6}) {
+    const Pose pose = poseAt(scene, played, time);
+    require(pose.world.size() == scene.nodes.size() && pose.morphWeights.size() == scene.nodes.size(),
+            "a pose of every node");
+    for (const glm::mat4& world : pose.world)
+      for (int column = 0; column < 4; ++column)
+        require(isFinite(glm::vec3(world[column])) && std::isfinite(world[column].w), "finite pose");
+    for (size_t n = 0; n < scene.nodes.size(); ++n) {
+      const int mesh = scene.nodes[n].mesh;
+      require(mesh < 0 || pose.morphWeights[n].size() == scene.meshes[mesh].morphWeights.size(),
+              "a weight for every target");
+      for (const float weight : pose.morphWeights[n]) require(std::isfinite(weight), "finite weights");
+    }
+  }
+  const Bounds bounds = playedBounds(scene, all);
+  require(!bounds.empty && isFinite(bounds.min) && isFinite(bounds.max), "bounds of what plays");
+}
+
 void write(const std::string& folder, const char* name, const std::string& content) {
   std::ofstream(folder + "/" + name, std::ios::binary) << content;
 }
@@ -131,6 +161,42 @@ void writeSeeds(const std::string& folder) {
   write(folder, "rich.glb", rich.glb());
   write(folder, "rich.gltf", rich.gltf());
 
+  // Every property and interpolation, eight influences, instances, several clips.
+  TestGltf moving;
+  auto& primitive = moving.addQuad();
+  for (const char* set : {"0", "1"}) {
+    primitive["attributes"][std::string("JOINTS_") + set] =
+        moving.add(std::vector<uint16_t>(16, 0), 5123, "VEC4", 4);
+    primitive["attributes"][std::string("WEIGHTS_") + set] =
+        moving.addFloats(std::vector<float>(16, 0.125f), 4);
+  }
+  const int displaced = moving.addFloats(std::vector<float>(12, 0.25f), 3);
+  primitive["targets"] = {{{"POSITION", displaced}, {"NORMAL", displaced}}, {{"POSITION", displaced}}};
+  moving.json["nodes"][0]["skin"] = 0;
+  moving.json["nodes"].push_back({{"children", {2}}});
+  moving.json["nodes"].push_back({{"mesh", 0}, {"weights", {0.5, 1}}});
+  moving.json["nodes"][2]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["SCALE"] =
+      moving.addFloats({1, 1, 1, 2, 2, 2}, 3);
+  moving.json["scenes"][0]["nodes"].push_back(1);
+  moving.json["skins"] = {{{"joints", {1, 2}}}};
+  const int keys = moving.addFloats({0, 0.5f, 2}, 1);
+  for (const char* interpolation : {"LINEAR", "STEP", "CUBICSPLINE"}) {
+    const size_t parts = interpolation[0] == 'C' ? 9 : 3;
+    TestGltf::Json clip = {{"name", interpolation}};
+    for (const auto& [path, components] :
+         {std::pair{"translation", 3}, {"rotation", 4}, {"scale", 3}, {"weights", 2}}) {
+      std::vector<float> numbers;
+      for (size_t i = 0; i < parts * size_t(components); ++i) numbers.push_back(0.3f * float(i % 5) + 0.1f);
+      const int output = moving.addFloats(numbers, components == 2 ? 1 : components);
+      clip["samplers"].push_back({{"input", keys}, {"output", output}, {"interpolation", interpolation}});
+      clip["channels"].push_back({{"sampler", clip["samplers"].size() - 1},
+                                  {"target", {{"node", components == 2 ? 2 : 1}, {"path", path}}}});
+    }
+    moving.json["animations"].push_back(clip);
+  }
+  write(folder, "moving.glb", moving.glb());
+  write(folder, "moving.gltf", moving.gltf());
+
   TestGltf sparse;
   sparse.addQuad();
   const int view = sparse.addView<uint8_t>({1}), moved = sparse.addView<float>({2, 0, 0});
@@ -160,10 +226,12 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {
   SceneOptions options;
   options.threads = 1;
   const Result<Scene> scene = Scene::loadFromMemory(bytes, size, "fuzz.gltf", "", options);
-  if (scene)
+  if (scene) {
     check(scene->data());
-  else
+    checkPoses(scene->data());
+  } else {
     require(scene.error().kind == ErrorKind::unusableFile && !scene.error().problem.empty(),
             "an error that says something");
+  }
   return 0;
 }

@@ -13,7 +13,8 @@ Ray pixelRay(const View& view, int x, int y, int width, int height) {
 
 std::optional<Hit> castRay(const Ray& ray, const std::vector<WorldTriangle>& triangles, bool bothSides) {
   std::optional<Hit> nearest;
-  for (const WorldTriangle& t : triangles) {
+  for (size_t i = 0; i < triangles.size(); ++i) {
+    const WorldTriangle& t = triangles[i];
     if (!bothSides && glm::dot(t.outward, ray.direction) >= 0) continue;
     // Moeller and Trumbore 1997.
     const glm::dvec3 a = t.positions[1] - t.positions[0], b = t.positions[2] - t.positions[0];
@@ -28,8 +29,12 @@ std::optional<Hit> castRay(const Ray& ray, const std::vector<WorldTriangle>& tri
     if (v < 0 || u + v > 1) continue;
     const double distance = glm::dot(b, q) / det;
     if (distance <= 1e-9 || (nearest && distance >= nearest->distance)) continue;
-    nearest = Hit{distance, ray.origin + distance * ray.direction,
-                  glm::normalize((1 - u - v) * t.normals[0] + u * t.normals[1] + v * t.normals[2]), t.id};
+    nearest = Hit{distance,
+                  ray.origin + distance * ray.direction,
+                  glm::normalize((1 - u - v) * t.normals[0] + u * t.normals[1] + v * t.normals[2]),
+                  t.id,
+                  i,
+                  {1 - u - v, u, v}};
   }
   return nearest;
 }

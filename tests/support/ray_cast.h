@@ -20,6 +20,8 @@ struct Hit {
   double distance = 0;          // along the ray, metres
   glm::dvec3 position, normal;  // the normal is interpolated and unit
   int id = 0;
+  size_t triangle = 0;       // index into the list
+  glm::dvec3 barycentric{};  // the shares of its corners
 };
 // The nearest triangle whose outside is hit, or any side with `bothSides`.
 std::optional<Hit> castRay(const Ray& ray, const std::vector<WorldTriangle>& triangles,
