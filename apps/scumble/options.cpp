@@ -23,6 +23,23 @@ std::string cacheFolder() {
   return "";
 }
 
+// By its name, by its number, or by what follows the last '|' of its name, where that is one clip's only:
+// Blender's exporter writes names like "Armature|Walk".
+Result<std::string> findClip(const std::vector<SceneSummary::Clip>& clips, const std::string& wanted) {
+  std::vector<std::string> ending;
+  std::string all;
+  for (const SceneSummary::Clip& clip : clips) {
+    if (clip.name == wanted) return wanted;
+    if (clip.name.substr(clip.name.rfind('|') + 1) == wanted) ending.push_back(clip.name);
+    all += (all.empty() ? "" : ", ") + clip.name;
+  }
+  if (ending.size() == 1) return ending[0];
+  if (wanted.size() < 7 && wanted.find_first_not_of("0123456789") == std::string::npos)
+    if (const size_t number = size_t(std::stoul(wanted)); number < clips.size()) return clips[number].name;
+  return usage("the scene has no clip '" + wanted + "'",
+               all.empty() ? "it has none at all" : "it has: " + all);
+}
+
 }  // namespace
 
 std::optional<std::vector<float>> parseNumbers(const std::string& text) {
@@ -86,7 +103,8 @@ void LookArguments::addTo(CLI::App& command) {
       ->allow_extra_args(false);
   command.add_option(
       "--clip", clip,
-      "Play this clip of the scene alone, by name or number (`scumble info` lists them; default: "
+      "Play this clip of the scene alone, by name, its end after '|', or number (`scumble info` lists "
+      "them; default: "
       "as the look says, else the first one)");
 }
 
@@ -118,20 +136,10 @@ Status LookArguments::applySettings(Look& look_) const {
 
 Result<Look> LookArguments::withClip(const Look& from, const Scene& scene) const {
   if (clip.empty()) return from;
-  const std::vector<SceneSummary::Clip> clips = scene.summary().clips;
-  std::string found;
-  for (const SceneSummary::Clip& known : clips)
-    if (known.name == clip) found = clip;
-  if (found.empty() && clip.size() < 7 && clip.find_first_not_of("0123456789") == std::string::npos)
-    if (const size_t number = size_t(std::stoul(clip)); number < clips.size()) found = clips[number].name;
-  if (found.empty()) {
-    std::string names;
-    for (const SceneSummary::Clip& known : clips) names += (names.empty() ? "" : ", ") + known.name;
-    return usage("the scene has no clip '" + clip + "'",
-                 names.empty() ? "it has none at all" : "it has: " + names);
-  }
+  const Result<std::string> found = findClip(scene.summary().clips, clip);
+  if (!found) return found.error();
   Look result = from;
-  for (const auto& [pattern, weight] : {std::pair<std::string, const char*>{"*", "0"}, {found, "1"}})
+  for (const auto& [pattern, weight] : {std::pair<std::string, const char*>{"*", "0"}, {*found, "1"}})
     if (const Status status = result.set("clips." + pattern + ".play.weight", weight); !status)
       return status.error();
   if (const Status status = applySettings(result); !status) return status.error();

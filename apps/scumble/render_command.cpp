@@ -227,6 +227,9 @@ int run(const RenderArguments& args) {
   output->exr.cryptomattes = {{"cryptomatte", scene->objectNames()}};
   look = args.look.withClip(*look, *scene);
   if (!look) return fail(look.error());
+  if (!args.quiet)
+    for (const std::string& setting : settingsWithoutEffect(*scene, *look))
+      warn({"--set " + setting + ": nothing in the scene has such a name (`scumble info` lists names)"});
   // A camera that does not exist is found before there is a device.
   if (const Result<std::vector<View>> views = args.picture.views(*scene, *look); !views)
     return fail(views.error());

@@ -39,8 +39,9 @@ enum class ExrCompression {
 // with two ranks each in R, G, B, A, always 32-bit floats, and described in the header. Every view of the
 // layer is written so. Objects of one name are one matte.
 struct Cryptomatte {
-  std::string layer;                 // e.g. "CryptoObject"
-  std::vector<std::string> objects;  // UTF-8; objects[n - 1] is the name of object n
+  std::string layer;  // e.g. "CryptoObject"
+  // UTF-8; objects[n - 1] is the name of object n, empty for numbers that do not occur.
+  std::vector<std::string> objects;
 };
 
 struct ExrOptions {

@@ -44,7 +44,8 @@ uint32_t cryptomatteBits(std::string_view name) {
 
 std::string cryptomatteManifest(const std::vector<std::string>& objects) {
   nlohmann::json manifest = nlohmann::json::object();
-  for (const std::string& name : objects) manifest[name] = fmt::format("{:08x}", cryptomatteBits(name));
+  for (const std::string& name : objects)
+    if (!name.empty()) manifest[name] = fmt::format("{:08x}", cryptomatteBits(name));
   // Names that are no UTF-8 are hashed as they are and shown as well as JSON can.
   return manifest.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }

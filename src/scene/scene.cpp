@@ -120,7 +120,9 @@ std::vector<std::string> Scene::objectNames() const {
   if (!data_) return {};
   std::vector<std::string> names;
   for (const Node& node : data_->nodes)
-    names.push_back(node.name.empty() ? "node " + std::to_string(names.size() + 1) : node.name);
+    names.push_back(node.mesh < 0       ? ""
+                    : node.name.empty() ? "node " + std::to_string(names.size() + 1)
+                                        : node.name);
   names.push_back("Ground");
   return names;
 }
