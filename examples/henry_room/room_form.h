@@ -1,0 +1,103 @@
+// The measures of the burrow: two round shells, the room and the parlour behind it, and what opens them.
+// Bearings are degrees around +Y from +X towards +Z, as seen from a shell's centre; metres.
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <glm/glm.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <vector>
+
+namespace henry {
+
+constexpr int kColumns = 100;  // of a shell's mesh, so openings stand at bearings of whole columns
+constexpr float kColumnDegrees = 360.0f / float(kColumns);
+constexpr float kThickness = 0.30f;
+constexpr float kSunBearing = 205.0f, kSunElevation = 22.0f;
+
+inline glm::vec3 towards(float bearing) {
+  const float a = glm::radians(bearing);
+  return {std::cos(a), 0.0f, std::sin(a)};
+}
+
+// A hole straight through a shell. `inside` is told metres along the wall and above the floor.
+struct Opening {
+  int column, halfColumns;    // the middle, and how many columns of the mesh it takes to both sides
+  float bottom, top, middle;  // metres; what it takes of the mesh's height, and a point that sees all of it
+  float splay;                // how much wider it is on the room's side
+  std::function<bool(float along, float up)> inside;
+
+  float bearing() const { return float(column) * kColumnDegrees; }
+};
+
+// A round window, and a passage with a round head.
+inline Opening roundOpening(int column, int halfColumns, float height, float radius, float margin) {
+  return {column, halfColumns, height - margin, height + margin, height, 1.12f, [=](float x, float y) {
+            return x * x + (y - height) * (y - height) < radius * radius;
+          }};
+}
+inline Opening archedOpening(int column, int halfColumns, float halfWidth, float height, float top) {
+  return {column, halfColumns, -0.05f, top, 0.8f, 1.0f, [=](float x, float y) {
+            const float above = std::max(y - (height - halfWidth), 0.0f);
+            return x * x + above * above < halfWidth * halfWidth;
+          }};
+}
+
+// A superellipse turned around +Y: nearly upright walls that bend into a low vault.
+struct Shell {
+  glm::vec3 center;
+  float radius, apex;
+  std::vector<Opening> openings;
+
+  float radiusAt(float height, float outwards = 0.0f) const {
+    constexpr float kWaist = 0.9f, kPower = 3.2f;
+    const float t = std::abs(height - kWaist) / (apex - kWaist + outwards);
+    return (radius + outwards) * std::pow(std::max(1.0f - std::pow(t, kPower), 0.0f), 1.0f / kPower);
+  }
+  // On the wall, or `inwards` before it.
+  glm::vec3 at(float bearing, float height, float inwards = 0.0f) const {
+    return center + (radiusAt(height) - inwards) * towards(bearing) + glm::vec3(0, height, 0);
+  }
+};
+
+// Stands on a wall: +X to the right as seen from the room, +Y up, +Z into the room.
+inline glm::quat onWall(float bearing) {
+  return glm::angleAxis(glm::radians(-90.0f - bearing), glm::vec3(0, 1, 0));
+}
+
+constexpr float kWindowHeight = 1.72f, kWindowRadius = 0.50f;
+constexpr int kWindowColumns[] = {52, 59, 66};
+constexpr int kArchColumn = 77, kDoorColumn = 89, kParlourWindowColumn = 64;
+constexpr float kArchHalfWidth = 0.76f, kArchHeight = 1.90f;
+constexpr float kDoorHalfWidth = 0.46f, kDoorHeight = 1.66f;
+constexpr float kParlourWindowHeight = 1.50f, kParlourWindowRadius = 0.38f;
+constexpr float kDado = 0.78f;  // the wainscot's height
+
+inline const Shell& room() {
+  static const Shell shell = [] {
+    Shell s{{0, 0, 0}, 3.3f, 2.95f, {}};
+    for (int column : kWindowColumns)
+      s.openings.push_back(roundOpening(column, 3, kWindowHeight, kWindowRadius, 0.6f));
+    s.openings.push_back(archedOpening(kArchColumn, 4, kArchHalfWidth, kArchHeight, 2.12f));
+    s.openings.push_back(archedOpening(kDoorColumn, 3, kDoorHalfWidth, kDoorHeight, 2.12f));
+    return s;
+  }();
+  return shell;
+}
+
+// Its wall touches the room's outside, so the two openings between them make one passage.
+inline const Shell& parlour() {
+  static const Shell shell = [] {
+    const float bearing = float(kArchColumn) * kColumnDegrees;
+    Shell s{(room().radius + kThickness + 2.1f) * towards(bearing), 2.1f, 2.45f, {}};
+    s.openings.push_back(
+        roundOpening(kParlourWindowColumn, 4, kParlourWindowHeight, kParlourWindowRadius, 0.48f));
+    s.openings.push_back(
+        archedOpening(kArchColumn - kColumns / 2, 7, kArchHalfWidth + 0.02f, kArchHeight + 0.02f, 2.02f));
+    return s;
+  }();
+  return shell;
+}
+
+}  // namespace henry
