@@ -47,7 +47,7 @@ Mesh makeBalloon(const std::string& name, const Balloon& balloon) {
 Mesh makeDog(const std::string& name, glm::vec3 rise) {
   MeshBuilder mesh(name);
   mesh.setTransform(glm::translate(glm::mat4(1.0f), rise));
-  mesh.setMaterial(kBalloonHoney);
+  mesh.setMaterial(kBalloonRose);
   auto sausage = [&](glm::vec3 from, glm::vec3 to, float radius) {
     std::vector<glm::vec3> path;
     std::vector<float> radii;
@@ -86,14 +86,12 @@ glm::quat swayAt(const Balloon& balloon, float time, float shift) {
 }  // namespace
 
 void addBalloons(Document& document, int parent) {
-  // Three at the empty chair on the right, two at the one by the windows, the dog by the door.
-  const glm::vec3 right = {0.48f, 0.93f, -0.36f}, left = {-2.31f, 0.94f, -0.18f};
-  const Balloon balloons[] = {{right, {-0.12f, 0.62f, -0.18f}, 0.17f, kBalloonRose, 4.0f},
-                              {right, {0.30f, 0.45f, 0.02f}, 0.15f, kBalloonTeal, 8.0f},
-                              {right, {0.14f, 0.86f, -0.30f}, 0.16f, kBalloonHoney, 4.0f},
-                              {left, {-0.10f, 0.66f, 0.12f}, 0.16f, kBalloonTeal, 8.0f},
-                              {left, {0.10f, 0.40f, 0.30f}, 0.14f, kBalloonRose, 4.0f},
-                              {{1.72f, 0.0f, -1.35f}, {0.0f, 0.98f, 0.0f}, 0.0f, kBalloonHoney, 8.0f}};
+  // Four at the chair by the arch, the dog at the present.
+  const glm::vec3 chair = {1.35f, 0.94f, -2.44f}, present = {1.95f, 0.25f, -0.98f};
+  const Balloon balloons[] = {{chair, {-0.16f, 0.50f, 0.02f}, 0.17f, kBalloonRose, 4.0f},
+                              {chair, {0.22f, 0.36f, 0.10f}, 0.15f, kBalloonSage, 8.0f},
+                              {chair, {0.10f, 0.78f, 0.05f}, 0.16f, kBalloonHoney, 4.0f},
+                              {present, {0.0f, 0.66f, 0.0f}, 0.0f, kBalloonRose, 8.0f}};
   int number = 1;
   for (const Balloon& b : balloons) {
     const std::string name = "Balloon " + std::to_string(number);

@@ -55,7 +55,7 @@ Mesh makeCake() {
 }
 
 glm::vec3 candleAt(int i) {
-  const float a = 2.0f * kPi * (float(i) + 0.25f) / 5.0f;
+  const float a = 2.0f * kPi * (float(i) + 0.57f) / 5.0f;
   return {0.115f * std::cos(a), kCrown + 0.01f, 0.115f * std::sin(a)};
 }
 

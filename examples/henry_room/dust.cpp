@@ -40,7 +40,7 @@ void addDust(Document& document, int parent) {
                glm::mix(0.04f, 0.10f, up), 2.4f * float(i), up < 0.5f ? 2 : 1};
     } else {
       const float along = float(i - kAroundCake) / float(kSpecks - kAroundCake - 1);
-      swirl = {glm::mix(glm::vec3(-0.50f, 1.78f, -0.45f), glm::vec3(0.55f, 1.70f, -0.50f), along),
+      swirl = {glm::mix(glm::vec3(-0.45f, 1.85f, -1.05f), glm::vec3(1.15f, 1.75f, -2.10f), along),
                random.between(0.24f, 0.42f), 0.12f, 1.9f * float(i), i % 2 ? 1 : -1};
     }
     MeshBuilder mesh("Dust " + std::to_string(i + 1));

@@ -125,7 +125,14 @@ void addChairs(Document& document, int parent) {
     return glm::angleAxis(std::atan2(to.x, to.z), glm::vec3(0, 1, 0));
   };
   document.addMesh(makeChair("Henry's chair", false), parent, kHedgehog, facing(kHedgehog));
-  const glm::vec3 left = {-2.05f, 0, -0.10f}, right = {0.22f, 0, -0.35f};
+  const glm::vec3 left = {-2.10f, 0, -0.35f}, right = {1.12f, 0, -2.28f};
+  MeshBuilder present("Present");
+  present.setMaterial(kCushion);
+  present.box({0, 0.12f, 0}, {0.30f, 0.24f, 0.30f});
+  present.setMaterial(kBalloonHoney);
+  present.box({0, 0.1225f, 0}, {0.308f, 0.247f, 0.06f});
+  present.box({0, 0.1225f, 0}, {0.06f, 0.247f, 0.308f});
+  document.addMesh(present.take(), parent, {1.95f, 0, -0.98f}, glm::angleAxis(0.5f, glm::vec3(0, 1, 0)));
   document.addMesh(makeChair("Chair 1", true), parent, left, facing(left));
   document.addMesh(makeChair("Chair 2", true), parent, right,
                    facing(right) * glm::angleAxis(0.35f, glm::vec3(0, 1, 0)));
@@ -136,7 +143,7 @@ void addShelves(Document& document, int parent) {
   addShelf(mesh, 81.7f, 84.0f, 1.62f);
   addShelf(mesh, 70.2f, 72.3f, 1.45f);
   auto on = [](float column, float height) { return room().at(column * kColumnDegrees, height, 0.12f); };
-  addJar(mesh, on(82.2f, 1.62f), 0.20f, kJarTeal);
+  addJar(mesh, on(82.2f, 1.62f), 0.20f, kJarSage);
   addJar(mesh, on(83.2f, 1.62f), 0.26f, kJar);
   addJar(mesh, on(70.9f, 1.45f), 0.24f, kJar);
   // Two books lean on the jar.

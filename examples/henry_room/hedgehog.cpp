@@ -24,7 +24,7 @@ void addSpikes(MeshBuilder& mesh, glm::vec3 center, glm::vec3 halfSize, int coun
     const glm::vec3 along = glm::normalize(way + glm::vec3(0, 0.12f, -0.55f));
     const glm::vec3 side = glm::normalize(glm::cross(along, glm::vec3(0.3f, 1, 0.2f)));
     const glm::vec3 other = glm::cross(along, side);
-    const float wide = 0.20f * length;
+    const float wide = 0.30f * length;
     const std::vector<glm::vec3> foot = ellipseRing(root - 0.02f * along, side * wide, -other * wide, 5);
     const glm::vec3 tip = root + along * length;
     mesh.setMaterial(i % 4 == 0 ? kSpikeTip : kSpike);
@@ -42,7 +42,7 @@ Mesh makeBody() {
   addBall(mesh, {0, 0.21f, -0.035f}, {0.195f, 0.225f, 0.175f}, 3);
   mesh.setMaterial(kFur);
   addBall(mesh, {0, 0.20f, 0.03f}, {0.165f, 0.205f, 0.150f}, 3);
-  addSpikes(mesh, {0, 0.21f, -0.035f}, {0.19f, 0.22f, 0.17f}, 90, 0.12f, 0.05f);
+  addSpikes(mesh, {0, 0.21f, -0.035f}, {0.19f, 0.22f, 0.17f}, 70, 0.12f, 0.05f);
   // Feet over the seat's edge; arms that reach for the table.
   mesh.setMaterial(kFurDark);
   for (float x : {-1.0f, 1.0f}) {
@@ -61,7 +61,7 @@ Mesh makeHead() {
   const glm::vec3 middle = {0, 0.18f, 0};
   mesh.setMaterial(kSpike);
   addBall(mesh, middle + glm::vec3(0, 0.02f, -0.045f), {0.225f, 0.205f, 0.185f}, 3);
-  addSpikes(mesh, middle + glm::vec3(0, 0.02f, -0.045f), {0.22f, 0.20f, 0.18f}, 130, 0.135f, 0.02f);
+  addSpikes(mesh, middle + glm::vec3(0, 0.02f, -0.045f), {0.22f, 0.20f, 0.18f}, 95, 0.135f, 0.02f);
   mesh.setMaterial(kFur);
   addBall(mesh, middle + glm::vec3(0, -0.01f, 0.03f), {0.205f, 0.180f, 0.165f}, 3);
   // Snout, nose, ears.
@@ -74,6 +74,10 @@ Mesh makeHead() {
   addBall(mesh, {0, 0.162f, 0.300f}, {0.034f, 0.029f, 0.028f}, 2);
   mesh.setMaterial(kFurDark);
   for (float x : {-1.0f, 1.0f}) addBall(mesh, {0.19f * x, 0.29f, 0.01f}, {0.06f, 0.062f, 0.028f}, 2);
+  // A smile under the nose.
+  mesh.setMaterial(kNose);
+  mesh.tube(smoothCurve({{-0.055f, 0.112f, 0.226f}, {0, 0.088f, 0.228f}, {0.055f, 0.112f, 0.226f}}, 4),
+            {0.008f}, 6);
   // Eyes that are mostly pupil, with a light in each.
   for (float x : {-1.0f, 1.0f}) {
     const glm::vec3 eye = {0.088f * x, 0.225f, 0.150f};
@@ -82,7 +86,7 @@ Mesh makeHead() {
     mesh.setMaterial(kNose);
     addBall(mesh, eye + glm::vec3(-0.010f * x, -0.004f, 0.022f), {0.040f, 0.050f, 0.032f}, 2);
     mesh.setMaterial(kEye);
-    addBall(mesh, eye + glm::vec3(-0.020f, 0.020f, 0.050f), {0.013f, 0.015f, 0.008f}, 1);
+    addBall(mesh, eye + glm::vec3(-0.010f * x - 0.012f, 0.018f, 0.050f), {0.013f, 0.015f, 0.008f}, 1);
   }
   return mesh.take();
 }
@@ -106,7 +110,7 @@ void addHedgehog(Document& document, int parent) {
   // Between the cake and the viewer's side of the room: three quarters of his face show.
   const glm::quat turn = glm::angleAxis(0.12f, glm::vec3(0, 1, 0));
   const glm::vec3 seat = kHedgehog + glm::vec3(0, kSeat + 0.05f, 0);
-  const int henry = document.addNode({"Henry", parent, seat, turn});
+  const int henry = document.addNode({"Henry", parent, seat, turn, glm::vec3(1.15f)});
   const int body = document.addMesh(makeBody(), henry);
   const int head = document.addMesh(makeHead(), henry, kHead);
   document.addMesh(makeHat(), head);

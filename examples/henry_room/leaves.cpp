@@ -39,8 +39,8 @@ void addLeaves(Document& document, int parent) {
   Random random(21);
   int number = 1;
   // Outside each window: from above on one side, down across a corner of the view.
-  const glm::vec2 ways[][4] = {{{-0.9f, 0.9f}, {-0.50f, 0.55f}, {-0.28f, 0.28f}, {-0.22f, 0.02f}},
-                               {{0.9f, 0.8f}, {0.48f, 0.50f}, {0.22f, 0.34f}, {0.02f, 0.30f}},
+  const glm::vec2 ways[][4] = {{{-1.0f, -0.9f}, {-0.62f, -0.62f}, {-0.40f, -0.42f}, {-0.22f, -0.34f}},
+                               {{1.0f, 0.85f}, {0.58f, 0.58f}, {0.36f, 0.44f}, {0.18f, 0.40f}},
                                {{-0.9f, -0.7f}, {-0.5f, -0.42f}, {-0.24f, -0.28f}, {0.0f, -0.30f}}};
   for (size_t w = 1; w < 3; ++w) {
     MeshBuilder mesh("Twig " + std::to_string(number++));

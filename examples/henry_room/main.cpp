@@ -29,14 +29,13 @@ Document makeScene() {
   const float elevation = glm::radians(kSunElevation);
   document.addSun(std::cos(elevation) * towards(kSunBearing) + glm::vec3(0, std::sin(elevation), 0),
                   {1.0f, 0.88f, 0.66f}, 3.0f);
-  document.addCamera({"Room", 0.84f, 16.0f / 9.0f, 0.05f, 100.0f}, {1.05f, 1.38f, 2.75f},
-                     {-0.18f, 0.92f, -0.9f});
-  document.addCamera({"Cake", 0.60f, 16.0f / 9.0f, 0.05f, 100.0f}, {-0.55f, 1.18f, 1.35f},
-                     {-0.85f, 0.95f, -0.6f});
-  document.addCamera({"Parlour", 0.66f, 16.0f / 9.0f, 0.05f, 100.0f}, {0.15f, 1.35f, -0.2f},
-                     {0.45f, 1.05f, -4.5f});
-  document.addCamera({"Window", 0.74f, 16.0f / 9.0f, 0.05f, 100.0f}, {0.9f, 1.25f, 0.9f},
-                     {-2.3f, 1.25f, -1.4f});
+  auto camera = [&](const char* name, float fov, glm::vec3 eye, glm::vec3 target) {
+    document.addCamera({name, fov, 16.0f / 9.0f, 0.05f, 100.0f}, eye, target);
+  };
+  camera("Room", 0.80f, {0.40f, 1.46f, 2.90f}, {0.0f, 0.84f, -0.9f});
+  camera("Cake", 0.60f, {-0.50f, 1.22f, 0.95f}, {-0.85f, 1.0f, -0.95f});
+  camera("Parlour", 0.66f, {0.30f, 1.35f, -0.75f}, {0.45f, 1.05f, -4.5f});
+  camera("Window", 0.74f, {0.9f, 1.25f, 0.8f}, {-2.1f, 1.3f, -1.7f});
   document.restAtStartOf(party(document));
   return document;
 }

@@ -12,10 +12,10 @@ using meshkit::Document;
 using meshkit::MeshBuilder;
 
 // Where things stand in the room.
-constexpr glm::vec3 kTable = {-1.0f, 0.0f, -0.35f};
+constexpr glm::vec3 kTable = {-1.10f, 0.0f, -0.69f};
 constexpr float kTableTop = 0.74f, kTableRadius = 0.72f;
-constexpr glm::vec3 kCake = {-1.10f, kTableTop, -0.26f};
-constexpr glm::vec3 kHedgehog = {-0.55f, 0.0f, -1.22f};
+constexpr glm::vec3 kCake = {-1.16f, kTableTop, -0.62f};
+constexpr glm::vec3 kHedgehog = {-0.56f, 0.0f, -1.50f};
 constexpr float kSeat = 0.46f;
 
 // Paints of a shell's parts.

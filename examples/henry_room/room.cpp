@@ -109,9 +109,11 @@ void addWindow(Document& document, int parent, const std::string& name, const Sh
     for (size_t r = 0; r < 5; ++r) ring.at(r, size_t(c)) = out * at[r] + glm::vec3(0, 0, z[r]);
   }
   mesh.grid(ring, {.closed = true, .flip = true});
-  mesh.box({0, 0, 0}, {0.07f, 2.0f * radius, 0.06f});
-  mesh.box({0, 0, 0}, {2.0f * radius, 0.07f, 0.05f});
-  const float middle = shell.radiusAt(height) + 0.6f * kThickness;
+  const float bar = 2.0f * (radius - 0.02f);
+  mesh.box({0, 0, 0}, {0.07f, bar, 0.06f});
+  mesh.box({0, 0, 0}, {bar, 0.07f, 0.05f});
+  // A hand behind the wall at the sill; the vault leans over it.
+  const float middle = shell.radiusAt(height - radius) + 0.10f;
   const glm::vec3 place = shell.center + middle * towards(opening.bearing()) + glm::vec3(0, height, 0);
   document.addMesh(mesh.take(), parent, place, onWall(opening.bearing()));
 }
@@ -171,7 +173,7 @@ void addKitchenDoor(Document& document, int parent) {
   mesh.setMaterial(kDoor);
   mesh.extrude(outline(kDoorHalfWidth + 0.02f, 0.0f, kDoorHeight + 0.02f), -0.06f, 0.0f);
   mesh.setMaterial(kDoorPanel);
-  for (float x : {-0.23f, 0.0f, 0.23f}) mesh.box({x, 0.72f, 0.004f}, {0.018f, 1.40f, 0.02f});
+  for (float x : {-0.215f, 0.215f}) mesh.box({x, 0.76f, 0.004f}, {0.22f, 1.40f, 0.02f});
   mesh.setMaterial(kBeam);
   for (float y : {0.35f, 1.1f}) mesh.box({-0.06f, y, 0.02f}, {0.76f, 0.09f, 0.03f});
   mesh.setMaterial(kBrass);

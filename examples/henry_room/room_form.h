@@ -14,7 +14,7 @@ namespace henry {
 constexpr int kColumns = 100;  // of a shell's mesh, so openings stand at bearings of whole columns
 constexpr float kColumnDegrees = 360.0f / float(kColumns);
 constexpr float kThickness = 0.30f;
-constexpr float kSunBearing = 205.0f, kSunElevation = 22.0f;
+constexpr float kSunBearing = 216.0f, kSunElevation = 27.0f;
 
 inline glm::vec3 towards(float bearing) {
   const float a = glm::radians(bearing);
@@ -25,7 +25,6 @@ inline glm::vec3 towards(float bearing) {
 struct Opening {
   int column, halfColumns;    // the middle, and how many columns of the mesh it takes to both sides
   float bottom, top, middle;  // metres; what it takes of the mesh's height, and a point that sees all of it
-  float splay;                // how much wider it is on the room's side
   std::function<bool(float along, float up)> inside;
 
   float bearing() const { return float(column) * kColumnDegrees; }
@@ -33,12 +32,16 @@ struct Opening {
 
 // A round window, and a passage with a round head.
 inline Opening roundOpening(int column, int halfColumns, float height, float radius, float margin) {
-  return {column, halfColumns, height - margin, height + margin, height, 1.12f, [=](float x, float y) {
-            return x * x + (y - height) * (y - height) < radius * radius;
-          }};
+  return {column,
+          halfColumns,
+          height - margin,
+          height + margin,
+          height,
+          [=](float x, float y) {
+            return x * x + (y - height) * (y - height) < radius * radius; }};
 }
 inline Opening archedOpening(int column, int halfColumns, float halfWidth, float height, float top) {
-  return {column, halfColumns, -0.05f, top, 0.8f, 1.0f, [=](float x, float y) {
+  return {column, halfColumns, -0.05f, top, 0.8f, [=](float x, float y) {
             const float above = std::max(y - (height - halfWidth), 0.0f);
             return x * x + above * above < halfWidth * halfWidth;
           }};
@@ -66,19 +69,19 @@ inline glm::quat onWall(float bearing) {
   return glm::angleAxis(glm::radians(-90.0f - bearing), glm::vec3(0, 1, 0));
 }
 
-constexpr float kWindowHeight = 1.72f, kWindowRadius = 0.50f;
+constexpr float kWindowHeight = 1.80f, kWindowRadius = 0.56f;
 constexpr int kWindowColumns[] = {52, 59, 66};
 constexpr int kArchColumn = 77, kDoorColumn = 89, kParlourWindowColumn = 64;
 constexpr float kArchHalfWidth = 0.76f, kArchHeight = 1.90f;
 constexpr float kDoorHalfWidth = 0.46f, kDoorHeight = 1.66f;
-constexpr float kParlourWindowHeight = 1.50f, kParlourWindowRadius = 0.38f;
+constexpr float kParlourWindowHeight = 1.50f, kParlourWindowRadius = 0.46f;
 constexpr float kDado = 0.78f;  // the wainscot's height
 
 inline const Shell& room() {
   static const Shell shell = [] {
-    Shell s{{0, 0, 0}, 3.3f, 2.95f, {}};
+    Shell s{{0, 0, 0}, 3.3f, 3.05f, {}};
     for (int column : kWindowColumns)
-      s.openings.push_back(roundOpening(column, 3, kWindowHeight, kWindowRadius, 0.6f));
+      s.openings.push_back(roundOpening(column, 3, kWindowHeight, kWindowRadius, 0.62f));
     s.openings.push_back(archedOpening(kArchColumn, 4, kArchHalfWidth, kArchHeight, 2.12f));
     s.openings.push_back(archedOpening(kDoorColumn, 3, kDoorHalfWidth, kDoorHeight, 2.12f));
     return s;
@@ -92,9 +95,9 @@ inline const Shell& parlour() {
     const float bearing = float(kArchColumn) * kColumnDegrees;
     Shell s{(room().radius + kThickness + 2.1f) * towards(bearing), 2.1f, 2.45f, {}};
     s.openings.push_back(
-        roundOpening(kParlourWindowColumn, 4, kParlourWindowHeight, kParlourWindowRadius, 0.48f));
+        roundOpening(kParlourWindowColumn, 5, kParlourWindowHeight, kParlourWindowRadius, 0.55f));
     s.openings.push_back(
-        archedOpening(kArchColumn - kColumns / 2, 7, kArchHalfWidth + 0.02f, kArchHeight + 0.02f, 2.02f));
+        archedOpening(kArchColumn - kColumns / 2, 7, kArchHalfWidth + 0.02f, kArchHeight + 0.02f, 2.05f));
     return s;
   }();
   return shell;

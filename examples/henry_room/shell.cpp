@@ -20,7 +20,7 @@ struct Side {
 };
 
 // The walls' rows are of one height on both sides; the vault's go up to each side's own apex.
-constexpr float kVaultFrom = 2.32f;
+constexpr float kVaultFrom = 2.42f;
 std::vector<float> wallHeights(const Shell& shell) {
   std::vector<float> heights = {-0.05f, 0.25f, 0.5f, kDado};
   for (const Opening& o : shell.openings) {
@@ -66,7 +66,6 @@ Rim makeRim(const Side& side, const Opening& opening) {
   for (int c = right; c > left; --c) loop.push_back({high, c});
   for (size_t r = high; r > low; --r) loop.push_back({r, left});
 
-  const float splay = side.outwards == 0.0f ? opening.splay : 1.0f;
   Rim rim;
   for (const auto& [row, column] : loop) {
     rim.around.push_back(side.at(row, column));
@@ -76,7 +75,7 @@ Rim makeRim(const Side& side, const Opening& opening) {
     float inside = 0.0f, outside = 1.0f;
     for (int i = 0; i < 24; ++i) {
       const float t = 0.5f * (inside + outside);
-      const glm::vec2 p = glm::mix(from, to, t / splay);
+      const glm::vec2 p = glm::mix(from, to, t);
       (opening.inside(p.x, p.y) ? inside : outside) = t;
     }
     const glm::vec2 p = glm::mix(from, to, outside);
