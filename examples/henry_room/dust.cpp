@@ -45,7 +45,7 @@ void addDust(Document& document, int parent) {
     }
     MeshBuilder mesh("Dust " + std::to_string(i + 1));
     mesh.setMaterial(kDust);
-    const float size = random.between(0.010f, 0.018f);
+    const float size = random.between(0.012f, 0.022f);
     addBall(mesh, {0, 0, 0}, glm::vec3(size), 1);
     const int node = document.addMesh(mesh.take(), dust);
     party(document).channels.push_back(

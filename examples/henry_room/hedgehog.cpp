@@ -110,7 +110,7 @@ void addHedgehog(Document& document, int parent) {
   // Between the cake and the viewer's side of the room: three quarters of his face show.
   const glm::quat turn = glm::angleAxis(0.12f, glm::vec3(0, 1, 0));
   const glm::vec3 seat = kHedgehog + glm::vec3(0, kSeat + 0.05f, 0);
-  const int henry = document.addNode({"Henry", parent, seat, turn, glm::vec3(1.15f)});
+  const int henry = document.addNode({"Henry", parent, seat, turn, glm::vec3(1.28f)});
   const int body = document.addMesh(makeBody(), henry);
   const int head = document.addMesh(makeHead(), henry, kHead);
   document.addMesh(makeHat(), head);

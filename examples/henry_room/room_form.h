@@ -14,7 +14,7 @@ namespace henry {
 constexpr int kColumns = 100;  // of a shell's mesh, so openings stand at bearings of whole columns
 constexpr float kColumnDegrees = 360.0f / float(kColumns);
 constexpr float kThickness = 0.30f;
-constexpr float kSunBearing = 216.0f, kSunElevation = 27.0f;
+constexpr float kSunBearing = 219.0f, kSunElevation = 25.0f;
 
 inline glm::vec3 towards(float bearing) {
   const float a = glm::radians(bearing);
