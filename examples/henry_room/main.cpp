@@ -32,8 +32,8 @@ Document makeScene() {
   auto camera = [&](const char* name, float fov, glm::vec3 eye, glm::vec3 target) {
     document.addCamera({name, fov, 16.0f / 9.0f, 0.05f, 100.0f}, eye, target);
   };
-  camera("Room", 0.80f, {0.40f, 1.46f, 2.90f}, {0.0f, 0.84f, -0.9f});
-  camera("Cake", 0.60f, {-0.50f, 1.22f, 0.95f}, {-0.85f, 1.0f, -0.95f});
+  camera("Room", 0.80f, {0.40f, 1.46f, 2.90f}, {0.0f, 0.93f, -0.9f});
+  camera("Cake", 0.60f, {-0.45f, 1.27f, 1.15f}, {-0.83f, 1.09f, -0.95f});
   camera("Parlour", 0.66f, {0.22f, 1.35f, -0.72f}, {0.36f, 1.05f, -4.5f});
   camera("Window", 0.74f, {0.9f, 1.25f, 0.8f}, {-2.1f, 1.3f, -1.7f});
   document.restAtStartOf(party(document));

@@ -11,7 +11,7 @@ using namespace meshkit;
 Mesh makeRibs() {
   MeshBuilder mesh("Ribs");
   mesh.setMaterial(kBeam);
-  for (float column : {55.5f, 62.5f, 69.6f, 84.4f, 93.5f, 4.0f, 14.0f, 24.0f, 34.0f, 44.0f}) {
+  for (float column : {55.5f, 62.0f, 69.6f, 84.4f, 93.5f, 4.0f, 14.0f, 24.0f, 34.0f, 44.0f}) {
     std::vector<glm::vec3> path;
     for (int i = 0; i <= 14; ++i) {
       // Even steps of the angle from the middle follow wall and vault alike.

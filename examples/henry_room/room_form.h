@@ -70,7 +70,7 @@ inline glm::quat onWall(float bearing) {
 }
 
 constexpr float kWindowHeight = 1.80f, kWindowRadius = 0.56f;
-constexpr int kWindowColumns[] = {52, 59, 66};
+constexpr int kWindowColumns[] = {52, 59, 65};
 constexpr int kArchColumn = 77, kDoorColumn = 89, kParlourWindowColumn = 64;
 constexpr float kArchHalfWidth = 0.76f, kArchHeight = 1.90f;
 constexpr float kDoorHalfWidth = 0.46f, kDoorHeight = 1.66f;
