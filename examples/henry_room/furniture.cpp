@@ -132,7 +132,7 @@ void addChairs(Document& document, int parent) {
   present.setMaterial(kBalloonHoney);
   present.box({0, 0.1225f, 0}, {0.308f, 0.247f, 0.06f});
   present.box({0, 0.1225f, 0}, {0.06f, 0.247f, 0.308f});
-  document.addMesh(present.take(), parent, {1.75f, 0, -0.50f}, glm::angleAxis(0.5f, glm::vec3(0, 1, 0)));
+  document.addMesh(present.take(), parent, {2.12f, 0, -1.02f}, glm::angleAxis(0.5f, glm::vec3(0, 1, 0)));
   document.addMesh(makeChair("Chair 1", true), parent, left, facing(left));
   document.addMesh(makeChair("Chair 2", true), parent, right,
                    facing(right) * glm::angleAxis(0.35f, glm::vec3(0, 1, 0)));

@@ -108,7 +108,7 @@ Mesh makeHat() {
 
 void addHedgehog(Document& document, int parent) {
   // Between the cake and the viewer's side of the room: three quarters of his face show.
-  const glm::quat turn = glm::angleAxis(0.12f, glm::vec3(0, 1, 0));
+  const glm::quat turn = glm::angleAxis(0.02f, glm::vec3(0, 1, 0));
   const glm::vec3 seat = kHedgehog + glm::vec3(0, kSeat + 0.05f, 0);
   const int henry = document.addNode({"Henry", parent, seat, turn, glm::vec3(1.28f)});
   const int body = document.addMesh(makeBody(), henry);
@@ -126,9 +126,9 @@ void addHedgehog(Document& document, int parent) {
       head, onTwos(), [=](float time) { return kHead + glm::vec3(0, 0.010f * breath(time - 0.1f), 0); }));
   channels.push_back(rotationKeys(head, onTwos(), [](float time) {
     // He holds each look for a while, so the tilt is a sine with flat ends.
-    const float s = std::sin(phase(time, kLoop) - 0.5f), held = glm::clamp(1.9f * s, -1.0f, 1.0f);
+    const float s = std::sin(phase(time, kLoop) + 2.4f), held = glm::clamp(1.9f * s, -1.0f, 1.0f);
     const float eased = held * (1.5f - 0.5f * held * held);
-    return glm::angleAxis(0.05f - 0.20f * eased, glm::vec3(0, 1, 0)) *
+    return glm::angleAxis(-0.06f - 0.24f * eased, glm::vec3(0, 1, 0)) *
            glm::angleAxis(-0.02f - 0.10f * eased, glm::vec3(1, 0, 0)) *
            glm::angleAxis(0.13f * eased, glm::vec3(0, 0, 1));
   }));

@@ -62,12 +62,12 @@ enum Paint : int {
 inline std::vector<meshkit::Material> palette() {
   return {
       {"Wall", "#F6DDA6", "#C08A68"},
-      {"Wainscot", "#DB9A55", "#905446"},
+      {"Wainscot", "#DB9A55", "#854A44"},
       {"Ceiling", "#F0D6A4", "#935C58"},
       {"Reveal", "#FBE6B4", "#CF9C78"},
       {"Beam", "#C07C42", "#673C42"},
-      {"Floor", "#F4BD6C", "#9C5C49"},
-      {"FloorDark", "#ECB064", "#935546"},
+      {"Floor", "#F4BD6C", "#90514A"},
+      {"FloorDark", "#ECB064", "#884B47"},
       {"Rug", "#CC6A58", "#7E4144"},
       {"RugBand", "#EDBD7C", "#A66F58"},
       {"Frame", "#E0A862", "#7A4B47"},

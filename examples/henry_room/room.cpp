@@ -110,8 +110,8 @@ void addWindow(Document& document, int parent, const std::string& name, const Sh
   }
   mesh.grid(ring, {.closed = true, .flip = true});
   const float bar = 2.0f * (radius - 0.02f);
-  mesh.box({0, 0, 0}, {0.07f, bar, 0.06f});
-  mesh.box({0, 0, 0}, {bar, 0.07f, 0.05f});
+  mesh.box({0, 0, 0}, {0.06f, bar, 0.05f});
+  mesh.box({0, 0, 0}, {bar, 0.05f, 0.04f});
   // A hand behind the wall at the sill; the vault leans over it.
   const float middle = shell.radiusAt(height - radius) + 0.10f;
   const glm::vec3 place = shell.center + middle * towards(opening.bearing()) + glm::vec3(0, height, 0);
