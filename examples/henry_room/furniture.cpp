@@ -132,7 +132,7 @@ void addChairs(Document& document, int parent) {
   present.setMaterial(kBalloonHoney);
   present.box({0, 0.1225f, 0}, {0.308f, 0.247f, 0.06f});
   present.box({0, 0.1225f, 0}, {0.06f, 0.247f, 0.308f});
-  document.addMesh(present.take(), parent, {2.12f, 0, -1.02f}, glm::angleAxis(0.5f, glm::vec3(0, 1, 0)));
+  document.addMesh(present.take(), parent, {1.80f, 0, -1.20f}, glm::angleAxis(0.5f, glm::vec3(0, 1, 0)));
   document.addMesh(makeChair("Chair 1", true), parent, left, facing(left));
   document.addMesh(makeChair("Chair 2", true), parent, right,
                    facing(right) * glm::angleAxis(0.35f, glm::vec3(0, 1, 0)));
@@ -140,11 +140,9 @@ void addChairs(Document& document, int parent) {
 
 void addShelves(Document& document, int parent) {
   MeshBuilder mesh("Shelves");
-  addShelf(mesh, 81.7f, 84.0f, 1.62f);
   addShelf(mesh, 70.2f, 72.3f, 1.45f);
   auto on = [](float column, float height) { return room().at(column * kColumnDegrees, height, 0.12f); };
-  addJar(mesh, on(82.2f, 1.62f), 0.20f, kJarSage);
-  addJar(mesh, on(83.2f, 1.62f), 0.26f, kJar);
+  addJar(mesh, on(70.35f, 1.45f), 0.15f, kJarSage);
   addJar(mesh, on(70.9f, 1.45f), 0.24f, kJar);
   // Two books lean on the jar.
   mesh.setMaterial(kBook);

@@ -19,7 +19,7 @@ void addSpikes(MeshBuilder& mesh, glm::vec3 center, glm::vec3 halfSize, int coun
     const float y = 1.0f - 2.0f * (float(i) + 0.5f) / float(count), angle = 2.3999632f * float(i);
     const float r = std::sqrt(1.0f - y * y);
     const glm::vec3 way = {r * std::cos(angle), y, r * std::sin(angle)};
-    if (way.z > front + 0.25f * std::max(way.y, 0.0f) || way.y < -0.75f) continue;
+    if (way.z > front + 0.25f * std::max(way.y, 0.0f) || std::abs(way.y) > 0.75f) continue;
     const glm::vec3 root = center + way * halfSize;
     const glm::vec3 along = glm::normalize(way + glm::vec3(0, 0.12f, -0.55f));
     const glm::vec3 side = glm::normalize(glm::cross(along, glm::vec3(0.3f, 1, 0.2f)));

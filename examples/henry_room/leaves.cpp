@@ -45,10 +45,10 @@ void addLeaves(Document& document, int parent) {
   for (size_t w = 1; w < 3; ++w) {
     MeshBuilder mesh("Twig " + std::to_string(number++));
     std::vector<glm::vec3> points;
-    for (const glm::vec2& p : ways[w - 1]) points.push_back({p.x, p.y, -0.55f});
+    for (const glm::vec2& p : ways[w - 1]) points.push_back({p.x, 1.2f * p.y, -0.55f});
     addTwig(mesh, random, points);
     const float bearing = float(kWindowColumns[w]) * kColumnDegrees;
-    document.addMesh(mesh.take(), parent, room().at(bearing, kWindowHeight), onWall(bearing));
+    document.addMesh(mesh.take(), parent, room().at(bearing, kWindow.height), onWall(bearing));
   }
 }
 

@@ -60,7 +60,7 @@ void addParlour(Document& document, int parent) {
       makeShell("Parlour shell", shell, {kParlourWall, kParlourWainscot, kParlourWall, kParlourWall}),
       parent);
   const Opening& window = shell.openings.front();
-  addWindow(document, parent, "Parlour window", shell, window, kParlourWindowHeight, kParlourWindowRadius);
+  addWindow(document, parent, "Parlour window", shell, window, kParlourWindow);
   auto turned = [](float degrees) { return glm::angleAxis(glm::radians(degrees), glm::vec3(0, 1, 0)); };
   document.addMesh(makeArmchair(), top, {0.30f, 0, -0.85f}, turned(-25.0f));
   document.addMesh(makeLamp(), top, {-0.42f, 0, -1.30f});

@@ -26,9 +26,9 @@ meshkit::Mesh makeShell(const std::string& name, const Shell& shell, const Shell
 
 void addRoom(Document& document, int parent);
 void addFloor(Document& document, int parent);
-// A round window of bars and a ring, in its wall; its node is at the middle of the hole.
+// A window of bars and a ring, in its wall; its node is at the middle of the hole.
 void addWindow(Document& document, int parent, const std::string& name, const Shell& shell,
-               const Opening& opening, float height, float radius);
+               const Opening& opening, const Oval& oval);
 void addKitchenDoor(Document& document, int parent);
 void addLeaves(Document& document, int parent);
 void addShelves(Document& document, int parent);

@@ -19,10 +19,11 @@ Mesh makeRibs() {
       const float y = i == 0 ? 0.0f : glm::mix(0.0f, room().apex - 0.05f, std::sin(0.5f * kPi * t));
       path.push_back(room().at(column * kColumnDegrees, y, 0.015f));
     }
+    path.push_back(0.2f * towards(column * kColumnDegrees) + glm::vec3(0, room().apex - 0.04f, 0));
     const glm::vec3 along = glm::normalize(glm::cross(towards(column * kColumnDegrees), {0, 1, 0}));
     for (size_t i = 0; i + 1 < path.size(); ++i) {
       // A root is thicker at its foot.
-      const float width = glm::mix(0.15f, 0.07f, float(i) / 13.0f);
+      const float width = glm::mix(0.15f, 0.07f, float(i) / 14.0f);
       mesh.bar({path[i], path[i + 1] + 0.02f * glm::normalize(path[i + 1] - path[i])}, 0.09f, width, along);
     }
   }
@@ -95,26 +96,26 @@ void addBall(MeshBuilder& mesh, glm::vec3 center, glm::vec3 halfSize, int levels
 }
 
 void addWindow(Document& document, int parent, const std::string& name, const Shell& shell,
-               const Opening& opening, float height, float radius) {
+               const Opening& opening, const Oval& oval) {
   MeshBuilder mesh(name);
   mesh.setMaterial(kFrame);
   // The ring in the hole, then the cross: bars broad enough to be drawn by the sun.
-  constexpr int kSides = 36;
+  constexpr int kSides = 40;
   Grid ring(5, kSides);
   for (int c = 0; c < kSides; ++c) {
     const float a = 2.0f * kPi * float(c) / float(kSides);
-    const glm::vec3 out = {std::cos(a), std::sin(a), 0};
-    const float at[] = {radius + 0.03f, radius - 0.045f, radius - 0.045f, radius + 0.03f, radius + 0.03f};
+    const float grow[] = {0.03f, -0.04f, -0.04f, 0.03f, 0.03f};
     const float z[] = {0.05f, 0.05f, -0.05f, -0.05f, 0.05f};
-    for (size_t r = 0; r < 5; ++r) ring.at(r, size_t(c)) = out * at[r] + glm::vec3(0, 0, z[r]);
+    for (size_t r = 0; r < 5; ++r)
+      ring.at(r, size_t(c)) = {(oval.halfWidth + grow[r]) * std::cos(a),
+                               (oval.halfHeight + grow[r]) * std::sin(a), z[r]};
   }
   mesh.grid(ring, {.closed = true, .flip = true});
-  const float bar = 2.0f * (radius - 0.02f);
-  mesh.box({0, 0, 0}, {0.06f, bar, 0.05f});
-  mesh.box({0, 0, 0}, {bar, 0.05f, 0.04f});
+  mesh.box({0, 0, 0}, {0.06f, 2.0f * oval.halfHeight - 0.04f, 0.05f});
+  mesh.box({0, 0, 0}, {2.0f * oval.halfWidth - 0.04f, 0.05f, 0.04f});
   // A hand behind the wall at the sill; the vault leans over it.
-  const float middle = shell.radiusAt(height - radius) + 0.10f;
-  const glm::vec3 place = shell.center + middle * towards(opening.bearing()) + glm::vec3(0, height, 0);
+  const float middle = shell.radiusAt(oval.height - oval.halfHeight) + 0.10f;
+  const glm::vec3 place = shell.center + middle * towards(opening.bearing()) + glm::vec3(0, oval.height, 0);
   document.addMesh(mesh.take(), parent, place, onWall(opening.bearing()));
 }
 
@@ -155,8 +156,7 @@ void addRoom(Document& document, int parent) {
   int number = 1;
   for (const Opening& opening : room().openings)
     if (number <= int(std::size(kWindowColumns)))
-      addWindow(document, parent, "Window " + std::to_string(number++), room(), opening, kWindowHeight,
-                kWindowRadius);
+      addWindow(document, parent, "Window " + std::to_string(number++), room(), opening, kWindow);
 }
 
 void addKitchenDoor(Document& document, int parent) {

@@ -30,15 +30,16 @@ struct Opening {
   float bearing() const { return float(column) * kColumnDegrees; }
 };
 
-// A round window, and a passage with a round head.
-inline Opening roundOpening(int column, int halfColumns, float height, float radius, float margin) {
-  return {column,
-          halfColumns,
-          height - margin,
-          height + margin,
-          height,
-          [=](float x, float y) {
-            return x * x + (y - height) * (y - height) < radius * radius; }};
+// An upright oval window, and a passage with a round head.
+struct Oval {
+  float height, halfWidth, halfHeight;  // metres; of its middle above the floor
+};
+inline Opening ovalOpening(int column, int halfColumns, const Oval& oval, float margin) {
+  const float reach = oval.halfHeight + margin;
+  return {column, halfColumns, oval.height - reach, oval.height + reach, oval.height, [=](float x, float y) {
+            const glm::vec2 p = {x / oval.halfWidth, (y - oval.height) / oval.halfHeight};
+            return glm::dot(p, p) < 1.0f;
+          }};
 }
 inline Opening archedOpening(int column, int halfColumns, float halfWidth, float height, float top) {
   return {column, halfColumns, -0.05f, top, 0.8f, [=](float x, float y) {
@@ -69,19 +70,17 @@ inline glm::quat onWall(float bearing) {
   return glm::angleAxis(glm::radians(-90.0f - bearing), glm::vec3(0, 1, 0));
 }
 
-constexpr float kWindowHeight = 1.80f, kWindowRadius = 0.56f;
+constexpr Oval kWindow = {1.70f, 0.56f, 0.68f}, kParlourWindow = {1.45f, 0.42f, 0.52f};
 constexpr int kWindowColumns[] = {52, 59, 65};
 constexpr int kArchColumn = 77, kDoorColumn = 89, kParlourWindowColumn = 64;
 constexpr float kArchHalfWidth = 0.76f, kArchHeight = 1.90f;
 constexpr float kDoorHalfWidth = 0.46f, kDoorHeight = 1.66f;
-constexpr float kParlourWindowHeight = 1.50f, kParlourWindowRadius = 0.46f;
 constexpr float kDado = 0.78f;  // the wainscot's height
 
 inline const Shell& room() {
   static const Shell shell = [] {
     Shell s{{0, 0, 0}, 3.3f, 3.05f, {}};
-    for (int column : kWindowColumns)
-      s.openings.push_back(roundOpening(column, 3, kWindowHeight, kWindowRadius, 0.62f));
+    for (int column : kWindowColumns) s.openings.push_back(ovalOpening(column, 3, kWindow, 0.05f));
     s.openings.push_back(archedOpening(kArchColumn, 4, kArchHalfWidth, kArchHeight, 2.12f));
     s.openings.push_back(archedOpening(kDoorColumn, 3, kDoorHalfWidth, kDoorHeight, 2.12f));
     return s;
@@ -94,8 +93,7 @@ inline const Shell& parlour() {
   static const Shell shell = [] {
     const float bearing = float(kArchColumn) * kColumnDegrees;
     Shell s{(room().radius + kThickness + 2.1f) * towards(bearing), 2.1f, 2.45f, {}};
-    s.openings.push_back(
-        roundOpening(kParlourWindowColumn, 5, kParlourWindowHeight, kParlourWindowRadius, 0.55f));
+    s.openings.push_back(ovalOpening(kParlourWindowColumn, 5, kParlourWindow, 0.07f));
     s.openings.push_back(
         archedOpening(kArchColumn - kColumns / 2, 7, kArchHalfWidth + 0.02f, kArchHeight + 0.02f, 2.05f));
     return s;
