@@ -87,7 +87,7 @@ glm::quat swayAt(const Balloon& balloon, float time, float shift) {
 
 void addBalloons(Document& document, int parent) {
   // Four at the chair by the arch, the dog at the present.
-  const glm::vec3 chair = {1.35f, 0.94f, -2.44f}, present = {1.80f, 0.25f, -1.20f};
+  const glm::vec3 chair = {1.59f, 0.93f, -2.39f}, present = {2.08f, 0.25f, -1.05f};
   const Balloon balloons[] = {{chair, {-0.16f, 0.50f, 0.02f}, 0.17f, kBalloonRose, 4.0f},
                               {chair, {0.22f, 0.36f, 0.10f}, 0.15f, kBalloonSage, 8.0f},
                               {chair, {0.10f, 0.78f, 0.05f}, 0.16f, kBalloonHoney, 4.0f},

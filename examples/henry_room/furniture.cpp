@@ -125,14 +125,14 @@ void addChairs(Document& document, int parent) {
     return glm::angleAxis(std::atan2(to.x, to.z), glm::vec3(0, 1, 0));
   };
   document.addMesh(makeChair("Henry's chair", false), parent, kHedgehog, facing(kHedgehog));
-  const glm::vec3 left = {-1.80f, 0, -1.42f}, right = {1.12f, 0, -2.28f};
+  const glm::vec3 left = {-1.80f, 0, -1.42f}, right = {1.34f, 0, -2.25f};
   MeshBuilder present("Present");
   present.setMaterial(kCushion);
   present.box({0, 0.12f, 0}, {0.30f, 0.24f, 0.30f});
   present.setMaterial(kBalloonHoney);
   present.box({0, 0.1225f, 0}, {0.308f, 0.247f, 0.06f});
   present.box({0, 0.1225f, 0}, {0.06f, 0.247f, 0.308f});
-  document.addMesh(present.take(), parent, {1.80f, 0, -1.20f}, glm::angleAxis(0.5f, glm::vec3(0, 1, 0)));
+  document.addMesh(present.take(), parent, {2.08f, 0, -1.05f}, glm::angleAxis(0.5f, glm::vec3(0, 1, 0)));
   document.addMesh(makeChair("Chair 1", true), parent, left, facing(left));
   document.addMesh(makeChair("Chair 2", true), parent, right,
                    facing(right) * glm::angleAxis(0.35f, glm::vec3(0, 1, 0)));

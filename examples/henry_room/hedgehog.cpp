@@ -93,7 +93,7 @@ Mesh makeHead() {
 
 Mesh makeHat() {
   MeshBuilder mesh("Henry hat");
-  mesh.setTransform(glm::translate(glm::mat4(1.0f), {0.03f, 0.365f, -0.01f}) *
+  mesh.setTransform(glm::translate(glm::mat4(1.0f), {0.03f, 0.335f, -0.015f}) *
                     glm::rotate(glm::mat4(1.0f), -0.16f, {0, 0, 1}) *
                     glm::rotate(glm::mat4(1.0f), -0.10f, {1, 0, 0}));
   mesh.setMaterial(kHat);
