@@ -31,6 +31,8 @@ Document makeScene() {
                   {1.0f, 0.88f, 0.66f}, 3.0f);
   auto camera = [&](const char* name, float fov, glm::vec3 eye, glm::vec3 target) {
     document.addCamera({name, fov, 16.0f / 9.0f, 0.05f, 100.0f}, eye, target);
+    // The thing that it looks at has the name alone.
+    document.nodes.back().name += " camera";
   };
   camera("Room", 0.80f, {0.40f, 1.46f, 2.90f}, {0.0f, 0.93f, -0.9f});
   camera("Cake", 0.60f, {-0.45f, 1.27f, 1.15f}, {-0.83f, 1.09f, -0.95f});
