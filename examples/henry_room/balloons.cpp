@@ -86,11 +86,11 @@ glm::quat swayAt(const Balloon& balloon, float time, float shift) {
 }  // namespace
 
 void addBalloons(Document& document, int parent) {
-  // Four at the chair by the arch, the dog at the present.
-  const glm::vec3 chair = {1.59f, 0.93f, -2.39f}, present = {2.08f, 0.25f, -1.05f};
-  const Balloon balloons[] = {{chair, {-0.16f, 0.50f, 0.02f}, 0.17f, kBalloonRose, 4.0f},
-                              {chair, {0.22f, 0.36f, 0.10f}, 0.15f, kBalloonSage, 8.0f},
-                              {chair, {0.10f, 0.78f, 0.05f}, 0.16f, kBalloonHoney, 4.0f},
+  // Three at the chair by the arch, the dog at the present.
+  const glm::vec3 present = kPresent + glm::vec3(0, 0.245f, 0);
+  const Balloon balloons[] = {{kChairBack, {-0.16f, 0.50f, 0.02f}, 0.17f, kBalloonRose, 4.0f},
+                              {kChairBack, {0.22f, 0.36f, 0.10f}, 0.15f, kBalloonSage, 8.0f},
+                              {kChairBack, {0.10f, 0.78f, 0.05f}, 0.16f, kBalloonHoney, 4.0f},
                               {present, {0.0f, 0.66f, 0.0f}, 0.0f, kBalloonRose, 8.0f}};
   int number = 1;
   for (const Balloon& b : balloons) {

@@ -1,5 +1,4 @@
-// The table with its cloth, three chairs, shelves along the wall and the rug.
-#include "mesh_kit/random.h"
+// The table with its cloth, three chairs, the rug, a present and a shelf along the wall.
 #include "parts.h"
 
 namespace henry {
@@ -88,8 +87,8 @@ void addJar(MeshBuilder& mesh, glm::vec3 foot, float size, int paint) {
   mesh.setTransform(glm::mat4(1.0f));
 }
 
-// A board along the wall between two columns of the mesh, on which things stand.
-void addShelf(MeshBuilder& mesh, float from, float to, float height) {
+// A board along the wall between two columns of the mesh.
+void addBoard(MeshBuilder& mesh, float from, float to, float height) {
   constexpr int kPieces = 6;
   Grid board(5, size_t(kPieces) + 1);
   for (int c = 0; c <= kPieces; ++c) {
@@ -126,28 +125,33 @@ void addChairs(Document& document, int parent) {
   };
   document.addMesh(makeChair("Henry's chair", false), parent, kHedgehog, facing(kHedgehog));
   const glm::vec3 left = {-1.80f, 0, -1.42f}, right = {1.34f, 0, -2.25f};
-  MeshBuilder present("Present");
-  present.setMaterial(kCushion);
-  present.box({0, 0.12f, 0}, {0.30f, 0.24f, 0.30f});
-  present.setMaterial(kBalloonHoney);
-  present.box({0, 0.1225f, 0}, {0.308f, 0.247f, 0.06f});
-  present.box({0, 0.1225f, 0}, {0.06f, 0.247f, 0.308f});
-  document.addMesh(present.take(), parent, {2.08f, 0, -1.05f}, glm::angleAxis(0.5f, glm::vec3(0, 1, 0)));
   document.addMesh(makeChair("Chair 1", true), parent, left, facing(left));
   document.addMesh(makeChair("Chair 2", true), parent, right,
                    facing(right) * glm::angleAxis(0.35f, glm::vec3(0, 1, 0)));
 }
 
-void addShelves(Document& document, int parent) {
-  MeshBuilder mesh("Shelves");
-  addShelf(mesh, 70.2f, 72.3f, 1.45f);
-  auto on = [](float column, float height) { return room().at(column * kColumnDegrees, height, 0.12f); };
-  addJar(mesh, on(70.35f, 1.45f), 0.15f, kJarSage);
-  addJar(mesh, on(70.9f, 1.45f), 0.24f, kJar);
-  // Two books lean on the jar.
+void addPresent(Document& document, int parent) {
+  MeshBuilder mesh("Present");
+  mesh.setMaterial(kCushion);
+  mesh.box({0, 0.12f, 0}, {0.30f, 0.24f, 0.30f});
+  // The ribbon lies on the box.
+  mesh.setMaterial(kBalloonHoney);
+  mesh.box({0, 0.1225f, 0}, {0.308f, 0.247f, 0.06f});
+  mesh.box({0, 0.1225f, 0}, {0.06f, 0.247f, 0.308f});
+  document.addMesh(mesh.take(), parent, kPresent, glm::angleAxis(0.5f, glm::vec3(0, 1, 0)));
+}
+
+void addShelf(Document& document, int parent) {
+  MeshBuilder mesh("Shelf");
+  constexpr float kHeight = 1.28f;
+  addBoard(mesh, 70.2f, 72.3f, kHeight);
+  auto on = [](float column) { return room().at(column * kColumnDegrees, kHeight, 0.12f); };
+  addJar(mesh, on(70.35f), 0.15f, kJarSage);
+  addJar(mesh, on(70.9f), 0.24f, kJar);
+  // Two books beside the jars.
   mesh.setMaterial(kBook);
   const float bearing = 71.7f * kColumnDegrees;
-  mesh.setTransform(glm::translate(glm::mat4(1.0f), on(71.7f, 1.45f)) * glm::mat4_cast(onWall(bearing)));
+  mesh.setTransform(glm::translate(glm::mat4(1.0f), on(71.7f)) * glm::mat4_cast(onWall(bearing)));
   mesh.box({0.02f, 0.13f, 0}, {0.06f, 0.26f, 0.17f});
   mesh.box({-0.05f, 0.11f, 0}, {0.05f, 0.22f, 0.16f});
   document.addMesh(mesh.take(), parent);

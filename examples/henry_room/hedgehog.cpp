@@ -1,5 +1,4 @@
 // Henry: a small hedgehog on his chair, big eyes, party hat. He breathes and tilts his head.
-#include "mesh_kit/random.h"
 #include "parts.h"
 #include "timing.h"
 

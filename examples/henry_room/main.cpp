@@ -17,9 +17,10 @@ Document makeScene() {
   addFloor(document, world);
   addKitchenDoor(document, world);
   addLeaves(document, world);
-  addShelves(document, world);
+  addShelf(document, world);
   addTable(document, world);
   addChairs(document, world);
+  addPresent(document, world);
   addCake(document, world);
   addHedgehog(document, world);
   addBalloons(document, world);

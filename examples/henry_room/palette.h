@@ -91,7 +91,7 @@ inline std::vector<meshkit::Material> palette() {
       {"Eye", "#FFF8E8", "#E3CFC4"},
       {"Hat", "#C8442F", "#8A2A3C", true},
       {"HatBand", "#F6DDA6", "#C39A82"},
-      {"BalloonRose", "#E58A76", "#A84F5C"},
+      {"BalloonRose", "#E58A70", "#AE5450"},
       {"BalloonHoney", "#F2C05C", "#BC7F48"},
       {"BalloonSage", "#A3BF8C", "#6C8462"},
       {"String", "#E7C890", "#8E6660"},

@@ -17,6 +17,8 @@ constexpr float kTableTop = 0.74f, kTableRadius = 0.72f;
 constexpr glm::vec3 kCake = {-1.16f, kTableTop, -0.62f};
 constexpr glm::vec3 kHedgehog = {-0.56f, 0.0f, -1.50f};
 constexpr float kSeat = 0.46f;
+constexpr glm::vec3 kChairBack = {1.51f, 0.985f, -2.48f};  // of the chair by the arch, its back's top
+constexpr glm::vec3 kPresent = {2.08f, 0.0f, -1.05f};
 
 // Paints of a shell's parts.
 struct ShellPaint {
@@ -31,9 +33,10 @@ void addWindow(Document& document, int parent, const std::string& name, const Sh
                const Opening& opening, const Oval& oval);
 void addKitchenDoor(Document& document, int parent);
 void addLeaves(Document& document, int parent);
-void addShelves(Document& document, int parent);
+void addShelf(Document& document, int parent);
 void addTable(Document& document, int parent);
 void addChairs(Document& document, int parent);
+void addPresent(Document& document, int parent);
 void addCake(Document& document, int parent);
 void addBalloons(Document& document, int parent);
 void addDust(Document& document, int parent);
