@@ -70,7 +70,7 @@ Mesh makeHead() {
              ellipseRing({0, 0.150f, 0.295f}, {0.024f, 0, 0}, {0, 0.022f, 0}, 16)},
             {.shading = Shading::smooth});
   mesh.setMaterial(kNose);
-  addBall(mesh, {0, 0.162f, 0.300f}, {0.034f, 0.029f, 0.028f}, 2);
+  addBall(mesh, {0, 0.152f, 0.300f}, {0.034f, 0.029f, 0.028f}, 2);
   mesh.setMaterial(kFurDark);
   for (float x : {-1.0f, 1.0f}) addBall(mesh, {0.19f * x, 0.29f, 0.01f}, {0.06f, 0.062f, 0.028f}, 2);
   // A smile under the nose.
@@ -127,8 +127,8 @@ void addHedgehog(Document& document, int parent) {
     // He holds each look for a while, so the tilt is a sine with flat ends.
     const float s = std::sin(phase(time, kLoop) + 2.4f), held = glm::clamp(1.9f * s, -1.0f, 1.0f);
     const float eased = held * (1.5f - 0.5f * held * held);
-    return glm::angleAxis(-0.06f - 0.24f * eased, glm::vec3(0, 1, 0)) *
-           glm::angleAxis(-0.02f - 0.10f * eased, glm::vec3(1, 0, 0)) *
+    return glm::angleAxis(0.04f - 0.20f * eased, glm::vec3(0, 1, 0)) *
+           glm::angleAxis(0.01f - 0.06f * eased, glm::vec3(1, 0, 0)) *
            glm::angleAxis(0.13f * eased, glm::vec3(0, 0, 1));
   }));
 }

@@ -36,7 +36,7 @@ Document makeScene() {
     document.nodes.back().name += " camera";
   };
   camera("Room", 0.80f, {0.40f, 1.46f, 2.90f}, {0.0f, 0.93f, -0.9f});
-  camera("Cake", 0.60f, {-0.45f, 1.27f, 1.15f}, {-0.83f, 1.09f, -0.95f});
+  camera("Cake", 0.60f, {-0.45f, 1.28f, 1.27f}, {-0.83f, 1.14f, -0.95f});
   camera("Parlour", 0.66f, {0.34f, 1.38f, -0.95f}, {0.42f, 1.06f, -4.5f});
   camera("Window", 0.74f, {0.9f, 1.25f, 0.8f}, {-2.1f, 1.3f, -1.7f});
   document.restAtStartOf(party(document));
