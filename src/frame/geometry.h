@@ -4,6 +4,7 @@
 
 #include <deque>
 
+#include "frame/node_settings.h"
 #include "scene/posed_bounds.h"
 
 namespace scumble::frame {
@@ -16,6 +17,7 @@ struct GeometryOptions {
   float shadowWarp = 0;     // strength of the shadow map's sigmoid, which long triangles cannot follow
   std::vector<bool> casts;  // by material: whether it casts shadows
   std::vector<int> clips;   // those that play at any time: they tell what space the scene takes up
+  NodeSettings nodes;
   bool operator==(const GeometryOptions&) const = default;
 };
 

@@ -52,10 +52,10 @@ void GeometryStep::create(gpu::Device& device, const FrameResources& resources, 
   makePipelines(scene);
 }
 
-void GeometryStep::specialise(const SceneOnGpu& scene, uint32_t constant, std::vector<bool> painted) {
-  if (constant_ == constant && painted_ == painted) return;
+void GeometryStep::specialise(const SceneOnGpu& scene, uint32_t constant, std::vector<uint8_t> extras) {
+  if (constant_ == constant && extras_ == extras) return;
   constant_ = constant;
-  painted_ = std::move(painted);
+  extras_ = std::move(extras);
   makePipelines(scene);
 }
 
@@ -69,8 +69,13 @@ void GeometryStep::makePipelines(const SceneOnGpu& scene) {
                       : isPainted(draw) ? desc_.paintedVertex
                                         : desc_.vertex;
     if (!depthOnly) pipeline.fragment = isPainted(draw) ? desc_.paintedFragment : desc_.fragment;
-    pipeline.constants = {uint32_t(draw.alpha), draw.varied || isPainted(draw), draw.textured,
-                          desc_.viewCount, constant_};
+    const uint32_t sets = extras(draw) / 2;
+    pipeline.constants = {uint32_t(draw.alpha),
+                          draw.varied || extras(draw) != 0,
+                          draw.textured || sets != 0,
+                          desc_.viewCount,
+                          constant_,
+                          sets};
     addVertexInput(pipeline, depthOnly         ? uint32_t(kPosition)
                              : isPainted(draw) ? desc_.paintedInputs
                                                : desc_.inputs);

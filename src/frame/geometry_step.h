@@ -46,9 +46,11 @@ class GeometryStep {
   void create(gpu::Device& device, const FrameResources& resources, const SceneOnGpu& scene,
               const GeometryStepDesc& desc);
   // What of the look goes into the pipelines: specialisation constant 4, the pass's own; and by material,
-  // whether the look paints textures on it, so that its colours vary. Makes the pipelines that are still
-  // missing.
-  void specialise(const SceneOnGpu& scene, uint32_t constant, std::vector<bool> painted = {});
+  // what makes its colours vary besides vertex colours and the scene's textures: whether the look paints
+  // textures on it, and the sets of colours that it has (ColorSets times 2). Makes the pipelines that are
+  // still missing.
+  static constexpr uint8_t kPainted = 1;
+  void specialise(const SceneOnGpu& scene, uint32_t constant, std::vector<uint8_t> extras = {});
   // Draws opaque, then masked, then blended surfaces: by pipeline and material, the nearest first; blended
   // ones from far to near. `passSets`: set 2, one for all or one for each material; null for none.
   enum class What : uint8_t { visible, casters };
@@ -57,12 +59,13 @@ class GeometryStep {
 
  private:
   // Pipelines by alpha mode (constant 0), by whether colours vary (1), by whether the scene's textures are
-  // read (2), by whether the look paints, and by the pass's own constant (4).
-  bool isPainted(const Draw& draw) const {
-    return draw.material < painted_.size() && painted_[draw.material];
+  // read (2), by whether the look paints, by sets of colours (5), and by the pass's own constant (4).
+  uint8_t extras(const Draw& draw) const {
+    return draw.material < extras_.size() ? extras_[draw.material] : uint8_t(0);
   }
+  bool isPainted(const Draw& draw) const { return extras(draw) & kPainted; }
   uint32_t variant(const Draw& draw) const {
-    return constant_ * 32 + uint32_t(draw.alpha) * 8 + isPainted(draw) * 4 + draw.varied * 2 + draw.textured;
+    return constant_ * 128 + uint32_t(draw.alpha) * 32 + extras(draw) * 4u + draw.varied * 2 + draw.textured;
   }
   void makePipelines(const SceneOnGpu& scene);
 
@@ -70,7 +73,7 @@ class GeometryStep {
   GeometryStepDesc desc_;
   std::vector<VkDescriptorSetLayout> setLayouts_;
   uint32_t constant_ = 0;
-  std::vector<bool> painted_;
+  std::vector<uint8_t> extras_;
   std::map<uint32_t, gpu::Pipeline> pipelines_;
 };
 

@@ -25,6 +25,53 @@ glm::vec3 keyLightDirection(const scene::SceneData& scene, const LightParams& pa
           std::cos(azimuth) * std::cos(elevation)};
 }
 
+namespace {
+
+bool isPunctual(const scene::SceneData& scene, const scene::Node& node) {
+  return node.light >= 0 && scene.lights[size_t(node.light)].kind != scene::LightKind::directional;
+}
+
+}  // namespace
+
+size_t punctualLightCount(const scene::SceneData& scene) {
+  const auto count = std::count_if(scene.nodes.begin(), scene.nodes.end(),
+                                   [&](const scene::Node& node) { return isPunctual(scene, node); });
+  return std::min(size_t(count), scene::kMaxPunctualLights);
+}
+
+std::vector<shared::PunctualLight> punctualLights(const scene::SceneData& scene, const LightParams& params,
+                                                  const std::vector<glm::mat4>& world, float sceneRadius) {
+  std::vector<shared::PunctualLight> lights;
+  if (params.punctual <= 0) return lights;
+  double sum = 0;
+  for (size_t n = 0; n < scene.nodes.size() && lights.size() < scene::kMaxPunctualLights; ++n) {
+    if (!isPunctual(scene, scene.nodes[n])) continue;
+    const scene::Light& light = scene.lights[size_t(scene.nodes[n].light)];
+    const glm::mat4& m = world[n];
+    shared::PunctualLight out{};
+    out.position = m[3];
+    out.strength = params.punctual * light.intensity;
+    const float length = glm::length(glm::vec3(m[2]));
+    out.direction = length > 1e-12f ? glm::vec3(m[2]) / -length : glm::vec3(0, 0, -1);
+    out.inverseRangeSquared = light.range > 0 ? 1 / (light.range * light.range) : 0.0f;
+    out.coneOffset = 1;
+    if (light.kind == scene::LightKind::spot) {
+      // As the extension's own formula has it.
+      out.coneScale = 1 / std::max(0.001f, std::cos(light.innerCone) - std::cos(light.outerCone));
+      out.coneOffset = -std::cos(light.outerCone) * out.coneScale;
+    }
+    sum += light.intensity;
+    lights.push_back(out);
+  }
+  // Files give anything from one candela to thousands. All lights in one place would turn what is nearer than
+  // so many of the scene's radii from shadow (below a half) to light.
+  constexpr float kReach = 0.4f;
+  const float reach = kReach * sceneRadius;
+  if (params.punctualUnit == 0 && sum > 0)
+    for (shared::PunctualLight& light : lights) light.strength *= float(0.5 * reach * reach / sum);
+  return lights;
+}
+
 void setLightSpace(shared::FrameUniforms& uniforms, const SceneOnGpu& scene, const LightParams& params,
                    const glm::vec3& viewer) {
   const glm::vec3 away = -uniforms.toLight;

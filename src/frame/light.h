@@ -17,6 +17,12 @@ namespace scumble::frame {
 glm::vec3 keyLightDirection(const scene::SceneData& scene, const LightParams& params,
                             const std::vector<glm::mat4>& world);
 
+// How many point and spot lights nodes carry, of those that are used.
+size_t punctualLightCount(const scene::SceneData& scene);
+// Those lights at a time, in the order of nodes; none where the look turns them off.
+std::vector<shared::PunctualLight> punctualLights(const scene::SceneData& scene, const LightParams& params,
+                                                  const std::vector<glm::mat4>& world, float sceneRadius);
+
 // Fills the light's part of the frame's uniforms. `viewer`: where the map is to be finest (world).
 void setLightSpace(shared::FrameUniforms& uniforms, const SceneOnGpu& scene, const LightParams& params,
                    const glm::vec3& viewer);

@@ -30,7 +30,7 @@ class MaterialParams : public MaterialBlocks<Params> {
  public:
   void update(const FrameInput& input) const {
     for (size_t m = 0; m < input.scene.materialCount(); ++m)
-      this->write(m, input.look.getForMaterial<Params>(input.scene.materialName(m)));
+      this->write(m, input.scene.knobs<Params>(input.look, m));
   }
 };
 

@@ -35,6 +35,13 @@ glm::dvec3 toGamut(glm::dvec3 lab) {
   return glm::clamp(linearFromOklab({lab.x, lab.y * low, lab.z * low}), 0.0, 1.0);
 }
 
+// Turned around the axis of greys.
+glm::dvec3 withHue(const glm::dvec3& lab, double degrees) {
+  if (degrees == 0) return lab;
+  const double angle = glm::radians(degrees), c = std::cos(angle), s = std::sin(angle);
+  return {lab.x, c * lab.y - s * lab.z, s * lab.y + c * lab.z};
+}
+
 glm::dvec3 litLab(const PaletteParams& params, const glm::dvec3& albedo) {
   glm::dvec3 lab = oklabFromLinear(albedo);
   lab.x = params.darkest + (params.lightest - params.darkest) * lab.x;
@@ -55,11 +62,33 @@ glm::dvec3 litColor(const PaletteParams& params, const glm::dvec3& albedo) {
 glm::dvec3 shadowedColor(const PaletteParams& params, const glm::dvec3& albedo) {
   glm::dvec3 lab = litLab(params, albedo);
   const glm::dvec2 shift = tintShift(params.shadowTint) * double(params.shadowTintAmount);
+  if (params.shadowCurve != 1) lab.x = std::pow(std::clamp(lab.x, 0.0, 1.0), double(params.shadowCurve));
   lab.x *= params.shadowValue;
+  lab = withHue(lab, params.shadowHue);
   // Warm colours pass through red on their way to violet; straight across they would turn olive.
   lab.y = lab.y * params.shadowSaturation + shift.x + params.shadowRedden * std::max(lab.z, 0.0);
   lab.z = lab.z * params.shadowSaturation + shift.y;
   return toGamut(lab);
+}
+
+glm::dvec3 graded(const Grade& grade, const glm::dvec3& color) {
+  if (grade == Grade()) return color;
+  glm::dvec3 lab = withHue(oklabFromLinear(color), grade.hue);
+  lab.x = std::clamp(0.5 + grade.contrast * (lab.x * grade.brightness - 0.5), 0.0, 1.0);
+  lab.y *= grade.saturation;
+  lab.z *= grade.saturation;
+  return toGamut(glm::mix(lab, oklabFromLinear(glm::dvec3(grade.overlay)), double(grade.overlayAmount)));
+}
+
+glm::dvec3 ColorRule::operator()(const glm::dvec3& albedo) const {
+  switch (side) {
+    case lit:
+      return graded(grade, litColor(palette, albedo));
+    case shadowed:
+      return graded(grade, shadowedColor(palette, albedo));
+    default:
+      return graded(grade, albedo);
+  }
 }
 
 namespace {

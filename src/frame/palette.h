@@ -13,7 +13,20 @@ namespace scumble::frame {
 #define PARAMS_STRUCT PaletteParams
 #define PARAMS_FILE "frame/palette.params"
 #define PARAMS_PATH "palette"
-#define PARAMS_TARGETS kScene | kMaterials
+#define PARAMS_TARGETS kScene | kMaterials | kNodes
+#include "look/define_params.h"
+
+// The two sets of colours, in light and in shadow: where they come from, and how they are graded.
+#define PARAMS_STRUCT LitParams
+#define PARAMS_FILE "frame/color_set.params"
+#define PARAMS_PATH "lit"
+#define PARAMS_TARGETS kScene | kMaterials | kNodes
+#include "look/define_params.h"
+
+#define PARAMS_STRUCT ShadowedParams
+#define PARAMS_FILE "frame/color_set.params"
+#define PARAMS_PATH "shadowed"
+#define PARAMS_TARGETS kScene | kMaterials | kNodes
 #include "look/define_params.h"
 
 #define PARAMS_STRUCT GroundParams
@@ -22,9 +35,37 @@ namespace scumble::frame {
 #define PARAMS_TARGETS kScene
 #include "look/define_params.h"
 
+// The names of LitParams::texture.
+enum SetSource : int32_t { kSetOfScene, kSetDerived };
+
 // The rule itself, in OKLab. Linear RGB in and out, clipped to sRGB.
 glm::dvec3 litColor(const PaletteParams& params, const glm::dvec3& albedo);
 glm::dvec3 shadowedColor(const PaletteParams& params, const glm::dvec3& albedo);
+
+// How a set's colours are graded, whichever side of the shadow it is for. All members are 4 bytes.
+struct Grade {
+  float hue = 0, saturation = 1, brightness = 1, contrast = 1, overlayAmount = 0;
+  glm::vec3 overlay{0.0f};
+  // Without the overlay where none of it is laid over, so that equal grades are equal.
+  template <class Params>
+  static Grade of(const Params& p) {
+    return {p.hue,      p.saturation,    p.brightness,
+            p.contrast, p.overlayAmount, p.overlayAmount > 0 ? p.overlay.linear : glm::vec3(0.0f)};
+  }
+  bool operator==(const Grade&) const = default;
+};
+// In OKLab; linear RGB in and out. Nothing changes under the defaults, to the bit.
+glm::dvec3 graded(const Grade& grade, const glm::dvec3& color);
+
+// From a surface's own colour to one of its two colours: the palette rule's, or the colour itself as painted,
+// graded.
+struct ColorRule {
+  enum Side : uint32_t { lit, shadowed, painted };
+  Side side = painted;
+  PaletteParams palette{};
+  Grade grade{};
+  glm::dvec3 operator()(const glm::dvec3& albedo) const;
+};
 
 // A rule carried to the GPU: its quadratic polynomial in the square root of linear RGB, nearest by least
 // squares over the colours of sRGB. Shaders evaluate this, since the rule itself needs a cube root for each

@@ -125,6 +125,69 @@ TEST(Palette, withoutAnyShiftTheRuleChangesNothing) {
             [&](const glm::dvec3& albedo) { EXPECT_LT(distance(litColor(params, albedo), albedo), 2e-3); });
 }
 
+// -- Grading
+
+TEST(Grade, atItsDefaultsChangesNoBit) {
+  LitParams params;
+  params.overlay = look::Color(0x123456);  // of which nothing is laid over
+  forColors(7, [&](const glm::dvec3& color) { EXPECT_EQ(graded(Grade::of(params), color), color); });
+  const PaletteParams palette;
+  forColors(5, [&](const glm::dvec3& color) {
+    EXPECT_EQ((ColorRule{ColorRule::lit, palette, {}}(color)), litColor(palette, color));
+    EXPECT_EQ((ColorRule{ColorRule::shadowed, palette, {}}(color)), shadowedColor(palette, color));
+    EXPECT_EQ((ColorRule{ColorRule::painted, palette, {}}(color)), color);
+  });
+}
+
+TEST(Grade, eachKnobDoesOneThing) {
+  const glm::dvec3 soft = linearFromOklab({0.6, 0.03, -0.04});
+  const auto labOf = [&](const Grade& grade) { return oklabFromLinear(graded(grade, soft)); };
+  const auto expectLab = [](const glm::dvec3& got, const glm::dvec3& expected) {
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(got[i], expected[i], 2e-4) << "axis " << i;
+  };
+  Grade grade;
+  grade.hue = 90;
+  expectLab(labOf(grade), {0.6, 0.04, 0.03});
+  grade = {}, grade.saturation = 0;
+  expectLab(labOf(grade), {0.6, 0, 0});
+  grade = {}, grade.saturation = 1.5f;
+  expectLab(labOf(grade), {0.6, 0.045, -0.06});
+  grade = {}, grade.brightness = 0.5f;
+  expectLab(labOf(grade), {0.3, 0.03, -0.04});
+  grade = {}, grade.contrast = 1.5f;
+  expectLab(labOf(grade), {0.65, 0.03, -0.04});
+  grade = {}, grade.contrast = 0;
+  expectLab(labOf(grade), {0.5, 0.03, -0.04});
+  grade = {}, grade.overlay = glm::vec3(0.3f, 0.1f, 0.2f), grade.overlayAmount = 1;
+  expectLab(labOf(grade), oklabFromLinear(glm::dvec3(grade.overlay)));
+  grade.overlayAmount = 0.25f;
+  expectLab(labOf(grade),
+            glm::mix(glm::dvec3(0.6, 0.03, -0.04), oklabFromLinear(glm::dvec3(grade.overlay)), 0.25));
+}
+
+TEST(Grade, staysInsideSrgb) {
+  for (const float extreme : {0.0f, 3.0f})
+    forColors(5, [&](const glm::dvec3& color) {
+      const glm::dvec3 c = graded({117, extreme, extreme, 3, 0.3f, {1, 0, 0}}, color);
+      for (int i = 0; i < 3; ++i) EXPECT_TRUE(c[i] >= 0 && c[i] <= 1) << c[i];
+    });
+}
+
+TEST(Palette, hueAndCurveOfTheShadow) {
+  PaletteParams params;
+  params.shadowTintAmount = 0, params.shadowRedden = 0, params.shadowSaturation = 1;
+  const glm::dvec3 albedo(0.25, 0.16, 0.2), lit = oklabFromLinear(litColor(params, albedo));
+  params.shadowHue = 180;
+  glm::dvec3 dark = oklabFromLinear(shadowedColor(params, albedo));
+  EXPECT_NEAR(dark.x, params.shadowValue * lit.x, 1e-3);
+  EXPECT_NEAR(dark.y, -lit.y, 1e-3);
+  EXPECT_NEAR(dark.z, -lit.z, 1e-3);
+  params.shadowHue = 0, params.shadowCurve = 2;
+  dark = oklabFromLinear(shadowedColor(params, albedo));
+  EXPECT_NEAR(dark.x, params.shadowValue * lit.x * lit.x, 1e-3);
+  EXPECT_NEAR(dark.y, lit.y, 1e-3);
+}
+
 // -- The maps that carry the rule to the GPU
 
 struct FitError {
@@ -153,6 +216,19 @@ TEST(PaletteFit, staysNearTheRule) {
   const FitError shadowed = errorOfFit([&](const glm::dvec3& c) { return shadowedColor(params, c); });
   EXPECT_LT(shadowed.mean, 0.014);
   EXPECT_LT(shadowed.max, 0.12);
+}
+
+// Grades are part of the rule. Moderate ones fit as well as the rule itself; a contrast that cuts lightness
+// off at black and white bends too sharply for a quadratic polynomial.
+TEST(PaletteFit, grades) {
+  const auto errorUnder = [](const Grade& grade) { return errorOfFit(ColorRule{ColorRule::lit, {}, grade}); };
+  for (const Grade& grade : {Grade{40, 1, 1, 1, 0, {}}, Grade{0, 0.3f, 1, 1, 0, {}},
+                             Grade{0, 1.5f, 1, 1, 0, {}}, Grade{0, 1, 0.7f, 1, 0, {}},
+                             Grade{0, 1, 1, 1.4f, 0, {}}, Grade{0, 1, 1, 1, 0.5f, {0.1f, 0.2f, 0.5f}}}) {
+    EXPECT_LT(errorUnder(grade).mean, 0.04);
+    EXPECT_LT(errorUnder(grade).max, 0.25);
+  }
+  EXPECT_LT(errorUnder({0, 1, 1, 3, 0, {}}).mean, 0.08);
 }
 
 // A rule that is such a polynomial itself must come back exactly: that tries the solver without the rule's

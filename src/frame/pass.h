@@ -40,6 +40,7 @@ struct Configuration {
   bool matte = false;          // whether the matte pass runs
   std::vector<Slot> readBack;  // what the caller gets
   bool layered = false;        // whether what lies behind the first surface is drawn as well
+  bool glows = false;          // whether anything may act on the lens
   bool plain = false;
   bool multiview = true;  // all views at once; else one after the other
   bool operator==(const Configuration&) const = default;

@@ -47,6 +47,9 @@ VkSamplerAddressMode addressMode(scene::Wrap wrap) {
   }
 }
 
+// Of the sets of colours, in material.glsl.
+constexpr uint32_t kLitBinding = 3, kShadowedBinding = 4;
+
 // From one material's data to the next: no device wants uniforms at larger steps than 256.
 constexpr uint64_t kMaterialStride = (sizeof(shared::MaterialData) + 255) / 256 * 256;
 
@@ -106,18 +109,44 @@ gpu::Buffer positionBuffer(gpu::Device& device, uint64_t count) {
 
 SceneOnGpu::SceneOnGpu(gpu::Device& device, gpu::Samplers& samplers, const scene::SceneData& scene,
                        const GeometryOptions& options)
-    : device_(&device), data_(&scene), options_(options) {
-  for (const scene::Material& material : scene.materials) materialNames_.push_back(material.name);
+    : device_(&device), samplers_(&samplers), data_(&scene), options_(options) {
+  for (const scene::Material& material : scene.materials) {
+    materialUses_.push_back({int(materialNames_.size())});
+    materialNames_.push_back(material.name);
+  }
   if (options.ground) {
     groundMaterial_ = int(materialNames_.size());
     materialNames_.push_back("Ground");
+    materialUses_.push_back({-1});
   }
   gpu::Uploader uploader(device);
   geometry_ = collectGeometry(scene, options, groundMaterial_);
+  separateMaterials();
   buildGeometry(device, uploader);
   measureColors();
   buildMaterials(device, samplers, uploader);
   uploader.flush();
+}
+
+void SceneOnGpu::separateMaterials() {
+  if (options_.nodes.ofNode.empty()) return;
+  std::map<std::pair<uint32_t, uint32_t>, uint32_t> known;
+  for (GeometryItem& item : geometry_.items) {
+    const uint32_t settings = item.node == GeometryItem::kNoNode ? 0 : options_.nodes.ofNode[item.node];
+    if (settings == 0) continue;
+    const auto [entry, isNew] = known.try_emplace({item.material, settings}, uint32_t(materialNames_.size()));
+    if (isNew) {
+      materialUses_.push_back({int(item.material), settings});
+      materialNames_.push_back(data_->materials[item.material].name);
+    }
+    item.material = entry->second;
+  }
+}
+
+const scene::Material& SceneOnGpu::material(size_t material) const {
+  static const scene::Material kGround{};
+  const int base = materialUses_[material].base;
+  return base >= 0 ? data_->materials[size_t(base)] : kGround;
 }
 
 void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader) {
@@ -182,8 +211,7 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader) {
     const scene::Primitive& primitive = *item.primitive;
     const RestRange range = ranges.at(&primitive);
     const bool isGround = int(item.material) == groundMaterial_;
-    static const scene::Material kGroundMaterial{};
-    const scene::Material& material = isGround ? kGroundMaterial : data_->materials[item.material];
+    const scene::Material& material = this->material(item.material);
 
     Draw draw;
     draw.firstIndex = range.index;
@@ -326,25 +354,40 @@ void SceneOnGpu::buildMaterials(gpu::Device& device, gpu::Samplers& samplers, gp
   constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
   materialLayout_ = gpu::SetLayout(device, {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kStages},
                                             {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
+                                            {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
+                                            {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
                                             {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT}});
   materialSets_ = gpu::DescriptorSets(device, materialLayout_, uint32_t(materialNames_.size()));
   materialData_ = gpu::PerFrameBuffer(device, materialNames_.size() * kMaterialStride,
                                       VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
   const auto write = [&](size_t set, uint32_t binding, const scene::TextureUse& use) {
-    gpu::SamplerDesc desc;
-    desc.wrapU = addressMode(use.sampler.wrapU);
-    desc.wrapV = addressMode(use.sampler.wrapV);
-    desc.mipmaps = use.sampler.mipmaps;
-    if (use.sampler.nearest) desc.filter = VK_FILTER_NEAREST;
-    materialSets_.writeTexture(set, binding, images_[size_t(use.image + 1)].view(), samplers.get(desc));
+    const SetTexture texture = textureOf(use);
+    materialSets_.writeTexture(set, binding, texture.view, samplers.get(texture.sampler));
   };
   for (size_t m = 0; m < materialNames_.size(); ++m) {
-    const scene::Material material = m < data_->materials.size() ? data_->materials[m] : scene::Material{};
     materialSets_.writeBuffer(m, 0, materialData_.handle(), m * kMaterialStride,
                               sizeof(shared::MaterialData));
-    write(m, 1, material.baseColorTexture);
-    write(m, 2, material.emissiveTexture);
+    write(m, 1, material(m).baseColorTexture);
+    write(m, 2, material(m).emissiveTexture);
+    write(m, kLitBinding, {});
+    write(m, kShadowedBinding, {});
   }
+}
+
+SetTexture SceneOnGpu::textureOf(const scene::TextureUse& use) const {
+  gpu::SamplerDesc desc;
+  desc.wrapU = addressMode(use.sampler.wrapU);
+  desc.wrapV = addressMode(use.sampler.wrapV);
+  desc.mipmaps = use.sampler.mipmaps;
+  if (use.sampler.nearest) desc.filter = VK_FILTER_NEAREST;
+  return {images_[size_t(use.image + 1)].view(), desc};
+}
+
+void SceneOnGpu::setColorSets(size_t material, const SetTexture* lit, const SetTexture* shadowed) {
+  materialUses_[material].colorSets = uint8_t((lit ? kLitSet : 0) | (shadowed ? kShadowedSet : 0));
+  if (lit) materialSets_.writeTexture(material, kLitBinding, lit->view, samplers_->get(lit->sampler));
+  if (shadowed)
+    materialSets_.writeTexture(material, kShadowedBinding, shadowed->view, samplers_->get(shadowed->sampler));
 }
 
 bool SceneOnGpu::isVaried(size_t material) const {
@@ -380,7 +423,7 @@ void SceneOnGpu::measureColors() {
   for (const GeometryItem& item : geometry_.items) {
     if (int(item.material) == groundMaterial_) continue;
     const scene::Primitive& primitive = *item.primitive;
-    const scene::Material& material = data_->materials[item.material];
+    const scene::Material& material = this->material(item.material);
     glm::vec3 root = glm::sqrt(glm::clamp(glm::vec3(material.baseColor), 0.0f, 1.0f));
     if (material.baseColorTexture.image >= 0) root *= imageMeans[size_t(material.baseColorTexture.image)];
     const size_t triangles = primitive.indices.size() / 3, step = std::max<size_t>(1, triangles / kTriangles);

@@ -35,10 +35,19 @@ struct Draw {
   float distance = 0;    // of its centre from the first view, metres
 };
 
+// A set of colours, as a texture.
+struct SetTexture {
+  VkImageView view = VK_NULL_HANDLE;
+  gpu::SamplerDesc sampler;
+};
+
 // What the automatic choices of colours need to know.
 struct SceneColors {
   glm::vec3 meanRootRgb{0.5f};  // square root of linear RGB, averaged over the surface
 };
+
+// Whole sets of colours that a material has: bits.
+enum ColorSets : uint8_t { kLitSet = 1, kShadowedSet = 2 };
 
 class SceneOnGpu {
  public:
@@ -50,9 +59,18 @@ class SceneOnGpu {
 
   const scene::SceneData& data() const { return *data_; }
   const std::vector<Draw>& draws() const { return draws_; }
-  // Materials by index: the scene's, then (with a ground) the ground's.
+  // Materials by index: the scene's, then (with a ground) the ground's, then those of nodes for which the
+  // look sets something.
   size_t materialCount() const { return materialNames_.size(); }
   const std::string& materialName(size_t material) const { return materialNames_[material]; }
+  // What the scene has for it; glTF's default material for the ground.
+  const scene::Material& material(size_t material) const;
+  // The knobs with which a material is drawn. The look is one that these options come from, at any time.
+  template <class Params>
+  Params knobs(const look::LookData& look, size_t material) const {
+    return look.getForMaterial<Params>(materialNames_[material],
+                                       options_.nodes.lists[materialUses_[material].settings]);
+  }
   // Whether vertex colours or textures vary this material's colour anywhere.
   bool isVaried(size_t material) const;
   int groundMaterial() const { return groundMaterial_; }
@@ -94,6 +112,11 @@ class SceneOnGpu {
   VkDescriptorSet materialSet(uint32_t material) const { return materialSets_[material]; }
   // Called before each frame, since the colours follow the look.
   void setMaterial(size_t material, const shared::MaterialData& data);
+  // The sets of colours that a material is drawn with; null: none. A picture stays as long as this does.
+  void setColorSets(size_t material, const SetTexture* lit, const SetTexture* shadowed);
+  uint8_t colorSets(size_t material) const { return materialUses_[material].colorSets; }
+  // A set of colours that comes with the scene.
+  SetTexture textureOf(const scene::TextureUse& use) const;
 
   uint64_t triangleCount() const { return triangleCount_; }
   uint64_t uploadedBytes() const { return uploadedBytes_; }
@@ -103,10 +126,21 @@ class SceneOnGpu {
   void buildMaterials(gpu::Device& device, gpu::Samplers& samplers, gpu::Uploader& uploader);
   void measureColors();
 
+  // Gives draws on nodes with settings materials of their own.
+  void separateMaterials();
+
+  struct MaterialUse {
+    int base;               // in the scene; -1 for the ground
+    uint32_t settings = 0;  // in NodeSettings::lists
+    uint8_t colorSets = 0;
+  };
+
   gpu::Device* device_;
+  gpu::Samplers* samplers_;
   const scene::SceneData* data_;
   GeometryOptions options_;
   std::vector<std::string> materialNames_;
+  std::vector<MaterialUse> materialUses_;
   int groundMaterial_ = -1;
   std::vector<Draw> draws_;
   std::vector<float> nearestOf_;  // by material

@@ -128,6 +128,20 @@ void LookData::fillFor(const ParamBlock& block, Target target, const std::string
           store(*a.row, a.value, out);
 }
 
+void LookData::fillFor(const ParamBlock& block, const std::string& material, std::span<const uint32_t> over,
+                       void* out) const {
+  for (const bool byHand : {false, true}) {
+    const auto use = [&](const Assignment& a) {
+      if (a.block == &block && a.byHand == byHand) store(*a.row, a.value, out);
+    };
+    for (const Assignment& a : assignments)
+      if (a.target == kScene) use(a);
+    for (const Assignment& a : assignments)
+      if (a.target == kMaterials && matches(a.pattern, material)) use(a);
+    for (const uint32_t place : over) use(assignments[place]);
+  }
+}
+
 bool LookData::names(const ParamBlock& block, const char* row, Target target, const std::string& name) const {
   return std::any_of(assignments.begin(), assignments.end(), [&](const Assignment& a) {
     return sets(a, block, row, target) && matches(a.pattern, name);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,10 @@ struct LookData {
   // With what holds for one material, node or clip.
   void fillFor(const ParamBlock& block, Target target, const std::string& name, void* out) const;
 
+  // With what holds for one material and, over that, settings by their places in the list, in this order.
+  void fillFor(const ParamBlock& block, const std::string& material, std::span<const uint32_t> over,
+               void* out) const;
+
   // Whether a setting for some materials, nodes or clips sets this row, for this name or for any pattern.
   bool names(const ParamBlock& block, const char* row, Target target, const std::string& name) const;
   bool setsAny(const ParamBlock& block, const char* row, Target target) const;
@@ -67,6 +72,12 @@ struct LookData {
   template <class Params>
   Params getForMaterial(const std::string& material) const {
     return getFor<Params>(kMaterials, material);
+  }
+  template <class Params>
+  Params getForMaterial(const std::string& material, std::span<const uint32_t> over) const {
+    Params params;
+    fillFor(Params::block(), material, over, &params);
+    return params;
   }
 };
 

@@ -1,6 +1,7 @@
 #include "renderer/pass_list.h"
 
 #include <algorithm>
+#include <string_view>
 
 #include "frame/animation_params.h"
 #include "frame/light.h"
@@ -25,7 +26,8 @@ namespace look {
 const std::vector<const ParamBlock*>& allBlocks() {
   static const std::vector<const ParamBlock*> blocks{
       &frame::LightParams::block(),       &passes::ShadowMapParams::block(),
-      &frame::PaletteParams::block(),     &passes::SurfaceParams::block(),
+      &frame::PaletteParams::block(),     &frame::LitParams::block(),
+      &frame::ShadowedParams::block(),    &passes::SurfaceParams::block(),
       &passes::BlurParams::block(),       &passes::FinalShadowParams::block(),
       &passes::TextureParams::block(),    &frame::TextureMetaTextureParams::block(),
       &passes::WarpParams::block(),       &frame::WarpMetaTextureParams::block(),
@@ -85,6 +87,15 @@ float largestInflation(const look::LookData& look, const SceneOnGpu& scene, floa
 
 bool wantsLayers(const look::LookData& look) {
   return look.get<passes::FinalColorParams>().ripple == passes::kRippleLayered;
+}
+
+bool glows(const scene::SceneData& scene, const look::LookData& look) {
+  const auto sets = [](const look::Assignment& a) {
+    return a.block == &passes::SurfaceParams::block() && std::string_view(a.row->name) == "glow";
+  };
+  return std::any_of(look.assignments.begin(), look.assignments.end(), sets) ||
+         std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const scene::Material& material) { return material.emissive != glm::vec3(0.0f); });
 }
 
 std::vector<bool> shadowCasters(const scene::SceneData& scene, const look::LookData& look) {

@@ -71,6 +71,8 @@ TEST(PassList, structsStartWithTheirRowsDefaults) {
   std::set<const look::ParamBlock*> seen;
   expectRowsDefaults<LightParams>(seen);
   expectRowsDefaults<PaletteParams>(seen);
+  expectRowsDefaults<LitParams>(seen);
+  expectRowsDefaults<ShadowedParams>(seen);
   expectRowsDefaults<GroundParams>(seen);
   expectRowsDefaults<passes::ShadowMapParams>(seen);
   expectRowsDefaults<passes::SurfaceParams>(seen);

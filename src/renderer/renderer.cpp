@@ -70,7 +70,7 @@ GpuInfo toPublic(const gpu::DeviceInfo& info) {
 struct Setup {
   Configuration configuration;
   gpu::PerFrameBuffer uniformBuffer;
-  UniformSlice frameSlice;
+  UniformSlice frameSlice, lightSlice;
   std::optional<FrameBuilder> builder;
   gpu::SetLayout frameLayout;
   gpu::DescriptorSets frameSet;
@@ -100,6 +100,7 @@ struct Renderer::Impl {
   std::unique_ptr<gpu::Device> device;
   std::optional<gpu::Samplers> samplers;
   std::optional<ExampleTextures> examples;
+  std::optional<LookTextures> lookTextures;
   ImagePassKind imagePasses = ImagePassKind::automatic;
   std::optional<Scene> scene;  // keeps the data alive that sceneOnGpu refers to
   std::optional<SceneOnGpu> sceneOnGpu;
@@ -113,6 +114,7 @@ struct Renderer::Impl {
     for (auto& submission : submissions) submission.reset();
     setup.reset();
     sceneOnGpu.reset();
+    lookTextures.reset();
     examples.reset();
     samplers.reset();
   }
@@ -164,13 +166,16 @@ void Renderer::Impl::useConfiguration(const Configuration& configuration) {
   next->configuration = configuration;
 
   // Uniform memory: what holds for the frame, then what each material has in each pass.
-  const uint64_t size = (64 << 10) + sceneOnGpu->materialCount() * 2048;
+  const uint64_t lightBytes =
+      std::max<size_t>(1, punctualLightCount(scene->data())) * sizeof(shared::PunctualLight);
+  const uint64_t size = (64 << 10) + sceneOnGpu->materialCount() * 2048 + lightBytes;
   next->uniformBuffer = gpu::PerFrameBuffer(
       *device, size, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   if (configuration.facts) sceneOnGpu->keepPrevious();
   next->builder.emplace(*device, *samplers, *examples, configuration, *sceneOnGpu,
                         UniformSlice{next->uniformBuffer.handle(), 0, size, next->uniformBuffer.contents()});
   next->frameSlice = next->builder->uniform(sizeof(shared::FrameUniforms));
+  next->lightSlice = next->builder->uniform(lightBytes);
 
   // Passes declare what they read and write; then images, and with them pipelines and descriptor sets, can be
   // made.
@@ -179,10 +184,12 @@ void Renderer::Impl::useConfiguration(const Configuration& configuration) {
   for (const Slot slot : configuration.readBack)
     next->readbacks.emplace_back(std::make_unique<Readback>())->declare(*next->builder, slot);
   next->frameLayout = gpu::SetLayout(*device, {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_ALL},
+                                               {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_ALL},
                                                {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_ALL}});
   next->frameSet = gpu::DescriptorSets(*device, next->frameLayout);
   next->frameSet.writeBuffer(0, 0, next->frameSlice.buffer, next->frameSlice.offset, next->frameSlice.size);
   next->frameSet.writeBuffer(0, 1, sceneOnGpu->motion().objects());
+  next->frameSet.writeBuffer(0, 2, next->lightSlice.buffer, next->lightSlice.offset, next->lightSlice.size);
   next->resources.emplace(*device, *next->builder, next->frameLayout, next->frameSet[0]);
   for (const auto& pass : next->passes) pass->create(*next->builder, *next->resources);
   for (const auto& readback : next->readbacks) readback->create(*next->builder, *next->resources);
@@ -292,6 +299,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
   created->impl_->device = std::move(device).value();
   created->impl_->samplers.emplace(*created->impl_->device);
   created->impl_->examples.emplace(*created->impl_->device);
+  created->impl_->lookTextures.emplace(*created->impl_->device);
   created->impl_->imagePasses = options.imagePasses;
   return created;
 }
@@ -337,6 +345,7 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
   configuration.plain = options.plain;
   const look::LookData now = look.data().at(time);
   configuration.layered = !options.plain && wantsLayers(now);
+  configuration.glows = glows(scene.data(), now);
   configuration.multiview = impl_->device->multiviewWorks();
   configuration.computeImagePasses =
       impl_->imagePasses == ImagePassKind::compute ||
@@ -369,6 +378,7 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
     geometry.shadowWarp = now.get<LightParams>().shadowWarp;
     geometry.casts = shadowCasters(scene.data(), now);
     geometry.clips = everPlayed(scene.data(), look.data());
+    geometry.nodes = nodeSettings(scene.data(), now);
     impl_->useScene(scene, geometry);
     stats.uploadMilliseconds = lap();
     impl_->useConfiguration(configuration);
@@ -379,13 +389,20 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
     SceneOnGpu& sceneOnGpu = *impl_->sceneOnGpu;
     sceneOnGpu.pose(now, time);
     if (configuration.facts) sceneOnGpu.posePrevious(look.data().at(previousTime), previousTime);
-    const shared::FrameUniforms uniforms =
+    shared::FrameUniforms uniforms =
         frameUniforms(sceneOnGpu, now, views, options.previousViews, time, configuration);
+    const std::vector<shared::PunctualLight> lights = punctualLights(
+        scene.data(), now.get<LightParams>(), sceneOnGpu.motion().world(), uniforms.sceneRadius);
+    uniforms.lightCount = uint32_t(lights.size());
+    std::memcpy(setup.lightSlice.mapped, lights.data(), lights.size() * sizeof(shared::PunctualLight));
     setup.frameSlice.write(uniforms);
     sceneOnGpu.look(uniforms, configuration.viewCount,
                     largestInflation(now, sceneOnGpu, uniforms.imageSize.y) + 1);
-    for (size_t m = 0; m < sceneOnGpu.materialCount(); ++m)
+    for (size_t m = 0; m < sceneOnGpu.materialCount(); ++m) {
+      const ChosenSets sets = chosenSets(sceneOnGpu, m, now, *impl_->lookTextures);
+      sceneOnGpu.setColorSets(m, sets.lit ? &*sets.lit : nullptr, sets.shadowed ? &*sets.shadowed : nullptr);
       sceneOnGpu.setMaterial(m, materialData(sceneOnGpu, m, now, impl_->colorMaps));
+    }
     const FrameInput input{now, time, uniforms, sceneOnGpu, options.transparent, options.seed};
     for (const auto& pass : setup.passes) pass->update(input);
 

@@ -62,83 +62,112 @@ shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const look::LookDat
   return u;
 }
 
-const ColorMaps::Pair& ColorMaps::get(const PaletteParams& palette) {
-  for (const auto& [known, pair] : known_)
-    if (std::memcmp(&known, &palette, sizeof(palette)) == 0) return pair;
+shared::ColorMap ColorMaps::get(const ColorRule& rule) {
+  if (rule.side == ColorRule::painted && rule.grade == Grade()) return identityColorMap();
+  for (const auto& [known, map] : known_)
+    if (std::memcmp(&known, &rule, sizeof(rule)) == 0) return map;
   // An animated palette must not fill the memory.
-  if (known_.size() >= 64) known_.clear();
-  return known_
-      .emplace_back(palette,
-                    Pair{fitColorMap([&](const glm::dvec3& c) { return litColor(palette, c); }),
-                         fitColorMap([&](const glm::dvec3& c) { return shadowedColor(palette, c); })})
-      .second;
+  if (known_.size() >= 256) known_.clear();
+  return known_.emplace_back(rule, fitColorMap(rule)).second;
+}
+
+namespace {
+
+void setTransform(const scene::TextureUse& use, glm::vec3& rowU, glm::vec3& rowV, uint32_t& set) {
+  const glm::mat3 rows = glm::transpose(use.transform);
+  rowU = rows[0], rowV = rows[1];
+  set = uint32_t(use.uvSet);
+}
+
+// Without what the rule does to colours in light: those have been chosen.
+PaletteParams ofChosenLight(PaletteParams palette) {
+  palette.darkest = 0, palette.lightest = 1, palette.litTintAmount = 0;
+  return palette;
+}
+
+}  // namespace
+
+ChosenSets chosenSets(const SceneOnGpu& scene, size_t index, const look::LookData& look,
+                      LookTextures& textures) {
+  const scene::Material& material = scene.material(index);
+  const auto choose = [&](look::Picture picture, const scene::TextureUse& own) -> std::optional<SetTexture> {
+    if (picture.index < 0) return textures.get(look, picture);
+    if (picture.index == kSetOfScene && own.image >= 0) return scene.textureOf(own);
+    return std::nullopt;
+  };
+  return {choose(scene.knobs<LitParams>(look, index).texture, material.litTexture),
+          choose(scene.knobs<ShadowedParams>(look, index).texture, material.shadowedTexture)};
 }
 
 shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const look::LookData& look,
                                   ColorMaps& maps) {
   const bool isGround = int(index) == scene.groundMaterial();
-  const scene::Material material = isGround ? scene::Material{} : scene.data().materials[index];
-  const PaletteParams palette = look.getForMaterial<PaletteParams>(scene.materialName(index));
+  const scene::Material& material = scene.material(index);
+  const PaletteParams palette = scene.knobs<PaletteParams>(look, index);
+  const uint8_t sets = scene.colorSets(index);
   shared::MaterialData data{};
   data.baseColor = material.baseColor;
   data.emissive = material.emissive;
   data.alphaCutoff = material.alphaCutoff;
   data.unlit = material.unlit ? 1.0f : 0.0f;
-  const auto transform = [](const scene::TextureUse& use, glm::vec3& rowU, glm::vec3& rowV, uint32_t& set) {
-    const glm::mat3 rows = glm::transpose(use.transform);
-    rowU = rows[0], rowV = rows[1];
-    set = uint32_t(use.uvSet);
-  };
-  transform(material.baseColorTexture, data.baseUvRowU, data.baseUvRowV, data.baseUvSet);
-  transform(material.emissiveTexture, data.emissiveUvRowU, data.emissiveUvRowV, data.emissiveUvSet);
-
-  const bool isPainted = look.getForMaterial<passes::TextureParams>(scene.materialName(index)).amount > 0;
+  setTransform(material.baseColorTexture, data.baseUvRowU, data.baseUvRowV, data.baseUvSet);
+  setTransform(material.emissiveTexture, data.emissiveUvRowU, data.emissiveUvRowV, data.emissiveUvSet);
 
   // The sky is cooler than the colour in shadow, the ground warmer, at about equal brightness.
   const float tint = palette.skyTint;
   data.tintUp = glm::sqrt(1.0f + tint * glm::vec3(0.0f, 0.7f, 1.6f));
   data.tintDown = glm::sqrt(glm::max(1.0f + tint * glm::vec3(0.6f, -0.4f, -1.2f), 0.0f));
-  const auto setConstant = [&](const glm::vec3& lit, const glm::vec3& shadowed) {
-    const glm::vec3 dark = material.unlit ? lit : shadowed;
-    const glm::vec3 down = material.unlit ? glm::vec3(1.0f) : data.tintDown;
-    const glm::vec3 up = material.unlit ? glm::vec3(1.0f) : data.tintUp;
-    data.constantLit = glm::sqrt(lit + material.emissive);
-    data.constantShadowedDown = glm::sqrt(dark * down * down + material.emissive);
-    data.constantShadowedUp = glm::sqrt(dark * up * up + material.emissive);
-    data.constantLens = glm::dot(material.emissive, glm::vec3(0.2126f, 0.7152f, 0.0722f));
-  };
+
+  // Where both colours come from.
+  const Grade litGrade = Grade::of(scene.knobs<LitParams>(look, index)),
+              shadowedGrade = Grade::of(scene.knobs<ShadowedParams>(look, index));
+  const bool derivesShadow = scene.knobs<ShadowedParams>(look, index).texture.index == kSetDerived;
+  ColorRule lit{ColorRule::lit, palette, litGrade}, shadowed{ColorRule::shadowed, palette, shadowedGrade};
+  const ColorRule painted{ColorRule::painted, {}, litGrade};
+  glm::dvec3 base = glm::clamp(glm::dvec3(material.baseColor), 0.0, 1.0);
   if (isGround) {
     // The ground belongs to the background, not to the scene's palette.
     const glm::vec3 ground = look.get<passes::BackgroundParams>().mode == 0
                                  ? automaticBackground(scene.colors()).ground
                                  : glm::vec3(look.get<GroundParams>().tint);
-    PaletteParams plain = palette;
-    plain.darkest = 0, plain.lightest = 1, plain.litTintAmount = 0;
-    setConstant(ground, glm::vec3(shadowedColor(plain, glm::dvec3(ground))));
     data.baseColor = glm::vec4(ground, 1.0f);
-    data.lit = identityColorMap();
-    if (isPainted) data.shadowed = maps.get(plain).shadowed;
-    return data;
+    base = glm::dvec3(ground);
+    lit = painted;
+    shadowed.palette = ofChosenLight(palette);
+  } else if (sets & kLitSet) {
+    lit = painted;
+    shadowed.palette = ofChosenLight(palette);
+    shadowed.palette.saturation = 1;
   }
-  const auto lit = [&](const glm::dvec3& c) { return litColor(palette, c); };
-  const auto shadowed = [&](const glm::dvec3& c) { return shadowedColor(palette, c); };
-  // A constant colour needs no fit: it goes through the rule itself.
-  const glm::dvec3 base = glm::clamp(glm::dvec3(material.baseColor), 0.0, 1.0);
-  glm::vec3 constantLit(lit(base)), constantShadowed(shadowed(base));
-  if (scene.isVaried(index) || isPainted) {
-    const ColorMaps::Pair& pair = maps.get(palette);
-    data.lit = pair.lit, data.shadowed = pair.shadowed;
-  }
-  if (material.shadowedColor) {
+  const bool hasOwnColor = material.shadowedColor && !derivesShadow && !(sets & kShadowedSet);
+  if (hasOwnColor || (sets & kShadowedSet)) {
     // A scene that brings its own colours for shadow has chosen those for light as well.
-    data.shadowedColor = *material.shadowedColor;
     data.hasShadowedColor = palette.ownShadow;
-    constantShadowed = glm::mix(constantShadowed, data.shadowedColor, palette.ownShadow);
-    if (palette.ownShadow >= 1) data.lit = identityColorMap(), constantLit = glm::vec3(base);
+    if (hasOwnColor) data.shadowedColor = graded(shadowedGrade, glm::dvec3(*material.shadowedColor));
+    if (palette.ownShadow >= 1) lit = painted;
   }
   // What is unlit is to look as its author painted it.
-  if (material.unlit) data.lit = identityColorMap(), constantLit = glm::vec3(base);
-  setConstant(constantLit, constantShadowed);
+  if (material.unlit) lit = painted;
+
+  const bool isPainted = scene.knobs<passes::TextureParams>(look, index).amount > 0;
+  data.lit = identityColorMap();
+  if (scene.isVaried(index) || isPainted || sets) {
+    data.lit = maps.get(lit);
+    data.shadowed = maps.get(shadowed);
+    if (sets & kShadowedSet) data.ownShadowed = maps.get({ColorRule::painted, {}, shadowedGrade});
+  }
+
+  // A constant colour needs no fit: it goes through the rule itself.
+  const glm::vec3 constantLit(lit(base));
+  glm::vec3 dark(shadowed(base));
+  if (hasOwnColor) dark = glm::mix(dark, data.shadowedColor, palette.ownShadow);
+  if (material.unlit) dark = constantLit;
+  const glm::vec3 down = material.unlit ? glm::vec3(1.0f) : data.tintDown;
+  const glm::vec3 up = material.unlit ? glm::vec3(1.0f) : data.tintUp;
+  data.constantLit = glm::sqrt(constantLit + material.emissive);
+  data.constantShadowedDown = glm::sqrt(dark * down * down + material.emissive);
+  data.constantShadowedUp = glm::sqrt(dark * up * up + material.emissive);
+  data.constantLens = glm::dot(material.emissive, glm::vec3(0.2126f, 0.7152f, 0.0722f));
   return data;
 }
 

@@ -1,6 +1,9 @@
 // What set 0 holds, computed from views, scene and look.
 #pragma once
 
+#include <optional>
+
+#include "frame/look_textures.h"
 #include "frame/palette.h"
 #include "frame/pass.h"
 #include "scumble/view.h"
@@ -15,20 +18,25 @@ shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const look::LookDat
                                     const std::vector<View>& views, const std::vector<View>& previousViews,
                                     double time, const Configuration& configuration);
 
-// Fitted colour maps by palette, since a fit costs a tenth of a millisecond or more and most materials share
-// one.
+// Fitted colour maps by rule, since a fit costs a tenth of a millisecond or more and most materials share
+// them.
 class ColorMaps {
  public:
-  struct Pair {
-    shared::ColorMap lit, shadowed;
-  };
-  const Pair& get(const PaletteParams& palette);
+  shared::ColorMap get(const ColorRule& rule);
 
  private:
-  std::vector<std::pair<PaletteParams, Pair>> known_;
+  std::vector<std::pair<ColorRule, shared::ColorMap>> known_;
 };
 
-// The material's facts, its texture transforms and its colour maps under a look.
+// The whole sets of colours that a material has under a look, from the scene or from the look.
+struct ChosenSets {
+  std::optional<SetTexture> lit, shadowed;
+};
+ChosenSets chosenSets(const SceneOnGpu& scene, size_t material, const look::LookData& look,
+                      LookTextures& textures);
+
+// The material's facts, its texture transforms and its colour maps under a look, with the sets of colours
+// that the scene has been given for it.
 shared::MaterialData materialData(const SceneOnGpu& scene, size_t material, const look::LookData& look,
                                   ColorMaps& maps);
 

@@ -100,6 +100,12 @@ void readCamerasAndLights(const GltfImport& import, SceneData& scene, GltfMaps& 
       scene.cameras[node.camera].name = node.name;
     if (node.light >= 0 && scene.lights[node.light].name.empty()) scene.lights[node.light].name = node.name;
   }
+  const auto punctual = std::count_if(scene.nodes.begin(), scene.nodes.end(), [&](const Node& node) {
+    return node.light >= 0 && scene.lights[node.light].kind != LightKind::directional;
+  });
+  if (static_cast<size_t>(punctual) > kMaxPunctualLights)
+    import.warnings.add("/nodes", "there are more than " + std::to_string(kMaxPunctualLights) +
+                                      " point and spot lights; those after them are not used");
 }
 
 }  // namespace scumble::scene

@@ -146,27 +146,70 @@ class MaterialReader {
   void readExtras(const JsonView& json, Material& m) {
     const auto extras = json.json().find("extras");
     if (extras == json.json().end() || !extras->is_object()) return;
-    const auto found = extras->find("scumble_shadowed");
-    if (found == extras->end()) return;
+    if (const auto found = extras->find("scumble_shadowed"); found != extras->end())
+      m.shadowedColor = colorOf(*found, json.pathOf("extras.scumble_shadowed"));
+    for (const auto& [key, use] : {std::pair("scumble_lit_texture", &m.litTexture),
+                                   std::pair("scumble_shadowed_texture", &m.shadowedTexture)})
+      if (const auto found = extras->find(key); found != extras->end())
+        *use = namedTexture(*found, json.pathOf(std::string("extras.") + key));
+  }
+
+  std::optional<glm::vec3> colorOf(const Json& json, const std::string& path) {
     glm::vec3 srgb(-1.0f);
-    if (found->is_string()) {
-      const std::string text = found->get<std::string>();
+    if (json.is_string()) {
+      const std::string text = json.get<std::string>();
       if (text.size() == 7 && text[0] == '#' &&
           text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos)
         for (int i = 0; i < 3; ++i)
           srgb[i] = static_cast<float>(std::stoi(text.substr(1 + 2 * i, 2), nullptr, 16)) / 255.0f;
-    } else if (found->is_array() && found->size() == 3) {
+    } else if (json.is_array() && json.size() == 3) {
       for (int i = 0; i < 3; ++i)
-        if ((*found)[i].is_number()) srgb[i] = static_cast<float>((*found)[i].get<double>());
+        if (json[i].is_number()) srgb[i] = static_cast<float>(json[i].get<double>());
     }
     for (int i = 0; i < 3; ++i)
       if (!(srgb[i] >= 0.0f && srgb[i] <= 1.0f)) {
         import_.warnings.add(
-            json.pathOf("extras.scumble_shadowed"),
-            "a shadowed colour is ignored: it is neither \"#RRGGBB\" nor three numbers in [0, 1]");
-        return;
+            path, "a shadowed colour is ignored: it is neither \"#RRGGBB\" nor three numbers in [0, 1]");
+        return std::nullopt;
       }
-    m.shadowedColor = glm::vec3(linearOf(srgb.x), linearOf(srgb.y), linearOf(srgb.z));
+    return glm::vec3(linearOf(srgb.x), linearOf(srgb.y), linearOf(srgb.z));
+  }
+
+  // A texture that extras name: {"index": 3}, or what modelling programs can write as a property: the number
+  // alone, or the name of an image.
+  TextureUse namedTexture(const Json& json, const std::string& path) {
+    TextureUse use;
+    const JsonView textures = import_.document.list("textures"), images = import_.document.list("images");
+    const Json* index = json.is_object() && json.contains("index") ? &json["index"] : &json;
+    try {
+      if (json.is_string()) {
+        const std::string& name = json.get_ref<const std::string&>();
+        for (size_t i = 0; i < images.size() && use.image < 0; ++i)
+          if (isNamed(images.at(i), name)) use.image = imageNumber(static_cast<int64_t>(i));
+        if (use.image >= 0) return use;
+      } else if (index->is_number()) {
+        const double number = index->get<double>();
+        if (number >= 0 && number < static_cast<double>(textures.size()) && number == std::floor(number)) {
+          const JsonView texture = textures.at(static_cast<size_t>(number));
+          const JsonView samplers = import_.document.list("samplers");
+          if (const int64_t sampler = texture.index("sampler", samplers.size(), "sampler"); sampler >= 0)
+            use.sampler = readSampler(samplers.at(sampler));
+          use.image = imageNumber(imageOf(texture, images.size()));
+          return use;
+        }
+      }
+    } catch (const ImportFailure&) {
+    }
+    import_.warnings.add(path, "a texture for light or shadow is ignored: it names no texture of the file");
+    return TextureUse();
+  }
+
+  // By its name, or by that of its file.
+  static bool isNamed(const JsonView& image, const std::string& name) {
+    if (name.empty()) return false;
+    const auto uri = image.json().find("uri");
+    return image.text("name") == name ||
+           (uri != image.json().end() && uri->is_string() && uri->get_ref<const std::string&>() == name);
   }
 
   const GltfImport& import_;

@@ -46,8 +46,9 @@ void addScene(SceneData& all, const SceneData& one) {
   append(all.skins, one.skins);
   append(all.clips, one.clips);
   for (Material& material : Tail<Material>{all.materials, materials}) {
-    moveBy(material.baseColorTexture.image, images);
-    moveBy(material.emissiveTexture.image, images);
+    for (TextureUse* use : {&material.baseColorTexture, &material.emissiveTexture, &material.litTexture,
+                            &material.shadowedTexture})
+      moveBy(use->image, images);
   }
   for (Mesh& mesh : Tail<Mesh>{all.meshes, meshes})
     for (Primitive& primitive : mesh.primitives) moveBy(primitive.material, materials);

@@ -55,6 +55,9 @@ struct Material {
   // The material's own colour in shadow, linear, from extras: {"scumble_shadowed": "#8E93AC"} or an array of
   // three sRGB numbers in [0, 1]. Where absent, the look derives one.
   std::optional<glm::vec3> shadowedColor;
+  // Whole sets of colours for light and for shadow, from extras as well (docs/scene.md). They lie on the
+  // coordinates of baseColorTexture, and no factor acts on them.
+  TextureUse litTexture, shadowedTexture;
 };
 
 constexpr int kMaxMorphTargets = 64;
@@ -133,6 +136,9 @@ struct Camera {
 };
 
 enum class LightKind : uint8_t { directional, point, spot };
+
+// How many nodes with point and spot lights are used; the first ones.
+constexpr size_t kMaxPunctualLights = 256;
 
 // KHR_lights_punctual; shines along the node's -Z.
 struct Light {

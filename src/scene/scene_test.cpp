@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 
@@ -74,6 +75,57 @@ TEST(Scene, materials) {
   ASSERT_EQ(scene.data().images.size(), 1u);
   EXPECT_TRUE(scene.data().images[0].standIn);
   EXPECT_EQ(scene.warnings().size(), 1u);
+}
+
+// Whole sets of colours: by a texture's number, as an object or alone, or by an image's name or file.
+TEST(Scene, setsOfColoursFromExtras) {
+  TestGltf g = quad();
+  g.json["images"] = {
+      {{"uri", "base.png"}}, {{"uri", "lit.png"}, {"name", "sail in light"}}, {{"uri", "dark.png"}}};
+  g.json["textures"] = {{{"source", 0}}, {{"source", 2}, {"sampler", 0}}};
+  g.json["samplers"] = {{{"wrapS", 33071}}};
+  g.json["meshes"][0]["primitives"][0]["material"] = 0;
+  const auto imagesUnder = [&](const Json& lit, const Json& shadowed) {
+    g.json["materials"] = {
+        {{"extras", {{"scumble_lit_texture", lit}, {"scumble_shadowed_texture", shadowed}}},
+         {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    const Scene scene = loaded(g);
+    const Material& m = scene.data().materials[1];
+    const auto fileOf = [&](const TextureUse& use) {
+      return use.image < 0 ? std::string() : scene.data().images[size_t(use.image)].name;
+    };
+    EXPECT_EQ(fileOf(m.baseColorTexture), "base.png");
+    const auto isOurs = [](const std::string& warning) {
+      return warning.find("light or shadow") != warning.npos;
+    };
+    const auto warnings = scene.warnings();
+    return std::tuple(fileOf(m.litTexture), fileOf(m.shadowedTexture), m.shadowedTexture.sampler.wrapU,
+                      std::count_if(warnings.begin(), warnings.end(), isOurs));
+  };
+  const std::string lit = "sail in light", dark = "dark.png";
+  const Wrap repeat = Wrap::repeat, clamped = Wrap::clampToEdge;
+  EXPECT_EQ(imagesUnder(lit, {{"index", 1}}), std::tuple(lit, dark, clamped, 0));
+  EXPECT_EQ(imagesUnder("lit.png", 1), std::tuple(lit, dark, clamped, 0));
+  EXPECT_EQ(imagesUnder("base.png", dark), std::tuple(std::string("base.png"), dark, repeat, 0));
+  // What is broken is left out, and said once.
+  for (const Json& broken :
+       {Json(2), Json(-1), Json(0.5), Json("nowhere"), Json(""), Json(true), Json(nullptr), Json::array(),
+        Json::object(), Json({{"index", 2}}), Json({{"index", "a"}})})
+    EXPECT_EQ(imagesUnder(broken, broken), std::tuple(std::string(), std::string(), repeat, 1)) << broken;
+}
+
+TEST(Scene, tooManyLightsAreSaid) {
+  TestGltf g = quad();
+  g.json["extensionsUsed"] = {"KHR_lights_punctual"};
+  g.json["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+  for (int i = 0; i < 256; ++i) {
+    g.json["scenes"][0]["nodes"].push_back(g.json["nodes"].size());
+    g.json["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  }
+  EXPECT_EQ(loaded(g).warnings().size(), 0u);
+  g.json["scenes"][0]["nodes"].push_back(g.json["nodes"].size());
+  g.json["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  EXPECT_EQ(loaded(g).warnings().size(), 1u);
 }
 
 TEST(Scene, specularGlossinessGivesItsDiffuse) {

@@ -6,6 +6,7 @@
 
 layout(set = 0, binding = 0, scalar) uniform FrameBlock { FrameUniforms frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer ObjectBlock { ObjectData objects[]; };
+layout(set = 0, binding = 2, scalar) readonly buffer LightBlock { PunctualLight lights[]; };
 
 layout(constant_id = 3) const int kViewCount = 2;
 

@@ -26,6 +26,7 @@ struct FrameUniforms {
   mat4 worldToLight;  // x, y in [-1, 1] over everything that casts shadows; z in [0, 1], growing away from
                       // the light
   vec3 toLight;       // unit, world
+  uint lightCount;    // point and spot lights
   float time;         // seconds
   vec2 shadowCenter;  // light-space x, y near the viewer, where the shadow map is finest
   vec2 shadowScale;   // coordinates in the map = scale * sigmoid(strength * (p - center)) + shift, which go
@@ -38,6 +39,15 @@ struct FrameUniforms {
   vec2 imageSize;          // pixels
   float sceneRadius;       // metres
   vec3 sceneCenter;        // world
+};
+
+// A point or spot light (KHR_lights_punctual), without shadows of its own.
+struct PunctualLight {
+  vec3 position;                // world
+  float strength;               // light on a surface that faces it, at 1 m; 1 is full light
+  vec3 direction;               // unit, world: where a spot shines
+  float inverseRangeSquared;    // 1 / square metres; 0: it reaches everywhere
+  float coneScale, coneOffset;  // cosine to the axis -> 0 at the outer cone and 1 at the inner one
 };
 
 // One drawn instance of a primitive.
@@ -111,6 +121,7 @@ struct MaterialData {
   ColorMap lit, shadowed;  // from albedo to the colours in light and in shadow (docs/palette.md)
   vec3 shadowedColor;      // the material's own; used where hasShadowedColor is 1
   float hasShadowedColor;
+  ColorMap ownShadowed;         // grades the material's own set of colours for shadow, where it has one
   vec3 baseUvRowU, baseUvRowV;  // KHR_texture_transform: u' = dot(row, (u, v, 1))
   vec3 emissiveUvRowU, emissiveUvRowV;
   uint baseUvSet, emissiveUvSet;

@@ -6,6 +6,9 @@
 layout(set = 1, binding = 0, scalar) uniform MaterialBlock { MaterialData material; };
 layout(set = 1, binding = 1) uniform sampler2D baseTexture;
 layout(set = 1, binding = 2) uniform sampler2D emissiveTexture;
+// Whole sets of colours for light and for shadow, where the material has them; at the coordinates of baseTexture.
+layout(set = 1, binding = 3) uniform sampler2D litTexture;
+layout(set = 1, binding = 4) uniform sampler2D shadowedTexture;
 
 vec2 baseUv(vec2 uv0, vec2 uv1) {
   vec3 uv = vec3(material.baseUvSet == 1 ? uv1 : uv0, 1.0);

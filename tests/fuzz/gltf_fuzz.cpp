@@ -77,7 +77,9 @@ void check(const SceneData& scene) {
   }
   for (const Material& m : scene.materials)
     require(inRange(m.baseColorTexture.image, scene.images.size()) &&
-                inRange(m.emissiveTexture.image, scene.images.size()),
+                inRange(m.emissiveTexture.image, scene.images.size()) &&
+                inRange(m.litTexture.image, scene.images.size()) &&
+                inRange(m.shadowedTexture.image, scene.images.size()),
             "images");
   for (const Image& image : scene.images)
     require(

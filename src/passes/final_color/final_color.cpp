@@ -1,7 +1,5 @@
 #include "passes/final_color/final_color.h"
 
-#include <algorithm>
-
 #include "frame/image_step.h"
 #include "passes/final_color/final_color.shared.h"
 #include "shaders/final_color_image_comp.h"
@@ -19,9 +17,6 @@ class FinalColor : public Pass {
   const char* name() const override { return "final-color"; }
 
   void declare(FrameBuilder& frame) override {
-    const auto& materials = frame.scene().data().materials;
-    const bool glows = std::any_of(materials.begin(), materials.end(),
-                                   [](const auto& material) { return material.emissive != glm::vec3(0.0f); });
     step_.declare(frame, "final-color",
                   {{shaders::final_color_image_frag}, {shaders::final_color_image_comp}},
                   {{frame.slot(Slot::color), true},
@@ -31,7 +26,7 @@ class FinalColor : public Pass {
                    {frame.slot(frame.configuration().layered ? Slot::behind : Slot::color)},
                    {frame.slot(frame.configuration().layered ? Slot::behindDepth : Slot::depth)}},
                   frame.slot(Slot::finalColor), sizeof(shared::FinalColorUniforms),
-                  {uint32_t(glows), uint32_t(frame.configuration().layered)});
+                  {uint32_t(frame.configuration().glows), uint32_t(frame.configuration().layered)});
   }
   void create(FrameBuilder& frame, const FrameResources& resources) override {
     step_.create(frame, resources);

@@ -100,7 +100,7 @@ class Surface : public Pass {
     desc.viewMask = viewMask(configuration_);
     desc.viewCount = configuration_.viewCount;
     desc.blends = !isBehind_;
-    desc.constant = isBehind_;
+    desc.constant = constant(false);
     desc.passLayout = &layout_;
     desc.materialStrides = {params_.kStride, painted_.kStride};
     step_.create(frame.device(), resources, frame.scene(), desc);
@@ -111,22 +111,22 @@ class Surface : public Pass {
     const LightParams light = input.look.get<LightParams>();
     uniforms_.write(SurfaceUniforms{light.terminator, light.terminatorSharpness});
 
-    std::vector<bool> painted;
+    std::vector<uint8_t> extras;
     for (size_t m = 0; m < input.scene.materialCount(); ++m) {
-      const std::string& name = input.scene.materialName(m);
-      const TextureParams texture = input.look.getForMaterial<TextureParams>(name);
-      auto metaParams = sameRows(input.look.getForMaterial<TextureMetaTextureParams>(name));
+      const TextureParams texture = input.scene.knobs<TextureParams>(input.look, m);
+      auto metaParams = sameRows(input.scene.knobs<TextureMetaTextureParams>(input.look, m));
       // What is not painted needs no texture of its own.
       if (texture.amount <= 0) metaParams = WarpMetaTextureParams();
       const MetaTextureUse use = metaTextureUse(metaParams, 0b0111, input.look, frame_->examples(),
                                                 input.uniforms.pixelScale, patternShift(input.seed));
       painted_.write(m, {use.meta, tangentOptions(metaParams), texture.amount, texture.blend});
-      painted.push_back(texture.amount > 0);
+      extras.push_back(
+          uint8_t((texture.amount > 0 ? GeometryStep::kPainted : 0) | input.scene.colorSets(m) * 2));
       sets_.writeTexture(m, 4, use.image().view(), frame_->samplers().get(use.sampler()));
       sets_.writeTexture(m, 5, use.inverse().view(),
                          frame_->samplers().get(ExampleTextures::kInverseSampler));
     }
-    step_.specialise(input.scene, isBehind_, std::move(painted));
+    step_.specialise(input.scene, constant(input.uniforms.lightCount > 0), std::move(extras));
   }
 
  private:
@@ -134,6 +134,9 @@ class Surface : public Pass {
   static constexpr std::array kBehindTargets{Slot::behindShadow, Slot::behindLit, Slot::behindShadowed,
                                              Slot::behindDepth};
   static constexpr size_t kDepthTarget = 3;
+
+  // kOptions in the shaders.
+  uint32_t constant(bool lights) const { return (isBehind_ ? 1 : 0) | (lights ? 2 : 0); }
 
   void record(VkCommandBuffer commands) const {
     const auto target = [&](size_t i) {

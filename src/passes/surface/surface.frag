@@ -7,6 +7,7 @@
 #include "../../shading/light_space.glsl"
 #include "../../shading/material.glsl"
 #include "../../shading/metatexture.glsl"
+#include "../../shading/punctual_lights.glsl"
 #include "../../shading/surface_tangents_at_pixel.glsl"
 #include "../../shading/view_index.glsl"
 #include "surface.glsl"
@@ -14,7 +15,9 @@
 layout(constant_id = 0) const int kAlphaMode = 0;  // 0 opaque, 1 masked, 2 blended
 layout(constant_id = 1) const int kVaried = 0;
 layout(constant_id = 2) const int kTextured = 0;
-layout(constant_id = 4) const int kBehind = 0;  // only what lies behind the first surface
+layout(constant_id = 4) const int kOptions = 0;  // 1: only what lies behind the first surface; 2: there are lights
+layout(constant_id = 5) const int kSets = 0;     // sets of colours of its own: 1 for light, 2 for shadow
+const bool kBehind = (kOptions & 1) != 0;
 
 layout(set = 2, binding = 0, scalar) uniform ParamsBlock { SurfaceParams params; };
 layout(set = 2, binding = 2, scalar) uniform SurfaceBlock { SurfaceUniforms surface; };
@@ -25,6 +28,8 @@ layout(location = 0) in vec3 inLightSpace;
 layout(location = 1) in vec2 inFacing;
 layout(location = 2) in vec4 inColor;
 layout(location = 3) in vec4 inUvs;
+layout(location = 9) in vec3 inWorld;
+layout(location = 10) in vec3 inNormal;
 
 layout(location = 0) out vec4 outShadow;
 layout(location = 1) out vec4 outLit;
@@ -40,15 +45,20 @@ layout(location = 6) in vec3 inTangentV;
 layout(location = 7) in vec3 inPoint;
 layout(location = 8) flat in uint inWraps;
 
-// A texture that the look paints over the square root of a colour.
-vec3 paint(vec3 root) {
+// What the look paints.
+vec3 paintedTexture() {
   vec2 dSdu, dSdv;
   surfaceTangents(painted.tangents, inTangentU, inTangentV, inPoint, inPatternUv, viewIndex(), dSdu, dSdv);
   MetaTextureChoice chosen = metaTextureChoose(painted.meta, dSdu, dSdv, 1.0);
   vec4 value = metaTextureSample(painted.meta, chosen, paintedExample, inPatternUv,
                                  vec2(inWraps & 1u, inWraps >> 1), gl_FragCoord.xy);
   if (painted.meta.contrast == 2) value = metaTextureHistogram(paintedInverse, value);
-  vec3 over = clamp(value.rgb, 0.0, 1.0), result = over;
+  return clamp(value.rgb, 0.0, 1.0);
+}
+
+// It over the square root of a colour.
+vec3 paint(vec3 over, vec3 root) {
+  vec3 result = over;
   if (painted.blend == 0) result = root * over;
   if (painted.blend == 1)
     result = mix(2.0 * root * over, 1.0 - 2.0 * (1.0 - root) * (1.0 - over), greaterThan(root, vec3(0.5)));
@@ -57,7 +67,7 @@ vec3 paint(vec3 root) {
 #endif
 
 void main() {
-  if (kBehind != 0) {
+  if (kBehind) {
     float first = texelFetch(firstDepth, ivec3(gl_FragCoord.xy, viewIndex()), 0).r;
     if (eyeDepth(gl_FragCoord.z, viewIndex()) < 1.005 * eyeDepth(first, viewIndex())) discard;
   }
@@ -77,13 +87,22 @@ void main() {
       emissive *= texture(emissiveTexture, inUvs.zw, params.simplify).rgb;
     }
     alpha = albedo.a;
+    if ((kSets & 1) != 0) albedo.rgb = texture(litTexture, inUvs.xy, params.simplify).rgb;
     vec3 root = sqrt(clamp(albedo.rgb, 0.0, 1.0));
+    vec3 own = sqrt(material.shadowedColor);
+    if ((kSets & 2) != 0) own = sqrt(texture(shadowedTexture, inUvs.xy, params.simplify).rgb);
 #ifdef PAINTED
-    root = paint(root);
+    vec3 over = paintedTexture();
+    root = paint(over, root);
+    if ((kSets & 2) != 0) own = paint(over, own);
 #endif
     lit = applyColorMap(material.lit, root);
-    shadowed = mix(applyColorMap(material.shadowed, root), sqrt(material.shadowedColor), material.hasShadowedColor) *
-               mix(material.tintDown, material.tintUp, up);
+    shadowed = applyColorMap(material.shadowed, root);
+    vec3 tint = mix(material.tintDown, material.tintUp, up);
+    if ((kSets & 2) != 0)
+      shadowed = mix(shadowed * tint, applyColorMap(material.ownShadowed, own), material.hasShadowedColor);
+    else
+      shadowed = mix(shadowed, own, material.hasShadowedColor) * tint;
     shadowed = mix(shadowed, lit, material.unlit);
     lit = sqrt(lit * lit + emissive);
     shadowed = sqrt(shadowed * shadowed + emissive);
@@ -96,15 +115,18 @@ void main() {
   // shadow, and its border is empty.
   float reaches = texture(shadowMap, vec4(shadowMapUv(inLightSpace.xy), 0.0, min(inLightSpace.z, 1.0)));
   float turn = facing.x - surface.terminator;
-  float light = max(clamp(0.5 + turn * surface.terminatorSharpness, 0.0, 1.0) * reaches, material.unlit);
+  float light = clamp(0.5 + turn * surface.terminatorSharpness, 0.0, 1.0) * reaches;
+  if ((kOptions & 2) != 0)
+    light = min(light + punctualLight(inWorld, normalize(gl_FrontFacing ? inNormal : -inNormal)), 1.0);
+  light = max(light, material.unlit);
 
   // Blue: where the breakup map may act, which is where the surface is oblique to a light that reaches it.
   float oblique = clamp(1.0 - abs(turn) / params.indicationWidth, 0.0, 1.0) * reaches * params.indication;
   oblique *= 1.0 - material.unlit;
 
   // Nothing blurs and thresholds it later.
-  if (kBehind != 0) light = clamp(0.5 + 8.0 * (light - 0.5), 0.0, 1.0);
-  outShadow = vec4(light, clamp(lens * params.lens, 0.0, 1.0), oblique, alpha);
+  if (kBehind) light = clamp(0.5 + 8.0 * (light - 0.5), 0.0, 1.0);
+  outShadow = vec4(light, clamp(lens * params.lens + params.glow, 0.0, 1.0), oblique, alpha);
   outLit = vec4(lit, alpha);
   outShadowed = vec4(shadowed, alpha);
 }

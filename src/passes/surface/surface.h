@@ -9,7 +9,7 @@ namespace scumble::passes {
 #define PARAMS_STRUCT SurfaceParams
 #define PARAMS_FILE "passes/surface/surface.params"
 #define PARAMS_PATH "surface"
-#define PARAMS_TARGETS kScene | kMaterials
+#define PARAMS_TARGETS kScene | kMaterials | kNodes
 #include "look/define_params.h"
 
 // A texture that the look paints on a material, by MetaTexture.

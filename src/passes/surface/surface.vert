@@ -11,6 +11,7 @@
 
 layout(constant_id = 1) const int kVaried = 0;    // colours vary: vertex colours or textures
 layout(constant_id = 2) const int kTextured = 0;
+layout(constant_id = 4) const int kOptions = 0;  // 2: there are point and spot lights
 
 #ifdef PAINTED  // the look paints a texture on it
 layout(set = 2, binding = 1, scalar) uniform PaintedBlock { PaintedMaterial painted; };
@@ -34,6 +35,8 @@ layout(location = 0) out vec3 outLightSpace;  // the sigmoid's argument, and dep
 layout(location = 1) out vec2 outFacing;      // towards the light, and upwards: cosines of the front side
 layout(location = 2) out vec4 outColor;
 layout(location = 3) out vec4 outUvs;
+layout(location = 9) out vec3 outWorld;
+layout(location = 10) out vec3 outNormal;
 
 void main() {
   mat4 worldToClip = VIEW_FIELD(worldToClip, viewIndex());
@@ -50,6 +53,10 @@ void main() {
   outLightSpace = vec3(sigmoidArgument(p.xy), p.z - 0.5 * coarse / frame.lightToWorldScale.z);
 
   outFacing = vec2(lambert, normal.y);
+  if ((kOptions & 2) != 0) {
+    outWorld = inPosition;
+    outNormal = normal;
+  }
   if (kVaried != 0) outColor = inColor;
 #ifdef PAINTED
   mat4 tangentClip = tangentView(painted.tangents, worldToClip);

@@ -1,0 +1,85 @@
+// Point and spot lights as shaders get them, against the formulas of KHR_lights_punctual in double precision.
+#include "frame/light.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace scumble::frame {
+namespace {
+
+scene::SceneData lampScene(const std::vector<scene::Light>& lights) {
+  scene::SceneData scene;
+  scene.lights = lights;
+  for (size_t i = 0; i < lights.size(); ++i) {
+    scene::Node node;
+    node.light = int(i);
+    scene.nodes.push_back(node);
+  }
+  return scene;
+}
+
+scene::Light lamp(scene::LightKind kind, float intensity) {
+  scene::Light light;
+  light.kind = kind, light.intensity = intensity;
+  return light;
+}
+
+TEST(PunctualLights, onlyPointsAndSpotsInTheOrderOfNodes) {
+  using enum scene::LightKind;
+  const auto scene = lampScene({lamp(directional, 1), lamp(point, 2), lamp(spot, 3)});
+  EXPECT_EQ(punctualLightCount(scene), 2u);
+  LightParams params;
+  params.punctualUnit = 1.0, params.punctual = 0.5f;
+  const std::vector<glm::mat4> world{glm::mat4(1), glm::translate(glm::mat4(1), {1, 2, 3}),
+                                     glm::rotate(glm::mat4(7.0f), 1.5707963f, {0, 1, 0})};
+  const auto lights = punctualLights(scene, params, world, 10);
+  ASSERT_EQ(lights.size(), 2u);
+  EXPECT_EQ(lights[0].position, glm::vec3(1, 2, 3));
+  EXPECT_EQ(lights[0].strength, 1);
+  EXPECT_EQ(lights[1].strength, 1.5f);
+  // Along -Z, turned by a quarter around Y; scales do not count.
+  EXPECT_NEAR(glm::length(lights[1].direction - glm::vec3(-1, 0, 0)), 0, 1e-6);
+  params.punctual = 0;
+  EXPECT_TRUE(punctualLights(scene, params, world, 10).empty());
+}
+
+// Whatever unit a file counts in, what is nearer than 0.4 radii to all lights is more light than shadow.
+TEST(PunctualLights, autoFollowsTheScenesSize) {
+  for (const float intensity : {1.0f, 8.0f, 5435.0f})
+    for (const float radius : {0.1f, 3.0f, 200.0f}) {
+      const auto scene =
+          lampScene({lamp(scene::LightKind::point, intensity), lamp(scene::LightKind::point, 3 * intensity)});
+      const auto lights = punctualLights(scene, {}, {glm::mat4(1), glm::mat4(1)}, radius);
+      const double d = 0.4 * double(radius);
+      EXPECT_NEAR((lights[0].strength + lights[1].strength) / (d * d), 0.5, 1e-5);
+      EXPECT_NEAR(lights[1].strength / lights[0].strength, 3, 1e-5);
+    }
+}
+
+TEST(PunctualLights, lightsWithoutStrengthAndTooManyLights) {
+  const auto dark = lampScene({lamp(scene::LightKind::point, 0)});
+  EXPECT_EQ(punctualLights(dark, {}, {glm::mat4(1)}, 1)[0].strength, 0);
+  const std::vector<scene::Light> many(300, lamp(scene::LightKind::point, 1));
+  EXPECT_EQ(punctualLightCount(lampScene(many)), scene::kMaxPunctualLights);
+  EXPECT_EQ(punctualLights(lampScene(many), {}, std::vector<glm::mat4>(300, glm::mat4(1)), 1).size(),
+            scene::kMaxPunctualLights);
+}
+
+// Range and cone, from the fields as the shader uses them.
+TEST(PunctualLights, rangeAndCone) {
+  scene::Light light = lamp(scene::LightKind::spot, 1);
+  light.range = 4, light.innerCone = 0.3f, light.outerCone = 0.8f;
+  const auto lights = punctualLights(lampScene({light}), {}, {glm::mat4(1)}, 1);
+  EXPECT_NEAR(lights[0].inverseRangeSquared, 1.0 / 16, 1e-7);
+  for (double angle = 0; angle < 1.5; angle += 0.05) {
+    const double inner = std::cos(double(light.innerCone)), outer = std::cos(double(light.outerCone));
+    const double expected = std::clamp((std::cos(angle) - outer) / (inner - outer), 0.0, 1.0);
+    EXPECT_NEAR(std::clamp(lights[0].coneOffset + lights[0].coneScale * std::cos(angle), 0.0, 1.0), expected,
+                1e-5);
+  }
+}
+
+}  // namespace
+}  // namespace scumble::frame
