@@ -57,7 +57,10 @@ std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration
     return passes::BlurFacts{passes::planBlur(blur.radius * pixelScale).amount,
                              passes::depthSharpness(blur.depthEdge)};
   }));
-  list.push_back(passes::makeColor());
+  list.push_back(passes::makeColor([](const look::LookData& look) {
+    const passes::FinalShadowParams shadow = look.get<passes::FinalShadowParams>();
+    return passes::ShadowMix{shadow.glowColor, shadow.glowColorAmount, shadow.steps > 1};
+  }));
   list.push_back(passes::makeFinalColor(largestInflation));
   if (configuration.facts) list.push_back(passes::makeFacts());
   if (configuration.matte)
