@@ -40,9 +40,16 @@ struct Configuration {
   bool matte = false;          // whether the matte pass runs
   std::vector<Slot> readBack;  // what the caller gets
   bool layered = false;        // whether what lies behind the first surface is drawn as well
+  bool limit = false;          // whether the limit pass runs
   bool plain = false;
   bool multiview = true;  // all views at once; else one after the other
   bool operator==(const Configuration&) const = default;
+
+  // Where the colours are that become the picture, and before the limit pass.
+  Slot colors() const { return limit ? Slot::limit : colorsToLimit(); }
+  Slot colorsBehind() const { return limit ? Slot::behindLimit : colorsToLimitBehind(); }
+  Slot colorsToLimit() const { return Slot::color; }
+  Slot colorsToLimitBehind() const { return Slot::behind; }
 };
 
 // What changes from frame to frame.

@@ -12,6 +12,7 @@
 #include "passes/facts/facts.h"
 #include "passes/final_color/final_color.h"
 #include "passes/final_shadow/final_shadow.h"
+#include "passes/limit/limit.h"
 #include "passes/matte/matte.h"
 #include "passes/plain/plain.h"
 #include "passes/shadow_map/shadow_map.h"
@@ -31,8 +32,8 @@ const std::vector<const ParamBlock*>& allBlocks() {
       &passes::WarpParams::block(),       &frame::WarpMetaTextureParams::block(),
       &passes::BreakupParams::block(),    &frame::BreakupMetaTextureParams::block(),
       &passes::BackgroundParams::block(), &frame::GroundParams::block(),
-      &passes::FinalColorParams::block(), &frame::AnimationParams::block(),
-      &frame::PlayParams::block()};
+      &passes::LimitParams::block(),      &passes::FinalColorParams::block(),
+      &frame::AnimationParams::block(),   &frame::PlayParams::block()};
   return blocks;
 }
 
@@ -61,6 +62,7 @@ std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration
     const passes::FinalShadowParams shadow = look.get<passes::FinalShadowParams>();
     return passes::ShadowMix{shadow.glowColor, shadow.glowColorAmount, shadow.steps > 1};
   }));
+  if (configuration.limit) list.push_back(passes::makeLimit());
   list.push_back(passes::makeFinalColor(largestInflation));
   if (configuration.facts) list.push_back(passes::makeFacts());
   if (configuration.matte)
@@ -88,6 +90,10 @@ float largestInflation(const look::LookData& look, const SceneOnGpu& scene, floa
 
 bool wantsLayers(const look::LookData& look) {
   return look.get<passes::FinalColorParams>().ripple == passes::kRippleLayered;
+}
+
+bool wantsLimit(const look::LookData& look) {
+  return !passes::paletteColors(look.get<passes::LimitParams>()).empty();
 }
 
 std::vector<bool> shadowCasters(const scene::SceneData& scene, const look::LookData& look) {
