@@ -71,6 +71,7 @@ class Limit : public Pass {
     constexpr float kReach = 0.8f;
     uniforms.dither = kReach * params.dither;
     uniforms.lightness = params.lightness;
+    uniforms.driftReach = std::max(int(std::lround(12 * input.uniforms.pixelScale)), 2);
     uniforms.softness = params.softness;
     uint32_t count = 0;
     for (size_t i = 0; i < shared::kMaxPaletteColors && !colors.empty(); ++i)

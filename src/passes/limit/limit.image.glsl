@@ -20,6 +20,13 @@ const float kWidest = 0.1;
 // Distances in OKLab's plane of hue and chroma: marks of two colours farther apart would be noise.
 const float kNearHues = 0.13, kFarHues = 0.20;
 
+// Whether a colour drifts, by the parts of the way from one of the palette's to the other that it goes within a few
+// pixels and within half as many: what is flat stays flat, and an edge, all of which lies in one half, is not broken.
+vec2 drifts(vec2 byHalf, vec2 byWhole) {
+  vec2 part = 2.0 * min(abs(byHalf), abs(byWhole - byHalf));
+  return smoothstep(0.005, 0.03, part) * (1.0 - smoothstep(0.3, 0.6, part));
+}
+
 vec3 conesAt(ivec2 pixel, int layer) {
   vec4 straight = texelFetch(color, ivec3(pixel, layer), 0);
   return conesFromLinear(straight.rgb * (1.0 / max(straight.a, 1e-3)));
@@ -80,7 +87,13 @@ vec4 shade(ivec2 pixel, int layer) {
     // The warp reaches beyond silhouettes; what is there is sky.
     bool onSurface = warped.a > 0.0 && texelFetch(depth, ivec3(pixel, layer), 0).r > 0.0;
     float near = 1.0 - smoothstep(kNearHues, kFarHues, length(way.yz));
-    float dither = onSurface ? near * u.dither : 0.0;
+    ivec2 whole = ivec2(u.driftReach, 0), middle = whole / 2;
+    vec2 byHalf = vec2(dot(conesAt(min(pixel + middle, last), layer) - cones, byCones),
+                       dot(conesAt(min(pixel + middle.yx, last), layer) - cones, byCones));
+    vec2 byWhole = vec2(dot(conesAt(min(pixel + whole, last), layer) - cones, byCones),
+                        dot(conesAt(min(pixel + whole.yx, last), layer) - cones, byCones));
+    vec2 drift = drifts(byHalf, byWhole);
+    float dither = onSurface ? near * max(drift.x, drift.y) * u.dither : 0.0;
     beyond += dither * (warped.b - 0.5);
     slope += dither * (vec2(texelFetch(warp, ivec3(right, layer), 0).b, texelFetch(warp, ivec3(below, layer), 0).b) -
                        warped.b);

@@ -9,7 +9,8 @@ struct LimitUniforms {
   float dither, skyDither;  // how much of the way from one colour to another marks cover
   float lightness;          // factor on OKLab's L in everything below
   float softness;           // pixels
-  vec2 skyShift;    // copies
+  int driftReach;           // pixels over which colours on surfaces must drift to have marks
+  vec2 skyShift;            // copies
   vec2 skyTiles;            // copies of that pattern around the horizon, and up a radian
   float skyLod;
   float skySlope;  // of the marks there, of that way a pixel
