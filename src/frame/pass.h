@@ -41,9 +41,16 @@ struct Configuration {
   std::vector<Slot> readBack;  // what the caller gets
   bool layered = false;        // whether what lies behind the first surface is drawn as well
   bool glows = false;          // whether anything may act on the lens
+  bool limit = false;          // whether the limit pass runs
   bool plain = false;
   bool multiview = true;  // all views at once; else one after the other
   bool operator==(const Configuration&) const = default;
+
+  // Where the colours are that become the picture, and before the limit pass.
+  Slot colors() const { return limit ? Slot::limit : colorsToLimit(); }
+  Slot colorsBehind() const { return limit ? Slot::behindLimit : colorsToLimitBehind(); }
+  Slot colorsToLimit() const { return Slot::color; }
+  Slot colorsToLimitBehind() const { return Slot::behind; }
 };
 
 // What changes from frame to frame.

@@ -17,15 +17,17 @@ enum class Slot : uint8_t {
   shadowed,   // the same in shadow. Square roots need no more than 8 bits, and cost drivers less than sRGB
   depth,      // depth buffer of the surface pass
   blur,       // R, G, A: the shadow channels, blurred, at a quarter of the size; B: eye depth
-  finalShadow,  // R: light after threshold and inner glow; G: lens; B: where indication acts; A: coverage
+  finalShadow,  // R: light after threshold and inner glow; G: lens; B: the glow's part of it; A: coverage
   color,        // lit and shadowed mixed, over the background
+  limit,        // the same in the colours of a palette; only where the look limits them, or when asked for
   // What lies behind the first surface of each pixel, one sample a pixel; drawn for layered ripple only.
   behindShadow,
   behindLit,
   behindShadowed,
   behindDepth,
-  behind,      // its colour
-  finalColor,  // warped, with bloom: the picture
+  behind,       // its colour
+  behindLimit,  // the same in the colours of a palette
+  finalColor,   // warped, with bloom: the picture
   // Facts, drawn only when asked for.
   factDepth,
   position,

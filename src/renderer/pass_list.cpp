@@ -13,6 +13,7 @@
 #include "passes/facts/facts.h"
 #include "passes/final_color/final_color.h"
 #include "passes/final_shadow/final_shadow.h"
+#include "passes/limit/limit.h"
 #include "passes/matte/matte.h"
 #include "passes/plain/plain.h"
 #include "passes/shadow_map/shadow_map.h"
@@ -33,8 +34,8 @@ const std::vector<const ParamBlock*>& allBlocks() {
       &passes::WarpParams::block(),       &frame::WarpMetaTextureParams::block(),
       &passes::BreakupParams::block(),    &frame::BreakupMetaTextureParams::block(),
       &passes::BackgroundParams::block(), &frame::GroundParams::block(),
-      &passes::FinalColorParams::block(), &frame::AnimationParams::block(),
-      &frame::PlayParams::block()};
+      &passes::LimitParams::block(),      &passes::FinalColorParams::block(),
+      &frame::AnimationParams::block(),   &frame::PlayParams::block()};
   return blocks;
 }
 
@@ -59,7 +60,11 @@ std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration
     return passes::BlurFacts{passes::planBlur(blur.radius * pixelScale).amount,
                              passes::depthSharpness(blur.depthEdge)};
   }));
-  list.push_back(passes::makeColor());
+  list.push_back(passes::makeColor([](const look::LookData& look) {
+    const passes::FinalShadowParams shadow = look.get<passes::FinalShadowParams>();
+    return passes::ShadowMix{shadow.glowColor, shadow.glowColorAmount, shadow.steps > 1};
+  }));
+  if (configuration.limit) list.push_back(passes::makeLimit());
   list.push_back(passes::makeFinalColor(largestInflation));
   if (configuration.facts) list.push_back(passes::makeFacts());
   if (configuration.matte)
@@ -96,6 +101,10 @@ bool glows(const scene::SceneData& scene, const look::LookData& look) {
   return std::any_of(look.assignments.begin(), look.assignments.end(), sets) ||
          std::any_of(scene.materials.begin(), scene.materials.end(),
                      [](const scene::Material& material) { return material.emissive != glm::vec3(0.0f); });
+}
+
+bool wantsLimit(const look::LookData& look) {
+  return !passes::paletteColors(look.get<passes::LimitParams>()).empty();
 }
 
 std::vector<bool> shadowCasters(const scene::SceneData& scene, const look::LookData& look) {

@@ -17,6 +17,7 @@
 #include "passes/color/color.h"
 #include "passes/final_color/final_color.h"
 #include "passes/final_shadow/final_shadow.h"
+#include "passes/limit/limit.h"
 #include "passes/shadow_map/shadow_map.h"
 #include "passes/surface/surface.h"
 #include "passes/warp/warp.h"
@@ -81,6 +82,7 @@ TEST(PassList, structsStartWithTheirRowsDefaults) {
   expectRowsDefaults<passes::WarpParams>(seen);
   expectRowsDefaults<passes::BackgroundParams>(seen);
   expectRowsDefaults<passes::FinalColorParams>(seen);
+  expectRowsDefaults<passes::LimitParams>(seen);
   expectRowsDefaults<passes::TextureParams>(seen);
   expectRowsDefaults<passes::BreakupParams>(seen);
   expectRowsDefaults<WarpMetaTextureParams>(seen);
@@ -103,9 +105,9 @@ TEST(PassList, namesOfAovsAreThePromisedOnes) {
   for (const std::string& name : names)
     EXPECT_EQ(name.find_first_not_of("abcdefghijklmnopqrstuvwxyz-"), std::string::npos);
   // docs: PROGRAM.md promises these to scripts.
-  for (const char* name :
-       {"warp", "shadow-map", "shadow", "blur", "final-shadow", "lit", "shadowed", "color", "final-color",
-        "depth", "position", "normal", "uv", "uv-gradient", "metatexture", "motion", "id", "cryptomatte"})
+  for (const char* name : {"warp", "shadow-map", "shadow", "blur", "final-shadow", "lit", "shadowed", "color",
+                           "limit", "final-color", "depth", "position", "normal", "uv", "uv-gradient",
+                           "metatexture", "motion", "id", "cryptomatte"})
     EXPECT_TRUE(unique.count(name)) << name;
 }
 

@@ -73,6 +73,7 @@ bool isPremultiplied(Slot slot) {
     case Slot::shadowed:
     case Slot::blur:
     case Slot::color:
+    case Slot::limit:
     case Slot::finalColor:
     case Slot::plain:
       return true;

@@ -36,7 +36,7 @@ Error usage(std::string problem, std::string advice) {
 
 bool isAov(Slot slot) {
   return slot != Slot::depth && slot != Slot::plain && slot != Slot::matteRest &&
-         !(slot >= Slot::behindShadow && slot <= Slot::behind);
+         !(slot >= Slot::behindShadow && slot <= Slot::behindLimit);
 }
 bool isFact(Slot slot) {
   return slot >= Slot::factDepth && slot <= Slot::id;
@@ -346,6 +346,7 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
   const look::LookData now = look.data().at(time);
   configuration.layered = !options.plain && wantsLayers(now);
   configuration.glows = glows(scene.data(), now);
+  configuration.limit = !options.plain && wantsLimit(now);
   configuration.multiview = impl_->device->multiviewWorks();
   configuration.computeImagePasses =
       impl_->imagePasses == ImagePassKind::compute ||
@@ -360,6 +361,7 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
                                                         : "did you mean '" + suggestion + "'?");
     }
     configuration.facts |= isFact(*slot);
+    configuration.limit |= *slot == Slot::limit;
     configuration.matte |= *slot == Slot::matte;
     if (*slot != Slot::finalColor) configuration.readBack.push_back(*slot);
   }

@@ -18,6 +18,7 @@ namespace {
 
 class Color : public Pass {
  public:
+  explicit Color(ShadowMixOf shadowMix) : shadowMix_(shadowMix) {}
   const char* name() const override { return "color"; }
 
   void declare(FrameBuilder& frame) override {
@@ -53,17 +54,26 @@ class Color : public Pass {
     uniforms.airStart = center + params.airStart * radius;
     uniforms.airEnd = center + std::max(params.airEnd, params.airStart + 1e-3f) * radius;
     uniforms.transparent = input.transparent;
-    for (ImageStep& step : steps_) step.update(uniforms);
+    const ShadowMix shadowMix = shadowMix_(input.look);
+    uniforms.glowColor = shadowMix.glowColor;
+    uniforms.glowColorAmount = shadowMix.glowColorAmount;
+    uniforms.mixesValues = shadowMix.mixesValues;
+    for (ImageStep& step : steps_) {
+      step.update(uniforms);
+      // What lies behind has light without a blur, and no glow.
+      uniforms.glowColorAmount = 0;
+    }
   }
 
  private:
+  ShadowMixOf shadowMix_;
   std::deque<ImageStep> steps_;  // they are referred to, and stay where they are
 };
 
 }  // namespace
 
-std::unique_ptr<Pass> makeColor() {
-  return std::make_unique<Color>();
+std::unique_ptr<Pass> makeColor(ShadowMixOf shadowMix) {
+  return std::make_unique<Color>(shadowMix);
 }
 
 }  // namespace scumble::passes

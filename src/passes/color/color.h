@@ -11,6 +11,13 @@ namespace scumble::passes {
 #define PARAMS_TARGETS kScene
 #include "look/define_params.h"
 
-std::unique_ptr<frame::Pass> makeColor();
+// What the final shadow tells of how it is to be mixed.
+struct ShadowMix {
+  glm::vec3 glowColor{1.0f};
+  float glowColorAmount = 0;
+  bool mixesValues = false;  // in equal parts of value, not of light
+};
+using ShadowMixOf = ShadowMix (*)(const look::LookData& look);
+std::unique_ptr<frame::Pass> makeColor(ShadowMixOf shadowMix);
 
 }  // namespace scumble::passes

@@ -20,13 +20,19 @@ vec3 sky(vec2 ndc, int layer) {
 
 vec4 shade(ivec2 pixel, int layer) {
   ivec3 at = ivec3(pixel, layer);
-  float light = texelFetch(finalShadow, at, 0).r;
+  vec4 shadow = texelFetch(finalShadow, at, 0);
   vec4 litRoot = texelFetch(lit, at, 0), shadowedRoot = texelFetch(shadowed, at, 0);
   // Resolved colours are premultiplied by their coverage.
   float coverage = litRoot.a, whole = 1.0 / max(coverage, 1e-3);
   litRoot *= whole;
   shadowedRoot *= whole;
-  vec3 color = mix(shadowedRoot.rgb * shadowedRoot.rgb, litRoot.rgb * litRoot.rgb, light);
+  vec3 litColor = litRoot.rgb * litRoot.rgb;
+  vec3 color = mix(shadowedRoot.rgb * shadowedRoot.rgb, litColor, shadow.r);
+  // Roots are about as far apart as the eye sees colours.
+  vec3 root = mix(shadowedRoot.rgb, litRoot.rgb, shadow.r);
+  color = mix(color, root * root, u.mixesValues);
+  // Blue is the part of the light that is inner glow: another colour takes the place of the lit one there.
+  color += shadow.b * u.glowColorAmount * (u.glowColor - litColor);
 
   float distance = eyeDepth(texelFetch(depth, at, 0).r, layer);
   color = mix(color, u.horizon, u.air * smoothstep(u.airStart, u.airEnd, distance)) * coverage;

@@ -10,6 +10,9 @@ struct ColorUniforms {
   float air;
   float airStart, airEnd;  // metres along the view axis
   float transparent;       // 1: alpha 0 where nothing is
+  vec3 glowColor;          // of the inner glow
+  float glowColorAmount;   // against the surface's colour in light
+  float mixesValues;       // 1: lit and shadowed are mixed in equal parts of value, else of light
 };
 SHARED_END
 #endif

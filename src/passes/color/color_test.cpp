@@ -89,6 +89,40 @@ TEST_P(ColorTest, equalsItsReference) {
       views, false);
 }
 
+// Bands lie at equal parts of value between shadow and light; the inner glow has a colour of its own.
+TEST_P(ColorTest, bandsMixValuesAndTheGlowHasItsColor) {
+  const Scene scene = stillLife().load();
+  const auto views = viewsFrom(scene, {{2, 1.5f, 6}, {0, 1.4f, 0}, 60}, kWidth, kHeight, GetParam());
+  const double amount = 0.7;
+  for (const bool bands : {false, true}) {
+    const Look look = quietLook({{"shadow.steps", bands ? "3" : "1"},
+                                 {"shadow.innerGlow", "0.8"},
+                                 {"shadow.glowColor", "#FF8000"},
+                                 {"shadow.glowColorAmount", std::to_string(amount)}});
+    const Frame frame =
+        draw(scene, look, views, sized(kWidth, kHeight, {"final-shadow", "lit", "shadowed", "color"}));
+    const glm::dvec3 glowColor(1, std::pow((128 / 255.0 + 0.055) / 1.055, 2.4), 0);
+    for (size_t v = 0; v < views.size(); ++v) {
+      Difference difference(2e-3);
+      size_t glowing = 0;
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+          const glm::dvec3 lit(texel(aov(frame, "lit", v), x, y));
+          const glm::dvec3 shadowed(texel(aov(frame, "shadowed", v), x, y));
+          if (texel(aov(frame, "lit", v), x, y).w == 0) continue;
+          const glm::dvec4 light = texel(aov(frame, "final-shadow", v), x, y);
+          const glm::dvec3 root = glm::mix(glm::sqrt(shadowed), glm::sqrt(lit), light.x);
+          glm::dvec3 color = bands ? root * root : glm::mix(shadowed, lit, light.x);
+          color += light.z * amount * (glowColor - lit);
+          for (int c = 0; c < 3; ++c) difference.add(texel(aov(frame, "color", v), x, y)[c], color[c]);
+          glowing += light.z > 0.3;
+        }
+      EXPECT_EQ(difference.beyond, 0u) << difference.text() << ", view " << v;
+      EXPECT_GT(glowing, 100u);
+    }
+  }
+}
+
 // A parallel projection sees the sky in one direction only.
 TEST_F(ColorTest, skyOfAParallelProjection) {
   const Scene scene = stillLife().load();

@@ -1,5 +1,8 @@
 #include "passes/final_shadow/final_shadow.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "frame/image_step.h"
 #include "passes/final_shadow/final_shadow.shared.h"
 #include "shaders/final_shadow_image_comp.h"
@@ -8,6 +11,30 @@
 namespace scumble::passes {
 
 using namespace frame;
+
+StepThresholds stepThresholds(const FinalShadowParams& params) {
+  constexpr float kLeast = 0.02f, kMost = 0.98f;  // beyond them there would be no light, or no shadow
+  StepThresholds result;
+  result.spacing = params.stepSpacing;
+  const float room = std::max(std::min(params.threshold - kLeast, kMost - params.threshold), 0.0f);
+  if (params.steps > 1) result.spacing = std::min(result.spacing, 2 * room / float(params.steps - 1));
+  result.darkest = params.threshold - 0.5f * result.spacing * float(params.steps - 1);
+  return result;
+}
+
+float glowReach(float width, float begin) {
+  if (width >= 1) return 1;
+  // The blurred light beside a straight edge, over the distance in standard deviations; the blur ends at two.
+  constexpr float kEnd = 2;
+  const auto normal = [](float x) { return 0.5f * std::erfc(-x / std::sqrt(2.0f)); };
+  const auto light = [&](float x) { return (normal(x) - normal(-kEnd)) / (normal(kEnd) - normal(-kEnd)); };
+  float low = -kEnd, high = kEnd;
+  for (int i = 0; i < 30; ++i) {
+    const float middle = 0.5f * (low + high);
+    (light(middle) < begin ? low : high) = middle;
+  }
+  return std::max(1 - light(low - width * (low + kEnd)) / begin, 1e-3f);
+}
 
 namespace {
 
@@ -32,9 +59,17 @@ class FinalShadow : public Pass {
   void update(const FrameInput& input) override {
     const FinalShadowParams params = input.look.get<FinalShadowParams>();
     shared::FinalShadowUniforms uniforms{};
-    uniforms.threshold = params.threshold;
+    const StepThresholds steps = stepThresholds(params);
+    uniforms.stepThresholds = glm::vec4(params.threshold);
+    for (int i = 0; i < params.steps; ++i) {
+      uniforms.stepThresholds[i] = steps.darkest + steps.spacing * float(i);
+      uniforms.stepShares[i] = 1.0f / float(params.steps);
+    }
     uniforms.softness = params.softness;
     uniforms.innerGlow = params.innerGlow;
+    uniforms.darkestEdge = steps.darkest;
+    uniforms.brightestEdge = uniforms.stepThresholds[params.steps - 1];
+    uniforms.glowReach = glowReach(params.glowWidth, steps.darkest);
     uniforms.indication = params.indication;
     uniforms.dither = params.dither;
     uniforms.indicationSteps = params.indicationSteps;

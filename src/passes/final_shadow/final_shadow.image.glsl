@@ -1,6 +1,8 @@
 #version 460
-// Shadow shapes: the blurred light is thresholded to a hard, rounded edge; inside the dark an inner glow; where the
-// breakup map is set, more steps (paper 000, section 5.1).
+// Shadow shapes: the blurred light is thresholded to hard, rounded edges, one or several; inside the dark an inner glow;
+// where the breakup map is set, more steps (paper 000, section 5.1).
+//
+// Out: R: light; G: lens; B: the part of the light that is inner glow; A: coverage.
 #extension GL_GOOGLE_include_directive : require
 #include "../../shading/frame.glsl"
 #include "final_shadow.shared.h"
@@ -45,22 +47,22 @@ vec4 shade(ivec2 pixel, int layer) {
   // A dither of the ramp: the breakup map moves the threshold; where it does, its own slope softens the edge.
   float dither = u.dither * (0.5 - warped.b) * float(warped.a > 0.0);
   width = max(width, 0.05 * u.dither);
-  float lit = smoothstep(u.threshold - width, u.threshold + width, light - dither);
+  float lit = dot(u.stepShares, smoothstep(u.stepThresholds - width, u.stepThresholds + width, vec4(light - dither)));
 
   // Texture indication: where the breakup map is set, marks push the blurred light over the threshold in a few more
   // steps, each a flat shape.
   float push = light + own.b * warped.b * u.indication;
   float pushed = 0.0;
   for (int i = 1; i <= u.indicationSteps; ++i) {
-    float level = u.threshold + 0.9 * u.indication * float(i) / float(u.indicationSteps);
+    float level = u.brightestEdge + 0.9 * u.indication * float(i) / float(u.indicationSteps);
     pushed += clamp(0.5 + (push - level) * 25.0, 0.0, 1.0);
   }
   if (own.b > 0.0) lit = max(lit, pushed * clamp(light * 6.0, 0.0, 1.0) / float(u.indicationSteps));
 
   // Inner glow: the inverted blur, clamped, adds light to the interior of the dark, none at its edge.
-  float inside = clamp((u.threshold - light) / u.threshold, 0.0, 1.0);
-  float result = lit + (1.0 - lit) * u.innerGlow * inside;
-  return own.a > 0.0 ? vec4(result, own.g, own.b, own.a) : vec4(0.0);
+  float inside = clamp((u.darkestEdge - light) / u.darkestEdge / u.glowReach, 0.0, 1.0);
+  float glow = (1.0 - lit) * u.innerGlow * inside;
+  return own.a > 0.0 ? vec4(lit + glow, own.g, glow, own.a) : vec4(0.0);
 }
 
 #define OUTPUT_FORMAT rgba8

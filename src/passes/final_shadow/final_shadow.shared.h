@@ -4,9 +4,13 @@
 
 SHARED_BEGIN
 struct FinalShadowUniforms {
-  float threshold;
+  // Of each edge between light and shadow: the amount of light, and its share of the way (0 where there are
+  // fewer edges).
+  vec4 stepThresholds, stepShares;
   float softness;  // pixels
   float innerGlow;
+  float darkestEdge, brightestEdge;  // amounts of light
+  float glowReach;                   // how far below it the glow is full, as a part of it
   float indication;
   float dither;
   int indicationSteps;

@@ -15,7 +15,33 @@ struct Knobs {
   int steps = 2;
   double radius = 60, depthEdge = 0.03;
   double dither = 0;
+  int bands = 1;
+  double spacing = 0.2, glowWidth = 1;
 };
+
+// Edges between light and shadow: around the threshold, nearer to each other where light or shadow would end.
+std::vector<double> edgesOf(const Knobs& k) {
+  std::vector<double> edges;
+  const double room = std::min(k.threshold - 0.02, 0.98 - k.threshold);
+  for (int i = 0; i < k.bands; ++i) {
+    const double place = k.bands > 1 ? 2.0 * i / (k.bands - 1) - 1 : 0;  // -1 to 1
+    edges.push_back(k.threshold + place * std::min(room, 0.5 * k.spacing * (k.bands - 1)));
+  }
+  return edges;
+}
+
+// How far below `begin` the light is, as a part of it, at `width` of the way from a straight edge to where
+// its blur ends, which is cut off at two deviations: by summing the blur's weights.
+double reachOf(double width, double begin) {
+  constexpr int kSteps = 40000;
+  std::vector<double> light(kSteps + 1);  // from the end of the dark to the end of the light
+  for (int i = 0; i < kSteps; ++i) {
+    const double x = -2 + 4 * (i + 0.5) / kSteps;
+    light[size_t(i) + 1] = light[size_t(i)] + std::exp(-0.5 * x * x);
+  }
+  const auto edge = std::lower_bound(light.begin(), light.end(), begin * light.back()) - light.begin();
+  return 1 - light[size_t(std::lround(double(edge) * (1 - width)))] / light.back() / begin;
+}
 
 class FinalShadowTest : public BothEyes {
  protected:
@@ -28,12 +54,15 @@ class FinalShadowTest : public BothEyes {
                       {"shadow.indication", std::to_string(k.indication)},
                       {"shadow.indicationSteps", std::to_string(k.steps)},
                       {"shadow.dither", std::to_string(k.dither)},
+                      {"shadow.steps", std::to_string(k.bands)},
+                      {"shadow.stepSpacing", std::to_string(k.spacing)},
+                      {"shadow.glowWidth", std::to_string(k.glowWidth)},
                       {"blur.radius", std::to_string(k.radius)},
                       {"blur.depthEdge", std::to_string(k.depthEdge)}});
   }
 
-  static glm::dvec4 expected(const Knobs& k, const Frame& frame, const Texels& blur, size_t view, int x,
-                             int y) {
+  static glm::dvec4 expected(const Knobs& k, const Frame& frame, const Texels& blur, double reach,
+                             size_t view, int x, int y) {
     const glm::dvec4 own = texel(aov(frame, "shadow", view), x, y);
     if (own.w == 0) return glm::dvec4(0.0);
     const double depth = std::min(texel(aov(frame, "depth", view), x, y).x, 60000.0);
@@ -60,19 +89,22 @@ class FinalShadowTest : public BothEyes {
                                                glm::mix(lights[2] - lights[0], lights[3] - lights[1], f.x));
     const double width = std::max({0.5 * k.softness * glm::length(slope), 1e-3, 0.05 * k.dither});
     const double dithered = light - k.dither * (0.5 - marks);
-    double lit = smoothstep(k.threshold - width, k.threshold + width, dithered);
+    const std::vector<double> edges = edgesOf(k);
+    double lit = 0;
+    for (const double edge : edges) lit += smoothstep(edge - width, edge + width, dithered) / k.bands;
     // Indication.
     if (own.z > 0) {
       double pushed = 0;
       for (int i = 1; i <= k.steps; ++i)
-        pushed += std::clamp(0.5 + 25 * (light + own.z * marks * k.indication - k.threshold -
+        pushed += std::clamp(0.5 + 25 * (light + own.z * marks * k.indication - edges.back() -
                                          0.9 * k.indication * i / k.steps),
                              0.0, 1.0);
       lit = std::max(lit, pushed * std::clamp(6 * light, 0.0, 1.0) / k.steps);
     }
     // Inner glow.
-    lit += (1 - lit) * k.innerGlow * std::clamp(1 - light / k.threshold, 0.0, 1.0);
-    return {lit, own.y, own.z, own.w};
+    const double inside = (1 - light / edges[0]) / reach;
+    const double glow = (1 - lit) * k.innerGlow * std::clamp(inside, 0.0, 1.0);
+    return {lit + glow, own.y, glow, own.w};
   }
 };
 INSTANTIATE_BOTH_EYES(FinalShadowTest);
@@ -86,27 +118,34 @@ TEST_P(FinalShadowTest, equalsItsReference) {
   sharp.radius = 4, sharp.indication = 0, sharp.depthEdge = 0;
   Knobs dry;
   dry.dither = 0.6, dry.radius = 40;
-  for (const Knobs& k : {Knobs(), soft, sharp, dry}) {
+  Knobs bands;
+  bands.bands = 3, bands.innerGlow = 0.7, bands.glowWidth = 0.4, bands.dither = 0.2;
+  Knobs crowded;
+  crowded.bands = 4, crowded.threshold = 0.3, crowded.spacing = 0.5, crowded.glowWidth = 0.8;
+  for (const Knobs& k : {Knobs(), soft, sharp, dry, bands, crowded}) {
     const Frame frame = draw(scene, lookOf(k), views,
                              sized(kWidth, kHeight, {"shadow", "warp", "depth", "blur", "final-shadow"}));
     for (size_t v = 0; v < viewCount(); ++v) {
       const Texels blur = quarterTexels(aov(frame, "blur", v));
+      const double reach = reachOf(k.glowWidth, edgesOf(k)[0]);
       // Where the light is flat the threshold is 2e-3 wide, which makes 750 times what half floats round
       // (1e-4): few pixels stand on that edge.
-      Difference light(0.012), others(2.5e-3);  // 8 bits
+      Difference light(0.012), others(2.5e-3), glow(0.012);  // 8 bits
       size_t lit = 0, dark = 0;
       for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
-          const glm::dvec4 e = expected(k, frame, blur, v, x, y);
+          const glm::dvec4 e = expected(k, frame, blur, reach, v, x, y);
           const glm::dvec4 g = texel(aov(frame, "final-shadow", v), x, y);
           light.add(g.x, e.x);
-          for (int c = 1; c < 4; ++c) others.add(g[c], e[c]);
+          glow.add(g.z, e.z);
+          for (const int c : {1, 3}) others.add(g[c], e[c]);
           if (e.w > 0) ++(e.x > 0.5 ? lit : dark);
         }
       EXPECT_GT(lit, 1000u);  // the scene shows both
       EXPECT_GT(dark, 50u);
       EXPECT_LT(light.beyondPart(), 2e-3) << light.text() << ", threshold " << k.threshold;
       EXPECT_LT(light.mean(), 2e-3) << light.text();
+      EXPECT_LT(glow.beyondPart(), 2e-3) << glow.text();
       EXPECT_EQ(others.beyond, 0u) << others.text();
     }
   }
@@ -133,6 +172,150 @@ TEST_F(FinalShadowTest, edgesAreAsWideAsAskedFor) {
       EXPECT_GE(between, std::floor(0.6 * softness)) << "radius " << radius << ", softness " << softness;
       EXPECT_LE(between, std::ceil(softness) + 1) << "radius " << radius << ", softness " << softness;
     }
+}
+
+// A sphere whose light is not blurred: what lies between two edges is one flat level, and as large as the
+// light says.
+TEST_P(FinalShadowTest, bandsAreFlatAndAsLargeAsTheirSharesOfTheLight) {
+  TestScene s;
+  s.add(sphereMesh({0, 0, 0}, 1, 96), s.material(TestScene::colored("Grey", {0.5f, 0.5f, 0.5f, 1})));
+  s.light({-0.8f, 0.5f, 0.3f});
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0.3f, 0.5f, 3}}, kWidth, kHeight, GetParam());
+  for (const int count : {1, 2, 3, 4}) {
+    Knobs k;
+    k.bands = count, k.radius = 0, k.innerGlow = 0, k.indication = 0;
+    Look look = lookOf(k);
+    ASSERT_TRUE(look.set("light.terminatorSharpness", "0.5"));
+    ASSERT_TRUE(look.set("shadowMap.cast", "off"));
+    const Frame frame = draw(scene, look, views, sized(kWidth, kHeight, {"shadow", "final-shadow"}));
+    const std::vector<double> edges = edgesOf(k);
+    for (size_t v = 0; v < viewCount(); ++v) {
+      std::vector<int> area(size_t(count) + 1), wanted(size_t(count) + 1);
+      int between = 0, all = 0;
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+          const glm::dvec4 own = texel(aov(frame, "shadow", v), x, y);
+          if (own.w == 0) continue;
+          const double level = texel(aov(frame, "final-shadow", v), x, y).x * count;
+          const double nearest = std::round(level);
+          ++all;
+          if (std::abs(level - nearest) < 0.02)
+            ++area[size_t(nearest)];
+          else
+            ++between;
+          ++wanted[size_t(std::count_if(edges.begin(), edges.end(), [&](double e) { return own.x > e; }))];
+        }
+      EXPECT_GT(all, 3000);
+      EXPECT_LT(between, all / 15 * count);
+      for (size_t i = 0; i < area.size(); ++i) {
+        EXPECT_GT(area[i], 100) << "level " << i << " of " << count;
+        EXPECT_NEAR(area[i], wanted[i], between + 0.01 * all) << "level " << i << " of " << count;
+      }
+    }
+  }
+}
+
+// However wide and strong: nothing of it in the light, in bands, or at their edges; all of it in the dark.
+TEST_P(FinalShadowTest, theGlowStaysInsideTheDark) {
+  const Scene scene = stillLife().load();
+  const auto views = viewsFrom(scene, {{2, 2.5f, 6}, {0, 0.8f, 0}}, kWidth, kHeight, GetParam());
+  for (const int count : {1, 3})
+    for (const double width : {0.05, 0.5, 1.0}) {
+      Knobs k;
+      k.bands = count, k.innerGlow = 0, k.glowWidth = width, k.indication = 0;
+      const Frame without = draw(scene, lookOf(k), views, sized(kWidth, kHeight, {"final-shadow"}, 4));
+      k.innerGlow = 1;
+      const Frame with = draw(scene, lookOf(k), views, sized(kWidth, kHeight, {"final-shadow"}, 4));
+      for (size_t v = 0; v < viewCount(); ++v) {
+        size_t glowing = 0;
+        for (int y = 0; y < kHeight; ++y)
+          for (int x = 0; x < kWidth; ++x) {
+            const glm::dvec4 before = texel(aov(without, "final-shadow", v), x, y);
+            const glm::dvec4 after = texel(aov(with, "final-shadow", v), x, y);
+            EXPECT_GE(after.x, before.x);
+            // At the middle of the darkest edge the light is half a step.
+            if (before.x > 0.51 / count) {
+              EXPECT_EQ(after.x, before.x) << x << ", " << y;
+              EXPECT_EQ(after.z, 0) << x << ", " << y;
+            }
+            glowing += after.z > 0.9;
+          }
+        EXPECT_GT(glowing, 20u) << "width " << width << ", " << count << " steps";
+      }
+    }
+}
+
+// Each of several edges is hard and as wide as asked for, and light only grows towards the light.
+TEST_F(FinalShadowTest, severalEdgesAreAsContinuousAsOne) {
+  TestScene s;
+  s.add(gridMesh({-8, -3, 0}, {8, 0, 0}, {0, 6, 0}), s.material(TestScene::unlit("Bright", {1, 1, 1, 1})));
+  s.add(gridMesh({0, -3, 0}, {8, 0, 0}, {0, 6, 0}), s.material(TestScene::colored("Dark", {1, 1, 1, 1})));
+  s.light({0, 0.2f, -1});
+  const Scene scene = s.load();
+  constexpr int kLarge = 480;
+  for (const int count : {2, 3, 4}) {
+    Knobs k;
+    k.bands = count, k.radius = 128, k.softness = 2, k.innerGlow = 0, k.indication = 0;
+    const Frame frame = draw(scene, lookOf(k), {parallelView(1, 1)}, sized(kLarge, kLarge, {"final-shadow"}));
+    int between = 0;
+    for (int x = 1; x < kLarge; ++x) {
+      const double light = texel(aov(frame, "final-shadow"), x, kLarge / 2).x;
+      EXPECT_LE(light, texel(aov(frame, "final-shadow"), x - 1, kLarge / 2).x + 0.01);
+      between += std::abs(light * count - std::round(light * count)) > 0.03;
+    }
+    EXPECT_GE(between, count);
+    EXPECT_LE(between, 3 * count);
+  }
+}
+
+// Indication breaks up what is oblique to the light, and nothing else.
+TEST_P(FinalShadowTest, indicationActsOnlyWhereTheLightIsOblique) {
+  TestScene s;
+  s.add(sphereMesh({0, 0, 0}, 1, 96), s.material(TestScene::colored("Grey", {0.5f, 0.5f, 0.5f, 1})));
+  const glm::dvec3 toLight = glm::normalize(glm::dvec3(-0.6, 0.5, 0.5));
+  s.light(glm::vec3(toLight));
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0.3f, 0.5f, 3}}, kWidth, kHeight, GetParam());
+  Frame frames[2];
+  for (const int on : {0, 1}) {
+    Knobs k;
+    k.indication = on, k.radius = 9;
+    Look look = lookOf(k);
+    ASSERT_TRUE(look.set("light.terminator", "0.1"));
+    ASSERT_TRUE(look.set("surface.indicationWidth", "0.3"));
+    frames[on] = draw(scene, look, views, sized(kWidth, kHeight, {"final-shadow", "normal", "id"}));
+  }
+  for (size_t v = 0; v < viewCount(); ++v) {
+    size_t changed = 0;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        if (texel(aov(frames[0], "id", v), x, y).x == 0) continue;
+        const double turn = glm::dot(glm::dvec3(texel(aov(frames[0], "normal", v), x, y)), toLight) - 0.1;
+        const bool differs = texel(aov(frames[0], "final-shadow", v), x, y).x !=
+                             texel(aov(frames[1], "final-shadow", v), x, y).x;
+        changed += differs;
+        // Triangles of 4 degrees stand for the sphere.
+        EXPECT_FALSE(differs && std::abs(turn) > 0.302) << x << ", " << y << ", turned by " << turn;
+      }
+    EXPECT_GT(changed, 50u);
+  }
+}
+
+TEST_P(FinalShadowTest, fragmentAndComputeAgree) {
+  const Scene scene = stillLife().load();
+  const auto views = viewsFrom(scene, {{2, 2.5f, 6}, {0, 0.8f, 0}}, kWidth, kHeight, GetParam());
+  Knobs k;
+  k.bands = 3, k.glowWidth = 0.5;
+  Look look = lookOf(k);
+  ASSERT_TRUE(look.set("shadow.glowColorAmount", "1"));
+  const RenderOptions options = sized(kWidth, kHeight, {"final-shadow", "color"}, 4);
+  const Frame a = draw(scene, look, views, options);
+  const Frame b = otherRenderer().render(scene, look, 0, views, options).value();
+  for (size_t v = 0; v < viewCount(); ++v) {
+    EXPECT_LE(largestDifference(aov(a, "final-shadow", v), aov(b, "final-shadow", v)), 1.001 / 255);
+    EXPECT_LT(largestDifference(aov(a, "color", v), aov(b, "color", v)), 5e-3);
+  }
 }
 
 }  // namespace

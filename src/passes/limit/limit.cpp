@@ -1,0 +1,124 @@
+#include "passes/limit/limit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "base/oklab.h"
+#include "frame/image_step.h"
+#include "frame/metatexture.h"
+#include "passes/limit/limit.shared.h"
+#include "shaders/limit_image_comp.h"
+#include "shaders/limit_image_frag.h"
+#include "shaders/limit_mend_image_comp.h"
+#include "shaders/limit_mend_image_frag.h"
+
+namespace scumble::passes {
+
+using namespace frame;
+
+std::vector<glm::vec3> paletteColors(const LimitParams& params) {
+  std::vector<glm::vec3> colors;
+  if (params.palette == kLimitOff || params.amount <= 0) return colors;
+  if (params.palette == kLimitLook) {
+    const look::Color* const own[] = {&params.color1,  &params.color2,  &params.color3,  &params.color4,
+                                      &params.color5,  &params.color6,  &params.color7,  &params.color8,
+                                      &params.color9,  &params.color10, &params.color11, &params.color12,
+                                      &params.color13, &params.color14, &params.color15, &params.color16};
+    for (int i = 0; i < params.colors; ++i) colors.push_back(*own[i]);
+  } else {
+    for (const uint32_t srgb : builtInPalette(params.palette)) colors.push_back(look::linearFromSrgb(srgb));
+  }
+  return colors;
+}
+
+namespace {
+
+class Limit : public Pass {
+ public:
+  const char* name() const override { return "limit"; }
+
+  void declare(FrameBuilder& frame) override {
+    const Configuration& c = frame.configuration();
+    const ImageShader limit{{shaders::limit_image_frag}, {shaders::limit_image_comp}};
+    const gpu::ResourceId limited =
+        frame.transient("limited", {slotInfo(Slot::limit).format, c.width, c.height, c.viewCount});
+    limit_.declare(frame, "limit", limit,
+                   {{frame.slot(c.colorsToLimit())}, {frame.slot(Slot::warp)}, {frame.slot(Slot::depth)}},
+                   limited, sizeof(shared::LimitUniforms), {}, 1);
+    mend_.declare(frame, "limit", {{shaders::limit_mend_image_frag}, {shaders::limit_mend_image_comp}},
+                  {{frame.slot(c.colorsToLimit())}, {limited}}, frame.slot(Slot::limit), 0);
+    if (c.layered)
+      behind_.emplace().declare(
+          frame, "limit", limit,
+          {{frame.slot(c.colorsToLimitBehind())}, {frame.slot(Slot::warp)}, {frame.slot(Slot::depth)}},
+          frame.slot(Slot::behindLimit), sizeof(shared::LimitUniforms), {}, 1);
+  }
+
+  void create(FrameBuilder& frame, const FrameResources& resources) override {
+    limit_.create(frame, resources);
+    mend_.create(frame, resources);
+    if (behind_) behind_->create(frame, resources);
+    examples_ = &frame.examples();
+  }
+
+  void update(const FrameInput& input) override {
+    const LimitParams params = input.look.get<LimitParams>();
+    const std::vector<glm::vec3> colors = paletteColors(params);
+    shared::LimitUniforms uniforms{};
+    uniforms.amount = params.amount;
+    // The rest of the way is left to edges, so that marks and edges leave the palette's own colours alone.
+    constexpr float kReach = 0.8f;
+    uniforms.dither = kReach * params.dither;
+    uniforms.lightness = params.lightness;
+    uniforms.driftReach = std::max(int(std::lround(12 * input.uniforms.pixelScale)), 2);
+    uniforms.softness = params.softness;
+    uint32_t count = 0;
+    for (size_t i = 0; i < shared::kMaxPaletteColors && !colors.empty(); ++i)
+      uniforms.colors[i] = glm::vec3(oklabFromLinear(glm::dvec3(colors[std::min(i, colors.size() - 1)]))) *
+                           glm::vec3(params.lightness, 1, 1);
+    // A loop of constant length is unrolled, which CPU drivers want.
+    count = uint32_t(colors.size() + 3) / 4 * 4;
+
+    // The pattern in the sky closes around the horizon, and is as coarse as the picture shows it.
+    const ExampleTexture& strokes = examples_->get(input.look, kStrokes);
+    const bool sky = params.skyDither > 0 && !input.transparent;
+    if (sky) {
+      const float around = std::round(360 / params.skySize);
+      uniforms.skyShift = patternShift(input.seed);
+      uniforms.skyTiles = glm::vec2(around, 360 / params.skySize) / glm::radians(360.0f);
+      const shared::ViewUniforms& view = input.uniforms.views[0];
+      const float radiansAPixel = 2 * std::abs(view.ndcToEyeRay.y) / input.uniforms.imageSize.y;
+      const float texelsAPixel = uniforms.skyTiles.y * radiansAPixel * float(strokes.height);
+      uniforms.skyLod = std::max(std::log2(texelsAPixel + 1e-6f), 0.0f);
+      uniforms.skyDither = kReach * params.skyDither;
+      // Strokes go from dark to light over about 12 texels.
+      uniforms.skySlope = uniforms.skyDither * std::min(texelsAPixel, 1.0f) / 12;
+    }
+    const uint32_t marks = sky ? 2 : params.dither > 0 ? 1 : 0;
+    const ImageStep::Texture texture{&strokes.image, ExampleTextures::kSampler};
+    limit_.update(uniforms);
+    limit_.setJobs({{{count, marks}, {texture}}});
+    mend_.setJobs({{{uint32_t(count > 0 && params.softness > 0)}, {}}});
+    if (behind_) {
+      // The marks at a pixel are those of what stands before it.
+      behind_->update(uniforms);
+      behind_->setJobs({{{count, 0}, {texture}}});
+    }
+  }
+
+ private:
+  static constexpr double kStrokes = 1;  // of the example textures that are built in
+
+  ImageStep limit_, mend_;
+  std::optional<ImageStep> behind_;
+  ExampleTextures* examples_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<Pass> makeLimit() {
+  return std::make_unique<Limit>();
+}
+
+}  // namespace scumble::passes
