@@ -40,8 +40,13 @@ struct Configuration {
   std::vector<Slot> readBack;  // what the caller gets
   bool layered = false;        // whether what lies behind the first surface is drawn as well
   bool plain = false;
+  bool colorize = false;  // whether the colorize pass runs
   bool multiview = true;  // all views at once; else one after the other
   bool operator==(const Configuration&) const = default;
+
+  // Where the colours are that become the picture.
+  Slot colors() const { return colorize ? Slot::colorize : Slot::color; }
+  Slot colorsBehind() const { return colorize ? Slot::behindColorize : Slot::behind; }
 };
 
 // What changes from frame to frame.

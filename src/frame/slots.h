@@ -19,11 +19,13 @@ enum class Slot : uint8_t {
   blur,       // R, G, A: the shadow channels, blurred, at a quarter of the size; B: eye depth
   finalShadow,  // R: light after threshold and inner glow; G: lens; B: where indication acts; A: coverage
   color,        // lit and shadowed mixed, over the background
+  colorize,     // the same after the look's colorizers; only where it has any, or when asked for
   // What lies behind the first surface of each pixel, one sample a pixel; drawn for layered ripple only.
   behindShadow,
   behindLit,
   behindShadowed,
   behindDepth,
+  behindColorize,
   behind,      // its colour
   finalColor,  // warped, with bloom: the picture
   // Facts, drawn only when asked for.

@@ -33,6 +33,7 @@ struct LookData {
   std::string description;
   std::vector<Assignment> assignments;
   std::vector<std::shared_ptr<const LookPicture>> pictures;
+  std::vector<std::string> texts;  // what knobs name (Name::index)
 
   // Whether a setting changes with time.
   bool isAnimated() const;
@@ -52,6 +53,11 @@ struct LookData {
   bool names(const ParamBlock& block, const char* row, Target target, const std::string& name) const;
   bool setsAny(const ParamBlock& block, const char* row, Target target) const;
 
+  // The names that a section declares, in the order in which they appear: its keys without '*' and '?'.
+  std::vector<std::string> declared(Target target) const;
+
+  const std::string& text(Name name) const;
+
   template <class Params>
   Params get() const {
     Params params;
@@ -69,6 +75,9 @@ struct LookData {
     return getFor<Params>(kMaterials, material);
   }
 };
+
+// Whether there is a '*' or '?' in it.
+bool isPattern(const std::string& name);
 
 // Whether `name` matches a pattern of literal characters, '*' and '?'.
 bool matches(const std::string& pattern, const std::string& name);

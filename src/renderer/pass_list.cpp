@@ -8,6 +8,7 @@
 #include "frame/palette.h"
 #include "passes/blur/blur.h"
 #include "passes/color/color.h"
+#include "passes/colorize/colorize.h"
 #include "passes/deform/deform.h"
 #include "passes/facts/facts.h"
 #include "passes/final_color/final_color.h"
@@ -30,6 +31,7 @@ const std::vector<const ParamBlock*>& allBlocks() {
       &passes::WarpParams::block(),       &frame::WarpMetaTextureParams::block(),
       &passes::BreakupParams::block(),    &frame::BreakupMetaTextureParams::block(),
       &passes::BackgroundParams::block(), &frame::GroundParams::block(),
+      &passes::VolumeParams::block(),     &passes::GradeParams::block(),
       &passes::FinalColorParams::block(), &frame::AnimationParams::block(),
       &frame::PlayParams::block()};
   return blocks;
@@ -57,6 +59,7 @@ std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration
                              passes::depthSharpness(blur.depthEdge)};
   }));
   list.push_back(passes::makeColor());
+  if (configuration.colorize) list.push_back(passes::makeColorize());
   list.push_back(passes::makeFinalColor(largestInflation));
   if (configuration.facts) list.push_back(passes::makeFacts());
   return list;
@@ -72,6 +75,10 @@ float largestInflation(const look::LookData& look, const SceneOnGpu& scene, floa
 
 bool wantsLayers(const look::LookData& look) {
   return look.get<passes::FinalColorParams>().ripple == passes::kRippleLayered;
+}
+
+bool wantsColorizers(const look::LookData& look) {
+  return !look.declared(look::kColorizers).empty();
 }
 
 std::vector<bool> shadowCasters(const scene::SceneData& scene, const look::LookData& look) {

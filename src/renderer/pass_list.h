@@ -18,6 +18,9 @@ float largestInflation(const look::LookData& look, const SceneOnGpu& scene, floa
 // Whether the look needs what lies behind the first surfaces (Configuration::layered).
 bool wantsLayers(const look::LookData& look);
 
+// Whether the look declares colorizers (Configuration::colorize).
+bool wantsColorizers(const look::LookData& look);
+
 // Which materials cast shadows under a look; the ground, if there is one, is no material of the scene's.
 std::vector<bool> shadowCasters(const scene::SceneData& scene, const look::LookData& look);
 

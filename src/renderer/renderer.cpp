@@ -10,6 +10,7 @@
 #include "frame/light.h"
 #include "frame/palette.h"
 #include "frame/playing.h"
+#include "passes/colorize/colorize.h"
 #include "renderer/pass_list.h"
 #include "renderer/readback.h"
 #include "renderer/uniforms.h"
@@ -162,7 +163,8 @@ void Renderer::Impl::useConfiguration(const Configuration& configuration) {
   next->configuration = configuration;
 
   // Uniform memory: what holds for the frame, then what each material has in each pass.
-  const uint64_t size = (64 << 10) + sceneOnGpu->materialCount() * 2048;
+  const uint64_t size = (64 << 10) + sceneOnGpu->materialCount() * 2048 +
+                        (configuration.colorize ? passes::kColorizeUniformBytes : 0);
   next->uniformBuffer = gpu::PerFrameBuffer(
       *device, size, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   if (configuration.facts) sceneOnGpu->keepPrevious();
@@ -335,6 +337,7 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
   configuration.plain = options.plain;
   const look::LookData now = look.data().at(time);
   configuration.layered = !options.plain && wantsLayers(now);
+  configuration.colorize = !options.plain && wantsColorizers(now);
   configuration.multiview = impl_->device->multiviewWorks();
   configuration.computeImagePasses =
       impl_->imagePasses == ImagePassKind::compute ||
@@ -349,6 +352,7 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
                                                         : "did you mean '" + suggestion + "'?");
     }
     configuration.facts |= isFact(*slot);
+    configuration.colorize |= *slot == Slot::colorize;
     if (*slot != Slot::finalColor) configuration.readBack.push_back(*slot);
   }
 

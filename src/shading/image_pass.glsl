@@ -1,7 +1,7 @@
 // An image pass is one function, vec4 shade(ivec2 pixel, int layer). This wrapper makes it a full-screen fragment
 // shader or, with SCUMBLE_COMPUTE defined, a compute shader; the build compiles both. A pass that writes another format
 // than rgba16f defines OUTPUT_FORMAT; one whose jobs share the pixels among them defines SHADES_SOME and
-// bool shades(ivec2 pixel, int layer).
+// bool shades(ivec2 pixel, int layer); one whose jobs share them by areas defines SHADES_AREAS.
 #ifndef SHADES_SOME
 bool shades(ivec2 pixel, int layer) { return true; }
 #endif
@@ -14,10 +14,17 @@ bool shades(ivec2 pixel, int layer) { return true; }
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 2, binding = 0, OUTPUT_FORMAT) writeonly uniform image2DArray outputImage;
 
+#ifdef SHADES_AREAS
+layout(push_constant) uniform AreaBlock { uint corner, view; } area;
+ivec3 firstPixel() { return ivec3(area.corner & 0xFFFFu, area.corner >> 16, area.view); }
+#else
+ivec3 firstPixel() { return ivec3(0); }
+#endif
+
 void main() {
-  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  ivec2 pixel = firstPixel().xy + ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(pixel, imageSize(outputImage).xy))) return;
-  int layer = int(gl_GlobalInvocationID.z);
+  int layer = firstPixel().z + int(gl_GlobalInvocationID.z);
   if (shades(pixel, layer)) imageStore(outputImage, ivec3(pixel, layer), shade(pixel, layer));
 }
 

@@ -24,11 +24,12 @@ class FinalColor : public Pass {
                                    [](const auto& material) { return material.emissive != glm::vec3(0.0f); });
     step_.declare(frame, "final-color",
                   {{shaders::final_color_image_frag}, {shaders::final_color_image_comp}},
-                  {{frame.slot(Slot::color), true},
+                  {{frame.slot(frame.configuration().colors()), true},
                    {frame.slot(Slot::warp)},
                    {frame.slot(Slot::depth)},
                    {frame.slot(Slot::blur), true},
-                   {frame.slot(frame.configuration().layered ? Slot::behind : Slot::color)},
+                   {frame.slot(frame.configuration().layered ? frame.configuration().colorsBehind()
+                                                             : frame.configuration().colors())},
                    {frame.slot(frame.configuration().layered ? Slot::behindDepth : Slot::depth)}},
                   frame.slot(Slot::finalColor), sizeof(shared::FinalColorUniforms),
                   {uint32_t(glows), uint32_t(frame.configuration().layered)});
