@@ -99,7 +99,7 @@ std::vector<ShippedLook> Look::shipped() {
 }
 
 std::vector<Knob> Look::knobs() {
-  static constexpr const char* kTypes[] = {"number", "integer", "toggle",  "choice",
+  static constexpr const char* kTypes[] = {"number", "integer", "toggle", "choice",
                                            "color",  "picture", "vector", "name"};
   std::vector<Knob> knobs;
   for (const look::ParamBlock* block : look::allBlocks())

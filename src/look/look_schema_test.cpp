@@ -106,11 +106,10 @@ TEST(LookSchema, describesEveryKnobWhereItHolds) {
           << section.name << " " << row.path();
     const bool forScene = row.block->targets & look::kScene;
     EXPECT_EQ(!schemaAt(schema, row.path()).is_null(), forScene) << row.path();
-    const json entry =
-        schemaAt(forScene ? schema
-                          : schema["properties"][look::firstSection(row.block->targets).name]
-                                  ["additionalProperties"],
-                 row.path());
+    const json entry = schemaAt(
+        forScene ? schema
+                 : schema["properties"][look::firstSection(row.block->targets).name]["additionalProperties"],
+        row.path());
     EXPECT_NE(entry["description"].get<std::string>().find(row.row->meaning), std::string::npos);
     if (row.isNumber()) {
       EXPECT_EQ(entry["oneOf"][0]["minimum"], row.row->min);

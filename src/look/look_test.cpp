@@ -111,7 +111,8 @@ TEST(Look, setAndFileGiveTheSameAndChangeOnlyThatKnob) {
     const size_t size = row.size();
     std::vector<char> filled(row.block->structSize, 0x55), untouched = filled;
     bySet.data().fillFor(
-        *row.block, row.block->targets & look::kScene ? look::kClips : look::firstSection(row.block->targets).target,
+        *row.block,
+        row.block->targets & look::kScene ? look::kClips : look::firstSection(row.block->targets).target,
         "any", filled.data());
     for (size_t i = 0; i < filled.size(); ++i)
       if (i < row.row->offset || i >= row.row->offset + size) {
@@ -179,8 +180,9 @@ TEST(Look, valuesOfAWrongTypeAreRefused) {
         break;
       case ParamKind::triple: {
         const std::string one = json(row.row->max).dump();
-        for (const std::string& text : {std::string(), one, one + "," + one, one + "," + one + ",",
-                                        "," + one + "," + one, one + "," + one + ",x", one + "," + one + "," + one + "," + one})
+        for (const std::string& text :
+             {std::string(), one, one + "," + one, one + "," + one + ",", "," + one + "," + one,
+              one + "," + one + ",x", one + "," + one + "," + one + "," + one})
           expectRefused(row, text);
         wrong.insert(wrong.end(), {1, true, "1,1,1", json::array({1, 1, "1"}), json::array({1, 1, 1, 1})});
         break;

@@ -6,8 +6,8 @@
 // that C++ (through look/define_params.h) and GLSL (with PARAM defined as `type name;`) both include.
 // Types: float; int; toggle (0 or 1); choice (a number; the unit column lists the names:
 // "off|approximate|exact"); srgb (0xRRGGBB in the row, linear in the struct); picture (a number; the unit
-// column lists the pictures that are built in, any other word is a file's path); triple (three numbers, with one
-// default and range for all); name (any text, empty by default).
+// column lists the pictures that are built in, any other word is a file's path); triple (three numbers, with
+// one default and range for all); name (any text, empty by default).
 #pragma once
 
 #include <cstddef>

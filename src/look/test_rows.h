@@ -22,7 +22,8 @@ struct Row {
   std::string path() const { return std::string(block->path) + "." + row->name; }
   // Where a setting for all stands: below a section, where the knob is not for the whole scene.
   std::string settingPath() const {
-    return (block->targets & look::kScene ? "" : std::string(look::firstSection(block->targets).name) + ".any.") +
+    return (block->targets & look::kScene ? ""
+                                          : std::string(look::firstSection(block->targets).name) + ".any.") +
            path();
   }
   bool isNumber() const {

@@ -28,16 +28,15 @@ class Colorize : public Pass {
                                     sizeof(shared::ColorizeUniforms), {}, 0, kMaxColorizeJobs);
     };
     add("colorize", Slot::color, Slot::depth, Slot::colorize);
-    if (configuration.layered)
-      add("behind-colorize", Slot::behind, Slot::behindDepth, Slot::behindColorize);
+    if (configuration.layered) add("behind-colorize", Slot::behind, Slot::behindDepth, Slot::behindColorize);
   }
   void create(FrameBuilder& frame, const FrameResources& resources) override {
     for (ImageStep& step : steps_) step.create(frame, resources);
   }
 
   void update(const FrameInput& input) override {
-    const std::vector<PlacedColorizer> colorizers = placeColorizers(
-        input.look, input.scene.data(), input.scene.motion().worldAsDrawn(), input.uniforms);
+    const std::vector<PlacedColorizer> colorizers =
+        placeColorizers(input.look, input.scene.data(), input.scene.motion().worldAsDrawn(), input.uniforms);
     assert(colorizers.size() <= size_t(shared::kMaxColorizers));
     int features = 0;
     for (const PlacedColorizer& one : colorizers) features |= one.features;

@@ -94,6 +94,19 @@ vec3 colorized(vec3 from, Colorizer c, Sight sight, int layer) {
   return from + amount * (min(graded, 65504.0) - from);
 }
 
+// Four of the list. CPU drivers load uniforms pixel by pixel where they do not know the index, so it has to be a
+// constant; and their compilers take time by the square of what stands between two jumps, so there is one.
+vec3 chunk(vec3 from, int first, Sight sight, int layer) {
+  int runs = 0;
+  do {
+    [[unroll]] for (int i = 0; i < 4; ++i)
+      if (first + i < kCount) from = colorized(from, u.list[first + i], sight, layer);
+  } while (++runs < u.once);
+  return from;
+}
+#define CHUNK(first) \
+  if (kCount > first) after = chunk(after, first, sight, layer);
+
 vec4 shade(ivec2 pixel, int layer) {
   vec4 before = texelFetch(color, ivec3(pixel, layer), 0);
   if (kCount == 0) return before;
@@ -101,8 +114,8 @@ vec4 shade(ivec2 pixel, int layer) {
   // Colours are premultiplied by their coverage; where all is covered, this changes nothing.
   vec3 straight = before.rgb / max(before.a, 1e-6);
   vec3 after = straight;
-  // CPU drivers load uniforms pixel by pixel where they do not know the index: it has to be a constant.
-  [[unroll]] for (int i = 0; i < kCount; ++i) after = colorized(after, u.list[i], sight, layer);
+  CHUNK(0) CHUNK(4) CHUNK(8) CHUNK(12) CHUNK(16) CHUNK(20) CHUNK(24) CHUNK(28)
+  CHUNK(32) CHUNK(36) CHUNK(40) CHUNK(44) CHUNK(48) CHUNK(52) CHUNK(56) CHUNK(60)
   bvec3 same = equal(after, straight);
   return vec4(mix(after * before.a, before.rgb, same), before.a);
 }

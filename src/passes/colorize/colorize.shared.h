@@ -14,8 +14,8 @@ const int kHasFog = 64, kHasSurface = 128, kHasGamma = 256, kHasFalloff = 512, k
 const int kMaxColorizers = 64;
 
 struct Colorizer {
-  vec3 eyes[2];  // of each view, in the space of the unit shape
-  mat3 toUnit;   // from directions in the world
+  vec3 eyes[2];    // of each view, in the space of the unit shape
+  mat3 toUnit;     // from directions in the world
   float perMetre;  // of a sphere and of the scene: units of that space in a metre
   float axis;      // half a capsule's axis there
   int shape;
@@ -27,6 +27,7 @@ struct Colorizer {
 };
 
 struct ColorizeUniforms {
+  int once;  // 1: how often each chunk of the list is run; compilers must not know
   Colorizer list[kMaxColorizers];
 };
 

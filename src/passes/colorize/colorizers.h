@@ -17,8 +17,8 @@ struct PlacedColorizer {
   glm::dvec3 corners[8];  // of a box around a bounded one, in the world
 };
 
-// Those that do anything, in the order of the look: neither their density is 0 nor their grading the identity,
-// and the node they hang on exists and is not flat. `worlds`: matrices of the scene's nodes.
+// Those that do anything, in the order of the look: neither their density is 0 nor their grading the
+// identity, and the node they hang on exists and is not flat. `worlds`: matrices of the scene's nodes.
 std::vector<PlacedColorizer> placeColorizers(const look::LookData& look, const scene::SceneData& scene,
                                              const std::vector<glm::mat4>& worlds,
                                              const shared::FrameUniforms& uniforms);

@@ -42,7 +42,9 @@ SHARED_FUNCTION float sphereBetween(vec3 eye, vec3 ray, float from, float to) {
 SHARED_FUNCTION float sphereFog(vec3 eye, vec3 ray, float way) {
   return 0.75f * sphereBetween(eye, ray, 0.0f, way);
 }
-SHARED_FUNCTION float sphereDensity(vec3 at) { return max(1.0f - dot(at, at), 0.0f); }
+SHARED_FUNCTION float sphereDensity(vec3 at) {
+  return max(1.0f - dot(at, at), 0.0f);
+}
 
 // Density (1 - x^2) (1 - y^2) (1 - z^2), of degree 6 along a ray: Gauss's rule of four points is exact.
 SHARED_FUNCTION float boxDensityAt(vec3 q) {
@@ -97,7 +99,9 @@ SHARED_FUNCTION float capsuleDensity(vec3 at, float axis) {
 }
 
 // What of light is lost in fog of this optical depth.
-SHARED_FUNCTION float saturated(float depth) { return 1.0f - exp2(-1.44269504f * depth); }
+SHARED_FUNCTION float saturated(float depth) {
+  return 1.0f - exp2(-1.44269504f * depth);
+}
 
 // Density -y below the plane y = 0, and none above it.
 SHARED_FUNCTION float halfSpaceFog(vec3 eye, vec3 ray, float way) {
@@ -106,7 +110,9 @@ SHARED_FUNCTION float halfSpaceFog(vec3 eye, vec3 ray, float way) {
   float below = max(y0, y1) <= 0.0f ? 1.0f : abs(d1 - d0) / max(abs(y1 - y0), 1e-20f);  // part of the way
   return saturated(0.5f * (d0 + d1) * way * below);
 }
-SHARED_FUNCTION float halfSpaceDensity(vec3 at) { return saturated(max(-at.y, 0.0f)); }
+SHARED_FUNCTION float halfSpaceDensity(vec3 at) {
+  return saturated(max(-at.y, 0.0f));
+}
 
 SHARED_END
 #endif

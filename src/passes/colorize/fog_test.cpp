@@ -1,12 +1,13 @@
-// FORMULAS 16: the closed forms of fog.shared.h, as C++ compiles them, against quadrature in double precision.
-#include "passes/colorize/fog.shared.h"
-
+// FORMULAS 16: the closed forms of fog.shared.h, as C++ compiles them, against quadrature in double
+// precision.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 #include <glm/gtc/constants.hpp>
 #include <random>
+
+#include "passes/colorize/fog.shared.h"
 
 namespace scumble::passes {
 namespace {
@@ -69,9 +70,8 @@ class FogTest : public ::testing::Test {
       const double expected =
           0.75 * quadrature(density, eye, glm::normalize(glm::dvec3(rayAsFloat)), way, reach + 0.01);
       const double got = fog(eyeAsFloat, rayAsFloat, float(way));
-      ASSERT_NEAR(got, expected, 3e-5)
-          << "eye " << eye.x << " " << eye.y << " " << eye.z << ", ray " << ray.x << " " << ray.y << " " << ray.z
-          << ", way " << way;
+      ASSERT_NEAR(got, expected, 3e-5) << "eye " << eye.x << " " << eye.y << " " << eye.z << ", ray " << ray.x
+                                       << " " << ray.y << " " << ray.z << ", way " << way;
       if (expected == 0) {
         ++none;
         ASSERT_LE(got, 1e-9);
@@ -132,7 +132,8 @@ TEST_F(FogTest, halfSpace) {
 TEST_F(FogTest, smallAndFarAway) {
   for (int i = 0; i < 2000; ++i) {
     const glm::dvec3 towards = direction();
-    const glm::vec3 eye(-1000.0 * towards), ray(glm::normalize(1000.0 * towards + direction() * number(0, 1.2)));
+    const glm::vec3 eye(-1000.0 * towards),
+        ray(glm::normalize(1000.0 * towards + direction() * number(0, 1.2)));
     const glm::dvec3 exact = glm::normalize(glm::dvec3(ray));
     ASSERT_NEAR(shared::sphereFog(eye, ray, 1e15f),
                 0.75 * quadrature(sphereAt, glm::dvec3(eye), exact, 1e15, 1.01), 2e-3);

@@ -14,7 +14,8 @@ namespace {
 std::vector<bool> seenAlong(uint32_t tiles, uint32_t tile, uint32_t pixels, const glm::dvec2 (&corners)[8]) {
   std::vector<bool> seen(tiles);
   for (uint32_t i = 0; i < tiles; ++i) {
-    const double low = 2.0 * i * tile / pixels - 1, high = 2.0 * std::min((i + 1) * tile, pixels) / pixels - 1;
+    const double low = 2.0 * i * tile / pixels - 1,
+                 high = 2.0 * std::min((i + 1) * tile, pixels) / pixels - 1;
     bool before = true, after = true;
     for (const glm::dvec2& c : corners) {
       before &= c.x - low * c.y < 0;
@@ -35,8 +36,10 @@ struct Group {
 std::map<uint64_t, uint64_t> gathered(const std::map<uint64_t, size_t>& counts) {
   std::vector<Group> groups;
   for (const auto& [mask, count] : counts) groups.push_back({mask, count});
-  std::stable_sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) { return a.tiles > b.tiles; });
-  std::vector<Group> kept(groups.begin(), groups.begin() + long(std::min<size_t>(groups.size(), kMaxColorizeJobs)));
+  std::stable_sort(groups.begin(), groups.end(),
+                   [](const Group& a, const Group& b) { return a.tiles > b.tiles; });
+  std::vector<Group> kept(groups.begin(),
+                          groups.begin() + long(std::min<size_t>(groups.size(), kMaxColorizeJobs)));
   std::map<uint64_t, size_t> jobOf;
   for (size_t i = 0; i < kept.size(); ++i) jobOf[kept[i].mask] = i;
   for (size_t i = kept.size(); i < groups.size(); ++i) {
@@ -138,13 +141,15 @@ uint32_t listFor(uint64_t mask, const std::vector<PlacedColorizer>& colorizers,
                  shared::ColorizeUniforms& uniforms) {
   const uint32_t count = uint32_t(std::popcount(mask));
   if (count == 0) return 0;
+  uniforms.once = 1;
   uint32_t rounded = shared::kMaxColorizers;
   for (const uint32_t step : {48u, 32u, 24u, 16u, 12u, 8u, 6u, 4u, 3u, 2u, 1u})
     if (count <= step) rounded = step;
   for (uint32_t i = 0; i < count; ++i, mask &= mask - 1)
     uniforms.list[i] = colorizers[size_t(std::countr_zero(mask))].data;
   // One that can be computed.
-  for (uint32_t i = count; i < rounded; ++i) uniforms.list[i] = uniforms.list[0], uniforms.list[i].density = 0;
+  for (uint32_t i = count; i < rounded; ++i)
+    uniforms.list[i] = uniforms.list[0], uniforms.list[i].density = 0;
   return rounded;
 }
 

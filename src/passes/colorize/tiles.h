@@ -1,5 +1,5 @@
-// Which colorizers which parts of the picture see: square tiles, gathered in a few jobs, each with one list of
-// colorizers and the rectangles that it has to be run on.
+// Which colorizers which parts of the picture see: square tiles, gathered in a few jobs, each with one list
+// of colorizers and the rectangles that it has to be run on.
 #pragma once
 
 #include <cstdint>
