@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include "passes/colorize/tiles.h"
-#include "renderer/uniforms.h"
 #include "scumble/image.h"
 #include "scumble/look.h"
 #include "shaders/colorize_image_frag.h"
@@ -132,7 +131,11 @@ int main(int argc, char** argv) {
   view.eyeToClip[0][0] = 1.6f / aspect, view.eyeToClip[1][1] = -1.6f;
   view.eyeToClip[2][3] = -1, view.eyeToClip[3][2] = near;
   shared::FrameUniforms uniforms{};
-  uniforms.views[0] = uniforms.views[1] = renderer::viewUniforms(view, view);
+  shared::ViewUniforms& seen = uniforms.views[0];
+  seen.worldToClip = view.eyeToClip, seen.worldToEye = view.worldToEye;
+  seen.ndcToEyeRay = {1 / view.eyeToClip[0][0], 1 / view.eyeToClip[1][1], 0, 0};
+  seen.depthToEye = {near, 0, 0, 1};
+  uniforms.views[1] = seen;
   uniforms.imageSize = {float(width), float(height)};
 
   const auto image = [&](VkFormat format, VkImageUsageFlags usage) {

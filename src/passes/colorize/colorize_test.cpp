@@ -52,6 +52,8 @@ struct Reference {
       const double density_ = densityAt(eye + std::min(way, 1e9) * along);
       return isOpen ? 1 - std::exp(-density_) : density_;
     }
+    // An endless way down.
+    if (shape == kVolumeHalfSpace && way > 1e20 && along.y < 0) return 1;
     const double reach = isOpen ? 60 : 2 + axis, nearest = isOpen ? 0 : -glm::dot(eye, along);
     const double from = std::max(0.0, nearest - reach), to = std::min(way, nearest + reach);
     if (to <= from) return 0;
@@ -210,7 +212,7 @@ TEST_P(ColorizeTest, identityLeavesEveryBit) {
         {{"colorizers.A.volume.shape", "scene"},
          {"colorizers.A.grade.bias", "1,0,0"},
          {"colorizers.A.volume.density", "0"}},
-        {{"colorizers.A.volume.shape", "half-space"},
+        {{"colorizers.A.volume.shape", "capsule"},
          {"colorizers.A.volume.center", "0,-900,0"},
          {"colorizers.A.volume.falloff", "0.9"},
          {"colorizers.A.grade.gamma", "2,3,4"},
