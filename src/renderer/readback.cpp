@@ -62,6 +62,7 @@ bool isPremultiplied(Slot slot) {
     case Slot::shadowed:
     case Slot::blur:
     case Slot::color:
+    case Slot::colorize:
     case Slot::finalColor:
     case Slot::plain:
       return true;
