@@ -34,7 +34,7 @@ TABLE = {
     "apps/scumble": [PUBLIC],
     "examples": [PUBLIC],
     # The cost of one technique by itself is measured from inside.
-    "bench": [PUBLIC, "examples", "src/base", "src/gpu", "src/frame", "src/shading"],
+    "bench": [PUBLIC, "examples", "src/base", "src/gpu", "src/frame", "src/shading", "src/passes/*"],
     # Tests of the whole look wherever they must; tests of one room lie in that room and follow its line.
     "tests": ["*"],
 }

@@ -93,7 +93,11 @@ int params(const std::string& prefix) {
     const std::string range = ranged ? fmt::format("{} .. {} {}", knob.min, knob.max, knob.unit)
                               : knob.type == "choice" ? knob.unit
                               : knob.type == "toggle" ? "true|false"
-                                                      : "#RRGGBB";
+                              : knob.type == "vector"
+                                  ? fmt::format("each {} .. {} {}", knob.min.substr(0, knob.min.find(',')),
+                                                knob.max.substr(0, knob.max.find(',')), knob.unit)
+                              : knob.type == "name" ? knob.unit
+                                                    : "#RRGGBB";
     print(fmt::format("  {:<24} {:<12} {}\n      {}\n", knob.path.substr(own.size() + 1), knob.defaultValue,
                       range, knob.meaning));
   }

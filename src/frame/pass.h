@@ -43,14 +43,15 @@ struct Configuration {
   bool glows = false;          // whether anything may act on the lens
   bool limit = false;          // whether the limit pass runs
   bool plain = false;
+  bool colorize = false;  // whether the colorize pass runs
   bool multiview = true;  // all views at once; else one after the other
   bool operator==(const Configuration&) const = default;
 
   // Where the colours are that become the picture, and before the limit pass.
   Slot colors() const { return limit ? Slot::limit : colorsToLimit(); }
   Slot colorsBehind() const { return limit ? Slot::behindLimit : colorsToLimitBehind(); }
-  Slot colorsToLimit() const { return Slot::color; }
-  Slot colorsToLimitBehind() const { return Slot::behind; }
+  Slot colorsToLimit() const { return colorize ? Slot::colorize : Slot::color; }
+  Slot colorsToLimitBehind() const { return colorize ? Slot::behindColorize : Slot::behind; }
 };
 
 // What changes from frame to frame.

@@ -109,6 +109,9 @@ void SceneMotion::pose(const look::LookData& look, double time) {
     if (isNew) pose->second = poseHeldFor(frames);
     poseOf.push_back(&pose->second);
   }
+  const int usual = look.get<AnimationParams>().hold;
+  const auto usualPose = poses.find(usual);
+  worldAsDrawn_ = usualPose != poses.end() ? usualPose->second.world : poseHeldFor(usual).world;
   world_ = scene::poseAt(scene_, clips, time).world;
 
   // Joints.

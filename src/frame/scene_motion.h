@@ -40,6 +40,9 @@ class SceneMotion {
   const std::vector<uint8_t>& mirrored() const { return mirrored_; }
   // World matrices of nodes at the time itself: what holds poses does not hold lights and cameras.
   const std::vector<glm::mat4>& world() const { return world_; }
+  // The same as they are drawn where no material says how long poses stand: what hangs on a held node is held
+  // with it.
+  const std::vector<glm::mat4>& worldAsDrawn() const { return worldAsDrawn_; }
 
   // Chunks of vertices whose final ones are out of date; the next pose starts from these being written.
   uint32_t movedCount() const { return movedCount_; }
@@ -66,7 +69,7 @@ class SceneMotion {
   gpu::PerFrameBuffer objects_, joints_, morphWeights_, moved_;
   std::vector<scene::Bounds> bounds_;
   std::vector<uint8_t> mirrored_;
-  std::vector<glm::mat4> world_;
+  std::vector<glm::mat4> world_, worldAsDrawn_;
   uint32_t movedCount_ = 0;
   bool written_ = false, isAtRest_ = false;
 };

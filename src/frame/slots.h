@@ -19,12 +19,14 @@ enum class Slot : uint8_t {
   blur,       // R, G, A: the shadow channels, blurred, at a quarter of the size; B: eye depth
   finalShadow,  // R: light after threshold and inner glow; G: lens; B: the glow's part of it; A: coverage
   color,        // lit and shadowed mixed, over the background
-  limit,        // the same in the colours of a palette; only where the look limits them, or when asked for
+  colorize,     // the same after the look's colorizers; only where it has any, or when asked for
+  limit,        // those in the colours of a palette; only where the look limits them, or when asked for
   // What lies behind the first surface of each pixel, one sample a pixel; drawn for layered ripple only.
   behindShadow,
   behindLit,
   behindShadowed,
   behindDepth,
+  behindColorize,
   behind,       // its colour
   behindLimit,  // the same in the colours of a palette
   finalColor,   // warped, with bloom: the picture

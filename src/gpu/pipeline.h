@@ -115,8 +115,10 @@ class Pipeline {
     vkCmdBindDescriptorSets(commands, bindPoint_, layout_, index, 1, &set, uint32_t(dynamicOffsets.size()),
                             dynamicOffsets.data());
   }
-  void push(VkCommandBuffer commands, uint32_t constant) const {
-    vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_ALL, 0, sizeof(constant), &constant);
+  void push(VkCommandBuffer commands, uint32_t constant) const { push(commands, {constant}); }
+  void push(VkCommandBuffer commands, std::initializer_list<uint32_t> constants) const {
+    vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_ALL, 0, uint32_t(constants.size() * 4),
+                       constants.begin());
   }
   explicit operator bool() const { return pipeline_ != VK_NULL_HANDLE; }
 

@@ -15,6 +15,8 @@ struct PARAMS_STRUCT {
   using choice = ::scumble::look::Choice;
   using srgb = ::scumble::look::Color;
   using picture = ::scumble::look::Picture;
+  using triple = ::scumble::look::Triple;
+  using name = ::scumble::look::Name;
 
 #define PARAM(type, name, defaultValue, min, max, unit, meaning) type name = defaultValue;
 #include PARAMS_FILE

@@ -76,6 +76,15 @@ Status Look::set(const std::string& path, const std::string& value) {
   assignment->value = *parsed;
   assignment->byHand = true;
   changed->assignments.push_back(*assignment);
+  for (const look::Section& section : look::kSections)
+    if (section.most > 0 && section.target == assignment->target &&
+        changed->declared(section.target).size() > section.most)
+      return Error{ErrorKind::usage,
+                   "",
+                   0,
+                   "",
+                   path + ": these are too many " + section.name,
+                   "a look declares " + std::to_string(section.most) + " at most"};
   data_ = std::move(changed);
   return Done{};
 }
@@ -90,7 +99,8 @@ std::vector<ShippedLook> Look::shipped() {
 }
 
 std::vector<Knob> Look::knobs() {
-  static constexpr const char* kTypes[] = {"number", "integer", "toggle", "choice", "color", "picture"};
+  static constexpr const char* kTypes[] = {"number", "integer", "toggle", "choice",
+                                           "color",  "picture", "vector", "name"};
   std::vector<Knob> knobs;
   for (const look::ParamBlock* block : look::allBlocks())
     for (const look::ParamRow& row : block->rows) {

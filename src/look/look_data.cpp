@@ -33,6 +33,12 @@ void store(const ParamRow& row, const Value& value, void* out) {
     case ParamKind::picture:
       put(Picture(value.number));
       break;
+    case ParamKind::triple:
+      put(value.linear);
+      break;
+    case ParamKind::name:
+      put(Name(value.number));
+      break;
   }
 }
 
@@ -153,6 +159,24 @@ bool LookData::setsAny(const ParamBlock& block, const char* row, Target target) 
                      [&](const Assignment& a) { return sets(a, block, row, target); });
 }
 
+std::vector<std::string> LookData::declared(Target target) const {
+  std::vector<std::string> names;
+  for (const Assignment& a : assignments)
+    if (a.target == target && !isPattern(a.pattern) &&
+        std::find(names.begin(), names.end(), a.pattern) == names.end())
+      names.push_back(a.pattern);
+  return names;
+}
+
+const std::string& LookData::text(Name name) const {
+  static const std::string kNone;
+  return name.index > 0 ? texts[size_t(name.index - 1)] : kNone;
+}
+
+bool isPattern(const std::string& name) {
+  return name.find_first_of("*?") != std::string::npos;
+}
+
 bool matches(const std::string& pattern, const std::string& name) {
   // Greedy with one point of return: the last '*' seen.
   size_t p = 0, n = 0, star = std::string::npos, retry = 0;
@@ -200,6 +224,36 @@ bool isKnob(const std::string& path) {
   return false;
 }
 
+namespace {
+
+Result<double> parseNumber(const ParamRow& row, const std::string& text) {
+  char* end = nullptr;
+  const double number = text.empty() ? 0 : std::strtod(text.c_str(), &end);
+  if (!end || *end || !std::isfinite(number))
+    return badValue("'" + text + "' is no number", "write a number");
+  if (number < row.min || number > row.max)
+    return badValue(fmt::format("{} is out of range", text),
+                    fmt::format("it may be {:g} to {:g}", row.min, row.max));
+  return number;
+}
+
+Result<Value> parseTriple(const ParamRow& row, const std::string& text) {
+  Value value;
+  size_t from = 0;
+  for (int i = 0; i < 3; ++i) {
+    const size_t comma = text.find(',', from);
+    if ((comma == std::string::npos) != (i == 2))
+      return badValue("'" + text + "' is not three numbers", "write them like 1,2,3");
+    const Result<double> number = parseNumber(row, text.substr(from, comma - from));
+    if (!number) return number.error();
+    value.linear[i] = float(*number);
+    from = comma + 1;
+  }
+  return value;
+}
+
+}  // namespace
+
 Result<Value> parseValue(const ParamRow& row, const std::string& text) {
   if (row.kind == ParamKind::color) {
     // Digits only: strtoul would also take a sign, spaces and 0x.
@@ -219,16 +273,12 @@ Result<Value> parseValue(const ParamRow& row, const std::string& text) {
     if (text == "false" || text == "0" || text == "off") return Value{0, {}};
     return badValue("'" + text + "' is neither true nor false", "write true or false");
   }
-  char* end = nullptr;
-  const double number = text.empty() ? 0 : std::strtod(text.c_str(), &end);
-  if (!end || *end || !std::isfinite(number))
-    return badValue("'" + text + "' is no number", "write a number");
-  if (number < row.min || number > row.max)
-    return badValue(fmt::format("{} is out of range", text),
-                    fmt::format("it may be {:g} to {:g}", row.min, row.max));
-  if (row.kind == ParamKind::integer && number != std::floor(number))
+  if (row.kind == ParamKind::triple) return parseTriple(row, text);
+  const Result<double> number = parseNumber(row, text);
+  if (!number) return number.error();
+  if (row.kind == ParamKind::integer && *number != std::floor(*number))
     return badValue("'" + text + "' is no whole number", "write a whole number");
-  return Value{number, {}};
+  return Value{*number, {}};
 }
 
 std::string formatValue(const ParamRow& row, double number) {
@@ -240,6 +290,10 @@ std::string formatValue(const ParamRow& row, double number) {
       return choiceNames(row)[size_t(number)];
     case ParamKind::color:
       return fmt::format("#{:06X}", uint32_t(number));
+    case ParamKind::triple:
+      return fmt::format("{0:g},{0:g},{0:g}", number);
+    case ParamKind::name:
+      return "";
     default:
       return fmt::format("{:g}", number);
   }

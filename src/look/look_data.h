@@ -34,6 +34,7 @@ struct LookData {
   std::string description;
   std::vector<Assignment> assignments;
   std::vector<std::shared_ptr<const LookPicture>> pictures;
+  std::vector<std::string> texts;  // what knobs name (Name::index)
 
   // Whether a setting changes with time.
   bool isAnimated() const;
@@ -56,6 +57,11 @@ struct LookData {
   // Whether a setting for some materials, nodes or clips sets this row, for this name or for any pattern.
   bool names(const ParamBlock& block, const char* row, Target target, const std::string& name) const;
   bool setsAny(const ParamBlock& block, const char* row, Target target) const;
+
+  // The names that a section declares, in the order in which they appear: its keys without '*' and '?'.
+  std::vector<std::string> declared(Target target) const;
+
+  const std::string& text(Name name) const;
 
   template <class Params>
   Params get() const {
@@ -80,6 +86,9 @@ struct LookData {
     return params;
   }
 };
+
+// Whether there is a '*' or '?' in it.
+bool isPattern(const std::string& name);
 
 // Whether `name` matches a pattern of literal characters, '*' and '?'.
 bool matches(const std::string& pattern, const std::string& name);

@@ -28,9 +28,18 @@ std::string adviceFor(const ParamRow& row) {
       return std::string("write a picture's path, or one of ") + row.unit;
     case ParamKind::toggle:
       return "write true or false";
+    case ParamKind::triple:
+      return "write three numbers, like [1, 2, 3]";
+    case ParamKind::name:
+      return "write a name in quotes";
     default:
       return "write a number";
   }
+}
+
+bool isTriple(const Json& value) {
+  return value.is_array() && value.size() == 3 &&
+         std::all_of(value.begin(), value.end(), [](const Json& number) { return number.is_number(); });
 }
 
 // Walks a look's JSON; the first mistake ends it.
@@ -61,9 +70,14 @@ class Reader {
     const std::string one = section.one;
     if (!value.is_object())
       return place(section.name).fail("it is no object", "its keys are " + one + " names or patterns");
+    size_t declared = 0;
     for (const auto& [pattern, knobs] : value.items()) {
       if (pattern.empty())
         return place(section.name).fail("a " + one + "'s pattern is empty", "'*' matches all");
+      if (section.most > 0 && !isPattern(pattern) && ++declared > section.most)
+        return place(std::string(section.name) + "." + pattern)
+            .fail("these are too many " + std::string(section.name),
+                  "a look declares " + std::to_string(section.most) + " at most");
       const Status status =
           readGroup(knobs, "", pattern, &section, std::string(section.name) + "." + pattern);
       if (!status) return status;
@@ -123,13 +137,15 @@ Error JsonPlace::fail(std::string problem, std::string advice) const {
 }
 
 Result<Value> readJsonValue(const ParamRow& row, const Json& value, const JsonPlace& place, LookData& data) {
-  const bool wantsText =
-      row.kind == ParamKind::color || row.kind == ParamKind::choice || row.kind == ParamKind::picture;
+  const bool wantsText = row.kind == ParamKind::color || row.kind == ParamKind::choice ||
+                         row.kind == ParamKind::picture || row.kind == ParamKind::name;
   const bool fits = wantsText                       ? value.is_string()
                     : row.kind == ParamKind::toggle ? value.is_boolean()
+                    : row.kind == ParamKind::triple ? isTriple(value)
                                                     : value.is_number();
   if (!fits) return place.fail("the value has the wrong type", adviceFor(row));
-  const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+  std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+  if (row.kind == ParamKind::triple) text = text.substr(1, text.size() - 2);  // without the brackets
   const std::filesystem::path folder = std::filesystem::path(place.file).parent_path();
   if (row.kind == ParamKind::picture) {
     // A look may come with a scene from anywhere: it reads pictures beside itself and below, and no others.

@@ -19,7 +19,12 @@ Json valueSchema(const ParamRow& row) {
     case ParamKind::choice:
       return Json::object({{"enum", choiceNames(row)}});
     case ParamKind::picture:
+    case ParamKind::name:
       return Json::object({{"type", "string"}});
+    case ParamKind::triple: {
+      const Json number{{"type", "number"}, {"minimum", row.min}, {"maximum", row.max}};
+      return {{"type", "array"}, {"items", number}, {"minItems", 3}, {"maxItems", 3}};
+    }
     case ParamKind::toggle:
       return Json::object({{"type", "boolean"}});
     default:
@@ -52,13 +57,17 @@ Json rowSchema(const ParamRow& row) {
   std::string description = row.meaning;
   if (row.kind == ParamKind::picture)
     description += std::string(" A picture's path beside the look, or one of ") + row.unit + ".";
-  else if ((row.kind == ParamKind::number || row.kind == ParamKind::integer) && *row.unit)
+  else if ((row.kind == ParamKind::number || row.kind == ParamKind::integer ||
+            row.kind == ParamKind::triple) &&
+           *row.unit)
     description += std::string(" [") + row.unit + "]";
   Json schema{{"description", description}};
   if (row.kind == ParamKind::toggle)
     schema["default"] = row.defaultValue != 0;
   else if (row.kind == ParamKind::number || row.kind == ParamKind::integer)
     schema["default"] = row.defaultValue;
+  else if (row.kind == ParamKind::triple)
+    schema["default"] = std::vector<double>(3, row.defaultValue);
   else
     schema["default"] = formatValue(row, row.defaultValue);
   const Json value = valueSchema(row);

@@ -106,8 +106,10 @@ TEST(LookSchema, describesEveryKnobWhereItHolds) {
           << section.name << " " << row.path();
     const bool forScene = row.block->targets & look::kScene;
     EXPECT_EQ(!schemaAt(schema, row.path()).is_null(), forScene) << row.path();
-    const json entry =
-        schemaAt(forScene ? schema : schema["properties"]["clips"]["additionalProperties"], row.path());
+    const json entry = schemaAt(
+        forScene ? schema
+                 : schema["properties"][look::firstSection(row.block->targets).name]["additionalProperties"],
+        row.path());
     EXPECT_NE(entry["description"].get<std::string>().find(row.row->meaning), std::string::npos);
     if (row.isNumber()) {
       EXPECT_EQ(entry["oneOf"][0]["minimum"], row.row->min);
@@ -157,7 +159,8 @@ TEST(LookSchema, agreesWithTheReaderOnEveryKnob) {
                   interpolation == std::string("step") ||
                       (look::isSmooth(row.row->kind) && interpolation != std::string("bezier")));
     for (const json& wrong : {json(), json::object(), json(7e7), json("#1234567"), json::array({value})})
-      if (row.row->kind != look::ParamKind::picture || !wrong.is_string())
+      if ((row.row->kind != look::ParamKind::picture && row.row->kind != look::ParamKind::name) ||
+          !wrong.is_string())
         expectTrack({{"keys", json::array({json::array({0, wrong})})}}, false);
     expectTrack(json::object(), false);
     expectTrack({{"keys", json::array()}}, false);

@@ -40,8 +40,8 @@ TEST(Look, thereAreKnobsAndTheirRowsMakeSense) {
   std::set<std::string> paths;
   for (const Row& row : rows) {
     EXPECT_TRUE(paths.insert(row.path()).second) << row.path() << " is there twice";
-    for (const char* section : {"materials.", "nodes.", "clips."})
-      EXPECT_NE(row.path().substr(0, std::strlen(section)), section) << "the name of a section";
+    for (const look::Section& section : look::kSections)
+      EXPECT_NE(row.path().substr(0, row.path().find('.')), section.name) << "the name of a section";
     EXPECT_NE(row.row->name, std::string("keys")) << "a track's word";
     EXPECT_NE(*row.row->meaning, '\0') << row.path();
     EXPECT_LT(row.row->min, row.row->max) << row.path();
@@ -108,9 +108,12 @@ TEST(Look, setAndFileGiveTheSameAndChangeOnlyThatKnob) {
     const Look byFile = mustRead(nested(row.settingPath(), sample.value));
     EXPECT_EQ(bytesOf(*row.block, bySet), bytesOf(*row.block, byFile)) << row.path();
     // Only the row's own bytes may differ from an untouched block.
-    const size_t size = row.row->kind == ParamKind::color ? 12 : 4;
+    const size_t size = row.size();
     std::vector<char> filled(row.block->structSize, 0x55), untouched = filled;
-    bySet.data().fillFor(*row.block, look::kClips, "any", filled.data());
+    bySet.data().fillFor(
+        *row.block,
+        row.block->targets & look::kScene ? look::kClips : look::firstSection(row.block->targets).target,
+        "any", filled.data());
     for (size_t i = 0; i < filled.size(); ++i)
       if (i < row.row->offset || i >= row.row->offset + size) {
         ASSERT_EQ(filled[i], untouched[i]) << row.path();
@@ -174,6 +177,18 @@ TEST(Look, valuesOfAWrongTypeAreRefused) {
                                  "# 12345", "#0x1234", "red"})
           expectRefused(row, text);
         wrong.insert(wrong.end(), {0x123456, true, json::array({1, 0, 0})});
+        break;
+      case ParamKind::triple: {
+        const std::string one = json(row.row->max).dump();
+        for (const std::string& text :
+             {std::string(), one, one + "," + one, one + "," + one + ",", "," + one + "," + one,
+              one + "," + one + ",x", one + "," + one + "," + one + "," + one})
+          expectRefused(row, text);
+        wrong.insert(wrong.end(), {1, true, "1,1,1", json::array({1, 1, "1"}), json::array({1, 1, 1, 1})});
+        break;
+      }
+      case ParamKind::name:
+        wrong.insert(wrong.end(), {0, true});
         break;
     }
     for (const json& value : wrong) {

@@ -6,7 +6,8 @@
 // that C++ (through look/define_params.h) and GLSL (with PARAM defined as `type name;`) both include.
 // Types: float; int; toggle (0 or 1); choice (a number; the unit column lists the names:
 // "off|approximate|exact"); srgb (0xRRGGBB in the row, linear in the struct); picture (a number; the unit
-// column lists the pictures that are built in, any other word is a file's path).
+// column lists the pictures that are built in, any other word is a file's path); triple (three numbers, with
+// one default and range for all); name (any text, empty by default).
 #pragma once
 
 #include <cstddef>
@@ -18,7 +19,7 @@
 
 namespace scumble::look {
 
-enum class ParamKind : uint8_t { number, integer, toggle, choice, color, picture };
+enum class ParamKind : uint8_t { number, integer, toggle, choice, color, picture, triple, name };
 
 struct ParamRow {
   const char* name;
@@ -29,8 +30,9 @@ struct ParamRow {
   size_t offset;  // in the block's struct
 };
 
-// What a setting holds for: the whole scene, or the materials, nodes or clips whose names match a pattern.
-enum Target : uint32_t { kScene = 1, kMaterials = 2, kNodes = 4, kClips = 8 };
+// What a setting holds for: the whole scene, or the materials, nodes or clips whose names match a pattern, or
+// the colorizers that looks themselves declare.
+enum Target : uint32_t { kScene = 1, kMaterials = 2, kNodes = 4, kClips = 8, kColorizers = 16 };
 using Targets = uint32_t;  // a set of them
 
 // The rows of one .params file under their common path.
@@ -42,8 +44,8 @@ struct ParamBlock {
 };
 
 struct Value {
-  double number = 0;       // all kinds but color
-  glm::vec3 linear{0.0f};  // color
+  double number = 0;       // all kinds but color and triple
+  glm::vec3 linear{0.0f};  // color, triple
 };
 
 glm::vec3 linearFromSrgb(uint32_t rrggbb);
@@ -74,6 +76,19 @@ struct Picture {
   bool operator==(const Picture&) const = default;
 };
 
+struct Triple {
+  glm::vec3 value{0.0f};
+  Triple(double v = 0) : value(float(v)) {}
+  operator glm::vec3() const { return value; }
+};
+
+// 0: no name; else 1 + its index in LookData::texts.
+struct Name {
+  int32_t index = 0;
+  Name(double v = 0) : index(int32_t(v)) {}
+  bool operator==(const Name&) const = default;
+};
+
 template <class T>
 constexpr ParamKind kindOf() {
   if constexpr (std::is_same_v<T, float>) return ParamKind::number;
@@ -82,6 +97,8 @@ constexpr ParamKind kindOf() {
   if constexpr (std::is_same_v<T, Choice>) return ParamKind::choice;
   if constexpr (std::is_same_v<T, Color>) return ParamKind::color;
   if constexpr (std::is_same_v<T, Picture>) return ParamKind::picture;
+  if constexpr (std::is_same_v<T, Triple>) return ParamKind::triple;
+  if constexpr (std::is_same_v<T, Name>) return ParamKind::name;
 }
 
 // Every block of the program, in the order of the documentation. Defined by the pass list (src/frame),

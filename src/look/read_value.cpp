@@ -1,5 +1,6 @@
 #include "look/read_value.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "base/image_decode.h"
@@ -37,6 +38,13 @@ Result<LookPicture> loadPicture(const std::string& file) {
 
 Result<Value> readValue(const ParamRow& row, const std::string& text, const std::string& folder,
                         LookData& data) {
+  if (row.kind == ParamKind::name) {
+    if (text.empty()) return Value{};
+    const auto known = std::find(data.texts.begin(), data.texts.end(), text);
+    const size_t index = size_t(known - data.texts.begin());
+    if (known == data.texts.end()) data.texts.push_back(text);
+    return Value{double(index + 1), {}};
+  }
   const Result<Value> parsed = parseValue(row, text);
   if (parsed || row.kind != ParamKind::picture) return parsed;
   // A word without a dot is a slip in a built-in name rather than a file.

@@ -9,10 +9,13 @@ namespace scumble::look {
 struct Section {
   Target target;
   const char *name, *one, *example;  // of a setting in it, for advice
+  size_t most = 0;  // how many names it may declare; 0: it declares none, they are the scene's
 };
-inline constexpr Section kSections[] = {{kMaterials, "materials", "material", "materials.Sail*.warp.amount"},
-                                        {kNodes, "nodes", "node", "nodes.Gull*.animation.hold"},
-                                        {kClips, "clips", "clip", "clips.Walk.play.weight"}};
+inline constexpr Section kSections[] = {
+    {kMaterials, "materials", "material", "materials.Sail*.warp.amount"},
+    {kNodes, "nodes", "node", "nodes.Gull*.animation.hold"},
+    {kClips, "clips", "clip", "clips.Walk.play.weight"},
+    {kColorizers, "colorizers", "colorizer", "colorizers.Glow.volume.density", 64}};
 
 // The section of this name, or nullptr.
 const Section* findSection(const std::string& name);

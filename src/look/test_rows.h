@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "look/look_data.h"
+#include "look/setting_path.h"
 #include "scumble/look.h"
 
 namespace scumble {
@@ -14,9 +15,17 @@ namespace scumble {
 struct Row {
   const look::ParamBlock* block;
   const look::ParamRow* row;
+  // Bytes in the struct.
+  size_t size() const {
+    return row->kind == look::ParamKind::color || row->kind == look::ParamKind::triple ? 12 : 4;
+  }
   std::string path() const { return std::string(block->path) + "." + row->name; }
   // Where a setting for all stands: below a section, where the knob is not for the whole scene.
-  std::string settingPath() const { return (block->targets & look::kScene ? "" : "clips.*.") + path(); }
+  std::string settingPath() const {
+    return (block->targets & look::kScene ? ""
+                                          : std::string(look::firstSection(block->targets).name) + ".any.") +
+           path();
+  }
   bool isNumber() const {
     return row->kind == look::ParamKind::number || row->kind == look::ParamKind::integer;
   }
@@ -62,6 +71,14 @@ inline Sample sampleOf(const look::ParamRow& row) {
       const int value = int(row.defaultValue == row.max ? row.min : row.max);
       return {std::to_string(value), value};
     }
+    case look::ParamKind::triple: {
+      const double step = 0.125 * (row.max - row.min);
+      const nlohmann::json value{row.min + step, row.min + 2 * step, row.min + 3 * step};
+      const std::string text = value.dump();
+      return {text.substr(1, text.size() - 2), value};
+    }
+    case look::ParamKind::name:
+      return {"Sail.001", "Sail.001"};
     case look::ParamKind::number:
       break;
   }
@@ -78,7 +95,7 @@ inline std::vector<char> bytesOf(const look::ParamBlock& block, const Look& look
   else if (block.targets & look::kScene)
     look.data().fill(block, bytes.data());
   else
-    look.data().fillFor(block, look::kClips, "any", bytes.data());
+    look.data().fillFor(block, look::firstSection(block.targets).target, "any", bytes.data());
   return bytes;
 }
 

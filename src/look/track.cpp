@@ -19,12 +19,14 @@ bool isColor(const ParamRow& row) {
 
 // Where values are mixed: OKLab for colours, the first component for numbers.
 glm::dvec3 toMix(const ParamRow& row, const Value& value) {
+  if (row.kind == ParamKind::triple) return value.linear;
   return isColor(row) ? oklabFromLinear(value.linear) : glm::dvec3(value.number, 0, 0);
 }
 
 Value fromMix(const ParamRow& row, const glm::dvec3& mix) {
   // A chord through OKLab, or a cubic's overshoot, may leave what the knob takes.
   if (isColor(row)) return {0, glm::vec3(glm::clamp(linearFromOklab(mix), 0.0, 1.0))};
+  if (row.kind == ParamKind::triple) return {0, glm::vec3(glm::clamp(mix, row.min, row.max))};
   const double number = std::clamp(mix.x, row.min, row.max);
   return {row.kind == ParamKind::integer ? std::round(number) : number, {}};
 }
@@ -67,7 +69,8 @@ glm::dvec3 cubic(const Neighbours& n, double u) {
 }  // namespace
 
 bool isSmooth(ParamKind kind) {
-  return kind == ParamKind::number || kind == ParamKind::integer || kind == ParamKind::color;
+  return kind == ParamKind::number || kind == ParamKind::integer || kind == ParamKind::color ||
+         kind == ParamKind::triple;
 }
 
 Value Track::at(const ParamRow& row, double time) const {

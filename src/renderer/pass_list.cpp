@@ -9,6 +9,7 @@
 #include "frame/palette.h"
 #include "passes/blur/blur.h"
 #include "passes/color/color.h"
+#include "passes/colorize/colorize.h"
 #include "passes/deform/deform.h"
 #include "passes/facts/facts.h"
 #include "passes/final_color/final_color.h"
@@ -34,6 +35,7 @@ const std::vector<const ParamBlock*>& allBlocks() {
       &passes::WarpParams::block(),       &frame::WarpMetaTextureParams::block(),
       &passes::BreakupParams::block(),    &frame::BreakupMetaTextureParams::block(),
       &passes::BackgroundParams::block(), &frame::GroundParams::block(),
+      &passes::VolumeParams::block(),     &passes::GradeParams::block(),
       &passes::LimitParams::block(),      &passes::FinalColorParams::block(),
       &frame::AnimationParams::block(),   &frame::PlayParams::block()};
   return blocks;
@@ -64,6 +66,7 @@ std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration
     const passes::FinalShadowParams shadow = look.get<passes::FinalShadowParams>();
     return passes::ShadowMix{shadow.glowColor, shadow.glowColorAmount, shadow.steps > 1};
   }));
+  if (configuration.colorize) list.push_back(passes::makeColorize());
   if (configuration.limit) list.push_back(passes::makeLimit());
   list.push_back(passes::makeFinalColor(largestInflation));
   if (configuration.facts) list.push_back(passes::makeFacts());
@@ -105,6 +108,10 @@ bool glows(const scene::SceneData& scene, const look::LookData& look) {
 
 bool wantsLimit(const look::LookData& look) {
   return !passes::paletteColors(look.get<passes::LimitParams>()).empty();
+}
+
+bool wantsColorizers(const look::LookData& look) {
+  return !look.declared(look::kColorizers).empty();
 }
 
 std::vector<bool> shadowCasters(const scene::SceneData& scene, const look::LookData& look) {

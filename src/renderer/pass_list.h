@@ -22,6 +22,8 @@ bool wantsLayers(const look::LookData& look);
 bool glows(const scene::SceneData& scene, const look::LookData& look);
 // Whether the look limits the picture to few colours (Configuration::limit).
 bool wantsLimit(const look::LookData& look);
+// Whether the look declares colorizers (Configuration::colorize).
+bool wantsColorizers(const look::LookData& look);
 
 // Which materials cast shadows under a look; the ground, if there is one, is no material of the scene's.
 std::vector<bool> shadowCasters(const scene::SceneData& scene, const look::LookData& look);

@@ -15,6 +15,7 @@
 #include "frame/slots.h"
 #include "passes/blur/blur.h"
 #include "passes/color/color.h"
+#include "passes/colorize/colorize.h"
 #include "passes/final_color/final_color.h"
 #include "passes/final_shadow/final_shadow.h"
 #include "passes/limit/limit.h"
@@ -47,7 +48,7 @@ void expectRowsDefaults(std::set<const look::ParamBlock*>& seen) {
     const std::string name = std::string(block.path) + "." + row.name;
     // Scalar layout without gaps, which is what GLSL sees.
     EXPECT_EQ(row.offset, expectedOffset) << name;
-    expectedOffset += row.kind == ParamKind::color ? 12 : 4;
+    expectedOffset += row.kind == ParamKind::color || row.kind == ParamKind::triple ? 12 : 4;
     for (const Params* params : {&fresh, &whole, &single}) switch (row.kind) {
         case ParamKind::number:
           EXPECT_EQ(read<float>(params, row.offset), float(row.defaultValue)) << name;
@@ -55,10 +56,14 @@ void expectRowsDefaults(std::set<const look::ParamBlock*>& seen) {
         case ParamKind::integer:
         case ParamKind::choice:
         case ParamKind::picture:
+        case ParamKind::name:
           EXPECT_EQ(read<int32_t>(params, row.offset), int32_t(row.defaultValue)) << name;
           break;
         case ParamKind::toggle:
           EXPECT_EQ(read<uint32_t>(params, row.offset), uint32_t(row.defaultValue)) << name;
+          break;
+        case ParamKind::triple:
+          EXPECT_EQ(read<glm::vec3>(params, row.offset), glm::vec3(float(row.defaultValue))) << name;
           break;
         case ParamKind::color:
           EXPECT_EQ(look::srgbFromLinear(read<glm::vec3>(params, row.offset)), uint32_t(row.defaultValue))
@@ -90,6 +95,8 @@ TEST(PassList, structsStartWithTheirRowsDefaults) {
   expectRowsDefaults<TextureMetaTextureParams>(seen);
   expectRowsDefaults<AnimationParams>(seen);
   expectRowsDefaults<PlayParams>(seen);
+  expectRowsDefaults<passes::VolumeParams>(seen);
+  expectRowsDefaults<passes::GradeParams>(seen);
   for (const look::ParamBlock* block : look::allBlocks())
     EXPECT_TRUE(seen.count(block)) << block->path << ": a new block of knobs; add its struct to this test";
   EXPECT_EQ(look::allBlocks().size(), seen.size())

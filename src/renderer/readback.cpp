@@ -74,6 +74,7 @@ bool isPremultiplied(Slot slot) {
     case Slot::blur:
     case Slot::color:
     case Slot::limit:
+    case Slot::colorize:
     case Slot::finalColor:
     case Slot::plain:
       return true;

@@ -11,6 +11,7 @@
 #include "frame/palette.h"
 #include "frame/playing.h"
 #include "look/setting_path.h"
+#include "passes/colorize/colorize.h"
 #include "renderer/pass_list.h"
 #include "renderer/readback.h"
 #include "renderer/uniforms.h"
@@ -168,7 +169,8 @@ void Renderer::Impl::useConfiguration(const Configuration& configuration) {
   // Uniform memory: what holds for the frame, then what each material has in each pass.
   const uint64_t lightBytes =
       std::max<size_t>(1, punctualLightCount(scene->data())) * sizeof(shared::PunctualLight);
-  const uint64_t size = (64 << 10) + sceneOnGpu->materialCount() * 2048 + lightBytes;
+  const uint64_t size = (64 << 10) + sceneOnGpu->materialCount() * 2048 + lightBytes +
+                        (configuration.colorize ? passes::kColorizeUniformBytes : 0);
   next->uniformBuffer = gpu::PerFrameBuffer(
       *device, size, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   if (configuration.facts) sceneOnGpu->keepPrevious();
@@ -347,6 +349,7 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
   configuration.layered = !options.plain && wantsLayers(now);
   configuration.glows = glows(scene.data(), now);
   configuration.limit = !options.plain && wantsLimit(now);
+  configuration.colorize = !options.plain && wantsColorizers(now);
   configuration.multiview = impl_->device->multiviewWorks();
   configuration.computeImagePasses =
       impl_->imagePasses == ImagePassKind::compute ||
@@ -363,6 +366,7 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
     configuration.facts |= isFact(*slot);
     configuration.limit |= *slot == Slot::limit;
     configuration.matte |= *slot == Slot::matte;
+    configuration.colorize |= *slot == Slot::colorize;
     if (*slot != Slot::finalColor) configuration.readBack.push_back(*slot);
   }
 

@@ -104,7 +104,7 @@ TEST_F(Sameness, aPairIsTwoViews) {
         // The map's sigmoid has a least strength: light, and what follows from it, may round another way here
         // and there.
         bool lighted = name.empty();
-        for (const char* other : {"shadow", "blur", "final-shadow", "color", "final-color"})
+        for (const char* other : {"shadow", "blur", "final-shadow", "color", "colorize", "final-color"})
           lighted |= name == other;
         if (!lighted) {
           EXPECT_TRUE(sameBytes(a, b))

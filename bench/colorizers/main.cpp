@@ -1,0 +1,286 @@
+// Milliseconds per picture of colorizers, beside a plain full-screen pass with the same reads in the same
+// run.
+//
+//   colorizers_bench [--size 1280x720] [--runs 31] [--device NAME] [--json FILE]
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <bit>
+#include <cstdio>
+#include <glm/gtc/matrix_transform.hpp>
+#include <nlohmann/json.hpp>
+
+#include "passes/colorize/tiles.h"
+#include "scumble/image.h"
+#include "scumble/look.h"
+#include "shaders/colorize_image_frag.h"
+#include "shaders/fullscreen_vert.h"
+#include "shaders/plain_reads_frag.h"
+
+using namespace scumble;
+using namespace scumble::frame;
+using namespace scumble::passes;
+
+namespace {
+
+struct Case {
+  std::string name;
+  Look look;
+  std::vector<ColorizeJob> plan;  // empty: the yardstick
+  std::vector<gpu::Pipeline> pipelines;
+  size_t firstSet = 0;
+  std::vector<double> milliseconds, compiling;
+};
+
+void add(Look& look, const std::string& name, std::vector<std::pair<std::string, std::string>> settings) {
+  settings.emplace_back("grade.tint", "#E0C0A0");
+  for (const auto& [path, value] : settings)
+    if (const Status set = look.set("colorizers." + name + "." + path, value); !set)
+      std::fprintf(stderr, "colorizers_bench: %s\n", set.error().message().c_str()), std::exit(1);
+}
+
+// So many that fill the screen; the eye looks down -z from the origin.
+Look fullScreen(int count, const std::vector<std::pair<std::string, std::string>>& settings) {
+  Look look;
+  for (int i = 0; i < count; ++i) {
+    auto all = settings;
+    all.insert(all.begin(), {{"volume.center", std::to_string(0.1 * i) + ",0,-6"},
+                             {"volume.radius", "12"},
+                             {"volume.size", "12,11,10"}});
+    add(look, "c" + std::to_string(i), all);
+  }
+  return look;
+}
+
+// Spheres of which some stand in the picture's middle and the others behind the eye.
+Look partly(int seen, int others) {
+  Look look = fullScreen(seen, {{"volume.kind", "atmospheric"}});
+  for (int i = 0; i < others; ++i)
+    add(look, "b" + std::to_string(i), {{"volume.kind", "atmospheric"}, {"volume.center", "0,0,20"}});
+  return look;
+}
+
+// Small ones, spread over the picture.
+Look spread(int count) {
+  Look look;
+  for (int i = 0; i < count; ++i)
+    add(look, "s" + std::to_string(i),
+        {{"volume.kind", "atmospheric"},
+         {"volume.center",
+          std::to_string(-3.5 + i % 8) + "," + std::to_string(-1.75 + 0.5 * (i / 8)) + ",-6"},
+         {"volume.radius", "0.4"}});
+  return look;
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::string size = "1280x720", deviceName, jsonFile;
+  int runs = 31;
+  CLI::App app("Milliseconds per picture of colorizers, beside a plain pass with the same reads");
+  app.add_option("--size", size, "WxH")->capture_default_str();
+  app.add_option("--runs", runs, "how often each case is drawn")
+      ->check(CLI::Range(1, 10000))
+      ->capture_default_str();
+  app.add_option("--device", deviceName, "part of a name, a number, or cpu");
+  app.add_option("--json", jsonFile, "also write the numbers here");
+  CLI11_PARSE(app, argc, argv);
+  uint32_t width = 0, height = 0;
+  if (std::sscanf(size.c_str(), "%ux%u", &width, &height) != 2 || width == 0 || height == 0) {
+    std::fprintf(stderr, "colorizers_bench: error: '%s' is no size\n", size.c_str());
+    return 2;
+  }
+  gpu::DeviceOptions options;
+  options.choice = deviceName;
+  Result<std::unique_ptr<gpu::Device>> created = gpu::Device::create(options);
+  if (!created || !(*created)->hasTimestamps()) {
+    std::fprintf(stderr, "colorizers_bench: error: %s\n",
+                 created ? "this device has no timestamps" : created.error().message().c_str());
+    return 4;
+  }
+  gpu::Device& device = **created;
+  gpu::Samplers samplers(device);
+
+  const std::pair<std::string, std::string> fog{"volume.kind", "atmospheric"};
+  std::vector<Case> cases;
+  const auto addCase = [&](std::string name, Look look) {
+    cases.push_back({std::move(name), look, {}, {}, 0, {}, {}});
+  };
+  addCase("plain pass with the same reads", Look());
+  addCase("1 sphere of fog", fullScreen(1, {fog}));
+  addCase("4 spheres of fog", fullScreen(4, {fog}));
+  addCase("4 seen of 64 listed", partly(4, 60));
+  addCase("16 spheres of fog", fullScreen(16, {fog}));
+  addCase("16 spheres, surfaces", fullScreen(16, {}));
+  addCase("16 spheres of fog, gamma", fullScreen(16, {fog, {"grade.gamma", "0.8,1,1.2"}}));
+  addCase("16 spheres of fog, falloff", fullScreen(16, {fog, {"volume.falloff", "0.7"}}));
+  addCase("16 ellipsoids of fog", fullScreen(16, {fog, {"volume.shape", "ellipsoid"}}));
+  addCase("16 boxes of fog", fullScreen(16, {fog, {"volume.shape", "box"}}));
+  addCase("16 capsules of fog", fullScreen(16, {fog, {"volume.shape", "capsule"}}));
+  addCase("16 half-spaces of fog", fullScreen(16, {fog, {"volume.shape", "half-space"}}));
+  addCase("64 small spheres side by side", spread(64));
+  addCase("64 spheres of fog", fullScreen(64, {fog}));
+
+  // A wall ten metres away.
+  View view{glm::mat4(1.0f), glm::mat4(0.0f)};
+  const float aspect = float(width) / float(height), near = 0.01f;
+  view.eyeToClip[0][0] = 1.6f / aspect, view.eyeToClip[1][1] = -1.6f;
+  view.eyeToClip[2][3] = -1, view.eyeToClip[3][2] = near;
+  shared::FrameUniforms uniforms{};
+  shared::ViewUniforms& seen = uniforms.views[0];
+  seen.worldToClip = view.eyeToClip, seen.worldToEye = view.worldToEye;
+  seen.ndcToEyeRay = {1 / view.eyeToClip[0][0], 1 / view.eyeToClip[1][1], 0, 0};
+  seen.depthToEye = {near, 0, 0, 1};
+  uniforms.views[1] = seen;
+  uniforms.imageSize = {float(width), float(height)};
+
+  const auto image = [&](VkFormat format, VkImageUsageFlags usage) {
+    return gpu::Image(device, {format, width, height, 1}, usage | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+  };
+  const gpu::Image color = image(VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_USAGE_SAMPLED_BIT),
+                   depth = image(VK_FORMAT_D32_SFLOAT,
+                                 VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT),
+                   target = image(VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
+  const auto toLayout = [&](VkCommandBuffer commands, const gpu::Image& of, VkImageLayout from,
+                            VkImageLayout to) {
+    VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+    barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    barrier.srcAccessMask = barrier.dstAccessMask =
+        VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+    barrier.oldLayout = from, barrier.newLayout = to;
+    barrier.image = of.handle();
+    const bool isDepth = gpu::isDepthFormat(of.desc().format);
+    barrier.subresourceRange = {
+        VkImageAspectFlags(isDepth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT), 0, 1, 0, 1};
+    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    dependency.imageMemoryBarrierCount = 1;
+    dependency.pImageMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &dependency);
+  };
+  device.runOnce([&](VkCommandBuffer commands) {
+    constexpr VkImageLayout kClear = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+    for (const gpu::Image* of : {&color, &depth}) toLayout(commands, *of, VK_IMAGE_LAYOUT_UNDEFINED, kClear);
+    const VkClearColorValue gray{{0.4f, 0.5f, 0.6f, 1}};
+    const VkClearDepthStencilValue far{near / 10, 0};
+    const VkImageSubresourceRange colors{VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1},
+        depths{VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1};
+    vkCmdClearColorImage(commands, color.handle(), kClear, &gray, 1, &colors);
+    vkCmdClearDepthStencilImage(commands, depth.handle(), kClear, &far, 1, &depths);
+    for (const gpu::Image* of : {&color, &depth})
+      toLayout(commands, *of, kClear, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+  });
+
+  // Lists of colorizers, tiles and pipelines, as the pass makes them.
+  const VkShaderStageFlags all = VK_SHADER_STAGE_FRAGMENT_BIT;
+  const gpu::SetLayout frameLayout(
+      device, {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, all}, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, all}});
+  const gpu::SetLayout layout(device, {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, all},
+                                       {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, all},
+                                       {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, all}});
+  constexpr uint64_t kStride = (sizeof(shared::ColorizeUniforms) + 255) / 256 * 256;
+  const size_t setCount = cases.size() * kMaxColorizeJobs;
+  gpu::Buffer frameBuffer(device, sizeof(uniforms),
+                          VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                          gpu::MemoryKind::upload);
+  gpu::Buffer lists(device, kStride * setCount, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, gpu::MemoryKind::upload);
+  std::memcpy(frameBuffer.mapped(), &uniforms, sizeof(uniforms));
+  gpu::DescriptorSets frameSet(device, frameLayout), sets(device, layout, uint32_t(setCount));
+  frameSet.writeBuffer(0, 0, frameBuffer.handle());
+  frameSet.writeBuffer(0, 1, frameBuffer.handle());
+  const TileGrid grid(width, height);
+  for (size_t i = 0; i < cases.size(); ++i) {
+    Case& c = cases[i];
+    c.firstSet = i * kMaxColorizeJobs;
+    const std::vector<PlacedColorizer> colorizers = placeColorizers(c.look.data(), {}, {}, uniforms);
+    int features = 0;
+    for (const PlacedColorizer& one : colorizers) features |= one.features;
+    const std::vector<uint64_t> masks =
+        tileMasks(grid, colorizers, glm::dmat4(uniforms.views[0].worldToClip));
+    c.plan = planJobs(grid, {&masks, 1});
+    for (size_t j = 0; j < c.plan.size(); ++j) {
+      auto* list = new (lists.mapped() + (c.firstSet + j) * kStride) shared::ColorizeUniforms{};
+      const uint32_t count = listFor(c.plan[j].mask, colorizers, *list);
+      sets.writeBuffer(c.firstSet + j, 0, lists.handle(), (c.firstSet + j) * kStride, sizeof(*list));
+      sets.writeTexture(c.firstSet + j, 1, color.view(), samplers.get({}));
+      gpu::SamplerDesc nearest;
+      nearest.filter = VK_FILTER_NEAREST;
+      sets.writeTexture(c.firstSet + j, 2, depth.view(), samplers.get(nearest));
+      gpu::GraphicsPipelineDesc desc;
+      desc.vertex = {shaders::fullscreen_vert};
+      desc.fragment = {shaders::colorize_image_frag};
+      if (i == 0) desc.fragment = {shaders::plain_reads_frag};
+      desc.constants = {count, uint32_t(features), 0, 1};
+      desc.colorFormats = {VK_FORMAT_R16G16B16A16_SFLOAT};
+      desc.viewMask = 1;
+      desc.pushConstantBytes = 4;
+      desc.sets = {frameLayout.handle(), layout.handle()};
+      c.pipelines.emplace_back(device, desc);
+    }
+  }
+  VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+  info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+  info.queryCount = 2;
+  VkQueryPool queries;
+  SCUMBLE_VK(vkCreateQueryPool(device.handle(), &info, nullptr, &queries));
+
+  // All cases take turns, so that what else the machine does falls on all of them. The first turn compiles.
+  Configuration configuration;
+  configuration.width = width, configuration.height = height;
+  for (int run = -1; run < runs; ++run)
+    for (Case& c : cases) {
+      device.runOnce([&](VkCommandBuffer commands) {
+        toLayout(commands, target, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+        vkCmdResetQueryPool(commands, queries, 0, 2);
+        vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries, 0);
+        const Target to{&target, nullptr, {}, Target::Before::undefined};
+        drawViews(commands, configuration, {&to, 1}, nullptr, [&](uint32_t) {
+          for (size_t j = 0; j < c.plan.size(); ++j) {
+            c.pipelines[j].bind(commands);
+            c.pipelines[j].push(commands, 0);
+            c.pipelines[j].bindSet(commands, 0, frameSet[0]);
+            c.pipelines[j].bindSet(commands, 1, sets[c.firstSet + j]);
+            for (const ImageStep::Area& area : c.plan[j].areas) {
+              vkCmdSetScissor(commands, 0, 1, &area.rectangle);
+              vkCmdDraw(commands, 3, 1, 0, 0);
+            }
+          }
+        });
+        vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries, 1);
+      });
+      uint64_t stamps[2];
+      SCUMBLE_VK(vkGetQueryPoolResults(device.handle(), queries, 0, 2, sizeof(stamps), stamps, 8,
+                                       VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
+      const double time = double(stamps[1] - stamps[0]) * double(device.limits().timestampPeriod) * 1e-6;
+      (run < 0 ? c.compiling : c.milliseconds).push_back(time);
+    }
+  vkDestroyQueryPool(device.handle(), queries, nullptr);
+
+  std::printf("%s, %ux%u\n%-32s %6s %6s %10s %8s %12s\n", device.info().name.c_str(), width, height, "",
+              "jobs", "areas", "ms", "ratio", "first, ms");
+  nlohmann::ordered_json json{{"device", device.info().name},
+                              {"driver", device.info().driver},
+                              {"width", width},
+                              {"height", height},
+                              {"runs", runs}};
+  for (const Case& c : cases) {
+    std::vector<double> ratios;
+    for (size_t r = 0; r < c.milliseconds.size(); ++r)
+      ratios.push_back(c.milliseconds[r] / cases[0].milliseconds[r]);
+    size_t areas = 0;
+    for (const ColorizeJob& job : c.plan) areas += job.areas.size();
+    std::printf("%-32s %6zu %6zu %10.3f %8.2f %12.1f\n", c.name.c_str(), c.plan.size(), areas,
+                median(c.milliseconds), median(ratios), c.compiling[0]);
+    json["cases"].push_back(
+        {{"name", c.name}, {"milliseconds", median(c.milliseconds)}, {"ratio", median(ratios)}});
+  }
+  if (!jsonFile.empty())
+    if (const Status written = writeText(jsonFile, json.dump(2) + "\n"); !written) {
+      std::fprintf(stderr, "colorizers_bench: error: %s\n", written.error().message().c_str());
+      return 5;
+    }
+  return 0;
+}

@@ -1,0 +1,128 @@
+#include "passes/colorize/colorizers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace scumble::passes {
+
+namespace {
+
+bool isIdentity(const GradeParams& grade) {
+  return grade.bias.value == glm::vec3(0.0f) && grade.tint.linear * grade.gain == glm::vec3(1.0f) &&
+         grade.gamma.value == glm::vec3(1.0f) && grade.saturation == 1;
+}
+
+// The world matrix of the space that a volume is in; nothing where there is no such node.
+std::optional<glm::dmat4> spaceOf(const std::string& node, const scene::SceneData& scene,
+                                  const std::vector<glm::mat4>& worlds) {
+  if (node.empty()) return glm::dmat4(1.0);
+  for (size_t n = 0; n < scene.nodes.size(); ++n)
+    if (scene.nodes[n].name == node) return glm::dmat4(worlds[n]);
+  return std::nullopt;
+}
+
+glm::dmat3 turnedBy(const glm::dvec3& degrees) {
+  const glm::dvec3 s = glm::sin(glm::radians(degrees)), c = glm::cos(glm::radians(degrees));
+  const glm::dmat3 x(1, 0, 0, 0, c.x, s.x, 0, -s.x, c.x), y(c.y, 0, -s.y, 0, 1, 0, s.y, 0, c.y),
+      z(c.z, s.z, 0, -s.z, c.z, 0, 0, 0, 1);
+  return z * y * x;
+}
+
+// From the unit shape to the world.
+glm::dmat4 unitToWorld(const VolumeParams& volume, const glm::dmat4& space) {
+  const bool hasSize = volume.shape == kVolumeEllipsoid || volume.shape == kVolumeBox;
+  const glm::dvec3 size = hasSize ? glm::dvec3(volume.size.value) : glm::dvec3(double(volume.radius));
+  if (volume.shape == kVolumeScene) return {glm::dmat3(size.x)};
+  glm::dmat3 linear = turnedBy(glm::dvec3(volume.rotation.value));
+  for (int i = 0; i < 3; ++i) linear[i] *= size[i];
+  glm::dmat4 placed(linear);
+  placed[3] = glm::dvec4(glm::dvec3(volume.center.value), 1);
+  return space * placed;
+}
+
+// Units in a metre, if that is the same in all directions; else 0.
+double evenScale(const glm::dmat3& toUnit) {
+  const glm::dmat3 square = glm::transpose(toUnit) * toUnit;
+  const double scale = (square[0][0] + square[1][1] + square[2][2]) / 3;
+  for (int i = 0; i < 9; ++i)
+    if (!(std::abs(square[i / 3][i % 3] - (i % 4 == 0 ? scale : 0)) <= 1e-6 * scale)) return 0;
+  return std::sqrt(scale);
+}
+
+int shapeOf(const VolumeParams& volume, double even) {
+  switch (int(volume.shape)) {
+    case kVolumeSphere:
+    case kVolumeEllipsoid:
+      return even > 0 ? shared::kShapeSphere : shared::kShapeEllipsoid;
+    case kVolumeBox:
+      return shared::kShapeBox;
+    case kVolumeCapsule:
+      return shared::kShapeCapsule;
+    case kVolumeHalfSpace:
+      return shared::kShapeHalfSpace;
+    default:
+      return shared::kShapeScene;
+  }
+}
+
+void setGrade(shared::Colorizer& data, const GradeParams& grade) {
+  const glm::vec3 tint = grade.tint.linear * grade.gain;
+  data.bias = grade.bias;
+  data.color = tint * grade.saturation;
+  data.gray = tint * (1 - grade.saturation);
+  data.gamma = grade.gamma;
+}
+
+}  // namespace
+
+std::vector<PlacedColorizer> placeColorizers(const look::LookData& look, const scene::SceneData& scene,
+                                             const std::vector<glm::mat4>& worlds,
+                                             const shared::FrameUniforms& uniforms) {
+  std::vector<PlacedColorizer> placed;
+  for (const std::string& name : look.declared(look::kColorizers)) {
+    const VolumeParams volume = look.getFor<VolumeParams>(look::kColorizers, name);
+    const GradeParams grade = look.getFor<GradeParams>(look::kColorizers, name);
+    const std::optional<glm::dmat4> space = spaceOf(look.text(volume.node), scene, worlds);
+    if (volume.density == 0 || isIdentity(grade) || !space) continue;
+
+    const glm::dmat4 fromUnit = unitToWorld(volume, *space), toUnit = glm::inverse(fromUnit);
+    bool isFinite = true;
+    for (int i = 0; i < 16; ++i) isFinite &= std::isfinite(float(toUnit[i / 4][i % 4]));
+    if (!isFinite || glm::determinant(glm::dmat3(fromUnit)) == 0) continue;
+
+    PlacedColorizer one;
+    const double even = evenScale(glm::dmat3(toUnit));
+    one.data.shape = shapeOf(volume, even);
+    const bool isSphere = one.data.shape == shared::kShapeSphere;
+    for (int v = 0; v < shared::kMaxViews; ++v) {
+      const glm::dvec3 eye(uniforms.views[v].eye);
+      // A sphere looks the same from all sides: its space need not be turned.
+      one.data.eyes[v] = isSphere ? glm::vec3((eye - glm::dvec3(fromUnit[3])) * even)
+                                  : glm::vec3(toUnit * glm::dvec4(eye, 1));
+    }
+    one.data.toUnit = glm::mat3(toUnit);
+    one.data.perMetre = float(even);
+    const double axis = volume.shape == kVolumeCapsule ? double(volume.length) / double(volume.radius) : 0;
+    one.data.axis = float(axis);
+    one.data.atmospheric = volume.kind;
+    one.data.density = volume.density;
+    one.data.falloff = (1 - volume.falloff) / volume.falloff;
+    setGrade(one.data, grade);
+
+    one.features = 1 << one.data.shape | (volume.kind != 0 ? shared::kHasFog : shared::kHasSurface);
+    if (grade.gamma.value != glm::vec3(1.0f)) one.features |= shared::kHasGamma;
+    if (volume.falloff != 0.5f) one.features |= shared::kHasFalloff;
+
+    one.bounded = volume.shape != kVolumeHalfSpace && volume.shape != kVolumeScene;
+    // A little more than the shape: the shader rounds.
+    const glm::dvec3 extent = 1.01 * glm::dvec3(1, 1 + axis, 1);
+    for (int i = 0; i < 8; ++i)
+      one.corners[i] = glm::dvec3(
+          fromUnit * glm::dvec4(extent * glm::dvec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1), 1));
+    placed.push_back(one);
+  }
+  return placed;
+}
+
+}  // namespace scumble::passes
