@@ -77,8 +77,8 @@ struct Frame {
 // Seconds after which every clip that a look plays has played once; 0 where none does.
 double playedSeconds(const Scene& scene, const Look& look);
 
-// Of the settings made by Look::set for some materials, nodes or clips, those whose pattern no name of the
-// scene matches, e.g. "materials.Sial*": slips, most of them. The look's file may know other scenes.
+// Of the settings made by Look::set for one material, node or clip, those whose name the scene does not have,
+// e.g. "materials.Sial": slips, most of them. Patterns and the look's file may know other scenes.
 std::vector<std::string> settingsWithoutEffect(const Scene& scene, const Look& look);
 
 class Renderer {

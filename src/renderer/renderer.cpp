@@ -465,6 +465,8 @@ std::vector<std::string> settingsWithoutEffect(const Scene& scene, const Look& l
   std::vector<std::string> idle;
   for (const look::Assignment& setting : look.data().assignments) {
     if (!setting.byHand || setting.target == look::kScene) continue;
+    // A pattern is meant for many scenes.
+    if (setting.pattern.find_first_of("*?") != std::string::npos) continue;
     const auto matchesAny = [&](const auto& named) {
       return std::any_of(named.begin(), named.end(),
                          [&](const auto& one) { return look::matches(setting.pattern, one.name); });
