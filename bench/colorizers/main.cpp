@@ -12,6 +12,7 @@
 #include "passes/colorize/tiles.h"
 #include "scumble/image.h"
 #include "scumble/look.h"
+#include "scumble/view.h"
 #include "shaders/colorize_image_frag.h"
 #include "shaders/fullscreen_vert.h"
 #include "shaders/plain_reads_frag.h"

@@ -4,6 +4,8 @@
 #include "scumble/look.h"
 
 #include <gtest/gtest.h>
+
+#include <cctype>
 #include <stdlib.h>
 
 #include <cstring>
@@ -213,6 +215,8 @@ TEST(Look, wholeNumbersAreWhole) {
 TEST(Look, misspelledKnobsAreSuggested) {
   for (const Row& row : allRows()) {
     const std::string path = row.path();
+    // Knobs that a number tells apart are one letter from each other.
+    if (std::isdigit(static_cast<unsigned char>(path.back()))) continue;
     std::string without = path, doubled = path;
     without.erase(path.size() - 2, 1);
     doubled.insert(path.size() - 1, 1, 'q');
