@@ -57,8 +57,8 @@ TEST(PrepareMorph, facesWithoutNormalsTurnWithTheirCorners) {
   TestGltf g;
   const int position = g.addFloats({0, -1, 0, 1, 0, 0, 0, 1, 0, -1, 0, 0}, 3);
   TestGltf::Json& primitive = g.addMesh({{"POSITION", position}}, g.addIndices({0, 1, 2, 0, 2, 3}));
-  primitive["targets"] = TestGltf::Json::array(
-      {{{"POSITION", g.addFloats({0, 0, 0, 0, 0, -1, 0, 0, 0, 0, 0, -1}, 3)}}});
+  primitive["targets"] =
+      TestGltf::Json::array({{{"POSITION", g.addFloats({0, 0, 0, 0, 0, -1, 0, 0, 0, 0, 0, -1}, 3)}}});
   const Primitive p = loaded(g).data().meshes[0].primitives[0];
   const MorphTarget& target = p.morphTargets[0];
   ASSERT_TRUE(p.generatedNormals);
