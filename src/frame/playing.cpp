@@ -39,6 +39,7 @@ std::vector<scene::PlayedClip> playedClips(const scene::SceneData& scene, const 
   for (size_t i = 0; i < scene.clips.size(); ++i) {
     const PlayParams params = look.getFor<PlayParams>(look::kClips, scene.clips[i].name);
     const float weight = named ? params.weight : isFirst(scene, i) ? 1.0f : 0.0f;
+    // The knob's names are in the order of scene::Repeat.
     if (weight > 0)
       played.push_back({int(i), weight, params.speed, params.start, scene::Repeat(int(params.repeat))});
   }

@@ -113,21 +113,23 @@ SceneOnGpu::SceneOnGpu(gpu::Device& device, gpu::Samplers& samplers, const scene
     materialNames_.push_back("Ground");
   }
   gpu::Uploader uploader(device);
-  geometry_ = collectGeometry(scene, options, groundMaterial_);
-  buildGeometry(device, uploader);
-  measureColors();
+  Geometry geometry = collectGeometry(scene, options, groundMaterial_);
+  bounds_ = geometry.bounds;
+  buildGeometry(device, uploader, geometry);
+  measureColors(geometry);
+  extents_ = std::move(geometry.extents);
   buildMaterials(device, samplers, uploader);
   uploader.flush();
 }
 
-void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader) {
+void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, const Geometry& geometry) {
   // Lay out: rest data once for each primitive, final and static vertices once for each item.
   std::map<const scene::Primitive*, RestRange> ranges;
   std::vector<const scene::Primitive*> primitives;
   uint64_t restVertices = 0, indexCount = 0, skinEntries = 0, finalVertices = 0;
   std::vector<uint32_t> morphStarts;
   std::vector<shared::MorphDisplacement> morphs;
-  for (const GeometryItem& item : geometry_.items) {
+  for (const GeometryItem& item : geometry.items) {
     const scene::Primitive& primitive = *item.primitive;
     const auto [range, isNew] = ranges.try_emplace(
         &primitive, RestRange{uint32_t(restVertices), uint32_t(indexCount), uint32_t(skinEntries)});
@@ -178,7 +180,7 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader) {
   // Objects, draws and deform's work.
   std::vector<shared::DeformChunk> chunks;
   uint32_t finalVertex = 0;
-  for (const GeometryItem& item : geometry_.items) {
+  for (const GeometryItem& item : geometry.items) {
     const scene::Primitive& primitive = *item.primitive;
     const RestRange range = ranges.at(&primitive);
     const bool isGround = int(item.material) == groundMaterial_;
@@ -228,8 +230,8 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader) {
     moving.chunkCount = uint32_t(chunks.size()) - moving.firstChunk;
     moving_.push_back(moving);
   }
-  scene::parallelFor(geometry_.items.size(), scene::threadCount(0), [&](size_t i) {
-    const scene::Primitive& primitive = *geometry_.items[i].primitive;
+  scene::parallelFor(geometry.items.size(), scene::threadCount(0), [&](size_t i) {
+    const scene::Primitive& primitive = *geometry.items[i].primitive;
     shared::VertexSurface* out = surface.data + draws_[i].vertexOffset;
     for (size_t v = 0; v < primitive.vertexCount(); ++v) {
       uint32_t color = 0xFFFFFFFFu;
@@ -356,7 +358,7 @@ void SceneOnGpu::setMaterial(size_t material, const shared::MaterialData& data) 
   std::memcpy(materialData_.contents() + material * kMaterialStride, &data, sizeof(data));
 }
 
-void SceneOnGpu::measureColors() {
+void SceneOnGpu::measureColors(const Geometry& geometry) {
   // Mean of each image, from a grid of its pixels.
   constexpr uint32_t kGrid = 16;
   std::vector<glm::vec3> imageMeans;
@@ -377,7 +379,7 @@ void SceneOnGpu::measureColors() {
   constexpr size_t kTriangles = 64;
   glm::dvec3 sum(0.0);
   double total = 0;
-  for (const GeometryItem& item : geometry_.items) {
+  for (const GeometryItem& item : geometry.items) {
     if (int(item.material) == groundMaterial_) continue;
     const scene::Primitive& primitive = *item.primitive;
     const scene::Material& material = data_->materials[item.material];
