@@ -17,7 +17,7 @@ import tempfile
 from pathlib import Path
 
 sys.dont_write_bytecode = True
-from surroundings import ROOT, surroundings  # noqa: E402
+from surroundings import parse, surroundings  # noqa: E402
 
 
 def render(program, scene, output, frames, stats, options):
@@ -64,20 +64,11 @@ def measure(program, scene, frames, film, options):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("scenes", nargs="+", metavar="SCENE")
     parser.add_argument("--frames", type=int, default=48, help="default 48")
     parser.add_argument("--film", action="store_true", help="an MP4 instead of PNGs")
-    parser.add_argument("--json", metavar="FILE", help="also write the results there")
-    parser.add_argument("--program", default=str(ROOT / "build" / "scumble"), help="default: build/scumble")
-    arguments, options = sys.argv[1:], []
-    if "--" in arguments:
-        at = arguments.index("--")
-        arguments, options = arguments[:at], arguments[at + 1 :]
-    chosen = parser.parse_args(arguments)
+    chosen, options = parse(parser)
     if chosen.frames < 2:
         parser.error("--frames must be at least 2")
-    if not os.access(chosen.program, os.X_OK):
-        parser.error(f"{chosen.program} is not there; build it first (./demo)")
 
     report = surroundings(chosen.program, options)
     print(f"{'scene':32} {'fps':>7} {'above':>7} {'GPU ms':>8} {'CPU ms':>8} {'back ms':>8} {'write ms':>8}")

@@ -18,7 +18,7 @@ import time
 from pathlib import Path
 
 sys.dont_write_bytecode = True
-from surroundings import ROOT, surroundings  # noqa: E402
+from surroundings import parse, surroundings  # noqa: E402
 
 PNG_END = b"\x00\x00\x00\x00IEND\xaeB`\x82"
 
@@ -80,20 +80,10 @@ def main():
         description=__doc__.splitlines()[0],
         epilog="example: bench/start_to_picture.py Duck.glb --runs 9 --json duck.json -- --device cpu",
     )
-    parser.add_argument("scenes", nargs="+", metavar="SCENE")
     parser.add_argument("--runs", type=int, default=7, help="measured runs of each scene (default 7)")
-    parser.add_argument("--json", metavar="FILE", help="also write the results there")
-    parser.add_argument("--program", default=str(ROOT / "build" / "scumble"), help="default: build/scumble")
-    arguments = sys.argv[1:]
-    options = []
-    if "--" in arguments:
-        at = arguments.index("--")
-        arguments, options = arguments[:at], arguments[at + 1 :]
-    chosen = parser.parse_args(arguments)
+    chosen, options = parse(parser)
     if chosen.runs < 1:
         parser.error("--runs must be at least 1")
-    if not os.access(chosen.program, os.X_OK):
-        parser.error(f"{chosen.program} is not there; build it first (./demo)")
 
     report = surroundings(chosen.program, options)
     print(f"{'scene':40} {'median s':>9} {'fastest':>9} {'slowest':>9} {'peak MiB':>9}")

@@ -1,8 +1,9 @@
-"""What stands at the head of every result: when, of what, on which machine."""
+"""What benches of the whole program share: their arguments, and what stands at the head of every result."""
 import datetime
 import os
 import platform
 import subprocess
+import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -44,3 +45,18 @@ def surroundings(program, options):
         "machine": machine(),
         "results": [],
     }
+
+
+def parse(parser):
+    """The arguments, with those that all benches have; and the options after --, for `scumble render`."""
+    parser.add_argument("scenes", nargs="+", metavar="SCENE")
+    parser.add_argument("--json", metavar="FILE", help="also write the results there")
+    parser.add_argument("--program", default=str(ROOT / "build" / "scumble"), help="default: build/scumble")
+    arguments, options = sys.argv[1:], []
+    if "--" in arguments:
+        at = arguments.index("--")
+        arguments, options = arguments[:at], arguments[at + 1 :]
+    chosen = parser.parse_args(arguments)
+    if not os.access(chosen.program, os.X_OK):
+        parser.error(f"{chosen.program} is not there; build it first (./demo)")
+    return chosen, options

@@ -139,17 +139,16 @@ Result<std::vector<int>> frameNumbers(const RenderArguments& args, const OutputP
 // Two frames are under way on the device while earlier ones are written.
 class FrameLoop {
  public:
+  // `still`: the views of all frames, unless a camera of the scene is used.
   FrameLoop(const RenderArguments& args, const Scene& scene, const Look& look, const RenderOptions& options,
-            Renderer& renderer)
-      : args_(args), scene_(scene), look_(look), options_(options), renderer_(renderer) {}
+            const Result<std::vector<View>>& still, Renderer& renderer)
+      : args_(args), scene_(scene), look_(look), options_(options), still_(still), renderer_(renderer) {}
 
   // One frame for each time; `take` gets them in this order.
   Status draw(const std::vector<double>& times, const std::function<Status(size_t, Frame)>& take) {
     const bool moves = args_.picture.usesSceneCamera(scene_);
-    Result<std::vector<View>> still = args_.picture.views(scene_, look_, times.empty() ? 0 : times[0]);
-    if (!still) return still.error();
     const auto viewsAt = [&](double time) {
-      return moves ? args_.picture.views(scene_, look_, time) : still;
+      return moves ? args_.picture.views(scene_, look_, time) : still_;
     };
     for (size_t next = 0, done = 0; done < times.size();) {
       if (next < times.size() && next - done < size_t(Renderer::kMaxBegun)) {
@@ -180,6 +179,7 @@ class FrameLoop {
   const Scene& scene_;
   const Look& look_;
   const RenderOptions& options_;
+  const Result<std::vector<View>>& still_;
   Renderer& renderer_;
 };
 
@@ -231,8 +231,8 @@ int run(const RenderArguments& args) {
     for (const std::string& setting : settingsWithoutEffect(*scene, *look))
       warn({"--set " + setting + ": nothing in the scene has such a name (`scumble info` lists names)"});
   // A camera that does not exist is found before there is a device.
-  if (const Result<std::vector<View>> views = args.picture.views(*scene, *look); !views)
-    return fail(views.error());
+  const Result<std::vector<View>> views = args.picture.views(*scene, *look);
+  if (!views) return fail(views.error());
   const Result<std::vector<int>> numbers = frameNumbers(args, *output, *scene, *look);
   if (!numbers) return fail(numbers.error());
   const bool isPicture = args.frames.empty() && !isFilm;
@@ -262,7 +262,7 @@ int run(const RenderArguments& args) {
       },
       [&](int number) { progress.done("frame " + std::to_string(number)); });
   nlohmann::json frameStats = nlohmann::json::array();
-  FrameLoop loop(args, *scene, *look, *options, **renderer);
+  FrameLoop loop(args, *scene, *look, *options, views, **renderer);
   Status status = loop.draw(times, [&](size_t i, Frame frame) {
     frameStats.push_back(statsJson(frame.stats));
     return writer.add(isPicture ? 0 : (*numbers)[i], std::move(frame));

@@ -17,7 +17,4 @@ namespace scumble::frame {
 #define PARAMS_TARGETS kClips
 #include "look/define_params.h"
 
-// PlayParams::repeat, in the order of its names.
-enum ClipRepeat : int { kRepeatLoop, kRepeatOnce, kRepeatPingPong };
-
 }  // namespace scumble::frame

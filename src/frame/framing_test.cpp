@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/test_gltf.h"
+#include "scene/loaded_test_gltf.h"
 #include "scumble/view.h"
 
 namespace scumble {
@@ -25,13 +25,6 @@ TestGltf boxScene(const glm::vec3& low, const glm::vec3& high) {
             g.addIndices({0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
                           2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6}));
   return g;
-}
-
-Scene loaded(const TestGltf& g) {
-  const std::string text = g.glb();
-  const Result<Scene> scene = Scene::loadFromMemory(text.data(), text.size(), "test.glb", "");
-  EXPECT_TRUE(scene.ok()) << scene.error().message();
-  return scene.ok() ? scene.value() : Scene::combine({});
 }
 
 // A box with three cameras: by name, without a name of its own, and one that is named like a number.

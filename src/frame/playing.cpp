@@ -39,6 +39,7 @@ std::vector<scene::PlayedClip> playedClips(const scene::SceneData& scene, const 
   for (size_t i = 0; i < scene.clips.size(); ++i) {
     const PlayParams params = look.getFor<PlayParams>(look::kClips, scene.clips[i].name);
     const float weight = named ? params.weight : isFirst(scene, i) ? 1.0f : 0.0f;
+    // The knob's names are in the order of scene::Repeat.
     if (weight > 0)
       played.push_back({int(i), weight, params.speed, params.start, scene::Repeat(int(params.repeat))});
   }
@@ -51,14 +52,18 @@ std::vector<int> everPlayed(const scene::SceneData& scene, const LookData& look)
     for (const scene::PlayedClip& clip : playedClips(scene, look)) played.push_back(clip.clip);
     return played;
   }
-  // Weights between keys lie above zero where one of the keys does.
+  // Weights between keys lie above zero where one of the keys does. Of the look, only what clips are told.
+  LookData told;
   std::set<double> times{0};
-  for (const look::Assignment& setting : look.assignments)
-    if (setting.block == &PlayParams::block() && setting.track)
+  for (const look::Assignment& setting : look.assignments) {
+    if (setting.block != &PlayParams::block()) continue;
+    told.assignments.push_back(setting);
+    if (setting.track)
       for (const look::Key& key : setting.track->keys) times.insert(key.time);
+  }
   std::set<int> played;
   for (const double time : times)
-    for (const scene::PlayedClip& clip : playedClips(scene, look.at(time))) played.insert(clip.clip);
+    for (const scene::PlayedClip& clip : playedClips(scene, told.at(time))) played.insert(clip.clip);
   return {played.begin(), played.end()};
 }
 

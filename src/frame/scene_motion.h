@@ -20,7 +20,7 @@ struct MovingObject {
   uint32_t firstChunk = 0, chunkCount = 0;  // of its vertices
   const scene::PrimitiveExtent* extent = nullptr;
   bool morphs = false;
-  static constexpr size_t kNoNode = ~size_t(0);
+  static constexpr size_t kNoNode = GeometryItem::kNoNode;
 };
 
 class SceneMotion {

@@ -120,18 +120,20 @@ SceneOnGpu::SceneOnGpu(gpu::Device& device, gpu::Samplers& samplers, const scene
     materialUses_.push_back({-1});
   }
   gpu::Uploader uploader(device);
-  geometry_ = collectGeometry(scene, options, groundMaterial_);
-  separateMaterials();
-  buildGeometry(device, uploader);
-  measureColors();
+  Geometry geometry = collectGeometry(scene, options, groundMaterial_);
+  bounds_ = geometry.bounds;
+  separateMaterials(geometry);
+  buildGeometry(device, uploader, geometry);
+  measureColors(geometry);
+  extents_ = std::move(geometry.extents);
   buildMaterials(device, samplers, uploader);
   uploader.flush();
 }
 
-void SceneOnGpu::separateMaterials() {
+void SceneOnGpu::separateMaterials(Geometry& geometry) {
   if (options_.nodes.ofNode.empty()) return;
   std::map<std::pair<uint32_t, uint32_t>, uint32_t> known;
-  for (GeometryItem& item : geometry_.items) {
+  for (GeometryItem& item : geometry.items) {
     const uint32_t settings = item.node == GeometryItem::kNoNode ? 0 : options_.nodes.ofNode[item.node];
     if (settings == 0) continue;
     const auto [entry, isNew] = known.try_emplace({item.material, settings}, uint32_t(materialNames_.size()));
@@ -149,14 +151,14 @@ const scene::Material& SceneOnGpu::material(size_t material) const {
   return base >= 0 ? data_->materials[size_t(base)] : kGround;
 }
 
-void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader) {
+void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, const Geometry& geometry) {
   // Lay out: rest data once for each primitive, final and static vertices once for each item.
   std::map<const scene::Primitive*, RestRange> ranges;
   std::vector<const scene::Primitive*> primitives;
   uint64_t restVertices = 0, indexCount = 0, skinEntries = 0, finalVertices = 0;
   std::vector<uint32_t> morphStarts;
   std::vector<shared::MorphDisplacement> morphs;
-  for (const GeometryItem& item : geometry_.items) {
+  for (const GeometryItem& item : geometry.items) {
     const scene::Primitive& primitive = *item.primitive;
     const auto [range, isNew] = ranges.try_emplace(
         &primitive, RestRange{uint32_t(restVertices), uint32_t(indexCount), uint32_t(skinEntries)});
@@ -207,7 +209,7 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader) {
   // Objects, draws and deform's work.
   std::vector<shared::DeformChunk> chunks;
   uint32_t finalVertex = 0;
-  for (const GeometryItem& item : geometry_.items) {
+  for (const GeometryItem& item : geometry.items) {
     const scene::Primitive& primitive = *item.primitive;
     const RestRange range = ranges.at(&primitive);
     const bool isGround = int(item.material) == groundMaterial_;
@@ -256,8 +258,8 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader) {
     moving.chunkCount = uint32_t(chunks.size()) - moving.firstChunk;
     moving_.push_back(moving);
   }
-  scene::parallelFor(geometry_.items.size(), scene::threadCount(0), [&](size_t i) {
-    const scene::Primitive& primitive = *geometry_.items[i].primitive;
+  scene::parallelFor(geometry.items.size(), scene::threadCount(0), [&](size_t i) {
+    const scene::Primitive& primitive = *geometry.items[i].primitive;
     shared::VertexSurface* out = surface.data + draws_[i].vertexOffset;
     for (size_t v = 0; v < primitive.vertexCount(); ++v) {
       uint32_t color = 0xFFFFFFFFu;
@@ -399,7 +401,7 @@ void SceneOnGpu::setMaterial(size_t material, const shared::MaterialData& data) 
   std::memcpy(materialData_.contents() + material * kMaterialStride, &data, sizeof(data));
 }
 
-void SceneOnGpu::measureColors() {
+void SceneOnGpu::measureColors(const Geometry& geometry) {
   // Mean of each image, from a grid of its pixels.
   constexpr uint32_t kGrid = 16;
   std::vector<glm::vec3> imageMeans;
@@ -420,7 +422,7 @@ void SceneOnGpu::measureColors() {
   constexpr size_t kTriangles = 64;
   glm::dvec3 sum(0.0);
   double total = 0;
-  for (const GeometryItem& item : geometry_.items) {
+  for (const GeometryItem& item : geometry.items) {
     if (int(item.material) == groundMaterial_) continue;
     const scene::Primitive& primitive = *item.primitive;
     const scene::Material& material = this->material(item.material);

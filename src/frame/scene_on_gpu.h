@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstring>
+#include <deque>
 #include <optional>
 #include <span>
 #include <string>
@@ -106,7 +107,7 @@ class SceneOnGpu {
   const gpu::Buffer& surface() const { return surface_; }
   const gpu::Buffer& indices() const { return indices_; }
   // What the scene takes up, whatever its clips do.
-  const scene::Bounds& bounds() const { return geometry_.bounds; }  // without the ground
+  const scene::Bounds& bounds() const { return bounds_; }  // without the ground
   // Set 1 of geometry passes: a material's facts and its textures.
   const gpu::SetLayout& materialLayout() const { return materialLayout_; }
   VkDescriptorSet materialSet(uint32_t material) const { return materialSets_[material]; }
@@ -122,12 +123,12 @@ class SceneOnGpu {
   uint64_t uploadedBytes() const { return uploadedBytes_; }
 
  private:
-  void buildGeometry(gpu::Device& device, gpu::Uploader& uploader);
+  void buildGeometry(gpu::Device& device, gpu::Uploader& uploader, const Geometry& geometry);
   void buildMaterials(gpu::Device& device, gpu::Samplers& samplers, gpu::Uploader& uploader);
-  void measureColors();
+  void measureColors(const Geometry& geometry);
 
   // Gives draws on nodes with settings materials of their own.
-  void separateMaterials();
+  void separateMaterials(Geometry& geometry);
 
   struct MaterialUse {
     int base;               // in the scene; -1 for the ground
@@ -145,7 +146,8 @@ class SceneOnGpu {
   std::vector<Draw> draws_;
   std::vector<float> nearestOf_;  // by material
   SceneColors colors_;
-  Geometry geometry_;
+  scene::Bounds bounds_;
+  std::deque<scene::PrimitiveExtent> extents_;  // moving_ refers to them
   gpu::Buffer chunks_, restCore_, restFrame_, restSkin_, morphStarts_, morphs_, finalCore_, finalFrame_,
       previousPositions_, surface_, indices_;
   uint32_t chunkCount_ = 0, finalVertexCount_ = 0;

@@ -352,11 +352,8 @@ void Device::waitForSubmissions() {
   if (underWay_ > 0) SCUMBLE_VK(vkQueueWaitIdle(queue_));
 }
 
-void Device::runOnce(const std::function<void(VkCommandBuffer)>& record) {
-  const VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool_,
-                                         VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
-  VkCommandBuffer commands;
-  SCUMBLE_VK(vkAllocateCommandBuffers(device_, &info, &commands));
+void Device::submit(VkCommandBuffer commands, const std::function<void(VkCommandBuffer)>& record,
+                    VkFence done) {
   const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr,
                                        VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
   SCUMBLE_VK(vkBeginCommandBuffer(commands, &begin));
@@ -364,10 +361,18 @@ void Device::runOnce(const std::function<void(VkCommandBuffer)>& record) {
   SCUMBLE_VK(vkEndCommandBuffer(commands));
   const VkCommandBufferSubmitInfo submitted{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, nullptr, commands,
                                             0};
-  VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
-  submit.commandBufferInfoCount = 1;
-  submit.pCommandBufferInfos = &submitted;
-  SCUMBLE_VK(vkQueueSubmit2(queue_, 1, &submit, VK_NULL_HANDLE));
+  VkSubmitInfo2 info{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+  info.commandBufferInfoCount = 1;
+  info.pCommandBufferInfos = &submitted;
+  SCUMBLE_VK(vkQueueSubmit2(queue_, 1, &info, done));
+}
+
+void Device::runOnce(const std::function<void(VkCommandBuffer)>& record) {
+  const VkCommandBufferAllocateInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool_,
+                                         VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+  VkCommandBuffer commands;
+  SCUMBLE_VK(vkAllocateCommandBuffers(device_, &info, &commands));
+  submit(commands, record, VK_NULL_HANDLE);
   SCUMBLE_VK(vkQueueWaitIdle(queue_));
   vkFreeCommandBuffers(device_, pool_, 1, &commands);
 }

@@ -57,7 +57,10 @@ class Device {
   bool multiviewWorks() const { return !isLlvmpipe_; }
   bool hasTimestamps() const { return limits_.timestampComputeAndGraphics && limits_.timestampPeriod > 0; }
 
-  // Records with `record` into a command buffer of its own, submits it and waits for the end.
+  // Records with `record` into a command buffer that was reset, and submits it; `done`, where it is not null,
+  // is signalled at its end.
+  void submit(VkCommandBuffer commands, const std::function<void(VkCommandBuffer)>& record, VkFence done);
+  // The same with a command buffer of its own; waits for the end.
   void runOnce(const std::function<void(VkCommandBuffer)>& record);
 
   // Submissions tell when they are under way (see frames_in_flight.h). Whoever changes what they use waits

@@ -28,17 +28,7 @@ Submission::~Submission() {
 void Submission::submit(const std::function<void(VkCommandBuffer)>& record) {
   wait();
   SCUMBLE_VK(vkResetCommandPool(device_.handle(), pool_, 0));
-  const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr,
-                                       VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
-  SCUMBLE_VK(vkBeginCommandBuffer(commands_, &begin));
-  record(commands_);
-  SCUMBLE_VK(vkEndCommandBuffer(commands_));
-  const VkCommandBufferSubmitInfo submitted{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, nullptr, commands_,
-                                            0};
-  VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
-  submit.commandBufferInfoCount = 1;
-  submit.pCommandBufferInfos = &submitted;
-  SCUMBLE_VK(vkQueueSubmit2(device_.queue(), 1, &submit, done_));
+  device_.submit(commands_, record, done_);
   underWay_ = true;
   device_.submissionBegan();
 }

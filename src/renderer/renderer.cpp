@@ -29,6 +29,7 @@ double millisecondsSince(Clock::time_point start) {
 }
 
 constexpr uint32_t kMaxSize = 16384;
+static_assert(Renderer::kMaxBegun <= int(gpu::kFramesInFlight), "each frame begun has copies of its own");
 constexpr double kMaxTime = 1e6;  // seconds; a float still tells hundredths apart
 
 Error usage(std::string problem, std::string advice) {

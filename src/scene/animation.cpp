@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/type_ptr.hpp>
 
 #include "scene/prepare_mesh.h"
 
@@ -63,12 +62,6 @@ glm::quat sameSide(const glm::quat& q, const glm::quat& as) {
 glm::quat unit(const glm::quat& q, const glm::quat& instead) {
   const float length = glm::length(q);
   return length > 1e-6f ? q / length : instead;
-}
-
-bool isDrawable(const glm::mat4& m) {
-  for (int i = 0; i < 16; ++i)
-    if (!(std::abs(glm::value_ptr(m)[i]) <= kMaxCoordinate)) return false;
-  return true;
 }
 
 }  // namespace

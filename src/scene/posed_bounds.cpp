@@ -10,11 +10,6 @@ namespace scumble::scene {
 
 namespace {
 
-bool isDrawable(const glm::vec3& p) {
-  return std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate &&
-         std::abs(p.z) <= kMaxCoordinate;
-}
-
 void addBox(Bounds& bounds, const Bounds& box, const glm::mat4& matrix) {
   if (box.empty) return;
   // The box of a box: each axis by the matrix's absolute entries.

@@ -3,18 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "scene/position_weld.h"
 
 namespace scumble::scene {
 
 namespace {
-
-bool isDrawable(const glm::vec3& p) {
-  // Written so that NaN fails.
-  return std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate &&
-         std::abs(p.z) <= kMaxCoordinate;
-}
 
 // Abramowitz and Stegun 4.4.45, within 7e-5: the angles are only weights.
 float fastAcos(float x) {
@@ -182,6 +177,18 @@ void findWraps(Primitive& p, const std::vector<uint32_t>& representatives) {
 }
 
 }  // namespace
+
+bool isDrawable(const glm::vec3& p) {
+  // Written so that NaN fails.
+  return std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate &&
+         std::abs(p.z) <= kMaxCoordinate;
+}
+
+bool isDrawable(const glm::mat4& m) {
+  for (int i = 0; i < 16; ++i)
+    if (!(std::abs(glm::value_ptr(m)[i]) <= kMaxCoordinate)) return false;
+  return true;
+}
 
 void gatherVertices(Primitive& p, const std::vector<uint32_t>& source) {
   gather(p.positions, source);

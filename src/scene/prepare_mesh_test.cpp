@@ -8,18 +8,11 @@
 #include <map>
 #include <tuple>
 
-#include "scene/test_gltf.h"
+#include "scene/loaded_test_gltf.h"
 #include "scumble/scene.h"
 
 namespace scumble::scene {
 namespace {
-
-Scene loaded(const TestGltf& g) {
-  const std::string text = g.glb();
-  const Result<Scene> scene = Scene::loadFromMemory(text.data(), text.size(), "test.glb", "");
-  EXPECT_TRUE(scene.ok()) << scene.error().message();
-  return scene.ok() ? scene.value() : Scene::combine({});
-}
 
 // A cube of eight vertices, without normals or texture coordinates.
 TestGltf cube(float scale = 1.0f) {

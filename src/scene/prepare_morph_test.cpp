@@ -3,19 +3,12 @@
 
 #include <cmath>
 
+#include "scene/loaded_test_gltf.h"
 #include "scene/scene_data.h"
-#include "scene/test_gltf.h"
 #include "scumble/scene.h"
 
 namespace scumble::scene {
 namespace {
-
-Scene loaded(const TestGltf& g) {
-  const std::string text = g.glb();
-  const Result<Scene> scene = Scene::loadFromMemory(text.data(), text.size(), "test.glb", "");
-  EXPECT_TRUE(scene.ok()) << scene.error().message();
-  return scene.ok() ? scene.value() : Scene::combine({});
-}
 
 // The unit square, with one target that displaces its corners so.
 Primitive morphedQuad(const std::vector<float>& displacements, const std::vector<float>& normals = {}) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/type_ptr.hpp>
 #include <map>
 
 #include "scene/import_budget.h"
@@ -12,17 +11,6 @@
 namespace scumble::scene {
 
 namespace {
-
-bool isDrawable(const glm::vec3& p) {
-  return std::abs(p.x) <= kMaxCoordinate && std::abs(p.y) <= kMaxCoordinate &&
-         std::abs(p.z) <= kMaxCoordinate;
-}
-
-bool isDrawable(const glm::mat4& m) {
-  for (int i = 0; i < 16; ++i)
-    if (!(std::abs(glm::value_ptr(m)[i]) <= kMaxCoordinate)) return false;
-  return true;
-}
 
 // A mesh's box, and how far each of its morph targets can move it.
 struct MeshBox {

@@ -31,6 +31,16 @@ Moments firstClipAt(const Scene& scene, double time) {
   return {{0, time - length * std::floor(time / length)}};
 }
 
+// The share of the clip "Move" changes with time; nothing is held.
+Look fadingLook(const std::string& keys) {
+  const Result<Look> look = Look::fromJson(
+      R"({"clips": {"Move": {"play": {"weight": {"keys": )" + keys + R"(}}}}, "animation": {"hold": 0},
+          "ground": {"mode": "off"}, "light": {"shadowWarp": 0}})",
+      "test.json");
+  if (!look) throw std::runtime_error(look.error().message());
+  return *look;
+}
+
 // Where the point that was hit is on the same triangle in another pose.
 glm::dvec3 placeOn(const std::vector<WorldTriangle>& triangles, const Hit& hit) {
   glm::dvec3 place(0.0);
@@ -298,14 +308,10 @@ TEST_P(AnimationDrawn, theTroupe) {
 // A clip whose share goes to nothing leaves the rest pose, and comes back.
 TEST_P(AnimationDrawn, fading) {
   const Scene scene = threeMovers(true, true, true).load();
-  Result<Look> look = Look::fromJson(
-      R"({"clips": {"Move": {"play": {"weight": {"keys": [[0, 1], [1, 0]]}}}}, "animation": {"hold": 0},
-          "ground": {"mode": "off"}, "light": {"shadowWarp": 0}})",
-      "test.json");
-  ASSERT_TRUE(look.ok()) << look.error().message();
+  const Look look = fadingLook("[[0, 1], [1, 0]]");
   const auto views = viewsFrom(scene, {{0, 0, 6}}, kWidth, kHeight, GetParam());
   for (const double time : {0.25, 2.0, 2.0, 0.75, 3.0})
-    compare(drawAt(scene, *look, time, views, sized(kWidth, kHeight, {"position", "normal", "id"})), views,
+    compare(drawAt(scene, look, time, views, sized(kWidth, kHeight, {"position", "normal", "id"})), views,
             posedTriangles(scene.data(), {{0, std::min(time, 1.0), std::max(1 - time, 0.0)}}),
             "time " + std::to_string(time));
 }
@@ -546,16 +552,12 @@ TEST_P(AnimationDrawn, motion) {
 // A clip whose share changes with time: where things were follows the look of then.
 TEST_P(AnimationDrawn, motionUnderALookThatChanges) {
   const Scene scene = threeMovers(true, true, true).load();
-  Result<Look> look = Look::fromJson(
-      R"({"clips": {"Move": {"play": {"weight": {"keys": [[0, 0], [0.5, 1]]}}}}, "animation": {"hold": 0},
-          "ground": {"mode": "off"}, "light": {"shadowWarp": 0}})",
-      "test.json");
-  ASSERT_TRUE(look.ok()) << look.error().message();
+  const Look look = fadingLook("[[0, 0], [0.5, 1]]");
   const auto views = viewsFrom(scene, {{0, 0, 6}}, kWidth, kHeight, GetParam());
   const double time = 0.45, before = 0.2;
   RenderOptions options = sized(kWidth, kHeight, {"position", "normal", "id", "motion"});
   options.previousTime = before;
-  const Frame frame = drawAt(scene, *look, time, views, options);
+  const Frame frame = drawAt(scene, look, time, views, options);
   const auto now = posedTriangles(scene.data(), {{0, time, 2 * time}}),
              then = posedTriangles(scene.data(), {{0, before, 2 * before}});
   compare(frame, views, now, "now");
