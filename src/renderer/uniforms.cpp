@@ -1,11 +1,13 @@
 #include "renderer/uniforms.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "frame/light.h"
 #include "frame/palette.h"
 #include "passes/color/color.h"
 #include "passes/surface/surface.h"
+#include "passes/warp/warp.h"
 
 namespace scumble::renderer {
 
@@ -74,8 +76,57 @@ const ColorMaps::Pair& ColorMaps::get(const PaletteParams& palette) {
       .second;
 }
 
-shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const look::LookData& look,
+namespace {
+
+// The sky is cooler than the colour in shadow, the ground warmer, at about equal brightness. Factors.
+glm::vec3 tintUp(float skyTint) {
+  return 1.0f + skyTint * glm::vec3(0.0f, 0.7f, 1.6f);
+}
+glm::vec3 tintDown(float skyTint) {
+  return glm::max(1.0f + skyTint * glm::vec3(0.6f, -0.4f, -1.2f), 0.0f);
+}
+
+// What does not go through the rule for light: the ground, and pictures behind everything.
+PaletteParams shadowsOnly(PaletteParams palette) {
+  palette.darkest = 0, palette.lightest = 1, palette.litTintAmount = 0;
+  return palette;
+}
+
+}  // namespace
+
+shared::Backdrop backdropUniforms(const SceneOnGpu& scene, const look::LookData& look,
+                                  const shared::FrameUniforms& frame, const glm::uvec2& texels,
                                   ColorMaps& maps) {
+  const passes::BackgroundParams params = look.get<passes::BackgroundParams>();
+  const int ground = scene.groundMaterial();
+  const PaletteParams palette = ground < 0
+                                    ? look.get<PaletteParams>()
+                                    : look.getForMaterial<PaletteParams>(scene.materialName(size_t(ground)));
+  shared::Backdrop b{};
+  // Covering the frame: the same texels per pixel both ways.
+  const glm::vec2 ratio = glm::vec2(texels) / frame.imageSize;
+  const float density = std::min(ratio.x, ratio.y);
+  b.scale = density / ratio;
+  b.minified = std::clamp(2.0f * (density - 1.0f), 0.0f, 1.0f);
+  b.radius = params.simplify * frame.pixelScale;
+  b.sectorLevel = std::max(0.0f, std::log2(0.8f * b.radius * density));
+  b.style = params.style;
+  b.warp = params.warp;
+  b.tear = look.get<passes::WarpParams>().amount * frame.pixelScale;
+  b.groundHeight = groundHeight(scene.bounds());
+  // Long before the disc of the ground ends.
+  const float center = glm::length(frame.sceneCenter - frame.views[0].eye);
+  b.matteNear = center + 10 * frame.sceneRadius;
+  b.matteFar = center + 30 * frame.sceneRadius;
+  b.shadowTint = tintUp(palette.skyTint);
+  b.lit = maps.get(palette).lit;
+  b.litShadowed = maps.get(palette).shadowed;
+  b.shadowed = maps.get(shadowsOnly(palette)).shadowed;
+  return b;
+}
+
+shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const look::LookData& look,
+                                  bool overPicture, ColorMaps& maps) {
   const bool isGround = int(index) == scene.groundMaterial();
   const scene::Material material = isGround ? scene::Material{} : scene.data().materials[index];
   const PaletteParams palette = look.getForMaterial<PaletteParams>(scene.materialName(index));
@@ -94,10 +145,8 @@ shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const l
 
   const bool isPainted = look.getForMaterial<passes::TextureParams>(scene.materialName(index)).amount > 0;
 
-  // The sky is cooler than the colour in shadow, the ground warmer, at about equal brightness.
-  const float tint = palette.skyTint;
-  data.tintUp = glm::sqrt(1.0f + tint * glm::vec3(0.0f, 0.7f, 1.6f));
-  data.tintDown = glm::sqrt(glm::max(1.0f + tint * glm::vec3(0.6f, -0.4f, -1.2f), 0.0f));
+  data.tintUp = glm::sqrt(tintUp(palette.skyTint));
+  data.tintDown = glm::sqrt(tintDown(palette.skyTint));
   const auto setConstant = [&](const glm::vec3& lit, const glm::vec3& shadowed) {
     const glm::vec3 dark = material.unlit ? lit : shadowed;
     const glm::vec3 down = material.unlit ? glm::vec3(1.0f) : data.tintDown;
@@ -112,11 +161,11 @@ shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const l
     const glm::vec3 ground = look.get<passes::BackgroundParams>().mode == 0
                                  ? automaticBackground(scene.colors()).ground
                                  : glm::vec3(look.get<GroundParams>().tint);
-    PaletteParams plain = palette;
-    plain.darkest = 0, plain.lightest = 1, plain.litTintAmount = 0;
+    const PaletteParams plain = shadowsOnly(palette);
     setConstant(ground, glm::vec3(shadowedColor(plain, glm::dvec3(ground))));
     data.baseColor = glm::vec4(ground, 1.0f);
     data.lit = identityColorMap();
+    data.matte = overPicture ? 1.0f : 0.0f;
     if (isPainted) data.shadowed = maps.get(plain).shadowed;
     return data;
   }

@@ -28,8 +28,14 @@ class ColorMaps {
   std::vector<std::pair<PaletteParams, Pair>> known_;
 };
 
-// The material's facts, its texture transforms and its colour maps under a look.
-shared::MaterialData materialData(const SceneOnGpu& scene, size_t material, const look::LookData& look,
+// How a picture of so many texels lies behind everything, under a look.
+shared::Backdrop backdropUniforms(const SceneOnGpu& scene, const look::LookData& look,
+                                  const shared::FrameUniforms& frame, const glm::uvec2& texels,
                                   ColorMaps& maps);
+
+// The material's facts, its texture transforms and its colour maps under a look.
+// `overPicture`: the ground is seen by its shadows only.
+shared::MaterialData materialData(const SceneOnGpu& scene, size_t material, const look::LookData& look,
+                                  bool overPicture, ColorMaps& maps);
 
 }  // namespace scumble::renderer
