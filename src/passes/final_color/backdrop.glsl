@@ -82,7 +82,11 @@ vec4 overBackdrop(vec4 color, float matte, float distance, vec2 at) {
   color.rgb += inLight * (open - matte);
   if (matte > 0.0) {
     vec3 plain = applyColorMap(u.backdrop.shadowed, root), styled = applyColorMap(u.backdrop.litShadowed, root);
-    color.rgb += mix(plain * plain, styled * styled, u.backdrop.style) * u.backdrop.shadowTint * matte;
+    vec3 dark = mix(plain * plain, styled * styled, u.backdrop.style) * u.backdrop.shadowTint;
+    // The polynomial makes the very darkest colours lighter than they are.
+    const vec3 kLuminance = vec3(0.2126, 0.7152, 0.0722);
+    dark *= min(1.0, 0.75 * dot(inLight, kLuminance) / max(dot(dark, kLuminance), 1e-4));
+    color.rgb += dark * matte;
   }
   return vec4(color.rgb, 1.0);
 }
