@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "frame/palette.h"
-#include "passes/color/color.h"
 #include "tests/support/aov.h"
 #include "tests/support/render_test.h"
 
