@@ -7,10 +7,10 @@ import shutil
 import struct
 import subprocess
 import unittest
-import zlib
 
 import program_test
-from program_test import TINY, UNUSABLE, USAGE, Program, png
+from program_test import NOT_WRITTEN, TINY, UNUSABLE, USAGE, Program, png
+from png import make_png  # noqa: E402
 
 QUIET = [*TINY, "--quiet"]
 PLAIN = ["--set", "background.style=0", "--set", "background.simplify=0", "--set", "ground.mode=off"]
@@ -18,12 +18,7 @@ AWAY = ["--eye", "0,0,50", "--target", "0,0,100"]  # the scene is behind the vie
 
 
 def picture(width=32, height=18, color=lambda x, y: (8 * x % 256, 14 * y % 256, 90)):
-    """The bytes of a PNG."""
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-    rows = b"".join(b"\0" + bytes(v for x in range(width) for v in color(x, y)) for y in range(height))
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0)) +
-            chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+    return make_png(width, height, color)
 
 
 class Background(Program):
@@ -63,6 +58,23 @@ class Pictures(Background):
         self.good("render", "box.gltf", "-o", "a.png", "--background", "behind.png", *AWAY, *PLAIN, "--stereo", "separate", *QUIET)
         self.same(self.bytes("a.left.png"), self.bytes("a.right.png"))
 
+    def test_photographs_come_upright(self):
+        if not shutil.which("ffmpeg"):
+            self.skipTest("ffmpeg is not installed")
+        # A bright corner at the file's lower left is the upper left one of what is turned by a quarter, clockwise.
+        self.put("side.png", picture(72, 128, lambda x, y: (240, 240, 240) if x < 36 and y >= 64 else (20, 20, 20)))
+        subprocess.run(["ffmpeg", "-loglevel", "error", "-i", "side.png", "-q:v", "2", "side.jpg"], cwd=self.folder, check=True,
+                       stdin=subprocess.DEVNULL)
+        jpeg = self.bytes("side.jpg")
+        exif = b"Exif\0\0MM\0*" + struct.pack(">IHHHIHHI", 8, 1, 0x0112, 3, 1, 6, 0, 0)
+        self.put("turned.jpg", jpeg[:2] + b"\xFF\xE1" + struct.pack(">H", len(exif) + 2) + exif + jpeg[2:])
+        self.draw("turned.png", "--background", "turned.jpg", *AWAY, *PLAIN)
+        self.draw("expected.png", "--background", str(self.put("upright.png", picture(
+            128, 72, lambda x, y: (240, 240, 240) if x < 64 and y < 36 else (20, 20, 20)))), *AWAY, *PLAIN)
+        one, other = png(self.folder / "turned.png"), png(self.folder / "expected.png")
+        self.assertEqual(one[:2], other[:2])
+        self.assertLess(max(abs(a - b) for a, b in zip(b"".join(one[-1]), b"".join(other[-1]))), 40)
+
     def test_what_cannot_be_used(self):
         self.put("text.jpg", "no picture")
         self.put("cut.png", picture()[:60])
@@ -70,7 +82,7 @@ class Pictures(Background):
         for name in ("text.jpg", "cut.png", "absent.png", "absent.webp"):
             self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--background", name, *TINY, says=name)
         self.bad(USAGE, "render", "box.gltf", "-o", "x.png", "--background", "blue", *TINY, says="'blue'")
-        self.bad(USAGE, "render", "box.gltf", "-o", "behind.png", "--background", "behind.png", *TINY, says="behind.png")
+        self.bad(NOT_WRITTEN, "render", "box.gltf", "-o", "behind.png", "--background", "behind.png", *TINY, says="behind.png")
 
 
 class Films(Background):
