@@ -7,7 +7,6 @@
 SHARED_BEGIN
 struct Backdrop {
   vec2 scale;                      // texture coordinates per part of the frame, from the middle of both
-  vec2 texelSize;                  // of level 0, in texture coordinates
   float minified;                  // 0 to 1: how much finer than a pixel its texels are, up to half a pixel
   float radius;                    // pixels that are simplified into one area; 0: none
   float sectorLevel;               // the mip level that is read for a part of such an area

@@ -3,7 +3,12 @@
 // One of its texels a pixel, or the mean of the four that a pixel covers.
 vec3 pictureAlone(vec2 uv) {
   vec2 apart = 0.25 * u.backdrop.minified * u.backdrop.scale / frame.imageSize;
-  if (u.backdrop.minified <= 0.0) return textureLod(backdrop, uv, 0.0).rgb;
+  if (u.backdrop.minified <= 0.0) {
+    // At the very middle of a texel filters add what they round; a picture as large as the frame stays what it is.
+    vec2 texel = uv * vec2(textureSize(backdrop, 0)), middle = floor(texel) + 0.5;
+    if (all(lessThan(abs(texel - middle), vec2(1e-3)))) return texelFetch(backdrop, ivec2(middle), 0).rgb;
+    return textureLod(backdrop, uv, 0.0).rgb;
+  }
   vec3 sum = vec3(0.0);
   for (int i = 0; i < 4; ++i)
     sum += textureLod(backdrop, uv + apart * vec2((i & 1) * 2 - 1, (i >> 1) * 2 - 1), 0.0).rgb;

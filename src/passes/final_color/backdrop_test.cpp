@@ -86,7 +86,7 @@ TEST_P(BackdropTest, coloursInShadowAreTheRulesAndAllElseIsThePicture) {
           }
         }
       EXPECT_EQ(difference.beyond, 0u) << difference.text() << ", " << samples << " samples, view " << v;
-      EXPECT_GT(dark, 200u);
+      EXPECT_GT(dark, 120u);
       EXPECT_GT(exact, 5000u);
     }
   }
@@ -143,9 +143,10 @@ TEST_P(BackdropTest, warpIsWhereItIsAskedFor) {
     return count;
   };
   for (size_t v = 0; v < viewCount(); ++v) {
-    EXPECT_LT(moved("none", v, true), 40u);
-    EXPECT_EQ(moved("none", v, false), 0u);
+    // At silhouettes colours of the ball are mixed in.
     EXPECT_GT(moved("near", v, true), 100u);
+    EXPECT_LT(3 * moved("none", v, true), moved("near", v, true));
+    EXPECT_EQ(moved("none", v, false), 0u);
     EXPECT_EQ(moved("near", v, false), 0u);
     EXPECT_GT(moved("everywhere", v, false), 500u);
   }
