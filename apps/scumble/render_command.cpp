@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "background.h"
 #include "commands.h"
 #include "frame_writer.h"
 #include "options.h"
@@ -85,7 +86,7 @@ Status readExrOptions(const std::string& text, OutputPlan& output) {
   return Done{};
 }
 
-Result<RenderOptions> renderOptions(const RenderArguments& args) {
+Result<RenderOptions> renderOptions(const RenderArguments& args, const Background& background) {
   Result<RenderOptions> options = args.picture.renderOptions();
   if (!options) return options;
   for (const std::string& name : args.aovs) {
@@ -95,24 +96,17 @@ Result<RenderOptions> renderOptions(const RenderArguments& args) {
       options->aovs.push_back(name);
     }
   }
-  options->transparent = args.background == "transparent";
+  options->transparent = background.isTransparent();
   return options;
 }
 
 // The look with what --background sets.
-Result<Look> loadLook(const RenderArguments& args) {
+Result<Look> loadLook(const RenderArguments& args, const Background& background) {
   LookArguments arguments = args.look;
-  if (args.background[0] == '#') {
+  if (background.isColor()) {
     for (const char* knob : {"background.horizon=", "background.zenith=", "ground.tint="})
       arguments.settings.push_back(knob + args.background);
     arguments.settings.push_back("background.mode=look");
-  } else if (!args.background.empty() && args.background != "transparent") {
-    return Error{ErrorKind::usage,
-                 "",
-                 0,
-                 "",
-                 "'" + args.background + "' is no background",
-                 "use #RRGGBB or transparent"};
   }
   return arguments.load(args.scene.files[0]);
 }
@@ -141,8 +135,14 @@ class FrameLoop {
  public:
   // `still`: the views of all frames, unless a camera of the scene is used.
   FrameLoop(const RenderArguments& args, const Scene& scene, const Look& look, const RenderOptions& options,
-            const Result<std::vector<View>>& still, Renderer& renderer)
-      : args_(args), scene_(scene), look_(look), options_(options), still_(still), renderer_(renderer) {}
+            const Background& background, const Result<std::vector<View>>& still, Renderer& renderer)
+      : args_(args),
+        scene_(scene),
+        look_(look),
+        options_(options),
+        background_(background),
+        still_(still),
+        renderer_(renderer) {}
 
   // One frame for each time; `take` gets them in this order.
   Status draw(const std::vector<double>& times, const std::function<Status(size_t, Frame)>& take) {
@@ -159,6 +159,9 @@ class FrameLoop {
         const Result<std::vector<View>> previous = viewsAt(*options.previousTime);
         if (!previous) return previous.error();
         options.previousViews = *previous;
+        Result<std::shared_ptr<const Image>> behind = background_.at(times[next]);
+        if (!behind) return behind.error();
+        options.background = std::move(behind).value();
         if (const Status status = renderer_.begin(scene_, look_, times[next], *views, options); !status)
           return status.error();
         ++next;
@@ -179,6 +182,7 @@ class FrameLoop {
   const Scene& scene_;
   const Look& look_;
   const RenderOptions& options_;
+  const Background& background_;
   const Result<std::vector<View>>& still_;
   Renderer& renderer_;
 };
@@ -193,10 +197,13 @@ int run(const RenderArguments& args) {
   };
 
   // Check everything that can be checked before anything is drawn.
-  const Result<RenderOptions> options = renderOptions(args);
+  const Result<Background> background = Background::make(args.background);
+  if (!background) return fail(background.error());
+  const Result<RenderOptions> options = renderOptions(args, *background);
   if (!options) return fail(options.error());
   std::vector<std::string> inputs = args.scene.files;
   if (!args.look.look.empty()) inputs.push_back(args.look.look);
+  if (!background->file().empty()) inputs.push_back(background->file());
   Result<OutputPlan> output = OutputPlan::make(args.output, args.scene.files[0], args.picture.stereo,
                                                !args.frames.empty(), *options, inputs);
   if (!output) return fail(output.error());
@@ -219,7 +226,7 @@ int run(const RenderArguments& args) {
                      "write name.####.png with --resume, then make the film of those");
   if (!std::isfinite(args.time) || !(args.fps > 0) || !std::isfinite(args.fps))
     return failUsage("--time or --fps is out of range", "time is in seconds, fps above 0");
-  Result<Look> look = loadLook(args);
+  Result<Look> look = loadLook(args, *background);
   if (!look) return fail(look.error());
   const Result<Scene> scene = args.scene.load(args.quiet);
   if (!scene) return fail(scene.error());
@@ -262,7 +269,7 @@ int run(const RenderArguments& args) {
       },
       [&](int number) { progress.done("frame " + std::to_string(number)); });
   nlohmann::json frameStats = nlohmann::json::array();
-  FrameLoop loop(args, *scene, *look, *options, views, **renderer);
+  FrameLoop loop(args, *scene, *look, *options, *background, views, **renderer);
   Status status = loop.draw(times, [&](size_t i, Frame frame) {
     frameStats.push_back(statsJson(frame.stats));
     return writer.add(isPicture ? 0 : (*numbers)[i], std::move(frame));
@@ -334,7 +341,10 @@ void addRender(CLI::App& program, int& exitCode) {
                        names)
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--background", args->background, "What is behind everything: #RRGGBB or transparent");
+  command->add_option(
+      "--background", args->background,
+      "What is behind everything: #RRGGBB, transparent, or a picture (.png, .jpg, .webp) or film; "
+      "before those, the ground shows only the shadows on it");
   command->add_option("--stats", args->stats, "Write JSON with milliseconds of each pass, counts and memory")
       ->type_name("FILE");
   command->add_flag("--quiet", args->quiet, "No warnings and no progress");

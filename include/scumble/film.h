@@ -1,4 +1,5 @@
-// Films: pictures one after another into an MP4 file, encoded as H.264 by the program ffmpeg.
+// Films: pictures one after another into an MP4 file, encoded as H.264 by the program ffmpeg; and the
+// pictures of any film that ffmpeg reads.
 #pragma once
 
 #include <cstdint>
@@ -65,6 +66,39 @@ class FilmWriter {
  private:
   struct State;
   explicit FilmWriter(std::unique_ptr<State> state);
+
+  std::unique_ptr<State> state_;
+};
+
+// Reads the pictures of a film, by time.
+//
+// They are linear floats (R, G, B), from 8 bits a channel that are taken as sRGB, upright and with square
+// pixels. Which picture belongs to a time, and its bytes, depend on the film and on ffmpeg's version only,
+// not on what was read before.
+//
+// The programs ffmpeg and ffprobe are looked for on the PATH and run as child processes. While one picture is
+// used, the next one is decoded. Times that grow are fast; for one that lies before the last, the film is
+// decoded anew from its beginning. One reader is used by one thread at a time.
+class FilmReader {
+ public:
+  // Fails with ErrorKind::unusableFile where the file is no film or ffmpeg is not there.
+  static Result<std::unique_ptr<FilmReader>> open(const std::string& path);
+  ~FilmReader();
+  FilmReader(const FilmReader&) = delete;
+  FilmReader& operator=(const FilmReader&) = delete;
+
+  // The picture that stands at a time in seconds: the last one whose time stamp is not later. Time 0 is that
+  // of the first picture; it stands before that too, and the last one stands after the film's end. Time
+  // stamps count as up to a millisecond earlier, since some containers round them to whole ones. The same
+  // picture is the same object as long as times grow.
+  Result<std::shared_ptr<const Image>> at(double time);
+
+  // Time stamp of the last picture, seconds.
+  double lastTime() const;
+
+ private:
+  struct State;
+  explicit FilmReader(std::unique_ptr<State> state);
 
   std::unique_ptr<State> state_;
 };

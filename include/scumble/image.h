@@ -56,6 +56,10 @@ Status writePng(const std::string& path, const Image& image);
 // Reads what writePng writes, and any other PNG, as linear floats (R, G, B, A).
 Result<Image> readPng(const std::string& path);
 
+// Reads a PNG, JPEG or WebP, whatever its name says, as linear floats (R, G, B, A). Photographs come upright,
+// as their EXIF says. Colour profiles are not looked at: values are sRGB. Fails with ErrorKind::unusableFile.
+Result<Image> readPicture(const std::string& path);
+
 // Float, compressed without loss; alpha is straight, as in Image. Channels are named LAYER.CHANNEL. In stereo
 // (layers with views) the standard multiView attribute lists the views, "left" first; the picture's channels
 // are R, G, B, A for the left eye and right.R ... for the right one, those of layers LAYER.left.CHANNEL and

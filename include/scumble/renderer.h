@@ -41,6 +41,13 @@ struct RenderOptions {
   uint32_t samples = 4;                 // 1 or 4
   std::vector<std::string> aovs;        // names of Renderer::aovNames()
   bool transparent = false;             // leave the background out: alpha 0 where nothing is
+  // What is behind everything, instead of the sky: a picture with channels R, G, B or R, G, B, A (put over
+  // black), of any size up to 16384 a side, or what the device allows. It is scaled to cover the frame, with
+  // its middle in the middle and its aspect kept; two views see the same, as if it were infinitely far. The
+  // ground, where there is one, is then seen only by the shadows on it. Nothing is uploaded for a picture
+  // that is the same object as in the frame before: do not change one that was given. Ignored where
+  // `transparent`.
+  std::shared_ptr<const Image> background;
   uint32_t seed = 0;
   bool plain = false;  // the yardstick: the scene once, unlit, one pass, nothing else
   // The views and the time (seconds) one frame earlier, for the motion AOV; empty: the same as now.

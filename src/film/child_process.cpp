@@ -42,24 +42,28 @@ ChildProcess::~ChildProcess() {
     }
   }
   closeIfOpen(input_);
+  closeIfOpen(output_);
   closeIfOpen(errors_);
 }
 
-int ChildProcess::start(const std::vector<std::string>& command, int passed) {
+int ChildProcess::start(const std::vector<std::string>& command, int passed, Output output) {
   // Descriptors: ours, and the child's ends of them.
-  int pair[2] = {-1, -1}, stream[2] = {-1, -1};
-  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) != 0) return errno;
-  if (pipe2(stream, O_CLOEXEC) != 0) {
-    const int code = errno;
-    close(pair[0]);
-    close(pair[1]);
-    return code;
-  }
+  int pair[2] = {-1, -1}, stream[2] = {-1, -1}, result[2] = {-1, -1};
+  int code = 0;
+  if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) != 0 || pipe2(stream, O_CLOEXEC) != 0 ||
+      (output == Output::received && pipe2(result, O_CLOEXEC) != 0))
+    code = errno;
   input_ = pair[0];
+  output_ = result[0];
   errors_ = stream[0];
-  int childInput = moveUp(pair[1]), childErrors = moveUp(stream[1]);
-  int childPassed = fcntl(passed, F_DUPFD_CLOEXEC, kPassed + 1);
-  int code = childInput < 0 || childErrors < 0 || childPassed < 0 ? errno : 0;
+  const auto moved = [&](int descriptor) {
+    const int up = descriptor < 0 ? -1 : moveUp(descriptor);
+    if (descriptor >= 0 && up < 0 && code == 0) code = errno;
+    return up;
+  };
+  int childInput = moved(pair[1]), childErrors = moved(stream[1]), childOutput = moved(result[1]);
+  int childPassed = passed < 0 ? -1 : fcntl(passed, F_DUPFD_CLOEXEC, kPassed + 1);
+  if (passed >= 0 && childPassed < 0 && code == 0) code = errno;
 
   // The child.
   if (code == 0) {
@@ -68,9 +72,12 @@ int ChildProcess::start(const std::vector<std::string>& command, int passed) {
     posix_spawn_file_actions_init(&actions);
     posix_spawnattr_init(&attributes);
     posix_spawn_file_actions_adddup2(&actions, childInput, STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    if (childOutput >= 0)
+      posix_spawn_file_actions_adddup2(&actions, childOutput, STDOUT_FILENO);
+    else
+      posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, childErrors, STDERR_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, childPassed, kPassed);
+    if (childPassed >= 0) posix_spawn_file_actions_adddup2(&actions, childPassed, kPassed);
     // A group of its own: Ctrl-C is for us, and what becomes of the child is our decision.
     sigset_t none, pipe;
     sigemptyset(&none);
@@ -91,6 +98,7 @@ int ChildProcess::start(const std::vector<std::string>& command, int passed) {
   }
   closeIfOpen(childInput);
   closeIfOpen(childErrors);
+  closeIfOpen(childOutput);
   closeIfOpen(childPassed);
   return code;
 }
@@ -118,8 +126,29 @@ bool ChildProcess::send(const void* bytes, size_t size) {
   return true;
 }
 
+size_t ChildProcess::receive(void* bytes, size_t size) {
+  size_t received = 0;
+  while (received < size && output_ >= 0) {
+    // Listening too: a child that nobody hears would never write more.
+    pollfd ready[2] = {{output_, POLLIN, 0}, {errors_, POLLIN, 0}};
+    if (poll(ready, 2, -1) < 0) {
+      if (errno == EINTR) continue;
+      break;
+    }
+    if (ready[1].revents != 0) listen();
+    if (ready[0].revents == 0) continue;
+    const ssize_t count = read(output_, static_cast<char*>(bytes) + received, size - received);
+    if (count > 0)
+      received += size_t(count);
+    else if (count == 0 || errno != EINTR)
+      closeIfOpen(output_);
+  }
+  return received;
+}
+
 std::string ChildProcess::finish() {
   closeIfOpen(input_);
+  closeIfOpen(output_);
   while (errors_ >= 0) listen();
   int status = 0;
   while (process_ > 0 && waitpid(process_, &status, 0) < 0)

@@ -1,5 +1,5 @@
-// A program run as a child: bytes go to its standard input, and the end of what it says on standard error is
-// kept. Its standard output is discarded.
+// A program run as a child: bytes go to its standard input, or come from its standard output, and the end of
+// what it says on standard error is kept.
 #pragma once
 
 #include <sys/types.h>
@@ -13,6 +13,7 @@ namespace scumble::film {
 class ChildProcess {
  public:
   static constexpr int kPassed = 3;  // the child's number of the descriptor that it is given
+  enum class Output { discarded, received };
 
   ChildProcess() = default;
   ~ChildProcess();  // kills it if it still runs
@@ -20,11 +21,15 @@ class ChildProcess {
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   // command[0] is looked for on the PATH; no shell is involved. Signals from the terminal do not reach the
-  // child. Returns 0 or the reason why not (ENOENT: there is no such program).
-  int start(const std::vector<std::string>& command, int passed);
+  // child. `passed`: a descriptor that it is given, or -1. Returns 0 or the reason why not (ENOENT: there is
+  // no such program).
+  int start(const std::vector<std::string>& command, int passed, Output output = Output::discarded);
 
   // Waits until the child has taken all of it; false when it takes no more.
   bool send(const void* bytes, size_t size);
+
+  // Waits for so many bytes of its standard output; fewer come only where that ends.
+  size_t receive(void* bytes, size_t size);
 
   // Ends the child's input and waits for its end. Empty if it succeeded, otherwise how it ended ("ended with
   // code 1"). A host that ignores SIGCHLD makes every end a success.
@@ -38,6 +43,7 @@ class ChildProcess {
 
   pid_t process_ = -1;
   int input_ = -1;   // a socket: unlike a pipe, it can be written to without SIGPIPE
+  int output_ = -1;  // its standard output, where it is received; -1 once that has ended
   int errors_ = -1;  // its standard error; -1 once that has ended
   std::string said_;
 };

@@ -31,6 +31,21 @@ TEST(ChildProcess, whatIsSentArrivesWithTheDescriptor) {
   EXPECT_EQ(child.said(), "done\n");
 }
 
+TEST(ChildProcess, whatItWritesIsReceived) {
+  ChildProcess child;
+  // More than pipes hold, on both of its outputs.
+  ASSERT_EQ(
+      child.start(shell("head -c 300000 /dev/zero | tr '\\0' a >&2; head -c 1000000 /dev/zero | tr '\\0' b"),
+                  -1, ChildProcess::Output::received),
+      0);
+  std::string got(2'000'000, ' ');
+  EXPECT_EQ(child.receive(got.data(), 7), 7u);
+  EXPECT_EQ(child.receive(got.data() + 7, got.size() - 7), 999'993u);
+  EXPECT_EQ(got.substr(0, 1'000'000), std::string(1'000'000, 'b'));
+  EXPECT_EQ(child.receive(got.data(), 1), 0u);
+  EXPECT_EQ(child.finish(), "");
+}
+
 TEST(ChildProcess, absentProgramsAreKnownAtOnce) {
   ChildProcess child;
   EXPECT_EQ(child.start({"scumble-has-no-such-program"}, STDIN_FILENO), ENOENT);

@@ -7,11 +7,11 @@
 #include <cerrno>
 #include <filesystem>
 #include <optional>
-#include <sstream>
 #include <system_error>
 
 #include "film/checks.h"
 #include "film/child_process.h"
+#include "film/ffmpeg.h"
 #include "film/frame_rate.h"
 #include "film/mp4.h"
 #include "film/passing_file.h"
@@ -66,19 +66,6 @@ std::vector<std::string> ffmpegCommand(const FilmOptions& options) {
   // clang-format on
 }
 
-// The last line that says something, without the address of who says it ("[libx264 @ 0x55d0c8a4] ").
-std::string lastLine(const std::string& said) {
-  std::istringstream lines(said);
-  std::string last;
-  for (std::string line; std::getline(lines, line);) {
-    while (!line.empty() && uint8_t(line.back()) <= ' ') line.pop_back();
-    const size_t who = line.find("] ");
-    if (line.starts_with('[') && who != std::string::npos) line.erase(0, who + 2);
-    if (!line.empty() && line != "Conversion failed!") last = line;
-  }
-  return last;
-}
-
 }  // namespace
 
 struct FilmWriter::State {
@@ -123,7 +110,7 @@ Error FilmWriter::State::encoderFailed(const std::string& how) {
   if (said.find("Unknown encoder") != std::string::npos)
     return lost("this ffmpeg has no libx264, which films are encoded with",
                 "install an ffmpeg with libx264, or " + writeSequence());
-  const std::string line = lastLine(said);
+  const std::string line = film::lastLine(said);
   return lost("cannot be written: ffmpeg " + how + (line.empty() ? "" : ": " + line),
               writeSequence() + " instead");
 }

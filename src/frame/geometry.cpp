@@ -19,7 +19,7 @@ scene::Primitive makeGround(const scene::Bounds& bounds) {
   constexpr int kSectors = 48, kRings = 9;
   constexpr float kReach = 40.0f;  // scene radii
   const float radius = std::max(bounds.radius(), 1e-6f);
-  const glm::vec3 center(bounds.center().x, bounds.min.y - 0.002f * radius, bounds.center().z);
+  const glm::vec3 center(bounds.center().x, groundHeight(bounds), bounds.center().z);
   scene::Primitive ground;
   const auto addVertex = [&](float x, float z) {
     ground.positions.push_back(center + glm::vec3(x, 0, z));
@@ -55,6 +55,10 @@ float largestScale(const glm::mat4& m) {
 }
 
 }  // namespace
+
+float groundHeight(const scene::Bounds& bounds) {
+  return bounds.min.y - 0.002f * std::max(bounds.radius(), 1e-6f);
+}
 
 float longestEdge(float shadowWarp) {
   if (shadowWarp <= 0) return std::numeric_limits<float>::infinity();

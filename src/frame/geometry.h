@@ -45,6 +45,9 @@ struct Geometry {
 // `groundMaterial`: the material index of the ground, or -1 for none.
 Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& options, int groundMaterial);
 
+// Where a ground lies under a scene that takes up so much.
+float groundHeight(const scene::Bounds& bounds);
+
 // Longest edge, as a part of the shadow map's half width, that a sigmoid of this strength bends by less than
 // a texel: an edge of length L strays from its curve by L^2 f'' / 8.
 float longestEdge(float shadowWarp);

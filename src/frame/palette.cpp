@@ -166,9 +166,10 @@ glm::vec3 apply(const shared::ColorMap& map, const glm::vec3& linear) {
   return root * root;
 }
 
-bool hasGround(const scene::SceneData& scene, const look::LookData& look) {
+bool hasGround(const scene::SceneData& scene, const look::LookData& look, bool overPicture) {
   const int mode = look.get<GroundParams>().mode;
   if (mode != 0) return mode == 1;
+  if (overPicture) return true;
   // A scene that is wide and low brings its own ground.
   const glm::vec3 size = scene.bounds.max - scene.bounds.min;
   return size.y > 0.12f * std::max(size.x, size.z);

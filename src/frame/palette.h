@@ -77,8 +77,8 @@ shared::ColorMap identityColorMap();
 // What a shader makes of it (src/shading/color_map.glsl).
 glm::vec3 apply(const shared::ColorMap& map, const glm::vec3& linear);
 
-// Whether a ground is put under this scene.
-bool hasGround(const scene::SceneData& scene, const look::LookData& look);
+// Whether a ground is put under this scene. Before a picture, any scene gets one that shows only shadows.
+bool hasGround(const scene::SceneData& scene, const look::LookData& look, bool overPicture);
 
 struct BackgroundColors {
   glm::vec3 horizon, zenith, ground;  // linear

@@ -299,14 +299,14 @@ TEST(Ground, followsItsKnobAndTheScenesShape) {
   tall.bounds.add({-1, 0, -1}), tall.bounds.add({1, 2, 1});
   flat.bounds.add({-10, 0, -10}), flat.bounds.add({10, 1, 10});
   look::LookData look;
-  EXPECT_TRUE(hasGround(tall, look));
-  EXPECT_FALSE(hasGround(flat, look));
+  EXPECT_TRUE(hasGround(tall, look, false));
+  EXPECT_FALSE(hasGround(flat, look, false));
   const look::ParamRow& mode = GroundParams::block().rows[0];
   ASSERT_STREQ(mode.name, "mode");
   look.assignments.push_back({"", &GroundParams::block(), &mode, {1, {}}});
-  EXPECT_TRUE(hasGround(flat, look));
+  EXPECT_TRUE(hasGround(flat, look, false));
   look.assignments.push_back({"", &GroundParams::block(), &mode, {2, {}}});
-  EXPECT_FALSE(hasGround(tall, look));
+  EXPECT_FALSE(hasGround(tall, look, false));
 }
 
 }  // namespace

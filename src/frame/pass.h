@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "frame/backdrop.h"
 #include "frame/example_textures.h"
 #include "frame/scene_on_gpu.h"
 #include "frame/slots.h"
@@ -42,6 +43,8 @@ struct Configuration {
   bool layered = false;        // whether what lies behind the first surface is drawn as well
   bool glows = false;          // whether anything may act on the lens
   bool limit = false;          // whether the limit pass runs
+  uint32_t backdropWidth = 0,
+           backdropHeight = 0;  // texels of the picture behind everything; 0: there is none
   bool plain = false;
   bool colorize = false;  // whether the colorize pass runs
   bool multiview = true;  // all views at once; else one after the other
@@ -60,8 +63,9 @@ struct FrameInput {
   double time = 0;             // seconds
   const shared::FrameUniforms& uniforms;
   const SceneOnGpu& scene;
-  bool transparent = false;
+  bool transparent = false;  // nothing is laid behind what is drawn, or something is later: `backdrop`
   uint32_t seed = 0;
+  const BackdropInput* backdrop = nullptr;  // where there is a picture behind everything
 };
 
 using Record = std::function<void(VkCommandBuffer)>;

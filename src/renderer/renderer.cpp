@@ -56,6 +56,12 @@ bool isFinite(const glm::mat4& m) {
   return true;
 }
 
+bool isPicture(const Image& image) {
+  const size_t channels = image.channels.size();
+  return image.width > 0 && image.height > 0 && (channels == 3 || channels == 4) &&
+         image.pixels.size() == size_t(image.width) * image.height * channels;
+}
+
 GpuInfo toPublic(const gpu::DeviceInfo& info) {
   GpuInfo result;
   result.name = info.name;
@@ -107,6 +113,7 @@ struct Renderer::Impl {
   std::optional<Scene> scene;  // keeps the data alive that sceneOnGpu refers to
   std::optional<SceneOnGpu> sceneOnGpu;
   std::unique_ptr<Setup> setup;
+  std::optional<Backdrop> backdrop;
   ColorMaps colorMaps;
   std::optional<gpu::Submission> submissions[gpu::kFramesInFlight];
   std::deque<Begun> begun;  // the oldest first
@@ -115,6 +122,7 @@ struct Renderer::Impl {
   ~Impl() {
     for (auto& submission : submissions) submission.reset();
     setup.reset();
+    backdrop.reset();
     sceneOnGpu.reset();
     lookTextures.reset();
     examples.reset();
@@ -130,8 +138,17 @@ struct Renderer::Impl {
     sceneOnGpu.emplace(*device, *samplers, scene->data(), options);
   }
 
+  // Texels of pictures behind everything; none: there is no such picture.
+  void useBackdrop(const glm::uvec2& texels) {
+    if ((backdrop ? backdrop->size() : glm::uvec2(0)) == texels) return;
+    fetchAll();
+    setup.reset();
+    backdrop.reset();
+    if (texels.x > 0) backdrop.emplace(*device, texels);
+  }
+
   void useConfiguration(const Configuration& configuration);
-  void record(VkCommandBuffer commands, uint32_t slot);
+  void record(VkCommandBuffer commands, uint32_t slot, const RenderOptions& options);
   void readTimes(uint32_t slot, FrameStats& stats);
   // Waits for a frame and fetches its pictures, unless that has been done.
   void fetch(Begun& frame);
@@ -145,6 +162,7 @@ struct Renderer::Impl {
     begun.clear();
     setup.reset();
     if (sceneOnGpu) sceneOnGpu->forgetPoses();
+    if (backdrop) backdrop->forget();
   }
   Error failure(const gpu::VulkanError& error) {
     abandon();
@@ -208,7 +226,7 @@ void Renderer::Impl::useConfiguration(const Configuration& configuration) {
   setup = std::move(next);
 }
 
-void Renderer::Impl::record(VkCommandBuffer commands, uint32_t slot) {
+void Renderer::Impl::record(VkCommandBuffer commands, uint32_t slot, const RenderOptions& options) {
   const gpu::FrameGraph& graph = setup->builder->graph();
   const VkQueryPool queries = setup->queries[slot];
   const auto stamp = [&](uint32_t query) {
@@ -219,6 +237,7 @@ void Renderer::Impl::record(VkCommandBuffer commands, uint32_t slot) {
   std::vector<gpu::PerFrameBuffer*> uploads{&setup->uniformBuffer};
   sceneOnGpu->addUploads(uploads);
   gpu::recordUploads(commands, uploads, slot);
+  if (backdrop) backdrop->upload(commands, slot, options.background);
   stamp(0);
   for (size_t s = 0; s < graph.steps().size(); ++s) {
     std::vector<VkImageMemoryBarrier2> images;
@@ -337,6 +356,13 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
   const double previousTime = options.previousTime.value_or(time);
   if (!(std::abs(time) < kMaxTime && std::abs(previousTime) < kMaxTime))
     return usage("the time is out of range", "give it in seconds, up to a million");
+  const Image* background = options.transparent || options.plain ? nullptr : options.background.get();
+  if (background && !isPicture(*background))
+    return usage("the background is no picture", "give it channels R, G, B, and as many pixels as it says");
+  if (background && std::max(background->width, background->height) > largest)
+    return usage("a background of " + std::to_string(background->width) + "x" +
+                     std::to_string(background->height) + " is out of range",
+                 "use up to " + std::to_string(largest) + " a side");
   if (impl_->begun.size() >= size_t(kMaxBegun))
     return usage("too many frames have been begun", "call finish() first");
 
@@ -351,6 +377,9 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
   configuration.glows = glows(scene.data(), now);
   configuration.limit = !options.plain && wantsLimit(now);
   configuration.colorize = !options.plain && wantsColorizers(now);
+  const glm::uvec2 texels =
+      background ? Backdrop::sizeFor(*background, options.width, options.height) : glm::uvec2(0);
+  configuration.backdropWidth = texels.x, configuration.backdropHeight = texels.y;
   configuration.multiview = impl_->device->multiviewWorks();
   configuration.computeImagePasses =
       impl_->imagePasses == ImagePassKind::compute ||
@@ -381,12 +410,13 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
       return elapsed;
     };
     GeometryOptions geometry;
-    geometry.ground = hasGround(scene.data(), now) && !options.transparent;
+    geometry.ground = hasGround(scene.data(), now, background != nullptr) && !options.transparent;
     geometry.shadowWarp = now.get<LightParams>().shadowWarp;
     geometry.casts = shadowCasters(scene.data(), now);
     geometry.clips = everPlayed(scene.data(), look.data());
     geometry.nodes = nodeSettings(scene.data(), now);
     impl_->useScene(scene, geometry);
+    impl_->useBackdrop(texels);
     stats.uploadMilliseconds = lap();
     impl_->useConfiguration(configuration);
     stats.setupMilliseconds = lap();
@@ -408,14 +438,24 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
     for (size_t m = 0; m < sceneOnGpu.materialCount(); ++m) {
       const ChosenSets sets = chosenSets(sceneOnGpu, m, now, *impl_->lookTextures);
       sceneOnGpu.setColorSets(m, sets.lit ? &*sets.lit : nullptr, sets.shadowed ? &*sets.shadowed : nullptr);
-      sceneOnGpu.setMaterial(m, materialData(sceneOnGpu, m, now, impl_->colorMaps));
+      sceneOnGpu.setMaterial(m, materialData(sceneOnGpu, m, now, background != nullptr, impl_->colorMaps));
     }
-    const FrameInput input{now, time, uniforms, sceneOnGpu, options.transparent, options.seed};
+    std::optional<BackdropInput> backdrop;
+    if (background)
+      backdrop = {&impl_->backdrop->image(),
+                  backdropUniforms(sceneOnGpu, now, uniforms, texels, impl_->colorMaps)};
+    const FrameInput input{now,
+                           time,
+                           uniforms,
+                           sceneOnGpu,
+                           options.transparent || background,
+                           options.seed,
+                           backdrop ? &*backdrop : nullptr};
     for (const auto& pass : setup.passes) pass->update(input);
 
     std::optional<gpu::Submission>& submission = impl_->submissions[next.slot];
     if (!submission) submission.emplace(*impl_->device);
-    submission->submit([&](VkCommandBuffer commands) { impl_->record(commands, next.slot); });
+    submission->submit([&](VkCommandBuffer commands) { impl_->record(commands, next.slot, options); });
     stats.cpuMilliseconds = lap();
     impl_->device->savePipelineCache();
     stats.triangles = sceneOnGpu.triangleCount();

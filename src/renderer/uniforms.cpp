@@ -1,11 +1,13 @@
 #include "renderer/uniforms.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "frame/light.h"
 #include "frame/palette.h"
 #include "passes/color/color.h"
 #include "passes/surface/surface.h"
+#include "passes/warp/warp.h"
 
 namespace scumble::renderer {
 
@@ -99,8 +101,51 @@ ChosenSets chosenSets(const SceneOnGpu& scene, size_t index, const look::LookDat
           choose(scene.knobs<ShadowedParams>(look, index).texture, material.shadowedTexture)};
 }
 
-shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const look::LookData& look,
+namespace {
+
+// The sky is cooler than the colour in shadow, the ground warmer, at about equal brightness. Factors.
+glm::vec3 tintUp(float skyTint) {
+  return 1.0f + skyTint * glm::vec3(0.0f, 0.7f, 1.6f);
+}
+glm::vec3 tintDown(float skyTint) {
+  return glm::max(1.0f + skyTint * glm::vec3(0.6f, -0.4f, -1.2f), 0.0f);
+}
+
+}  // namespace
+
+shared::Backdrop backdropUniforms(const SceneOnGpu& scene, const look::LookData& look,
+                                  const shared::FrameUniforms& frame, const glm::uvec2& texels,
                                   ColorMaps& maps) {
+  const passes::BackgroundParams params = look.get<passes::BackgroundParams>();
+  const int ground = scene.groundMaterial();
+  const PaletteParams palette = ground < 0
+                                    ? look.get<PaletteParams>()
+                                    : scene.knobs<PaletteParams>(look, size_t(ground));
+  shared::Backdrop b{};
+  // Covering the frame: the same texels per pixel both ways.
+  const glm::vec2 ratio = glm::vec2(texels) / frame.imageSize;
+  const float density = std::min(ratio.x, ratio.y);
+  b.scale = density / ratio;
+  b.minified = std::clamp(2.0f * (density - 1.0f), 0.0f, 1.0f);
+  b.radius = params.simplify * frame.pixelScale;
+  b.sectorLevel = std::max(0.0f, std::log2(0.8f * b.radius * density));
+  b.style = params.style;
+  b.warp = params.warp;
+  b.tear = look.get<passes::WarpParams>().amount * frame.pixelScale;
+  b.groundHeight = groundHeight(scene.bounds());
+  // Long before the disc of the ground ends.
+  const float center = glm::length(frame.sceneCenter - frame.views[0].eye);
+  b.matteNear = center + 10 * frame.sceneRadius;
+  b.matteFar = center + 30 * frame.sceneRadius;
+  b.shadowTint = tintUp(palette.skyTint);
+  b.lit = maps.get({ColorRule::lit, palette});
+  b.litShadowed = maps.get({ColorRule::shadowed, palette});
+  b.shadowed = maps.get({ColorRule::shadowed, ofChosenLight(palette)});
+  return b;
+}
+
+shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const look::LookData& look,
+                                  bool overPicture, ColorMaps& maps) {
   const bool isGround = int(index) == scene.groundMaterial();
   const scene::Material& material = scene.material(index);
   const PaletteParams palette = scene.knobs<PaletteParams>(look, index);
@@ -113,10 +158,8 @@ shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const l
   setTransform(material.baseColorTexture, data.baseUvRowU, data.baseUvRowV, data.baseUvSet);
   setTransform(material.emissiveTexture, data.emissiveUvRowU, data.emissiveUvRowV, data.emissiveUvSet);
 
-  // The sky is cooler than the colour in shadow, the ground warmer, at about equal brightness.
-  const float tint = palette.skyTint;
-  data.tintUp = glm::sqrt(1.0f + tint * glm::vec3(0.0f, 0.7f, 1.6f));
-  data.tintDown = glm::sqrt(glm::max(1.0f + tint * glm::vec3(0.6f, -0.4f, -1.2f), 0.0f));
+  data.tintUp = glm::sqrt(tintUp(palette.skyTint));
+  data.tintDown = glm::sqrt(tintDown(palette.skyTint));
 
   // Where both colours come from.
   const Grade litGrade = Grade::of(scene.knobs<LitParams>(look, index)),
@@ -134,6 +177,7 @@ shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const l
     base = glm::dvec3(ground);
     lit = painted;
     shadowed.palette = ofChosenLight(palette);
+    data.matte = overPicture ? 1.0f : 0.0f;
   } else if (sets & kLitSet) {
     lit = painted;
     shadowed.palette = ofChosenLight(palette);

@@ -35,9 +35,14 @@ struct ChosenSets {
 ChosenSets chosenSets(const SceneOnGpu& scene, size_t material, const look::LookData& look,
                       LookTextures& textures);
 
-// The material's facts, its texture transforms and its colour maps under a look, with the sets of colours
-// that the scene has been given for it.
-shared::MaterialData materialData(const SceneOnGpu& scene, size_t material, const look::LookData& look,
+// How a picture of so many texels lies behind everything, under a look.
+shared::Backdrop backdropUniforms(const SceneOnGpu& scene, const look::LookData& look,
+                                  const shared::FrameUniforms& frame, const glm::uvec2& texels,
                                   ColorMaps& maps);
+
+// The material's facts, its texture transforms and its colour maps under a look, with the sets of colours
+// that the scene has been given for it. `overPicture`: the ground is seen by its shadows only.
+shared::MaterialData materialData(const SceneOnGpu& scene, size_t material, const look::LookData& look,
+                                  bool overPicture, ColorMaps& maps);
 
 }  // namespace scumble::renderer

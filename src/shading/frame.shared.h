@@ -127,6 +127,7 @@ struct MaterialData {
   uint baseUvSet, emissiveUvSet;
   float unlit;            // 1: always in full light
   vec3 tintDown, tintUp;  // square roots of factors on colours in shadow, for faces that look down and up
+  float matte;            // 1: not seen itself; what is behind everything takes its shadows
 };
 
 SHARED_END

@@ -1,6 +1,7 @@
 #include "passes/final_color/final_color.h"
 
 #include "frame/image_step.h"
+#include "frame/metatexture.h"
 #include "passes/final_color/final_color.shared.h"
 #include "shaders/final_color_image_comp.h"
 #include "shaders/final_color_image_frag.h"
@@ -17,20 +18,27 @@ class FinalColor : public Pass {
   const char* name() const override { return "final-color"; }
 
   void declare(FrameBuilder& frame) override {
+    const Configuration& c = frame.configuration();
+    // Where there are no layers, anything stands for them.
+    const auto layer = [&](Slot behind, Slot other) { return frame.slot(c.layered ? behind : other); };
+    constants_ = {uint32_t(c.glows), uint32_t(c.layered), uint32_t(c.backdropWidth > 0)};
     step_.declare(frame, "final-color",
                   {{shaders::final_color_image_frag}, {shaders::final_color_image_comp}},
                   {{frame.slot(frame.configuration().colors()), true},
                    {frame.slot(Slot::warp)},
                    {frame.slot(Slot::depth)},
                    {frame.slot(Slot::blur), true},
-                   {frame.slot(frame.configuration().layered ? frame.configuration().colorsBehind()
-                                                             : frame.configuration().colors())},
-                   {frame.slot(frame.configuration().layered ? Slot::behindDepth : Slot::depth)}},
-                  frame.slot(Slot::finalColor), sizeof(shared::FinalColorUniforms),
-                  {uint32_t(frame.configuration().glows), uint32_t(frame.configuration().layered)});
+                   {layer(c.colorsBehind(), c.colors())},
+                   {layer(Slot::behindDepth, Slot::depth)},
+                   {frame.slot(Slot::finalShadow)},
+                   {frame.slot(Slot::lit)},
+                   {layer(Slot::behindShadow, Slot::finalShadow)},
+                   {layer(Slot::behindLit, Slot::lit)}},
+                  frame.slot(Slot::finalColor), sizeof(shared::FinalColorUniforms), constants_, 2);
   }
   void create(FrameBuilder& frame, const FrameResources& resources) override {
     step_.create(frame, resources);
+    examples_ = &frame.examples();
   }
 
   void update(const FrameInput& input) override {
@@ -38,12 +46,29 @@ class FinalColor : public Pass {
     shared::FinalColorUniforms uniforms{};
     uniforms.bloom = params.bloom * glm::vec3(params.bloomTint);
     uniforms.displacement = {inflation_(input.look, input.scene, input.uniforms.imageSize.y), params.ripple};
+    const WarpMetaTextureParams tear = input.look.get<WarpMetaTextureParams>();
+    const ExampleTexture& example = examples_->get(input.look, tear.example);
+    const gpu::Image* picture = &example.image;
+    if (input.backdrop) {
+      uniforms.backdrop = input.backdrop->uniforms;
+      uniforms.tearMean = glm::vec2(example.statistics.mean);
+      const float width = tear.size * input.uniforms.pixelScale;
+      uniforms.backdrop.tearSize = {width, width * float(example.height) / float(example.width)};
+      uniforms.backdrop.tearShift = patternShift(input.seed);
+      picture = input.backdrop->image;
+    }
+    step_.setJobs({{constants_, {{picture, kPictureSampler}, {&example.image, ExampleTextures::kSampler}}}});
     step_.update(uniforms);
   }
 
  private:
+  static constexpr gpu::SamplerDesc kPictureSampler{VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
+                                                    VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, true};
+
   InflationOf inflation_;
   ImageStep step_;
+  std::vector<uint32_t> constants_;
+  ExampleTextures* examples_ = nullptr;
 };
 
 }  // namespace

@@ -120,6 +120,9 @@ void main() {
     light = min(light + punctualLight(inWorld, normalize(gl_FrontFacing ? inNormal : -inNormal)), 1.0);
   light = max(light, material.unlit);
 
+  // What a matte shows has its own light already; only what is cast on it is new.
+  if (material.matte > 0.0) light = frame.toLight.y > 0.0 ? reaches : 1.0;
+
   // Blue: where the breakup map may act, which is where the surface is oblique to a light that reaches it.
   float oblique = clamp(1.0 - abs(turn) / params.indicationWidth, 0.0, 1.0) * reaches * params.indication;
   oblique *= 1.0 - material.unlit;
@@ -127,6 +130,6 @@ void main() {
   // Nothing blurs and thresholds it later.
   if (kBehind) light = clamp(0.5 + 8.0 * (light - 0.5), 0.0, 1.0);
   outShadow = vec4(light, clamp(lens * params.lens + params.glow, 0.0, 1.0), oblique, alpha);
-  outLit = vec4(lit, alpha);
-  outShadowed = vec4(shadowed, alpha);
+  outLit = vec4(lit, alpha) * (1.0 - material.matte);
+  outShadowed = vec4(shadowed, alpha) * (1.0 - material.matte);
 }

@@ -1,0 +1,97 @@
+// The picture behind everything: where a pixel takes it from, its colour in light, and its colour in shadow.
+
+// One of its texels a pixel, or the mean of the four that a pixel covers.
+vec3 pictureAlone(vec2 uv) {
+  vec2 apart = 0.25 * u.backdrop.minified * u.backdrop.scale / frame.imageSize;
+  if (u.backdrop.minified <= 0.0) {
+    // At the very middle of a texel filters add what they round; a picture as large as the frame stays what it is.
+    vec2 texel = uv * vec2(textureSize(backdrop, 0)), middle = floor(texel) + 0.5;
+    if (all(lessThan(abs(texel - middle), vec2(1e-3)))) return texelFetch(backdrop, ivec2(middle), 0).rgb;
+    return textureLod(backdrop, uv, 0.0).rgb;
+  }
+  vec3 sum = vec3(0.0);
+  for (int i = 0; i < 4; ++i)
+    sum += textureLod(backdrop, uv + apart * vec2((i & 1) * 2 - 1, (i >> 1) * 2 - 1), 0.0).rgb;
+  return 0.25 * sum;
+}
+
+// A Kuwahara filter (Papari et al. 2007) whose sectors are single samples of a coarser level: of eight areas around the
+// pixel those with the least variance count, so that it becomes flat without losing its edges.
+vec3 pictureSimplified(vec2 uv) {
+  vec2 reach = 0.6 * u.backdrop.radius * u.backdrop.scale / frame.imageSize;
+  vec3 sum = vec3(0.0);
+  float weights = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    float angle = 0.7853982 * (float(i) + 0.5);
+    vec4 area = textureLod(backdrop, uv + reach * vec2(cos(angle), sin(angle)), u.backdrop.sectorLevel);
+    float luminance = dot(area.rgb, vec3(0.2126, 0.7152, 0.0722));
+    // Of what is dark, small differences count as much as an eye sees them.
+    float variance = max(area.a - luminance * luminance, 0.0) / (luminance * luminance + 1e-3);
+    float weight = 1.0 / (variance * variance + 1e-5);
+    sum += weight * area.rgb;
+    weights += weight;
+  }
+  return sum / weights;
+}
+
+// The pixel's place in the picture. `torn`: where the warp fetches this pixel's colour from.
+vec2 backdropPlace(ivec2 pixel, vec2 torn, int layer) {
+  vec2 own = vec2(pixel) + 0.5;
+  if (u.backdrop.warp == 2) {
+    vec2 field = texture(tear, own / u.backdrop.tearSize + u.backdrop.tearShift).xy - u.tearMean;
+    return own + 2.0 * u.backdrop.tear * field;
+  }
+  if (u.backdrop.warp == 0) return own;
+  // Near what is drawn: not where the ground alone, which is not seen, would tear it.
+  vec2 ndc = own / frame.imageSize * 2.0 - 1.0;
+  vec4 toRay = VIEW_FIELD(ndcToEyeRay, layer);
+  vec2 side = ndc * toRay.xy + toRay.zw;
+  float parallel = VIEW_FIELD(orthographic, layer);
+  vec3 up = VIEW_FIELD(upInEye, layer);
+  float rise = dot(up, vec3(side * (1.0 - parallel), -1.0));
+  float start = VIEW_FIELD(eye, layer).y + dot(up.xy, side * parallel);
+  float ground = (u.backdrop.groundHeight - start) / rise;
+  float surface = texelFetch(warp, ivec3(pixel, layer), 0).a;
+  return abs(surface - ground) < 0.01 * surface ? own : torn;
+}
+
+// How much of the pixel is the picture in the shadow on the ground, where the ground is all that is there. The slots'
+// texels around a place, mixed as the colour is.
+float matteShadow(vec2 at, int layer) {
+  vec2 corner = floor(at - 0.5), f = at - 0.5 - corner;
+  vec3 middle = vec3((corner + 1.0) / frame.imageSize, layer);
+  vec4 part = max(textureGather(finalShadow, middle, 3) - textureGather(lit, middle, 3), 0.0);
+  part *= 1.0 - textureGather(finalShadow, middle, 0);
+  vec2 rows = mix(part.wx, part.zy, f.x);
+  return mix(rows.x, rows.y, f.y);
+}
+
+float matteShadowBehind(ivec2 pixel, int layer) {
+  vec4 shadow = texelFetch(behindShadow, ivec3(pixel, layer), 0);
+  return max(shadow.a - texelFetch(behindLit, ivec3(pixel, layer), 0).a, 0.0) * (1.0 - shadow.r);
+}
+
+// Lays a premultiplied colour over the picture, `matte` of which is in shadow.
+vec4 overBackdrop(vec4 color, float matte, float distance, vec2 at) {
+  vec2 uv = (at / frame.imageSize - 0.5) * u.backdrop.scale + 0.5;
+  vec3 own = u.backdrop.radius > 0.0 ? pictureSimplified(uv) : pictureAlone(uv);
+  if (u.backdrop.radius > 0.0 && u.backdrop.radius < 1.0) own = mix(pictureAlone(uv), own, u.backdrop.radius);
+  vec3 inLight = own;
+  float open = 1.0 - color.a;
+  matte = min(matte * (1.0 - smoothstep(u.backdrop.matteNear, u.backdrop.matteFar, distance)), open);
+  vec3 root = sqrt(clamp(own, 0.0, 1.0));
+  if (u.backdrop.style > 0.0) {
+    vec3 styled = applyColorMap(u.backdrop.lit, root);
+    inLight = mix(own, styled * styled, u.backdrop.style);
+  }
+  color.rgb += inLight * (open - matte);
+  if (matte > 0.0) {
+    vec3 plain = applyColorMap(u.backdrop.shadowed, root), styled = applyColorMap(u.backdrop.litShadowed, root);
+    vec3 dark = mix(plain * plain, styled * styled, u.backdrop.style) * u.backdrop.shadowTint;
+    // The polynomial makes the very darkest colours lighter than they are.
+    const vec3 kLuminance = vec3(0.2126, 0.7152, 0.0722);
+    dark *= min(1.0, 0.75 * dot(inLight, kLuminance) / max(dot(dark, kLuminance), 1e-4));
+    color.rgb += dark * matte;
+  }
+  return vec4(color.rgb, 1.0);
+}

@@ -1,0 +1,210 @@
+// A picture behind everything, and the ground that shows only shadows, against the same in double precision.
+#include <cmath>
+
+#include "frame/palette.h"
+#include "tests/support/aov.h"
+#include "tests/support/render_test.h"
+
+namespace scumble::passes {
+namespace {
+
+using namespace test;
+using namespace frame;
+
+class BackdropTest : public BothEyes {
+ protected:
+  static constexpr int kWidth = 160, kHeight = 120;
+
+  // Colours that change from pixel to pixel, or slowly.
+  static std::shared_ptr<Image> picture(uint32_t width, uint32_t height, bool fine) {
+    auto image = std::make_shared<Image>();
+    image->width = width, image->height = height;
+    image->channels = {"R", "G", "B"};
+    for (uint32_t y = 0; y < height; ++y)
+      for (uint32_t x = 0; x < width; ++x) {
+        const float u = (float(x) + 0.5f) / float(width), v = (float(y) + 0.5f) / float(height);
+        const uint32_t noise = (x * 2654435761u ^ y * 2246822519u) >> 7;
+        const auto part = [&](uint32_t shift) {
+          return fine ? 0.2f * float(noise >> shift & 0xFF) / 255.0f : 0.0f;
+        };
+        for (const float value :
+             {0.2f + 0.5f * u + part(0), 0.3f + 0.3f * v + part(8), 0.6f - 0.4f * u + part(16)})
+          image->pixels.push_back(value);
+      }
+    return image;
+  }
+
+  // Nothing of the style acts on the picture.
+  static Look pictureLook(std::vector<std::pair<std::string, std::string>> knobs = {}) {
+    std::vector<std::pair<std::string, std::string>> all{
+        {"background.style", "0"}, {"background.simplify", "0"}, {"ground.mode", "auto"}};
+    all.insert(all.end(), knobs.begin(), knobs.end());
+    return quietLook(all);
+  }
+
+  // A ball over the ground.
+  static Scene ball() {
+    TestScene s;
+    Json paint = TestScene::colored("Ball", {0.8f, 0.2f, 0.1f, 1});
+    s.add(sphereMesh({0, 1.3f, 0}, 1, 32), s.material(paint));
+    s.light({0.5f, 1, 0.3f});
+    return s.load();
+  }
+};
+INSTANTIATE_BOTH_EYES(BackdropTest);
+
+TEST_P(BackdropTest, coloursInShadowAreTheRulesAndAllElseIsThePicture) {
+  const Scene scene = ball();
+  const auto views = viewsFrom(scene, {{1, 3, 7}, {0, 0.6f, 0}, 50}, kWidth, kHeight, GetParam());
+  PaletteParams plain;
+  plain.darkest = 0, plain.lightest = 1, plain.litTintAmount = 0;
+  const shared::ColorMap rule = fitColorMap([&](const glm::dvec3& c) { return shadowedColor(plain, c); });
+  const glm::vec3 tint = 1.0f + plain.skyTint * glm::vec3(0.0f, 0.7f, 1.6f);
+  const auto backdrop = picture(kWidth, kHeight, true);
+  for (const uint32_t samples : {1u, 4u}) {
+    RenderOptions options = sized(kWidth, kHeight, {"color", "final-shadow", "lit", "shadow"}, samples);
+    options.background = backdrop;
+    const Frame frame = draw(scene, pictureLook({{"warp.amount", "0"}}), views, options);
+    for (size_t v = 0; v < viewCount(); ++v) {
+      Difference difference(2e-3);
+      size_t dark = 0, exact = 0;
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+          const glm::dvec4 got = texel(aov(frame, "", v), x, y), front = texel(aov(frame, "color", v), x, y);
+          const glm::dvec3 own(texel(*backdrop, x, y));
+          const double matte = std::max(texel(aov(frame, "shadow", v), x, y).w - front.w, 0.0) *
+                               (1 - texel(aov(frame, "final-shadow", v), x, y).x);
+          const glm::dvec3 shadowed(apply(rule, glm::vec3(own)) * tint);
+          const glm::dvec3 expected =
+              glm::dvec3(front) * front.w + own * (1 - front.w - matte) + shadowed * matte;
+          for (int c = 0; c < 3; ++c) difference.add(got[c], expected[c]);
+          EXPECT_EQ(got.w, 1.0);
+          dark += matte > 0.7;
+          if (front.w == 0 && matte == 0) {
+            ++exact;
+            for (int c = 0; c < 3; ++c) EXPECT_EQ(got[c], toHalf(own[c])) << x << ", " << y;
+          }
+        }
+      EXPECT_EQ(difference.beyond, 0u) << difference.text() << ", " << samples << " samples, view " << v;
+      EXPECT_GT(dark, 120u);
+      EXPECT_GT(exact, 5000u);
+    }
+  }
+}
+
+// Whatever its size: the middle in the middle, no borders, the aspect kept; the same for both eyes.
+TEST_P(BackdropTest, coversTheFrame) {
+  const Scene scene = ball();
+  const auto views = viewsFrom(scene, {{1, 3, 7}, {0, 0.6f, 0}, 50}, kWidth, kHeight, GetParam());
+  for (const glm::uvec2 size : {glm::uvec2(400, 100), glm::uvec2(90, 320), glm::uvec2(999, 777)}) {
+    RenderOptions options = sized(kWidth, kHeight, {"color"});
+    options.background = picture(size.x, size.y, false);
+    const Look look = pictureLook({{"ground.mode", "off"}});
+    const Frame frame = draw(scene, look, views, options);
+    const double scale = std::min(size.x / double(kWidth), size.y / double(kHeight));
+    for (size_t v = 0; v < viewCount(); ++v) {
+      Difference difference(6e-3);
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+          if (texel(aov(frame, "color", v), x, y).w > 0) continue;
+          const double u = 0.5 + (x + 0.5 - kWidth / 2.0) * scale / size.x;
+          const double w = 0.5 + (y + 0.5 - kHeight / 2.0) * scale / size.y;
+          const glm::dvec3 expected(0.2 + 0.5 * u, 0.3 + 0.3 * w, 0.6 - 0.4 * u);
+          for (int c = 0; c < 3; ++c) difference.add(texel(aov(frame, "", v), x, y)[c], expected[c]);
+        }
+      EXPECT_EQ(difference.beyond, 0u) << difference.text() << ", " << size.x << "x" << size.y;
+    }
+  }
+}
+
+// With `none` the picture stays where it is, though shadows and silhouettes are torn; with `everywhere` it is
+// torn far from them too, alike for both eyes.
+TEST_P(BackdropTest, warpIsWhereItIsAskedFor) {
+  const Scene scene = ball();
+  const auto views = viewsFrom(scene, {{1, 3, 7}, {0, 0.6f, 0}, 50}, kWidth, kHeight, GetParam());
+  RenderOptions options = sized(kWidth, kHeight, {"warp", "color"});
+  options.background = picture(kWidth, kHeight, true);
+  const auto moved = [&](const char* where, size_t v, bool besideSurfaces) {
+    const Look look = pictureLook({{"background.warp", where},
+                                   {"warp.amount", "30"},
+                                   {"warp.inflation", "30"},
+                                   {"final.ripple", "paper"},
+                                   {"shadowMap.cast", "false"}});
+    const Frame frame = draw(scene, look, views, options);
+    size_t count = 0;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        const glm::dvec4 got = texel(aov(frame, "", v), x, y), own = texel(*options.background, x, y);
+        const double surface = texel(aov(frame, "warp", v), x, y).w;
+        if (texel(aov(frame, "color", v), x, y).w > 0 || (surface > 0) != besideSurfaces) continue;
+        // What is torn out of the ball is no picture at all.
+        count += std::abs(got.x - own.x) > 0.02 && got.z > 0.25;
+      }
+    return count;
+  };
+  for (size_t v = 0; v < viewCount(); ++v) {
+    // At silhouettes colours of the ball are mixed in.
+    EXPECT_GT(moved("near", v, true), 100u);
+    EXPECT_LT(3 * moved("none", v, true), moved("near", v, true));
+    EXPECT_EQ(moved("none", v, false), 0u);
+    EXPECT_EQ(moved("near", v, false), 0u);
+    EXPECT_GT(moved("everywhere", v, false), 500u);
+  }
+}
+
+TEST_P(BackdropTest, styleIsTheRuleInLight) {
+  const Scene scene = ball();
+  const auto views = viewsFrom(scene, {{1, 3, 7}, {0, 0.6f, 0}, 50}, kWidth, kHeight, GetParam());
+  RenderOptions options = sized(kWidth, kHeight, {"color"});
+  options.background = picture(kWidth, kHeight, true);
+  const Frame frame =
+      draw(scene, pictureLook({{"ground.mode", "off"}, {"background.style", "0.5"}}), views, options);
+  const PaletteParams palette;
+  const shared::ColorMap rule = fitColorMap([&](const glm::dvec3& c) { return litColor(palette, c); });
+  Difference difference(2e-3);
+  for (size_t v = 0; v < viewCount(); ++v)
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        if (texel(aov(frame, "color", v), x, y).w > 0) continue;
+        const glm::vec3 own(texel(*options.background, x, y));
+        const glm::vec3 expected = glm::mix(own, apply(rule, own), 0.5f);
+        for (int c = 0; c < 3; ++c) difference.add(texel(aov(frame, "", v), x, y)[c], expected[c]);
+      }
+  EXPECT_EQ(difference.beyond, 0u) << difference.text();
+}
+
+// A film: another picture in each frame, two frames under way, sizes that change; then the first one again.
+TEST_F(BackdropTest, eachFrameHasItsOwnPicture) {
+  const Scene scene = ball();
+  const auto views = viewsFrom(scene, {{1, 3, 7}, {0, 0.6f, 0}, 50}, kWidth, kHeight);
+  const Look look = pictureLook();
+  const auto optionsOf = [&](int i) {
+    RenderOptions options = sized(kWidth, kHeight);
+    const uint32_t size = i == 3 ? 200 : kWidth;
+    auto image = picture(size, size, false);
+    for (float& value : image->pixels) value *= 0.2f * float(i % 4 + 1);
+    options.background = image;
+    return options;
+  };
+  std::vector<Frame> alone;
+  for (int i = 0; i < 5; ++i) alone.push_back(draw(scene, look, views, optionsOf(i)));
+  std::vector<Frame> row;
+  for (int i = 0; i < 5; ++i) {
+    ASSERT_TRUE(renderer().begin(scene, look, 0, views, optionsOf(i)));
+    if (i > 0) row.push_back(std::move(renderer().finish()).value());
+  }
+  row.push_back(std::move(renderer().finish()).value());
+  for (size_t i = 0; i < 5; ++i)
+    EXPECT_TRUE(sameBytes(alone[i].layers[0].views[0], row[i].layers[0].views[0])) << i;
+  EXPECT_FALSE(sameBytes(alone[0].layers[0].views[0], alone[1].layers[0].views[0]));
+  EXPECT_TRUE(sameBytes(alone[0].layers[0].views[0], alone[4].layers[0].views[0]));
+
+  RenderOptions bad = sized(kWidth, kHeight);
+  auto image = picture(4, 4, false);
+  image->pixels.pop_back();
+  bad.background = image;
+  EXPECT_FALSE(renderer().render(scene, look, 0, views, bad));
+}
+
+}  // namespace
+}  // namespace scumble::passes

@@ -1,0 +1,25 @@
+// How a picture lies behind everything, and how far it takes part in the style (docs/backdrop.md).
+#ifndef SCUMBLE_BACKDROP_SHARED_H
+#define SCUMBLE_BACKDROP_SHARED_H
+#include "frame.shared.h"
+#include "shared_types.h"
+
+SHARED_BEGIN
+struct Backdrop {
+  vec2 scale;                      // texture coordinates per part of the frame, from the middle of both
+  float minified;                  // 0 to 1: how much finer than a pixel its texels are, up to half a pixel
+  float radius;                    // pixels that are simplified into one area; 0: none
+  float sectorLevel;               // the mip level that is read for a part of such an area
+  float style;                     // how far its colours go through the palette rule
+  int warp;                        // 0 none, 1 near, 2 everywhere
+  float tear;                      // pixels: how far it is torn where it is torn everywhere
+  vec2 tearSize;                   // pixels: a copy of the pattern for that
+  vec2 tearShift;                  // copies
+  float groundHeight;              // world
+  float matteNear, matteFar;       // metres along the view axis: between them the ground's shadow fades
+  vec3 shadowTint;                 // factors on its colours in shadow, as for every face that looks up
+  ColorMap lit;                    // the palette rule in light
+  ColorMap shadowed, litShadowed;  // in shadow, for its own colours, and for those that went through the rule
+};
+SHARED_END
+#endif
