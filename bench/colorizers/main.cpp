@@ -9,7 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
 
-#include "passes/colorize/tiles.h"
+#include "passes/colorize/strips.h"
 #include "scumble/image.h"
 #include "scumble/look.h"
 #include "scumble/view.h"
@@ -26,9 +26,7 @@ namespace {
 struct Case {
   std::string name;
   Look look;
-  std::vector<ColorizeJob> plan;  // empty: the yardstick
-  std::vector<gpu::Pipeline> pipelines;
-  size_t firstSet = 0;
+  gpu::Pipeline pipeline{};
   std::vector<double> milliseconds, compiling;
 };
 
@@ -109,7 +107,7 @@ int main(int argc, char** argv) {
   const std::pair<std::string, std::string> fog{"volume.kind", "atmospheric"};
   std::vector<Case> cases;
   const auto addCase = [&](std::string name, Look look) {
-    cases.push_back({std::move(name), look, {}, {}, 0, {}, {}});
+    cases.push_back({std::move(name), look, {}, {}, {}});
   };
   addCase("plain pass with the same reads", Look());
   addCase("1 sphere of fog", fullScreen(1, {fog}));
@@ -183,44 +181,42 @@ int main(int argc, char** argv) {
                                        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, all},
                                        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, all}});
   constexpr uint64_t kStride = (sizeof(shared::ColorizeUniforms) + 255) / 256 * 256;
-  const size_t setCount = cases.size() * kMaxColorizeJobs;
   gpu::Buffer frameBuffer(device, sizeof(uniforms),
                           VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                           gpu::MemoryKind::upload);
-  gpu::Buffer lists(device, kStride * setCount, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, gpu::MemoryKind::upload);
+  gpu::Buffer lists(device, kStride * cases.size(), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+                    gpu::MemoryKind::upload);
   std::memcpy(frameBuffer.mapped(), &uniforms, sizeof(uniforms));
-  gpu::DescriptorSets frameSet(device, frameLayout), sets(device, layout, uint32_t(setCount));
+  gpu::DescriptorSets frameSet(device, frameLayout), sets(device, layout, uint32_t(cases.size()));
   frameSet.writeBuffer(0, 0, frameBuffer.handle());
   frameSet.writeBuffer(0, 1, frameBuffer.handle());
-  const TileGrid grid(width, height);
   for (size_t i = 0; i < cases.size(); ++i) {
     Case& c = cases[i];
-    c.firstSet = i * kMaxColorizeJobs;
     const std::vector<PlacedColorizer> colorizers = placeColorizers(c.look.data(), {}, {}, uniforms);
-    int features = 0;
-    for (const PlacedColorizer& one : colorizers) features |= one.features;
-    const std::vector<uint64_t> masks =
-        tileMasks(grid, colorizers, glm::dmat4(uniforms.views[0].worldToClip));
-    c.plan = planJobs(grid, {&masks, 1});
-    for (size_t j = 0; j < c.plan.size(); ++j) {
-      auto* list = new (lists.mapped() + (c.firstSet + j) * kStride) shared::ColorizeUniforms{};
-      const uint32_t count = listFor(c.plan[j].mask, colorizers, *list);
-      sets.writeBuffer(c.firstSet + j, 0, lists.handle(), (c.firstSet + j) * kStride, sizeof(*list));
-      sets.writeTexture(c.firstSet + j, 1, color.view(), samplers.get({}));
-      gpu::SamplerDesc nearest;
-      nearest.filter = VK_FILTER_NEAREST;
-      sets.writeTexture(c.firstSet + j, 2, depth.view(), samplers.get(nearest));
-      gpu::GraphicsPipelineDesc desc;
-      desc.vertex = {shaders::fullscreen_vert};
-      desc.fragment = {shaders::colorize_image_frag};
-      if (i == 0) desc.fragment = {shaders::plain_reads_frag};
-      desc.constants = {count, uint32_t(features), 0, 1};
-      desc.colorFormats = {VK_FORMAT_R16G16B16A16_SFLOAT};
-      desc.viewMask = 1;
-      desc.pushConstantBytes = 4;
-      desc.sets = {frameLayout.handle(), layout.handle()};
-      c.pipelines.emplace_back(device, desc);
+    auto* block = new (lists.mapped() + i * kStride) shared::ColorizeUniforms{};
+    uint32_t features = 0;
+    for (size_t k = 0; k < colorizers.size(); ++k) {
+      features |= uint32_t(colorizers[k].features);
+      block->list[k] = colorizers[k].data;
     }
+    block->stripBits = int(stripBits(width, height));
+    block->sights[0] = sightLines(uniforms.views[0]);
+    markStrips(colorizers, glm::dmat4(uniforms.views[0].worldToClip), width, height, 0, *block);
+    sets.writeBuffer(i, 0, lists.handle(), i * kStride, sizeof(*block));
+    sets.writeTexture(i, 1, color.view(), samplers.get({}));
+    gpu::SamplerDesc nearest;
+    nearest.filter = VK_FILTER_NEAREST;
+    sets.writeTexture(i, 2, depth.view(), samplers.get(nearest));
+    gpu::GraphicsPipelineDesc desc;
+    desc.vertex = {shaders::fullscreen_vert};
+    desc.fragment = {shaders::colorize_image_frag};
+    if (i == 0) desc.fragment = {shaders::plain_reads_frag};
+    desc.constants = {features, 0, 0, 1};
+    desc.colorFormats = {VK_FORMAT_R16G16B16A16_SFLOAT};
+    desc.viewMask = 1;
+    desc.pushConstantBytes = 4;
+    desc.sets = {frameLayout.handle(), layout.handle()};
+    c.pipeline = gpu::Pipeline(device, desc);
   }
   VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
   info.queryType = VK_QUERY_TYPE_TIMESTAMP;
@@ -239,16 +235,11 @@ int main(int argc, char** argv) {
         vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries, 0);
         const Target to{&target, nullptr, {}, Target::Before::undefined};
         drawViews(commands, configuration, {&to, 1}, nullptr, [&](uint32_t) {
-          for (size_t j = 0; j < c.plan.size(); ++j) {
-            c.pipelines[j].bind(commands);
-            c.pipelines[j].push(commands, 0);
-            c.pipelines[j].bindSet(commands, 0, frameSet[0]);
-            c.pipelines[j].bindSet(commands, 1, sets[c.firstSet + j]);
-            for (const ImageStep::Area& area : c.plan[j].areas) {
-              vkCmdSetScissor(commands, 0, 1, &area.rectangle);
-              vkCmdDraw(commands, 3, 1, 0, 0);
-            }
-          }
+          c.pipeline.bind(commands);
+          c.pipeline.push(commands, 0);
+          c.pipeline.bindSet(commands, 0, frameSet[0]);
+          c.pipeline.bindSet(commands, 1, sets[size_t(&c - cases.data())]);
+          vkCmdDraw(commands, 3, 1, 0, 0);
         });
         vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries, 1);
       });
@@ -260,8 +251,8 @@ int main(int argc, char** argv) {
     }
   vkDestroyQueryPool(device.handle(), queries, nullptr);
 
-  std::printf("%s, %ux%u\n%-32s %6s %6s %10s %8s %12s\n", device.info().name.c_str(), width, height, "",
-              "jobs", "areas", "ms", "ratio", "first, ms");
+  std::printf("%s, %ux%u\n%-32s %10s %8s %12s\n", device.info().name.c_str(), width, height, "", "ms",
+              "ratio", "first, ms");
   nlohmann::ordered_json json{{"device", device.info().name},
                               {"driver", device.info().driver},
                               {"width", width},
@@ -271,10 +262,8 @@ int main(int argc, char** argv) {
     std::vector<double> ratios;
     for (size_t r = 0; r < c.milliseconds.size(); ++r)
       ratios.push_back(c.milliseconds[r] / cases[0].milliseconds[r]);
-    size_t areas = 0;
-    for (const ColorizeJob& job : c.plan) areas += job.areas.size();
-    std::printf("%-32s %6zu %6zu %10.3f %8.2f %12.1f\n", c.name.c_str(), c.plan.size(), areas,
-                median(c.milliseconds), median(ratios), c.compiling[0]);
+    std::printf("%-32s %10.3f %8.2f %12.1f\n", c.name.c_str(), median(c.milliseconds), median(ratios),
+                c.compiling[0]);
     json["cases"].push_back(
         {{"name", c.name}, {"milliseconds", median(c.milliseconds)}, {"ratio", median(ratios)}});
   }

@@ -70,7 +70,7 @@ void ImageStep::setJobs(std::vector<Job> jobs) {
       inputSets_.writeTexture(job, uint32_t(1 + inputs_.size() + i), texture.image->view(),
                               frame_->samplers().get(texture.sampler));
     }
-    jobs_.push_back({&pipelineFor(jobs[job].constants), std::move(jobs[job].areas)});
+    jobs_.push_back(&pipelineFor(jobs[job].constants));
   }
 }
 
@@ -84,7 +84,6 @@ const gpu::Pipeline& ImageStep::pipelineFor(const std::vector<uint32_t>& constan
   if (compute_) {
     gpu::ComputePipelineDesc desc;
     desc.shader = shader_.compute;
-    desc.pushConstantBytes = 8;
     desc.constants = std::move(all);
     desc.sets = {resources_->frameLayout().handle(), inputLayout_.handle(), outputLayout_.handle()};
     pipeline = gpu::Pipeline(frame_->device(), desc);
@@ -107,22 +106,16 @@ void ImageStep::record(VkCommandBuffer commands) const {
   const gpu::Image& output = resources_->image(outputs_.front());
   const uint32_t width = output.desc().width, height = output.desc().height;
   const auto bind = [&](size_t job) {
-    jobs_[job].pipeline->bind(commands);
-    jobs_[job].pipeline->bindSet(commands, 0, resources_->frameSet());
-    jobs_[job].pipeline->bindSet(commands, 1, inputSets_[job]);
+    jobs_[job]->bind(commands);
+    jobs_[job]->bindSet(commands, 0, resources_->frameSet());
+    jobs_[job]->bindSet(commands, 1, inputSets_[job]);
   };
   if (compute_) {
     // Jobs write different pixels, so that nothing need wait between them.
     for (size_t job = 0; job < jobs_.size(); ++job) {
       bind(job);
-      jobs_[job].pipeline->bindSet(commands, 2, outputSet_[0]);
-      for (const Area& area : jobs_[job].areas) {
-        const auto& [offset, extent] = area.rectangle;
-        jobs_[job].pipeline->push(commands, {uint32_t(offset.x) | uint32_t(offset.y) << 16, area.view});
-        vkCmdDispatch(commands, (extent.width + 7) / 8, (extent.height + 7) / 8, 1);
-      }
-      if (jobs_[job].areas.empty())
-        vkCmdDispatch(commands, (width + 7) / 8, (height + 7) / 8, output.desc().layers);
+      jobs_[job]->bindSet(commands, 2, outputSet_[0]);
+      vkCmdDispatch(commands, (width + 7) / 8, (height + 7) / 8, output.desc().layers);
     }
     return;
   }
@@ -132,13 +125,8 @@ void ImageStep::record(VkCommandBuffer commands) const {
   drawViews(commands, configuration_, targets, nullptr, [&](uint32_t firstView) {
     for (size_t job = 0; job < jobs_.size(); ++job) {
       bind(job);
-      jobs_[job].pipeline->push(commands, firstView);
-      for (const Area& area : jobs_[job].areas) {
-        if (area.view != firstView) continue;
-        vkCmdSetScissor(commands, 0, 1, &area.rectangle);
-        vkCmdDraw(commands, 3, 1, 0, 0);
-      }
-      if (jobs_[job].areas.empty()) vkCmdDraw(commands, 3, 1, 0, 0);
+      jobs_[job]->push(commands, firstView);
+      vkCmdDraw(commands, 3, 1, 0, 0);
     }
   });
 }

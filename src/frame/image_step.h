@@ -30,20 +30,11 @@ class ImageStep {
     const gpu::Image* image = nullptr;
     gpu::SamplerDesc sampler{};
   };
-  // A rectangle of one view; where views are drawn together, those of the first one hold for all. Its corner
-  // lies on a multiple of 8 pixels, and so does its end, or on the picture's edge.
-  struct Area {
-    uint32_t view;
-    VkRect2D rectangle;
-  };
   // One run of the shader over the whole picture. Most steps have one job; where several share the pixels
   // among them, the shader has SHADES_SOME (src/shading/image_pass.glsl).
   struct Job {
     std::vector<uint32_t> constants;  // specialisation constants 0 to 2
     std::vector<Texture> textures;    // as many as were declared
-    // Where jobs share the picture by areas, this one's; empty: all of it. As compute shaders such steps have
-    // SHADES_AREAS.
-    std::vector<Area> areas{};
   };
   // `uniformBytes`: size of the step's uniform block (set 1, binding 0) for each job; 0 where the shader has
   // none.
@@ -53,8 +44,6 @@ class ImageStep {
   // Steps without textures have their one job from here on; others need setJobs before their first frame.
   void create(FrameBuilder& frame, const FrameResources& resources);
   void setJobs(std::vector<Job> jobs);
-  // Whether views differ in their areas.
-  bool hasAreasByView() const { return compute_ || !configuration_.multiview; }
   template <class T>
   void update(const T& uniforms, size_t job = 0) {
     std::memcpy(uniforms_.mapped + job * uniformStride_, &uniforms, sizeof(T));
@@ -78,11 +67,7 @@ class ImageStep {
   gpu::SetLayout inputLayout_, outputLayout_;
   gpu::DescriptorSets inputSets_, outputSet_;
   std::map<std::vector<uint32_t>, gpu::Pipeline> pipelines_;
-  struct Run {
-    const gpu::Pipeline* pipeline;
-    std::vector<Area> areas;
-  };
-  std::vector<Run> jobs_;
+  std::vector<const gpu::Pipeline*> jobs_;
 };
 
 }  // namespace scumble::frame

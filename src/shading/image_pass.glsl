@@ -1,8 +1,7 @@
 // An image pass is one function, vec4 shade(ivec2 pixel, int layer). This wrapper makes it a full-screen fragment
 // shader or, with SCUMBLE_COMPUTE defined, a compute shader; the build compiles both. A pass that writes another format
 // than rgba16f defines OUTPUT_FORMAT; one whose jobs share the pixels among them defines SHADES_SOME and
-// bool shades(ivec2 pixel, int layer); one whose jobs share them by areas defines SHADES_AREAS. One that writes
-// two images defines SHADES_TWO, and instead of shade()
+// bool shades(ivec2 pixel, int layer); one that writes two images defines SHADES_TWO, and instead of shade()
 // void shadeTwo(ivec2 pixel, int layer, out vec4 first, out vec4 second).
 #ifndef SHADES_SOME
 bool shades(ivec2 pixel, int layer) { return true; }
@@ -19,25 +18,23 @@ layout(set = 2, binding = 0, OUTPUT_FORMAT) writeonly uniform image2DArray outpu
 layout(set = 2, binding = 1, OUTPUT_FORMAT) writeonly uniform image2DArray secondImage;
 #endif
 
-#ifdef SHADES_AREAS
-layout(push_constant) uniform AreaBlock { uint corner, view; } area;
-ivec3 firstPixel() { return ivec3(area.corner & 0xFFFFu, area.corner >> 16, area.view); }
-#else
-ivec3 firstPixel() { return ivec3(0); }
-#endif
-
 void main() {
-  ivec2 pixel = firstPixel().xy + ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(pixel, imageSize(outputImage).xy))) return;
-  int layer = firstPixel().z + int(gl_GlobalInvocationID.z);
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  int layer = int(gl_GlobalInvocationID.z);
+  // What lies beyond the picture's edge works along, since pixels may need each other.
+  bool isInside = all(lessThan(pixel, imageSize(outputImage).xy));
+  pixel = min(pixel, imageSize(outputImage).xy - 1);
   if (!shades(pixel, layer)) return;
 #ifdef SHADES_TWO
   vec4 first, second;
   shadeTwo(pixel, layer, first, second);
-  imageStore(outputImage, ivec3(pixel, layer), first);
-  imageStore(secondImage, ivec3(pixel, layer), second);
+  if (isInside) {
+    imageStore(outputImage, ivec3(pixel, layer), first);
+    imageStore(secondImage, ivec3(pixel, layer), second);
+  }
 #else
-  imageStore(outputImage, ivec3(pixel, layer), shade(pixel, layer));
+  vec4 result = shade(pixel, layer);
+  if (isInside) imageStore(outputImage, ivec3(pixel, layer), result);
 #endif
 }
 

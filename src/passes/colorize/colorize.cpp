@@ -4,7 +4,7 @@
 #include <deque>
 
 #include "frame/image_step.h"
-#include "passes/colorize/tiles.h"
+#include "passes/colorize/strips.h"
 #include "shaders/colorize_image_comp.h"
 #include "shaders/colorize_image_frag.h"
 
@@ -22,10 +22,9 @@ class Colorize : public Pass {
     const Configuration& configuration = frame.configuration();
     width_ = configuration.width, height_ = configuration.height, viewCount_ = configuration.viewCount;
     const auto add = [&](const char* step, Slot color, Slot depth, Slot output) {
-      steps_.emplace_back().declare(frame, step,
-                                    {{shaders::colorize_image_frag}, {shaders::colorize_image_comp}},
-                                    {{frame.slot(color)}, {frame.slot(depth)}}, frame.slot(output),
-                                    sizeof(shared::ColorizeUniforms), {}, 0, kMaxColorizeJobs);
+      steps_.emplace_back().declare(
+          frame, step, {{shaders::colorize_image_frag}, {shaders::colorize_image_comp}},
+          {{frame.slot(color)}, {frame.slot(depth)}}, frame.slot(output), sizeof(shared::ColorizeUniforms));
     };
     add("colorize", Slot::color, Slot::depth, Slot::colorize);
     if (configuration.layered) add("behind-colorize", Slot::behind, Slot::behindDepth, Slot::behindColorize);
@@ -38,30 +37,23 @@ class Colorize : public Pass {
     const std::vector<PlacedColorizer> colorizers =
         placeColorizers(input.look, input.scene.data(), input.scene.motion().worldAsDrawn(), input.uniforms);
     assert(colorizers.size() <= size_t(shared::kMaxColorizers));
-    int features = 0;
-    for (const PlacedColorizer& one : colorizers) features |= one.features;
-    const TileGrid grid(width_, height_);
-    std::vector<std::vector<uint64_t>> masks;
-    for (uint32_t view = 0; view < viewCount_; ++view) {
-      const shared::ViewUniforms& uniforms = input.uniforms.views[view];
-      masks.push_back(tileMasks(grid, colorizers, glm::dmat4(uniforms.worldToClip)));
-      if (uniforms.orthographic != 0) features |= shared::kHasParallel;
+    shared::ColorizeUniforms uniforms{};
+    uint32_t features = 0;
+    for (size_t i = 0; i < colorizers.size(); ++i) {
+      features |= uint32_t(colorizers[i].features);
+      uniforms.list[i] = colorizers[i].data;
     }
-    if (!steps_.front().hasAreasByView())
-      while (masks.size() > 1) {
-        for (size_t i = 0; i < grid.count(); ++i) masks[0][i] |= masks.back()[i];
-        masks.pop_back();
-      }
-    const std::vector<ColorizeJob> plan = planJobs(grid, masks);
-
-    std::vector<ImageStep::Job> jobs;
-    for (size_t j = 0; j < plan.size(); ++j) {
-      shared::ColorizeUniforms uniforms{};
-      const uint32_t count = listFor(plan[j].mask, colorizers, uniforms);
-      jobs.push_back({{count, count > 0 ? uint32_t(features) : 0}, {}, plan[j].areas});
-      for (ImageStep& step : steps_) step.update(uniforms, j);
+    uniforms.stripBits = int(stripBits(width_, height_));
+    for (uint32_t v = 0; v < viewCount_; ++v) {
+      const shared::ViewUniforms& view = input.uniforms.views[v];
+      uniforms.sights[v] = sightLines(view);
+      if (view.orthographic != 0) features |= uint32_t(shared::kHasParallel);
+      markStrips(colorizers, glm::dmat4(view.worldToClip), width_, height_, v, uniforms);
     }
-    for (ImageStep& step : steps_) step.setJobs(jobs);
+    for (ImageStep& step : steps_) {
+      step.setJobs({{{features}, {}}});
+      step.update(uniforms);
+    }
   }
 
  private:

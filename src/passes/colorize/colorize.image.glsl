@@ -1,20 +1,21 @@
 #version 460
 // The look's colorizers, one after the other (paper 002): colour and depth are read once, the result is written once.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_control_flow_attributes : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+#extension GL_KHR_shader_subgroup_quad : require
 #include "../../shading/frame.glsl"
 #include "colorize.shared.h"
 #include "fog.shared.h"
 
-layout(constant_id = 0) const int kCount = 0;
-layout(constant_id = 1) const int kFeatures = 0;
+layout(constant_id = 0) const int kFeatures = 0;
 layout(set = 1, binding = 0, scalar) uniform Block { ColorizeUniforms u; };
 layout(set = 1, binding = 1) uniform sampler2DArray color;
 layout(set = 1, binding = 2) uniform sampler2DArray depth;
 
-#define SHADES_AREAS
-
 bool has(int feature) { return (kFeatures & feature) != 0; }
+
+// An `if` that CPU drivers jump over: of other ones they execute both sides for all pixels.
+#define BRANCH(condition) for (bool is_ = (condition); is_; is_ = false)
 
 // The pixel's ray in the world, and how far it goes.
 struct Sight {
@@ -23,99 +24,123 @@ struct Sight {
   float way;  // metres
 };
 
+#define SIGHT_FIELD(field) (kViewCount == 1 || layer == 0 ? u.sights[0].field : u.sights[1].field)
+
 Sight sightOf(ivec2 pixel, int layer) {
   vec2 ndc = (vec2(pixel) + 0.5) / frame.imageSize * 2.0 - 1.0;
-  vec4 toRay = VIEW_FIELD(ndcToEyeRay, layer);
-  vec2 across = ndc * toRay.xy + toRay.zw;
-  mat3 toEye = mat3(VIEW_FIELD(worldToEye, layer));
   float distance = min(eyeDepth(texelFetch(depth, ivec3(pixel, layer), 0).r, layer), 1e15);
-  float parallel = has(kHasParallel) ? VIEW_FIELD(orthographic, layer) : 0.0;
-  vec3 eyeRay = vec3(across * (1.0 - parallel), -1.0);
-  float stretch = inversesqrt(dot(eyeRay, eyeRay));
+  vec3 ray = SIGHT_FIELD(ray[0]) + ndc.x * SIGHT_FIELD(ray[1]) + ndc.y * SIGHT_FIELD(ray[2]);
+  float stretch = inversesqrt(dot(ray, ray));
   Sight sight;
-  sight.origin = vec3(across * parallel, 0.0) * toEye;
-  sight.ray = (eyeRay * stretch) * toEye;
+  sight.origin = vec3(0.0);
+  if (has(kHasParallel))
+    sight.origin = SIGHT_FIELD(origin[0]) + ndc.x * SIGHT_FIELD(origin[1]) + ndc.y * SIGHT_FIELD(origin[2]);
+  sight.ray = ray * stretch;
   sight.way = distance / stretch;
   return sight;
 }
 
-// What the volume has along the ray or at its end, from 0 to 1.
-float strength(Colorizer c, Sight sight, int layer) {
-  vec3 eye = kViewCount == 1 || layer == 0 ? c.eyes[0] : c.eyes[1];
-  bool isFog = !has(kHasSurface) || (has(kHasFog) && c.atmospheric != 0);
+// The pixels of a quad all look at the same colorizer. Each reads one of four rows and tells the others, since CPU
+// drivers load uniforms pixel by pixel, and that would take most of the time.
+struct Rows {
+  vec4 a, b, c, d;
+};
+Rows together(vec4 own) {
+  return Rows(subgroupQuadBroadcast(own, 0u), subgroupQuadBroadcast(own, 1u), subgroupQuadBroadcast(own, 2u),
+              subgroupQuadBroadcast(own, 3u));
+}
+// The view's eye, bias, color and gray.
+Rows commonRows(int index, int layer) {
+  int own = int(gl_SubgroupInvocationID & 3u);
+  return together(u.list[index].rows[own == 0 ? kRowEyes + layer : kRowBias - 1 + own]);
+}
+// Gamma and the columns of toUnit.
+Rows otherRows(int index) { return together(u.list[index].rows[kRowGamma + int(gl_SubgroupInvocationID & 3u)]); }
+
+const int kTypes = (1 << 12) - 1;
+
+bool isType(int shape, int kind, int type) {
+  int other = 2 * shape + kind;
+  return has(1 << other) && ((kFeatures & kTypes) == 1 << other || type == other);
+}
+
+// What the volume has along the ray or at its end, from 0 to 1 but for rounding.
+float strength(int index, vec4 eyeRow, int type, Sight sight) {
+  const int kSurface = 0, kFog = 1, kSpheres = 3 << 2 * kShapeSphere,
+            kOthers = (1 << 2 * kShapeScene) - (1 << 2 * kShapeEllipsoid);
   float result = 0.0;
-  if (has(1 << kShapeSphere) || has(1 << kShapeScene)) {
-    if (has(kHasParallel)) eye += c.perMetre * sight.origin;
-    float way = c.perMetre * sight.way;
-    if (has(1 << kShapeSphere)) {
-      float fog = has(kHasFog) ? sphereFog(eye, sight.ray, max(way, 0.0)) : 0.0;
-      float density = has(kHasSurface) ? sphereDensity(eye + way * sight.ray) : 0.0;
-      result = c.shape == kShapeSphere ? (isFog ? fog : density) : result;
+  BRANCH(isType(kShapeScene, kSurface, type)) result = 1.0;
+  BRANCH(isType(kShapeScene, kFog, type)) result = saturated(max(eyeRow.w * sight.way, 0.0));
+  if (has(kSpheres)) {
+    bool isFog = isType(kShapeSphere, kFog, type);
+    BRANCH(isFog || isType(kShapeSphere, kSurface, type)) {
+      vec3 eye = eyeRow.xyz;
+      if (has(kHasParallel)) eye += eyeRow.w * sight.origin;
+      float way = eyeRow.w * sight.way;
+      BRANCH(isFog) result = sphereFog(eye, sight.ray, max(way, 0.0));
+      BRANCH(!isFog) result = sphereDensity(eye + way * sight.ray);
     }
-    if (has(1 << kShapeScene)) result = c.shape == kShapeScene ? (isFog ? saturated(max(way, 0.0)) : 1.0) : result;
   }
-  const int kOthers = 1 << kShapeEllipsoid | 1 << kShapeBox | 1 << kShapeCapsule | 1 << kShapeHalfSpace;
   if (has(kOthers)) {
-    vec3 own = kViewCount == 1 || layer == 0 ? c.eyes[0] : c.eyes[1];
-    if (has(kHasParallel)) own += c.toUnit * sight.origin;
-    vec3 ray = c.toUnit * sight.ray;
-    float shrink = inversesqrt(dot(ray, ray)), end = sight.way / shrink, way = max(end, 0.0);
-    ray *= shrink;
-    vec3 at = own + end * ray;
-    if (has(1 << kShapeEllipsoid)) {
-      float fog = has(kHasFog) ? sphereFog(own, ray, way) : 0.0;
-      result = c.shape == kShapeEllipsoid ? (isFog ? fog : sphereDensity(at)) : result;
-    }
-    if (has(1 << kShapeBox)) {
-      float fog = has(kHasFog) ? boxFog(own, ray, way) : 0.0;
-      result = c.shape == kShapeBox ? (isFog ? fog : boxDensity(at)) : result;
-    }
-    if (has(1 << kShapeCapsule)) {
-      float fog = has(kHasFog) ? capsuleFog(own, ray, way, c.axis) : 0.0;
-      result = c.shape == kShapeCapsule ? (isFog ? fog : capsuleDensity(at, c.axis)) : result;
-    }
-    if (has(1 << kShapeHalfSpace)) {
-      float fog = has(kHasFog) ? halfSpaceFog(own, ray, way) : 0.0;
-      result = c.shape == kShapeHalfSpace ? (isFog ? fog : halfSpaceDensity(at)) : result;
+    BRANCH((kFeatures & kTypes & ~kOthers) == 0 || (1 << type & kOthers) != 0) {
+      Rows rows = otherRows(index);
+      mat3 toUnit = mat3(rows.b.xyz, rows.c.xyz, rows.d.xyz);
+      float axis = rows.a.w;
+      vec3 eye = eyeRow.xyz;
+      if (has(kHasParallel)) eye += toUnit * sight.origin;
+      vec3 ray = toUnit * sight.ray;
+      float shrink = inversesqrt(dot(ray, ray)), end = sight.way / shrink, way = max(end, 0.0);
+      ray *= shrink;
+      vec3 at = eye + end * ray;
+      BRANCH(isType(kShapeEllipsoid, kFog, type)) result = sphereFog(eye, ray, way);
+      BRANCH(isType(kShapeEllipsoid, kSurface, type)) result = sphereDensity(at);
+      BRANCH(isType(kShapeBox, kFog, type)) result = boxFog(eye, ray, way);
+      BRANCH(isType(kShapeBox, kSurface, type)) result = boxDensity(at);
+      BRANCH(isType(kShapeCapsule, kFog, type)) result = capsuleFog(eye, ray, way, axis);
+      BRANCH(isType(kShapeCapsule, kSurface, type)) result = capsuleDensity(at, axis);
+      BRANCH(isType(kShapeHalfSpace, kFog, type)) result = halfSpaceFog(eye, ray, way);
+      BRANCH(isType(kShapeHalfSpace, kSurface, type)) result = halfSpaceDensity(at);
     }
   }
-  return clamp(result, 0.0, 1.0);
+  return result;
 }
 
 // FORMULAS 17. An amount of 0 leaves the bits as they are, since everything is finite: nothing is brighter than what
 // half floats hold.
-vec3 colorized(vec3 from, Colorizer c, Sight sight, int layer) {
-  float x = strength(c, sight, layer);
-  if (has(kHasFalloff)) x = x / (x + c.falloff * (1.0 - x));
-  float amount = min(c.density * x, 1.0);
-  float gray = dot(from, vec3(0.2126, 0.7152, 0.0722));
-  vec3 graded = max(c.bias + c.color * from + c.gray * gray, 0.0);
-  if (has(kHasGamma)) graded = pow(graded, c.gamma);
+vec3 colorized(vec3 from, int index, Sight sight, int layer) {
+  Rows rows = commonRows(index, layer);
+  float x = strength(index, rows.a, int(rows.d.w), sight);
+  if (has(kHasFalloff)) {
+    x = clamp(x, 0.0, 1.0);
+    x = x / (x + rows.c.w * (1.0 - x));
+  }
+  float amount = clamp(rows.b.w * x, 0.0, 1.0);
+  vec3 graded = rows.b.rgb + rows.c.rgb * from;
+  if (has(kHasSaturation)) graded += rows.d.rgb * dot(from, vec3(0.2126, 0.7152, 0.0722));
+  graded = max(graded, 0.0);
+  if (has(kHasGamma)) {
+    vec3 gamma = otherRows(index).a.rgb;
+    BRANCH(gamma != vec3(1.0)) graded = pow(graded, gamma);
+  }
   return from + amount * (min(graded, 65504.0) - from);
 }
 
-// Four of the list. CPU drivers load uniforms pixel by pixel where they do not know the index, so it has to be a
-// constant; and their compilers take time by the square of what stands between two jumps, so there is one.
-vec3 chunk(vec3 from, int first, Sight sight, int layer) {
-  int runs = 0;
-  do {
-    [[unroll]] for (int i = 0; i < 4; ++i)
-      if (first + i < kCount) from = colorized(from, u.list[first + i], sight, layer);
-  } while (++runs < u.once);
-  return from;
-}
-#define CHUNK(first) \
-  if (kCount > first) after = chunk(after, first, sight, layer);
-
 vec4 shade(ivec2 pixel, int layer) {
   vec4 before = texelFetch(color, ivec3(pixel, layer), 0);
-  if (kCount == 0) return before;
+  // What any of the pixels that are computed together sees; where one does not see it, it does nothing.
+  ivec2 strip = (pixel >> u.stripBits) + layer * kMaxStrips;
+  uvec2 left = subgroupOr(u.columns[strip.x] & u.rows[strip.y]);
   Sight sight = sightOf(pixel, layer);
   // Colours are premultiplied by their coverage; where all is covered, this changes nothing.
   vec3 straight = before.rgb / max(before.a, 1e-6);
   vec3 after = straight;
-  CHUNK(0) CHUNK(4) CHUNK(8) CHUNK(12) CHUNK(16) CHUNK(20) CHUNK(24) CHUNK(28)
-  CHUNK(32) CHUNK(36) CHUNK(40) CHUNK(44) CHUNK(48) CHUNK(52) CHUNK(56) CHUNK(60)
+  while ((left.x | left.y) != 0u) {
+    bool low = left.x != 0u;
+    uint word = low ? left.x : left.y;
+    uint rest = word & (word - 1u);
+    after = colorized(after, findLSB(word) + (low ? 0 : 32), sight, layer);
+    left = low ? uvec2(rest, left.y) : uvec2(0u, rest);
+  }
   bvec3 same = equal(after, straight);
   return vec4(mix(after * before.a, before.rgb, same), before.a);
 }

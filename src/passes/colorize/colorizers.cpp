@@ -68,13 +68,28 @@ int shapeOf(const VolumeParams& volume, double even) {
 
 void setGrade(shared::Colorizer& data, const GradeParams& grade) {
   const glm::vec3 tint = grade.tint.linear * grade.gain;
-  data.bias = grade.bias;
-  data.color = tint * grade.saturation;
-  data.gray = tint * (1 - grade.saturation);
-  data.gamma = grade.gamma;
+  data.rows[shared::kRowBias] = {grade.bias.value, 0};
+  data.rows[shared::kRowColor] = {tint * grade.saturation, 0};
+  data.rows[shared::kRowGray] = {tint * (1 - grade.saturation), 0};
+  data.rows[shared::kRowGamma] = {grade.gamma.value, 0};
 }
 
 }  // namespace
+
+shared::SightLines sightLines(const shared::ViewUniforms& view) {
+  const glm::dmat3 toWorld = glm::transpose(glm::dmat3(view.worldToEye));
+  const glm::dvec4 toRay(view.ndcToEyeRay);
+  const glm::dvec3 middle(toRay.z, toRay.w, 0), across(toRay.x, 0, 0), down(0, toRay.y, 0), ahead(0, 0, -1);
+  const double parallel = view.orthographic;
+  shared::SightLines lines;
+  int i = 0;
+  for (const glm::dvec3& part : {middle, across, down}) {
+    lines.ray[i] = toWorld * (part * (1 - parallel) + (i == 0 ? ahead : glm::dvec3(0)));
+    lines.origin[i] = toWorld * (part * parallel);
+    ++i;
+  }
+  return lines;
+}
 
 std::vector<PlacedColorizer> placeColorizers(const look::LookData& look, const scene::SceneData& scene,
                                              const std::vector<glm::mat4>& worlds,
@@ -92,26 +107,27 @@ std::vector<PlacedColorizer> placeColorizers(const look::LookData& look, const s
     if (!isFinite || glm::determinant(glm::dmat3(fromUnit)) == 0) continue;
 
     PlacedColorizer one;
+    auto& rows = one.data.rows;
+    setGrade(one.data, grade);
     const double even = evenScale(glm::dmat3(toUnit));
-    one.data.shape = shapeOf(volume, even);
-    const bool isSphere = one.data.shape == shared::kShapeSphere;
+    const int shape = shapeOf(volume, even), type = 2 * shape + volume.kind;
     for (int v = 0; v < shared::kMaxViews; ++v) {
       const glm::dvec3 eye(uniforms.views[v].eye);
       // A sphere looks the same from all sides: its space need not be turned.
-      one.data.eyes[v] = isSphere ? glm::vec3((eye - glm::dvec3(fromUnit[3])) * even)
-                                  : glm::vec3(toUnit * glm::dvec4(eye, 1));
+      const glm::dvec3 there = shape == shared::kShapeSphere ? (eye - glm::dvec3(fromUnit[3])) * even
+                                                             : glm::dvec3(toUnit * glm::dvec4(eye, 1));
+      rows[shared::kRowEyes + v] = glm::dvec4(there, even);
     }
-    one.data.toUnit = glm::mat3(toUnit);
-    one.data.perMetre = float(even);
+    for (int i = 0; i < 3; ++i) rows[shared::kRowToUnit + i] = glm::dvec4(glm::dvec3(toUnit[i]), 0);
     const double axis = volume.shape == kVolumeCapsule ? double(volume.length) / double(volume.radius) : 0;
-    one.data.axis = float(axis);
-    one.data.atmospheric = volume.kind;
-    one.data.density = volume.density;
-    one.data.falloff = (1 - volume.falloff) / volume.falloff;
-    setGrade(one.data, grade);
+    rows[shared::kRowBias].w = volume.density;
+    rows[shared::kRowColor].w = (1 - volume.falloff) / volume.falloff;
+    rows[shared::kRowGray].w = float(type);
+    rows[shared::kRowGamma].w = float(axis);
 
-    one.features = 1 << one.data.shape | (volume.kind != 0 ? shared::kHasFog : shared::kHasSurface);
+    one.features = 1 << type;
     if (grade.gamma.value != glm::vec3(1.0f)) one.features |= shared::kHasGamma;
+    if (grade.saturation != 1) one.features |= shared::kHasSaturation;
     if (volume.falloff != 0.5f) one.features |= shared::kHasFalloff;
 
     one.bounded = volume.shape != kVolumeHalfSpace && volume.shape != kVolumeScene;

@@ -23,4 +23,7 @@ std::vector<PlacedColorizer> placeColorizers(const look::LookData& look, const s
                                              const std::vector<glm::mat4>& worlds,
                                              const shared::FrameUniforms& uniforms);
 
+// The rays of a view's pixels.
+shared::SightLines sightLines(const shared::ViewUniforms& view);
+
 }  // namespace scumble::passes

@@ -1,0 +1,19 @@
+// Which columns and rows of the picture may see which colorizers.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "passes/colorize/colorizers.h"
+
+namespace scumble::passes {
+
+// The picture's columns have a width, and its rows a height, of 2 to this power, in pixels.
+uint32_t stripBits(uint32_t width, uint32_t height);
+
+// Sets the bits of one view's columns and rows. A colorizer that has no bit in a pixel's column, or in its
+// row, does nothing along that pixel's ray.
+void markStrips(const std::vector<PlacedColorizer>& colorizers, const glm::dmat4& worldToClip, uint32_t width,
+                uint32_t height, uint32_t view, shared::ColorizeUniforms& uniforms);
+
+}  // namespace scumble::passes
