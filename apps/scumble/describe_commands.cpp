@@ -22,6 +22,14 @@ std::string joined(const std::vector<std::string>& names) {
   return text.empty() ? "-" : text;
 }
 
+// The first of many names.
+std::string shortened(std::vector<std::string> names) {
+  constexpr size_t kMost = 60;
+  const size_t more = names.size() - std::min(names.size(), kMost);
+  if (more > 0) names.resize(kMost);
+  return joined(names) + (more > 0 ? fmt::format(" and {} more (--json has them all)", more) : "");
+}
+
 int info(const SceneArguments& args, bool asJson) {
   const Result<Scene> scene = args.load(asJson);
   if (!scene) return fail(scene.error());
@@ -34,6 +42,7 @@ int info(const SceneArguments& args, bool asJson) {
                                 {"triangles", s.triangles},
                                 {"vertices", s.vertices},
                                 {"nodes", s.nodes},
+                                {"nodeNames", s.nodeNames},
                                 {"materials", s.materialNames},
                                 {"images", s.images},
                                 {"skins", s.skins},
@@ -50,9 +59,10 @@ int info(const SceneArguments& args, bool asJson) {
   }
   print(fmt::format("meshes      {} ({} primitives, {} triangles, {} vertices)\n", s.meshes, s.primitives,
                     s.triangles, s.vertices));
-  print(fmt::format("nodes       {}\nmaterials   {}: {}\nimages      {}\nskins       {}\nmorphs      {}\n",
-                    s.nodes, s.materialNames.size(), joined(s.materialNames), s.images, s.skins,
-                    s.morphTargets));
+  print(
+      fmt::format("nodes       {}: {}\nmaterials   {}: {}\nimages      {}\nskins       {}\nmorphs      {}\n",
+                  s.nodes, shortened(s.nodeNames), s.materialNames.size(), joined(s.materialNames), s.images,
+                  s.skins, s.morphTargets));
   std::vector<std::string> clips;
   for (const auto& clip : s.clips) clips.push_back(fmt::format("{} ({:.2f} s)", clip.name, clip.duration));
   print(fmt::format("clips       {}\ncameras     {}\nlights      {}\n", joined(clips), joined(s.cameras),

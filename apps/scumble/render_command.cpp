@@ -187,6 +187,18 @@ class FrameLoop {
   Renderer& renderer_;
 };
 
+void warnOfIdle(const Scene& scene, const Look& look) {
+  for (const std::string& setting : settingsWithoutEffect(scene, look))
+    warn({"--set " + setting + ": nothing in the scene has such a name (`scumble info` lists names)"});
+  const std::vector<std::string> idle = colorizersWithoutNode(scene, look);
+  if (idle.empty()) return;
+  std::string names = "'" + idle.front() + "'";
+  if (idle.size() == 2) names += " and '" + idle.back() + "'";
+  if (idle.size() > 2) names += " and " + std::to_string(idle.size() - 1) + " more";
+  warn({"colorizer " + names +
+        ": the scene has no node of the name in volume.node (`scumble info` lists names)"});
+}
+
 int run(const RenderArguments& args) {
   const auto start = Clock::now();
   nlohmann::json steps = nlohmann::json::object();
@@ -234,9 +246,7 @@ int run(const RenderArguments& args) {
   output->exr.cryptomattes = {{"cryptomatte", scene->objectNames()}};
   look = args.look.withClip(*look, *scene);
   if (!look) return fail(look.error());
-  if (!args.quiet)
-    for (const std::string& setting : settingsWithoutEffect(*scene, *look))
-      warn({"--set " + setting + ": nothing in the scene has such a name (`scumble info` lists names)"});
+  if (!args.quiet) warnOfIdle(*scene, *look);
   // A camera that does not exist is found before there is a device.
   const Result<std::vector<View>> views = args.picture.views(*scene, *look);
   if (!views) return fail(views.error());

@@ -33,6 +33,7 @@ struct SceneSummary {
   size_t meshes = 0, primitives = 0, triangles = 0, vertices = 0, nodes = 0, materials = 0, images = 0,
          skins = 0, morphTargets = 0;
   std::vector<std::string> cameras, lights, materialNames;
+  std::vector<std::string> nodeNames;  // of those that have one, in the file's order
   std::vector<Clip> clips;
   std::vector<std::string> extensionsUsed, extensionsNotSupported;
   double min[3] = {0, 0, 0}, max[3] = {0, 0, 0};  // world bounds, metres

@@ -500,28 +500,6 @@ bool Renderer::needsFloat(const std::string& aov) {
   return format == VK_FORMAT_R32G32B32A32_SFLOAT || gpu::isDepthFormat(format);
 }
 
-std::vector<std::string> settingsWithoutEffect(const Scene& scene, const Look& look) {
-  if (scene.empty()) return {};
-  const scene::SceneData& data = scene.data();
-  std::vector<std::string> idle;
-  for (const look::Assignment& setting : look.data().assignments) {
-    if (!setting.byHand || setting.target == look::kScene) continue;
-    // A pattern is meant for many scenes.
-    if (setting.pattern.find_first_of("*?") != std::string::npos) continue;
-    const auto matchesAny = [&](const auto& named) {
-      return std::any_of(named.begin(), named.end(),
-                         [&](const auto& one) { return look::matches(setting.pattern, one.name); });
-    };
-    const bool found = setting.target == look::kMaterials
-                           ? matchesAny(data.materials) || look::matches(setting.pattern, "Ground")
-                       : setting.target == look::kNodes ? matchesAny(data.nodes)
-                       : setting.target == look::kClips ? matchesAny(data.clips)
-                                                        : true;
-    if (!found) idle.push_back(std::string(look::firstSection(setting.target).name) + "." + setting.pattern);
-  }
-  return idle;
-}
-
 double playedSeconds(const Scene& scene, const Look& look) {
   if (scene.empty()) return 0;
   double seconds = 0;

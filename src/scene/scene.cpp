@@ -147,6 +147,8 @@ SceneSummary Scene::summary() const {
   for (const Light& light : data.lights) s.lights.push_back(light.name);
   // The first is glTF's default, which is in no file.
   for (size_t m = 1; m < data.materials.size(); ++m) s.materialNames.push_back(data.materials[m].name);
+  for (const Node& node : data.nodes)
+    if (!node.name.empty()) s.nodeNames.push_back(node.name);
   for (const Clip& clip : data.clips) s.clips.push_back({clip.name, clip.duration});
   s.extensionsUsed = data.extensionsUsed;
   s.extensionsNotSupported = data.extensionsNotSupported;

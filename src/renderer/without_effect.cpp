@@ -1,0 +1,48 @@
+// What a look sets that a scene knows nothing of.
+#include <algorithm>
+
+#include "look/look_data.h"
+#include "look/setting_path.h"
+#include "passes/colorize/colorize.h"
+#include "scene/scene_data.h"
+#include "scumble/renderer.h"
+
+namespace scumble {
+
+std::vector<std::string> settingsWithoutEffect(const Scene& scene, const Look& look) {
+  if (scene.empty()) return {};
+  const scene::SceneData& data = scene.data();
+  std::vector<std::string> idle;
+  for (const look::Assignment& setting : look.data().assignments) {
+    if (!setting.byHand || setting.target == look::kScene) continue;
+    // A pattern is meant for many scenes.
+    if (setting.pattern.find_first_of("*?") != std::string::npos) continue;
+    const auto matchesAny = [&](const auto& named) {
+      return std::any_of(named.begin(), named.end(),
+                         [&](const auto& one) { return look::matches(setting.pattern, one.name); });
+    };
+    const bool found = setting.target == look::kMaterials
+                           ? matchesAny(data.materials) || look::matches(setting.pattern, "Ground")
+                       : setting.target == look::kNodes ? matchesAny(data.nodes)
+                       : setting.target == look::kClips ? matchesAny(data.clips)
+                                                        : true;
+    if (!found) idle.push_back(std::string(look::firstSection(setting.target).name) + "." + setting.pattern);
+  }
+  return idle;
+}
+
+std::vector<std::string> colorizersWithoutNode(const Scene& scene, const Look& look) {
+  if (scene.empty()) return {};
+  const std::vector<scene::Node>& nodes = scene.data().nodes;
+  std::vector<std::string> idle;
+  for (const std::string& name : look.data().declared(look::kColorizers)) {
+    const auto volume = look.data().getFor<passes::VolumeParams>(look::kColorizers, name);
+    const std::string& node = look.data().text(volume.node);
+    const bool found = node.empty() ||
+                       std::any_of(nodes.begin(), nodes.end(), [&](const auto& n) { return n.name == node; });
+    if (!found) idle.push_back(name);
+  }
+  return idle;
+}
+
+}  // namespace scumble
