@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """docs/figures/make.py still works: one figure, very small; and page, folder and script agree on which figures there are.
+docs/pictures/looks.py too, and README.md tells of all looks that ship, in its order.
 
     tests/figures_test.py PROGRAM
 """
@@ -12,6 +13,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "tests/support"))
+sys.path.insert(0, str(ROOT / "docs/figures"))
+from panels import GAP  # noqa: E402
 from png import read_png  # noqa: E402
 
 
@@ -31,6 +34,17 @@ def main():
         width, height, _, rows = read_png(Path(folder) / "breakup.png")
     assert width > 250 and height == 100, (width, height)
     assert len({row[i:i + 3] for row in rows for i in range(0, len(row), 3)}) > 50, "hardly anything in the picture"
+    build = Path(sys.argv[1]).resolve().parent
+    looks = [line.split(None, 1) for line in subprocess.run([sys.argv[1], "looks"], capture_output=True, text=True, check=True).stdout.splitlines()]
+    told = re.findall(r"^\| `([\w-]+)` \| (.*) \|$", (ROOT / "README.md").read_text(encoding="utf-8"), re.MULTILINE)
+    assert [tuple(look) for look in looks] == told, f"`scumble looks` says {looks}, README.md {told}"
+    with tempfile.TemporaryDirectory() as folder:
+        sheet = Path(folder) / "looks.png"
+        subprocess.run([sys.executable, ROOT / "docs/pictures/looks.py", build, "--out", sheet, "--size", "64x36"], capture_output=True, check=True)
+        width, height, _, _ = read_png(sheet)
+    columns, rows = 2, (len(looks) + 1) // 2
+    assert (width - 64 * columns, height - 36 * rows) == (GAP * (columns - 1), GAP * (rows - 1)), (width, height)
+    print(f"looks: {len(looks)}, and their sheet can be drawn")
     print(f"figures: {len(listed)}, and breakup can be drawn")
 
 

@@ -21,6 +21,7 @@ import scenes  # noqa: E402
 
 OPTIONS = ["--size", "320x180", "--samples", "4", "--validate", "--quiet"]
 TOLERANCE = 0.05  # mean FLIP
+GENERATORS = {"demo": "demo_scene", "room": "henry_room"}
 
 
 def cases():
@@ -31,17 +32,19 @@ def cases():
         if not line:
             continue
         parts = [part.strip() for part in line.split("|")]
-        if len(parts) != 3 or parts[1] not in {"demo", *scenes.SCENES}:
+        if len(parts) != 3 or parts[1] not in {*GENERATORS, *scenes.SCENES}:
             sys.exit(f"{HERE / 'cases.txt'}:{number}: write it like: name | scene | options")
         result.append((parts[0], parts[1], shlex.split(parts[2])))
     return result
 
 
 def scene_file(build, folder, name):
-    if name == "demo":
-        path = folder / "demo.glb"
-        shutil.copy(HERE.parent.parent / "examples/demo_scene/demo.look.json", folder / "demo.look.json")
-        subprocess.run([build / "demo_scene", path], check=True, stdout=subprocess.DEVNULL)
+    if name in GENERATORS:
+        path = folder / f"{name}.glb"
+        look = HERE.parent.parent / "examples" / GENERATORS[name] / f"{name}.look.json"
+        if look.exists():
+            shutil.copy(look, folder / look.name)
+        subprocess.run([build / GENERATORS[name], path], check=True, stdout=subprocess.DEVNULL)
     else:
         path = folder / f"{name}.gltf"
         path.write_text(scenes.SCENES[name]())
