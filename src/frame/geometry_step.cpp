@@ -101,7 +101,6 @@ void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resource
                               scene.surface().handle(), scene.previousPositions().handle()};
   const VkDeviceSize offsets[] = {0, 0, 0, 0};
   vkCmdBindVertexBuffers(commands, 0, uint32_t(std::size(buffers)), buffers, offsets);
-  vkCmdBindIndexBuffer(commands, scene.indices().handle(), 0, VK_INDEX_TYPE_UINT32);
 
   std::vector<const Draw*> order;
   for (const Draw& draw : scene.draws())
@@ -118,6 +117,7 @@ void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resource
   });
 
   const gpu::Pipeline* bound = nullptr;
+  VkBuffer boundIndices = VK_NULL_HANDLE;
   uint32_t boundMaterial = ~0u;
   int cull = -1, front = -1;
   std::vector<uint32_t> offsetsOfMaterial(desc_.materialStrides.size());
@@ -139,6 +139,10 @@ void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resource
                          offsetsOfMaterial);
       boundMaterial = draw->material;
     }
+    const VkBuffer indices =
+        draw->alpha == AlphaMode::blend ? scene.transparentIndices() : scene.indices().handle();
+    if (boundIndices != indices)
+      vkCmdBindIndexBuffer(commands, indices, 0, VK_INDEX_TYPE_UINT32), boundIndices = indices;
     if (cull != int(draw->cullsBack))
       vkCmdSetCullMode(commands, draw->cullsBack ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE),
           cull = draw->cullsBack;

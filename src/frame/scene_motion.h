@@ -38,6 +38,12 @@ class SceneMotion {
   const std::vector<scene::Bounds>& bounds() const { return bounds_; }
   // Whether triangles are turned inside out, by object.
   const std::vector<uint8_t>& mirrored() const { return mirrored_; }
+  // Matrix of an object to the world in the pose, and of its joints: those of a skinned one go from where its
+  // vertices are at rest to the world.
+  const glm::mat4& model(size_t object) const { return objects_.as<shared::ObjectData>()[object].model; }
+  const glm::mat4* joints(size_t object) const {
+    return joints_.as<glm::mat4>() + objects_.as<shared::ObjectData>()[object].firstJoint;
+  }
   // World matrices of nodes at the time itself: what holds poses does not hold lights and cameras.
   const std::vector<glm::mat4>& world() const { return world_; }
   // The same as they are drawn where no material says how long poses stand: what hangs on a held node is held

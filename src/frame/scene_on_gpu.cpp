@@ -228,6 +228,8 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
     draw.wraps = primitive.wrapsU || primitive.wrapsV;
     draw.casts = item.casts;
     draw.reach = item.reach;
+    if (draw.alpha == AlphaMode::blend)
+      draw.firstIndex = transparent_.add(primitive, draw.object, item.skin >= 0);
     draws_.push_back(draw);
     triangleCount_ += draw.indexCount / 3;
 
@@ -292,6 +294,7 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
   finalFrame_ =
       gpu::Buffer(device, finals * sizeof(shared::VertexFrame), kStorage | kVertex, gpu::MemoryKind::device);
   previousPositions_ = positionBuffer(device, 1);
+  transparent_.create(device);
   motion_.emplace(device, *data_, materialNames_, moving_, objects_, chunkCount_);
 }
 
@@ -312,6 +315,8 @@ void SceneOnGpu::look(const shared::FrameUniforms& uniforms, uint32_t viewCount,
       draw.visible = mayBeSeen(draw.bounds, uniforms.views[v].worldToClip, margin);
     draw.distance = glm::length(draw.bounds.center() - uniforms.views[0].eye);
     if (draw.visible) nearestOf_[draw.material] = std::min(nearestOf_[draw.material], draw.distance);
+    if (draw.alpha == AlphaMode::blend && (draw.visible || draw.casts))
+      transparent_.sort(draw.object, *motion_, uniforms, viewCount);
   }
 }
 
@@ -329,6 +334,7 @@ void SceneOnGpu::keepPrevious() {
 void SceneOnGpu::addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) {
   motion_->addUploads(uploads);
   if (previousMotion_) previousMotion_->addUploads(uploads);
+  transparent_.addUploads(uploads);
   uploads.push_back(&materialData_);
 }
 

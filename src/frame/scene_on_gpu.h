@@ -12,6 +12,7 @@
 
 #include "frame/geometry.h"
 #include "frame/scene_motion.h"
+#include "frame/transparent_triangles.h"
 #include "gpu/frames_in_flight.h"
 #include "gpu/pipeline.h"
 
@@ -20,6 +21,7 @@ namespace scumble::frame {
 enum class AlphaMode : uint8_t { opaque, mask, blend };
 
 struct Draw {
+  // In SceneOnGpu::indices(); of blended draws in transparentIndices().
   uint32_t firstIndex = 0, indexCount = 0;
   int32_t vertexOffset = 0;
   uint32_t object = 0, material = 0;
@@ -79,7 +81,8 @@ class SceneOnGpu {
 
   // Sets what moves to its place at a time (seconds). The look is one at that time (LookData::at).
   void pose(const look::LookData& look, double time);
-  // Finds out what can be seen from the frame's views, and up to so many pixels beside them; after pose().
+  // Finds out what can be seen from the frame's views, and up to so many pixels beside them, and sorts what
+  // is transparent; after pose().
   void look(const shared::FrameUniforms& uniforms, uint32_t viewCount, float marginPixels);
   // Metres from the first view to the nearest draw of a material.
   float nearestOf(uint32_t material) const { return nearestOf_[material]; }
@@ -106,6 +109,8 @@ class SceneOnGpu {
   const gpu::Buffer& previousPositions() const { return previousPositions_; }
   const gpu::Buffer& surface() const { return surface_; }
   const gpu::Buffer& indices() const { return indices_; }
+  // Each blended draw's triangles, sorted by look().
+  VkBuffer transparentIndices() const { return transparent_.indices(); }
   // What the scene takes up, whatever its clips do.
   const scene::Bounds& bounds() const { return bounds_; }  // without the ground
   // Set 1 of geometry passes: a material's facts and its textures.
@@ -153,6 +158,7 @@ class SceneOnGpu {
   uint32_t chunkCount_ = 0, finalVertexCount_ = 0;
   std::vector<shared::ObjectData> objects_;  // without what moves
   std::vector<MovingObject> moving_;
+  TransparentTriangles transparent_;
   std::optional<SceneMotion> motion_, previousMotion_;
   std::vector<gpu::Image> images_;
   gpu::PerFrameBuffer materialData_;

@@ -42,6 +42,10 @@ class PerFrameBuffer {
   T* as() {
     return reinterpret_cast<T*>(contents_.data());
   }
+  template <class T>
+  const T* as() const {
+    return reinterpret_cast<const T*>(contents_.data());
+  }
   // Records the copy of contents() as they are now; `frame` is below kFramesInFlight, and its last turn is
   // over. Callers put recordUploads() around all of them.
   void upload(VkCommandBuffer commands, uint32_t frame);

@@ -210,6 +210,55 @@ TEST_P(SurfaceTest, blendedFromFarToNear) {
     }
 }
 
+// Panes of one mesh, from both sides: they lie in one list of triangles, whose order is the wrong one from
+// one of them. Some hang on a joint that carries them through the others.
+TEST_P(SurfaceTest, trianglesOfOneBlendedMeshFromFarToNear) {
+  const glm::vec4 colors[] = {
+      {0.8f, 0.1f, 0.1f, 0.5f}, {0.1f, 0.7f, 0.2f, 0.5f}, {0.1f, 0.2f, 0.8f, 0.5f}, {0.7f, 0.6f, 0.1f, 0.5f}};
+  const float z[] = {0.6f, 0.2f, -0.2f, -0.6f};
+  for (const bool isSkinned : {false, true}) {
+    TestScene s;
+    TestMesh panes;
+    for (int i = 0; i < 4; ++i) {
+      append(panes, gridMesh({-1, -1, z[i]}, {2, 0, 0}, {0, 2, 0}, 2), colors[i]);
+      if (isSkinned)
+        while (panes.joints.size() < panes.positions.size())
+          panes.joints.push_back({i % 2, 0, 0, 0}), panes.weights.push_back({1, 0, 0, 0});
+    }
+    Json json = TestScene::unlit("Panes", {1, 1, 1, 1});
+    json["alphaMode"] = "BLEND";
+    json["doubleSided"] = true;
+    const float carried = isSkinned ? 0.9f : 0.0f;
+    if (isSkinned)
+      s.addSkinned(panes, s.material(json),
+                   {glm::mat4(1.0f), glm::translate(glm::mat4(1.0f), {0, 0, carried})},
+                   {glm::mat4(1.0f), glm::mat4(1.0f)});
+    else
+      s.add(panes, s.material(json));
+    const Scene scene = s.load();
+    for (const float side : {1.0f, -1.0f}) {
+      const auto views = viewsFrom(scene, {{0, 0, 6 * side}}, kWidth, kHeight, GetParam());
+      const Frame frame = draw(scene, quietLook(), views, sized(kWidth, kHeight, {"lit"}));
+      std::vector<std::pair<float, int>> order;
+      for (int i = 0; i < 4; ++i) order.push_back({side * (z[i] + (i % 2) * carried), i});
+      std::sort(order.begin(), order.end());
+      glm::dvec3 sum(0.0);
+      double coverage = 0;
+      for (const auto& [nearness, i] : order) {
+        const double a = colors[i].a;
+        sum = glm::mix(sum, glm::sqrt(glm::dvec3(colors[i])), a);
+        coverage += a * (1 - coverage);
+      }
+      for (size_t v = 0; v < viewCount(); ++v) {
+        const glm::ivec2 at(pixelOf(views[v], {0.3, 0.2, 0}, kWidth, kHeight));
+        const glm::dvec4 got = texel(aov(frame, "lit", v), at.x, at.y);
+        EXPECT_NEAR(got.w, coverage, 3 * kByte);
+        expectColor(got, glm::dvec3((sum / coverage) * (sum / coverage)), 4);
+      }
+    }
+  }
+}
+
 // A texture of the look, painted by MetaTexture on colours that the scene has: against the reference, in each
 // way of painting.
 TEST_P(SurfaceTest, paintsTexturesOfTheLook) {
