@@ -17,6 +17,8 @@ sys.path.insert(0, str(ROOT / "docs/figures"))
 from panels import GAP  # noqa: E402
 from png import read_png  # noqa: E402
 
+LOOKS_APART = 8  # of 255
+
 
 def make(*arguments):
     return subprocess.run([sys.executable, ROOT / "docs/figures/make.py", *arguments], capture_output=True, text=True, check=True).stdout
@@ -41,9 +43,16 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         sheet = Path(folder) / "looks.png"
         subprocess.run([sys.executable, ROOT / "docs/pictures/looks.py", build, "--out", sheet, "--size", "64x36"], capture_output=True, check=True)
-        width, height, _, _ = read_png(sheet)
-    columns, rows = 2, (len(looks) + 1) // 2
-    assert (width - 64 * columns, height - 36 * rows) == (GAP * (columns - 1), GAP * (rows - 1)), (width, height)
+        width, height, channels, rows = read_png(sheet)
+    columns, down = 2, (len(looks) + 1) // 2
+    assert (width - 64 * columns, height - 36 * down) == (GAP * (columns - 1), GAP * (down - 1)), (width, height)
+    # At first sight: the mean difference of two panels, of 255. Those that show another scene differ anyway.
+    panels = [b"".join(rows[(36 + GAP) * (i // columns) + y][channels * (64 + GAP) * (i % columns):][:channels * 64] for y in range(36))
+              for i in range(len(looks))]
+    for i, one in enumerate(panels):
+        for j, other in enumerate(panels[:i]):
+            apart = sum(abs(a - b) for a, b in zip(one, other)) / len(one)
+            assert apart > LOOKS_APART, f"{looks[i][0]} and {looks[j][0]} look alike: {apart:.1f} of 255 apart"
     print(f"looks: {len(looks)}, and their sheet can be drawn")
     print(f"figures: {len(listed)}, and breakup can be drawn")
 
