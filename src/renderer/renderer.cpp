@@ -431,7 +431,8 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
     const std::vector<shared::PunctualLight> lights = punctualLights(
         scene.data(), now.get<LightParams>(), sceneOnGpu.motion().world(), uniforms.sceneRadius);
     uniforms.lightCount = uint32_t(lights.size());
-    std::memcpy(setup.lightSlice.mapped, lights.data(), lights.size() * sizeof(shared::PunctualLight));
+    std::copy(lights.begin(), lights.end(),
+              reinterpret_cast<shared::PunctualLight*>(setup.lightSlice.mapped));
     setup.frameSlice.write(uniforms);
     sceneOnGpu.look(uniforms, configuration.viewCount,
                     largestInflation(now, sceneOnGpu, uniforms.imageSize.y) + 1);
