@@ -34,6 +34,8 @@ struct OutputPlan {
   std::string framePath(std::optional<int> number) const;
   bool isSequence() const { return path.find('#') != std::string::npos; }
 
+  // The files of a frame's picture: one, or one an eye.
+  std::vector<std::string> picturePaths(const std::string& framePath) const;
   // Whether every file of this frame is there, whole, and of the right size.
   bool isThere(const std::string& framePath) const;
 
@@ -47,7 +49,6 @@ struct OutputPlan {
   bool isHalf(const std::string& layer) const { return half && !Renderer::needsFloat(layer); }
   bool isCryptomatte(const std::string& layer) const;
   Status writeLayers(const std::string& path, const std::vector<ImageLayer>& layers) const;
-  std::vector<std::string> picturePaths(const std::string& framePath) const;
   Status writePicturePng(const Frame& frame, size_t file, const std::string& path) const;
   Status writeLayeredExr(const Frame& frame, size_t file, const std::string& path) const;
 };

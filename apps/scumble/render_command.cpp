@@ -252,6 +252,10 @@ int run(const RenderArguments& args) {
   if (!views) return fail(views.error());
   const Result<std::vector<int>> numbers = frameNumbers(args, *output, *scene, *look);
   if (!numbers) return fail(numbers.error());
+  if (output->isSequence())
+    for (const int number : *numbers)
+      for (const std::string& path : output->picturePaths(output->framePath(number)))
+        if (const Status status = checkWritable(path, inputs); !status) return fail(status.error());
   const bool isPicture = args.frames.empty() && !isFilm;
   std::vector<double> times;
   for (const int number : *numbers) times.push_back(number / args.fps);

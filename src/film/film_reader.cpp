@@ -145,6 +145,8 @@ Status FilmReader::State::probe() {
     return unusable("has no pictures", "give a film, or a picture (.png, .jpg, .webp)");
   if (areKnown) {
     std::sort(times.begin(), times.end());
+    // Packets that are never shown, as VP8 has them, have the time of the next picture.
+    times.erase(std::unique(times.begin(), times.end()), times.end());
     const double first = times.front();
     for (double& time : times) time -= first;
   } else {

@@ -64,6 +64,27 @@ TEST_F(FilmReaderTest, timesFindTheirPictures) {
   }
 }
 
+// VP8 has packets that are never shown, with the time of the next picture.
+TEST_F(FilmReaderTest, packetsThatAreNotShownAreNoPictures) {
+  write(25);
+  const std::string film = folder_.file("film.mp4"), webm = folder_.file("film.webm");
+  const auto run = [&](const std::string& pass) {
+    return system(("cd '" + folder_.file("") + "' && ffmpeg -v quiet -y -stream_loop 3 -i '" + film +
+                   "' -c:v libvpx -auto-alt-ref 1 -lag-in-frames 25 -b:v 200k " + pass)
+                      .c_str());
+  };
+  if (run("-pass 1 -f null -") != 0 || run("-pass 2 '" + webm + "'") != 0)
+    GTEST_SKIP() << "this ffmpeg has no libvpx";
+  auto reader = FilmReader::open(webm);
+  ASSERT_TRUE(reader) << reader.error().problem;
+  EXPECT_NEAR((*reader)->lastTime(), (4 * kFrames - 1) / 25.0, 2e-3);
+  for (int i = 0; i < 4 * kFrames; i += 7) {
+    const auto picture = (*reader)->at((i + 0.5) / 25);
+    ASSERT_TRUE(picture) << picture.error().problem;
+    EXPECT_NEAR(frameOf(**picture), i % kFrames, 1) << i;
+  }
+}
+
 TEST_F(FilmReaderTest, colorsComeBackAndEndsStand) {
   write(24);
   auto reader = FilmReader::open(folder_.file("film.mp4"));

@@ -11,6 +11,7 @@
 namespace scumble {
 namespace {
 
+constexpr uint32_t kMostSide = 16384;                // as renderers draw
 constexpr uint64_t kMostPixels = uint64_t(1) << 27;  // as readPng
 
 Error unusable(const std::string& path, const std::string& problem, const std::string& advice) {
@@ -74,6 +75,11 @@ Image upright(const Pixels& pixels, uint32_t orientation) {
   return image;
 }
 
+Error tooLarge(const std::string& path) {
+  return unusable(path, "has more than " + std::to_string(kMostSide) + " pixels a side",
+                  "use a smaller picture");
+}
+
 }  // namespace
 
 Result<Image> readPicture(const std::string& path) {
@@ -83,13 +89,19 @@ Result<Image> readPicture(const std::string& path) {
     if (!file.open(path, problem)) return unusable(path, problem, "check the name");
     const Bytes bytes = file.bytes();
     // Sixteen bits a channel stay what they are.
-    if (bytes.size() >= 4 && std::memcmp(bytes.data(), "\x89PNG", 4) == 0) return readPng(path);
+    if (bytes.size() >= 4 && std::memcmp(bytes.data(), "\x89PNG", 4) == 0) {
+      Result<Image> png = readPng(path);
+      if (png && std::max(png->width, png->height) > kMostSide) return tooLarge(path);
+      return png;
+    }
     Pixels pixels;
     if (!readImageSize(bytes, pixels.width, pixels.height, problem))
       return unusable(path, "is no usable picture: " + problem, "give a PNG, a JPEG or a WebP");
+    if (std::max(pixels.width, pixels.height) > kMostSide) return tooLarge(path);
     if (uint64_t(pixels.width) * pixels.height > kMostPixels)
       return unusable(path, "has more pixels than this program accepts", "use a smaller picture");
-    if (!decodeImage(bytes, pixels, problem))
+    // Some are shown in spite of their damage, with what is wrong with them.
+    if (!decodeImage(bytes, pixels, problem) || !problem.empty())
       return unusable(path, "is no usable picture: " + problem,
                       "save it again from the program that made it");
     return upright(pixels, orientationOf(bytes));

@@ -63,7 +63,8 @@ Backdrop::Backdrop(gpu::Device& device, const glm::uvec2& size)
 
 // Boxes of whole texels, from the middle of the picture, and their mean.
 void Backdrop::convert(const Image& picture, uint16_t* texels) const {
-  const uint32_t width = size().x, height = size().y, finer = picture.width / width;
+  const uint32_t width = size().x, height = size().y,
+                 finer = std::min(picture.width / width, picture.height / height);  // as sizeFor() chose it
   const uint32_t left = (picture.width - width * finer) / 2, top = (picture.height - height * finer) / 2;
   const size_t channels = picture.channels.size();
   const float part = 1.0f / float(finer * finer);

@@ -43,6 +43,7 @@ std::vector<shared::PunctualLight> punctualLights(const scene::SceneData& scene,
                                                   const std::vector<glm::mat4>& world, float sceneRadius) {
   std::vector<shared::PunctualLight> lights;
   if (params.punctual <= 0) return lights;
+  std::vector<double> strengths;
   double sum = 0;
   for (size_t n = 0; n < scene.nodes.size() && lights.size() < scene::kMaxPunctualLights; ++n) {
     if (!isPunctual(scene, scene.nodes[n])) continue;
@@ -50,7 +51,7 @@ std::vector<shared::PunctualLight> punctualLights(const scene::SceneData& scene,
     const glm::mat4& m = world[n];
     shared::PunctualLight out{};
     out.position = m[3];
-    out.strength = params.punctual * light.intensity;
+    strengths.push_back(double(params.punctual) * double(light.intensity));
     const float length = glm::length(glm::vec3(m[2]));
     out.direction = length > 1e-12f ? glm::vec3(m[2]) / -length : glm::vec3(0, 0, -1);
     out.inverseRangeSquared = light.range > 0 ? 1 / (light.range * light.range) : 0.0f;
@@ -67,8 +68,10 @@ std::vector<shared::PunctualLight> punctualLights(const scene::SceneData& scene,
   // so many of the scene's radii from shadow (below a half) to light.
   constexpr float kReach = 0.4f;
   const float reach = kReach * sceneRadius;
-  if (params.punctualUnit == 0 && sum > 0)
-    for (shared::PunctualLight& light : lights) light.strength *= float(0.5 * reach * reach / sum);
+  const double unit = params.punctualUnit == 0 && sum > 0 ? 0.5 * reach * reach / sum : 1;
+  // Finite also after shaders multiply it.
+  constexpr double kMost = 1e20;
+  for (size_t i = 0; i < lights.size(); ++i) lights[i].strength = float(std::min(strengths[i] * unit, kMost));
   return lights;
 }
 

@@ -45,6 +45,21 @@ TEST(PunctualLights, onlyPointsAndSpotsInTheOrderOfNodes) {
   EXPECT_TRUE(punctualLights(scene, params, world, 10).empty());
 }
 
+// Shaders multiply strengths by what may be 0.
+TEST(PunctualLights, areFinite) {
+  for (const double unit : {0.0, 1.0})
+    for (const float intensity : {1e30f, 3e38f}) {
+      LightParams params;
+      params.punctual = 100, params.punctualUnit = unit;
+      const auto lights =
+          punctualLights(lampScene({lamp(scene::LightKind::point, intensity)}), params, {glm::mat4(1)}, 3);
+      EXPECT_TRUE(std::isfinite(lights[0].strength * 1e10f)) << unit << ", " << intensity;
+      if (unit == 0) {
+        EXPECT_NEAR(lights[0].strength, 100 * 0.5 * 1.2 * 1.2, 1e-3);
+      }
+    }
+}
+
 // Whatever unit a file counts in, what is nearer than 0.4 radii to all lights is more light than shadow.
 TEST(PunctualLights, autoFollowsTheScenesSize) {
   for (const float intensity : {1.0f, 8.0f, 5435.0f})

@@ -45,6 +45,18 @@ void forEachRequired(Features& f, Visit visit) {
   visit(f.core.features.samplerAnisotropy, "samplerAnisotropy");
 }
 
+// What image passes use of subgroups, whichever way they run.
+bool hasSubgroups(VkPhysicalDevice physical) {
+  VkPhysicalDeviceSubgroupProperties subgroups{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
+  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &subgroups};
+  vkGetPhysicalDeviceProperties2(physical, &properties);
+  constexpr VkSubgroupFeatureFlags kNeeded =
+      VK_SUBGROUP_FEATURE_ARITHMETIC_BIT | VK_SUBGROUP_FEATURE_QUAD_BIT;
+  constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
+  return (subgroups.supportedOperations & kNeeded) == kNeeded &&
+         (subgroups.supportedStages & kStages) == kStages;
+}
+
 bool hasGraphicsQueue(VkPhysicalDevice physical, uint32_t* family) {
   uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
@@ -88,6 +100,8 @@ DeviceInfo describe(VkPhysicalDevice physical) {
     forEachRequired(features, [&](VkBool32 present, const char* name) {
       if (!present && info.unusableBecause.empty()) info.unusableBecause = std::string("it lacks ") + name;
     });
+    if (info.unusableBecause.empty() && !hasSubgroups(physical))
+      info.unusableBecause = "it lacks arithmetic and quads of subgroups";
   }
   return info;
 }

@@ -4,10 +4,9 @@
 #include "scumble/look.h"
 
 #include <gtest/gtest.h>
-
-#include <cctype>
 #include <stdlib.h>
 
+#include <cctype>
 #include <cstring>
 #include <filesystem>
 #include <fstream>

@@ -29,7 +29,8 @@ Result<LookPicture> loadPicture(const std::string& file) {
   uint32_t width = 0, height = 0;
   if (!readImageSize(bytes.bytes(), width, height, problem)) return fail(problem);
   if (width > kMaxPictureSide || height > kMaxPictureSide) return fail("this picture is too large");
-  if (!decodeImage(bytes.bytes(), picture.pixels, problem)) return fail(problem);
+  // Some are shown in spite of their damage, with what is wrong with them.
+  if (!decodeImage(bytes.bytes(), picture.pixels, problem) || !problem.empty()) return fail(problem);
   picture.contents = contentsOf(picture.pixels);
   return picture;
 }

@@ -78,8 +78,8 @@ std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration
                                           look.get<passes::FinalColorParams>().ripple};
             },
         .simplify =
-            [](const look::LookData& look, const std::string& material) {
-              return look.getForMaterial<passes::SurfaceParams>(material).simplify;
+            [](const look::LookData& look, const SceneOnGpu& scene, size_t material) {
+              return scene.knobs<passes::SurfaceParams>(look, material).simplify;
             },
     }));
   return list;

@@ -91,6 +91,8 @@ PaletteParams ofChosenLight(PaletteParams palette) {
 
 ChosenSets chosenSets(const SceneOnGpu& scene, size_t index, const look::LookData& look,
                       LookTextures& textures) {
+  // A texture for all of a scene is not meant for the quiet ground under it.
+  if (int(index) == scene.groundMaterial()) return {};
   const scene::Material& material = scene.material(index);
   const auto choose = [&](look::Picture picture, const scene::TextureUse& own) -> std::optional<SetTexture> {
     if (picture.index < 0) return textures.get(look, picture);
@@ -118,9 +120,8 @@ shared::Backdrop backdropUniforms(const SceneOnGpu& scene, const look::LookData&
                                   ColorMaps& maps) {
   const passes::BackgroundParams params = look.get<passes::BackgroundParams>();
   const int ground = scene.groundMaterial();
-  const PaletteParams palette = ground < 0
-                                    ? look.get<PaletteParams>()
-                                    : scene.knobs<PaletteParams>(look, size_t(ground));
+  const PaletteParams palette =
+      ground < 0 ? look.get<PaletteParams>() : scene.knobs<PaletteParams>(look, size_t(ground));
   shared::Backdrop b{};
   // Covering the frame: the same texels per pixel both ways.
   const glm::vec2 ratio = glm::vec2(texels) / frame.imageSize;

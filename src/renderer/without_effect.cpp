@@ -1,5 +1,6 @@
 // What a look sets that a scene knows nothing of.
 #include <algorithm>
+#include <set>
 
 #include "look/look_data.h"
 #include "look/setting_path.h"
@@ -34,13 +35,21 @@ std::vector<std::string> settingsWithoutEffect(const Scene& scene, const Look& l
 std::vector<std::string> colorizersWithoutNode(const Scene& scene, const Look& look) {
   if (scene.empty()) return {};
   const std::vector<scene::Node>& nodes = scene.data().nodes;
+  const look::LookData& data = look.data();
+  // When a node is named anew.
+  std::set<double> times{0};
+  for (const look::Assignment& setting : data.assignments)
+    if (setting.track && setting.row->kind == look::ParamKind::name)
+      for (const look::Key& key : setting.track->keys) times.insert(key.time);
   std::vector<std::string> idle;
-  for (const std::string& name : look.data().declared(look::kColorizers)) {
-    const auto volume = look.data().getFor<passes::VolumeParams>(look::kColorizers, name);
-    const std::string& node = look.data().text(volume.node);
-    const bool found = node.empty() ||
-                       std::any_of(nodes.begin(), nodes.end(), [&](const auto& n) { return n.name == node; });
-    if (!found) idle.push_back(name);
+  for (const double time : times) {
+    const look::LookData now = data.at(time);
+    for (const std::string& name : now.declared(look::kColorizers)) {
+      const std::string& node = now.text(now.getFor<passes::VolumeParams>(look::kColorizers, name).node);
+      const bool found = node.empty() || std::any_of(nodes.begin(), nodes.end(),
+                                                     [&](const auto& n) { return n.name == node; });
+      if (!found && std::find(idle.begin(), idle.end(), name) == idle.end()) idle.push_back(name);
+    }
   }
   return idle;
 }

@@ -48,6 +48,25 @@ class Pictures(Background):
         no_shadow = self.draw("still.png", "--background", "behind.png", *PLAIN[:4], "--set", "shadowMap.cast=false")
         self.different(with_ground, no_shadow)
 
+    def test_far_larger_than_the_frame(self):
+        for width, height in ((320, 180), (97, 31), (31, 97), (64, 64)):
+            self.put("large.png", picture(width, height))
+            for size in ("1x1", "1x7", "2x2", "7x1", "16x16", "13x3"):
+                self.good("render", "box.gltf", "-o", "tiny.png", "--background", "large.png", "--size", size, "--samples", "1", "--quiet")
+
+    def test_a_sequence_does_not_overwrite_it(self):
+        self.put("w.0005.png", picture())
+        before, self.before = self.bytes("w.0005.png"), self.files()
+        self.bad(NOT_WRITTEN, "render", "box.gltf", "-o", "w.####.png", "--background", "w.0005.png", "--frames", "4..6", *QUIET,
+                 says=["w.0005.png", "inputs"])
+        self.same(self.bytes("w.0005.png"), before)
+        self.good("render", "box.gltf", "-o", "w.####.png", "--background", "w.0005.png", "--frames", "6..6", *QUIET)
+
+    def test_too_wide(self):
+        self.put("wide.png", picture(16385, 1))
+        self.before = self.files()
+        self.bad(UNUSABLE, "render", "box.gltf", "-o", "a.png", "--background", "wide.png", *QUIET, says=["wide.png", "16384"])
+
     def test_style_simplify_and_warp_act(self):
         pictures = [self.draw(f"{i}.png", "--background", "behind.png", *AWAY, *PLAIN, *args)
                     for i, args in enumerate(([], ["--set", "background.style=1"], ["--set", "background.simplify=64"],
@@ -67,6 +86,11 @@ class Pictures(Background):
                        stdin=subprocess.DEVNULL)
         jpeg = self.bytes("side.jpg")
         exif = b"Exif\0\0MM\0*" + struct.pack(">IHHHIHHI", 8, 1, 0x0112, 3, 1, 6, 0, 0)
+        # Decoders show what there is of a cut one; that is not what was asked for.
+        self.put("cut.jpg", jpeg[:len(jpeg) * 2 // 3])
+        self.before = self.files()
+        self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--background", "cut.jpg", *TINY, says="cut.jpg")
+        self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--set", "lit.texture=cut.jpg", *TINY, says="cut.jpg")
         self.put("turned.jpg", jpeg[:2] + b"\xFF\xE1" + struct.pack(">H", len(exif) + 2) + exif + jpeg[2:])
         self.draw("turned.png", "--background", "turned.jpg", *AWAY, *PLAIN)
         self.draw("expected.png", "--background", str(self.put("upright.png", picture(

@@ -389,6 +389,21 @@ class Looks(Program):
         self.same(b, c)
         self.same(a, d)
 
+    def test_colorizers_on_nodes_that_are_not_there_are_named(self):
+        def told(node):
+            self.put("a.json", json.dumps({"colorizers": {"Glow": {"volume": {"node": node}, "grade": {"gain": 2}}}}))
+            done = self.run_program("render", "box.gltf", "-o", "a.png", "--look", "a.json", *TINY)
+            self.assertEqual(done.returncode, DONE, done.stderr)
+            return [line for line in done.stderr.splitlines() if "warning" in line]
+
+        there = json.loads(self.good("info", "box.gltf", "--json"))["nodeNames"][0]
+        self.assertEqual(told(there), [])
+        self.assertEqual(told(""), [])
+        for node in ("nope", {"keys": [[0, there], [1, "nope"]]}, {"keys": [[0, "nope"], [1, there]]}):
+            with self.subTest(node=node):
+                self.assertEqual(len(told(node)), 1)
+                self.assertIn("'Glow'", told(node)[0])
+
     def test_set_errors(self):
         for setting, says in (("shadow.treshold=0.4", "did you mean 'shadow.threshold'?"), ("shadow.threshold", "="),
                               ("shadow.threshold=", "shadow.threshold"), ("shadow.threshold=9", "range"), ("shadow.threshold=x", "number"),

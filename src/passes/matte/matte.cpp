@@ -64,7 +64,7 @@ class Matte : public Pass {
 
   void update(const FrameInput& input) override {
     for (size_t m = 0; m < input.scene.materialCount(); ++m)
-      materials_.write(m, {picture_.simplify(input.look, input.scene.materialName(m))});
+      materials_.write(m, {picture_.simplify(input.look, input.scene, m)});
     image_.update(
         shared::MatteUniforms{picture_.displacement(input.look, input.scene, input.uniforms.imageSize.y)});
   }

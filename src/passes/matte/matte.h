@@ -11,7 +11,8 @@ namespace scumble::passes {
 struct PictureFacts {
   shared::Displacement (*displacement)(const look::LookData& look, const frame::SceneOnGpu& scene,
                                        float imageHeight);
-  float (*simplify)(const look::LookData& look, const std::string& material);  // of textures, in mip levels
+  // Of a material's textures, in mip levels.
+  float (*simplify)(const look::LookData& look, const frame::SceneOnGpu& scene, size_t material);
 };
 
 std::unique_ptr<frame::Pass> makeMatte(const PictureFacts& picture);

@@ -245,6 +245,33 @@ TEST_P(ColorSetsTest, tracksMoveThem) {
   }
 }
 
+// A texture for all of a scene is not laid on the ground that is put under it.
+TEST_P(ColorSetsTest, leaveTheGroundAlone) {
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("scumble-ground-" + std::to_string(getpid()) + ".png");
+  ASSERT_TRUE(writePng(file.string(), fourColors(kLight)));
+  TestScene s;
+  s.add(boxMesh({-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f}),
+        s.material(TestScene::colored("Box", {0.4f, 0.4f, 0.4f, 1})));
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{1, 2, 4}, {0, 0.4f, 0}}, kWidth, kHeight, GetParam());
+  const RenderOptions options = sized(kWidth, kHeight, {"lit", "id"});
+  const Frame without = draw(scene, quietLook({{"ground.mode", "on"}}), views, options),
+              with = draw(scene, quietLook({{"ground.mode", "on"}, {"lit.texture", file.string()}}), views,
+                          options);
+  std::filesystem::remove(file);
+  size_t ground = 0, changed = 0;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const bool isSame = texel(aov(with, "lit"), x, y) == texel(aov(without, "lit"), x, y);
+      const double id = texel(aov(with, "id"), x, y).x;
+      ground += id > 1, changed += id == 1 && !isSame;
+      EXPECT_TRUE(id == 1 || isSame);
+    }
+  EXPECT_GT(ground, 500u);
+  EXPECT_GT(changed, 200u);
+}
+
 // Any material may act on the lens.
 TEST_P(ColorSetsTest, glow) {
   TestScene s;
