@@ -2,19 +2,14 @@
 // run.
 //
 //   colorizers_bench [--size 1280x720] [--runs 31] [--device NAME] [--json FILE]
-#include <CLI/CLI.hpp>
-#include <algorithm>
-#include <bit>
 #include <cstdio>
 #include <glm/gtc/matrix_transform.hpp>
-#include <nlohmann/json.hpp>
 
+#include "full_screen/full_screen.h"
 #include "passes/colorize/strips.h"
-#include "scumble/image.h"
 #include "scumble/look.h"
 #include "scumble/view.h"
 #include "shaders/colorize_image_frag.h"
-#include "shaders/fullscreen_vert.h"
 #include "shaders/plain_reads_frag.h"
 
 using namespace scumble;
@@ -27,7 +22,6 @@ struct Case {
   std::string name;
   Look look;
   gpu::Pipeline pipeline{};
-  std::vector<double> milliseconds, compiling;
 };
 
 void add(Look& look, const std::string& name, std::vector<std::pair<std::string, std::string>> settings) {
@@ -70,45 +64,19 @@ Look spread(int count) {
   return look;
 }
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string size = "1280x720", deviceName, jsonFile;
-  int runs = 31;
-  CLI::App app("Milliseconds per picture of colorizers, beside a plain pass with the same reads");
-  app.add_option("--size", size, "WxH")->capture_default_str();
-  app.add_option("--runs", runs, "how often each case is drawn")
-      ->check(CLI::Range(1, 10000))
-      ->capture_default_str();
-  app.add_option("--device", deviceName, "part of a name, a number, or cpu");
-  app.add_option("--json", jsonFile, "also write the numbers here");
-  CLI11_PARSE(app, argc, argv);
-  uint32_t width = 0, height = 0;
-  if (std::sscanf(size.c_str(), "%ux%u", &width, &height) != 2 || width == 0 || height == 0) {
-    std::fprintf(stderr, "colorizers_bench: error: '%s' is no size\n", size.c_str());
-    return 2;
-  }
-  gpu::DeviceOptions options;
-  options.choice = deviceName;
-  Result<std::unique_ptr<gpu::Device>> created = gpu::Device::create(options);
-  if (!created || !(*created)->hasTimestamps()) {
-    std::fprintf(stderr, "colorizers_bench: error: %s\n",
-                 created ? "this device has no timestamps" : created.error().message().c_str());
-    return 4;
-  }
-  gpu::Device& device = **created;
+  bench::FullScreen screen("colorizers_bench",
+                           "Milliseconds per picture of colorizers, beside a plain pass with the same reads",
+                           argc, argv);
+  gpu::Device& device = screen.device();
+  const uint32_t width = screen.width(), height = screen.height();
   gpu::Samplers samplers(device);
 
   const std::pair<std::string, std::string> fog{"volume.kind", "atmospheric"};
   std::vector<Case> cases;
-  const auto addCase = [&](std::string name, Look look) {
-    cases.push_back({std::move(name), look, {}, {}, {}});
-  };
+  const auto addCase = [&](std::string name, Look look) { cases.push_back({std::move(name), look}); };
   addCase("plain pass with the same reads", Look());
   addCase("1 sphere of fog", fullScreen(1, {fog}));
   addCase("4 spheres of fog", fullScreen(4, {fog}));
@@ -142,8 +110,7 @@ int main(int argc, char** argv) {
   };
   const gpu::Image color = image(VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_USAGE_SAMPLED_BIT),
                    depth = image(VK_FORMAT_D32_SFLOAT,
-                                 VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT),
-                   target = image(VK_FORMAT_R16G16B16A16_SFLOAT, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);
+                                 VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
   const auto toLayout = [&](VkCommandBuffer commands, const gpu::Image& of, VkImageLayout from,
                             VkImageLayout to) {
     VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
@@ -173,7 +140,7 @@ int main(int argc, char** argv) {
       toLayout(commands, *of, kClear, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
   });
 
-  // Lists of colorizers, tiles and pipelines, as the pass makes them.
+  // Lists of colorizers and pipelines, as the pass makes them.
   const VkShaderStageFlags all = VK_SHADER_STAGE_FRAGMENT_BIT;
   const gpu::SetLayout frameLayout(
       device, {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, all}, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, all}});
@@ -207,70 +174,18 @@ int main(int argc, char** argv) {
     gpu::SamplerDesc nearest;
     nearest.filter = VK_FILTER_NEAREST;
     sets.writeTexture(i, 2, depth.view(), samplers.get(nearest));
-    gpu::GraphicsPipelineDesc desc;
-    desc.vertex = {shaders::fullscreen_vert};
-    desc.fragment = {shaders::colorize_image_frag};
-    if (i == 0) desc.fragment = {shaders::plain_reads_frag};
-    desc.constants = {features, 0, 0, 1};
-    desc.colorFormats = {VK_FORMAT_R16G16B16A16_SFLOAT};
-    desc.viewMask = 1;
-    desc.pushConstantBytes = 4;
-    desc.sets = {frameLayout.handle(), layout.handle()};
-    c.pipeline = gpu::Pipeline(device, desc);
+    c.pipeline = screen.pipeline(
+        i == 0 ? gpu::Shader{shaders::plain_reads_frag} : gpu::Shader{shaders::colorize_image_frag},
+        {features, 0, 0, 1}, {frameLayout.handle(), layout.handle()});
   }
-  VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
-  info.queryType = VK_QUERY_TYPE_TIMESTAMP;
-  info.queryCount = 2;
-  VkQueryPool queries;
-  SCUMBLE_VK(vkCreateQueryPool(device.handle(), &info, nullptr, &queries));
-
-  // All cases take turns, so that what else the machine does falls on all of them. The first turn compiles.
-  Configuration configuration;
-  configuration.width = width, configuration.height = height;
-  for (int run = -1; run < runs; ++run)
-    for (Case& c : cases) {
-      device.runOnce([&](VkCommandBuffer commands) {
-        toLayout(commands, target, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
-        vkCmdResetQueryPool(commands, queries, 0, 2);
-        vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries, 0);
-        const Target to{&target, nullptr, {}, Target::Before::undefined};
-        drawViews(commands, configuration, {&to, 1}, nullptr, [&](uint32_t) {
-          c.pipeline.bind(commands);
-          c.pipeline.push(commands, 0);
-          c.pipeline.bindSet(commands, 0, frameSet[0]);
-          c.pipeline.bindSet(commands, 1, sets[size_t(&c - cases.data())]);
-          vkCmdDraw(commands, 3, 1, 0, 0);
-        });
-        vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries, 1);
-      });
-      uint64_t stamps[2];
-      SCUMBLE_VK(vkGetQueryPoolResults(device.handle(), queries, 0, 2, sizeof(stamps), stamps, 8,
-                                       VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
-      const double time = double(stamps[1] - stamps[0]) * double(device.limits().timestampPeriod) * 1e-6;
-      (run < 0 ? c.compiling : c.milliseconds).push_back(time);
-    }
-  vkDestroyQueryPool(device.handle(), queries, nullptr);
-
-  std::printf("%s, %ux%u\n%-32s %10s %8s %12s\n", device.info().name.c_str(), width, height, "", "ms",
-              "ratio", "first, ms");
-  nlohmann::ordered_json json{{"device", device.info().name},
-                              {"driver", device.info().driver},
-                              {"width", width},
-                              {"height", height},
-                              {"runs", runs}};
-  for (const Case& c : cases) {
-    std::vector<double> ratios;
-    for (size_t r = 0; r < c.milliseconds.size(); ++r)
-      ratios.push_back(c.milliseconds[r] / cases[0].milliseconds[r]);
-    std::printf("%-32s %10.3f %8.2f %12.1f\n", c.name.c_str(), median(c.milliseconds), median(ratios),
-                c.compiling[0]);
-    json["cases"].push_back(
-        {{"name", c.name}, {"milliseconds", median(c.milliseconds)}, {"ratio", median(ratios)}});
-  }
-  if (!jsonFile.empty())
-    if (const Status written = writeText(jsonFile, json.dump(2) + "\n"); !written) {
-      std::fprintf(stderr, "colorizers_bench: error: %s\n", written.error().message().c_str());
-      return 5;
-    }
-  return 0;
+  std::vector<bench::FullScreenCase> drawn;
+  for (size_t i = 0; i < cases.size(); ++i)
+    drawn.push_back({cases[i].name, [&, i](VkCommandBuffer commands) {
+                       cases[i].pipeline.bind(commands);
+                       cases[i].pipeline.push(commands, 0);
+                       cases[i].pipeline.bindSet(commands, 0, frameSet[0]);
+                       cases[i].pipeline.bindSet(commands, 1, sets[i]);
+                       vkCmdDraw(commands, 3, 1, 0, 0);
+                     }});
+  return screen.run(std::move(drawn), 0);
 }
