@@ -5,6 +5,7 @@
 
 #include "base/tileable_noise.h"
 #include "frame/mipmaps.h"
+#include "ocean/maps.h"
 
 namespace scumble::frame {
 
@@ -46,6 +47,8 @@ Pixels pixelsOf(const look::LookData& look, look::Picture picture) {
 }  // namespace
 
 Pixels builtInExample(int index) {
+  if (index == 3) return ocean::dither();
+  if (index == 4) return ocean::foam();
   if (index == 1) {
     // Lying, as `orient` wants them.
     const std::vector<uint8_t> standing = knifeMarks();

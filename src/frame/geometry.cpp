@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 #include <map>
 
@@ -70,7 +71,8 @@ float longestEdge(float shadowWarp) {
   return std::sqrt(8 * tolerance / curvature);
 }
 
-Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& options, int groundMaterial) {
+Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& options, int groundMaterial,
+                         int oceanMaterial) {
   Geometry geometry;
   geometry.bounds = scene::playedBounds(scene, options.clips);
   const std::vector<glm::mat4> world = scene::worldMatrices(scene);
@@ -79,7 +81,7 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
   std::map<const scene::Primitive*, const scene::PrimitiveExtent*> extents;
   for (size_t n = 0; n < scene.nodes.size(); ++n) {
     const scene::Node& node = scene.nodes[n];
-    if (node.mesh < 0) continue;
+    if (node.mesh < 0 || int(n) == options.ocean.node) continue;
     for (const scene::Primitive& primitive : scene.meshes[size_t(node.mesh)].primitives) {
       if (primitive.indices.empty()) continue;
       const scene::PrimitiveExtent*& extent = extents[&primitive];
@@ -129,6 +131,36 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
         split[primitive] = &geometry.made.emplace_back(std::move(*result));
   for (GeometryItem& item : geometry.items)
     if (const auto it = split.find(item.primitive); it != split.end()) item.primitive = it->second;
+
+  if (oceanMaterial >= 0) {
+    const OceanShape& shape = options.ocean;
+    GeometryItem item;
+    item.node = GeometryItem::kNoNode;
+    item.material = uint32_t(oceanMaterial);
+    item.id = uint32_t(scene.nodes.size() + 1);
+    item.casts = false;
+    const auto add = [&](scene::Primitive&& made) {
+      item.primitive = &geometry.made.emplace_back(std::move(made));
+      item.extent = &geometry.extents.emplace_back(scene::extentOf(*item.primitive));
+    };
+    add(makeOceanTile(shape));
+    item.water = Water::waves;
+    for (int z = 0; z < shape.tiles; ++z)
+      for (int x = 0; x < shape.tiles; ++x) {
+        const glm::vec2 corner = glm::vec2(shape.firstPoint() + glm::ivec2(x, z) * shape.grid) * shape.cell();
+        item.instance = glm::translate(glm::mat4(1.0f), shape.origin + glm::vec3(corner.x, 0, corner.y));
+        item.model = item.instance;
+        item.patternShift = corner / kWaterPerPattern;
+        item.reach = scene::posedBounds(*item.extent, item.model, {}, {});
+        geometry.items.push_back(item);
+      }
+    add(makeOceanRing(shape));
+    item.water = Water::flat;
+    item.instance = item.model = glm::mat4(1.0f);
+    item.patternShift = -glm::vec2(shape.origin.x, shape.origin.z) / kWaterPerPattern;
+    item.reach = item.extent->box;
+    geometry.items.push_back(item);
+  }
 
   if (groundMaterial >= 0) {
     GeometryItem item;

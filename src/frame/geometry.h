@@ -5,6 +5,7 @@
 #include <deque>
 
 #include "frame/node_settings.h"
+#include "frame/ocean.h"
 #include "scene/posed_bounds.h"
 
 namespace scumble::frame {
@@ -18,8 +19,11 @@ struct GeometryOptions {
   std::vector<bool> casts;  // by material: whether it casts shadows
   std::vector<int> clips;   // those that play at any time: they tell what space the scene takes up
   NodeSettings nodes;
+  OceanShape ocean;
   bool operator==(const GeometryOptions&) const = default;
 };
+
+enum class Water : uint8_t { none, waves, flat };
 
 struct GeometryItem {
   const scene::Primitive* primitive;
@@ -30,6 +34,8 @@ struct GeometryItem {
   uint32_t material = 0;
   uint32_t id = 0;    // whole number from 1, one a node
   bool casts = true;  // shadows
+  Water water = Water::none;
+  glm::vec2 patternShift{0.0f};  // added to pattern coordinates
   const scene::PrimitiveExtent* extent = nullptr;
   scene::Bounds reach;  // in the world: where clips take it, as far as is known before
   static constexpr size_t kNoNode = ~size_t(0);
@@ -42,8 +48,9 @@ struct Geometry {
   scene::Bounds bounds;  // of all that clips do, without the ground
 };
 
-// `groundMaterial`: the material index of the ground, or -1 for none.
-Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& options, int groundMaterial);
+// `groundMaterial`, `oceanMaterial`: their indices, or -1 where there is none.
+Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& options, int groundMaterial,
+                         int oceanMaterial);
 
 // Where a ground lies under a scene that takes up so much.
 float groundHeight(const scene::Bounds& bounds);

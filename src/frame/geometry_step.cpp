@@ -66,19 +66,23 @@ void GeometryStep::makePipelines(const SceneOnGpu& scene) {
     const bool depthOnly = draw.alpha == AlphaMode::opaque && !desc_.depthOnlyVertex.words.empty();
     gpu::GraphicsPipelineDesc pipeline;
     pipeline.vertex = depthOnly         ? desc_.depthOnlyVertex
+                      : isOcean(draw)   ? desc_.oceanVertex
                       : isPainted(draw) ? desc_.paintedVertex
                                         : desc_.vertex;
-    if (!depthOnly) pipeline.fragment = isPainted(draw) ? desc_.paintedFragment : desc_.fragment;
-    const uint32_t sets = extras(draw) / 2;
+    if (!depthOnly)
+      pipeline.fragment = isOcean(draw)     ? desc_.oceanFragment
+                          : isPainted(draw) ? desc_.paintedFragment
+                                            : desc_.fragment;
+    const uint32_t sets = extras(draw) / 2 & 3;
     pipeline.constants = {uint32_t(draw.alpha),
                           draw.varied || extras(draw) != 0,
                           draw.textured || sets != 0,
                           desc_.viewCount,
                           constant_,
                           sets};
-    addVertexInput(pipeline, depthOnly         ? uint32_t(kPosition)
-                             : isPainted(draw) ? desc_.paintedInputs
-                                               : desc_.inputs);
+    addVertexInput(pipeline, depthOnly                          ? uint32_t(kPosition)
+                             : isPainted(draw) || isOcean(draw) ? desc_.paintedInputs
+                                                                : desc_.inputs);
     pipeline.colorFormats = desc_.colorFormats;
     pipeline.depthFormat = VK_FORMAT_D32_SFLOAT;
     pipeline.depthCompare = desc_.depthCompare;

@@ -28,6 +28,8 @@ struct GeometryStepDesc {
   // Instead of both, with more inputs, for materials that the look paints textures on; may be empty.
   gpu::Shader paintedVertex, paintedFragment;
   uint32_t paintedInputs = 0;
+  // Instead of both, with the same inputs as those, for the ocean; may be empty.
+  gpu::Shader oceanVertex, oceanFragment;
   gpu::Shader depthOnlyVertex;  // instead of both for opaque surfaces: position in, depth out; may be empty
   std::vector<VkFormat> colorFormats;
   VkCompareOp depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
@@ -49,7 +51,7 @@ class GeometryStep {
   // what makes its colours vary besides vertex colours and the scene's textures: whether the look paints
   // textures on it, and the sets of colours that it has (ColorSets times 2). Makes the pipelines that are
   // still missing.
-  static constexpr uint8_t kPainted = 1;
+  static constexpr uint8_t kPainted = 1, kOcean = 8;
   void specialise(const SceneOnGpu& scene, uint32_t constant, std::vector<uint8_t> extras = {});
   // Draws opaque, then masked, then blended surfaces: by pipeline and material, the nearest first; blended
   // ones from far to near. `passSets`: set 2, one for all or one for each material; null for none.
@@ -64,8 +66,9 @@ class GeometryStep {
     return draw.material < extras_.size() ? extras_[draw.material] : uint8_t(0);
   }
   bool isPainted(const Draw& draw) const { return extras(draw) & kPainted; }
+  bool isOcean(const Draw& draw) const { return extras(draw) & kOcean; }
   uint32_t variant(const Draw& draw) const {
-    return constant_ * 128 + uint32_t(draw.alpha) * 32 + extras(draw) * 4u + draw.varied * 2 + draw.textured;
+    return constant_ * 256 + uint32_t(draw.alpha) * 64 + extras(draw) * 4u + draw.varied * 2 + draw.textured;
   }
   void makePipelines(const SceneOnGpu& scene);
 

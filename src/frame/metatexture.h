@@ -30,6 +30,14 @@ namespace scumble::frame {
 #include "look/define_params.h"
 #undef METATEXTURE_EXAMPLE
 
+#define METATEXTURE_EXAMPLE 3  // sea
+#define PARAMS_STRUCT OceanMetaTextureParams
+#define PARAMS_FILE "shading/metatexture.params"
+#define PARAMS_PATH "ocean.metatexture"
+#define PARAMS_TARGETS kScene
+#include "look/define_params.h"
+#undef METATEXTURE_EXAMPLE
+
 // Mirrors MetaTexture in shading/metatexture.glsl, which says what each field is.
 struct MetaTexture {
   glm::vec4 mean{0.5f};

@@ -83,11 +83,12 @@ SceneMotion::SceneMotion(gpu::Device& device, const scene::SceneData& scene,
   std::copy(objects.begin(), objects.end(), objects_.as<shared::ObjectData>());
 }
 
-void SceneMotion::pose(const look::LookData& look, double time) {
+void SceneMotion::pose(const look::LookData& look, double time, const OceanWaves* waves) {
   movedCount_ = 0;
   const std::vector<scene::PlayedClip> clips = playedClips(scene_, look);
-  if (clips.empty() && isAtRest_ && written_) return;
-  isAtRest_ = clips.empty();
+  const bool rests = clips.empty() && !waves;
+  if (rests && isAtRest_ && written_) return;
+  isAtRest_ = rests;
 
   // One pose for each length of time that poses stand: joints and morph weights are held for as long as the
   // material that they move says, whatever the look names as long as it says.
@@ -130,10 +131,13 @@ void SceneMotion::pose(const look::LookData& look, double time) {
         const MovingObject& object = moving_[i];
         const scene::Pose& pose = *poseOf[object.material];
         shared::ObjectData& data = objects_.as<shared::ObjectData>()[i];
-        const glm::mat4 model = object.node == MovingObject::kNoNode
-                                    ? object.instance
-                                    : pose.world[object.node] * object.instance;
-        bool changes = !written_ || (object.skin >= 0 && bends[skinUseOf_[i]]);
+        glm::mat4 model = object.node == MovingObject::kNoNode ? object.instance
+                                                               : pose.world[object.node] * object.instance;
+        if (object.water == Water::waves) model[3] += glm::vec4(waves->offset(), 0.0f);
+        if (object.water != Water::none)
+          data.patternShift = object.water == Water::waves ? waves->tilePattern() : waves->ringPattern();
+        bool changes =
+            object.water == Water::waves || !written_ || (object.skin >= 0 && bends[skinUseOf_[i]]);
         if (replace(&data.model, &model, 1) || !written_) {
           const glm::mat3 linear(model);
           mirrored_[i] = object.skin < 0 && glm::determinant(linear) < 0;
@@ -153,6 +157,10 @@ void SceneMotion::pose(const look::LookData& look, double time) {
           joints = {joints_.as<glm::mat4>() + data.firstJoint,
                     scene_.skins[size_t(object.skin)].joints.size()};
         bounds_[i] = scene::posedBounds(*object.extent, model, joints, weights);
+        if (object.water == Water::waves) {
+          bounds_[i].min -= waves->reach();
+          bounds_[i].max += waves->reach();
+        }
       });
   written_ = true;
 

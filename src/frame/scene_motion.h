@@ -20,6 +20,7 @@ struct MovingObject {
   uint32_t firstChunk = 0, chunkCount = 0;  // of its vertices
   const scene::PrimitiveExtent* extent = nullptr;
   bool morphs = false;
+  Water water = Water::none;
   static constexpr size_t kNoNode = GeometryItem::kNoNode;
 };
 
@@ -31,8 +32,9 @@ class SceneMotion {
               const std::vector<std::string>& materialNames, const std::vector<MovingObject>& moving,
               std::vector<shared::ObjectData> objects, uint32_t chunkCount);
 
-  // The pose at a time, in seconds; the look is one at that time (LookData::at).
-  void pose(const look::LookData& look, double time);
+  // The pose at a time, in seconds; the look is one at that time (LookData::at). `waves`: those of that time,
+  // where there is an ocean.
+  void pose(const look::LookData& look, double time, const OceanWaves* waves);
 
   // World bounds of each object in the pose.
   const std::vector<scene::Bounds>& bounds() const { return bounds_; }

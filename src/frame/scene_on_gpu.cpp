@@ -119,8 +119,14 @@ SceneOnGpu::SceneOnGpu(gpu::Device& device, gpu::Samplers& samplers, const scene
     materialNames_.push_back("Ground");
     materialUses_.push_back({-1});
   }
+  if (options.ocean.isThere) {
+    oceanMaterial_ = int(materialNames_.size());
+    materialNames_.push_back("Ocean");
+    materialUses_.push_back({-1});
+    waves_.emplace(device, options.ocean);
+  }
   gpu::Uploader uploader(device);
-  Geometry geometry = collectGeometry(scene, options, groundMaterial_);
+  Geometry geometry = collectGeometry(scene, options, groundMaterial_, oceanMaterial_);
   bounds_ = geometry.bounds;
   separateMaterials(geometry);
   buildGeometry(device, uploader, geometry);
@@ -212,7 +218,6 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
   for (const GeometryItem& item : geometry.items) {
     const scene::Primitive& primitive = *item.primitive;
     const RestRange range = ranges.at(&primitive);
-    const bool isGround = int(item.material) == groundMaterial_;
     const scene::Material& material = this->material(item.material);
 
     Draw draw;
@@ -237,6 +242,7 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
     object.material = item.material;
     object.id = item.id;
     object.wraps = uint32_t(primitive.wrapsU) + 2 * uint32_t(primitive.wrapsV);
+    object.water = uint32_t(item.water);
     object.influences = item.skin >= 0 ? uint32_t(primitive.influences) : 0;
     objects_.push_back(object);
 
@@ -244,7 +250,8 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
     moving.node = item.node;
     moving.instance = item.instance;
     moving.skin = item.skin;
-    moving.mesh = isGround ? -1 : data_->nodes[item.node].mesh;
+    moving.mesh = item.node == GeometryItem::kNoNode ? -1 : data_->nodes[item.node].mesh;
+    moving.water = item.water;
     moving.material = item.material;
     moving.extent = item.extent;
     moving.morphs = range.morph != shared::kNoMorph;
@@ -267,7 +274,7 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
       uint32_t color = 0xFFFFFFFFu;
       if (!primitive.colors.empty()) std::memcpy(&color, &primitive.colors[v], 4);
       out[v] = {primitive.uv0[v], primitive.uv1.empty() ? primitive.uv0[v] : primitive.uv1[v],
-                primitive.patternCoordinates()[v], color,
+                primitive.patternCoordinates()[v] + geometry.items[i].patternShift, color,
                 primitive.warpScales.empty() ? 1.0f : primitive.warpScales[v]};
     }
   });
@@ -299,7 +306,8 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
 }
 
 void SceneOnGpu::pose(const look::LookData& look, double time) {
-  motion_->pose(look, time);
+  if (waves_) waves_->pose(look, time);
+  motion_->pose(look, time, waves());
   for (size_t i = 0; i < draws_.size(); ++i) {
     draws_[i].bounds = motion_->bounds()[i];
     draws_[i].mirrored = motion_->mirrored()[i];
@@ -320,6 +328,11 @@ void SceneOnGpu::look(const shared::FrameUniforms& uniforms, uint32_t viewCount,
   }
 }
 
+void SceneOnGpu::posePrevious(const look::LookData& look, double time) {
+  if (previousWaves_) previousWaves_->pose(look, time);
+  previousMotion_->pose(look, time, previousWaves());
+}
+
 void SceneOnGpu::forgetPoses() {
   motion_->touchAll();
   if (previousMotion_) previousMotion_->touchAll();
@@ -328,6 +341,7 @@ void SceneOnGpu::forgetPoses() {
 void SceneOnGpu::keepPrevious() {
   if (previousMotion_) return;
   previousPositions_ = positionBuffer(*device_, finalVertexCount_);
+  if (waves_) previousWaves_.emplace(*device_, options_.ocean);
   previousMotion_.emplace(*device_, *data_, materialNames_, moving_, objects_, chunkCount_);
 }
 
@@ -335,6 +349,8 @@ void SceneOnGpu::addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) {
   motion_->addUploads(uploads);
   if (previousMotion_) previousMotion_->addUploads(uploads);
   transparent_.addUploads(uploads);
+  if (waves_) waves_->addUploads(uploads);
+  if (previousWaves_) previousWaves_->addUploads(uploads);
   uploads.push_back(&materialData_);
 }
 
@@ -429,7 +445,7 @@ void SceneOnGpu::measureColors(const Geometry& geometry) {
   glm::dvec3 sum(0.0);
   double total = 0;
   for (const GeometryItem& item : geometry.items) {
-    if (int(item.material) == groundMaterial_) continue;
+    if (item.node == GeometryItem::kNoNode) continue;
     const scene::Primitive& primitive = *item.primitive;
     const scene::Material& material = this->material(item.material);
     glm::vec3 root = glm::sqrt(glm::clamp(glm::vec3(material.baseColor), 0.0f, 1.0f));

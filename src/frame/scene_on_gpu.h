@@ -77,6 +77,10 @@ class SceneOnGpu {
   // Whether vertex colours or textures vary this material's colour anywhere.
   bool isVaried(size_t material) const;
   int groundMaterial() const { return groundMaterial_; }
+  int oceanMaterial() const { return oceanMaterial_; }
+  // The ocean's waves; null where there is none.
+  const OceanWaves* waves() const { return waves_ ? &*waves_ : nullptr; }
+  const OceanWaves* previousWaves() const { return previousWaves_ ? &*previousWaves_ : nullptr; }
   const SceneColors& colors() const { return colors_; }
 
   // Sets what moves to its place at a time (seconds). The look is one at that time (LookData::at).
@@ -87,7 +91,7 @@ class SceneOnGpu {
   // Metres from the first view to the nearest draw of a material.
   float nearestOf(uint32_t material) const { return nearestOf_[material]; }
   // Where it was a frame ago; after keepPrevious() only.
-  void posePrevious(const look::LookData& look, double time) { previousMotion_->pose(look, time); }
+  void posePrevious(const look::LookData& look, double time);
   // The last poses are not on their way to the device after all.
   void forgetPoses();
   // Makes room for the positions of a frame ago, unless there is.
@@ -147,7 +151,7 @@ class SceneOnGpu {
   GeometryOptions options_;
   std::vector<std::string> materialNames_;
   std::vector<MaterialUse> materialUses_;
-  int groundMaterial_ = -1;
+  int groundMaterial_ = -1, oceanMaterial_ = -1;
   std::vector<Draw> draws_;
   std::vector<float> nearestOf_;  // by material
   SceneColors colors_;
@@ -159,6 +163,7 @@ class SceneOnGpu {
   std::vector<shared::ObjectData> objects_;  // without what moves
   std::vector<MovingObject> moving_;
   TransparentTriangles transparent_;
+  std::optional<OceanWaves> waves_, previousWaves_;
   std::optional<SceneMotion> motion_, previousMotion_;
   std::vector<gpu::Image> images_;
   gpu::PerFrameBuffer materialData_;

@@ -1,5 +1,7 @@
 #include "renderer/pass_list.h"
 
+#include "frame/ocean_maps.h"
+
 #include <algorithm>
 #include <string_view>
 
@@ -37,7 +39,9 @@ const std::vector<const ParamBlock*>& allBlocks() {
       &passes::BackgroundParams::block(), &frame::GroundParams::block(),
       &passes::VolumeParams::block(),     &passes::GradeParams::block(),
       &passes::LimitParams::block(),      &passes::FinalColorParams::block(),
-      &frame::AnimationParams::block(),   &frame::PlayParams::block()};
+      &frame::AnimationParams::block(),   &frame::PlayParams::block(),
+      &frame::OceanParams::block(),       &frame::OceanPaintParams::block(),
+      &frame::OceanMetaTextureParams::block()};
   return blocks;
 }
 

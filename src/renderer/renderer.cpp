@@ -415,6 +415,8 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
     geometry.casts = shadowCasters(scene.data(), now);
     geometry.clips = everPlayed(scene.data(), look.data());
     geometry.nodes = nodeSettings(scene.data(), now);
+    geometry.ocean = oceanShape(scene.data(), now);
+    geometry.ground &= !geometry.ocean.isThere || now.get<GroundParams>().mode == 1;
     impl_->useScene(scene, geometry);
     impl_->useBackdrop(texels);
     stats.uploadMilliseconds = lap();

@@ -3,6 +3,7 @@
 // draws from them. A second time, with kPositionsOnly, for where they were a frame ago.
 #extension GL_GOOGLE_include_directive : require
 #include "../../shading/frame.glsl"
+#include "../../shading/ocean.shared.h"
 #include "deform.shared.h"
 
 layout(constant_id = 0) const bool kPositionsOnly = false;
@@ -22,6 +23,9 @@ layout(set = 1, binding = 9, scalar) readonly buffer Morphs { MorphDisplacement 
 layout(set = 1, binding = 10, scalar) writeonly buffer FinalCore { VertexCore finalCore[]; };
 layout(set = 1, binding = 11, scalar) writeonly buffer FinalFrame { VertexFrame finalFrame[]; };
 layout(set = 1, binding = 12, scalar) writeonly buffer PreviousPosition { vec3 previousPosition[]; };
+
+// Of an ocean, else anything.
+layout(set = 1, binding = 13, scalar) readonly buffer Waves { OceanField field; OceanPoint points[]; };
 
 layout(push_constant, scalar) uniform Push { uint movedCount; };
 
@@ -66,7 +70,21 @@ void main() {
       if (dot(m[0], normalToWorld[0]) < 0.0) normalToWorld = -normalToWorld;
     }
 
+    vec3 rest = core.position;
     core.position = (toWorld * vec4(core.position, 1.0)).xyz;
+    if (object.water == 1u) {
+      // Waves fade into flat water before the mesh ends, and dip below it.
+      ivec2 at = (field.first + ivec2(round(rest.xz / field.cell))) % field.grid;
+      OceanPoint point = points[at.y * field.grid + at.x];
+      float away = length(core.position.xz - field.origin.xz);
+      float whole = 1.0 - smoothstep(field.fadeStart, field.fadeEnd, away);
+      core.position += whole * point.displacement;
+      core.position.y -= (1.0 - whole) * field.sink;
+      normal = smoothNormal = normalize(mix(vec3(0.0, 1.0, 0.0), point.normal, whole));
+      vec2 slopes = -normal.xz / max(normal.y, 0.2);
+      around.dPdu.y = around.dPdu.x * slopes.x;
+      around.dPdv.y = around.dPdv.z * slopes.y;
+    }
     if (kPositionsOnly) {
       previousPosition[chunk.finalVertex + i] = core.position;
       continue;

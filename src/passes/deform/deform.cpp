@@ -26,10 +26,11 @@ class Deform : public frame::Pass {
     scene_ = &frame.scene();
     frameSet_ = resources.frameSet();
     keepsPrevious_ = frame.configuration().facts;
-    layout_ = gpu::SetLayout(frame.device(), std::vector<gpu::Binding>(13, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+    layout_ = gpu::SetLayout(frame.device(), std::vector<gpu::Binding>(14, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                                                             VK_SHADER_STAGE_COMPUTE_BIT}));
-    now_.create(frame, resources, layout_, scene_->motion(), false);
-    if (keepsPrevious_) previous_.create(frame, resources, layout_, *scene_->previousMotion(), true);
+    now_.create(frame, resources, layout_, scene_->motion(), scene_->waves(), false);
+    if (keepsPrevious_)
+      previous_.create(frame, resources, layout_, *scene_->previousMotion(), scene_->previousWaves(), true);
   }
 
  private:
@@ -39,7 +40,8 @@ class Deform : public frame::Pass {
     gpu::Pipeline pipeline;
 
     void create(frame::FrameBuilder& frame, const frame::FrameResources& resources,
-                const gpu::SetLayout& layout, const frame::SceneMotion& motion, bool positionsOnly) {
+                const gpu::SetLayout& layout, const frame::SceneMotion& motion,
+                const frame::OceanWaves* waves, bool positionsOnly) {
       const frame::SceneOnGpu& scene = frame.scene();
       const VkBuffer buffers[] = {scene.chunks().handle(),
                                   motion.moved(),
@@ -53,7 +55,8 @@ class Deform : public frame::Pass {
                                   scene.morphs().handle(),
                                   scene.finalCore().handle(),
                                   scene.finalFrame().handle(),
-                                  scene.previousPositions().handle()};
+                                  scene.previousPositions().handle(),
+                                  waves ? waves->buffer().handle() : motion.objects()};
       set = gpu::DescriptorSets(frame.device(), layout);
       for (uint32_t i = 0; i < std::size(buffers); ++i) set.writeBuffer(0, i, buffers[i]);
       gpu::ComputePipelineDesc desc;

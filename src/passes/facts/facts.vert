@@ -36,7 +36,7 @@ void main() {
   gl_Position = worldToClip * vec4(inPosition, 1.0);
   outPosition = inPosition;
   outNormal = decodeNormal(inNormal);
-  outUv = inPatternUv;
+  outUv = inPatternUv + objects[gl_InstanceIndex].patternShift;
   outTangentU = (worldToClip * vec4(inDPdu, 0.0)).xyw;
   outTangentV = (worldToClip * vec4(inDPdv, 0.0)).xyw;
   mat4 tangentClip = tangentView(facts.tangents, worldToClip);

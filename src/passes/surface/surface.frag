@@ -11,6 +11,11 @@
 #include "../../shading/surface_tangents_at_pixel.glsl"
 #include "../../shading/view_index.glsl"
 #include "surface.glsl"
+#ifdef OCEAN
+#define PAINTED
+#include "../../shading/ocean.shared.h"
+#include "ocean.shared.h"
+#endif
 
 layout(constant_id = 0) const int kAlphaMode = 0;  // 0 opaque, 1 masked, 2 blended
 layout(constant_id = 1) const int kVaried = 0;
@@ -66,6 +71,12 @@ vec3 paint(vec3 over, vec3 root) {
 }
 #endif
 
+#ifdef OCEAN
+layout(location = 11) in vec3 inWave;
+layout(location = 12) flat in float inFadeEnd;
+#include "ocean.glsl"
+#endif
+
 void main() {
   if (kBehind) {
     float first = texelFetch(firstDepth, ivec3(gl_FragCoord.xy, viewIndex()), 0).r;
@@ -79,6 +90,10 @@ void main() {
   vec3 shadowed = mix(material.constantShadowedDown, material.constantShadowedUp, up);
   float lens = material.constantLens;
   float alpha = material.baseColor.a;
+#ifdef OCEAN
+  alpha = 1.0;
+  paintOcean(inPatternUv, inWave, inWorld, normalize(gl_FrontFacing ? inNormal : -inNormal), inFadeEnd, lit, shadowed);
+#else
   if (kVaried != 0) {
     vec4 albedo = material.baseColor * inColor;
     vec3 emissive = material.emissive;
@@ -108,6 +123,7 @@ void main() {
     shadowed = sqrt(shadowed * shadowed + emissive);
     lens = dot(emissive, vec3(0.2126, 0.7152, 0.0722));
   }
+#endif
   if (kAlphaMode == 1 && alpha < material.alphaCutoff) discard;
   if (kAlphaMode != 2) alpha = 1.0;
 

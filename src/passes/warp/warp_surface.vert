@@ -44,7 +44,7 @@ void main() {
   gl_Position = clip;
 
   mat4 tangentClip = tangentView(warp.tangents, worldToClip);
-  outUvScale = vec3(inPatternUv, inWarpScale);
+  outUvScale = vec3(inPatternUv + objects[gl_InstanceIndex].patternShift, inWarpScale);
   outTangentU = tangentToClip(tangentClip, inDPdu);
   outTangentV = tangentToClip(tangentClip, inDPdv);
   if (kViewCount > 1) outPoint = pointInTangentView(warp.tangents, worldToClip, inPosition);

@@ -1,0 +1,79 @@
+// A scene's ocean: where it is, its mesh, and its waves at a moment, on the CPU and on the device
+// (paper 000, section 6.1; the waves themselves: src/ocean).
+#pragma once
+
+#include <optional>
+
+#include "gpu/frames_in_flight.h"
+#include "look/look_data.h"
+#include "ocean/surface.h"
+#include "scene/scene_data.h"
+#include "shading/ocean.shared.h"
+
+namespace scumble::frame {
+
+#define PARAMS_STRUCT OceanParams
+#define PARAMS_FILE "frame/ocean.params"
+#define PARAMS_PATH "ocean"
+#define PARAMS_TARGETS kScene
+#include "look/define_params.h"
+
+// What of the ocean goes into the scene's geometry.
+struct OceanShape {
+  bool isThere = false;
+  int node = -1;                                        // whose mesh it stands for; -1: none
+  glm::vec3 origin{0.0f};                               // middle of calm water, world
+  int grid = 80, tiles = 5;                             // vertices along a tile; tiles along a side
+  float tile = 60, falseHorizon = 120, horizon = 1000;  // metres
+  bool operator==(const OceanShape&) const = default;
+  float cell() const { return tile / float(grid); }
+  // Place of the mesh's first point, in cells from the middle, along x and z.
+  int firstPoint() const { return -(tiles * grid + 1) / 2; }
+};
+OceanShape oceanShape(const scene::SceneData& scene, const look::LookData& look);
+
+// Pattern coordinates on the water: metres for one unit.
+constexpr float kWaterPerPattern = 10.0f;
+
+// One tile, its corner at the origin; all tiles share it. Cells are split as src/ocean/surface.h says.
+scene::Primitive makeOceanTile(const OceanShape& shape);
+// The flat water between the waves and the horizon.
+scene::Primitive makeOceanRing(const OceanShape& shape);
+
+// The waves of a moment. The mesh stays where it is but for part of a cell, and waves and pattern slide
+// through it: nothing wraps and nothing pops.
+class OceanWaves {
+ public:
+  OceanWaves(gpu::Device& device, const OceanShape& shape);
+
+  // The waves at a time, in seconds; the look is one at that time.
+  void pose(const look::LookData& look, double time);
+
+  // What tiles are moved by: less than a cell.
+  glm::vec3 offset() const { return {-within_.x, 0.0f, -within_.y}; }
+  // What is added to pattern coordinates of tiles, and of what does not move.
+  glm::vec2 tilePattern() const { return glm::vec2(travelled_ - glm::dvec2(within_)) / kWaterPerPattern; }
+  glm::vec2 ringPattern() const { return glm::vec2(travelled_) / kWaterPerPattern; }
+  // How far vertices may be from their place at rest, metres.
+  const glm::vec3& reach() const { return reach_; }
+  // A root of the height's variance, metres.
+  float deviation() const { return deviation_; }
+
+  // A boat of this size in metres, at a place in the world, on the waves.
+  ocean::Floating floating(const glm::vec3& at, float length, float beam, float heading) const;
+
+  const gpu::PerFrameBuffer& buffer() const { return buffer_; }
+  void addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) { uploads.push_back(&buffer_); }
+
+ private:
+  OceanShape shape_;
+  std::optional<ocean::Waves> waves_;
+  ocean::WaveField field_;
+  glm::dvec2 travelled_{0.0};  // over the water, metres
+  glm::vec2 within_{0.0f};     // what of it is less than a cell
+  glm::vec3 reach_{0.0f};
+  float deviation_ = 0;
+  gpu::PerFrameBuffer buffer_;  // shared::OceanField, then grid * grid shared::OceanPoint
+};
+
+}  // namespace scumble::frame
