@@ -6,6 +6,7 @@
 
 namespace scumble::frame {
 
+#define METATEXTURE_SIZE 256.0
 #define METATEXTURE_EXAMPLE 0  // torn
 #define PARAMS_STRUCT WarpMetaTextureParams
 #define PARAMS_FILE "shading/metatexture.params"
@@ -30,13 +31,16 @@ namespace scumble::frame {
 #include "look/define_params.h"
 #undef METATEXTURE_EXAMPLE
 
-#define METATEXTURE_EXAMPLE 3  // sea
+#undef METATEXTURE_SIZE
+#define METATEXTURE_SIZE 480.0  // broad strokes
+#define METATEXTURE_EXAMPLE 3   // sea
 #define PARAMS_STRUCT OceanMetaTextureParams
 #define PARAMS_FILE "shading/metatexture.params"
 #define PARAMS_PATH "ocean.metatexture"
 #define PARAMS_TARGETS kScene
 #include "look/define_params.h"
 #undef METATEXTURE_EXAMPLE
+#undef METATEXTURE_SIZE
 
 // Mirrors MetaTexture in shading/metatexture.glsl, which says what each field is.
 struct MetaTexture {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "scene/animation.h"
 
@@ -137,12 +138,18 @@ void OceanWaves::pose(const look::LookData& look, double time) {
   reach_.y += header->sink;
 }
 
-ocean::Floating OceanWaves::floating(const glm::vec3& at, float length, float beam, float heading) const {
-  const glm::dvec2 place = glm::dvec2(at.x - shape_.origin.x, at.z - shape_.origin.z) + travelled_;
-  ocean::Floating floating =
-      ocean::floatingAt(field_, place.x, place.y, double(length), double(beam), double(heading));
-  floating.height += shape_.origin.y;
-  return floating;
+glm::mat4 OceanWaves::riding(const FloatParams& params, const glm::mat4& world) const {
+  const glm::vec3 at = world[3], bow = world[params.bow == 0 ? 0 : 2];
+  const glm::dvec2 place = onField(at);
+  const ocean::Floating floating =
+      ocean::floatingAt(field_, place.x, place.y, double(params.length), double(params.beam),
+                        glm::degrees(std::atan2(double(bow.z), double(bow.x))));
+  // Waves end at the false horizon.
+  const float away = glm::length(glm::vec2(at.x - shape_.origin.x, at.z - shape_.origin.z));
+  const float whole = 1.0f - glm::smoothstep(0.6f * shape_.falseHorizon, shape_.falseHorizon, away);
+  const glm::quat tilt = glm::slerp(glm::quat(1, 0, 0, 0), floating.tilt, whole);
+  return glm::translate(glm::mat4(1.0f), at + glm::vec3(0, whole * floating.height, 0)) *
+         glm::mat4_cast(tilt) * glm::translate(glm::mat4(1.0f), -at);
 }
 
 }  // namespace scumble::frame

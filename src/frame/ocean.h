@@ -18,6 +18,13 @@ namespace scumble::frame {
 #define PARAMS_TARGETS kScene
 #include "look/define_params.h"
 
+// What rides the waves.
+#define PARAMS_STRUCT FloatParams
+#define PARAMS_FILE "frame/float.params"
+#define PARAMS_PATH "float"
+#define PARAMS_TARGETS kNodes
+#include "look/define_params.h"
+
 // What of the ocean goes into the scene's geometry.
 struct OceanShape {
   bool isThere = false;
@@ -54,13 +61,20 @@ class OceanWaves {
   // What is added to pattern coordinates of tiles, and of what does not move.
   glm::vec2 tilePattern() const { return glm::vec2(travelled_ - glm::dvec2(within_)) / kWaterPerPattern; }
   glm::vec2 ringPattern() const { return glm::vec2(travelled_) / kWaterPerPattern; }
+  // The ocean's own node; -1: none.
+  int node() const { return shape_.node; }
   // How far vertices may be from their place at rest, metres.
   const glm::vec3& reach() const { return reach_; }
   // A root of the height's variance, metres.
   float deviation() const { return deviation_; }
 
-  // A boat of this size in metres, at a place in the world, on the waves.
-  ocean::Floating floating(const glm::vec3& at, float length, float beam, float heading) const;
+  // From where something is on calm water to where it rides the waves. `world`: its matrix.
+  glm::mat4 riding(const FloatParams& params, const glm::mat4& world) const;
+  const ocean::WaveField& field() const { return field_; }
+  // Where on the field a place of the world is: metres, x and z.
+  glm::dvec2 onField(const glm::vec3& at) const {
+    return glm::dvec2(at.x - shape_.origin.x, at.z - shape_.origin.z) + travelled_;
+  }
 
   const gpu::PerFrameBuffer& buffer() const { return buffer_; }
   void addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) { uploads.push_back(&buffer_); }

@@ -115,6 +115,26 @@ void SceneMotion::pose(const look::LookData& look, double time, const OceanWaves
   worldAsDrawn_ = usualPose != poses.end() ? usualPose->second.world : poseHeldFor(usual).world;
   world_ = scene::poseAt(scene_, clips, time).world;
 
+  // What rides the waves is moved by them as the waves are now, however long poses are held.
+  if (waves && look.setsAny(FloatParams::block(), "rides", look::kNodes)) {
+    std::vector<std::optional<glm::mat4>> riding(scene_.nodes.size());
+    for (size_t n = 0; n < scene_.nodes.size(); ++n) {
+      const scene::Node& node = scene_.nodes[n];
+      const FloatParams params = look.getFor<FloatParams>(look::kNodes, node.name);
+      if (node.parent >= 0 && riding[size_t(node.parent)])
+        riding[n] = riding[size_t(node.parent)];
+      else if (params.rides && int(n) != waves->node())
+        riding[n] = waves->riding(params, world_[n]);
+    }
+    const auto ride = [&](std::vector<glm::mat4>& world) {
+      for (size_t n = 0; n < world.size(); ++n)
+        if (riding[n]) world[n] = *riding[n] * world[n];
+    };
+    for (auto& [frames, pose] : poses) ride(pose.world);
+    ride(world_);
+    ride(worldAsDrawn_);
+  }
+
   // Joints.
   std::vector<uint8_t> bends(skinUses_.size());
   for (size_t i = 0; i < skinUses_.size(); ++i) {
