@@ -21,9 +21,10 @@ vec3 bathic(float depth, float illumination) {
   return graded(color, ocean.saturation, ocean.overlay, ocean.overlayAmount);
 }
 
-// Equations 27 to 30: the texture's three patterns in turn.
-float liveTexture(vec3 t, vec2 place) {
-  float phase = ocean.phase + ocean.liveSpread * dot(place, vec2(0.8, 0.6));
+// Equations 27 to 30: the texture's three patterns in turn, and places of some metres each at a moment of their own.
+float liveTexture(vec3 t, vec2 place, float nearness) {
+  float own = sin(dot(place, vec2(0.21, 0.13))) + sin(dot(place, vec2(-0.11, 0.19)));
+  float phase = ocean.phase + ocean.liveSpread * nearness * own;
   float wave = dot(t, vec3(0.707, 0.0, -0.707)) * cos(phase) + dot(t, vec3(-0.408, 0.816, -0.408)) * sin(phase);
   return clamp(0.5 + wave, 0.0, 1.0);
 }
@@ -41,8 +42,9 @@ void paintOcean(vec2 uv, vec3 wave, vec3 world, vec3 normal, float fadeEnd, out 
   vec3 toEye = eye - world;
   float distance = length(toEye);
   toEye /= distance;
-  float stroke = liveTexture(value.rgb, uv * kWaterPerPattern);
-  stroke = mix(stroke, 0.5, 0.8 * smoothstep(0.5 * fadeEnd, 3.0 * fadeEnd, distance));
+  float nearness = 1.0 - smoothstep(0.5 * fadeEnd, 3.0 * fadeEnd, distance);
+  float stroke = liveTexture(value.rgb, uv * kWaterPerPattern, nearness);
+  stroke = mix(0.5, stroke, mix(0.2, 1.0, nearness));
 
   float depth = 0.42 + 0.14 * clamp(wave.x, -2.0, 2.0) + ocean.dither * (stroke - 0.5);
   float shift = ocean.lightDither * (stroke - 0.5);

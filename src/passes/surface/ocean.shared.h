@@ -8,7 +8,7 @@ SHARED_BEGIN
 struct OceanPaint {
   float dither, lightDither, reflection;
   float phase;       // of the live texture, radians
-  float liveSpread;  // radians a metre
+  float liveSpread;  // radians
   float foam, foamStart;
   vec3 foamLit, foamShadowed;  // square roots
   float saturation, overlayAmount, skySaturation, skyOverlayAmount;
