@@ -88,7 +88,9 @@ TEST(LookTrack, repeatedTracksLoop) {
                 track = numbers({{1, 5}, {1.5, -2}, {2, 3}, {3, 5}}, interpolation, true);
     for (int i = 0; i < 48; ++i) {
       const double time = 1 + i / 24.0;
-      if (interpolation != Interpolation::cubic) EXPECT_NEAR(at(track, time), at(once, time), 1e-12);
+      if (interpolation != Interpolation::cubic) {
+        EXPECT_NEAR(at(track, time), at(once, time), 1e-12);
+      }
       for (const int periods : {-500, -1, 1, 2, 1000})
         EXPECT_NEAR(at(track, time + 2 * periods), at(track, time), 1e-9) << time << " " << periods;
     }

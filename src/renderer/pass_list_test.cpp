@@ -2,6 +2,8 @@
 // `scumble params` shows, and the list of blocks is complete.
 #include "renderer/pass_list.h"
 
+#include "frame/ocean_maps.h"
+
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -97,6 +99,10 @@ TEST(PassList, structsStartWithTheirRowsDefaults) {
   expectRowsDefaults<PlayParams>(seen);
   expectRowsDefaults<passes::VolumeParams>(seen);
   expectRowsDefaults<passes::GradeParams>(seen);
+  expectRowsDefaults<OceanParams>(seen);
+  expectRowsDefaults<OceanPaintParams>(seen);
+  expectRowsDefaults<OceanMetaTextureParams>(seen);
+  expectRowsDefaults<FloatParams>(seen);
   for (const look::ParamBlock* block : look::allBlocks())
     EXPECT_TRUE(seen.count(block)) << block->path << ": a new block of knobs; add its struct to this test";
   EXPECT_EQ(look::allBlocks().size(), seen.size())
