@@ -139,14 +139,22 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
     item.material = uint32_t(oceanMaterial);
     item.id = uint32_t(scene.nodes.size() + 1);
     item.casts = false;
-    const auto add = [&](scene::Primitive&& made) {
-      item.primitive = &geometry.made.emplace_back(std::move(made));
-      item.extent = &geometry.extents.emplace_back(scene::extentOf(*item.primitive));
+    struct Part {
+      const scene::Primitive* primitive;
+      const scene::PrimitiveExtent* extent;
     };
-    add(makeOceanTile(shape));
+    const auto add = [&](scene::Primitive&& made) {
+      const scene::Primitive& primitive = geometry.made.emplace_back(std::move(made));
+      return Part{&primitive, &geometry.extents.emplace_back(scene::extentOf(primitive))};
+    };
+    const auto use = [&](const Part& part) { item.primitive = part.primitive, item.extent = part.extent; };
     item.water = Water::waves;
+    std::map<OceanTile, Part> tiles;
     for (int z = 0; z < shape.tiles; ++z)
       for (int x = 0; x < shape.tiles; ++x) {
+        const OceanTile tile = oceanTileAt(shape, x, z);
+        if (!tiles.contains(tile)) tiles[tile] = add(makeOceanTile(shape, tile));
+        use(tiles[tile]);
         const glm::vec2 corner = glm::vec2(shape.firstPoint() + glm::ivec2(x, z) * shape.grid) * shape.cell();
         item.instance = glm::translate(glm::mat4(1.0f), shape.origin + glm::vec3(corner.x, 0, corner.y));
         item.model = item.instance;
@@ -154,7 +162,7 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
         item.reach = scene::posedBounds(*item.extent, item.model, {}, {});
         geometry.items.push_back(item);
       }
-    add(makeOceanRing(shape));
+    use(add(makeOceanRing(shape)));
     item.water = Water::flat;
     item.instance = item.model = glm::mat4(1.0f);
     item.patternShift = -glm::vec2(shape.origin.x, shape.origin.z) / kWaterPerPattern;

@@ -52,18 +52,50 @@ OceanShape oceanShape(const scene::SceneData& scene, const look::LookData& look)
   return shape;
 }
 
-scene::Primitive makeOceanTile(const OceanShape& shape) {
-  scene::Primitive tile;
-  const uint32_t n = uint32_t(shape.grid);
-  for (uint32_t z = 0; z <= n; ++z)
-    for (uint32_t x = 0; x <= n; ++x) tile.positions.push_back(glm::vec3(x, 0, z) * shape.cell());
-  for (uint32_t z = 0; z < n; ++z)
-    for (uint32_t x = 0; x < n; ++x) {
-      const auto at = [&](uint32_t i, uint32_t j) { return (z + j) * (n + 1) + x + i; };
-      tile.indices.insert(tile.indices.end(), {at(0, 0), at(0, 1), at(1, 1), at(0, 0), at(1, 1), at(1, 0)});
+OceanTile oceanTileAt(const OceanShape& shape, int x, int z) {
+  constexpr int kMostHalvings = 3;
+  const auto strideAt = [&](int i, int j) {
+    const int middle = shape.tiles / 2;
+    int halvings = std::min(std::max(std::abs(i - middle), std::abs(j - middle)), kMostHalvings);
+    while (shape.grid % (1 << halvings) != 0) --halvings;
+    return 1 << halvings;
+  };
+  return {strideAt(x, z), {strideAt(x - 1, z), strideAt(x + 1, z), strideAt(x, z - 1), strideAt(x, z + 1)}};
+}
+
+scene::Primitive makeOceanTile(const OceanShape& shape, const OceanTile& tile) {
+  scene::Primitive mesh;
+  const int n = shape.grid, s = tile.stride;
+  std::vector<uint32_t> known(size_t(n + 1) * size_t(n + 1), ~0u);
+  const auto at = [&](int x, int z) {
+    uint32_t& index = known[size_t(z) * size_t(n + 1) + size_t(x)];
+    if (index == ~0u) {
+      index = uint32_t(mesh.positions.size());
+      mesh.positions.push_back(glm::vec3(x, 0, z) * shape.cell());
     }
-  finish(tile);
-  return tile;
+    return index;
+  };
+  for (int z = 0; z < n; z += s)
+    for (int x = 0; x < n; x += s) {
+      // The cell's outline, seen from above against the clock, with the points of finer tiles beside it.
+      const auto step = [&](bool isBorder, int side) {
+        return isBorder ? std::min(s, tile.beside[size_t(side)]) : s;
+      };
+      std::vector<uint32_t> outline;
+      for (int i = 0, d = step(x == 0, 0); i < s; i += d) outline.push_back(at(x, z + i));
+      for (int i = 0, d = step(z + s == n, 3); i < s; i += d) outline.push_back(at(x + i, z + s));
+      for (int i = 0, d = step(x + s == n, 1); i < s; i += d) outline.push_back(at(x + s, z + s - i));
+      for (int i = 0, d = step(z == 0, 2); i < s; i += d) outline.push_back(at(x + s - i, z));
+      if (outline.size() == 4) {
+        for (const size_t corner : {0, 1, 2, 0, 2, 3}) mesh.indices.push_back(outline[corner]);
+        continue;
+      }
+      const uint32_t middle = at(x + s / 2, z + s / 2);
+      for (size_t i = 0; i < outline.size(); ++i)
+        mesh.indices.insert(mesh.indices.end(), {middle, outline[i], outline[(i + 1) % outline.size()]});
+    }
+  finish(mesh);
+  return mesh;
 }
 
 scene::Primitive makeOceanRing(const OceanShape& shape) {

@@ -2,6 +2,8 @@
 // (paper 000, section 6.1; the waves themselves: src/ocean).
 #pragma once
 
+#include <array>
+#include <compare>
 #include <optional>
 
 #include "gpu/frames_in_flight.h"
@@ -42,8 +44,16 @@ OceanShape oceanShape(const scene::SceneData& scene, const look::LookData& look)
 // Pattern coordinates on the water: metres for one unit.
 constexpr float kWaterPerPattern = 10.0f;
 
-// One tile, its corner at the origin; all tiles share it. Cells are split as src/ocean/surface.h says.
-scene::Primitive makeOceanTile(const OceanShape& shape);
+// A tile with its corner at the origin. The middle one has all points, and is split as src/ocean/surface.h
+// says; each ring of tiles around it every second point of the one before, since small triangles far away
+// cost much and show nothing.
+struct OceanTile {
+  int stride = 1;               // points between corners of its cells
+  std::array<int, 4> beside{};  // strides of the tiles at its sides -x, +x, -z, +z
+  auto operator<=>(const OceanTile&) const = default;
+};
+OceanTile oceanTileAt(const OceanShape& shape, int x, int z);
+scene::Primitive makeOceanTile(const OceanShape& shape, const OceanTile& tile);
 // The flat water between the waves and the horizon.
 scene::Primitive makeOceanRing(const OceanShape& shape);
 
