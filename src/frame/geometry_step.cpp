@@ -66,7 +66,6 @@ void GeometryStep::makePipelines(const SceneOnGpu& scene) {
     const bool depthOnly = draw.alpha == AlphaMode::opaque && !desc_.depthOnlyVertex.words.empty();
     gpu::GraphicsPipelineDesc pipeline;
     pipeline.vertex = depthOnly         ? desc_.depthOnlyVertex
-                      : isOcean(draw)   ? desc_.oceanVertex
                       : isPainted(draw) ? desc_.paintedVertex
                                         : desc_.vertex;
     if (!depthOnly)
@@ -80,9 +79,9 @@ void GeometryStep::makePipelines(const SceneOnGpu& scene) {
                           desc_.viewCount,
                           constant_,
                           sets};
-    addVertexInput(pipeline, depthOnly                          ? uint32_t(kPosition)
-                             : isPainted(draw) || isOcean(draw) ? desc_.paintedInputs
-                                                                : desc_.inputs);
+    addVertexInput(pipeline, depthOnly         ? uint32_t(kPosition)
+                             : isPainted(draw) ? desc_.paintedInputs
+                                               : desc_.inputs);
     pipeline.colorFormats = desc_.colorFormats;
     pipeline.depthFormat = VK_FORMAT_D32_SFLOAT;
     pipeline.depthCompare = desc_.depthCompare;
@@ -108,7 +107,10 @@ void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resource
 
   std::vector<const Draw*> order;
   for (const Draw& draw : scene.draws())
-    if (what == What::visible ? draw.visible : draw.casts) order.push_back(&draw);
+    if (what == What::casters
+            ? draw.casts
+            : draw.visible && (what == What::visible || int(draw.material) == scene.oceanMaterial()))
+      order.push_back(&draw);
   std::stable_sort(order.begin(), order.end(), [&](const Draw* a, const Draw* b) {
     if (a->alpha != b->alpha) return a->alpha < b->alpha;
     if (a->alpha == AlphaMode::blend) return a->distance > b->distance;

@@ -28,8 +28,8 @@ struct GeometryStepDesc {
   // Instead of both, with more inputs, for materials that the look paints textures on; may be empty.
   gpu::Shader paintedVertex, paintedFragment;
   uint32_t paintedInputs = 0;
-  // Instead of both, with the same inputs as those, for the ocean; may be empty.
-  gpu::Shader oceanVertex, oceanFragment;
+  // Instead of `fragment`, for the ocean; may be empty.
+  gpu::Shader oceanFragment;
   gpu::Shader depthOnlyVertex;  // instead of both for opaque surfaces: position in, depth out; may be empty
   std::vector<VkFormat> colorFormats;
   VkCompareOp depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
@@ -55,7 +55,7 @@ class GeometryStep {
   void specialise(const SceneOnGpu& scene, uint32_t constant, std::vector<uint8_t> extras = {});
   // Draws opaque, then masked, then blended surfaces: by pipeline and material, the nearest first; blended
   // ones from far to near. `passSets`: set 2, one for all or one for each material; null for none.
-  enum class What : uint8_t { visible, casters };
+  enum class What : uint8_t { visible, casters, ocean };
   void draw(VkCommandBuffer commands, const FrameResources& resources, const SceneOnGpu& scene,
             const gpu::DescriptorSets* passSets, uint32_t firstView, What what = What::visible) const;
 

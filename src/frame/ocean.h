@@ -41,8 +41,7 @@ struct OceanShape {
 };
 OceanShape oceanShape(const scene::SceneData& scene, const look::LookData& look);
 
-// Pattern coordinates on the water: metres for one unit.
-constexpr float kWaterPerPattern = 10.0f;
+using shared::kWaterPerPattern;
 
 // A tile with its corner at the origin. The middle one has all points, and is split as src/ocean/surface.h
 // says; each ring of tiles around it every second point of the one before, since small triangles far away

@@ -46,6 +46,7 @@ struct Configuration {
   uint32_t backdropWidth = 0,
            backdropHeight = 0;  // texels of the picture behind everything; 0: there is none
   bool plain = false;
+  bool ocean = false;     // whether the ocean pass runs
   bool colorize = false;  // whether the colorize pass runs
   bool multiview = true;  // all views at once; else one after the other
   bool operator==(const Configuration&) const = default;

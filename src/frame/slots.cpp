@@ -12,6 +12,7 @@ const SlotInfo& slotInfo(Slot slot) {
       {"shadow-map", kDepth, Rate::once, false, 1},      {"warp", kHalf, Rate::perView, false, 4},
       {"shadow", kByte, Rate::perView, true, 4},         {"lit", kByte, Rate::perView, true, 4},
       {"shadowed", kByte, Rate::perView, true, 4},       {"depth-buffer", kDepth, Rate::perView, true, 1},
+      {"ocean-lit", kHalf, Rate::perView, false, 3},     {"ocean-shadowed", kHalf, Rate::perView, false, 3},
       {"blur", kHalf, Rate::perView, false, 4},          {"final-shadow", kByte, Rate::perView, false, 4},
       {"color", kHalf, Rate::perView, false, 4},         {"colorize", kHalf, Rate::perView, false, 4},
       {"limit", kHalf, Rate::perView, false, 4},         {"behind-shadow", kByte, Rate::perView, false, 4},

@@ -16,6 +16,8 @@ enum class Slot : uint8_t {
   lit,        // square root of the linear colour in full light; A: coverage
   shadowed,   // the same in shadow. Square roots need no more than 8 bits, and cost drivers less than sRGB
   depth,      // depth buffer of the surface pass
+  oceanLit,   // square root of the ocean's colour in light; once a pixel, wherever it is first or not
+  oceanShadowed,
   blur,       // R, G, A: the shadow channels, blurred, at a quarter of the size; B: eye depth
   finalShadow,  // R: light after threshold and inner glow; G: lens; B: the glow's part of it; A: coverage
   color,        // lit and shadowed mixed, over the background

@@ -6,7 +6,6 @@
 #include "frame/animation_params.h"
 #include "frame/light.h"
 #include "frame/metatexture.h"
-#include "frame/ocean_maps.h"
 #include "frame/palette.h"
 #include "passes/blur/blur.h"
 #include "passes/color/color.h"
@@ -17,6 +16,7 @@
 #include "passes/final_shadow/final_shadow.h"
 #include "passes/limit/limit.h"
 #include "passes/matte/matte.h"
+#include "passes/ocean/ocean.h"
 #include "passes/plain/plain.h"
 #include "passes/shadow_map/shadow_map.h"
 #include "passes/surface/surface.h"
@@ -50,7 +50,7 @@ const std::vector<const ParamBlock*>& allBlocks() {
                                                      &frame::AnimationParams::block(),
                                                      &frame::PlayParams::block(),
                                                      &frame::OceanParams::block(),
-                                                     &frame::OceanPaintParams::block(),
+                                                     &passes::OceanPaintParams::block(),
                                                      &frame::OceanMetaTextureParams::block(),
                                                      &frame::FloatParams::block()};
   return blocks;
@@ -69,6 +69,7 @@ std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration
   }
   list.push_back(passes::makeShadowMap());
   list.push_back(passes::makeWarp());
+  if (configuration.ocean) list.push_back(passes::makeOcean());
   list.push_back(passes::makeSurface(passes::SurfaceLayer::first));
   if (configuration.layered) list.push_back(passes::makeSurface(passes::SurfaceLayer::behind));
   list.push_back(passes::makeBlur());

@@ -2,8 +2,6 @@
 // `scumble params` shows, and the list of blocks is complete.
 #include "renderer/pass_list.h"
 
-#include "frame/ocean_maps.h"
-
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -21,6 +19,7 @@
 #include "passes/final_color/final_color.h"
 #include "passes/final_shadow/final_shadow.h"
 #include "passes/limit/limit.h"
+#include "passes/ocean/ocean.h"
 #include "passes/shadow_map/shadow_map.h"
 #include "passes/surface/surface.h"
 #include "passes/warp/warp.h"
@@ -100,7 +99,7 @@ TEST(PassList, structsStartWithTheirRowsDefaults) {
   expectRowsDefaults<passes::VolumeParams>(seen);
   expectRowsDefaults<passes::GradeParams>(seen);
   expectRowsDefaults<OceanParams>(seen);
-  expectRowsDefaults<OceanPaintParams>(seen);
+  expectRowsDefaults<passes::OceanPaintParams>(seen);
   expectRowsDefaults<OceanMetaTextureParams>(seen);
   expectRowsDefaults<FloatParams>(seen);
   for (const look::ParamBlock* block : look::allBlocks())

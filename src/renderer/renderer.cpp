@@ -37,7 +37,7 @@ Error usage(std::string problem, std::string advice) {
 }
 
 bool isAov(Slot slot) {
-  return slot != Slot::depth && slot != Slot::plain && slot != Slot::matteRest &&
+  return slot != Slot::depth && slot != Slot::plain && slot != Slot::matteRest && slot != Slot::oceanLit && slot != Slot::oceanShadowed &&
          !(slot >= Slot::behindShadow && slot <= Slot::behindLimit);
 }
 bool isFact(Slot slot) {
@@ -376,6 +376,7 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
   configuration.layered = !options.plain && wantsLayers(now);
   configuration.glows = glows(scene.data(), now);
   configuration.limit = !options.plain && wantsLimit(now);
+  configuration.ocean = !options.plain && oceanShape(scene.data(), now).isThere;
   configuration.colorize = !options.plain && wantsColorizers(now);
   const glm::uvec2 texels =
       background ? Backdrop::sizeFor(*background, options.width, options.height) : glm::uvec2(0);

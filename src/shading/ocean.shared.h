@@ -5,6 +5,8 @@
 
 SHARED_BEGIN
 
+const float kWaterPerPattern = 10.0f;  // metres for one unit of pattern coordinates
+
 // A point of the tile's grid.
 struct OceanPoint {
   vec3 displacement;  // metres

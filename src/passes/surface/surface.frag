@@ -11,11 +11,6 @@
 #include "../../shading/surface_tangents_at_pixel.glsl"
 #include "../../shading/view_index.glsl"
 #include "surface.glsl"
-#ifdef OCEAN
-#define PAINTED
-#include "../../shading/ocean.shared.h"
-#include "ocean.shared.h"
-#endif
 
 layout(constant_id = 0) const int kAlphaMode = 0;  // 0 opaque, 1 masked, 2 blended
 layout(constant_id = 1) const int kVaried = 0;
@@ -72,9 +67,8 @@ vec3 paint(vec3 over, vec3 root) {
 #endif
 
 #ifdef OCEAN
-layout(location = 11) in vec3 inWave;
-layout(location = 12) flat in float inFadeEnd;
-#include "ocean.glsl"
+layout(set = 2, binding = 7) uniform sampler2DArray oceanLit;
+layout(set = 2, binding = 8) uniform sampler2DArray oceanShadowed;
 #endif
 
 void main() {
@@ -91,8 +85,9 @@ void main() {
   float lens = material.constantLens;
   float alpha = material.baseColor.a;
 #ifdef OCEAN
-  alpha = 1.0;
-  paintOcean(inPatternUv, inWave, inWorld, normalize(gl_FrontFacing ? inNormal : -inNormal), inFadeEnd, lit, shadowed);
+  // Painted already, once a pixel.
+  lit = texelFetch(oceanLit, ivec3(gl_FragCoord.xy, viewIndex()), 0).rgb;
+  shadowed = texelFetch(oceanShadowed, ivec3(gl_FragCoord.xy, viewIndex()), 0).rgb;
 #else
   if (kVaried != 0) {
     vec4 albedo = material.baseColor * inColor;

@@ -8,13 +8,6 @@
 #include "../../shading/surface_tangents.glsl"
 #include "../../shading/view_index.glsl"
 #include "surface.glsl"
-#ifdef OCEAN
-#define PAINTED
-#include "../../shading/ocean.shared.h"
-layout(set = 2, binding = 13, scalar) readonly buffer Waves { OceanField field; OceanPoint points[]; };
-layout(location = 11) out vec3 outWave;  // height in deviations, Jacobian, how far it is turned against the wind
-layout(location = 12) flat out float outFadeEnd;
-#endif
 
 layout(constant_id = 1) const int kVaried = 0;    // colours vary: vertex colours or textures
 layout(constant_id = 2) const int kTextured = 0;
@@ -60,22 +53,10 @@ void main() {
   outLightSpace = vec3(sigmoidArgument(p.xy), p.z - 0.5 * coarse / frame.lightToWorldScale.z);
 
   outFacing = vec2(lambert, normal.y);
-#ifdef OCEAN
-  outWorld = inPosition;
-  outNormal = normal;
-  ivec2 at = (ivec2(round(inPatternUv * (10.0 / field.cell))) + field.travelled + 16 * field.grid) % field.grid;
-  OceanPoint point = points[at.y * field.grid + at.x];
-  float whole = 1.0 - smoothstep(field.fadeStart, field.fadeEnd, length(inPosition.xz - field.origin.xz));
-  if (objects[gl_InstanceIndex].water != 1u) whole = 0.0;
-  outWave = vec3(field.deviation > 0.0 ? whole * point.displacement.y / field.deviation : 0.0,
-                 mix(1.0, point.jacobian, whole), 4.0 * dot(normal.xz, -field.wind));
-  outFadeEnd = field.fadeEnd;
-#else
   if ((kOptions & 2) != 0) {
     outWorld = inPosition;
     outNormal = normal;
   }
-#endif
   if (kVaried != 0) outColor = inColor;
 #ifdef PAINTED
   mat4 tangentClip = tangentView(painted.tangents, worldToClip);

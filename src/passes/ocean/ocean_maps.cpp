@@ -1,10 +1,11 @@
-#include "frame/ocean_maps.h"
+#include "passes/ocean/ocean_maps.h"
 
+#include <algorithm>
 #include <array>
 
 #include "ocean/maps.h"
 
-namespace scumble::frame {
+namespace scumble::passes {
 
 const gpu::Image& OceanMaps::find(const look::LookData& look, look::Picture picture, bool isSky) {
   const int builtIn = std::max(picture.index, -1);
@@ -26,4 +27,4 @@ const gpu::Image& OceanMaps::find(const look::LookData& look, look::Picture pict
   return known_.back().image;
 }
 
-}  // namespace scumble::frame
+}  // namespace scumble::passes

@@ -1,8 +1,11 @@
-#ifndef SCUMBLE_SURFACE_OCEAN_SHARED_H
-#define SCUMBLE_SURFACE_OCEAN_SHARED_H
+#ifndef SCUMBLE_OCEAN_PAINT_SHARED_H
+#define SCUMBLE_OCEAN_PAINT_SHARED_H
 #include "../../shading/shared_types.h"
 
 SHARED_BEGIN
+
+// What the image step is specialised to.
+const int kOceanNext = 1, kOceanUnusual = 2, kOceanSkip = 4, kOceanHistogram = 8;
 
 // How the ocean is painted; most are the knobs of ocean.paint.
 struct OceanPaint {
@@ -14,6 +17,9 @@ struct OceanPaint {
   float saturation, overlayAmount, skySaturation, skyOverlayAmount;
   vec3 overlay, skyOverlay;  // linear
   float next;                // how far the next maps count
+  float fadeEnd;             // metres from its middle where waves end
+  float waterPerPattern;     // metres for one unit of pattern coordinates
+  vec2 wind;                 // unit, x and z: where it blows to
 };
 
 SHARED_END

@@ -7,13 +7,7 @@
 #include "gpu/resources.h"
 #include "look/look_data.h"
 
-namespace scumble::frame {
-
-#define PARAMS_STRUCT OceanPaintParams
-#define PARAMS_FILE "frame/ocean_paint.params"
-#define PARAMS_PATH "ocean.paint"
-#define PARAMS_TARGETS kScene
-#include "look/define_params.h"
+namespace scumble::passes {
 
 class OceanMaps {
  public:
@@ -39,4 +33,4 @@ class OceanMaps {
   std::deque<Known> known_;  // they are referred to, and stay where they are
 };
 
-}  // namespace scumble::frame
+}  // namespace scumble::passes

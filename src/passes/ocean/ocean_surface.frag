@@ -1,0 +1,25 @@
+#version 460
+// Target 0: bits of pattern u and v; dS/du and dS/dv in pixels per unit, each as two bfloat16.
+// Target 1: height of the wave in deviations, Jacobian, x and z of the normal.
+#extension GL_GOOGLE_include_directive : require
+#include "../../shading/frame.glsl"
+#include "../../shading/metatexture.glsl"
+#include "../../shading/surface_tangents_at_pixel.glsl"
+#include "../../shading/view_index.glsl"
+
+layout(set = 2, binding = 0, scalar) uniform TangentBlock { SurfaceTangents tangents; };
+
+layout(location = 0) in vec2 inPatternUv;
+layout(location = 1) in vec3 inTangentU;
+layout(location = 2) in vec3 inTangentV;
+layout(location = 3) in vec3 inPoint;
+layout(location = 4) in vec4 inWave;
+layout(location = 0) out uvec4 outPattern;
+layout(location = 1) out vec4 outWave;
+
+void main() {
+  vec2 dSdu, dSdv;
+  surfaceTangents(tangents, inTangentU, inTangentV, inPoint, inPatternUv, viewIndex(), dSdu, dSdv);
+  outPattern = uvec4(floatBitsToUint(inPatternUv), packBfloat(dSdu), packBfloat(dSdv));
+  outWave = inWave;
+}

@@ -1,0 +1,44 @@
+#version 460
+// The ocean alone: what its painting needs to know of the nearest water at each pixel.
+#extension GL_GOOGLE_include_directive : require
+#include "../../shading/frame.glsl"
+#include "../../shading/metatexture.glsl"
+#include "../../shading/ocean.shared.h"
+#include "../../shading/surface_tangents.glsl"
+#include "../../shading/view_index.glsl"
+
+layout(set = 2, binding = 0, scalar) uniform TangentBlock { SurfaceTangents tangents; };
+layout(set = 2, binding = 1, scalar) readonly buffer Waves { OceanField field; OceanPoint points[]; };
+
+layout(location = 0) in vec3 inPosition;
+layout(location = 1) in vec2 inNormal;
+layout(location = 5) in vec3 inDPdu;
+layout(location = 7) in vec3 inDPdv;
+layout(location = 8) in vec2 inPatternUv;
+
+layout(location = 0) out vec2 outPatternUv;
+layout(location = 1) out vec3 outTangentU;
+layout(location = 2) out vec3 outTangentV;
+layout(location = 3) out vec3 outPoint;
+layout(location = 4) out vec4 outWave;  // height in deviations, Jacobian, x and z of the normal
+
+void main() {
+  mat4 worldToClip = VIEW_FIELD(worldToClip, viewIndex());
+  gl_Position = worldToClip * vec4(inPosition, 1.0);
+  ObjectData object = objects[gl_InstanceIndex];
+  outPatternUv = inPatternUv + object.patternShift;
+  mat4 tangentClip = tangentView(tangents, worldToClip);
+  outTangentU = tangentToClip(tangentClip, inDPdu);
+  outTangentV = tangentToClip(tangentClip, inDPdv);
+  outPoint = pointInTangentView(tangents, worldToClip, inPosition);
+
+  // The grid's point that the vertex is, which has slid under the mesh.
+  ivec2 at = ivec2(round(inPatternUv * (kWaterPerPattern / field.cell))) + field.travelled;
+  at = (at % field.grid + field.grid) % field.grid;
+  OceanPoint point = points[at.y * field.grid + at.x];
+  float whole = 1.0 - smoothstep(field.fadeStart, field.fadeEnd, length(inPosition.xz - field.origin.xz));
+  if (object.water != 1u) whole = 0.0;
+  vec3 normal = decodeNormal(inNormal);
+  outWave = vec4(field.deviation > 0.0 ? whole * point.displacement.y / field.deviation : 0.0,
+                 mix(1.0, point.jacobian, whole), normal.xz);
+}
