@@ -45,8 +45,8 @@ OceanShape oceanShape(const scene::SceneData& scene, const look::LookData& look)
   if (shape.node >= 0) shape.origin = scene::worldMatrices(scene)[size_t(shape.node)][3];
   shape.origin.y += params.level;
   shape.grid = params.grid, shape.tiles = params.tiles, shape.tile = params.tile;
-  // Waves end before their mesh does, which part of a cell moves.
-  const float half = 0.5f * float(shape.tiles) * shape.tile - shape.cell();
+  // Waves end before their mesh does, which part of a cell moves. Of a cell or two they are nowhere whole.
+  const float half = std::max(0.5f * float(shape.tiles) * shape.tile - shape.cell(), 0.01f * shape.cell());
   shape.falseHorizon = std::min(params.falseHorizon, half);
   shape.horizon = std::max(params.horizon, 1.5f * shape.falseHorizon);
   return shape;

@@ -35,7 +35,7 @@ struct OceanShape {
   bool operator==(const OceanShape&) const = default;
   float cell() const { return tile / float(grid); }
   // Place of the mesh's first point, in cells from the middle, along x and z.
-  int firstPoint() const { return -(tiles * grid + 1) / 2; }
+  int firstPoint() const { return -(tiles * grid / 2); }
 };
 OceanShape oceanShape(const scene::SceneData& scene, const look::LookData& look);
 

@@ -56,7 +56,9 @@ void paintOcean(vec2 uv, vec3 wave, vec3 world, vec3 normal, float fadeEnd, out 
   vec4 sky = texture(skyMap, vec2(azimuth, elevation));
   if (ocean.next > 0.0) sky = mix(sky, texture(nextSkyMap, vec2(azimuth, elevation)), ocean.next);
   sky.rgb = graded(sky.rgb, ocean.skySaturation, ocean.skyOverlay, ocean.skyOverlayAmount);
-  float shown = clamp((ocean.reflection * sky.a - 0.5 + 0.9 * (stroke - 0.5)) * 4.0 + 0.5, 0.0, 1.0);
+  float reflected = ocean.reflection * sky.a;
+  float shown = clamp((reflected - 0.5 + 0.9 * (stroke - 0.5)) * 4.0 + 0.5, 0.0, 1.0);
+  shown *= min(10.0 * reflected, 1.0);  // not even the strongest stroke mirrors what is not there
   lit = mix(lit, sky.rgb, shown);
   shadowed = mix(shadowed, mix(shadowed, sky.rgb, 0.5), shown);
   lit = sqrt(lit), shadowed = sqrt(shadowed);

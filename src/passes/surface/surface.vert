@@ -63,12 +63,15 @@ void main() {
 #ifdef OCEAN
   outWorld = inPosition;
   outNormal = normal;
-  ivec2 at = (ivec2(round(inPatternUv * (10.0 / field.cell))) + field.travelled + 16 * field.grid) % field.grid;
-  OceanPoint point = points[at.y * field.grid + at.x];
-  float whole = 1.0 - smoothstep(field.fadeStart, field.fadeEnd, length(inPosition.xz - field.origin.xz));
-  if (objects[gl_InstanceIndex].water != 1u) whole = 0.0;
-  outWave = vec3(field.deviation > 0.0 ? whole * point.displacement.y / field.deviation : 0.0,
-                 mix(1.0, point.jacobian, whole), 4.0 * dot(normal.xz, -field.wind));
+  float displaced = 0.0, jacobian = 1.0;
+  if (objects[gl_InstanceIndex].water == 1u) {
+    ivec2 at = (ivec2(round(inPatternUv * (10.0 / field.cell))) + field.travelled + 16 * field.grid) % field.grid;
+    OceanPoint point = points[at.y * field.grid + at.x];
+    float whole = 1.0 - smoothstep(field.fadeStart, field.fadeEnd, length(inPosition.xz - field.origin.xz));
+    if (field.deviation > 0.0) displaced = whole * point.displacement.y / field.deviation;
+    jacobian = mix(1.0, point.jacobian, whole);
+  }
+  outWave = vec3(displaced, jacobian, 4.0 * dot(normal.xz, -field.wind));
   outFadeEnd = field.fadeEnd;
 #else
   if ((kOptions & 2) != 0) {
