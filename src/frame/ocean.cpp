@@ -93,7 +93,7 @@ OceanWaves::OceanWaves(gpu::Device& device, const OceanShape& shape)
           sizeof(shared::OceanField) + size_t(shape.grid) * size_t(shape.grid) * sizeof(shared::OceanPoint),
           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) {}
 
-void OceanWaves::pose(const look::LookData& look, double time) {
+void OceanWaves::pose(const look::LookData& look, double time, const OceanWaves* now) {
   const OceanParams params = look.get<OceanParams>();
   ocean::Spectrum spectrum;
   spectrum.grid = shape_.grid, spectrum.tile = double(shape_.tile);
@@ -109,8 +109,9 @@ void OceanWaves::pose(const look::LookData& look, double time) {
 
   travelled_ = directionOf(params.heading) * (double(params.speed) * time);
   const double cell = double(shape_.cell());
-  const glm::dvec2 cells = glm::floor(travelled_ / cell);
-  within_ = travelled_ - cells * cell;
+  cells_ = now ? now->cells_ : glm::floor(travelled_ / cell);
+  within_ = travelled_ - cells_ * cell;
+  slid_ = now ? now->travelled_ - travelled_ : glm::dvec2(0.0);
 
   auto* header = buffer_.as<shared::OceanField>();
   *header = {};
@@ -118,8 +119,8 @@ void OceanWaves::pose(const look::LookData& look, double time) {
     return int(index - std::floor(index / shape_.grid) * shape_.grid);
   };
   const double corner = shape_.firstPoint();
-  header->first = {wrapped(cells.x + corner), wrapped(cells.y + corner)};
-  header->travelled = {wrapped(cells.x), wrapped(cells.y)};
+  header->first = {wrapped(cells_.x + corner), wrapped(cells_.y + corner)};
+  header->travelled = {wrapped(cells_.x), wrapped(cells_.y)};
   header->grid = shape_.grid;
   header->cell = shape_.cell();
   header->origin = shape_.origin;
