@@ -201,6 +201,7 @@ TEST_P(OceanDrawn, isTheMeshOfTheWaves) {
 
 TEST_P(OceanDrawn, isTheMeshOfTheWavesForAnyGrid) {
   const Scene scene = harbour("Ocean").load();
+  size_t turn = 0;  // one view and two in turn
   for (const auto& [tiles, grid, tile] : {std::tuple{1, 80, 60},
                                           {3, 16, 12},
                                           {5, 7, 8},
@@ -212,6 +213,7 @@ TEST_P(OceanDrawn, isTheMeshOfTheWavesForAnyGrid) {
                                           {1, 7, 70},
                                           {4, 81, 9},
                                           {15, 16, 5}}) {
+    if (turn++ % 2 + 1 != viewCount()) continue;
     const double time = 5.2;
     const Look look = quietLook({{"ocean.tiles", std::to_string(tiles)},
                                  {"ocean.grid", std::to_string(grid)},
@@ -344,7 +346,8 @@ TEST_P(OceanDrawn, framesUnderWayAreThoseAlone) {
 // ---- What rides it ----
 
 TEST_P(OceanDrawn, nodesRideTheWaves) {
-  for (const glm::vec3& place : {glm::vec3(1.5f, 0.6f, -1), glm::vec3(-3, 0.2f, 2)}) {
+  size_t seen = 0;
+  for (const glm::vec3& place : {glm::vec3(1.5f, 1.6f, -1), glm::vec3(-3, 1.2f, 2)}) {
     AnimatedScene harbourScene = harbour("Ocean", place);
     // Something that hangs on the box.
     const glm::vec3 onBox(0.2f, 0.9f, 0.1f);
@@ -398,10 +401,11 @@ TEST_P(OceanDrawn, nodesRideTheWaves) {
       for (size_t v = 0; v < viewCount(); ++v) {
         expectOnBox(frame, "Lamp", v, true);
         expectOnBox(still, "Lamp", v, false);
-        if (count(frame, idOf("Box"), v) > 20) expectOnBox(frame, "Box", v, true);
+        if (count(frame, idOf("Box"), v) > 20) ++seen, expectOnBox(frame, "Box", v, true);
       }
     }
   }
+  EXPECT_GE(seen, 3 * viewCount());
 }
 
 TEST_P(OceanDrawn, nothingRidesWithoutAnOcean) {
@@ -423,6 +427,7 @@ TEST_P(OceanDrawn, nothingRidesWithoutAnOcean) {
 
 TEST_P(OceanDrawn, hostileSettingsGiveFinitePictures) {
   const Scene scene = harbour("Ocean").load();
+  size_t turn = 0;  // one view and two in turn
   for (const Knobs& knobs : std::vector<Knobs>{
            {{"ocean.wind", "60"}, {"ocean.height", "20"}, {"ocean.choppiness", "2"}},
            {{"ocean.wind", "60"}, {"ocean.fetch", "10000"}, {"ocean.tile", "1"}, {"ocean.height", "20"}},
@@ -437,7 +442,8 @@ TEST_P(OceanDrawn, hostileSettingsGiveFinitePictures) {
            {{"ocean.level", "3"}},  // seen from below
            {{"ocean.speed", "100"}, {"ocean.heading", "-179"}, {"ocean.loop", "1"}},
            {{"ocean.paint.live", "4"}, {"ocean.paint.liveSpread", "1"}, {"ocean.paint.dither", "2"}}}) {
-    const Stand stand = knobs.size() % 2 ? kAside : Stand{{0, 2, 0.1f}, {0, 1.9f, -30}};
+    if (turn++ % 2 + 1 != viewCount()) continue;
+    const Stand stand = turn % 4 < 2 ? kAside : Stand{{0, 2, 0.1f}, {0, 1.9f, -30}};
     Knobs all = knobs;
     all.insert(all.end(), {{"nodes.Box.float.rides", "on"}, {"nodes.Box.float.length", "1000"}});
     const Frame frame = drawAt(scene, quietLook(all), 1234.5, viewsOf(scene, stand),
