@@ -11,6 +11,8 @@
 #include "frame/animation_params.h"
 #include "frame/light.h"
 #include "frame/metatexture.h"
+#include "frame/ocean.h"
+#include "frame/ocean_maps.h"
 #include "frame/palette.h"
 #include "frame/slots.h"
 #include "passes/blur/blur.h"
@@ -97,6 +99,10 @@ TEST(PassList, structsStartWithTheirRowsDefaults) {
   expectRowsDefaults<PlayParams>(seen);
   expectRowsDefaults<passes::VolumeParams>(seen);
   expectRowsDefaults<passes::GradeParams>(seen);
+  expectRowsDefaults<OceanParams>(seen);
+  expectRowsDefaults<OceanPaintParams>(seen);
+  expectRowsDefaults<OceanMetaTextureParams>(seen);
+  expectRowsDefaults<FloatParams>(seen);
   for (const look::ParamBlock* block : look::allBlocks())
     EXPECT_TRUE(seen.count(block)) << block->path << ": a new block of knobs; add its struct to this test";
   EXPECT_EQ(look::allBlocks().size(), seen.size())
