@@ -258,7 +258,7 @@ TEST_F(OceanDrawn, wavesEndBeforeTheirMesh) {
 TEST_P(OceanDrawn, repeatsAfterItsLoop) {
   const Scene scene = harbour("Ocean").load();
   const auto at = [&](double time, const Knobs& more = {}) {
-    Knobs knobs{{"ocean.loop", "12"}, {"ocean.paint.live", "0.5"}};
+    Knobs knobs{{"ocean.tiles", "1"}, {"ocean.loop", "12"}, {"ocean.paint.live", "0.5"}};
     knobs.insert(knobs.end(), more.begin(), more.end());
     return drawAt(scene, quietLook(knobs), time, viewsOf(scene, kAside), {"position"});
   };
@@ -324,7 +324,7 @@ TEST_P(OceanDrawn, waterMovesAndSlides) {
 // Frames that are under way do not share waves.
 TEST_P(OceanDrawn, framesUnderWayAreThoseAlone) {
   const Scene scene = harbour("Ocean").load();
-  const Look look = quietLook({{"ocean.speed", "3"}, {"nodes.Box.float.rides", "on"}});
+  const Look look = quietLook({{"ocean.tiles", "1"}, {"ocean.speed", "3"}, {"nodes.Box.float.rides", "on"}});
   const auto views = viewsOf(scene, kAside);
   const RenderOptions options = sized(kWidth, kHeight, {"position"});
   std::vector<Frame> alone;
@@ -361,7 +361,8 @@ TEST_P(OceanDrawn, nodesRideTheWaves) {
     };
     const std::vector<glm::mat4> rest = scene::worldMatrices(scene.data());
     for (const auto& [alongZ, time] : {std::pair{false, 0.3}, {true, 4.1}}) {
-      const Knobs common{{"ocean.wind", "14"}, {"ocean.speed", "2"}, {"ocean.height", "1.5"}};
+      const Knobs common{
+          {"ocean.wind", "14"}, {"ocean.speed", "2"}, {"ocean.height", "1.5"}, {"ocean.tiles", "1"}};
       Knobs riding = common;
       riding.insert(riding.end(), {{"nodes.Box.float.rides", "on"},
                                    {"nodes.Box.float.length", "3"},
@@ -461,7 +462,9 @@ TEST_P(OceanDrawn, hostileSettingsGiveFinitePictures) {
 class OceanPainted : public OceanDrawn {
  protected:
   static Frame lit(const Scene& scene, const Knobs& knobs, double time = 0.5) {
-    return drawAt(scene, quietLook(knobs), time, viewsOf(scene, kAside), {"lit", "shadowed", "id"});
+    Knobs small{{"ocean.tiles", "1"}};  // sooner drawn
+    small.insert(small.end(), knobs.begin(), knobs.end());
+    return drawAt(scene, quietLook(small), time, viewsOf(scene, kAside), {"lit", "shadowed", "id"});
   }
 };
 INSTANTIATE_BOTH_EYES(OceanPainted);
