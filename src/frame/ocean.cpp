@@ -45,8 +45,8 @@ OceanShape oceanShape(const scene::SceneData& scene, const look::LookData& look)
   if (shape.node >= 0) shape.origin = scene::worldMatrices(scene)[size_t(shape.node)][3];
   shape.origin.y += params.level;
   shape.grid = params.grid, shape.tiles = params.tiles, shape.tile = params.tile;
-  // Waves end before their mesh does, which part of a cell moves.
-  const float half = 0.5f * float(shape.tiles) * shape.tile - shape.cell();
+  // Waves end before their mesh does, which part of a cell moves. Of a cell or two they are nowhere whole.
+  const float half = std::max(0.5f * float(shape.tiles) * shape.tile - shape.cell(), 0.01f * shape.cell());
   shape.falseHorizon = std::min(params.falseHorizon, half);
   shape.horizon = std::max(params.horizon, 1.5f * shape.falseHorizon);
   return shape;
@@ -125,7 +125,7 @@ OceanWaves::OceanWaves(gpu::Device& device, const OceanShape& shape)
           sizeof(shared::OceanField) + size_t(shape.grid) * size_t(shape.grid) * sizeof(shared::OceanPoint),
           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) {}
 
-void OceanWaves::pose(const look::LookData& look, double time) {
+void OceanWaves::pose(const look::LookData& look, double time, const OceanWaves* now) {
   const OceanParams params = look.get<OceanParams>();
   ocean::Spectrum spectrum;
   spectrum.grid = shape_.grid, spectrum.tile = double(shape_.tile);
@@ -141,8 +141,9 @@ void OceanWaves::pose(const look::LookData& look, double time) {
 
   travelled_ = directionOf(params.heading) * (double(params.speed) * time);
   const double cell = double(shape_.cell());
-  const glm::dvec2 cells = glm::floor(travelled_ / cell);
-  within_ = travelled_ - cells * cell;
+  cells_ = now ? now->cells_ : glm::floor(travelled_ / cell);
+  within_ = travelled_ - cells_ * cell;
+  slid_ = now ? now->travelled_ - travelled_ : glm::dvec2(0.0);
 
   auto* header = buffer_.as<shared::OceanField>();
   *header = {};
@@ -150,8 +151,8 @@ void OceanWaves::pose(const look::LookData& look, double time) {
     return int(index - std::floor(index / shape_.grid) * shape_.grid);
   };
   const double corner = shape_.firstPoint();
-  header->first = {wrapped(cells.x + corner), wrapped(cells.y + corner)};
-  header->travelled = {wrapped(cells.x), wrapped(cells.y)};
+  header->first = {wrapped(cells_.x + corner), wrapped(cells_.y + corner)};
+  header->travelled = {wrapped(cells_.x), wrapped(cells_.y)};
   header->grid = shape_.grid;
   header->cell = shape_.cell();
   header->origin = shape_.origin;

@@ -37,7 +37,7 @@ struct OceanShape {
   bool operator==(const OceanShape&) const = default;
   float cell() const { return tile / float(grid); }
   // Place of the mesh's first point, in cells from the middle, along x and z.
-  int firstPoint() const { return -(tiles * grid + 1) / 2; }
+  int firstPoint() const { return -(tiles * grid / 2); }
 };
 OceanShape oceanShape(const scene::SceneData& scene, const look::LookData& look);
 
@@ -63,10 +63,14 @@ class OceanWaves {
   OceanWaves(gpu::Device& device, const OceanShape& shape);
 
   // The waves at a time, in seconds; the look is one at that time.
-  void pose(const look::LookData& look, double time);
+  // `now`: waves of another time whose points of the mesh are to be followed, for where they were at this
+  // one; null: the mesh stays.
+  void pose(const look::LookData& look, double time, const OceanWaves* now = nullptr);
 
-  // What tiles are moved by: less than a cell.
+  // What tiles are moved by: less than a cell, where no other time's points are followed.
   glm::vec3 offset() const { return {-within_.x, 0.0f, -within_.y}; }
+  // What the flat water is moved by, where they are.
+  glm::vec3 ringOffset() const { return {slid_.x, 0.0f, slid_.y}; }
   // What is added to pattern coordinates of tiles, and of what does not move.
   glm::vec2 tilePattern() const { return glm::vec2(travelled_ - glm::dvec2(within_)) / kWaterPerPattern; }
   glm::vec2 ringPattern() const { return glm::vec2(travelled_) / kWaterPerPattern; }
@@ -93,7 +97,9 @@ class OceanWaves {
   std::optional<ocean::Waves> waves_;
   ocean::WaveField field_;
   glm::dvec2 travelled_{0.0};  // over the water, metres
-  glm::vec2 within_{0.0f};     // what of it is less than a cell
+  glm::dvec2 cells_{0.0};      // whole cells of it
+  glm::vec2 within_{0.0f};     // the rest
+  glm::vec2 slid_{0.0f};       // metres that the water has slid since, to the time whose points are followed
   glm::vec3 reach_{0.0f};
   float deviation_ = 0;
   gpu::PerFrameBuffer buffer_;  // shared::OceanField, then grid * grid shared::OceanPoint

@@ -154,6 +154,7 @@ void SceneMotion::pose(const look::LookData& look, double time, const OceanWaves
         glm::mat4 model = object.node == MovingObject::kNoNode ? object.instance
                                                                : pose.world[object.node] * object.instance;
         if (object.water == Water::waves) model[3] += glm::vec4(waves->offset(), 0.0f);
+        if (object.water == Water::flat) model[3] += glm::vec4(waves->ringOffset(), 0.0f);
         if (object.water != Water::none)
           data.patternShift = object.water == Water::waves ? waves->tilePattern() : waves->ringPattern();
         bool changes =

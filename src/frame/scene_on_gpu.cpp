@@ -329,7 +329,7 @@ void SceneOnGpu::look(const shared::FrameUniforms& uniforms, uint32_t viewCount,
 }
 
 void SceneOnGpu::posePrevious(const look::LookData& look, double time) {
-  if (previousWaves_) previousWaves_->pose(look, time);
+  if (previousWaves_) previousWaves_->pose(look, time, waves());
   previousMotion_->pose(look, time, previousWaves());
 }
 

@@ -130,6 +130,7 @@ TEST(LookMaterials, knobsAreRefusedWhereTheyDoNotHold) {
       EXPECT_EQ(status.error().kind, ErrorKind::usage);
       const char* reason = row.block->targets & look::kScene        ? "for the whole scene"
                            : row.block->targets & look::kColorizers ? "for colorizers"
+                           : row.block->targets & look::kNodes      ? "for nodes"
                                                                     : "for clips";
       EXPECT_NE(status.error().message().find(reason), std::string::npos) << status.error().message();
       EXPECT_NE(file.error().message().find(reason), std::string::npos) << file.error().message();

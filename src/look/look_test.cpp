@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
+#include <algorithm>
 #include <cctype>
 #include <cstring>
 #include <filesystem>
@@ -220,6 +221,16 @@ TEST(Look, misspelledKnobsAreSuggested) {
     without.erase(path.size() - 2, 1);
     doubled.insert(path.size() - 1, 1, 'q');
     for (const std::string& slip : {without, doubled}) {
+      // As near to another knob: "ocean.tils" is also a slip for "ocean.tile".
+      const std::vector<Row> rows = allRows();
+      if (std::any_of(rows.begin(), rows.end(), [&](const Row& other) {
+            const std::string name = other.path();
+            if (name.size() != slip.size()) return false;
+            int differing = 0;
+            for (size_t i = 0; i < slip.size(); ++i) differing += slip[i] != name[i];
+            return differing == 1;
+          }))
+        continue;
       Look look;
       const Status status = look.set(slip, "1");
       ASSERT_FALSE(status.ok()) << slip;

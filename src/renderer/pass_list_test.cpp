@@ -11,6 +11,7 @@
 #include "frame/animation_params.h"
 #include "frame/light.h"
 #include "frame/metatexture.h"
+#include "frame/ocean.h"
 #include "frame/palette.h"
 #include "frame/slots.h"
 #include "passes/blur/blur.h"

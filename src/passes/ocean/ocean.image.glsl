@@ -95,7 +95,9 @@ void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
   vec4 sky = textureLod(skyMap, vec2(azimuth, elevation), 0.0);
   if (kNext) sky = mix(sky, textureLod(nextSkyMap, vec2(azimuth, elevation), 0.0), ocean.next);
   sky.rgb = graded(sky.rgb, ocean.skySaturation, ocean.skyOverlay, ocean.skyOverlayAmount);
-  float shown = clamp((ocean.reflection * sky.a - 0.5 + 0.9 * (stroke - 0.5)) * 4.0 + 0.5, 0.0, 1.0);
+  float reflected = ocean.reflection * sky.a;
+  float shown = clamp((reflected - 0.5 + 0.9 * (stroke - 0.5)) * 4.0 + 0.5, 0.0, 1.0);
+  shown *= min(10.0 * reflected, 1.0);  // not even the strongest stroke mirrors what is not there
   lit = mix(lit, sky.rgb, shown);
   shadowed = mix(shadowed, mix(shadowed, sky.rgb, 0.5), shown);
   lit = sqrt(lit), shadowed = sqrt(shadowed);

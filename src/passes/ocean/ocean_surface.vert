@@ -36,7 +36,7 @@ void main() {
   ivec2 at = ivec2(round(inPatternUv * (kWaterPerPattern / field.cell))) + field.travelled;
   at = (at % field.grid + field.grid) % field.grid;
   OceanPoint point = points[at.y * field.grid + at.x];
-  float whole = 1.0 - smoothstep(field.fadeStart, field.fadeEnd, length(inPosition.xz - field.origin.xz));
+  float whole = 1.0 - smoothstep(field.fadeStart, field.fadeEnd, length(inPatternUv) * kWaterPerPattern);
   if (object.water != 1u) whole = 0.0;
   vec3 normal = decodeNormal(inNormal);
   outWave = vec4(field.deviation > 0.0 ? whole * point.displacement.y / field.deviation : 0.0,
