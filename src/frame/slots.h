@@ -18,7 +18,7 @@ enum class Slot : uint8_t {
   depth,      // depth buffer of the surface pass
   oceanLit,   // square root of the ocean's colour in light; once a pixel, wherever it is first or not
   oceanShadowed,
-  blur,       // R, G, A: the shadow channels, blurred, at a quarter of the size; B: eye depth
+  blur,         // R, G, A: the shadow channels, blurred, at a quarter of the size; B: eye depth
   finalShadow,  // R: light after threshold and inner glow; G: lens; B: the glow's part of it; A: coverage
   color,        // lit and shadowed mixed, over the background
   colorize,     // the same after the look's colorizers; only where it has any, or when asked for

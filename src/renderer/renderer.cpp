@@ -37,8 +37,8 @@ Error usage(std::string problem, std::string advice) {
 }
 
 bool isAov(Slot slot) {
-  return slot != Slot::depth && slot != Slot::plain && slot != Slot::matteRest && slot != Slot::oceanLit && slot != Slot::oceanShadowed &&
-         !(slot >= Slot::behindShadow && slot <= Slot::behindLimit);
+  return slot != Slot::depth && slot != Slot::plain && slot != Slot::matteRest && slot != Slot::oceanLit &&
+         slot != Slot::oceanShadowed && !(slot >= Slot::behindShadow && slot <= Slot::behindLimit);
 }
 bool isFact(Slot slot) {
   return slot >= Slot::factDepth && slot <= Slot::id;

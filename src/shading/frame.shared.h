@@ -59,8 +59,8 @@ struct ObjectData {
   uint influences;        // joints a vertex: 0 (rigid), 4 or 8
   uint firstJoint;        // in the joint matrices
   uint firstMorphWeight;  // in the morph weights
-  uint water;           // 1: waves move it; 2: it is flat water; else 0
-  vec2 patternShift;    // added to pattern coordinates
+  uint water;             // 1: waves move it; 2: it is flat water; else 0
+  vec2 patternShift;      // added to pattern coordinates
   uint wraps;  // whether pattern coordinates close on themselves after one unit: 1 along u, 2 along v
 };
 
