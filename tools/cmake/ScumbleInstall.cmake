@@ -26,8 +26,8 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/scumbleConfigVersion.cmake 
 install(FILES ${CMAKE_BINARY_DIR}/scumbleConfig.cmake ${CMAKE_BINARY_DIR}/scumbleConfigVersion.cmake
         DESTINATION ${SCUMBLE_PACKAGE_FOLDER})
 
-# What ./demo builds: the program and the demo scene's generator, without the tests.
+# What ./demo builds: the program and the scenes' generators, without the tests.
 if(SCUMBLE_TESTS)
   add_custom_target(demo)
-  add_dependencies(demo ${programs} demo_scene)
+  add_dependencies(demo ${programs} demo_scene henry_room)
 endif()
