@@ -161,14 +161,7 @@ int main(int argc, char** argv) {
     Case& c = cases[i];
     const std::vector<PlacedColorizer> colorizers = placeColorizers(c.look.data(), {}, {}, uniforms);
     auto* block = new (lists.mapped() + i * kStride) shared::ColorizeUniforms{};
-    uint32_t features = 0;
-    for (size_t k = 0; k < colorizers.size(); ++k) {
-      features |= uint32_t(colorizers[k].features);
-      block->list[k] = colorizers[k].data;
-    }
-    block->stripBits = int(stripBits(width, height));
-    block->sights[0] = sightLines(uniforms.views[0]);
-    markStrips(colorizers, glm::dmat4(uniforms.views[0].worldToClip), width, height, 0, *block);
+    const uint32_t features = fillUniforms(colorizers, uniforms, 1, width, height, *block);
     sets.writeBuffer(i, 0, lists.handle(), i * kStride, sizeof(*block));
     sets.writeTexture(i, 1, color.view(), samplers.get({}));
     gpu::SamplerDesc nearest;

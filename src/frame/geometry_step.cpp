@@ -59,8 +59,20 @@ void GeometryStep::specialise(const SceneOnGpu& scene, uint32_t constant, std::v
   makePipelines(scene);
 }
 
+bool GeometryStep::includes(const SceneOnGpu& scene, const Draw& draw) const {
+  switch (desc_.what) {
+    case GeometryStepDesc::What::casters:
+      return draw.casts;
+    case GeometryStepDesc::What::ocean:
+      return int(draw.material) == scene.oceanMaterial();
+    default:
+      return true;
+  }
+}
+
 void GeometryStep::makePipelines(const SceneOnGpu& scene) {
   for (const Draw& draw : scene.draws()) {
+    if (!includes(scene, draw)) continue;
     gpu::Pipeline& made = pipelines_[variant(draw)];
     if (made) continue;
     const bool depthOnly = draw.alpha == AlphaMode::opaque && !desc_.depthOnlyVertex.words.empty();
@@ -99,7 +111,7 @@ void GeometryStep::makePipelines(const SceneOnGpu& scene) {
 }
 
 void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resources, const SceneOnGpu& scene,
-                        const gpu::DescriptorSets* passSets, uint32_t firstView, What what) const {
+                        const gpu::DescriptorSets* passSets, uint32_t firstView) const {
   const VkBuffer buffers[] = {scene.finalCore().handle(), scene.finalFrame().handle(),
                               scene.surface().handle(), scene.previousPositions().handle()};
   const VkDeviceSize offsets[] = {0, 0, 0, 0};
@@ -107,9 +119,7 @@ void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resource
 
   std::vector<const Draw*> order;
   for (const Draw& draw : scene.draws())
-    if (what == What::casters
-            ? draw.casts
-            : draw.visible && (what == What::visible || int(draw.material) == scene.oceanMaterial()))
+    if (includes(scene, draw) && (draw.visible || desc_.what == GeometryStepDesc::What::casters))
       order.push_back(&draw);
   std::stable_sort(order.begin(), order.end(), [&](const Draw* a, const Draw* b) {
     if (a->alpha != b->alpha) return a->alpha < b->alpha;

@@ -23,6 +23,9 @@ enum VertexInput : uint32_t {
 };
 
 struct GeometryStepDesc {
+  // Which draws: those that are visible, those that cast shadows, or the ocean where it is visible.
+  enum class What : uint8_t { visible, casters, ocean };
+  What what = What::visible;
   gpu::Shader vertex, fragment;
   uint32_t inputs = 0;  // VertexInput bits that `vertex` reads
   // Instead of both, with more inputs, for materials that the look paints textures on; may be empty.
@@ -55,9 +58,8 @@ class GeometryStep {
   void specialise(const SceneOnGpu& scene, uint32_t constant, std::vector<uint8_t> extras = {});
   // Draws opaque, then masked, then blended surfaces: by pipeline and material, the nearest first; blended
   // ones from far to near. `passSets`: set 2, one for all or one for each material; null for none.
-  enum class What : uint8_t { visible, casters, ocean };
   void draw(VkCommandBuffer commands, const FrameResources& resources, const SceneOnGpu& scene,
-            const gpu::DescriptorSets* passSets, uint32_t firstView, What what = What::visible) const;
+            const gpu::DescriptorSets* passSets, uint32_t firstView) const;
 
  private:
   // Pipelines by alpha mode (constant 0), by whether colours vary (1), by whether the scene's textures are
@@ -70,6 +72,8 @@ class GeometryStep {
   uint32_t variant(const Draw& draw) const {
     return constant_ * 256 + uint32_t(draw.alpha) * 64 + extras(draw) * 4u + draw.varied * 2 + draw.textured;
   }
+  // Whether a draw is ever one of the step's.
+  bool includes(const SceneOnGpu& scene, const Draw& draw) const;
   void makePipelines(const SceneOnGpu& scene);
 
   gpu::Device* device_ = nullptr;

@@ -49,6 +49,9 @@ struct MetaTexture {
   float base = 2, levelRotation = 0, blend = 1, skip = 0, lod = 0, skewLevels = 4, tiles = 1;
   int32_t mode = 0, skew = 0, orient = 0, contrast = 0, wrapping = 1;
   bool operator==(const MetaTexture&) const = default;
+  // Whether a shader needs more than the plain method at ratio 2 (metaTexturePlain in
+  // shading/metatexture.glsl).
+  bool isUnusual() const { return mode != 0 || orient != 0 || base != 2 || levelRotation != 0; }
 };
 static_assert(sizeof(MetaTexture) == 80, "scalar layout, as the shaders read it");
 

@@ -156,10 +156,9 @@ void OceanWaves::pose(const look::LookData& look, double time, const OceanWaves*
   header->grid = shape_.grid;
   header->cell = shape_.cell();
   header->origin = shape_.origin;
-  header->fadeStart = 0.6f * shape_.falseHorizon, header->fadeEnd = shape_.falseHorizon;
+  header->fadeStart = shape_.fadeStart(), header->fadeEnd = shape_.falseHorizon;
   header->sink = 0.05f + 0.25f * deviation_;
   header->deviation = deviation_;
-  header->wind = directionOf(params.windDirection);
 
   auto* points = reinterpret_cast<shared::OceanPoint*>(buffer_.contents() + sizeof(shared::OceanField));
   reach_ = glm::vec3(0.0f);
@@ -179,7 +178,7 @@ glm::mat4 OceanWaves::riding(const FloatParams& params, const glm::mat4& world) 
                         glm::degrees(std::atan2(double(bow.z), double(bow.x))));
   // Waves end at the false horizon.
   const float away = glm::length(glm::vec2(at.x - shape_.origin.x, at.z - shape_.origin.z));
-  const float whole = 1.0f - glm::smoothstep(0.6f * shape_.falseHorizon, shape_.falseHorizon, away);
+  const float whole = 1.0f - glm::smoothstep(shape_.fadeStart(), shape_.falseHorizon, away);
   const glm::quat tilt = glm::slerp(glm::quat(1, 0, 0, 0), floating.tilt, whole);
   return glm::translate(glm::mat4(1.0f), at + glm::vec3(0, whole * floating.height, 0)) *
          glm::mat4_cast(tilt) * glm::translate(glm::mat4(1.0f), -at);

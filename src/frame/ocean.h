@@ -35,6 +35,8 @@ struct OceanShape {
   int grid = 80, tiles = 5;                             // vertices along a tile; tiles along a side
   float tile = 60, falseHorizon = 120, horizon = 1000;  // metres
   bool operator==(const OceanShape&) const = default;
+  // Metres from the middle to which waves are whole.
+  float fadeStart() const { return 0.6f * falseHorizon; }
   float cell() const { return tile / float(grid); }
   // Place of the mesh's first point, in cells from the middle, along x and z.
   int firstPoint() const { return -(tiles * grid / 2); }
@@ -78,8 +80,6 @@ class OceanWaves {
   int node() const { return shape_.node; }
   // How far vertices may be from their place at rest, metres.
   const glm::vec3& reach() const { return reach_; }
-  // A root of the height's variance, metres.
-  float deviation() const { return deviation_; }
 
   // From where something is on calm water to where it rides the waves. `world`: its matrix.
   glm::mat4 riding(const FloatParams& params, const glm::mat4& world) const;

@@ -26,7 +26,7 @@ gpu::ResourceId FrameBuilder::slot(Slot slot) {
     if (slot == Slot::shadowMap) desc.width = desc.height = kShadowMapSize;
     if (slot == Slot::blur) desc.width = (desc.width + 3) / 4, desc.height = (desc.height + 3) / 4;
     if (info.rate == Rate::perView) desc.layers = configuration_.viewCount;
-    id = graph_.addImage(info.aov, desc);
+    id = graph_.addImage(info.name, desc);
   }
   return id;
 }
@@ -36,7 +36,7 @@ gpu::ResourceId FrameBuilder::multisampled(Slot slot) {
   gpu::ResourceId& id = multisampled_[size_t(slot)];
   if (id == kNone) {
     const SlotInfo& info = slotInfo(slot);
-    id = graph_.addImage(std::string(info.aov) + " samples",
+    id = graph_.addImage(std::string(info.name) + " samples",
                          {info.format, configuration_.width, configuration_.height, configuration_.viewCount,
                           1, configuration_.samples});
   }

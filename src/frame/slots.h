@@ -52,11 +52,12 @@ enum class Slot : uint8_t {
 enum class Rate : uint8_t { once, perView };
 
 struct SlotInfo {
-  const char* aov;  // name outside
+  const char* name;
   VkFormat format;
   Rate rate;
   bool multisampled;  // drawn with the frame's samples and resolved
   uint8_t channels;   // how many of the format's channels mean something, from R on
+  bool isAov = true;  // whether it can be saved, under its name
 };
 
 const SlotInfo& slotInfo(Slot slot);

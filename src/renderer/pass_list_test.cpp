@@ -127,7 +127,7 @@ TEST(PassList, namesOfAovsAreThePromisedOnes) {
 TEST(PassList, slotsSayWhatTheyHold) {
   for (size_t i = 0; i < size_t(Slot::count); ++i) {
     const SlotInfo& info = slotInfo(Slot(i));
-    ASSERT_NE(info.aov, nullptr) << i;
+    ASSERT_NE(info.name, nullptr) << i;
     EXPECT_GE(info.channels, 1);
     EXPECT_LE(info.channels, 4);
     EXPECT_NE(info.format, VK_FORMAT_UNDEFINED);

@@ -36,17 +36,13 @@ Error usage(std::string problem, std::string advice) {
   return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
 }
 
-bool isAov(Slot slot) {
-  return slot != Slot::depth && slot != Slot::plain && slot != Slot::matteRest && slot != Slot::oceanLit &&
-         slot != Slot::oceanShadowed && !(slot >= Slot::behindShadow && slot <= Slot::behindLimit);
-}
 bool isFact(Slot slot) {
   return slot >= Slot::factDepth && slot <= Slot::id;
 }
 
 std::optional<Slot> slotOfAov(const std::string& name) {
   for (size_t i = 0; i < size_t(Slot::count); ++i)
-    if (isAov(Slot(i)) && name == slotInfo(Slot(i)).aov) return Slot(i);
+    if (slotInfo(Slot(i)).isAov && name == slotInfo(Slot(i)).name) return Slot(i);
   return std::nullopt;
 }
 
@@ -299,7 +295,7 @@ void Renderer::Impl::fetch(Begun& frame) {
   const Configuration& configuration = setup->configuration;
   std::vector<Frame::Layer>& layers = frame.frame.layers;
   for (size_t i = 0; i < setup->readbacks.size(); ++i)
-    layers.push_back({i == 0 ? "" : slotInfo(configuration.readBack[i]).aov,
+    layers.push_back({i == 0 ? "" : slotInfo(configuration.readBack[i]).name,
                       setup->readbacks[i]->images(frame.slot, frame.options.width, frame.options.height)});
   for (const std::string& aov : frame.options.aovs)
     if (slotOfAov(aov) == Slot::finalColor) layers.push_back({aov, layers.front().views});
@@ -376,7 +372,8 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
   configuration.layered = !options.plain && wantsLayers(now);
   configuration.glows = glows(scene.data(), now);
   configuration.limit = !options.plain && wantsLimit(now);
-  configuration.ocean = !options.plain && oceanShape(scene.data(), now).isThere;
+  const OceanShape ocean = oceanShape(scene.data(), now);
+  configuration.ocean = !options.plain && ocean.isThere;
   configuration.colorize = !options.plain && wantsColorizers(now);
   const glm::uvec2 texels =
       background ? Backdrop::sizeFor(*background, options.width, options.height) : glm::uvec2(0);
@@ -416,8 +413,8 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
     geometry.casts = shadowCasters(scene.data(), now);
     geometry.clips = everPlayed(scene.data(), look.data());
     geometry.nodes = nodeSettings(scene.data(), now);
-    geometry.ocean = oceanShape(scene.data(), now);
-    geometry.ground &= !geometry.ocean.isThere || now.get<GroundParams>().mode == 1;
+    geometry.ocean = ocean;
+    geometry.ground &= !ocean.isThere || now.get<GroundParams>().mode == 1;
     impl_->useScene(scene, geometry);
     impl_->useBackdrop(texels);
     stats.uploadMilliseconds = lap();
@@ -493,7 +490,7 @@ Result<Frame> Renderer::finish() {
 std::vector<std::string> Renderer::aovNames() {
   std::vector<std::string> names;
   for (size_t i = 0; i < size_t(Slot::count); ++i)
-    if (isAov(Slot(i))) names.emplace_back(slotInfo(Slot(i)).aov);
+    if (slotInfo(Slot(i)).isAov) names.emplace_back(slotInfo(Slot(i)).name);
   return names;
 }
 

@@ -23,7 +23,8 @@ std::vector<std::string> settingsWithoutEffect(const Scene& scene, const Look& l
                          [&](const auto& one) { return look::matches(setting.pattern, one.name); });
     };
     const bool found = setting.target == look::kMaterials
-                           ? matchesAny(data.materials) || look::matches(setting.pattern, "Ground")
+                           ? matchesAny(data.materials) || look::matches(setting.pattern, "Ground") ||
+                                 look::matches(setting.pattern, "Ocean")
                        : setting.target == look::kNodes ? matchesAny(data.nodes)
                        : setting.target == look::kClips ? matchesAny(data.clips)
                                                         : true;

@@ -33,6 +33,15 @@ struct MetaTexture {
   int wrapping;         // 1: some mapping closes on itself (`wraps` of metaTextureSample)
 };
 
+// For shaders that are specialised to the plain method: no other mode, no turns, every scale twice the one below.
+MetaTexture metaTexturePlain(MetaTexture m) {
+  m.mode = 0;
+  m.orient = 0;
+  m.base = 2.0;
+  m.levelRotation = 0.0;
+  return m;
+}
+
 // The transforms chosen at one point. Arrays: the two neighbouring levels of skew.
 struct MetaTextureChoice {
   vec2 exponent[2];    // eq. 2, of the coordinates after the skew is taken out

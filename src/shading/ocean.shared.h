@@ -23,7 +23,6 @@ struct OceanField {
   float fadeStart, fadeEnd;  // metres from there: waves are whole, and gone
   float sink;                // how far water that has no waves lies below
   float deviation;           // of the height, metres
-  vec2 wind;                 // unit, x and z: where it blows to
 };
 
 SHARED_END

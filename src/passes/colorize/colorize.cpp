@@ -1,6 +1,5 @@
 #include "passes/colorize/colorize.h"
 
-#include <cassert>
 #include <deque>
 
 #include "frame/image_step.h"
@@ -36,20 +35,8 @@ class Colorize : public Pass {
   void update(const FrameInput& input) override {
     const std::vector<PlacedColorizer> colorizers =
         placeColorizers(input.look, input.scene.data(), input.scene.motion().worldAsDrawn(), input.uniforms);
-    assert(colorizers.size() <= size_t(shared::kMaxColorizers));
     shared::ColorizeUniforms uniforms{};
-    uint32_t features = 0;
-    for (size_t i = 0; i < colorizers.size(); ++i) {
-      features |= uint32_t(colorizers[i].features);
-      uniforms.list[i] = colorizers[i].data;
-    }
-    uniforms.stripBits = int(stripBits(width_, height_));
-    for (uint32_t v = 0; v < viewCount_; ++v) {
-      const shared::ViewUniforms& view = input.uniforms.views[v];
-      uniforms.sights[v] = sightLines(view);
-      if (view.orthographic != 0) features |= uint32_t(shared::kHasParallel);
-      markStrips(colorizers, glm::dmat4(view.worldToClip), width_, height_, v, uniforms);
-    }
+    const uint32_t features = fillUniforms(colorizers, input.uniforms, viewCount_, width_, height_, uniforms);
     for (ImageStep& step : steps_) {
       step.setJobs({{{features}, {}}});
       step.update(uniforms);

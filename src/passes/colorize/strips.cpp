@@ -1,6 +1,7 @@
 #include "passes/colorize/strips.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace scumble::passes {
 
@@ -55,6 +56,25 @@ void markStrips(const std::vector<PlacedColorizer>& colorizers, const glm::dmat4
     markAlong(width, strip, across, c, columns);
     markAlong(height, strip, down, c, rows);
   }
+}
+
+uint32_t fillUniforms(const std::vector<PlacedColorizer>& colorizers, const shared::FrameUniforms& frame,
+                      uint32_t viewCount, uint32_t width, uint32_t height,
+                      shared::ColorizeUniforms& uniforms) {
+  assert(colorizers.size() <= size_t(shared::kMaxColorizers));
+  uint32_t features = 0;
+  for (size_t i = 0; i < colorizers.size(); ++i) {
+    features |= uint32_t(colorizers[i].features);
+    uniforms.list[i] = colorizers[i].data;
+  }
+  uniforms.stripBits = int(stripBits(width, height));
+  for (uint32_t v = 0; v < viewCount; ++v) {
+    const shared::ViewUniforms& view = frame.views[v];
+    uniforms.sights[v] = sightLines(view);
+    if (view.orthographic != 0) features |= uint32_t(shared::kHasParallel);
+    markStrips(colorizers, glm::dmat4(view.worldToClip), width, height, v, uniforms);
+  }
+  return features;
 }
 
 }  // namespace scumble::passes

@@ -63,6 +63,7 @@ class Ocean : public Pass {
     sets_.writeBuffer(0, 1, scene_->waves()->buffer().handle());
 
     GeometryStepDesc desc;
+    desc.what = GeometryStepDesc::What::ocean;
     desc.vertex = {shaders::ocean_surface_vert};
     desc.fragment = {shaders::ocean_surface_frag};
     desc.inputs = kPosition | kNormal | kDPdu | kDPdv | kPatternUv;
@@ -104,13 +105,11 @@ class Ocean : public Pass {
                       .skyOverlay = p.skyOverlay.linear,
                       .next = p.next,
                       .fadeEnd = input.scene.options().ocean.falseHorizon,
-                      .waterPerPattern = shared::kWaterPerPattern,
                       .wind = {std::cos(wind), std::sin(wind)}};
     image_.update(uniforms);
     const bool goesOver = p.next > 0;
     const MetaTexture& m = use.meta;
-    const bool isUnusual = m.mode != 0 || m.orient != 0 || m.base != 2 || m.levelRotation != 0;
-    const uint32_t needs = (goesOver ? shared::kOceanNext : 0) | (isUnusual ? shared::kOceanUnusual : 0) |
+    const uint32_t needs = (goesOver ? shared::kOceanNext : 0) | (m.isUnusual() ? shared::kOceanUnusual : 0) |
                            (m.skip > 0 ? shared::kOceanSkip : 0) |
                            (m.contrast == kContrastHistogram ? shared::kOceanHistogram : 0);
     const gpu::SamplerDesc clamped;
@@ -132,9 +131,8 @@ class Ocean : public Pass {
   void record(VkCommandBuffer commands) const {
     const Target colors[] = {{&resources_->image(pattern_)}, {&resources_->image(waves_)}};
     const Target depth{&resources_->image(depth_), nullptr, {}};
-    drawViews(commands, configuration_, colors, &depth, [&](uint32_t firstView) {
-      step_.draw(commands, *resources_, *scene_, &sets_, firstView, GeometryStep::What::ocean);
-    });
+    drawViews(commands, configuration_, colors, &depth,
+              [&](uint32_t firstView) { step_.draw(commands, *resources_, *scene_, &sets_, firstView); });
   }
 
   gpu::ResourceId pattern_ = 0, waves_ = 0, depth_ = 0;

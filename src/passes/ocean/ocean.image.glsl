@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "../../shading/frame.glsl"
 #include "../../shading/metatexture.glsl"
+#include "../../shading/ocean.shared.h"
 #include "ocean.shared.h"
 
 layout(constant_id = 0) const int kNeeds = 0;
@@ -57,7 +58,7 @@ MetaTexture specialised() {
   MetaTexture m = metaOfLook;
   m.skew = kSkew;
   m.wrapping = 0;
-  if ((kNeeds & kOceanUnusual) == 0) m.mode = 0, m.orient = 0, m.base = 2.0, m.levelRotation = 0.0;
+  if ((kNeeds & kOceanUnusual) == 0) m = metaTexturePlain(m);
   if ((kNeeds & kOceanSkip) == 0) m.skip = 0.0;
   return m;
 }
@@ -80,7 +81,7 @@ void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
   float distance = max(length(toEye), 1e-6);
   toEye /= distance;
   float nearness = 1.0 - smoothstep(0.5 * ocean.fadeEnd, 3.0 * ocean.fadeEnd, distance);
-  float stroke = liveTexture(value.rgb, uv * ocean.waterPerPattern, nearness);
+  float stroke = liveTexture(value.rgb, uv * kWaterPerPattern, nearness);
   stroke = mix(0.5, stroke, mix(0.2, 1.0, nearness));
 
   float index = 0.42 + 0.14 * clamp(wave.x, -2.0, 2.0) + ocean.dither * (stroke - 0.5);

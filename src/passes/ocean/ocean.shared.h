@@ -18,7 +18,6 @@ struct OceanPaint {
   vec3 overlay, skyOverlay;  // linear
   float next;                // how far the next maps count
   float fadeEnd;             // metres from its middle where waves end
-  float waterPerPattern;     // metres for one unit of pattern coordinates
   vec2 wind;                 // unit, x and z: where it blows to
 };
 

@@ -31,6 +31,7 @@ class ShadowMap : public Pass {
     desc.depthOnlyVertex = {shaders::shadow_map_opaque_vert};
     desc.inputs = kPosition | kUv0 | kUv1 | kColor;
     desc.depthCompare = VK_COMPARE_OP_LESS;
+    desc.what = GeometryStepDesc::What::casters;
     step_.create(frame.device(), resources, frame.scene(), desc);
   }
 
@@ -38,8 +39,7 @@ class ShadowMap : public Pass {
   void record(VkCommandBuffer commands) const {
     Target depth{&resources_->image(map_), nullptr, {}};
     depth.clear.depthStencil = {1.0f, 0};
-    drawOnce(commands, depth,
-             [&] { step_.draw(commands, *resources_, *scene_, nullptr, 0, GeometryStep::What::casters); });
+    drawOnce(commands, depth, [&] { step_.draw(commands, *resources_, *scene_, nullptr, 0); });
   }
 
   gpu::ResourceId map_ = 0;

@@ -44,7 +44,7 @@ struct WarpSetup {
     uint32_t bits = isApart() ? shared::kWarpApart : 0;
     for (const MetaTexture& m : {field.meta, marks.meta}) {
       if (m.contrast == kContrastHistogram) bits |= shared::kWarpHistogram;
-      if (m.mode != 0 || m.orient != 0 || m.base != 2 || m.levelRotation != 0) bits |= shared::kWarpUnusual;
+      if (m.isUnusual()) bits |= shared::kWarpUnusual;
       if (m.skip > 0) bits |= shared::kWarpSkip;
     }
     return bits;

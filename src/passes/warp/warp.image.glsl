@@ -28,7 +28,7 @@ layout(set = 1, binding = 7) uniform sampler2D marksInverse;
 // Without what no material of the setup needs.
 MetaTexture specialised(MetaTexture m, int skew) {
   m.skew = skew;
-  if ((kNeeds & kWarpUnusual) == 0) m.mode = 0, m.orient = 0, m.base = 2.0, m.levelRotation = 0.0;
+  if ((kNeeds & kWarpUnusual) == 0) m = metaTexturePlain(m);
   if ((kNeeds & kWarpSkip) == 0) m.skip = 0.0;
   m.wrapping = (kNeeds & kWarpWrap) != 0 ? 1 : 0;
   return m;
