@@ -168,6 +168,12 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
     item.patternShift = -glm::vec2(shape.origin.x, shape.origin.z) / kWaterPerPattern;
     item.reach = item.extent->box;
     geometry.items.push_back(item);
+    item.water = Water::decoration;
+    for (const int kind : shape.decorations) {
+      use(add(makeOceanDecoration(kind)));
+      geometry.items.push_back(item);
+      ++item.decoration;
+    }
   }
 
   if (groundMaterial >= 0) {

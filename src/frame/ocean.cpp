@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "frame/playing.h"
 #include "scene/animation.h"
 
 namespace scumble::frame {
@@ -49,6 +50,7 @@ OceanShape oceanShape(const scene::SceneData& scene, const look::LookData& look)
   const float half = std::max(0.5f * float(shape.tiles) * shape.tile - shape.cell(), 0.01f * shape.cell());
   shape.falseHorizon = std::min(params.falseHorizon, half);
   shape.horizon = std::max(params.horizon, 1.5f * shape.falseHorizon);
+  shape.decorations = decorationKinds(look);
   return shape;
 }
 
@@ -118,8 +120,18 @@ scene::Primitive makeOceanRing(const OceanShape& shape) {
   return ring;
 }
 
-OceanWaves::OceanWaves(gpu::Device& device, const OceanShape& shape)
-    : shape_(shape),
+scene::Primitive makeOceanDecoration(int kind) {
+  DecorationMesh mesh = makeDecorationMesh(kind);
+  scene::Primitive water;
+  water.positions = std::move(mesh.positions);
+  water.indices = std::move(mesh.indices);
+  finish(water);
+  return water;
+}
+
+OceanWaves::OceanWaves(gpu::Device& device, const scene::SceneData& scene, const OceanShape& shape)
+    : scene_(scene),
+      shape_(shape),
       buffer_(
           device,
           sizeof(shared::OceanField) + size_t(shape.grid) * size_t(shape.grid) * sizeof(shared::OceanPoint),
@@ -137,9 +149,12 @@ void OceanWaves::pose(const look::LookData& look, double time, const OceanWaves*
   spectrum.seed = uint32_t(params.seed);
   if (!waves_ || waves_->spectrum() != spectrum) waves_.emplace(spectrum);
   waves_->at(time, field_);
-  deviation_ = float(std::sqrt(waves_->variance()));
+  const float deviation = float(std::sqrt(waves_->variance()));
 
-  travelled_ = directionOf(params.heading) * (double(params.speed) * time);
+  const Travelled travelled = [&](double when) {
+    return directionOf(params.heading) * (double(params.speed) * when);
+  };
+  travelled_ = travelled(time);
   const double cell = double(shape_.cell());
   cells_ = now ? now->cells_ : glm::floor(travelled_ / cell);
   within_ = travelled_ - cells_ * cell;
@@ -157,8 +172,22 @@ void OceanWaves::pose(const look::LookData& look, double time, const OceanWaves*
   header->cell = shape_.cell();
   header->origin = shape_.origin;
   header->fadeStart = shape_.fadeStart(), header->fadeEnd = shape_.falseHorizon;
-  header->sink = 0.05f + 0.25f * deviation_;
-  header->deviation = deviation_;
+  header->sink = 0.05f + 0.25f * deviation;
+  header->deviation = deviation;
+  header->within = within_;
+  header->push = 0.2f + 0.5f * deviation;
+  if (now) {
+    decorations_ = now->decorations_;
+    for (shared::WaterDecoration& one : decorations_) {
+      one.center += slid_;
+      for (glm::vec4& point : one.points) point += glm::vec4(slid_, 0.0f, 0.0f);
+    }
+  } else {
+    decorations_ =
+        placeDecorations(look, scene_, playedClips(scene_, look), time, shape_.origin, travelled);
+  }
+  header->decorationCount = int(decorations_.size());
+  std::copy(decorations_.begin(), decorations_.end(), header->decorations);
 
   auto* points = reinterpret_cast<shared::OceanPoint*>(buffer_.contents() + sizeof(shared::OceanField));
   reach_ = glm::vec3(0.0f);
@@ -167,7 +196,20 @@ void OceanWaves::pose(const look::LookData& look, double time, const OceanWaves*
     points[i] = {glm::vec3(d), d.w, field_.normals[i]};
     reach_ = glm::max(reach_, glm::abs(glm::vec3(d)));
   }
-  reach_.y += header->sink;
+  reach_.y += header->sink + header->push;
+}
+
+scene::Bounds OceanWaves::decorationBounds(size_t decoration) const {
+  const shared::WaterDecoration& one = decorations_[decoration];
+  scene::Bounds bounds;
+  if (one.count == 0) return bounds;
+  const float around = one.reach + 4 * shape_.cell();
+  const glm::vec3 middle = shape_.origin + glm::vec3(one.center.x, 0, one.center.y);
+  const glm::vec3 extent =
+      glm::vec3(around, 0, around) + reach_ + glm::vec3(0.0f, decorationHeight(one), 0.0f);
+  bounds.add(middle - extent);
+  bounds.add(middle + extent);
+  return bounds;
 }
 
 glm::mat4 OceanWaves::riding(const FloatParams& params, const glm::mat4& world) const {

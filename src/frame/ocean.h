@@ -6,6 +6,7 @@
 #include <compare>
 #include <optional>
 
+#include "frame/decorations.h"
 #include "gpu/frames_in_flight.h"
 #include "look/look_data.h"
 #include "ocean/surface.h"
@@ -34,6 +35,7 @@ struct OceanShape {
   glm::vec3 origin{0.0f};                               // middle of calm water, world
   int grid = 80, tiles = 5;                             // vertices along a tile; tiles along a side
   float tile = 60, falseHorizon = 120, horizon = 1000;  // metres
+  std::vector<int> decorations;                         // their kinds
   bool operator==(const OceanShape&) const = default;
   // Metres from the middle to which waves are whole.
   float fadeStart() const { return 0.6f * falseHorizon; }
@@ -57,16 +59,20 @@ OceanTile oceanTileAt(const OceanShape& shape, int x, int z);
 scene::Primitive makeOceanTile(const OceanShape& shape, const OceanTile& tile);
 // The flat water between the waves and the horizon.
 scene::Primitive makeOceanRing(const OceanShape& shape);
+// What of a decoration is finer than the ocean's own mesh: it rides at the same height, and the ocean's is
+// pushed down below it.
+scene::Primitive makeOceanDecoration(int kind);
 
 // The waves of a moment. The mesh stays where it is but for part of a cell, and waves and pattern slide
 // through it: nothing wraps and nothing pops.
 class OceanWaves {
  public:
-  OceanWaves(gpu::Device& device, const OceanShape& shape);
+  // `scene` stays.
+  OceanWaves(gpu::Device& device, const scene::SceneData& scene, const OceanShape& shape);
 
   // The waves at a time, in seconds; the look is one at that time.
   // `now`: waves of another time whose points of the mesh are to be followed, for where they were at this
-  // one; null: the mesh stays.
+  // one; null: the mesh stays. Decorations are then those of `now`, carried along by the water.
   void pose(const look::LookData& look, double time, const OceanWaves* now = nullptr);
 
   // What tiles are moved by: less than a cell, where no other time's points are followed.
@@ -76,6 +82,8 @@ class OceanWaves {
   // What is added to pattern coordinates of tiles, and of what does not move.
   glm::vec2 tilePattern() const { return glm::vec2(travelled_ - glm::dvec2(within_)) / kWaterPerPattern; }
   glm::vec2 ringPattern() const { return glm::vec2(travelled_) / kWaterPerPattern; }
+  // Where a decoration's mesh is; empty where it draws nothing.
+  scene::Bounds decorationBounds(size_t decoration) const;
   // The ocean's own node; -1: none.
   int node() const { return shape_.node; }
   // How far vertices may be from their place at rest, metres.
@@ -93,6 +101,7 @@ class OceanWaves {
   void addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) { uploads.push_back(&buffer_); }
 
  private:
+  const scene::SceneData& scene_;
   OceanShape shape_;
   std::optional<ocean::Waves> waves_;
   ocean::WaveField field_;
@@ -101,7 +110,7 @@ class OceanWaves {
   glm::vec2 within_{0.0f};     // the rest
   glm::vec2 slid_{0.0f};       // metres that the water has slid since, to the time whose points are followed
   glm::vec3 reach_{0.0f};
-  float deviation_ = 0;
+  std::vector<shared::WaterDecoration> decorations_;
   gpu::PerFrameBuffer buffer_;  // shared::OceanField, then grid * grid shared::OceanPoint
 };
 

@@ -157,8 +157,8 @@ void SceneMotion::pose(const look::LookData& look, double time, const OceanWaves
         if (object.water == Water::flat) model[3] += glm::vec4(waves->ringOffset(), 0.0f);
         if (object.water != Water::none)
           data.patternShift = object.water == Water::waves ? waves->tilePattern() : waves->ringPattern();
-        bool changes =
-            object.water == Water::waves || !written_ || (object.skin >= 0 && bends[skinUseOf_[i]]);
+        bool changes = object.water == Water::waves || object.water == Water::decoration || !written_ ||
+                       (object.skin >= 0 && bends[skinUseOf_[i]]);
         if (replace(&data.model, &model, 1) || !written_) {
           const glm::mat3 linear(model);
           mirrored_[i] = object.skin < 0 && glm::determinant(linear) < 0;
@@ -182,6 +182,7 @@ void SceneMotion::pose(const look::LookData& look, double time, const OceanWaves
           bounds_[i].min -= waves->reach();
           bounds_[i].max += waves->reach();
         }
+        if (object.water == Water::decoration) bounds_[i] = waves->decorationBounds(object.decoration);
       });
   written_ = true;
 

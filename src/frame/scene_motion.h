@@ -21,6 +21,7 @@ struct MovingObject {
   const scene::PrimitiveExtent* extent = nullptr;
   bool morphs = false;
   Water water = Water::none;
+  uint32_t decoration = 0;
   static constexpr size_t kNoNode = GeometryItem::kNoNode;
 };
 

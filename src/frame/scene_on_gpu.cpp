@@ -123,7 +123,7 @@ SceneOnGpu::SceneOnGpu(gpu::Device& device, gpu::Samplers& samplers, const scene
     oceanMaterial_ = int(materialNames_.size());
     materialNames_.push_back("Ocean");
     materialUses_.push_back({-1});
-    waves_.emplace(device, options.ocean);
+    waves_.emplace(device, scene, options.ocean);
   }
   gpu::Uploader uploader(device);
   Geometry geometry = collectGeometry(scene, options, groundMaterial_, oceanMaterial_);
@@ -190,7 +190,7 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
   auto core = reserve<shared::VertexCore>(uploader, restVertices, kStorage, uploadedBytes_);
   auto around = reserve<shared::VertexFrame>(uploader, restVertices, kStorage, uploadedBytes_);
   auto skins = reserve<shared::VertexSkin>(uploader, skinEntries, kStorage, uploadedBytes_);
-  auto surface = reserve<shared::VertexSurface>(uploader, finalVertices, kVertex, uploadedBytes_);
+  auto surface = reserve<shared::VertexSurface>(uploader, finalVertices, kStorage | kVertex, uploadedBytes_);
   auto indices = reserve<uint32_t>(uploader, indexCount, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, uploadedBytes_);
 
   scene::parallelFor(primitives.size(), scene::threadCount(0), [&](size_t p) {
@@ -243,6 +243,7 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
     object.id = item.id;
     object.wraps = uint32_t(primitive.wrapsU) + 2 * uint32_t(primitive.wrapsV);
     object.water = uint32_t(item.water);
+    object.decoration = item.decoration;
     object.influences = item.skin >= 0 ? uint32_t(primitive.influences) : 0;
     objects_.push_back(object);
 
@@ -252,6 +253,7 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
     moving.skin = item.skin;
     moving.mesh = item.node == GeometryItem::kNoNode ? -1 : data_->nodes[item.node].mesh;
     moving.water = item.water;
+    moving.decoration = item.decoration;
     moving.material = item.material;
     moving.extent = item.extent;
     moving.morphs = range.morph != shared::kNoMorph;
@@ -341,7 +343,7 @@ void SceneOnGpu::forgetPoses() {
 void SceneOnGpu::keepPrevious() {
   if (previousMotion_) return;
   previousPositions_ = positionBuffer(*device_, finalVertexCount_);
-  if (waves_) previousWaves_.emplace(*device_, options_.ocean);
+  if (waves_) previousWaves_.emplace(*device_, *data_, options_.ocean);
   previousMotion_.emplace(*device_, *data_, materialNames_, moving_, objects_, chunkCount_);
 }
 

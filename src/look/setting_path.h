@@ -15,7 +15,8 @@ inline constexpr Section kSections[] = {
     {kMaterials, "materials", "material", "materials.Sail*.warp.amount"},
     {kNodes, "nodes", "node", "nodes.Gull*.animation.hold"},
     {kClips, "clips", "clip", "clips.Walk.play.weight"},
-    {kColorizers, "colorizers", "colorizer", "colorizers.Glow.volume.density", 64}};
+    {kColorizers, "colorizers", "colorizer", "colorizers.Glow.volume.density", 64},
+    {kDecorations, "decorations", "decoration", "decorations.Wake.water.node", 16}};
 
 // The section of this name, or nullptr.
 const Section* findSection(const std::string& name);

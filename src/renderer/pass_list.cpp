@@ -50,6 +50,7 @@ const std::vector<const ParamBlock*>& allBlocks() {
                                                      &frame::AnimationParams::block(),
                                                      &frame::PlayParams::block(),
                                                      &frame::OceanParams::block(),
+                                                     &frame::DecorationParams::block(),
                                                      &passes::OceanPaintParams::block(),
                                                      &frame::OceanMetaTextureParams::block(),
                                                      &frame::FloatParams::block()};

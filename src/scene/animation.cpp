@@ -48,12 +48,6 @@ struct Mix {
   }
 };
 
-// What clips make of one node.
-struct NodeMix {
-  Mix<glm::vec3> translation, scale;
-  Mix<glm::quat> rotation{glm::quat(0, 0, 0, 0)};
-};
-
 glm::quat sameSide(const glm::quat& q, const glm::quat& as) {
   return glm::dot(q, as) < 0 ? -q : q;
 }
@@ -62,6 +56,39 @@ glm::quat sameSide(const glm::quat& q, const glm::quat& as) {
 glm::quat unit(const glm::quat& q, const glm::quat& instead) {
   const float length = glm::length(q);
   return length > 1e-6f ? q / length : instead;
+}
+
+// What clips make of one node's transform.
+struct NodeMix {
+  Mix<glm::vec3> translation, scale;
+  Mix<glm::quat> rotation{glm::quat(0, 0, 0, 0)};
+
+  void add(const Node& node, AnimatedProperty property, const float* v, float share) {
+    switch (property) {
+      case AnimatedProperty::translation:
+        return translation.add({v[0], v[1], v[2]}, share);
+      case AnimatedProperty::scale:
+        return scale.add({v[0], v[1], v[2]}, share);
+      default:
+        return rotation.add(sameSide(quaternion(v), rotation.weight > 0 ? rotation.sum : node.local.rotation),
+                            share);
+    }
+  }
+  glm::mat4 matrix(const Node& node) const {
+    if (node.localMatrix) return *node.localMatrix;
+    Transform transform;
+    transform.translation = translation.over(node.local.translation);
+    transform.scale = scale.over(node.local.scale);
+    transform.rotation =
+        rotation.weight > 0
+            ? unit(rotation.over(sameSide(node.local.rotation, rotation.sum)), node.local.rotation)
+            : node.local.rotation;
+    return transform.matrix();
+  }
+};
+
+glm::mat4 drawable(const glm::mat4& world) {
+  return isDrawable(world) ? world : glm::mat4(0.0f);
 }
 
 }  // namespace
@@ -127,27 +154,14 @@ Pose poseAt(const SceneData& scene, std::span<const PlayedClip> clips, const Nod
       sampleChannel(channel,
                     clipTime(played, clip.duration, (morphs ? times.morphWeights : times.transforms)[node]),
                     sampled.data());
-      NodeMix& mix = mixes[node];
-      switch (channel.property) {
-        case AnimatedProperty::translation:
-          mix.translation.add({sampled[0], sampled[1], sampled[2]}, played.weight);
-          break;
-        case AnimatedProperty::scale:
-          mix.scale.add({sampled[0], sampled[1], sampled[2]}, played.weight);
-          break;
-        case AnimatedProperty::rotation:
-          mix.rotation.add(
-              sameSide(quaternion(sampled.data()),
-                       mix.rotation.weight > 0 ? mix.rotation.sum : scene.nodes[node].local.rotation),
-              played.weight);
-          break;
-        case AnimatedProperty::weights: {
-          std::vector<float>& weights = pose.morphWeights[node];
-          weights.resize(sampled.size(), 0.0f);
-          for (size_t i = 0; i < sampled.size(); ++i) weights[i] += played.weight * sampled[i];
-          morphShares[node] += played.weight;
-        }
+      if (!morphs) {
+        mixes[node].add(scene.nodes[node], channel.property, sampled.data(), played.weight);
+        continue;
       }
+      std::vector<float>& weights = pose.morphWeights[node];
+      weights.resize(sampled.size(), 0.0f);
+      for (size_t i = 0; i < sampled.size(); ++i) weights[i] += played.weight * sampled[i];
+      morphShares[node] += played.weight;
     }
   }
 
@@ -162,24 +176,10 @@ Pose poseAt(const SceneData& scene, std::span<const PlayedClip> clips, const Nod
       for (size_t i = 0; i < rest.size(); ++i)
         weights[i] = share > 1 ? weights[i] / share : weights[i] + (1 - share) * rest[i];
     }
-    glm::mat4 local;
-    if (node.localMatrix) {
-      local = *node.localMatrix;
-    } else if (clips.empty()) {
-      local = node.local.matrix();
-    } else {
-      const NodeMix& mix = mixes[n];
-      Transform transform;
-      transform.translation = mix.translation.over(node.local.translation);
-      transform.scale = mix.scale.over(node.local.scale);
-      transform.rotation =
-          mix.rotation.weight > 0
-              ? unit(mix.rotation.over(sameSide(node.local.rotation, mix.rotation.sum)), node.local.rotation)
-              : node.local.rotation;
-      local = transform.matrix();
-    }
-    pose.world[n] = node.parent >= 0 ? pose.world[size_t(node.parent)] * local : local;
-    if (!isDrawable(pose.world[n])) pose.world[n] = glm::mat4(0.0f);
+    const glm::mat4 local = !clips.empty()     ? mixes[n].matrix(node)
+                            : node.localMatrix ? *node.localMatrix
+                                               : node.local.matrix();
+    pose.world[n] = drawable(node.parent >= 0 ? pose.world[size_t(node.parent)] * local : local);
   }
   return pose;
 }
@@ -187,6 +187,27 @@ Pose poseAt(const SceneData& scene, std::span<const PlayedClip> clips, const Nod
 Pose poseAt(const SceneData& scene, std::span<const PlayedClip> clips, double time) {
   const std::vector<double> times(scene.nodes.size(), time);
   return poseAt(scene, clips, NodeTimes{times, times});
+}
+
+glm::mat4 worldAt(const SceneData& scene, std::span<const PlayedClip> clips, size_t node, double time) {
+  std::vector<size_t> above;
+  for (int n = int(node); n >= 0; n = scene.nodes[size_t(n)].parent) above.push_back(size_t(n));
+  glm::mat4 world(1.0f);
+  float sampled[4];
+  for (auto n = above.rbegin(); n != above.rend(); ++n) {
+    NodeMix mix;
+    for (const PlayedClip& played : clips) {
+      const Clip& clip = scene.clips[size_t(played.clip)];
+      if (!(played.weight > 0)) continue;
+      for (const Channel& channel : clip.channels) {
+        if (size_t(channel.node) != *n || channel.property == AnimatedProperty::weights) continue;
+        sampleChannel(channel, clipTime(played, clip.duration, time), sampled);
+        mix.add(scene.nodes[*n], channel.property, sampled, played.weight);
+      }
+    }
+    world = drawable(world * mix.matrix(scene.nodes[*n]));
+  }
+  return world;
 }
 
 }  // namespace scumble::scene

@@ -44,4 +44,7 @@ Pose poseAt(const SceneData& scene, std::span<const PlayedClip> clips, const Nod
 // All nodes at one time.
 Pose poseAt(const SceneData& scene, std::span<const PlayedClip> clips, double time);
 
+// The world matrix of one node at a time, as poseAt has it.
+glm::mat4 worldAt(const SceneData& scene, std::span<const PlayedClip> clips, size_t node, double time);
+
 }  // namespace scumble::scene

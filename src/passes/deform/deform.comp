@@ -26,6 +26,8 @@ layout(set = 1, binding = 12, scalar) writeonly buffer PreviousPosition { vec3 p
 
 // Of an ocean, else anything.
 layout(set = 1, binding = 13, scalar) readonly buffer Waves { OceanField field; OceanPoint points[]; };
+layout(set = 1, binding = 14, scalar) writeonly buffer Surface { VertexSurface surface[]; };
+#include "../../shading/water.glsl"
 
 layout(push_constant, scalar) uniform Push { uint movedCount; };
 
@@ -72,18 +74,37 @@ void main() {
 
     vec3 rest = core.position;
     core.position = (toWorld * vec4(core.position, 1.0)).xyz;
-    if (object.water == 1u) {
+    if (object.water == kWaves) {
       // Waves fade into flat water before the mesh ends, and dip below it.
-      ivec2 at = (field.first + ivec2(round(rest.xz / field.cell))) % field.grid;
-      OceanPoint point = points[at.y * field.grid + at.x];
-      float away = length(core.position.xz - field.origin.xz);
-      float whole = 1.0 - smoothstep(field.fadeStart, field.fadeEnd, away);
+      OceanPoint point = oceanPoint(field.first + ivec2(round(rest.xz / field.cell)));
+      vec2 place = core.position.xz - field.origin.xz;
+      float whole = wavesWhole(length(place));
       core.position += whole * point.displacement;
       core.position.y -= (1.0 - whole) * field.sink;
+      if (field.decorationCount > 0) core.position.y -= pushedDown(decoratedAt(place).outside);
       normal = smoothNormal = normalize(mix(vec3(0.0, 1.0, 0.0), point.normal, whole));
       vec2 slopes = -normal.xz / max(normal.y, 0.2);
       around.dPdu.y = around.dPdu.x * slopes.x;
       around.dPdv.y = around.dPdv.z * slopes.y;
+    }
+    if (object.water == kDecoration) {
+      // On the ocean's mesh as it would be without it, and what it adds to that.
+      vec2 place = decorationPlace(int(object.decoration), rest.xy);
+      float whole = wavesWhole(length(place));
+      OceanPoint point = wavesAt(place);
+      Decorated here = decoratedAt(place);
+      core.position = field.origin + vec3(place.x, 0.0, place.y) + whole * point.displacement + here.displacement;
+      core.position.y -= (1.0 - whole) * field.sink;
+      const float kStep = 0.03;  // metres
+      vec3 alongX = vec3(kStep, 0.0, 0.0) + decoratedAt(place + vec2(kStep, 0.0)).displacement - here.displacement;
+      vec3 alongZ = vec3(0.0, 0.0, kStep) + decoratedAt(place + vec2(0.0, kStep)).displacement - here.displacement;
+      vec3 own = normalize(cross(alongZ, alongX)), wave = mix(vec3(0.0, 1.0, 0.0), point.normal, whole);
+      // Slopes add up.
+      normal = smoothNormal = normalize(vec3(own.xz * wave.y + wave.xz * own.y, own.y * wave.y).xzy);
+      vec2 slopes = -normal.xz / max(normal.y, 0.2);
+      around.dPdu = vec3(kWaterPerPattern, kWaterPerPattern * slopes.x, 0.0);
+      around.dPdv = vec3(0.0, kWaterPerPattern * slopes.y, kWaterPerPattern);
+      if (!kPositionsOnly) surface[chunk.finalVertex + i].patternUv = place / kWaterPerPattern;
     }
     if (kPositionsOnly) {
       previousPosition[chunk.finalVertex + i] = core.position;

@@ -26,7 +26,7 @@ class Deform : public frame::Pass {
     scene_ = &frame.scene();
     frameSet_ = resources.frameSet();
     keepsPrevious_ = frame.configuration().facts;
-    layout_ = gpu::SetLayout(frame.device(), std::vector<gpu::Binding>(14, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+    layout_ = gpu::SetLayout(frame.device(), std::vector<gpu::Binding>(15, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                                                             VK_SHADER_STAGE_COMPUTE_BIT}));
     now_.create(frame, resources, layout_, scene_->motion(), scene_->waves(), false);
     if (keepsPrevious_)
@@ -56,7 +56,8 @@ class Deform : public frame::Pass {
                                   scene.finalCore().handle(),
                                   scene.finalFrame().handle(),
                                   scene.previousPositions().handle(),
-                                  waves ? waves->buffer().handle() : motion.objects()};
+                                  waves ? waves->buffer().handle() : motion.objects(),
+                                  scene.surface().handle()};
       set = gpu::DescriptorSets(frame.device(), layout);
       for (uint32_t i = 0; i < std::size(buffers); ++i) set.writeBuffer(0, i, buffers[i]);
       gpu::ComputePipelineDesc desc;

@@ -125,7 +125,7 @@ class Ocean : public Pass {
 
  private:
   static constexpr VkFormat kPatternFormat = VK_FORMAT_R32G32B32A32_UINT,
-                            kWavesFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+                            kWavesFormat = VK_FORMAT_R32G32B32A32_UINT;
   static constexpr int kFoamExample = 4;  // among the built-in ones
 
   void record(VkCommandBuffer commands) const {

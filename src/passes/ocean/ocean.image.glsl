@@ -14,7 +14,7 @@ layout(set = 1, binding = 0, scalar) uniform Block {
   OceanPaint ocean;
 };
 layout(set = 1, binding = 1) uniform usampler2DArray pattern;
-layout(set = 1, binding = 2) uniform sampler2DArray waves;
+layout(set = 1, binding = 2) uniform usampler2DArray waves;
 layout(set = 1, binding = 3) uniform sampler2DArray depth;
 layout(set = 1, binding = 4) uniform sampler2D example;
 layout(set = 1, binding = 5) uniform sampler2D inverse;
@@ -68,7 +68,9 @@ void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
   int layer = here.z;
   MetaTexture meta = specialised();
   uvec4 packed = texelFetch(pattern, here, 0);
-  vec4 wave = texelFetch(waves, here, 0);
+  uvec4 water = texelFetch(waves, here, 0);
+  vec4 wave = vec4(unpackHalf2x16(water.x), unpackSnorm2x16(water.y));
+  vec2 decorated = unpackUnorm2x16(water.z) * vec2(2.0, 1.0);
   vec2 uv = uintBitsToFloat(packed.xy);
   MetaTextureChoice chosen = metaTextureChoose(meta, unpackBfloat(packed.z), unpackBfloat(packed.w), 1.0);
   vec4 value = metaTextureSample(meta, chosen, example, uv, vec2(0.0), vec2(pixel) + 0.5);
@@ -82,7 +84,7 @@ void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
   toEye /= distance;
   float nearness = 1.0 - smoothstep(0.5 * ocean.fadeEnd, 3.0 * ocean.fadeEnd, distance);
   float stroke = liveTexture(value.rgb, uv * kWaterPerPattern, nearness);
-  stroke = mix(0.5, stroke, mix(0.2, 1.0, nearness));
+  stroke = mix(0.5, stroke, mix(0.2, 1.0, nearness) * (1.0 - decorated.y));
 
   float index = 0.42 + 0.14 * clamp(wave.x, -2.0, 2.0) + ocean.dither * (stroke - 0.5);
   float shift = ocean.lightDither * (stroke - 0.5);
@@ -106,7 +108,7 @@ void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
   // Foam where crests are drawn together, most on faces that are turned against the wind.
   float drawn = clamp((ocean.foamStart - wave.y) * 2.5, 0.0, 1.0);
   float upwind = clamp(-4.0 * dot(wave.zw, ocean.wind), 0.0, 1.0);
-  float cover = ocean.foam * 1.6 * drawn * (0.35 + 0.65 * upwind);
+  float cover = max(ocean.foam * 1.6 * drawn * (0.35 + 0.65 * upwind) * (1.0 - decorated.y), decorated.x);
   float foam = 0.0;
   for (bool isFoamy = cover > 1e-4; isFoamy; isFoamy = false) {
     float hole = metaTextureSample(meta, chosen, foamMap, uv, vec2(0.0), vec2(pixel) + 0.5).r;

@@ -9,6 +9,7 @@
 
 layout(set = 2, binding = 0, scalar) uniform TangentBlock { SurfaceTangents tangents; };
 layout(set = 2, binding = 1, scalar) readonly buffer Waves { OceanField field; OceanPoint points[]; };
+#include "../../shading/water.glsl"
 
 layout(location = 0) in vec3 inPosition;
 layout(location = 1) in vec2 inNormal;
@@ -20,7 +21,8 @@ layout(location = 0) out vec2 outPatternUv;
 layout(location = 1) out vec3 outTangentU;
 layout(location = 2) out vec3 outTangentV;
 layout(location = 3) out vec3 outPoint;
-layout(location = 4) out vec4 outWave;  // height in deviations, Jacobian, x and z of the normal
+layout(location = 4) out vec4 outWave;       // height in deviations, Jacobian, x and z of the normal
+layout(location = 5) out vec2 outDecorated;  // cover of foam, how far strokes are suppressed
 
 void main() {
   mat4 worldToClip = VIEW_FIELD(worldToClip, viewIndex());
@@ -32,13 +34,20 @@ void main() {
   outTangentV = tangentToClip(tangentClip, inDPdv);
   outPoint = pointInTangentView(tangents, worldToClip, inPosition);
 
-  // The grid's point that the vertex is, which has slid under the mesh.
-  ivec2 at = ivec2(round(inPatternUv * (kWaterPerPattern / field.cell))) + field.travelled;
-  at = (at % field.grid + field.grid) % field.grid;
-  OceanPoint point = points[at.y * field.grid + at.x];
-  float whole = 1.0 - smoothstep(field.fadeStart, field.fadeEnd, length(inPatternUv) * kWaterPerPattern);
-  if (object.water != 1u) whole = 0.0;
-  vec3 normal = decodeNormal(inNormal);
+  vec2 fromMiddle = inPatternUv * kWaterPerPattern;
+  vec2 place = fromMiddle - (object.water == kWaves ? field.within : vec2(0.0));
+  OceanPoint point;
+  if (object.water == kDecoration)
+    point = wavesAt(place);
+  else  // the grid's point that the vertex is, which has slid under the mesh
+    point = oceanPoint(ivec2(round(fromMiddle / field.cell)) + field.travelled);
+  float whole = object.water == kFlat ? 0.0 : wavesWhole(length(place));
   outWave = vec4(field.deviation > 0.0 ? whole * point.displacement.y / field.deviation : 0.0,
-                 mix(1.0, point.jacobian, whole), normal.xz);
+                 mix(1.0, point.jacobian, whole), decodeNormal(inNormal).xz);
+  outDecorated = vec2(0.0);
+  if (field.decorationCount > 0) {
+    Decorated here = decoratedAt(place);
+    outWave.x += here.crest;
+    outDecorated = vec2(here.cover, here.calm);
+  }
 }

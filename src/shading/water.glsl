@@ -1,0 +1,200 @@
+// The water's surface at any place: waves between the mesh's points, and what decorations add (paper 000, section
+// 6.2). Includers declare the buffer of `OceanField field; OceanPoint points[];` first.
+//
+// All that a decoration does is a function of the place alone. Its own mesh and the ocean's, which is pushed down below
+// it, are painted by the same function; so where the one ends, and where it has holes, nothing shows.
+#ifndef SCUMBLE_WATER_GLSL
+#define SCUMBLE_WATER_GLSL
+
+OceanPoint oceanPoint(ivec2 at) {
+  at = (at % field.grid + field.grid) % field.grid;
+  return points[at.y * field.grid + at.x];
+}
+
+// On the triangles that the ocean's finest mesh has (src/ocean/surface.h).
+OceanPoint wavesAt(vec2 place) {
+  vec2 at = (place + field.within) / field.cell;
+  ivec2 corner = ivec2(floor(at)) + field.travelled;
+  vec2 f = fract(at);
+  OceanPoint a = oceanPoint(corner), d = oceanPoint(corner + 1),
+             b = oceanPoint(corner + (f.x > f.y ? ivec2(1, 0) : ivec2(0, 1)));
+  vec3 share = vec3(1.0 - max(f.x, f.y), abs(f.x - f.y), min(f.x, f.y));
+  OceanPoint point;
+  point.displacement = share.x * a.displacement + share.y * b.displacement + share.z * d.displacement;
+  point.jacobian = share.x * a.jacobian + share.y * b.jacobian + share.z * d.jacobian;
+  point.normal = normalize(share.x * a.normal + share.y * b.normal + share.z * d.normal);
+  return point;
+}
+
+// How much of the waves there is at a distance from their middle.
+float wavesWhole(float away) {
+  return 1.0 - smoothstep(field.fadeStart, field.fadeEnd, away);
+}
+
+struct Decorated {
+  vec3 displacement;  // beside the waves', metres
+  float crest;        // counts in the colours like so many deviations of the waves' height
+  float cover;        // of foam, before it is eroded
+  float calm;         // how far strokes are suppressed, from 0 to 1
+  float outside;      // metres to the nearest place at which there is anything; below 0 there is
+};
+
+// A wake's half widths at a distance behind the bow: of its arms' middle, and of the arms.
+float wakeArm(WaterDecoration d, float behind) {
+  float s = max(behind, 0.0);
+  return d.halfBeam * sqrt(min(s / (0.5 * d.hull), 1.0)) + d.spread * s;
+}
+float wakeThickness(WaterDecoration d, float behind) {
+  return 0.16 * d.halfBeam + 0.04 * max(behind, 0.0);
+}
+float wakeHalfWidth(WaterDecoration d, float behind) {
+  return wakeArm(d, behind) + 2.0 * wakeThickness(d, behind);
+}
+
+Decorated wakeAt(int index, vec2 place) {
+  WaterDecoration d = field.decorations[index];
+  float across = 1e9, s = 0.0, amount = 0.0, age = 0.0;
+  for (int i = 0; i + 1 < d.count; ++i) {
+    vec4 a = field.decorations[index].points[i], b = field.decorations[index].points[i + 1];
+    vec2 way = b.xy - a.xy;
+    float f = dot(place - a.xy, way) / max(dot(way, way), 1e-12);
+    if (i > 0) f = max(f, 0.0);
+    if (i + 2 < d.count) f = min(f, 1.0);
+    float there = length(place - a.xy - f * way);
+    if (there < across)
+      across = there, s = mix(a.z, b.z, f), amount = mix(a.w, b.w, clamp(f, 0.0, 1.0)),
+      age = clamp((float(i) + f) / float(d.count - 1), 0.0, 1.0);
+  }
+  float arm = wakeArm(d, s), thickness = wakeThickness(d, s), full = wakeHalfWidth(d, s);
+  float x = (across - arm) / thickness;
+  float onArm = exp(-x * x);
+  float begins = smoothstep(-0.3 * d.halfBeam, 0.3 * d.halfBeam, s);
+  float fade = amount * begins * (1.0 - smoothstep(0.45, 1.0, age));
+  float astern = smoothstep(0.75 * d.hull, 1.05 * d.hull, s);
+  float churned = astern * (1.0 - smoothstep(0.25, 1.0, across / (0.9 * d.halfBeam + 0.04 * max(s - d.hull, 0.0))));
+  float beside = (1.0 - astern) * (1.0 - smoothstep(arm, arm + thickness, across));
+
+  Decorated w;
+  float lifts = onArm * (exp(-max(s, 0.0) / (1.2 * d.hull)) + exp(-9.0 * s * s / (d.hull * d.hull)));
+  w.displacement = vec3(0.0, fade * d.height * d.rise * (lifts - 0.3 * churned * exp(-4.0 * age)), 0.0);
+  w.crest = fade * (1.3 * onArm + 0.5 * churned * exp(-2.0 * age));
+  w.cover = fade * d.foam * max(max(1.15 * onArm * exp(-2.2 * age), 0.95 * churned * exp(-2.6 * age)), 0.8 * beside);
+  w.calm = amount * begins * (1.0 - smoothstep(0.6, 1.0, age)) * (1.0 - smoothstep(arm, full, across));
+  w.outside = max(max(across - full, -0.4 * d.halfBeam - s), s - d.points[d.count - 1].z);
+  return w;
+}
+
+// Rings that run outward and stay behind: height from -1 to 1, and how much of it there is.
+vec2 ringsAt(float away, float front, float crests, float between) {
+  float behind = (front - away) / between;  // in rings
+  float there = smoothstep(-0.5, 0.5, behind) * (1.0 - smoothstep(crests - 1.5, crests - 0.5, behind));
+  return vec2(cos(6.2831853 * behind), there * smoothstep(0.0, 0.5 * between, away));
+}
+
+Decorated ripplesAt(int index, vec2 place) {
+  WaterDecoration d = field.decorations[index];
+  Decorated w = Decorated(vec3(0.0), 0.0, 0.0, 0.0, 1e9);
+  float between = d.radius / (2.0 * d.crests + 1.0);
+  for (int i = 0; i < d.count; ++i) {
+    vec4 from = field.decorations[index].points[i];
+    float age = from.z / d.lasts, front = d.radius * age, away = length(place - from.xy);
+    vec2 rings = ringsAt(away, front, d.crests, between);
+    float fade = smoothstep(0.0, 0.08, age) * (1.0 - age) * (1.0 - age) * rings.y;
+    w.displacement.y += fade * d.height * 0.09 * between * rings.x;
+    w.crest += 2.4 * fade * rings.x;
+    w.cover = max(w.cover, 0.75 * d.foam * fade * pow(max(rings.x, 0.0), 4.0));
+    w.calm = max(w.calm, min(3.0 * fade, 0.8));
+    w.outside = min(w.outside, away - front - 0.5 * between);
+  }
+  return w;
+}
+
+Decorated splashAt(int index, vec2 place) {
+  WaterDecoration d = field.decorations[index];
+  Decorated w = Decorated(vec3(0.0), 0.0, 0.0, 0.0, 1e9);
+  float highest = 0.8 * d.radius * d.height;
+  float falls = 2.0 * sqrt(2.0 * max(highest, 0.02 * d.radius) / 9.81);  // seconds from the water to the water
+  for (int i = 0; i < d.count; ++i) {
+    vec4 from = field.decorations[index].points[i];
+    vec2 out_ = place - from.xy;
+    float away = length(out_), age = from.z / d.lasts, flight = min(from.z / falls, 1.0);
+    // The crown: thin, jagged, leaning outward.
+    float ring = d.radius * mix(0.35, 0.9, flight), thin = 0.11 * d.radius;
+    float x = (away - ring) / thin, onCrown = exp(-x * x), turn = atan(out_.y, out_.x) + 6.2831853 * from.w;
+    float jags = 0.6 + 0.25 * sin(5.0 * turn) + 0.15 * sin(11.0 * turn + 2.0);
+    float up = 4.0 * flight * (1.0 - flight);
+    float rises = highest * up * onCrown * jags;
+    w.displacement.y += rises;
+    w.displacement.xz += away > 1e-6 ? out_ / away * 0.3 * rises : vec2(0.0);
+    // What falls back whitens the water, and sends rings away.
+    float patch_ = 1.0 - smoothstep(0.4, 1.0, away / (d.radius * mix(0.55, 1.1, flight)));
+    float fade = 1.0 - smoothstep(0.3, 1.0, age);
+    w.cover = max(w.cover, d.foam * max(1.3 * up * onCrown, 0.85 * smoothstep(0.0, 0.1, flight) * patch_ * fade));
+    float between = 0.3 * d.radius, since = max(age - 0.5 * falls / d.lasts, 0.0);
+    float front = d.radius * (0.6 + 1.4 * since);
+    vec2 rings = ringsAt(away, front, d.crests, between);
+    float still = smoothstep(0.0, 0.05, since) * (1.0 - age) * (1.0 - age) * rings.y;
+    w.displacement.y += still * d.height * 0.08 * between * rings.x;
+    w.crest += 2.0 * still * rings.x + up * onCrown;
+    w.cover = max(w.cover, 0.6 * d.foam * still * pow(max(rings.x, 0.0), 4.0));
+    w.calm = max(w.calm, max(min(3.0 * still, 0.8), patch_ * fade));
+    w.outside = min(w.outside, away - max(front + 0.5 * between, 1.3 * d.radius));
+  }
+  return w;
+}
+
+// What all decorations add at a place.
+Decorated decoratedAt(vec2 place) {
+  Decorated all = Decorated(vec3(0.0), 0.0, 0.0, 0.0, 1e9);
+  for (int i = 0; i < field.decorationCount; ++i) {
+    float away = length(place - field.decorations[i].center);
+    if (field.decorations[i].count == 0 || away > field.decorations[i].reach + 4.0 * field.cell) continue;
+    int kind = field.decorations[i].kind;
+    Decorated one;
+    if (kind == kWake)
+      one = wakeAt(i, place);
+    else if (kind == kRipples)
+      one = ripplesAt(i, place);
+    else
+      one = splashAt(i, place);
+    float amount = field.decorations[i].amount;
+    all.displacement += amount * one.displacement;
+    all.crest += amount * one.crest;
+    all.cover = max(all.cover, amount * one.cover);
+    all.calm = max(all.calm, amount * one.calm);
+    all.outside = min(all.outside, one.outside);
+  }
+  return all;
+}
+
+// How far the ocean's own mesh is pushed down: whole wherever one of its triangles may reach below a decoration.
+float pushedDown(float outside) {
+  return field.push * (1.0 - smoothstep(1.5, 2.5, outside / field.cell));
+}
+
+// From a decoration's mesh to its place. Of a wake: how far along it, from 0 to 1, and across, from -1 to 1; of the
+// others the same in polar coordinates, outward and around. The outer part of the mesh lies where nothing is drawn.
+vec2 decorationPlace(int index, vec2 local) {
+  WaterDecoration d = field.decorations[index];
+  if (d.count == 0) return d.center;
+  const float kInner = 0.85;
+  float margin = 3.0 * field.cell, part = abs(d.kind == kWake ? local.y : local.x);
+  float inner = min(part / kInner, 1.0), outer = max(part - kInner, 0.0) / (1.0 - kInner) * margin;
+  if (d.kind != kWake) {
+    float turn = 3.14159265 * local.y;
+    return d.center + (inner * d.reach + outer) * vec2(cos(turn), sin(turn));
+  }
+  float s = mix(-0.4 * d.halfBeam - margin, d.points[d.count - 1].z + margin, pow(local.x, 1.4));
+  float across = sign(local.y) * (inner * wakeHalfWidth(d, s) + outer);
+  vec2 place = d.center;
+  for (int i = 0; i + 1 < d.count; ++i) {
+    vec4 a = field.decorations[index].points[i], b = field.decorations[index].points[i + 1];
+    vec2 way = b.xy - a.xy;
+    if ((i == 0 || s >= a.z) && (i + 2 == d.count || s < b.z)) {
+      vec2 on = a.xy + (s - a.z) / max(b.z - a.z, 1e-6) * way;
+      place = on + across * vec2(-way.y, way.x) / max(length(way), 1e-6);
+    }
+  }
+  return place;
+}
+#endif
