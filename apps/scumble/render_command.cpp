@@ -190,13 +190,12 @@ class FrameLoop {
 void warnOfIdle(const Scene& scene, const Look& look) {
   for (const std::string& setting : settingsWithoutEffect(scene, look))
     warn({"--set " + setting + ": nothing in the scene has such a name (`scumble info` lists names)"});
-  const std::vector<std::string> idle = colorizersWithoutNode(scene, look);
+  const std::vector<std::string> idle = settingsWithoutNode(scene, look);
   if (idle.empty()) return;
-  std::string names = "'" + idle.front() + "'";
-  if (idle.size() == 2) names += " and '" + idle.back() + "'";
+  std::string names = idle.front();
+  if (idle.size() == 2) names += " and " + idle.back();
   if (idle.size() > 2) names += " and " + std::to_string(idle.size() - 1) + " more";
-  warn({"colorizer " + names +
-        ": the scene has no node of the name in volume.node (`scumble info` lists names)"});
+  warn({names + ": the scene has no node of that name (`scumble info` lists names)"});
 }
 
 int run(const RenderArguments& args) {

@@ -87,9 +87,9 @@ double playedSeconds(const Scene& scene, const Look& look);
 // Of the settings made by Look::set for one material, node or clip, those whose name the scene does not have,
 // e.g. "materials.Sial": slips, most of them. Patterns and the look's file may know other scenes.
 std::vector<std::string> settingsWithoutEffect(const Scene& scene, const Look& look);
-// The look's colorizers that hang, at any time, on a node which the scene does not have; they are
-// left out then.
-std::vector<std::string> colorizersWithoutNode(const Scene& scene, const Look& look);
+// Settings of the look by which something hangs, at any time, on a node which the scene does not have, e.g.
+// "colorizers.Glow.volume.node": it is left out then.
+std::vector<std::string> settingsWithoutNode(const Scene& scene, const Look& look);
 
 class Renderer {
  public:

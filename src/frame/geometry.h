@@ -24,7 +24,12 @@ struct GeometryOptions {
   bool operator==(const GeometryOptions&) const = default;
 };
 
-enum class Water : uint8_t { none, waves = shared::kWaves, flat = shared::kFlat, decoration = shared::kDecoration };
+enum class Water : uint8_t {
+  none,
+  waves = shared::kWaves,
+  flat = shared::kFlat,
+  decoration = shared::kDecoration
+};
 
 struct GeometryItem {
   const scene::Primitive* primitive;
@@ -36,7 +41,7 @@ struct GeometryItem {
   uint32_t id = 0;    // whole number from 1, one a node
   bool casts = true;  // shadows
   Water water = Water::none;
-  uint32_t decoration = 0;  // which one
+  uint32_t decoration = 0;       // which one
   glm::vec2 patternShift{0.0f};  // added to pattern coordinates
   const scene::PrimitiveExtent* extent = nullptr;
   scene::Bounds reach;  // in the world: where clips take it, as far as is known before

@@ -183,8 +183,7 @@ void OceanWaves::pose(const look::LookData& look, double time, const OceanWaves*
       for (glm::vec4& point : one.points) point += glm::vec4(slid_, 0.0f, 0.0f);
     }
   } else {
-    decorations_ =
-        placeDecorations(look, scene_, playedClips(scene_, look), time, shape_.origin, travelled);
+    decorations_ = placeDecorations(look, scene_, playedClips(scene_, look), time, shape_.origin, travelled);
   }
   header->decorationCount = int(decorations_.size());
   std::copy(decorations_.begin(), decorations_.end(), header->decorations);

@@ -32,7 +32,14 @@ struct ParamRow {
 
 // What a setting holds for: the whole scene, or the materials, nodes or clips whose names match a pattern, or
 // the colorizers and the decorations of water that looks themselves declare.
-enum Target : uint32_t { kScene = 1, kMaterials = 2, kNodes = 4, kClips = 8, kColorizers = 16, kDecorations = 32 };
+enum Target : uint32_t {
+  kScene = 1,
+  kMaterials = 2,
+  kNodes = 4,
+  kClips = 8,
+  kColorizers = 16,
+  kDecorations = 32
+};
 using Targets = uint32_t;  // a set of them
 
 // The rows of one .params file under their common path.

@@ -27,33 +27,21 @@ namespace scumble {
 namespace look {
 
 const std::vector<const ParamBlock*>& allBlocks() {
-  static const std::vector<const ParamBlock*> blocks{&frame::LightParams::block(),
-                                                     &passes::ShadowMapParams::block(),
-                                                     &frame::PaletteParams::block(),
-                                                     &frame::LitParams::block(),
-                                                     &frame::ShadowedParams::block(),
-                                                     &passes::SurfaceParams::block(),
-                                                     &passes::BlurParams::block(),
-                                                     &passes::FinalShadowParams::block(),
-                                                     &passes::TextureParams::block(),
-                                                     &frame::TextureMetaTextureParams::block(),
-                                                     &passes::WarpParams::block(),
-                                                     &frame::WarpMetaTextureParams::block(),
-                                                     &passes::BreakupParams::block(),
-                                                     &frame::BreakupMetaTextureParams::block(),
-                                                     &passes::BackgroundParams::block(),
-                                                     &frame::GroundParams::block(),
-                                                     &passes::VolumeParams::block(),
-                                                     &passes::GradeParams::block(),
-                                                     &passes::LimitParams::block(),
-                                                     &passes::FinalColorParams::block(),
-                                                     &frame::AnimationParams::block(),
-                                                     &frame::PlayParams::block(),
-                                                     &frame::OceanParams::block(),
-                                                     &frame::DecorationParams::block(),
-                                                     &passes::OceanPaintParams::block(),
-                                                     &frame::OceanMetaTextureParams::block(),
-                                                     &frame::FloatParams::block()};
+  static const std::vector<const ParamBlock*> blocks{
+      &frame::LightParams::block(),       &passes::ShadowMapParams::block(),
+      &frame::PaletteParams::block(),     &frame::LitParams::block(),
+      &frame::ShadowedParams::block(),    &passes::SurfaceParams::block(),
+      &passes::BlurParams::block(),       &passes::FinalShadowParams::block(),
+      &passes::TextureParams::block(),    &frame::TextureMetaTextureParams::block(),
+      &passes::WarpParams::block(),       &frame::WarpMetaTextureParams::block(),
+      &passes::BreakupParams::block(),    &frame::BreakupMetaTextureParams::block(),
+      &passes::BackgroundParams::block(), &frame::GroundParams::block(),
+      &passes::VolumeParams::block(),     &passes::GradeParams::block(),
+      &passes::LimitParams::block(),      &passes::FinalColorParams::block(),
+      &frame::AnimationParams::block(),   &frame::PlayParams::block(),
+      &frame::OceanParams::block(),       &frame::DecorationParams::block(),
+      &passes::OceanPaintParams::block(), &frame::OceanMetaTextureParams::block(),
+      &frame::FloatParams::block()};
   return blocks;
 }
 

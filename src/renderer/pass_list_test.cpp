@@ -100,6 +100,7 @@ TEST(PassList, structsStartWithTheirRowsDefaults) {
   expectRowsDefaults<passes::VolumeParams>(seen);
   expectRowsDefaults<passes::GradeParams>(seen);
   expectRowsDefaults<OceanParams>(seen);
+  expectRowsDefaults<DecorationParams>(seen);
   expectRowsDefaults<passes::OceanPaintParams>(seen);
   expectRowsDefaults<OceanMetaTextureParams>(seen);
   expectRowsDefaults<FloatParams>(seen);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 
+#include "frame/decorations.h"
 #include "look/look_data.h"
 #include "look/setting_path.h"
 #include "passes/colorize/colorize.h"
@@ -33,7 +34,7 @@ std::vector<std::string> settingsWithoutEffect(const Scene& scene, const Look& l
   return idle;
 }
 
-std::vector<std::string> colorizersWithoutNode(const Scene& scene, const Look& look) {
+std::vector<std::string> settingsWithoutNode(const Scene& scene, const Look& look) {
   if (scene.empty()) return {};
   const std::vector<scene::Node>& nodes = scene.data().nodes;
   const look::LookData& data = look.data();
@@ -45,12 +46,19 @@ std::vector<std::string> colorizersWithoutNode(const Scene& scene, const Look& l
   std::vector<std::string> idle;
   for (const double time : times) {
     const look::LookData now = data.at(time);
-    for (const std::string& name : now.declared(look::kColorizers)) {
-      const std::string& node = now.text(now.getFor<passes::VolumeParams>(look::kColorizers, name).node);
+    const auto check = [&](look::Target target, const std::string& name, look::Name named, const char* knob) {
+      const std::string& node = now.text(named);
+      const std::string path = std::string(look::firstSection(target).name) + "." + name + "." + knob;
       const bool found = node.empty() || std::any_of(nodes.begin(), nodes.end(),
                                                      [&](const auto& n) { return n.name == node; });
-      if (!found && std::find(idle.begin(), idle.end(), name) == idle.end()) idle.push_back(name);
-    }
+      if (!found && std::find(idle.begin(), idle.end(), path) == idle.end()) idle.push_back(path);
+    };
+    for (const std::string& name : now.declared(look::kColorizers))
+      check(look::kColorizers, name, now.getFor<passes::VolumeParams>(look::kColorizers, name).node,
+            "volume.node");
+    for (const std::string& name : now.declared(look::kDecorations))
+      check(look::kDecorations, name, now.getFor<frame::DecorationParams>(look::kDecorations, name).node,
+            "water.node");
   }
   return idle;
 }

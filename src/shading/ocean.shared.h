@@ -20,17 +20,17 @@ const int kWake = 0, kRipples = 1, kSplash = 2;
 const int kMaxDecorations = 16, kDecorationPoints = 26;
 struct WaterDecoration {
   int kind;
-  int count;           // of points
-  float amount;        // from 0 to 1
-  float foam, height;  // factors
-  float lasts;         // seconds
-  vec2 center;         // a circle around all that it draws
-  float reach;         // its radius, metres
+  int count;                     // of points
+  float amount;                  // from 0 to 1
+  float foam, height;            // factors
+  float lasts;                   // seconds
+  vec2 center;                   // a circle around all that it draws
+  float reach;                   // its radius, metres
   float hull, halfBeam, spread;  // of a wake: metres, metres, tangent
   float rise;                    // of its waves, metres
   float radius, crests;          // of ripples and splashes
-  // Of a wake, from the bow back along its path: x, z, metres behind the bow, how much there is. Of the others, each
-  // time that they have begun: x, z, seconds ago, a number from 0 to 1 of its own.
+  // Of a wake, from the bow back along its path: x, z, metres behind the bow, how much there is. Of the
+  // others, each time that they have begun: x, z, seconds ago, a number from 0 to 1 of its own.
   vec4 points[kDecorationPoints];
 };
 

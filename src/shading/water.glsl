@@ -99,10 +99,10 @@ Decorated ripplesAt(int index, vec2 place) {
     vec4 from = field.decorations[index].points[i];
     float age = from.z / d.lasts, front = d.radius * age, away = length(place - from.xy);
     vec2 rings = ringsAt(away, front, d.crests, between);
-    float fade = smoothstep(0.0, 0.08, age) * (1.0 - age) * (1.0 - age) * rings.y;
+    float fade = smoothstep(0.0, 0.08, age) * (1.0 - age) * rings.y;
     w.displacement.y += fade * d.height * 0.09 * between * rings.x;
     w.crest += 2.4 * fade * rings.x;
-    w.cover = max(w.cover, 0.75 * d.foam * fade * pow(max(rings.x, 0.0), 4.0));
+    w.cover = max(w.cover, 0.85 * d.foam * fade * pow(max(rings.x, 0.0), 3.0));
     w.calm = max(w.calm, min(3.0 * fade, 0.8));
     w.outside = min(w.outside, away - front - 0.5 * between);
   }
@@ -128,7 +128,7 @@ Decorated splashAt(int index, vec2 place) {
     w.displacement.xz += away > 1e-6 ? out_ / away * 0.3 * rises : vec2(0.0);
     // What falls back whitens the water, and sends rings away.
     float patch_ = 1.0 - smoothstep(0.4, 1.0, away / (d.radius * mix(0.55, 1.1, flight)));
-    float fade = 1.0 - smoothstep(0.3, 1.0, age);
+    float fade = 1.0 - smoothstep(0.1, 1.0, age);
     w.cover = max(w.cover, d.foam * max(1.3 * up * onCrown, 0.85 * smoothstep(0.0, 0.1, flight) * patch_ * fade));
     float between = 0.3 * d.radius, since = max(age - 0.5 * falls / d.lasts, 0.0);
     float front = d.radius * (0.6 + 1.4 * since);
@@ -164,6 +164,7 @@ Decorated decoratedAt(vec2 place) {
     all.calm = max(all.calm, amount * one.calm);
     all.outside = min(all.outside, one.outside);
   }
+  all.cover = max(1.04 * all.cover - 0.04, 0.0);  // nothing where there is next to nothing
   return all;
 }
 
