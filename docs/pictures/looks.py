@@ -5,7 +5,8 @@
     --out FILE      another picture
     --size WxH      size of each panel; default: 480x270
 
-In the order of `scumble looks`, row by row: the demo scene, but for `henry`, which was made for Henry's room.
+In the order of `scumble looks`, row by row: the demo scene, but for `henry`, which was made for Henry's room. Looks that
+change with time are shown on the way.
 """
 import argparse
 import subprocess
@@ -19,6 +20,7 @@ sys.path.insert(0, str(ROOT / "docs/figures"))
 from panels import Picture, table  # noqa: E402
 
 MADE_FOR = {"henry": "henry_room"}
+AT = {"gathering-storm": 35}  # seconds
 COLUMNS = 2
 
 
@@ -44,7 +46,8 @@ def main():
             scene, picture = Path(folder) / f"{generator}.glb", Path(folder) / "panel.png"
             if not scene.exists():
                 run(build / generator, scene)
-            run(build / "scumble", "render", scene, "--look", look, "-o", picture, "--size", arguments.size, "--quiet")
+            run(build / "scumble", "render", scene, "--look", look, "--time", AT.get(look, 0), "-o", picture,
+                "--size", arguments.size, "--quiet")
             panels.append(Picture.read(picture))
     table(panels, COLUMNS).save(arguments.out)
     print(f"{arguments.out}: {', '.join(looks)}")

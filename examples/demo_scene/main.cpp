@@ -13,29 +13,31 @@ using namespace demo;
 // mainsail.
 constexpr float kSunElevation = 18.0f, kSunAzimuth = 45.0f;  // azimuth from the left towards the viewer
 
+constexpr float kSpeed = 1.0f;  // metres a second, of the boat and of the eyes that follow her
+
 Document makeScene() {
   Document document;
   document.materials = palette();
   const int world = document.addNode({"World"});
-  const int boat = addBoat(document, world);
+  const int underway = document.addNode({"Underway", world});
+  sailing(document).channels.push_back(meshkit::translationKeys(
+      underway, {0.0f, kLoop}, [](float time) { return kSpeed * time * boatHeading(); }));
+  addBoat(document, underway);
+  addGulls(document, underway);
   addPier(document, world, {-27.0f, 0, -37.0f}, {-8.3f, 0, -10.1f});
   addShore(document, world);
   addLighthouse(document, world, {-25.5f, 4.15f, -79.5f});
-  const glm::mat4 boatMatrix = document.worldMatrix(boat);
-  const glm::vec4 stern = boatMatrix * glm::vec4(-2.6f, 0, 0, 1);
-  addSea(document, world, {1.0f, 5.0f},
-         {{stern.x, stern.z}, -glm::normalize(glm::vec2(boatMatrix[0].x, boatMatrix[0].z)), 7.0f});
-  addGulls(document, world);
+  addOcean(document, world);
   addClouds(document, world);
 
   const float elevation = glm::radians(kSunElevation), azimuth = glm::radians(kSunAzimuth);
   document.addSun({-std::cos(azimuth) * std::cos(elevation), std::sin(elevation),
                    std::sin(azimuth) * std::cos(elevation)},
                   {1.0f, 0.86f, 0.66f}, 3.0f);
-  document.addCamera({"Hero", 0.50f}, {0.0f, 3.4f, 21.0f}, {0.0f, 4.8f, 0.0f});
-  document.addCamera({"Sailor", 0.46f}, {2.6f, 1.9f, 5.2f}, {4.3f, 1.30f, 0.0f});
+  document.addCamera({"Hero", 0.50f}, {0.0f, 3.4f, 21.0f}, {0.0f, 4.8f, 0.0f}, underway);
+  document.addCamera({"Sailor", 0.46f}, {2.6f, 1.9f, 5.2f}, {4.3f, 1.30f, 0.0f}, underway);
   document.addCamera({"Pier", 0.56f}, {-14.3f, 3.2f, 0.8f}, {-12.1f, 1.5f, -13.0f});
-  document.addCamera({"Wide", 0.62f}, {10.6f, 7.6f, 26.5f}, {-2.6f, 4.1f, -6.0f});
+  document.addCamera({"Wide", 0.62f}, {10.6f, 7.6f, 26.5f}, {-2.6f, 4.1f, -6.0f}, underway);
   document.restAtStartOf(sailing(document));
   return document;
 }

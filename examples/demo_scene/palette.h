@@ -54,11 +54,7 @@ enum Paint : int {
   kGullTip,
   kBeak,
   kCloud,
-  kSea1,
-  kSea2,
-  kSea3,
-  kSea4,
-  kFoam
+  kOcean,
 };
 
 inline std::vector<meshkit::Material> palette() {
@@ -107,11 +103,7 @@ inline std::vector<meshkit::Material> palette() {
       {"GullTip", "#5B6478", "#3C4562", true},
       {"Beak", "#D9A441", "#8A6650"},
       {"Cloud", "#FAEBD3", "#D9D3CF"},
-      {"Sea1", "#5FA9A8", "#2F6A80"},
-      {"Sea2", "#3F8F96", "#1F4A63"},
-      {"Sea3", "#2F7787", "#1A4058"},
-      {"Sea4", "#7DB5B4", "#4E8796"},
-      {"Foam", "#CFE2D8", "#7FA3B4"},
+      {"Ocean", "#3F8F96", "#1F4A63"},
   };
 }
 

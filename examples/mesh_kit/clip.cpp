@@ -83,8 +83,4 @@ Channel smoothRotation(int node, const std::vector<float>& times,
   return spline(node, Path::rotation, times, withoutJumps(turn));
 }
 
-Channel smoothScale(int node, const std::vector<float>& times, const std::function<glm::vec3(float)>& scale) {
-  return spline(node, Path::scale, times, scale);
-}
-
 }  // namespace meshkit

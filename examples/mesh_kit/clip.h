@@ -52,6 +52,5 @@ Channel smoothTranslation(int node, const std::vector<float>& times,
                           const std::function<glm::vec3(float)>& position);
 Channel smoothRotation(int node, const std::vector<float>& times,
                        const std::function<glm::quat(float)>& turn);
-Channel smoothScale(int node, const std::vector<float>& times, const std::function<glm::vec3(float)>& scale);
 
 }  // namespace meshkit
