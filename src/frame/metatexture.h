@@ -7,6 +7,7 @@
 namespace scumble::frame {
 
 #define METATEXTURE_SIZE 256.0
+#define METATEXTURE_SKEW 2     // exact
 #define METATEXTURE_EXAMPLE 0  // torn
 #define PARAMS_STRUCT WarpMetaTextureParams
 #define PARAMS_FILE "shading/metatexture.params"
@@ -32,7 +33,9 @@ namespace scumble::frame {
 #undef METATEXTURE_EXAMPLE
 
 #undef METATEXTURE_SIZE
-#define METATEXTURE_SIZE 480.0  // broad strokes
+#undef METATEXTURE_SKEW
+#define METATEXTURE_SIZE 850.0  // broad strokes
+#define METATEXTURE_SKEW 0      // that lie along the horizon in all of the picture
 #define METATEXTURE_EXAMPLE 3   // sea
 #define PARAMS_STRUCT OceanMetaTextureParams
 #define PARAMS_FILE "shading/metatexture.params"
@@ -40,6 +43,7 @@ namespace scumble::frame {
 #define PARAMS_TARGETS kScene
 #include "look/define_params.h"
 #undef METATEXTURE_EXAMPLE
+#undef METATEXTURE_SKEW
 #undef METATEXTURE_SIZE
 
 // Mirrors MetaTexture in shading/metatexture.glsl, which says what each field is.

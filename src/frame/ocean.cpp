@@ -173,7 +173,7 @@ void OceanWaves::pose(const look::LookData& look, double time, const OceanWaves*
   header->origin = shape_.origin;
   header->fadeStart = shape_.fadeStart(), header->fadeEnd = shape_.falseHorizon;
   header->sink = 0.05f + 0.25f * deviation;
-  header->deviation = deviation;
+  header->relief = std::hypot(deviation, 0.1f);  // calm water has few colours
   header->within = within_;
   header->push = 0.2f + 0.5f * deviation;
   if (now) {

@@ -42,9 +42,9 @@ struct OceanField {
   vec3 origin;               // middle of calm water, world
   float fadeStart, fadeEnd;  // metres from there: waves are whole, and gone
   float sink;                // how far water that has no waves lies below
-  float deviation;           // of the height, metres
-  vec2 within;               // metres by which the mesh lies before its points: less than a cell
-  float push;                // how far the mesh is pushed down below decorations, metres
+  float relief;  // metres of height that count as one in the colours: waves' deviation, and a little
+  vec2 within;   // metres by which the mesh lies before its points: less than a cell
+  float push;    // how far the mesh is pushed down below decorations, metres
   int decorationCount;
   WaterDecoration decorations[kMaxDecorations];
 };

@@ -33,7 +33,7 @@ float wavesWhole(float away) {
 
 struct Decorated {
   vec3 displacement;  // beside the waves', metres
-  float crest;        // counts in the colours like so many deviations of the waves' height
+  float crest;        // counts in the colours like a wave so many reliefs high
   float cover;        // of foam, before it is eroded
   float calm;         // how far strokes are suppressed, from 0 to 1
   float outside;      // metres to the nearest place at which there is anything; below 0 there is

@@ -101,6 +101,8 @@ void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
   float reflected = ocean.reflection * sky.a;
   float shown = clamp((reflected - 0.5 + 0.9 * (stroke - 0.5)) * 4.0 + 0.5, 0.0, 1.0);
   shown *= min(10.0 * reflected, 1.0);  // not even the strongest stroke mirrors what is not there
+  // Nor do crests seen edge-on: they would be dotted lines.
+  shown *= smoothstep(0.1, 0.6, abs(dot(normal, toEye) / max(abs(toEye.y), 1e-3)));
   lit = mix(lit, sky.rgb, shown);
   shadowed = mix(shadowed, mix(shadowed, sky.rgb, 0.5), shown);
   lit = sqrt(lit), shadowed = sqrt(shadowed);

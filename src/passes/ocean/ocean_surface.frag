@@ -1,6 +1,6 @@
 #version 460
 // Target 0: bits of pattern u and v; dS/du and dS/dv in pixels per unit, each as two bfloat16.
-// Target 1, two numbers each: height of the wave in deviations and Jacobian, as halfs; x and z of the normal; cover of
+// Target 1, two numbers each: height of the wave in reliefs and Jacobian, as halfs; x and z of the normal; cover of
 // foam by decorations, up to 2, and how far they suppress strokes; nothing.
 #extension GL_GOOGLE_include_directive : require
 #include "../../shading/frame.glsl"

@@ -21,7 +21,7 @@ layout(location = 0) out vec2 outPatternUv;
 layout(location = 1) out vec3 outTangentU;
 layout(location = 2) out vec3 outTangentV;
 layout(location = 3) out vec3 outPoint;
-layout(location = 4) out vec4 outWave;       // height in deviations, Jacobian, x and z of the normal
+layout(location = 4) out vec4 outWave;       // height in reliefs, Jacobian, x and z of the normal
 layout(location = 5) out vec2 outDecorated;  // cover of foam, how far strokes are suppressed
 
 void main() {
@@ -42,7 +42,7 @@ void main() {
   else  // the grid's point that the vertex is, which has slid under the mesh
     point = oceanPoint(ivec2(round(fromMiddle / field.cell)) + field.travelled);
   float whole = object.water == kFlat ? 0.0 : wavesWhole(length(place));
-  outWave = vec4(field.deviation > 0.0 ? whole * point.displacement.y / field.deviation : 0.0,
+  outWave = vec4(whole * point.displacement.y / field.relief,
                  mix(1.0, point.jacobian, whole), decodeNormal(inNormal).xz);
   outDecorated = vec2(0.0);
   if (field.decorationCount > 0) {

@@ -115,9 +115,12 @@ class Warp : public Pass {
       const TangentOptions tangents = tangentOptions(metaParams);
       if (tangents.fragmentGradients) needs |= shared::kWarpFragmentGradients;
       if (tangents.radial) needs |= shared::kWarpRadial;
-      if (params.distance > 0) needs |= shared::kWarpDistance;
-      materials_.write(m,
-                       {params.amount * pixelScale, inflation, params.distance, float(index + 1), tangents});
+      // The sea's horizon is a quiet line.
+      const float distance = int(m) == input.scene.oceanMaterial()
+                                 ? std::max(params.distance, 1 / input.scene.options().ocean.falseHorizon)
+                                 : params.distance;
+      if (distance > 0) needs |= shared::kWarpDistance;
+      materials_.write(m, {params.amount * pixelScale, inflation, distance, float(index + 1), tangents});
     }
     step_.specialise(input.scene, needs);
 
