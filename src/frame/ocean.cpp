@@ -17,11 +17,6 @@ bool isOceanName(const std::string& name) {
   return start == "ocean";
 }
 
-glm::dvec2 directionOf(float degrees) {
-  const double angle = glm::radians(double(degrees));
-  return {std::cos(angle), std::sin(angle)};
-}
-
 // What depends on the mapping alone: water is flat, and (u, v) lie along x and z.
 void finish(scene::Primitive& water) {
   const size_t count = water.vertexCount();
@@ -125,7 +120,8 @@ OceanWaves::OceanWaves(gpu::Device& device, const OceanShape& shape)
           sizeof(shared::OceanField) + size_t(shape.grid) * size_t(shape.grid) * sizeof(shared::OceanPoint),
           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) {}
 
-void OceanWaves::pose(const look::LookData& look, double time, const OceanWaves* now) {
+void OceanWaves::pose(const look::LookData& look, double time, const glm::dvec2& travelled,
+                      const OceanWaves* now) {
   const OceanParams params = look.get<OceanParams>();
   ocean::Spectrum spectrum;
   spectrum.grid = shape_.grid, spectrum.tile = double(shape_.tile);
@@ -139,7 +135,7 @@ void OceanWaves::pose(const look::LookData& look, double time, const OceanWaves*
   waves_->at(time, field_);
   deviation_ = float(std::sqrt(waves_->variance()));
 
-  travelled_ = directionOf(params.heading) * (double(params.speed) * time);
+  travelled_ = travelled;
   const double cell = double(shape_.cell());
   cells_ = now ? now->cells_ : glm::floor(travelled_ / cell);
   within_ = travelled_ - cells_ * cell;

@@ -64,10 +64,12 @@ class OceanWaves {
  public:
   OceanWaves(gpu::Device& device, const OceanShape& shape);
 
-  // The waves at a time, in seconds; the look is one at that time.
+  // The waves at a time, in seconds; the look is one at that time. `travelled`: how far over the water the
+  // scene is by then (travelledAt).
   // `now`: waves of another time whose points of the mesh are to be followed, for where they were at this
   // one; null: the mesh stays.
-  void pose(const look::LookData& look, double time, const OceanWaves* now = nullptr);
+  void pose(const look::LookData& look, double time, const glm::dvec2& travelled,
+            const OceanWaves* now = nullptr);
 
   // What tiles are moved by: less than a cell, where no other time's points are followed.
   glm::vec3 offset() const { return {-within_.x, 0.0f, -within_.y}; }

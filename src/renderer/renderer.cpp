@@ -424,8 +424,8 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
     // Everything to its place, then the uniforms.
     Setup& setup = *impl_->setup;
     SceneOnGpu& sceneOnGpu = *impl_->sceneOnGpu;
-    sceneOnGpu.pose(now, time);
-    if (configuration.facts) sceneOnGpu.posePrevious(look.data().at(previousTime), previousTime);
+    sceneOnGpu.pose(look.data(), now, time);
+    if (configuration.facts) sceneOnGpu.posePrevious(look.data(), look.data().at(previousTime), previousTime);
     shared::FrameUniforms uniforms =
         frameUniforms(sceneOnGpu, now, views, options.previousViews, time, configuration);
     const std::vector<shared::PunctualLight> lights = punctualLights(
