@@ -95,7 +95,7 @@ class OceanDrawn : public BothEyes {
   static std::vector<View> viewsOf(const Scene& scene, const Stand& stand) {
     return viewsFrom(scene, stand, kWidth, kHeight, GetParam());
   }
-  static int oceanId(const Scene& scene) { return int(scene.data().nodes.size()) + 1; }
+  static int oceanId(const Scene& scene) { return int(scene.data().nodes.size()) + 2; }
   static size_t count(const Frame& frame, int id, size_t v) {
     const Image& ids = aov(frame, "id", v);
     return size_t(std::count(ids.pixels.begin(), ids.pixels.end(), float(id)));
