@@ -10,9 +10,10 @@ namespace scumble::frame {
 
 namespace {
 
-// "Ocean", also with what Blender appends to a second one.
-bool isOceanName(const std::string& name) {
-  std::string start = name.substr(0, name.find('.'));
+// What its extras say, else whether it is called "Ocean", also with what Blender appends to a second one.
+bool standsForOcean(const scene::Node& node) {
+  if (node.isOcean) return *node.isOcean;
+  std::string start = node.name.substr(0, node.name.find('.'));
   std::transform(start.begin(), start.end(), start.begin(), [](char c) { return char(std::tolower(c)); });
   return start == "ocean";
 }
@@ -34,7 +35,7 @@ OceanShape oceanShape(const scene::SceneData& scene, const look::LookData& look)
   OceanShape shape;
   if (params.mode == 2) return shape;
   for (size_t n = 0; n < scene.nodes.size() && shape.node < 0; ++n)
-    if (isOceanName(scene.nodes[n].name)) shape.node = int(n);
+    if (standsForOcean(scene.nodes[n])) shape.node = int(n);
   if (params.mode == 0 && shape.node < 0) return shape;
   shape.isThere = true;
   if (shape.node >= 0) shape.origin = scene::worldMatrices(scene)[size_t(shape.node)][3];
