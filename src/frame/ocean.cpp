@@ -56,7 +56,10 @@ OceanTile oceanTileAt(const OceanShape& shape, int x, int z) {
     while (shape.grid % (1 << halvings) != 0) --halvings;
     return 1 << halvings;
   };
-  return {strideAt(x, z), {strideAt(x - 1, z), strideAt(x + 1, z), strideAt(x, z - 1), strideAt(x, z + 1)}};
+  // Beside coarser tiles it is split as beside its like, so that most tiles share a mesh.
+  const int stride = strideAt(x, z);
+  const auto beside = [&](int i, int j) { return std::min(stride, strideAt(i, j)); };
+  return {stride, {beside(x - 1, z), beside(x + 1, z), beside(x, z - 1), beside(x, z + 1)}};
 }
 
 scene::Primitive makeOceanTile(const OceanShape& shape, const OceanTile& tile) {
@@ -74,9 +77,7 @@ scene::Primitive makeOceanTile(const OceanShape& shape, const OceanTile& tile) {
   for (int z = 0; z < n; z += s)
     for (int x = 0; x < n; x += s) {
       // The cell's outline, seen from above against the clock, with the points of finer tiles beside it.
-      const auto step = [&](bool isBorder, int side) {
-        return isBorder ? std::min(s, tile.beside[size_t(side)]) : s;
-      };
+      const auto step = [&](bool isBorder, int side) { return isBorder ? tile.beside[size_t(side)] : s; };
       std::vector<uint32_t> outline;
       for (int i = 0, d = step(x == 0, 0); i < s; i += d) outline.push_back(at(x, z + i));
       for (int i = 0, d = step(z + s == n, 3); i < s; i += d) outline.push_back(at(x + i, z + s));

@@ -50,7 +50,7 @@ using shared::kWaterPerPattern;
 // cost much and show nothing.
 struct OceanTile {
   int stride = 1;               // points between corners of its cells
-  std::array<int, 4> beside{};  // strides of the tiles at its sides -x, +x, -z, +z
+  std::array<int, 4> beside{};  // along its sides -x, +x, -z, +z, where a finer tile may lie beside it
   auto operator<=>(const OceanTile&) const = default;
 };
 OceanTile oceanTileAt(const OceanShape& shape, int x, int z);
