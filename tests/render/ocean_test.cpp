@@ -331,6 +331,22 @@ TEST_P(OceanDrawn, waterMovesAndSlides) {
   }
 }
 
+// From 0 to 3 m/s within ten seconds is as far as 1.5 m/s all the time.
+TEST_P(OceanDrawn, travelsAsFarAsItsSpeedTookIt) {
+  const Scene scene = harbour("Ocean").load();
+  const auto drawn = [&](const std::string& speed) {
+    const Result<Look> look =
+        Look::fromJson(R"({"ocean": {"tiles": 1, "speed": )" + speed + "}}", "sea.json");
+    EXPECT_TRUE(look.ok());
+    return drawAt(scene, *look, 10, viewsOf(scene, kAside), {"position"});
+  };
+  const Frame track = drawn(R"({"keys": [[0, 0], [10, 3]]})"), constant = drawn("1.5"), last = drawn("3");
+  for (size_t v = 0; v < viewCount(); ++v) {
+    EXPECT_TRUE(sameBytes(aov(track, "position", v), aov(constant, "position", v)));
+    EXPECT_FALSE(sameBytes(aov(track, "position", v), aov(last, "position", v)));
+  }
+}
+
 // Frames that are under way do not share waves.
 TEST_P(OceanDrawn, framesUnderWayAreThoseAlone) {
   const Scene scene = harbour("Ocean").load();
