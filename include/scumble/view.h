@@ -17,6 +17,9 @@ struct View {
   // Eye to clip space in Vulkan's convention: y down, depth reversed (1 at the near plane, 0 far away). May
   // be off-centre.
   glm::mat4 eyeToClip{1.0f};
+  // The scene's node that the view hangs on: where the ocean's waves move that, the view goes with it, and
+  // worldToEye is from where it is without them. -1: none.
+  int node = -1;
 };
 
 // Depth-reversed projections of that convention. Angles in radians, distances in metres.
@@ -39,9 +42,10 @@ struct Viewpoint {
 enum class Stereo { mono, stereo };
 
 // One view, or the left and the right one (ipd metres apart, parallel axes), at a time in seconds. A camera
-// of the scene goes where the clips that the look plays take it, held by nothing; every other viewpoint
-// stands still, and sees what the scene takes up while they play. Fails with ErrorKind::usage for an unknown
-// camera and for a viewpoint that sees nothing (eye on the target).
+// of the scene goes where the clips that the look plays take it, held by nothing, and names its node, so that
+// it rides the ocean's waves where that does; every other viewpoint stands still, and sees what the scene
+// takes up while they play. Fails with ErrorKind::usage for an unknown camera and for a viewpoint that sees
+// nothing (eye on the target).
 Result<std::vector<View>> makeViews(const Scene& scene, const Viewpoint& viewpoint, float aspect,
                                     Stereo stereo = Stereo::mono, float ipd = 0.063f,
                                     const Look& look = Look(), double time = 0);

@@ -21,10 +21,10 @@ constexpr float kDefaultFov = 34;        // degrees, vertical
 constexpr float kFill = 0.82f;           // of the frame that the subject may take
 }  // namespace
 
-glm::mat4 cameraWorld(const SceneData& scene, size_t camera, const std::vector<glm::mat4>& world) {
+int cameraNode(const SceneData& scene, size_t camera) {
   for (size_t n = 0; n < scene.nodes.size(); ++n)
-    if (scene.nodes[n].camera == int(camera)) return world[n];
-  return glm::mat4(1.0f);
+    if (scene.nodes[n].camera == int(camera)) return int(n);
+  return -1;
 }
 
 glm::vec3 orbitDirection(float azimuth, float elevation) {
@@ -33,8 +33,8 @@ glm::vec3 orbitDirection(float azimuth, float elevation) {
 }
 
 glm::vec3 defaultEyeDirection(const SceneData& scene) {
-  if (!scene.cameras.empty()) {
-    const glm::vec3 backward(cameraWorld(scene, 0, scene::worldMatrices(scene))[2]);
+  if (const int node = scene.cameras.empty() ? -1 : cameraNode(scene, 0); node >= 0) {
+    const glm::vec3 backward(scene::worldMatrices(scene)[size_t(node)][2]);
     if (glm::length(glm::vec2(backward.x, backward.z)) > 1e-3f * glm::length(backward))
       return glm::normalize(backward);
   }
@@ -154,7 +154,9 @@ Result<std::vector<View>> makeViews(const Scene& scene, const Viewpoint& viewpoi
     const scene::Camera& camera = data.cameras[*index];
     // Scale in a camera's matrix means nothing.
     const std::vector<scene::PlayedClip> clips = playedClips(data, look.data().at(time));
-    glm::mat4 world = cameraWorld(data, *index, scene::poseAt(data, clips, time).world);
+    view.node = cameraNode(data, *index);
+    glm::mat4 world =
+        view.node < 0 ? glm::mat4(1.0f) : scene::poseAt(data, clips, time).world[size_t(view.node)];
     for (int axis = 0; axis < 3; ++axis)
       if (const float length = glm::length(glm::vec3(world[axis])); length > 1e-12f) world[axis] /= length;
     view.worldToEye =

@@ -5,8 +5,8 @@
 
 namespace scumble::frame {
 
-// Of the nodes' world matrices, that of the first node that carries this camera; identity when none does.
-glm::mat4 cameraWorld(const scene::SceneData& scene, size_t camera, const std::vector<glm::mat4>& world);
+// The first node that carries this camera; -1: none does.
+int cameraNode(const scene::SceneData& scene, size_t camera);
 
 // Direction from the scene's centre to the default viewpoint: its first camera at rest, else three-quarter
 // view from the front.

@@ -137,7 +137,7 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
     GeometryItem item;
     item.node = GeometryItem::kNoNode;
     item.material = uint32_t(oceanMaterial);
-    item.id = uint32_t(scene.nodes.size() + 1);
+    item.id = uint32_t(scene.nodes.size() + 2);  // as Scene::objectNames has them
     item.casts = false;
     struct Part {
       const scene::Primitive* primitive;

@@ -11,16 +11,12 @@ namespace scumble::frame {
 
 namespace {
 
-// "Ocean", also with what Blender appends to a second one.
-bool isOceanName(const std::string& name) {
-  std::string start = name.substr(0, name.find('.'));
+// What its extras say, else whether it is called "Ocean", also with what Blender appends to a second one.
+bool standsForOcean(const scene::Node& node) {
+  if (node.isOcean) return *node.isOcean;
+  std::string start = node.name.substr(0, node.name.find('.'));
   std::transform(start.begin(), start.end(), start.begin(), [](char c) { return char(std::tolower(c)); });
   return start == "ocean";
-}
-
-glm::dvec2 directionOf(float degrees) {
-  const double angle = glm::radians(double(degrees));
-  return {std::cos(angle), std::sin(angle)};
 }
 
 // What depends on the mapping alone: water is flat, and (u, v) lie along x and z.
@@ -40,7 +36,7 @@ OceanShape oceanShape(const scene::SceneData& scene, const look::LookData& look)
   OceanShape shape;
   if (params.mode == 2) return shape;
   for (size_t n = 0; n < scene.nodes.size() && shape.node < 0; ++n)
-    if (isOceanName(scene.nodes[n].name)) shape.node = int(n);
+    if (standsForOcean(scene.nodes[n])) shape.node = int(n);
   if (params.mode == 0 && shape.node < 0) return shape;
   shape.isThere = true;
   if (shape.node >= 0) shape.origin = scene::worldMatrices(scene)[size_t(shape.node)][3];
@@ -62,7 +58,10 @@ OceanTile oceanTileAt(const OceanShape& shape, int x, int z) {
     while (shape.grid % (1 << halvings) != 0) --halvings;
     return 1 << halvings;
   };
-  return {strideAt(x, z), {strideAt(x - 1, z), strideAt(x + 1, z), strideAt(x, z - 1), strideAt(x, z + 1)}};
+  // Beside coarser tiles it is split as beside its like, so that most tiles share a mesh.
+  const int stride = strideAt(x, z);
+  const auto beside = [&](int i, int j) { return std::min(stride, strideAt(i, j)); };
+  return {stride, {beside(x - 1, z), beside(x + 1, z), beside(x, z - 1), beside(x, z + 1)}};
 }
 
 scene::Primitive makeOceanTile(const OceanShape& shape, const OceanTile& tile) {
@@ -80,9 +79,7 @@ scene::Primitive makeOceanTile(const OceanShape& shape, const OceanTile& tile) {
   for (int z = 0; z < n; z += s)
     for (int x = 0; x < n; x += s) {
       // The cell's outline, seen from above against the clock, with the points of finer tiles beside it.
-      const auto step = [&](bool isBorder, int side) {
-        return isBorder ? std::min(s, tile.beside[size_t(side)]) : s;
-      };
+      const auto step = [&](bool isBorder, int side) { return isBorder ? tile.beside[size_t(side)] : s; };
       std::vector<uint32_t> outline;
       for (int i = 0, d = step(x == 0, 0); i < s; i += d) outline.push_back(at(x, z + i));
       for (int i = 0, d = step(z + s == n, 3); i < s; i += d) outline.push_back(at(x + i, z + s));
@@ -137,7 +134,8 @@ OceanWaves::OceanWaves(gpu::Device& device, const scene::SceneData& scene, const
           sizeof(shared::OceanField) + size_t(shape.grid) * size_t(shape.grid) * sizeof(shared::OceanPoint),
           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) {}
 
-void OceanWaves::pose(const look::LookData& look, double time, const OceanWaves* now) {
+void OceanWaves::pose(const look::LookData& look, double time, const Travelled& travelled,
+                      const OceanWaves* now) {
   const OceanParams params = look.get<OceanParams>();
   ocean::Spectrum spectrum;
   spectrum.grid = shape_.grid, spectrum.tile = double(shape_.tile);
@@ -151,9 +149,6 @@ void OceanWaves::pose(const look::LookData& look, double time, const OceanWaves*
   waves_->at(time, field_);
   const float deviation = float(std::sqrt(waves_->variance()));
 
-  const Travelled travelled = [&](double when) {
-    return directionOf(params.heading) * (double(params.speed) * when);
-  };
   travelled_ = travelled(time);
   const double cell = double(shape_.cell());
   cells_ = now ? now->cells_ : glm::floor(travelled_ / cell);

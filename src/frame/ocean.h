@@ -52,7 +52,7 @@ using shared::kWaterPerPattern;
 // cost much and show nothing.
 struct OceanTile {
   int stride = 1;               // points between corners of its cells
-  std::array<int, 4> beside{};  // strides of the tiles at its sides -x, +x, -z, +z
+  std::array<int, 4> beside{};  // along its sides -x, +x, -z, +z, where a finer tile may lie beside it
   auto operator<=>(const OceanTile&) const = default;
 };
 OceanTile oceanTileAt(const OceanShape& shape, int x, int z);
@@ -70,10 +70,12 @@ class OceanWaves {
   // `scene` stays.
   OceanWaves(gpu::Device& device, const scene::SceneData& scene, const OceanShape& shape);
 
-  // The waves at a time, in seconds; the look is one at that time.
+  // The waves at a time, in seconds; the look is one at that time. `travelled`: how far over the water the
+  // scene is at any time (travelledAt).
   // `now`: waves of another time whose points of the mesh are to be followed, for where they were at this
   // one; null: the mesh stays. Decorations are then those of `now`, carried along by the water.
-  void pose(const look::LookData& look, double time, const OceanWaves* now = nullptr);
+  void pose(const look::LookData& look, double time, const Travelled& travelled,
+            const OceanWaves* now = nullptr);
 
   // What tiles are moved by: less than a cell, where no other time's points are followed.
   glm::vec3 offset() const { return {-within_.x, 0.0f, -within_.y}; }

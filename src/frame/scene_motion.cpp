@@ -42,6 +42,19 @@ glm::mat3 normalMatrix(const glm::mat3& linear, bool mirrored) {
   return normal * ((mirrored ? -1.0f : 1.0f) / (most > 0 && std::isfinite(most) ? most : 1.0f));
 }
 
+// How a node floats: what the scene says of it, and over that what the look does.
+FloatParams floatParams(const scene::Node& node, const look::LookData& look) {
+  FloatParams params;
+  if (node.floats) {
+    params.rides = true;
+    params.length = node.floats->length.value_or(params.length);
+    params.beam = node.floats->beam.value_or(params.beam);
+    params.bow = node.floats->bowAlongZ ? 1 : 0;
+  }
+  look.fillFor(FloatParams::block(), look::kNodes, node.name, &params);
+  return params;
+}
+
 }  // namespace
 
 SceneMotion::SceneMotion(gpu::Device& device, const scene::SceneData& scene,
@@ -57,6 +70,7 @@ SceneMotion::SceneMotion(gpu::Device& device, const scene::SceneData& scene,
       mirrored_(moving.size(), 0) {
   for (const scene::Skin& skin : scene.skins)
     for (const int joint : skin.joints) isJoint_[size_t(joint)] = true;
+  for (const scene::Node& node : scene.nodes) sceneFloats_ |= node.floats.has_value();
 
   std::map<std::pair<int, uint32_t>, uint32_t> uses;
   size_t joints = 0, weights = 0;
@@ -116,19 +130,21 @@ void SceneMotion::pose(const look::LookData& look, double time, const OceanWaves
   world_ = scene::poseAt(scene_, clips, time).world;
 
   // What rides the waves is moved by them as the waves are now, however long poses are held.
-  if (waves && look.setsAny(FloatParams::block(), "rides", look::kNodes)) {
-    std::vector<std::optional<glm::mat4>> riding(scene_.nodes.size());
+  riding_.clear();
+  const bool maySet = waves && look.setsAny(FloatParams::block(), "rides", look::kNodes);
+  if (maySet || (waves && sceneFloats_)) {
+    riding_.resize(scene_.nodes.size());
     for (size_t n = 0; n < scene_.nodes.size(); ++n) {
       const scene::Node& node = scene_.nodes[n];
-      const FloatParams params = look.getFor<FloatParams>(look::kNodes, node.name);
-      if (node.parent >= 0 && riding[size_t(node.parent)])
-        riding[n] = riding[size_t(node.parent)];
-      else if (params.rides && int(n) != waves->node())
-        riding[n] = waves->riding(params, world_[n]);
+      if (node.parent >= 0 && riding_[size_t(node.parent)])
+        riding_[n] = riding_[size_t(node.parent)];
+      else if ((maySet || node.floats) && int(n) != waves->node())
+        if (const FloatParams params = floatParams(node, look); params.rides)
+          riding_[n] = waves->riding(params, world_[n]);
     }
     const auto ride = [&](std::vector<glm::mat4>& world) {
       for (size_t n = 0; n < world.size(); ++n)
-        if (riding[n]) world[n] = *riding[n] * world[n];
+        if (riding_[n]) world[n] = *riding_[n] * world[n];
     };
     for (auto& [frames, pose] : poses) ride(pose.world);
     ride(world_);

@@ -53,6 +53,11 @@ class SceneMotion {
   // with it.
   const std::vector<glm::mat4>& worldAsDrawn() const { return worldAsDrawn_; }
 
+  // What waves move a node by, from where it is without them.
+  glm::mat4 riding(size_t node) const {
+    return riding_.empty() || !riding_[node] ? glm::mat4(1.0f) : *riding_[node];
+  }
+
   // Chunks of vertices whose final ones are out of date; the next pose starts from these being written.
   uint32_t movedCount() const { return movedCount_; }
   // Forgets what was written before: everything has moved.
@@ -73,12 +78,14 @@ class SceneMotion {
   const std::vector<std::string>& materialNames_;
   const std::vector<MovingObject>& moving_;
   std::vector<bool> isJoint_;        // by node
+  bool sceneFloats_ = false;         // whether the scene itself says of a node that it rides
   std::vector<SkinUse> skinUses_;    // a skin is posed once for each material that is drawn with it
   std::vector<uint32_t> skinUseOf_;  // by object
   gpu::PerFrameBuffer objects_, joints_, morphWeights_, moved_;
   std::vector<scene::Bounds> bounds_;
   std::vector<uint8_t> mirrored_;
   std::vector<glm::mat4> world_, worldAsDrawn_;
+  std::vector<std::optional<glm::mat4>> riding_;  // by node; empty: nothing rides
   uint32_t movedCount_ = 0;
   bool written_ = false, isAtRest_ = false;
 };

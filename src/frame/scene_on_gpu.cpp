@@ -7,6 +7,7 @@
 
 #include "frame/geometry.h"
 #include "frame/mipmaps.h"
+#include "frame/ocean_travel.h"
 #include "frame/visibility.h"
 #include "scene/parallel.h"
 
@@ -307,9 +308,9 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
   motion_.emplace(device, *data_, materialNames_, moving_, objects_, chunkCount_);
 }
 
-void SceneOnGpu::pose(const look::LookData& look, double time) {
-  if (waves_) waves_->pose(look, time);
-  motion_->pose(look, time, waves());
+void SceneOnGpu::pose(const look::LookData& look, const look::LookData& now, double time) {
+  if (waves_) waves_->pose(now, time, [&](double t) { return travelledAt(look, t); });
+  motion_->pose(now, time, waves());
   for (size_t i = 0; i < draws_.size(); ++i) {
     draws_[i].bounds = motion_->bounds()[i];
     draws_[i].mirrored = motion_->mirrored()[i];
@@ -330,9 +331,11 @@ void SceneOnGpu::look(const shared::FrameUniforms& uniforms, uint32_t viewCount,
   }
 }
 
-void SceneOnGpu::posePrevious(const look::LookData& look, double time) {
-  if (previousWaves_) previousWaves_->pose(look, time, waves());
-  previousMotion_->pose(look, time, previousWaves());
+void SceneOnGpu::posePrevious(const look::LookData& look, const look::LookData& then, double time) {
+  if (previousWaves_)
+    previousWaves_->pose(
+        then, time, [&](double t) { return travelledAt(look, t); }, waves());
+  previousMotion_->pose(then, time, previousWaves());
 }
 
 void SceneOnGpu::forgetPoses() {

@@ -83,15 +83,16 @@ class SceneOnGpu {
   const OceanWaves* previousWaves() const { return previousWaves_ ? &*previousWaves_ : nullptr; }
   const SceneColors& colors() const { return colors_; }
 
-  // Sets what moves to its place at a time (seconds). The look is one at that time (LookData::at).
-  void pose(const look::LookData& look, double time);
+  // Sets what moves to its place at a time (seconds). The look has its tracks; `now` is the same at that time
+  // (LookData::at).
+  void pose(const look::LookData& look, const look::LookData& now, double time);
   // Finds out what can be seen from the frame's views, and up to so many pixels beside them, and sorts what
   // is transparent; after pose().
   void look(const shared::FrameUniforms& uniforms, uint32_t viewCount, float marginPixels);
   // Metres from the first view to the nearest draw of a material.
   float nearestOf(uint32_t material) const { return nearestOf_[material]; }
   // Where it was a frame ago; after keepPrevious() only.
-  void posePrevious(const look::LookData& look, double time);
+  void posePrevious(const look::LookData& look, const look::LookData& then, double time);
   // The last poses are not on their way to the device after all.
   void forgetPoses();
   // Makes room for the positions of a frame ago, unless there is.

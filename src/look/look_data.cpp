@@ -148,6 +148,14 @@ void LookData::fillFor(const ParamBlock& block, const std::string& material, std
   }
 }
 
+const Assignment* LookData::settingOf(const ParamBlock& block, const char* row) const {
+  const Assignment* found = nullptr;
+  for (const bool byHand : {false, true})
+    for (const Assignment& a : assignments)
+      if (a.byHand == byHand && sets(a, block, row, kScene)) found = &a;
+  return found;
+}
+
 bool LookData::names(const ParamBlock& block, const char* row, Target target, const std::string& name) const {
   return std::any_of(assignments.begin(), assignments.end(), [&](const Assignment& a) {
     return sets(a, block, row, target) && matches(a.pattern, name);

@@ -54,6 +54,9 @@ struct LookData {
   void fillFor(const ParamBlock& block, const std::string& material, std::span<const uint32_t> over,
                void* out) const;
 
+  // The setting of a row that counts for the whole scene; null: none does.
+  const Assignment* settingOf(const ParamBlock& block, const char* row) const;
+
   // Whether a setting for some materials, nodes or clips sets this row, for this name or for any pattern.
   bool names(const ParamBlock& block, const char* row, Target target, const std::string& name) const;
   bool setsAny(const ParamBlock& block, const char* row, Target target) const;

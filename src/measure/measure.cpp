@@ -180,6 +180,8 @@ class Measurer {
         makeViews(scene_, options_.viewpoint, aspect, Stereo::mono, 0, look_);
     if (!views) return views.error();
     view_ = views->front();
+    // Its paths are the only motion.
+    view_.node = -1;
     const SceneSummary summary = scene_.summary();
     centre_ = 0.5f * glm::vec3(float(summary.min[0] + summary.max[0]), float(summary.min[1] + summary.max[1]),
                                float(summary.min[2] + summary.max[2]));

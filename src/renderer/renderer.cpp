@@ -70,6 +70,13 @@ GpuInfo toPublic(const gpu::DeviceInfo& info) {
   return result;
 }
 
+// Views that hang on nodes, where waves move those.
+std::vector<View> ridden(std::vector<View> views, const SceneMotion& motion) {
+  for (View& view : views)
+    if (view.node >= 0) view.worldToEye *= glm::inverse(motion.riding(size_t(view.node)));
+  return views;
+}
+
 // Everything that lives as long as scene and configuration stay the same.
 struct Setup {
   Configuration configuration;
@@ -346,9 +353,13 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
   if (views.empty() || views.size() > size_t(shared::kMaxViews) ||
       (!options.previousViews.empty() && options.previousViews.size() != views.size()))
     return usage("the number of views is neither one nor two", "give one, or a left and a right one");
-  for (const View& view : views)
-    if (!isFinite(view.worldToEye) || !isFinite(view.eyeToClip))
-      return usage("a view is not finite", "check the camera");
+  for (const std::vector<View>* seen : {&views, &options.previousViews})
+    for (const View& view : *seen) {
+      if (!isFinite(view.worldToEye) || !isFinite(view.eyeToClip))
+        return usage("a view is not finite", "check the camera");
+      if (view.node >= int(scene.data().nodes.size()))
+        return usage("a view hangs on a node that the scene does not have", "make views of this scene");
+    }
   const double previousTime = options.previousTime.value_or(time);
   if (!(std::abs(time) < kMaxTime && std::abs(previousTime) < kMaxTime))
     return usage("the time is out of range", "give it in seconds, up to a million");
@@ -424,10 +435,15 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
     // Everything to its place, then the uniforms.
     Setup& setup = *impl_->setup;
     SceneOnGpu& sceneOnGpu = *impl_->sceneOnGpu;
-    sceneOnGpu.pose(now, time);
-    if (configuration.facts) sceneOnGpu.posePrevious(look.data().at(previousTime), previousTime);
+    sceneOnGpu.pose(look.data(), now, time);
+    if (configuration.facts) sceneOnGpu.posePrevious(look.data(), look.data().at(previousTime), previousTime);
+    const std::vector<View> seenFrom = ridden(views, sceneOnGpu.motion());
+    std::vector<View> seenBefore;
+    if (configuration.facts)
+      seenBefore =
+          ridden(options.previousViews.empty() ? views : options.previousViews, *sceneOnGpu.previousMotion());
     shared::FrameUniforms uniforms =
-        frameUniforms(sceneOnGpu, now, views, options.previousViews, time, configuration);
+        frameUniforms(sceneOnGpu, now, seenFrom, seenBefore, time, configuration);
     const std::vector<shared::PunctualLight> lights = punctualLights(
         scene.data(), now.get<LightParams>(), sceneOnGpu.motion().world(), uniforms.sceneRadius);
     uniforms.lightCount = uint32_t(lights.size());

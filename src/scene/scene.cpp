@@ -123,7 +123,7 @@ std::vector<std::string> Scene::objectNames() const {
     names.push_back(node.mesh < 0       ? ""
                     : node.name.empty() ? "node " + std::to_string(names.size() + 1)
                                         : node.name);
-  names.push_back("Ground");
+  names.insert(names.end(), {"Ground", "Ocean"});
   return names;
 }
 

@@ -115,6 +115,12 @@ struct Transform {
   glm::mat4 matrix() const;
 };
 
+// What a node says of how it rides the ocean's waves (docs/sea.md); what is absent is the look's to say.
+struct Floats {
+  std::optional<float> length, beam;  // metres
+  bool bowAlongZ = false;             // else along x
+};
+
 struct Node {
   std::string name;
   int parent = -1;  // always smaller than the node's own index: nodes are sorted, parents first
@@ -124,6 +130,9 @@ struct Node {
   int mesh = -1, camera = -1, light = -1, skin = -1;
   std::vector<glm::mat4> instances;  // EXT_mesh_gpu_instancing; empty: drawn once
   std::vector<float> morphWeights;   // of this node; empty: the mesh's defaults
+  // From extras: whether it stands for the ocean (absent: its name decides), and that it rides the waves.
+  std::optional<bool> isOcean;
+  std::optional<Floats> floats;
 };
 
 struct Camera {

@@ -74,6 +74,9 @@ void check(const SceneData& scene) {
     require(
         node.morphWeights.empty() || node.morphWeights.size() == scene.meshes[node.mesh].morphWeights.size(),
         "morph weights");
+    if (node.floats)
+      for (const std::optional<float>& size : {node.floats->length, node.floats->beam})
+        require(!size || (*size >= 0 && *size <= 1000), "sizes of what floats");
   }
   for (const Material& m : scene.materials)
     require(inRange(m.baseColorTexture.image, scene.images.size()) &&
@@ -149,6 +152,8 @@ void writeSeeds(const std::string& folder) {
   rich.json["nodes"].push_back({{"camera", 0}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
   rich.json["scenes"][0]["nodes"].push_back(1);
   rich.json["nodes"][0]["skin"] = 0;
+  rich.json["nodes"][0]["extras"] = {{"scumble_float", {{"length", 4.6}, {"beam", 1.8}, {"bow", "z"}}}};
+  rich.json["nodes"][1]["extras"] = {{"scumble_ocean", true}};
   rich.json["skins"] = {{{"joints", {1}}}};
   rich.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}}}}};
   rich.json["extensions"]["KHR_lights_punctual"]["lights"] = {

@@ -54,7 +54,7 @@ class Decorations : public BothEyes {
     return std::move(frame).value();
   }
   static bool isSea(const Scene& scene, const Frame& frame, int x, int y, size_t v) {
-    return int(texel(aov(frame, "id", v), x, y).x) == int(scene.data().nodes.size()) + 1;
+    return int(texel(aov(frame, "id", v), x, y).x) == int(scene.data().nodes.size()) + 2;
   }
   // Where in the world there is foam.
   static std::vector<glm::dvec3> foam(const Frame& frame, size_t v) {
@@ -127,8 +127,8 @@ TEST_P(Decorations, holesShowTheWaterAtItsHeight) {
             differ += texel(aov(bare, "lit", v), x, y) != texel(aov(with, "lit", v), x, y);
           }
         EXPECT_GT(heights.count, 3000u);
-        // The two meshes differ by what a triangle of one cuts off an edge of the other. The water pushed down
-        // below would lie 0.3 m deeper.
+        // The two meshes differ by what a triangle of one cuts off an edge of the other. The water pushed
+        // down below would lie 0.3 m deeper.
         EXPECT_LT(heights.mean(), 0.003) << kind << ": " << heights.text();
         EXPECT_LE(heights.beyond, 2u) << kind << ": " << heights.text();
         EXPECT_GT(differ, 20u) << kind << " suppresses strokes";

@@ -327,10 +327,11 @@ TEST_F(MatteTest, numbersHaveNames) {
   s.json()["nodes"][1]["name"] = "Ball";
   const Scene scene = s.load();
   const std::vector<std::string> names = scene.objectNames();
-  ASSERT_EQ(names.size(), scene.summary().nodes + 1);
+  ASSERT_EQ(names.size(), scene.summary().nodes + 2);
   EXPECT_EQ(names[0], "node 1");
   EXPECT_EQ(names[1], "Ball");
-  EXPECT_EQ(names.back(), "Ground");
+  EXPECT_EQ(names[names.size() - 2], "Ground");
+  EXPECT_EQ(names.back(), "Ocean");
   EXPECT_TRUE(Scene().objectNames().empty());
 
   const auto views = viewsFrom(scene, {{2, 2.5f, 6}, {-0.7f, 0.8f, 0.4f}}, kWidth, kHeight);
@@ -342,6 +343,31 @@ TEST_F(MatteTest, numbersHaveNames) {
   };
   EXPECT_EQ(nameAt(kWidth / 2, kHeight / 2), "Ball");
   EXPECT_EQ(nameAt(0, kHeight - 1), "Ground");
+}
+
+// Both may be there at once.
+TEST_F(MatteTest, groundAndOceanHaveNamesOfTheirOwn) {
+  const Scene scene = stillLife().load();
+  const std::vector<std::string> names = scene.objectNames();
+  const auto views = viewsFrom(scene, {{2, 2.5f, 6}, {-0.7f, 0.8f, 0.4f}}, kWidth, kHeight);
+  const auto nameBelow = [&](const char* ground, const char* level) {
+    const Frame frame = draw(scene,
+                             quietLook({{"warp.amount", "0"},
+                                        {"ground.mode", ground},
+                                        {"ocean.mode", "on"},
+                                        {"ocean.tiles", "1"},
+                                        {"ocean.wind", "0"},
+                                        {"ocean.level", level}}),
+                             views, sized(kWidth, kHeight, {"cryptomatte", "id"}));
+    const Coverages list = listed(aov(frame, "cryptomatte"), 0, kHeight - 1);
+    const int id = int(texel(aov(frame, "id"), 0, kHeight - 1).x);
+    if (list.empty()) return std::string();
+    EXPECT_EQ(id, int(list.begin()->first));
+    return names.at(size_t(id - 1));
+  };
+  EXPECT_EQ(nameBelow("on", "-100"), "Ground");
+  EXPECT_EQ(nameBelow("on", "0.5"), "Ocean");
+  EXPECT_EQ(nameBelow("auto", "0.5"), "Ocean");
 }
 
 }  // namespace
