@@ -7,7 +7,7 @@ namespace {
 using meshkit::kPi;
 
 // She heads to the left and towards the viewer, and her crew's weight heels her to this side, so that the
-// deck shows. What the waves add, the look tells.
+// deck shows. The waves add theirs.
 constexpr float kYaw = -0.26f, kHeel = 0.13f, kTrim = 0.012f;  // radians
 constexpr glm::vec3 kPlace = {2.3f, 0.03f, 0.0f};
 
@@ -27,6 +27,7 @@ glm::vec3 boatHeading() {
 
 int addBoat(Document& document, int parent) {
   const int boat = document.addNode({"Boat", parent, kPlace, attitude()});
+  document.nodes[size_t(boat)].extras = R"({"scumble_float": {"length": 5, "beam": 1.8, "bow": "x"}})";
   addHull(document, boat);
   addRig(document, boat);
   addSails(document, boat);

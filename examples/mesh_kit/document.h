@@ -34,6 +34,7 @@ struct Node {
   glm::vec3 scale{1.0f};
   int mesh = -1, camera = -1, skin = -1;
   bool sun = false;
+  std::string extras;  // JSON; empty: none
 };
 
 struct Document {

@@ -216,6 +216,7 @@ class Writer {
       if (n.camera >= 0) node["camera"] = n.camera;
       if (n.sun) node["extensions"]["KHR_lights_punctual"]["light"] = 0;
       if (!children[i].empty()) node["children"] = children[i];
+      if (!n.extras.empty()) node["extras"] = Json::parse(n.extras);
       root_["nodes"].push_back(node);
     }
     root_["extensions"]["KHR_lights_punctual"]["lights"] =

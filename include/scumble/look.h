@@ -26,7 +26,8 @@ struct ShippedLook {
 struct Knob {
   std::string path, type, defaultValue, min, max, unit, meaning;
   // What it may be set for: "scene" by its path alone; "materials", "nodes" and "clips" for those whose names
-  // match a pattern, as in "materials.PATTERN." + path; "colorizers" for those that looks declare by a name.
+  // match a pattern, as in "materials.PATTERN." + path; "colorizers" and "decorations" for those that looks
+  // declare by a name.
   std::vector<std::string> targets;
 };
 
@@ -41,9 +42,9 @@ class Look {
   static Result<Look> fromJson(const std::string& text, const std::string& file);
 
   // Sets one knob, e.g. ("shadow.threshold", "0.4") or ("materials.Sail*.warp.amount", "2"), likewise
-  // below "nodes" and "clips"; below "colorizers" a new name declares one. It wins over the file's values and
-  // tracks; a setting for some names wins over one for the whole scene; of two alike the later one wins.
-  // Fails with ErrorKind::usage.
+  // below "nodes" and "clips"; below "colorizers" and "decorations" a new name declares one. It wins over the
+  // file's values and tracks; a setting for some names wins over one for the whole scene; of two alike the
+  // later one wins. Fails with ErrorKind::usage.
   Status set(const std::string& path, const std::string& value);
 
   const std::string& description() const;
