@@ -190,23 +190,26 @@ Pose poseAt(const SceneData& scene, std::span<const PlayedClip> clips, double ti
 }
 
 glm::mat4 worldAt(const SceneData& scene, std::span<const PlayedClip> clips, size_t node, double time) {
-  std::vector<size_t> above;
-  for (int n = int(node); n >= 0; n = scene.nodes[size_t(n)].parent) above.push_back(size_t(n));
-  glm::mat4 world(1.0f);
+  std::vector<int> above;  // itself too; sorted, as parents come first
+  for (int n = int(node); n >= 0; n = scene.nodes[size_t(n)].parent) above.push_back(n);
+  std::reverse(above.begin(), above.end());
+  std::vector<NodeMix> mixes(above.size());
   float sampled[4];
-  for (auto n = above.rbegin(); n != above.rend(); ++n) {
-    NodeMix mix;
-    for (const PlayedClip& played : clips) {
-      const Clip& clip = scene.clips[size_t(played.clip)];
-      if (!(played.weight > 0)) continue;
-      for (const Channel& channel : clip.channels) {
-        if (size_t(channel.node) != *n || channel.property == AnimatedProperty::weights) continue;
-        sampleChannel(channel, clipTime(played, clip.duration, time), sampled);
-        mix.add(scene.nodes[*n], channel.property, sampled, played.weight);
-      }
+  for (const PlayedClip& played : clips) {
+    const Clip& clip = scene.clips[size_t(played.clip)];
+    if (!(played.weight > 0)) continue;
+    for (const Channel& channel : clip.channels) {
+      const auto found = std::lower_bound(above.begin(), above.end(), channel.node);
+      if (found == above.end() || *found != channel.node || channel.property == AnimatedProperty::weights)
+        continue;
+      sampleChannel(channel, clipTime(played, clip.duration, time), sampled);
+      mixes[size_t(found - above.begin())].add(scene.nodes[size_t(channel.node)], channel.property, sampled,
+                                               played.weight);
     }
-    world = drawable(world * mix.matrix(scene.nodes[*n]));
   }
+  glm::mat4 world(1.0f);
+  for (size_t i = 0; i < above.size(); ++i)
+    world = drawable(world * mixes[i].matrix(scene.nodes[size_t(above[i])]));
   return world;
 }
 
