@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/tileable_noise.h"
+#include "frame/floating.h"
 
 namespace scumble::frame {
 
@@ -16,33 +17,24 @@ using shared::WaterDecoration;
 // Where what makes a decoration is at any time, on the water of now: metres from the middle of calm water.
 class Maker {
  public:
-  Maker(const DecorationParams& params, const look::LookData& look, const scene::SceneData& scene,
-        std::span<const scene::PlayedClip> clips, double now, const glm::vec3& origin,
-        const Travelled& travelled)
-      : params_(params),
+  Maker(const Decoration& decoration, const scene::SceneData& scene, std::span<const scene::PlayedClip> clips,
+        double now, const glm::vec3& origin, const Travelled& travelled)
+      : decoration_(decoration),
         scene_(scene),
         clips_(clips),
         origin_(origin.x, origin.z),
         travelled_(travelled),
-        travelledNow_(travelled(now)) {
-    const std::string& name = look.text(params.node);
-    isThere_ = name.empty();
-    for (size_t n = 0; n < scene.nodes.size() && !isThere_; ++n)
-      if (scene.nodes[n].name == name) isThere_ = true, node_ = n;
-  }
-  bool isThere() const { return isThere_; }
+        travelledNow_(travelled(now)) {}
   glm::dvec2 at(double time) const {
-    glm::vec4 place(params_.at.value, 1.0f);
-    if (node_) place = scene::worldAt(scene_, clips_, *node_, time) * place;
+    glm::vec4 place(decoration_.params.at.value, 1.0f);
+    if (decoration_.node) place = scene::worldAt(scene_, clips_, *decoration_.node, time) * place;
     return glm::dvec2(double(place.x), double(place.z)) - origin_ + travelled_(time) - travelledNow_;
   }
 
  private:
-  const DecorationParams& params_;
+  const Decoration& decoration_;
   const scene::SceneData& scene_;
   std::span<const scene::PlayedClip> clips_;
-  std::optional<size_t> node_;
-  bool isThere_ = false;
   glm::dvec2 origin_;
   const Travelled& travelled_;
   glm::dvec2 travelledNow_;
@@ -110,16 +102,37 @@ void placeRings(WaterDecoration& rings, const DecorationParams& params, const Ma
 
 }  // namespace
 
-std::vector<int> decorationKinds(const look::LookData& look) {
-  std::vector<int> kinds;
-  for (const std::string& name : look.declared(look::kDecorations))
-    kinds.push_back(look.getFor<DecorationParams>(look::kDecorations, name).kind);
-  return kinds;
+std::vector<Decoration> decorationsOf(const scene::SceneData& scene, const look::LookData& look, int ocean) {
+  std::vector<Decoration> decorations;
+  for (const std::string& name : look.declared(look::kDecorations)) {
+    Decoration& one = decorations.emplace_back();
+    one.params = look.getFor<DecorationParams>(look::kDecorations, name);
+    const std::string& node = look.text(one.params.node);
+    if (node.empty()) continue;
+    for (size_t n = 0; n < scene.nodes.size() && !one.node; ++n)
+      if (scene.nodes[n].name == node) one.node = n;
+    one.isThere = one.node.has_value();
+  }
+  for (const FloatingNode& floating : floatingNodes(scene, look, ocean)) {
+    const auto isItsWake = [&](const Decoration& one) {
+      return one.params.kind == shared::kWake && one.node == floating.node;
+    };
+    const FloatParams& params = floating.params;
+    if (!params.wake || params.length == 0 || params.beam == 0 ||
+        decorations.size() >= size_t(shared::kMaxDecorations) ||
+        std::any_of(decorations.begin(), decorations.end(), isItsWake))
+      continue;
+    Decoration& wake = decorations.emplace_back();
+    wake.params.kind = shared::kWake;
+    wake.params.length = params.length, wake.params.beam = params.beam;
+    wake.node = floating.node;
+  }
+  return decorations;
 }
 
 DecorationMesh makeDecorationMesh(int kind) {
   const bool isWake = kind == shared::kWake;
-  const uint32_t along = isWake ? 56 : 44, across = isWake ? 30 : 64;
+  const uint32_t along = isWake ? 56 : 52, across = isWake ? 30 : 96;
   DecorationMesh mesh;
   for (uint32_t i = 0; i <= along; ++i)
     for (uint32_t j = 0; j <= across; ++j)
@@ -132,17 +145,18 @@ DecorationMesh makeDecorationMesh(int kind) {
   return mesh;
 }
 
-std::vector<WaterDecoration> placeDecorations(const look::LookData& look, const scene::SceneData& scene,
+std::vector<WaterDecoration> placeDecorations(const std::vector<Decoration>& decorations,
+                                              const scene::SceneData& scene,
                                               std::span<const scene::PlayedClip> clips, double time,
                                               const glm::vec3& origin, const Travelled& travelled) {
   std::vector<WaterDecoration> placed;
-  for (const std::string& name : look.declared(look::kDecorations)) {
-    const DecorationParams params = look.getFor<DecorationParams>(look::kDecorations, name);
+  for (const Decoration& decoration : decorations) {
+    const DecorationParams& params = decoration.params;
     WaterDecoration& one = placed.emplace_back();
     one.kind = params.kind;
     one.amount = params.amount, one.foam = params.foam, one.height = params.height, one.lasts = params.lasts;
-    const Maker maker(params, look, scene, clips, time, origin, travelled);
-    if (!maker.isThere() || params.amount == 0) continue;
+    if (!decoration.isThere || params.amount == 0) continue;
+    const Maker maker(decoration, scene, clips, time, origin, travelled);
     if (params.kind == shared::kWake)
       placeWake(one, params, maker, time);
     else

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,8 +19,15 @@ namespace scumble::frame {
 #define PARAMS_TARGETS look::kDecorations
 #include "look/define_params.h"
 
-// Of each that the look declares, in its order.
-std::vector<int> decorationKinds(const look::LookData& look);
+struct Decoration {
+  DecorationParams params;
+  std::optional<size_t> node;  // what makes it; none: a place of the scene
+  bool isThere = true;         // else the scene has no such node
+};
+
+// Those that the look declares, in its order; then the wakes of what rides the waves, where the look declares
+// none for it. kMaxDecorations at most. `ocean`: the ocean's own node; -1: none.
+std::vector<Decoration> decorationsOf(const scene::SceneData& scene, const look::LookData& look, int ocean);
 
 // Its mesh, in the coordinates that decorationPlace (shading/water.glsl) lays on the water.
 struct DecorationMesh {
@@ -31,10 +39,10 @@ DecorationMesh makeDecorationMesh(int kind);
 // Metres that the scene has travelled over the water by a time, along x and z.
 using Travelled = std::function<glm::dvec2(double)>;
 
-// Of each that the look declares; without points where it draws nothing. A pure function of its arguments: a
-// wake lies along the way that its maker has come, which is asked of the clips, and of the travelled way, at
-// times past. Where that jumps, as clips do that begin anew, it is taken to have come straight on.
-std::vector<shared::WaterDecoration> placeDecorations(const look::LookData& look,
+// One for each; without points where it draws nothing. A pure function of its arguments: a wake lies along
+// the way that its maker has come, which is asked of the clips, and of the travelled way, at times past.
+// Where that jumps, as clips do that begin anew, it is taken to have come straight on.
+std::vector<shared::WaterDecoration> placeDecorations(const std::vector<Decoration>& decorations,
                                                       const scene::SceneData& scene,
                                                       std::span<const scene::PlayedClip> clips, double time,
                                                       const glm::vec3& origin, const Travelled& travelled);

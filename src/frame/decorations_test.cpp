@@ -54,7 +54,7 @@ TEST(Decorations, wakesGoBackAlongTheWay) {
   // Two metres a second along the parent's x, which is -z.
   const scene::SceneData scene = goes({0, 0, 0}, {8, 0, 0});
   const look::LookData look = lookOf({{"node", "Boat"}, {"length", "4"}, {"lasts", "3"}});
-  const auto placed = placeDecorations(look, scene, kPlays, 3.5, {1, 0, 2}, kStays);
+  const auto placed = placeDecorations(decorationsOf(scene, look, -1), scene, kPlays, 3.5, {1, 0, 2}, kStays);
   ASSERT_EQ(placed.size(), 1u);
   const shared::WaterDecoration& wake = placed[0];
   ASSERT_EQ(wake.count, shared::kDecorationPoints);
@@ -77,14 +77,16 @@ TEST(Decorations, wakesAreCarriedByTheWater) {
   const scene::SceneData scene = goes({0, 0, 0}, {8, 0, 0});
   const Travelled travels = [](double t) { return glm::dvec2(3 * t, 4 * t); };
   const look::LookData look = lookOf({{"at", "1,9,2"}, {"lasts", "2"}});
-  const auto wake = placeDecorations(look, scene, kPlays, 5, glm::vec3(0), travels)[0];
+  const auto wake =
+      placeDecorations(decorationsOf(scene, look, -1), scene, kPlays, 5, glm::vec3(0), travels)[0];
   // What is at a place of the scene leaves a straight wake against the way of the scene, five metres a
   // second.
   const glm::vec4 last = wake.points[wake.count - 1];
   EXPECT_NEAR(last.x, 1 - 3 * 2, 1e-3);
   EXPECT_NEAR(last.y, 2 - 4 * 2, 1e-3);
   // What stands still over the water has none.
-  const auto still = placeDecorations(look, scene, kPlays, 5, glm::vec3(0), kStays)[0];
+  const auto still =
+      placeDecorations(decorationsOf(scene, look, -1), scene, kPlays, 5, glm::vec3(0), kStays)[0];
   EXPECT_EQ(still.count, 0);
 }
 
@@ -93,7 +95,8 @@ TEST(Decorations, wakesGoStraightOnWhereClipsJump) {
   const look::LookData look = lookOf({{"node", "Boat"}, {"length", "4"}, {"lasts", "6"}});
   // Just after the clip has begun anew, at that moment, and before anything has begun.
   for (const double time : {4.25, 4.0, 0.0, 0.3}) {
-    const auto wake = placeDecorations(look, scene, kPlays, time, glm::vec3(0), kStays)[0];
+    const auto wake =
+        placeDecorations(decorationsOf(scene, look, -1), scene, kPlays, time, glm::vec3(0), kStays)[0];
     ASSERT_GT(wake.count, 2);
     const double here = -2 * std::fmod(time, 4.0);
     for (int i = 1; i < wake.count; ++i)
@@ -106,11 +109,13 @@ TEST(Decorations, stoppingLeavesWhatWasMade) {
   std::vector<scene::PlayedClip> once{{}};
   once[0].repeat = scene::Repeat::once;
   const look::LookData look = lookOf({{"node", "Boat"}, {"length", "4"}, {"lasts", "3"}});
-  const auto wake = placeDecorations(look, scene, once, 5.5, glm::vec3(0), kStays)[0];
+  const auto wake =
+      placeDecorations(decorationsOf(scene, look, -1), scene, once, 5.5, glm::vec3(0), kStays)[0];
   ASSERT_GT(wake.count, 2);
   EXPECT_EQ(wake.points[1].w, 0);
   EXPECT_NEAR(wake.points[wake.count - 1].w, 1, 1e-3);
-  EXPECT_EQ(placeDecorations(look, scene, once, 20, glm::vec3(0), kStays)[0].count, 0);
+  EXPECT_EQ(placeDecorations(decorationsOf(scene, look, -1), scene, once, 20, glm::vec3(0), kStays)[0].count,
+            0);
 }
 
 TEST(Decorations, ringsBeginWhenTheyAreTold) {
@@ -118,7 +123,8 @@ TEST(Decorations, ringsBeginWhenTheyAreTold) {
   const Knobs knobs{
       {"kind", "ripples"}, {"node", "Boat"}, {"start", "0.5"}, {"every", "1"}, {"lasts", "2.25"}};
   const auto at = [&](double time) {
-    return placeDecorations(lookOf(knobs), scene, kPlays, time, glm::vec3(0), kStays)[0];
+    return placeDecorations(decorationsOf(scene, lookOf(knobs), -1), scene, kPlays, time, glm::vec3(0),
+                            kStays)[0];
   };
   EXPECT_EQ(at(0.49).count, 0);
   EXPECT_EQ(at(0.5).count, 1);
@@ -137,9 +143,35 @@ TEST(Decorations, ringsBeginWhenTheyAreTold) {
 
 TEST(Decorations, moreThanThereIsRoomForAreTheNewest) {
   const look::LookData look = lookOf({{"kind", "splash"}, {"every", "0.001"}, {"lasts", "100"}});
-  const auto one = placeDecorations(look, {}, {}, 50, glm::vec3(0), kStays)[0];
+  const auto one = placeDecorations(decorationsOf({}, look, -1), {}, {}, 50, glm::vec3(0), kStays)[0];
   ASSERT_EQ(one.count, shared::kDecorationPoints);
   EXPECT_NEAR(one.points[one.count - 1].z, 0.025, 1e-3);
+}
+
+TEST(Decorations, whatRidesHasAWake) {
+  scene::SceneData scene = goes({0, 0, 0}, {8, 0, 0});
+  const auto decorations = [&](const Knobs& knobs) {
+    Look look;
+    for (const auto& [path, value] : knobs) EXPECT_TRUE(look.set(path, value).ok());
+    return decorationsOf(scene, look.data().at(0), -1);
+  };
+  EXPECT_TRUE(decorations({}).empty());
+  const auto rides = decorations({{"nodes.Boat.float.rides", "on"}, {"nodes.Boat.float.length", "7"}});
+  ASSERT_EQ(rides.size(), 1u);
+  EXPECT_EQ(rides[0].node, 1u);
+  EXPECT_EQ(rides[0].params.length, 7);
+  EXPECT_TRUE(decorations({{"nodes.Boat.float.rides", "on"}, {"nodes.Boat.float.wake", "off"}}).empty());
+  // The scene says it: then with every look, unless that declares one of its own.
+  scene.nodes[1].floats.emplace().beam = 3;
+  ASSERT_EQ(decorations({}).size(), 1u);
+  EXPECT_EQ(decorations({})[0].params.beam, 3);
+  EXPECT_TRUE(decorations({{"nodes.Boat.float.rides", "off"}}).empty());
+  const auto own = decorations({{"decorations.W.water.node", "Boat"}, {"decorations.W.water.beam", "2"}});
+  ASSERT_EQ(own.size(), 1u);
+  EXPECT_EQ(own[0].params.beam, 2);
+  EXPECT_EQ(
+      decorations({{"decorations.W.water.node", "Boat"}, {"decorations.W.water.kind", "ripples"}}).size(),
+      2u);
 }
 
 TEST(Decorations, meshesFaceUp) {

@@ -46,7 +46,8 @@ OceanShape oceanShape(const scene::SceneData& scene, const look::LookData& look)
   const float half = std::max(0.5f * float(shape.tiles) * shape.tile - shape.cell(), 0.01f * shape.cell());
   shape.falseHorizon = std::min(params.falseHorizon, half);
   shape.horizon = std::max(params.horizon, 1.5f * shape.falseHorizon);
-  shape.decorations = decorationKinds(look);
+  for (const Decoration& one : decorationsOf(scene, look, shape.node))
+    shape.decorations.push_back(one.params.kind);
   return shape;
 }
 
@@ -178,7 +179,8 @@ void OceanWaves::pose(const look::LookData& look, double time, const Travelled& 
       for (glm::vec4& point : one.points) point += glm::vec4(slid_, 0.0f, 0.0f);
     }
   } else {
-    decorations_ = placeDecorations(look, scene_, playedClips(scene_, look), time, shape_.origin, travelled);
+    decorations_ = placeDecorations(decorationsOf(scene_, look, shape_.node), scene_,
+                                    playedClips(scene_, look), time, shape_.origin, travelled);
   }
   header->decorationCount = int(decorations_.size());
   std::copy(decorations_.begin(), decorations_.end(), header->decorations);

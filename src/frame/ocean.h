@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "frame/decorations.h"
+#include "frame/floating.h"
 #include "gpu/frames_in_flight.h"
 #include "look/look_data.h"
 #include "ocean/surface.h"
@@ -19,13 +20,6 @@ namespace scumble::frame {
 #define PARAMS_FILE "frame/ocean.params"
 #define PARAMS_PATH "ocean"
 #define PARAMS_TARGETS kScene
-#include "look/define_params.h"
-
-// What rides the waves.
-#define PARAMS_STRUCT FloatParams
-#define PARAMS_FILE "frame/float.params"
-#define PARAMS_PATH "float"
-#define PARAMS_TARGETS kNodes
 #include "look/define_params.h"
 
 // What of the ocean goes into the scene's geometry.

@@ -42,19 +42,6 @@ glm::mat3 normalMatrix(const glm::mat3& linear, bool mirrored) {
   return normal * ((mirrored ? -1.0f : 1.0f) / (most > 0 && std::isfinite(most) ? most : 1.0f));
 }
 
-// How a node floats: what the scene says of it, and over that what the look does.
-FloatParams floatParams(const scene::Node& node, const look::LookData& look) {
-  FloatParams params;
-  if (node.floats) {
-    params.rides = true;
-    params.length = node.floats->length.value_or(params.length);
-    params.beam = node.floats->beam.value_or(params.beam);
-    params.bow = node.floats->bowAlongZ ? 1 : 0;
-  }
-  look.fillFor(FloatParams::block(), look::kNodes, node.name, &params);
-  return params;
-}
-
 }  // namespace
 
 SceneMotion::SceneMotion(gpu::Device& device, const scene::SceneData& scene,
@@ -70,7 +57,6 @@ SceneMotion::SceneMotion(gpu::Device& device, const scene::SceneData& scene,
       mirrored_(moving.size(), 0) {
   for (const scene::Skin& skin : scene.skins)
     for (const int joint : skin.joints) isJoint_[size_t(joint)] = true;
-  for (const scene::Node& node : scene.nodes) sceneFloats_ |= node.floats.has_value();
 
   std::map<std::pair<int, uint32_t>, uint32_t> uses;
   size_t joints = 0, weights = 0;
@@ -131,17 +117,14 @@ void SceneMotion::pose(const look::LookData& look, double time, const OceanWaves
 
   // What rides the waves is moved by them as the waves are now, however long poses are held.
   riding_.clear();
-  const bool maySet = waves && look.setsAny(FloatParams::block(), "rides", look::kNodes);
-  if (maySet || (waves && sceneFloats_)) {
+  const std::vector<FloatingNode> floating =
+      waves ? floatingNodes(scene_, look, waves->node()) : std::vector<FloatingNode>();
+  if (!floating.empty()) {
     riding_.resize(scene_.nodes.size());
-    for (size_t n = 0; n < scene_.nodes.size(); ++n) {
-      const scene::Node& node = scene_.nodes[n];
-      if (node.parent >= 0 && riding_[size_t(node.parent)])
-        riding_[n] = riding_[size_t(node.parent)];
-      else if ((maySet || node.floats) && int(n) != waves->node())
-        if (const FloatParams params = floatParams(node, look); params.rides)
-          riding_[n] = waves->riding(params, world_[n]);
-    }
+    for (const FloatingNode& one : floating) riding_[one.node] = waves->riding(one.params, world_[one.node]);
+    for (size_t n = 0; n < scene_.nodes.size(); ++n)
+      if (const int parent = scene_.nodes[n].parent; parent >= 0 && riding_[size_t(parent)])
+        riding_[n] = riding_[size_t(parent)];
     const auto ride = [&](std::vector<glm::mat4>& world) {
       for (size_t n = 0; n < world.size(); ++n)
         if (riding_[n]) world[n] = *riding_[n] * world[n];

@@ -78,7 +78,6 @@ class SceneMotion {
   const std::vector<std::string>& materialNames_;
   const std::vector<MovingObject>& moving_;
   std::vector<bool> isJoint_;        // by node
-  bool sceneFloats_ = false;         // whether the scene itself says of a node that it rides
   std::vector<SkinUse> skinUses_;    // a skin is posed once for each material that is drawn with it
   std::vector<uint32_t> skinUseOf_;  // by object
   gpu::PerFrameBuffer objects_, joints_, morphWeights_, moved_;

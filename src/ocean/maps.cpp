@@ -52,7 +52,7 @@ Water waterOf(Mood mood) {
     // Grey-green; its shadow goes to ink, and the crest is the only pale thing.
     case Mood::storm:
       return {{rgb(0x1E2E35), rgb(0x293E40), rgb(0x38534F), rgb(0x4C6C60), rgb(0x728D78), rgb(0xB9C6A6)},
-              {rgb(0x17223A), rgb(0x1E2F48), rgb(0x293F5A), rgb(0x38546A), rgb(0x4F6D80), rgb(0x8296A6)}};
+              {rgb(0x14282E), rgb(0x1A3238), rgb(0x233F44), rgb(0x2F4F50), rgb(0x466561), rgb(0x7A948C)}};
     // Teal below an apricot sky: shadow turns towards violet, and the crest takes the sun's colour.
     case Mood::evening:
       return {{rgb(0x1D4A5E), rgb(0x276173), rgb(0x337A86), rgb(0x4B9696), rgb(0x94AE8C), rgb(0xF2C488)},
@@ -87,11 +87,11 @@ Sky skyOf(Mood mood) {
               rgb(0xFFF1D2),
               215};
     case Mood::storm:
-      return {{rgb(0xD4CFB2), rgb(0xA8AD9E), rgb(0x7F8D8B), rgb(0x63767B), rgb(0x505F6C)},
+      return {{rgb(0xAEB4A6), rgb(0x97A09A), rgb(0x7F8D8B), rgb(0x63767B), rgb(0x505F6C)},
               {rgb(0x8D989A), rgb(0x72828A), rgb(0x5C6E79), rgb(0x4C5D6A), rgb(0x404D5E)},
               {150, 100, 60, 36, 20},
               {115, 80, 50, 30, 20},
-              rgb(0xE6DDB8),
+              rgb(0xBCC0AE),
               185};
     case Mood::evening:
       return {{rgb(0xFFD798), rgb(0xF8B579), rgb(0xEB996E), rgb(0xC48888), rgb(0x8B83A2)},
@@ -168,8 +168,8 @@ Pixels sky(Mood mood) {
         color = mix(color, mix(sky.toSun[band], sky.away[band], away), weight);
         shown = mix(shown, mix(sky.shownToSun[band], sky.shownAway[band], away), weight);
       }
-      // A quarter of an ellipse.
-      const int glow = kOne - pass(u * u / 6 + v * v / 12, kOne, 128);
+      // A quarter of an ellipse: so far the sun glitters to its sides, 16 degrees, and up.
+      const int glow = kOne - pass(u * u / 2 + v * v / 12, kOne, 128);
       add(pixels, mix(color, sky.glow, glow), mix(shown, sky.shownGlow, glow));
     }
   return pixels;

@@ -77,7 +77,7 @@ Decorated wakeAt(int index, vec2 place) {
   Decorated w;
   float lifts = onArm * (exp(-max(s, 0.0) / (1.2 * d.hull)) + exp(-9.0 * s * s / (d.hull * d.hull)));
   w.displacement = vec3(0.0, fade * d.height * d.rise * (lifts - 0.3 * churned * exp(-4.0 * age)), 0.0);
-  w.crest = fade * (1.3 * onArm + 0.5 * churned * exp(-2.0 * age));
+  w.crest = fade * (0.9 * onArm + 0.3 * churned * exp(-2.0 * age));
   w.cover = fade * d.foam * max(max(1.15 * onArm * exp(-2.2 * age), 0.95 * churned * exp(-2.6 * age)), 0.8 * beside);
   w.calm = amount * begins * (1.0 - smoothstep(0.6, 1.0, age)) * (1.0 - smoothstep(arm, full, across));
   w.outside = max(max(across - full, -0.4 * d.halfBeam - s), s - d.points[d.count - 1].z);
@@ -112,24 +112,24 @@ Decorated ripplesAt(int index, vec2 place) {
 Decorated splashAt(int index, vec2 place) {
   WaterDecoration d = field.decorations[index];
   Decorated w = Decorated(vec3(0.0), 0.0, 0.0, 0.0, 1e9);
-  float highest = 0.8 * d.radius * d.height;
+  float highest = 0.45 * d.radius * d.height;
   float falls = 2.0 * sqrt(2.0 * max(highest, 0.02 * d.radius) / 9.81);  // seconds from the water to the water
   for (int i = 0; i < d.count; ++i) {
     vec4 from = field.decorations[index].points[i];
     vec2 out_ = place - from.xy;
     float away = length(out_), age = from.z / d.lasts, flight = min(from.z / falls, 1.0);
     // The crown: thin, jagged, leaning outward.
-    float ring = d.radius * mix(0.35, 0.9, flight), thin = 0.11 * d.radius;
+    float ring = d.radius * mix(0.35, 0.9, flight), thin = 0.08 * d.radius;
     float x = (away - ring) / thin, onCrown = exp(-x * x), turn = atan(out_.y, out_.x) + 6.2831853 * from.w;
-    float jags = 0.6 + 0.25 * sin(5.0 * turn) + 0.15 * sin(11.0 * turn + 2.0);
+    float jags = 0.5 + 0.3 * sin(11.0 * turn + 1.5 * sin(3.0 * turn)) + 0.2 * sin(17.0 * turn + 2.0);
     float up = 4.0 * flight * (1.0 - flight);
     float rises = highest * up * onCrown * jags;
     w.displacement.y += rises;
     w.displacement.xz += away > 1e-6 ? out_ / away * 0.3 * rises : vec2(0.0);
     // What falls back whitens the water, and sends rings away.
-    float patch_ = 1.0 - smoothstep(0.4, 1.0, away / (d.radius * mix(0.55, 1.1, flight)));
-    float fade = 1.0 - smoothstep(0.1, 1.0, age);
-    w.cover = max(w.cover, d.foam * max(1.3 * up * onCrown, 0.85 * smoothstep(0.0, 0.1, flight) * patch_ * fade));
+    float patch_ = 1.0 - smoothstep(0.1, 1.0, away / (d.radius * mix(0.55, 1.2, flight)));
+    float fade = 1.0 - smoothstep(0.0, 0.7, age);
+    w.cover = max(w.cover, d.foam * max(smoothstep(0.0, 0.3, up) * onCrown * (1.25 - 0.7 * jags), 0.9 * smoothstep(0.0, 0.1, flight) * patch_ * fade));
     float between = 0.3 * d.radius, since = max(age - 0.5 * falls / d.lasts, 0.0);
     float front = d.radius * (0.6 + 1.4 * since);
     vec2 rings = ringsAt(away, front, d.crests, between);

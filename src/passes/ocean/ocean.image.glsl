@@ -84,7 +84,7 @@ void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
   toEye /= distance;
   float nearness = 1.0 - smoothstep(0.5 * ocean.fadeEnd, 3.0 * ocean.fadeEnd, distance);
   float stroke = liveTexture(value.rgb, uv * kWaterPerPattern, nearness);
-  stroke = mix(0.5, stroke, mix(0.2, 1.0, nearness) * (1.0 - decorated.y));
+  stroke = mix(0.5, stroke, mix(0.2, 1.0, nearness) * (1.0 - 0.6 * decorated.y));
 
   float index = 0.42 + 0.14 * clamp(wave.x, -2.0, 2.0) + ocean.dither * (stroke - 0.5);
   float shift = ocean.lightDither * (stroke - 0.5);
@@ -94,14 +94,16 @@ void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
   vec3 ray = reflect(-toEye, normal);
   float elevation = asin(clamp(abs(ray.y), 0.0, 1.0)) * 0.6366198;
   vec2 sun = frame.toLight.xz, away = ray.xz;
-  float azimuth = 0.5 - 0.5 * dot(away, sun) * inversesqrt(max(dot(away, away) * dot(sun, sun), 1e-12));
+  float towards = dot(away, sun) * inversesqrt(max(dot(away, away) * dot(sun, sun), 1e-12));
+  float azimuth = acos(clamp(towards, -1.0, 1.0)) * 0.31830989;
   vec4 sky = textureLod(skyMap, vec2(azimuth, elevation), 0.0);
   if (kNext) sky = mix(sky, textureLod(nextSkyMap, vec2(azimuth, elevation), 0.0), ocean.next);
   sky.rgb = graded(sky.rgb, ocean.skySaturation, ocean.skyOverlay, ocean.skyOverlayAmount);
   float reflected = ocean.reflection * sky.a;
-  float shown = clamp((reflected - 0.5 + 0.9 * (stroke - 0.5)) * 4.0 + 0.5, 0.0, 1.0);
+  float shown = clamp((reflected - 0.5 + 0.9 * (stroke - 0.5)) * 14.0 + 0.5, 0.0, 1.0);
   shown *= min(10.0 * reflected, 1.0);  // not even the strongest stroke mirrors what is not there
   // Nor do crests seen edge-on: they would be dotted lines.
+  shown *= 1.0 - min(decorated.x, 1.0);  // nor does what is churned
   shown *= smoothstep(0.1, 0.6, abs(dot(normal, toEye) / max(abs(toEye.y), 1e-3)));
   lit = mix(lit, sky.rgb, shown);
   shadowed = mix(shadowed, mix(shadowed, sky.rgb, 0.5), shown);
