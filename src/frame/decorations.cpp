@@ -40,28 +40,57 @@ class Maker {
   glm::dvec2 travelledNow_;
 };
 
-void placeWake(WaterDecoration& wake, const DecorationParams& params, const Maker& maker, double time) {
+// The time since which what makes a wake has not jumped, as it does where a clip that repeats begins anew at
+// another place than it ended at.
+double withoutJumpSince(const Maker& maker, const scene::SceneData& scene,
+                        std::span<const scene::PlayedClip> clips, double from, double to) {
+  constexpr double kMoment = 1e-3;
+  constexpr int kMostTurns = 1000;  // so many times a clip is asked
+  double since = from;
+  for (const scene::PlayedClip& played : clips) {
+    const double duration = double(scene.clips[size_t(played.clip)].duration) / std::abs(played.speed);
+    if (played.repeat != scene::Repeat::loop || !(duration > 0) || !std::isfinite(duration)) continue;
+    // It begins anew whenever this is whole.
+    const double phase = played.start / (played.speed * duration);
+    double turn = std::floor(to / duration + phase);
+    for (int i = 0; i < kMostTurns && (turn - phase) * duration > since; ++i, --turn) {
+      const double begins = (turn - phase) * duration;
+      const glm::dvec2 before = maker.at(begins - kMoment), after = maker.at(begins + kMoment);
+      const double moves = glm::length(maker.at(begins + 2 * kMoment) - after) +
+                           glm::length(before - maker.at(begins - 2 * kMoment));
+      if (glm::length(after - before) > 0.05 + 2 * moves) since = begins;
+    }
+  }
+  return since;
+}
+
+void placeWake(WaterDecoration& wake, const DecorationParams& params, const Maker& maker,
+               const scene::SceneData& scene, std::span<const scene::PlayedClip> clips, double time) {
   constexpr int kPlaces = shared::kDecorationPoints - 1;
   const double step = double(params.lasts) / (kPlaces - 1);
-  // As it comes now; at a jump, as it goes on.
+  constexpr double kAfter = 1e-3;
+  const double since = withoutJumpSince(maker, scene, clips, time - double(params.lasts), time) + kAfter;
+  // As it comes now, or after a jump, as it goes on.
   constexpr double kMoment = 0.02;
   const glm::dvec2 here = maker.at(time);
-  glm::dvec2 velocity = (here - maker.at(time - kMoment)) / kMoment;
-  const glm::dvec2 next = (maker.at(time + kMoment) - here) / kMoment;
-  if (glm::length(next) < glm::length(velocity)) velocity = next;
+  const auto velocityAt = [&](double when) {
+    const double a = std::max(when - kMoment, since), b = a + kMoment;
+    return (maker.at(b) - maker.at(a)) / kMoment;
+  };
+  const glm::dvec2 velocity = velocityAt(time);
   const double speed = glm::length(velocity);
 
   std::array<glm::dvec2, kPlaces> places{here};
-  glm::dvec2 ahead(0.0), came = velocity;
   std::array<double, kPlaces> speeds{speed};
-  bool jumped = false;
+  glm::dvec2 ahead(0.0);
+  // Before a jump it has come straight on, as it went on after.
+  const glm::dvec2 first = maker.at(since), came = velocityAt(since);
   for (size_t i = 1; i < kPlaces; ++i) {
-    const glm::dvec2 there = maker.at(time - double(i) * step), way = (places[i - 1] - there) / step;
-    jumped |= glm::length(way) > 3 * std::max(glm::length(came), 0.5) + 2;
-    if (!jumped) came = way;
-    places[i] = places[i - 1] - came * step;
-    speeds[i] = glm::length(came);
-    if (ahead == glm::dvec2(0.0) && glm::length(came) > 1e-3) ahead = glm::normalize(came);
+    const double when = time - double(i) * step;
+    places[i] = when > since ? maker.at(when) : first - came * (since - when);
+    const glm::dvec2 way = (places[i - 1] - places[i]) / step;
+    speeds[i] = glm::length(way);
+    if (ahead == glm::dvec2(0.0) && speeds[i] > 1e-3) ahead = way / speeds[i];
   }
   if (speed > 1e-3) ahead = velocity / speed;
   if (ahead == glm::dvec2(0.0)) return;
@@ -158,7 +187,7 @@ std::vector<WaterDecoration> placeDecorations(const std::vector<Decoration>& dec
     if (!decoration.isThere || params.amount == 0) continue;
     const Maker maker(decoration, scene, clips, time, origin, travelled);
     if (params.kind == shared::kWake)
-      placeWake(one, params, maker, time);
+      placeWake(one, params, maker, scene, clips, time);
     else
       placeRings(one, params, maker, time, uint32_t(placed.size()));
 

@@ -41,7 +41,8 @@ using Travelled = std::function<glm::dvec2(double)>;
 
 // One for each; without points where it draws nothing. A pure function of its arguments: a wake lies along
 // the way that its maker has come, which is asked of the clips, and of the travelled way, at times past.
-// Where that jumps, as clips do that begin anew, it is taken to have come straight on.
+// Before a clip that begins
+// anew elsewhere, it is taken to have come straight on.
 std::vector<shared::WaterDecoration> placeDecorations(const std::vector<Decoration>& decorations,
                                                       const scene::SceneData& scene,
                                                       std::span<const scene::PlayedClip> clips, double time,

@@ -104,6 +104,32 @@ TEST(Decorations, wakesGoStraightOnWhereClipsJump) {
   }
 }
 
+// However short the clip is, beside what lasts.
+TEST(Decorations, wakesGoStraightOnWhereClipsJumpOften) {
+  const scene::SceneData scene = goes({0, 0, 0}, {8, 0, 0});
+  for (const char* lasts : {"10", "40", "120"}) {
+    const look::LookData look = lookOf({{"node", "Boat"}, {"length", "4"}, {"lasts", lasts}});
+    const auto wake =
+        placeDecorations(decorationsOf(scene, look, -1), scene, kPlays, 7, glm::vec3(0), kStays)[0];
+    ASSERT_GT(wake.count, 2);
+    for (int i = 1; i < wake.count; ++i)
+      EXPECT_NEAR(wake.points[i].y, -6 + 2 * std::stod(lasts) * (i - 1) / (wake.count - 2), 0.05) << lasts;
+  }
+}
+
+TEST(Decorations, turningBackKeepsWhatWasMade) {
+  scene::SceneData scene = goes({0, 0, 0}, {8, 0, 0});
+  std::vector<scene::PlayedClip> back{{}};
+  back[0].repeat = scene::Repeat::pingPong;
+  const look::LookData look = lookOf({{"node", "Boat"}, {"length", "4"}, {"lasts", "3"}});
+  const auto wake = placeDecorations(decorationsOf(scene, look, -1), scene, back, 5, glm::vec3(0), kStays)[0];
+  float farthest = 0;
+  for (int i = 1; i < wake.count; ++i) farthest = std::min(farthest, wake.points[i].y);
+  EXPECT_NEAR(wake.points[1].y, -6, 0.01);
+  EXPECT_NEAR(farthest, -8, 0.2) << "where it turned, a second ago";
+  EXPECT_NEAR(wake.points[wake.count - 1].y, -4, 0.05) << "two seconds before that";
+}
+
 TEST(Decorations, stoppingLeavesWhatWasMade) {
   scene::SceneData scene = goes({0, 0, 0}, {8, 0, 0});
   std::vector<scene::PlayedClip> once{{}};

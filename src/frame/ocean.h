@@ -76,8 +76,8 @@ class OceanWaves {
   // What the flat water is moved by, where they are.
   glm::vec3 ringOffset() const { return {slid_.x, 0.0f, slid_.y}; }
   // What is added to pattern coordinates of tiles, and of what does not move.
-  glm::vec2 tilePattern() const { return glm::vec2(travelled_ - glm::dvec2(within_)) / kWaterPerPattern; }
-  glm::vec2 ringPattern() const { return glm::vec2(travelled_) / kWaterPerPattern; }
+  glm::vec2 tilePattern() const { return patternAt(travelled_ - glm::dvec2(within_)); }
+  glm::vec2 ringPattern() const { return patternAt(travelled_); }
   // Where a decoration's mesh is; empty where it draws nothing.
   scene::Bounds decorationBounds(size_t decoration) const;
   // The ocean's own node; -1: none.
@@ -97,6 +97,11 @@ class OceanWaves {
   void addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) { uploads.push_back(&buffer_); }
 
  private:
+  // Begins anew after a power of two, at which all scales of a pattern repeat: numbers stay fine.
+  static glm::vec2 patternAt(const glm::dvec2& metres) {
+    return glm::mod(metres / double(kWaterPerPattern), glm::dvec2(8192.0));
+  }
+
   const scene::SceneData& scene_;
   OceanShape shape_;
   std::optional<ocean::Waves> waves_;

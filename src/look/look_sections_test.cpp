@@ -128,10 +128,11 @@ TEST(LookMaterials, knobsAreRefusedWhereTheyDoNotHold) {
         continue;
       }
       EXPECT_EQ(status.error().kind, ErrorKind::usage);
-      const char* reason = row.block->targets & look::kScene        ? "for the whole scene"
-                           : row.block->targets & look::kColorizers ? "for colorizers"
-                           : row.block->targets & look::kNodes      ? "for nodes"
-                                                                    : "for clips";
+      const char* reason = row.block->targets & look::kScene         ? "for the whole scene"
+                           : row.block->targets & look::kColorizers  ? "for colorizers"
+                           : row.block->targets & look::kDecorations ? "for decorations"
+                           : row.block->targets & look::kNodes       ? "for nodes"
+                                                                     : "for clips";
       EXPECT_NE(status.error().message().find(reason), std::string::npos) << status.error().message();
       EXPECT_NE(file.error().message().find(reason), std::string::npos) << file.error().message();
       EXPECT_FALSE(status.error().advice.empty() || file.error().advice.empty());

@@ -52,7 +52,7 @@ Water waterOf(Mood mood) {
     // Grey-green; its shadow goes to ink, and the crest is the only pale thing.
     case Mood::storm:
       return {{rgb(0x1E2E35), rgb(0x293E40), rgb(0x38534F), rgb(0x4C6C60), rgb(0x728D78), rgb(0xB9C6A6)},
-              {rgb(0x14282E), rgb(0x1A3238), rgb(0x233F44), rgb(0x2F4F50), rgb(0x466561), rgb(0x7A948C)}};
+              {rgb(0x162430), rgb(0x1C313D), rgb(0x263F4D), rgb(0x34515F), rgb(0x4A6672), rgb(0x7E939D)}};
     // Teal below an apricot sky: shadow turns towards violet, and the crest takes the sun's colour.
     case Mood::evening:
       return {{rgb(0x1D4A5E), rgb(0x276173), rgb(0x337A86), rgb(0x4B9696), rgb(0x94AE8C), rgb(0xF2C488)},

@@ -218,10 +218,10 @@ TEST_P(Decorations, splashesRiseAndFall) {
                    v);
   };
   for (size_t v = 0; v < viewCount(); ++v) {
-    const double flight = 2 * std::sqrt(2 * 1.2 / 9.81);  // to a height of 0.8 radii
-    EXPECT_GT(heightAt(0.5 * flight, v), 0.6);
-    EXPECT_LT(heightAt(0.5 * flight, v), 1.3);
-    EXPECT_GT(heightAt(0.5 * flight, v), heightAt(0.2 * flight, v) + 0.1);
+    const double flight = 2 * std::sqrt(2 * 0.675 / 9.81);  // to a height of 0.45 radii
+    EXPECT_GT(heightAt(0.5 * flight, v), 0.4);
+    EXPECT_LT(heightAt(0.5 * flight, v), 0.75);
+    EXPECT_GT(heightAt(0.5 * flight, v), heightAt(0.2 * flight, v) + 0.05);
     EXPECT_LT(heightAt(1.1 * flight, v), 0.2);
   }
 }

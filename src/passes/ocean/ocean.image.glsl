@@ -84,13 +84,15 @@ void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
   toEye /= distance;
   float nearness = 1.0 - smoothstep(0.5 * ocean.fadeEnd, 3.0 * ocean.fadeEnd, distance);
   float stroke = liveTexture(value.rgb, uv * kWaterPerPattern, nearness);
-  stroke = mix(0.5, stroke, mix(0.2, 1.0, nearness) * (1.0 - 0.6 * decorated.y));
+  // Crests seen edge-on have neither strokes nor foam nor mirror anything: they would be dotted lines.
+  vec3 normal = vec3(wave.z, sqrt(max(1.0 - dot(wave.zw, wave.zw), 0.0)), wave.w);
+  float faces = smoothstep(0.1, 0.6, abs(dot(normal, toEye) / max(abs(toEye.y), 1e-3)));
+  stroke = mix(0.5, stroke, mix(0.2, 1.0, nearness) * (1.0 - 0.6 * decorated.y) * faces);
 
   float index = 0.42 + 0.14 * clamp(wave.x, -2.0, 2.0) + ocean.dither * (stroke - 0.5);
   float shift = ocean.lightDither * (stroke - 0.5);
   lit = bathic(index, 0.8 + shift), shadowed = bathic(index, 0.15 + shift);
 
-  vec3 normal = vec3(wave.z, sqrt(max(1.0 - dot(wave.zw, wave.zw), 0.0)), wave.w);
   vec3 ray = reflect(-toEye, normal);
   float elevation = asin(clamp(abs(ray.y), 0.0, 1.0)) * 0.6366198;
   vec2 sun = frame.toLight.xz, away = ray.xz;
@@ -102,9 +104,7 @@ void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
   float reflected = ocean.reflection * sky.a;
   float shown = clamp((reflected - 0.5 + 0.9 * (stroke - 0.5)) * 14.0 + 0.5, 0.0, 1.0);
   shown *= min(10.0 * reflected, 1.0);  // not even the strongest stroke mirrors what is not there
-  // Nor do crests seen edge-on: they would be dotted lines.
-  shown *= 1.0 - min(decorated.x, 1.0);  // nor does what is churned
-  shown *= smoothstep(0.1, 0.6, abs(dot(normal, toEye) / max(abs(toEye.y), 1e-3)));
+  shown *= faces * (1.0 - min(decorated.x, 1.0));  // nor does what is churned
   lit = mix(lit, sky.rgb, shown);
   shadowed = mix(shadowed, mix(shadowed, sky.rgb, 0.5), shown);
   lit = sqrt(lit), shadowed = sqrt(shadowed);
@@ -112,7 +112,7 @@ void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
   // Foam where crests are drawn together, most on faces that are turned against the wind.
   float drawn = clamp((ocean.foamStart - wave.y) * 2.5, 0.0, 1.0);
   float upwind = clamp(-4.0 * dot(wave.zw, ocean.wind), 0.0, 1.0);
-  float cover = max(ocean.foam * 1.6 * drawn * (0.35 + 0.65 * upwind) * (1.0 - decorated.y), decorated.x);
+  float cover = max(ocean.foam * 1.6 * drawn * (0.35 + 0.65 * upwind) * (1.0 - decorated.y) * faces, decorated.x);
   float foam = 0.0;
   for (bool isFoamy = cover > 1e-4; isFoamy; isFoamy = false) {
     float hole = metaTextureSample(meta, chosen, foamMap, uv, vec2(0.0), vec2(pixel) + 0.5).r;
