@@ -106,8 +106,9 @@ int params(const std::string& prefix) {
                               : knob.type == "vector"
                                   ? fmt::format("each {} .. {} {}", knob.min.substr(0, knob.min.find(',')),
                                                 knob.max.substr(0, knob.max.find(',')), knob.unit)
-                              : knob.type == "name" ? knob.unit
-                                                    : "#RRGGBB";
+                              : knob.type == "name"    ? knob.unit
+                              : knob.type == "picture" ? knob.unit + ", or a picture's file"
+                                                       : "#RRGGBB";
     print(fmt::format("  {:<24} {:<12} {}\n      {}\n", knob.path.substr(own.size() + 1), knob.defaultValue,
                       range, knob.meaning));
   }

@@ -209,12 +209,16 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
   return nearestWithin(word, candidates, std::max<size_t>(2, std::min<size_t>(word.size(), 64) / 3));
 }
 
-Result<KnobRef> findKnob(const std::string& path) {
+Result<KnobRef> findKnob(const std::string& path, Targets targets) {
   std::vector<std::string> known;
   for (const ParamBlock* block : allBlocks())
     for (const ParamRow& row : block->rows) {
-      known.push_back(std::string(block->path) + "." + row.name);
-      if (known.back() == path) return KnobRef{block, &row};
+      const std::string here = std::string(block->path) + "." + row.name;
+      if (here == path) return KnobRef{block, &row};
+      if (here.compare(0, path.size() + 1, path + ".") == 0)
+        return badValue("'" + path + "' is a group of knobs",
+                        "give values to knobs in it, like '" + here + "'");
+      if (block->targets & targets) known.push_back(here);
     }
   const std::string suggestion = suggestionFor(path, known);
   return badValue("there is no knob '" + path + "'", suggestion.empty()
@@ -273,7 +277,10 @@ Result<Value> parseValue(const ParamRow& row, const std::string& text) {
   if (row.kind == ParamKind::choice || row.kind == ParamKind::picture) {
     const std::vector<std::string> names = choiceNames(row);
     const auto it = std::find(names.begin(), names.end(), text);
-    if (it == names.end()) return badValue("'" + text + "' is none of " + row.unit, "choose one of them");
+    if (it == names.end())
+      return badValue("'" + text + "' is none of " + row.unit, row.kind == ParamKind::picture
+                                                                   ? "choose one of them, or a picture's file"
+                                                                   : "choose one of them");
     return Value{double(it - names.begin()), {}};
   }
   if (row.kind == ParamKind::toggle) {

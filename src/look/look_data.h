@@ -96,12 +96,13 @@ bool isPattern(const std::string& name);
 // Whether `name` matches a pattern of literal characters, '*' and '?'.
 bool matches(const std::string& pattern, const std::string& name);
 
-// Resolves "a.b.row"; fails with a suggestion when there is no such knob.
+// Resolves "a.b.row"; fails with a suggestion when there is no such knob: one of those that may be set for
+// `targets`.
 struct KnobRef {
   const ParamBlock* block;
   const ParamRow* row;
 };
-Result<KnobRef> findKnob(const std::string& path);
+Result<KnobRef> findKnob(const std::string& path, Targets targets = ~Targets(0));
 bool isKnob(const std::string& path);
 
 // The candidate nearest to `word`, or empty when none is near.

@@ -102,7 +102,9 @@ class Reader {
       }
       return Done{};
     }
-    const Result<KnobRef> knob = findKnob(knobPath);
+    if (knobPath.empty())
+      return place(jsonPath).fail("it is no object", "give it knobs: `scumble params` lists them");
+    const Result<KnobRef> knob = findKnob(knobPath, section ? section->target : ~Targets(0));
     if (!knob) return place(jsonPath).fail(knob.error().problem, knob.error().advice);
     const Targets allowed = knob->block->targets;
     Assignment assignment{pattern, knob->block, knob->row, {}};

@@ -65,7 +65,7 @@ Result<Assignment> parseSettingPath(const std::string& path) {
     if (isKnob(rest.substr(dot + 1))) return assignmentTo(rest.substr(dot + 1), rest.substr(0, dot), section);
   const size_t dot = rest.find('.');
   if (dot == std::string::npos) return wrong("'" + path + "' names no knob", advice);
-  return findKnob(rest.substr(dot + 1)).error();
+  return findKnob(rest.substr(dot + 1), section->target).error();
 }
 
 }  // namespace scumble::look
