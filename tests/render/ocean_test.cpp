@@ -450,6 +450,29 @@ TEST_P(OceanDrawn, nothingRidesWithoutAnOcean) {
   }
 }
 
+// A pixel whose middle is not water, but some of whose samples are, has the sea's colour too.
+TEST_P(OceanDrawn, edgesAreTheSeas) {
+  const Scene scene = harbour().load();
+  RenderOptions options = sized(128, 96, {}, 4);
+  options.transparent = true;
+  for (const Stand& stand : {Stand{{9, 3, 12}, {0, 2, 0}}, Stand{{0, 0.5f, 10}, {0, 0.4f, 0}}}) {
+    const Frame frame = draw(scene, quietLook({{"ocean.mode", "on"}, {"ocean.tiles", "3"}}),
+                             viewsFrom(scene, stand, 128, 96, GetParam()), options);
+    for (size_t v = 0; v < viewCount(); ++v) {
+      size_t edges = 0, black = 0;
+      for (int y = 0; y < 96; ++y)
+        for (int x = 0; x < 128; ++x) {
+          const glm::dvec4 color = texel(aov(frame, "", v), x, y);
+          if (color.a <= 0.01 || color.a >= 0.99) continue;
+          ++edges;
+          black += color.g < 0.05;
+        }
+      EXPECT_GT(edges, 20u);
+      EXPECT_EQ(black, 0u);
+    }
+  }
+}
+
 // ---- Settings that nobody would choose ----
 
 TEST_P(OceanDrawn, hostileSettingsGiveFinitePictures) {
