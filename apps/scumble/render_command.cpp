@@ -190,12 +190,15 @@ class FrameLoop {
 void warnOfIdle(const Scene& scene, const Look& look) {
   for (const std::string& setting : settingsWithoutEffect(scene, look))
     warn({"--set " + setting + ": nothing in the scene has such a name (`scumble info` lists names)"});
-  const std::vector<std::string> idle = settingsWithoutNode(scene, look);
-  if (idle.empty()) return;
-  std::string names = idle.front();
-  if (idle.size() == 2) names += " and " + idle.back();
-  if (idle.size() > 2) names += " and " + std::to_string(idle.size() - 1) + " more";
-  warn({names + ": the scene has no node of that name (`scumble info` lists names)"});
+  const auto warnOf = [](const std::vector<std::string>& idle, const std::string& why) {
+    if (idle.empty()) return;
+    std::string names = idle.front();
+    if (idle.size() == 2) names += " and " + idle.back();
+    if (idle.size() > 2) names += " and " + std::to_string(idle.size() - 1) + " more";
+    warn({names + ": " + why});
+  };
+  warnOf(settingsWithoutNode(scene, look), "the scene has no node of that name (`scumble info` lists names)");
+  warnOf(settingsWithoutOcean(scene, look), "there is no ocean; --set ocean.mode=on puts one");
 }
 
 int run(const RenderArguments& args) {

@@ -90,6 +90,9 @@ std::vector<std::string> settingsWithoutEffect(const Scene& scene, const Look& l
 // Settings of the look by which something hangs, at any time, on a node which the scene does not have, e.g.
 // "colorizers.Glow.volume.node": it is left out then.
 std::vector<std::string> settingsWithoutNode(const Scene& scene, const Look& look);
+// What a look says of an ocean to no effect, since the scene has none and the look puts none: "decorations",
+// where it declares any, and groups of knobs that Look::set set, e.g. "ocean.paint".
+std::vector<std::string> settingsWithoutOcean(const Scene& scene, const Look& look);
 
 class Renderer {
  public:

@@ -45,7 +45,7 @@ class Maker {
 double withoutJumpSince(const Maker& maker, const scene::SceneData& scene,
                         std::span<const scene::PlayedClip> clips, double from, double to) {
   constexpr double kMoment = 1e-3;
-  constexpr int kMostTurns = 1000;  // so many times a clip is asked
+  constexpr int kMostTurns = 1000;  // a clip that begins anew more often is not asked what was before
   double since = from;
   for (const scene::PlayedClip& played : clips) {
     const double duration = double(scene.clips[size_t(played.clip)].duration) / std::abs(played.speed);
@@ -53,13 +53,15 @@ double withoutJumpSince(const Maker& maker, const scene::SceneData& scene,
     // It begins anew whenever this is whole.
     const double phase = played.start / (played.speed * duration);
     double turn = std::floor(to / duration + phase);
-    for (int i = 0; i < kMostTurns && (turn - phase) * duration > since; ++i, --turn) {
+    int asked = 0;
+    for (; asked < kMostTurns && (turn - phase) * duration > since; ++asked, --turn) {
       const double begins = (turn - phase) * duration;
       const glm::dvec2 before = maker.at(begins - kMoment), after = maker.at(begins + kMoment);
       const double moves = glm::length(maker.at(begins + 2 * kMoment) - after) +
                            glm::length(before - maker.at(begins - 2 * kMoment));
       if (glm::length(after - before) > 0.05 + 2 * moves) since = begins;
     }
+    if (asked == kMostTurns) since = std::max(since, (turn - phase) * duration);
   }
   return since;
 }

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <set>
 
-#include "frame/decorations.h"
+#include "frame/ocean.h"
 #include "look/look_data.h"
 #include "look/setting_path.h"
 #include "passes/colorize/colorize.h"
@@ -61,6 +61,23 @@ std::vector<std::string> settingsWithoutNode(const Scene& scene, const Look& loo
             "water.node");
   }
   return idle;
+}
+
+std::vector<std::string> settingsWithoutOcean(const Scene& scene, const Look& look) {
+  if (scene.empty()) return {};
+  const look::LookData& data = look.data();
+  std::vector<std::string> idle;
+  if (!data.declared(look::kDecorations).empty()) idle.emplace_back("decorations");
+  for (const look::Assignment& setting : data.assignments) {
+    const bool isMode =
+        setting.block == &frame::OceanParams::block() && setting.row->name == std::string("mode");
+    if (isMode && setting.track) return {};  // it comes and goes
+    const std::string group = setting.block->path;
+    const bool isOceans = group == "ocean" || group.starts_with("ocean.") || group == "float";
+    if (setting.byHand && !isMode && isOceans && std::find(idle.begin(), idle.end(), group) == idle.end())
+      idle.push_back(group);
+  }
+  return frame::oceanShape(scene.data(), data.at(0)).isThere ? std::vector<std::string>() : idle;
 }
 
 }  // namespace scumble

@@ -116,20 +116,21 @@ Decorated splashAt(int index, vec2 place) {
   float falls = 2.0 * sqrt(2.0 * max(highest, 0.02 * d.radius) / 9.81);  // seconds from the water to the water
   for (int i = 0; i < d.count; ++i) {
     vec4 from = field.decorations[index].points[i];
-    vec2 out_ = place - from.xy;
-    float away = length(out_), age = from.z / d.lasts, flight = min(from.z / falls, 1.0);
+    vec2 apart = place - from.xy;
+    float away = length(apart), age = from.z / d.lasts, flight = min(from.z / falls, 1.0);
     // The crown: thin, jagged, leaning outward.
     float ring = d.radius * mix(0.35, 0.9, flight), thin = 0.08 * d.radius;
-    float x = (away - ring) / thin, onCrown = exp(-x * x), turn = atan(out_.y, out_.x) + 6.2831853 * from.w;
+    float x = (away - ring) / thin, onCrown = exp(-x * x), turn = atan(apart.y, apart.x) + 6.2831853 * from.w;
     float jags = 0.5 + 0.3 * sin(11.0 * turn + 1.5 * sin(3.0 * turn)) + 0.2 * sin(17.0 * turn + 2.0);
     float up = 4.0 * flight * (1.0 - flight);
     float rises = highest * up * onCrown * jags;
     w.displacement.y += rises;
-    w.displacement.xz += away > 1e-6 ? out_ / away * 0.3 * rises : vec2(0.0);
+    w.displacement.xz += away > 1e-6 ? apart / away * 0.3 * rises : vec2(0.0);
     // What falls back whitens the water, and sends rings away.
-    float patch_ = 1.0 - smoothstep(0.1, 1.0, away / (d.radius * mix(0.55, 1.2, flight)));
+    float whitened = 1.0 - smoothstep(0.1, 1.0, away / (d.radius * mix(0.55, 1.2, flight)));
     float fade = 1.0 - smoothstep(0.0, 0.7, age);
-    w.cover = max(w.cover, d.foam * max(smoothstep(0.0, 0.3, up) * onCrown * (1.25 - 0.7 * jags), 0.9 * smoothstep(0.0, 0.1, flight) * patch_ * fade));
+    w.cover = max(w.cover, d.foam * max(smoothstep(0.0, 0.3, up) * onCrown * (1.25 - 0.7 * jags),
+                                        0.9 * smoothstep(0.0, 0.1, flight) * whitened * fade));
     float between = 0.3 * d.radius, since = max(age - 0.5 * falls / d.lasts, 0.0);
     float front = d.radius * (0.6 + 1.4 * since);
     vec2 rings = ringsAt(away, front, d.crests, between);
@@ -137,7 +138,7 @@ Decorated splashAt(int index, vec2 place) {
     w.displacement.y += still * d.height * 0.08 * between * rings.x;
     w.crest += 2.0 * still * rings.x + up * onCrown;
     w.cover = max(w.cover, 0.6 * d.foam * still * pow(max(rings.x, 0.0), 4.0));
-    w.calm = max(w.calm, max(min(3.0 * still, 0.8), patch_ * fade));
+    w.calm = max(w.calm, max(min(3.0 * still, 0.8), whitened * fade));
     w.outside = min(w.outside, away - max(front + 0.5 * between, 1.3 * d.radius));
   }
   return w;

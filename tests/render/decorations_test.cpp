@@ -296,6 +296,12 @@ TEST(DecorationSettings, areChecked) {
 
   Look look = seaLook({{"decorations.D.water.node", "Bote"}, {"decorations.E.water.node", "Boat"}});
   EXPECT_EQ(settingsWithoutNode(boatScene(), look), std::vector<std::string>{"decorations.D.water.node"});
+
+  EXPECT_TRUE(settingsWithoutOcean(boatScene(), look).empty());
+  ASSERT_TRUE(look.set("ocean.mode", "off").ok());
+  EXPECT_EQ(settingsWithoutOcean(boatScene(), look),
+            (std::vector<std::string>{"decorations", "ocean", "ocean.paint"}));
+  EXPECT_TRUE(settingsWithoutOcean(boatScene(), *Look::load("storm")).empty()) << "it is for many scenes";
 }
 
 }  // namespace
