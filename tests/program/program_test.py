@@ -402,7 +402,19 @@ class Looks(Program):
         for node in ("nope", {"keys": [[0, there], [1, "nope"]]}, {"keys": [[0, "nope"], [1, there]]}):
             with self.subTest(node=node):
                 self.assertEqual(len(told(node)), 1)
-                self.assertIn("'Glow'", told(node)[0])
+                self.assertIn("colorizers.Glow.volume.node", told(node)[0])
+
+    def test_a_sea_that_is_not_there_is_told_of(self):
+        def told(*options):
+            done = self.run_program("render", "box.gltf", "-o", "a.png", *options, *TINY)
+            self.assertEqual(done.returncode, DONE, done.stderr)
+            return [line for line in done.stderr.splitlines() if "warning" in line]
+
+        rings = ("--set", "decorations.Rings.water.kind=ripples")
+        self.assertIn("decorations: there is no ocean; --set ocean.mode=on puts one", told(*rings)[0])
+        self.assertEqual(told(*rings, "--set", "ocean.mode=on"), [])
+        self.assertIn("ocean.paint", told("--set", "ocean.paint.foam=1")[0])
+        self.assertEqual(told("--look", "storm"), [])
 
     def test_set_errors(self):
         for setting, says in (("shadow.treshold=0.4", "did you mean 'shadow.threshold'?"), ("shadow.threshold", "="),
