@@ -163,7 +163,7 @@ std::vector<Decoration> decorationsOf(const scene::SceneData& scene, const look:
 
 DecorationMesh makeDecorationMesh(int kind) {
   const bool isWake = kind == shared::kWake;
-  const uint32_t along = isWake ? 56 : 52, across = isWake ? 30 : 96;
+  const uint32_t along = isWake ? 48 : 52, across = isWake ? 22 : 96;
   DecorationMesh mesh;
   for (uint32_t i = 0; i <= along; ++i)
     for (uint32_t j = 0; j <= across; ++j)

@@ -84,7 +84,7 @@ SceneMotion::SceneMotion(gpu::Device& device, const scene::SceneData& scene,
 }
 
 void SceneMotion::pose(const look::LookData& look, double time, const OceanWaves* waves) {
-  movedCount_ = 0;
+  movedCount_ = movedBeforeWater_ = 0;
   const std::vector<scene::PlayedClip> clips = playedClips(scene_, look);
   const bool rests = clips.empty() && !waves;
   if (rests && isAtRest_ && written_) return;
@@ -186,9 +186,13 @@ void SceneMotion::pose(const look::LookData& look, double time, const OceanWaves
   written_ = true;
 
   uint32_t* moved = moved_.as<uint32_t>();
-  for (size_t i = 0; i < moving_.size(); ++i)
-    if (moves[i])
-      for (uint32_t c = 0; c < moving_[i].chunkCount; ++c) moved[movedCount_++] = moving_[i].firstChunk + c;
+  bool isDry = true;
+  for (size_t i = 0; i < moving_.size(); ++i) {
+    isDry &= moving_[i].water == Water::none;
+    if (!moves[i]) continue;
+    for (uint32_t c = 0; c < moving_[i].chunkCount; ++c) moved[movedCount_++] = moving_[i].firstChunk + c;
+    if (isDry) movedBeforeWater_ = movedCount_;
+  }
 }
 
 void SceneMotion::addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) {

@@ -60,6 +60,8 @@ class SceneMotion {
 
   // Chunks of vertices whose final ones are out of date; the next pose starts from these being written.
   uint32_t movedCount() const { return movedCount_; }
+  // How many of these come first that are no water; after them there may be anything.
+  uint32_t movedBeforeWater() const { return movedBeforeWater_; }
   // Forgets what was written before: everything has moved.
   void touchAll() { written_ = false; }
 
@@ -85,7 +87,7 @@ class SceneMotion {
   std::vector<uint8_t> mirrored_;
   std::vector<glm::mat4> world_, worldAsDrawn_;
   std::vector<std::optional<glm::mat4>> riding_;  // by node; empty: nothing rides
-  uint32_t movedCount_ = 0;
+  uint32_t movedCount_ = 0, movedBeforeWater_ = 0;
   bool written_ = false, isAtRest_ = false;
 };
 

@@ -39,48 +39,53 @@ struct Decorated {
   float outside;      // metres to the nearest place at which there is anything; below 0 there is
 };
 
+// The decoration in question, where it lies: a copy would take all of its points along.
+#define OF field.decorations[index]
+
 // A wake's half widths at a distance behind the bow: of its arms' middle, and of the arms.
-float wakeArm(WaterDecoration d, float behind) {
+float wakeArm(int index, float behind) {
   float s = max(behind, 0.0);
-  return d.halfBeam * sqrt(min(s / (0.5 * d.hull), 1.0)) + d.spread * s;
+  return OF.halfBeam * sqrt(min(s / (0.5 * OF.hull), 1.0)) + OF.spread * s;
 }
-float wakeThickness(WaterDecoration d, float behind) {
-  return 0.16 * d.halfBeam + 0.04 * max(behind, 0.0);
+float wakeThickness(int index, float behind) {
+  return 0.16 * OF.halfBeam + 0.04 * max(behind, 0.0);
 }
-float wakeHalfWidth(WaterDecoration d, float behind) {
-  return wakeArm(d, behind) + 2.0 * wakeThickness(d, behind);
+float wakeHalfWidth(int index, float behind) {
+  return wakeArm(index, behind) + 2.0 * wakeThickness(index, behind);
 }
 
 Decorated wakeAt(int index, vec2 place) {
-  WaterDecoration d = field.decorations[index];
   float across = 1e9, s = 0.0, amount = 0.0, age = 0.0;
-  for (int i = 0; i + 1 < d.count; ++i) {
-    vec4 a = field.decorations[index].points[i], b = field.decorations[index].points[i + 1];
+  int count = OF.count;
+  vec4 b = OF.points[0];
+  for (int i = 0; i + 1 < count; ++i) {
+    vec4 a = b;
+    b = OF.points[i + 1];
     vec2 way = b.xy - a.xy;
     float f = dot(place - a.xy, way) / max(dot(way, way), 1e-12);
     if (i > 0) f = max(f, 0.0);
-    if (i + 2 < d.count) f = min(f, 1.0);
+    if (i + 2 < count) f = min(f, 1.0);
     float there = length(place - a.xy - f * way);
     if (there < across)
       across = there, s = mix(a.z, b.z, f), amount = mix(a.w, b.w, clamp(f, 0.0, 1.0)),
-      age = clamp((float(i) + f) / float(d.count - 1), 0.0, 1.0);
+      age = clamp((float(i) + f) / float(count - 1), 0.0, 1.0);
   }
-  float arm = wakeArm(d, s), thickness = wakeThickness(d, s), full = wakeHalfWidth(d, s);
+  float arm = wakeArm(index, s), thickness = wakeThickness(index, s), full = wakeHalfWidth(index, s);
   float x = (across - arm) / thickness;
   float onArm = exp(-x * x);
-  float begins = smoothstep(-0.3 * d.halfBeam, 0.3 * d.halfBeam, s);
+  float begins = smoothstep(-0.3 * OF.halfBeam, 0.3 * OF.halfBeam, s);
   float fade = amount * begins * (1.0 - smoothstep(0.45, 1.0, age));
-  float astern = smoothstep(0.75 * d.hull, 1.05 * d.hull, s);
-  float churned = astern * (1.0 - smoothstep(0.25, 1.0, across / (0.9 * d.halfBeam + 0.04 * max(s - d.hull, 0.0))));
+  float astern = smoothstep(0.75 * OF.hull, 1.05 * OF.hull, s);
+  float churned = astern * (1.0 - smoothstep(0.25, 1.0, across / (0.9 * OF.halfBeam + 0.04 * max(s - OF.hull, 0.0))));
   float beside = (1.0 - astern) * (1.0 - smoothstep(arm, arm + thickness, across));
 
   Decorated w;
-  float lifts = onArm * (exp(-max(s, 0.0) / (1.2 * d.hull)) + exp(-9.0 * s * s / (d.hull * d.hull)));
-  w.displacement = vec3(0.0, fade * d.height * d.rise * (lifts - 0.3 * churned * exp(-4.0 * age)), 0.0);
+  float lifts = onArm * (exp(-max(s, 0.0) / (1.2 * OF.hull)) + exp(-9.0 * s * s / (OF.hull * OF.hull)));
+  w.displacement = vec3(0.0, fade * OF.height * OF.rise * (lifts - 0.3 * churned * exp(-4.0 * age)), 0.0);
   w.crest = fade * (0.9 * onArm + 0.3 * churned * exp(-2.0 * age));
-  w.cover = fade * d.foam * max(max(1.15 * onArm * exp(-2.2 * age), 0.95 * churned * exp(-2.6 * age)), 0.8 * beside);
+  w.cover = fade * OF.foam * max(max(1.15 * onArm * exp(-2.2 * age), 0.95 * churned * exp(-2.6 * age)), 0.8 * beside);
   w.calm = amount * begins * (1.0 - smoothstep(0.6, 1.0, age)) * (1.0 - smoothstep(arm, full, across));
-  w.outside = max(max(across - full, -0.4 * d.halfBeam - s), s - d.points[d.count - 1].z);
+  w.outside = max(max(across - full, -0.4 * OF.halfBeam - s), s - OF.points[OF.count - 1].z);
   return w;
 }
 
@@ -92,17 +97,16 @@ vec2 ringsAt(float away, float front, float crests, float between) {
 }
 
 Decorated ripplesAt(int index, vec2 place) {
-  WaterDecoration d = field.decorations[index];
   Decorated w = Decorated(vec3(0.0), 0.0, 0.0, 0.0, 1e9);
-  float between = d.radius / (2.0 * d.crests + 1.0);
-  for (int i = 0; i < d.count; ++i) {
-    vec4 from = field.decorations[index].points[i];
-    float age = from.z / d.lasts, front = d.radius * age, away = length(place - from.xy);
-    vec2 rings = ringsAt(away, front, d.crests, between);
+  float between = OF.radius / (2.0 * OF.crests + 1.0);
+  for (int i = 0; i < OF.count; ++i) {
+    vec4 from = OF.points[i];
+    float age = from.z / OF.lasts, front = OF.radius * age, away = length(place - from.xy);
+    vec2 rings = ringsAt(away, front, OF.crests, between);
     float fade = smoothstep(0.0, 0.08, age) * (1.0 - age) * rings.y;
-    w.displacement.y += fade * d.height * 0.09 * between * rings.x;
+    w.displacement.y += fade * OF.height * 0.09 * between * rings.x;
     w.crest += 2.4 * fade * rings.x;
-    w.cover = max(w.cover, 0.85 * d.foam * fade * pow(max(rings.x, 0.0), 3.0));
+    w.cover = max(w.cover, 0.85 * OF.foam * fade * pow(max(rings.x, 0.0), 3.0));
     w.calm = max(w.calm, min(3.0 * fade, 0.8));
     w.outside = min(w.outside, away - front - 0.5 * between);
   }
@@ -110,16 +114,15 @@ Decorated ripplesAt(int index, vec2 place) {
 }
 
 Decorated splashAt(int index, vec2 place) {
-  WaterDecoration d = field.decorations[index];
   Decorated w = Decorated(vec3(0.0), 0.0, 0.0, 0.0, 1e9);
-  float highest = 0.45 * d.radius * d.height;
-  float falls = 2.0 * sqrt(2.0 * max(highest, 0.02 * d.radius) / 9.81);  // seconds from the water to the water
-  for (int i = 0; i < d.count; ++i) {
-    vec4 from = field.decorations[index].points[i];
+  float highest = 0.45 * OF.radius * OF.height;
+  float falls = 2.0 * sqrt(2.0 * max(highest, 0.02 * OF.radius) / 9.81);  // seconds from the water to the water
+  for (int i = 0; i < OF.count; ++i) {
+    vec4 from = OF.points[i];
     vec2 apart = place - from.xy;
-    float away = length(apart), age = from.z / d.lasts, flight = min(from.z / falls, 1.0);
+    float away = length(apart), age = from.z / OF.lasts, flight = min(from.z / falls, 1.0);
     // The crown: thin, jagged, leaning outward.
-    float ring = d.radius * mix(0.35, 0.9, flight), thin = 0.08 * d.radius;
+    float ring = OF.radius * mix(0.35, 0.9, flight), thin = 0.08 * OF.radius;
     float x = (away - ring) / thin, onCrown = exp(-x * x), turn = atan(apart.y, apart.x) + 6.2831853 * from.w;
     float jags = 0.5 + 0.3 * sin(11.0 * turn + 1.5 * sin(3.0 * turn)) + 0.2 * sin(17.0 * turn + 2.0);
     float up = 4.0 * flight * (1.0 - flight);
@@ -127,43 +130,39 @@ Decorated splashAt(int index, vec2 place) {
     w.displacement.y += rises;
     w.displacement.xz += away > 1e-6 ? apart / away * 0.3 * rises : vec2(0.0);
     // What falls back whitens the water, and sends rings away.
-    float whitened = 1.0 - smoothstep(0.1, 1.0, away / (d.radius * mix(0.55, 1.2, flight)));
+    float whitened = 1.0 - smoothstep(0.1, 1.0, away / (OF.radius * mix(0.55, 1.2, flight)));
     float fade = 1.0 - smoothstep(0.0, 0.7, age);
-    w.cover = max(w.cover, d.foam * max(smoothstep(0.0, 0.3, up) * onCrown * (1.25 - 0.7 * jags),
+    w.cover = max(w.cover, OF.foam * max(smoothstep(0.0, 0.3, up) * onCrown * (1.25 - 0.7 * jags),
                                         0.9 * smoothstep(0.0, 0.1, flight) * whitened * fade));
-    float between = 0.3 * d.radius, since = max(age - 0.5 * falls / d.lasts, 0.0);
-    float front = d.radius * (0.6 + 1.4 * since);
-    vec2 rings = ringsAt(away, front, d.crests, between);
+    float between = 0.3 * OF.radius, since = max(age - 0.5 * falls / OF.lasts, 0.0);
+    float front = OF.radius * (0.6 + 1.4 * since);
+    vec2 rings = ringsAt(away, front, OF.crests, between);
     float still = smoothstep(0.0, 0.05, since) * (1.0 - age) * (1.0 - age) * rings.y;
-    w.displacement.y += still * d.height * 0.08 * between * rings.x;
+    w.displacement.y += still * OF.height * 0.08 * between * rings.x;
     w.crest += 2.0 * still * rings.x + up * onCrown;
-    w.cover = max(w.cover, 0.6 * d.foam * still * pow(max(rings.x, 0.0), 4.0));
+    w.cover = max(w.cover, 0.6 * OF.foam * still * pow(max(rings.x, 0.0), 4.0));
     w.calm = max(w.calm, max(min(3.0 * still, 0.8), whitened * fade));
-    w.outside = min(w.outside, away - max(front + 0.5 * between, 1.3 * d.radius));
+    w.outside = min(w.outside, away - max(front + 0.5 * between, 1.3 * OF.radius));
   }
   return w;
 }
 
-// What all decorations add at a place.
+// What all decorations add at a place. Loops where one would write `if`, since CPU drivers execute both sides of those.
 Decorated decoratedAt(vec2 place) {
   Decorated all = Decorated(vec3(0.0), 0.0, 0.0, 0.0, 1e9);
-  for (int i = 0; i < field.decorationCount; ++i) {
-    float away = length(place - field.decorations[i].center);
-    if (field.decorations[i].count == 0 || away > field.decorations[i].reach + 4.0 * field.cell) continue;
-    int kind = field.decorations[i].kind;
-    Decorated one;
-    if (kind == kWake)
-      one = wakeAt(i, place);
-    else if (kind == kRipples)
-      one = ripplesAt(i, place);
-    else
-      one = splashAt(i, place);
-    float amount = field.decorations[i].amount;
-    all.displacement += amount * one.displacement;
-    all.crest += amount * one.crest;
-    all.cover = max(all.cover, amount * one.cover);
-    all.calm = max(all.calm, amount * one.calm);
-    all.outside = min(all.outside, one.outside);
+  for (int index = 0; index < field.decorationCount; ++index) {
+    bool isNear = OF.count > 0 && length(place - OF.center) <= OF.reach + 4.0 * field.cell;
+    for (bool isIt = isNear; isIt; isIt = false) {
+      Decorated one = all;
+      for (bool isWake = OF.kind == kWake; isWake; isWake = false) one = wakeAt(index, place);
+      for (bool isRipples = OF.kind == kRipples; isRipples; isRipples = false) one = ripplesAt(index, place);
+      for (bool isSplash = OF.kind == kSplash; isSplash; isSplash = false) one = splashAt(index, place);
+      all.displacement += OF.amount * one.displacement;
+      all.crest += OF.amount * one.crest;
+      all.cover = max(all.cover, OF.amount * one.cover);
+      all.calm = max(all.calm, OF.amount * one.calm);
+      all.outside = min(all.outside, one.outside);
+    }
   }
   all.cover = max(1.04 * all.cover - 0.04, 0.0);  // nothing where there is next to nothing
   return all;
@@ -177,26 +176,26 @@ float pushedDown(float outside) {
 // From a decoration's mesh to its place. Of a wake: how far along it, from 0 to 1, and across, from -1 to 1; of the
 // others the same in polar coordinates, outward and around. The outer part of the mesh lies where nothing is drawn.
 vec2 decorationPlace(int index, vec2 local) {
-  WaterDecoration d = field.decorations[index];
-  if (d.count == 0) return d.center;
+  if (OF.count == 0) return OF.center;
   const float kInner = 0.85;
-  float margin = 3.0 * field.cell, part = abs(d.kind == kWake ? local.y : local.x);
+  float margin = 3.0 * field.cell, part = abs(OF.kind == kWake ? local.y : local.x);
   float inner = min(part / kInner, 1.0), outer = max(part - kInner, 0.0) / (1.0 - kInner) * margin;
-  if (d.kind != kWake) {
+  if (OF.kind != kWake) {
     float turn = 3.14159265 * local.y;
-    return d.center + (inner * d.reach + outer) * vec2(cos(turn), sin(turn));
+    return OF.center + (inner * OF.reach + outer) * vec2(cos(turn), sin(turn));
   }
-  float s = mix(-0.4 * d.halfBeam - margin, d.points[d.count - 1].z + margin, pow(local.x, 1.4));
-  float across = sign(local.y) * (inner * wakeHalfWidth(d, s) + outer);
-  vec2 place = d.center;
-  for (int i = 0; i + 1 < d.count; ++i) {
-    vec4 a = field.decorations[index].points[i], b = field.decorations[index].points[i + 1];
+  float s = mix(-0.4 * OF.halfBeam - margin, OF.points[OF.count - 1].z + margin, pow(local.x, 1.4));
+  float across = sign(local.y) * (inner * wakeHalfWidth(index, s) + outer);
+  vec2 place = OF.center;
+  for (int i = 0; i + 1 < OF.count; ++i) {
+    vec4 a = OF.points[i], b = OF.points[i + 1];
     vec2 way = b.xy - a.xy;
-    if ((i == 0 || s >= a.z) && (i + 2 == d.count || s < b.z)) {
+    if ((i == 0 || s >= a.z) && (i + 2 == OF.count || s < b.z)) {
       vec2 on = a.xy + (s - a.z) / max(b.z - a.z, 1e-6) * way;
       place = on + across * vec2(-way.y, way.x) / max(length(way), 1e-6);
     }
   }
   return place;
 }
+#undef OF
 #endif

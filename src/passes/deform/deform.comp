@@ -7,6 +7,9 @@
 #include "deform.shared.h"
 
 layout(constant_id = 0) const bool kPositionsOnly = false;
+// Whether there may be water among the vertices: its code costs all of them time, since CPU drivers execute both sides of
+// an `if`.
+layout(constant_id = 1) const bool kWater = true;
 
 layout(local_size_x = kDeformThreads) in;
 
@@ -29,12 +32,12 @@ layout(set = 1, binding = 13, scalar) readonly buffer Waves { OceanField field; 
 layout(set = 1, binding = 14, scalar) writeonly buffer Surface { VertexSurface surface[]; };
 #include "../../shading/water.glsl"
 
-layout(push_constant, scalar) uniform Push { uint movedCount; };
+layout(push_constant, scalar) uniform Push { uint firstMoved, movedCount; };
 
 void main() {
   uint group = gl_WorkGroupID.x + gl_WorkGroupID.y * kMaxGroupsX;
   if (group >= movedCount) return;
-  DeformChunk chunk = chunks[moved[group]];
+  DeformChunk chunk = chunks[moved[firstMoved + group]];
   ObjectData object = placed[chunk.object];
   for (uint i = gl_LocalInvocationID.x; i < chunk.count; i += kDeformThreads) {
     VertexCore core = restCore[chunk.restVertex + i];
@@ -74,7 +77,7 @@ void main() {
 
     vec3 rest = core.position;
     core.position = (toWorld * vec4(core.position, 1.0)).xyz;
-    if (object.water == kWaves) {
+    if (kWater && object.water == kWaves) {
       // Waves fade into flat water before the mesh ends, and dip below it.
       OceanPoint point = oceanPoint(field.first + ivec2(round(rest.xz / field.cell)));
       vec2 place = core.position.xz - field.origin.xz;
@@ -87,7 +90,7 @@ void main() {
       around.dPdu.y = around.dPdu.x * slopes.x;
       around.dPdv.y = around.dPdv.z * slopes.y;
     }
-    if (object.water == kDecoration) {
+    if (kWater && object.water == kDecoration) {
       // On the ocean's mesh as it would be without it, and what it adds to that.
       vec2 place = decorationPlace(int(object.decoration), rest.xy);
       float whole = wavesWhole(length(place));

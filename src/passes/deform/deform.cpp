@@ -37,7 +37,7 @@ class Deform : public frame::Pass {
   // Of one of the two poses.
   struct Work {
     gpu::DescriptorSets set;
-    gpu::Pipeline pipeline;
+    gpu::Pipeline dry, water;  // water: may be anything
 
     void create(frame::FrameBuilder& frame, const frame::FrameResources& resources,
                 const gpu::SetLayout& layout, const frame::SceneMotion& motion,
@@ -62,19 +62,28 @@ class Deform : public frame::Pass {
       for (uint32_t i = 0; i < std::size(buffers); ++i) set.writeBuffer(0, i, buffers[i]);
       gpu::ComputePipelineDesc desc;
       desc.shader = {shaders::deform_comp};
-      desc.constants = {positionsOnly};
       desc.sets = {resources.frameLayout().handle(), layout.handle()};
-      desc.pushConstantBytes = 4;
-      pipeline = gpu::Pipeline(frame.device(), desc);
+      desc.pushConstantBytes = 8;
+      desc.constants = {positionsOnly, false};
+      dry = gpu::Pipeline(frame.device(), desc);
+      if (!waves) return;
+      desc.constants = {positionsOnly, true};
+      water = gpu::Pipeline(frame.device(), desc);
     }
 
     void record(VkCommandBuffer commands, VkDescriptorSet frameSet, const frame::SceneMotion& motion) const {
-      const uint32_t count = motion.movedCount();
+      const uint32_t dryCount = motion.movedBeforeWater();
+      dispatch(commands, frameSet, dry, 0, dryCount);
+      dispatch(commands, frameSet, water, dryCount, motion.movedCount() - dryCount);
+    }
+
+    void dispatch(VkCommandBuffer commands, VkDescriptorSet frameSet, const gpu::Pipeline& pipeline,
+                  uint32_t first, uint32_t count) const {
       if (count == 0) return;
       pipeline.bind(commands);
       pipeline.bindSet(commands, 0, frameSet);
       pipeline.bindSet(commands, 1, set[0]);
-      pipeline.push(commands, count);
+      pipeline.push(commands, {first, count});
       const uint32_t x = std::min(count, uint32_t(shared::kMaxGroupsX));
       vkCmdDispatch(commands, x, (count + x - 1) / x, 1);
     }
