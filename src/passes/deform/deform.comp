@@ -7,9 +7,9 @@
 #include "deform.shared.h"
 
 layout(constant_id = 0) const bool kPositionsOnly = false;
-// Whether there may be water among the vertices: its code costs all of them time, since CPU drivers execute both sides of
-// an `if`.
-layout(constant_id = 1) const bool kWater = true;
+// What this is for: all but water; all but decorations of water; these alone. One's code would cost the others time, since
+// CPU drivers execute both sides of an `if`.
+layout(constant_id = 1) const uint kWater = 0;
 
 layout(local_size_x = kDeformThreads) in;
 
@@ -39,7 +39,8 @@ void main() {
   if (group >= movedCount) return;
   DeformChunk chunk = chunks[moved[firstMoved + group]];
   ObjectData object = placed[chunk.object];
-  for (uint i = gl_LocalInvocationID.x; i < chunk.count; i += kDeformThreads) {
+  uint count = kWater != 0 && (kWater == kDecoration) != (object.water == kDecoration) ? 0 : chunk.count;
+  for (uint i = gl_LocalInvocationID.x; i < count; i += kDeformThreads) {
     VertexCore core = restCore[chunk.restVertex + i];
     VertexFrame around = restFrame[chunk.restVertex + i];
     vec3 normal = decodeNormal(unpackSnorm2x16(core.normal));
@@ -77,7 +78,7 @@ void main() {
 
     vec3 rest = core.position;
     core.position = (toWorld * vec4(core.position, 1.0)).xyz;
-    if (kWater && object.water == kWaves) {
+    if (kWater == kWaves && object.water == kWaves) {
       // Waves fade into flat water before the mesh ends, and dip below it.
       OceanPoint point = oceanPoint(field.first + ivec2(round(rest.xz / field.cell)));
       vec2 place = core.position.xz - field.origin.xz;
@@ -90,7 +91,7 @@ void main() {
       around.dPdu.y = around.dPdu.x * slopes.x;
       around.dPdv.y = around.dPdv.z * slopes.y;
     }
-    if (kWater && object.water == kDecoration) {
+    if (kWater == kDecoration) {
       // On the ocean's mesh as it would be without it, and what it adds to that.
       vec2 place = decorationPlace(int(object.decoration), rest.xy);
       float whole = wavesWhole(length(place));

@@ -37,11 +37,11 @@ class Deform : public frame::Pass {
   // Of one of the two poses.
   struct Work {
     gpu::DescriptorSets set;
-    gpu::Pipeline dry, water;  // water: may be anything
+    gpu::Pipeline dry, waves, decorations;
 
     void create(frame::FrameBuilder& frame, const frame::FrameResources& resources,
                 const gpu::SetLayout& layout, const frame::SceneMotion& motion,
-                const frame::OceanWaves* waves, bool positionsOnly) {
+                const frame::OceanWaves* ocean, bool positionsOnly) {
       const frame::SceneOnGpu& scene = frame.scene();
       const VkBuffer buffers[] = {scene.chunks().handle(),
                                   motion.moved(),
@@ -56,7 +56,7 @@ class Deform : public frame::Pass {
                                   scene.finalCore().handle(),
                                   scene.finalFrame().handle(),
                                   scene.previousPositions().handle(),
-                                  waves ? waves->buffer().handle() : motion.objects(),
+                                  ocean ? ocean->buffer().handle() : motion.objects(),
                                   scene.surface().handle()};
       set = gpu::DescriptorSets(frame.device(), layout);
       for (uint32_t i = 0; i < std::size(buffers); ++i) set.writeBuffer(0, i, buffers[i]);
@@ -64,17 +64,20 @@ class Deform : public frame::Pass {
       desc.shader = {shaders::deform_comp};
       desc.sets = {resources.frameLayout().handle(), layout.handle()};
       desc.pushConstantBytes = 8;
-      desc.constants = {positionsOnly, false};
+      desc.constants = {positionsOnly, 0};
       dry = gpu::Pipeline(frame.device(), desc);
-      if (!waves) return;
-      desc.constants = {positionsOnly, true};
-      water = gpu::Pipeline(frame.device(), desc);
+      if (!ocean) return;
+      desc.constants = {positionsOnly, shared::kWaves};
+      waves = gpu::Pipeline(frame.device(), desc);
+      desc.constants = {positionsOnly, shared::kDecoration};
+      decorations = gpu::Pipeline(frame.device(), desc);
     }
 
     void record(VkCommandBuffer commands, VkDescriptorSet frameSet, const frame::SceneMotion& motion) const {
       const uint32_t dryCount = motion.movedBeforeWater();
       dispatch(commands, frameSet, dry, 0, dryCount);
-      dispatch(commands, frameSet, water, dryCount, motion.movedCount() - dryCount);
+      for (const gpu::Pipeline* pipeline : {&waves, &decorations})
+        dispatch(commands, frameSet, *pipeline, dryCount, motion.movedCount() - dryCount);
     }
 
     void dispatch(VkCommandBuffer commands, VkDescriptorSet frameSet, const gpu::Pipeline& pipeline,
