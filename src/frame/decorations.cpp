@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "base/tileable_noise.h"
-#include "frame/floating.h"
 
 namespace scumble::frame {
 
@@ -133,7 +132,8 @@ void placeRings(WaterDecoration& rings, const DecorationParams& params, const Ma
 
 }  // namespace
 
-std::vector<Decoration> decorationsOf(const scene::SceneData& scene, const look::LookData& look, int ocean) {
+std::vector<Decoration> decorationsOf(const scene::SceneData& scene, const look::LookData& look,
+                                      std::span<const FloatingNode> floating) {
   std::vector<Decoration> decorations;
   for (const std::string& name : look.declared(look::kDecorations)) {
     Decoration& one = decorations.emplace_back();
@@ -144,11 +144,11 @@ std::vector<Decoration> decorationsOf(const scene::SceneData& scene, const look:
       if (scene.nodes[n].name == node) one.node = n;
     one.isThere = one.node.has_value();
   }
-  for (const FloatingNode& floating : floatingNodes(scene, look, ocean)) {
+  for (const FloatingNode& rides : floating) {
     const auto isItsWake = [&](const Decoration& one) {
-      return one.params.kind == shared::kWake && one.node == floating.node;
+      return one.params.kind == shared::kWake && one.node == rides.node;
     };
-    const FloatParams& params = floating.params;
+    const FloatParams& params = rides.params;
     if (!params.wake || params.length == 0 || params.beam == 0 ||
         decorations.size() >= size_t(shared::kMaxDecorations) ||
         std::any_of(decorations.begin(), decorations.end(), isItsWake))
@@ -156,15 +156,15 @@ std::vector<Decoration> decorationsOf(const scene::SceneData& scene, const look:
     Decoration& wake = decorations.emplace_back();
     wake.params.kind = shared::kWake;
     wake.params.length = params.length, wake.params.beam = params.beam;
-    wake.node = floating.node;
+    wake.node = rides.node;
   }
   return decorations;
 }
 
-DecorationMesh makeDecorationMesh(int kind) {
+scene::Primitive makeDecorationMesh(int kind) {
   const bool isWake = kind == shared::kWake;
   const uint32_t along = isWake ? 48 : 52, across = isWake ? 22 : 96;
-  DecorationMesh mesh;
+  scene::Primitive mesh;
   for (uint32_t i = 0; i <= along; ++i)
     for (uint32_t j = 0; j <= across; ++j)
       mesh.positions.emplace_back(float(i) / float(along), 2.0f * float(j) / float(across) - 1.0f, 0.0f);

@@ -2,11 +2,12 @@
 // water at a moment. What they look like there: shading/water.glsl.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "frame/floating.h"
+#include "frame/ocean_travel.h"
 #include "look/look_data.h"
 #include "scene/animation.h"
 #include "shading/ocean.shared.h"
@@ -26,23 +27,17 @@ struct Decoration {
 };
 
 // Those that the look declares, in its order; then the wakes of what rides the waves, where the look declares
-// none for it. kMaxDecorations at most. `ocean`: the ocean's own node; -1: none.
-std::vector<Decoration> decorationsOf(const scene::SceneData& scene, const look::LookData& look, int ocean);
+// none for it. kMaxDecorations at most.
+std::vector<Decoration> decorationsOf(const scene::SceneData& scene, const look::LookData& look,
+                                      std::span<const FloatingNode> floating);
 
-// Its mesh, in the coordinates that decorationPlace (shading/water.glsl) lays on the water.
-struct DecorationMesh {
-  std::vector<glm::vec3> positions;
-  std::vector<uint32_t> indices;
-};
-DecorationMesh makeDecorationMesh(int kind);
-
-// Metres that the scene has travelled over the water by a time, along x and z.
-using Travelled = std::function<glm::dvec2(double)>;
+// Its positions and triangles, in the coordinates that decorationPlace (shading/water.glsl) lays on the
+// water.
+scene::Primitive makeDecorationMesh(int kind);
 
 // One for each; without points where it draws nothing. A pure function of its arguments: a wake lies along
 // the way that its maker has come, which is asked of the clips, and of the travelled way, at times past.
-// Before a clip that begins
-// anew elsewhere, it is taken to have come straight on.
+// Before a clip that begins anew elsewhere, it is taken to have come straight on.
 std::vector<shared::WaterDecoration> placeDecorations(const std::vector<Decoration>& decorations,
                                                       const scene::SceneData& scene,
                                                       std::span<const scene::PlayedClip> clips, double time,

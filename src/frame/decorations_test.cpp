@@ -39,6 +39,10 @@ scene::SceneData goes(const glm::vec3& from, const glm::vec3& to) {
   return scene;
 }
 
+std::vector<Decoration> decorationsOf(const scene::SceneData& scene, const look::LookData& look) {
+  return frame::decorationsOf(scene, look, floatingNodes(scene, look, -1));
+}
+
 const Travelled kStays = [](double) { return glm::dvec2(0.0); };
 const std::vector<scene::PlayedClip> kPlays{{}};
 
@@ -54,7 +58,7 @@ TEST(Decorations, wakesGoBackAlongTheWay) {
   // Two metres a second along the parent's x, which is -z.
   const scene::SceneData scene = goes({0, 0, 0}, {8, 0, 0});
   const look::LookData look = lookOf({{"node", "Boat"}, {"length", "4"}, {"lasts", "3"}});
-  const auto placed = placeDecorations(decorationsOf(scene, look, -1), scene, kPlays, 3.5, {1, 0, 2}, kStays);
+  const auto placed = placeDecorations(decorationsOf(scene, look), scene, kPlays, 3.5, {1, 0, 2}, kStays);
   ASSERT_EQ(placed.size(), 1u);
   const shared::WaterDecoration& wake = placed[0];
   ASSERT_EQ(wake.count, shared::kDecorationPoints);
@@ -77,16 +81,14 @@ TEST(Decorations, wakesAreCarriedByTheWater) {
   const scene::SceneData scene = goes({0, 0, 0}, {8, 0, 0});
   const Travelled travels = [](double t) { return glm::dvec2(3 * t, 4 * t); };
   const look::LookData look = lookOf({{"at", "1,9,2"}, {"lasts", "2"}});
-  const auto wake =
-      placeDecorations(decorationsOf(scene, look, -1), scene, kPlays, 5, glm::vec3(0), travels)[0];
+  const auto wake = placeDecorations(decorationsOf(scene, look), scene, kPlays, 5, glm::vec3(0), travels)[0];
   // What is at a place of the scene leaves a straight wake against the way of the scene, five metres a
   // second.
   const glm::vec4 last = wake.points[wake.count - 1];
   EXPECT_NEAR(last.x, 1 - 3 * 2, 1e-3);
   EXPECT_NEAR(last.y, 2 - 4 * 2, 1e-3);
   // What stands still over the water has none.
-  const auto still =
-      placeDecorations(decorationsOf(scene, look, -1), scene, kPlays, 5, glm::vec3(0), kStays)[0];
+  const auto still = placeDecorations(decorationsOf(scene, look), scene, kPlays, 5, glm::vec3(0), kStays)[0];
   EXPECT_EQ(still.count, 0);
 }
 
@@ -96,7 +98,7 @@ TEST(Decorations, wakesGoStraightOnWhereClipsJump) {
   // Just after the clip has begun anew, at that moment, and before anything has begun.
   for (const double time : {4.25, 4.0, 0.0, 0.3}) {
     const auto wake =
-        placeDecorations(decorationsOf(scene, look, -1), scene, kPlays, time, glm::vec3(0), kStays)[0];
+        placeDecorations(decorationsOf(scene, look), scene, kPlays, time, glm::vec3(0), kStays)[0];
     ASSERT_GT(wake.count, 2);
     const double here = -2 * std::fmod(time, 4.0);
     for (int i = 1; i < wake.count; ++i)
@@ -109,8 +111,7 @@ TEST(Decorations, wakesGoStraightOnWhereClipsJumpOften) {
   const scene::SceneData scene = goes({0, 0, 0}, {8, 0, 0});
   for (const char* lasts : {"10", "40", "120"}) {
     const look::LookData look = lookOf({{"node", "Boat"}, {"length", "4"}, {"lasts", lasts}});
-    const auto wake =
-        placeDecorations(decorationsOf(scene, look, -1), scene, kPlays, 7, glm::vec3(0), kStays)[0];
+    const auto wake = placeDecorations(decorationsOf(scene, look), scene, kPlays, 7, glm::vec3(0), kStays)[0];
     ASSERT_GT(wake.count, 2);
     for (int i = 1; i < wake.count; ++i)
       EXPECT_NEAR(wake.points[i].y, -6 + 2 * std::stod(lasts) * (i - 1) / (wake.count - 2), 0.05) << lasts;
@@ -122,7 +123,7 @@ TEST(Decorations, turningBackKeepsWhatWasMade) {
   std::vector<scene::PlayedClip> back{{}};
   back[0].repeat = scene::Repeat::pingPong;
   const look::LookData look = lookOf({{"node", "Boat"}, {"length", "4"}, {"lasts", "3"}});
-  const auto wake = placeDecorations(decorationsOf(scene, look, -1), scene, back, 5, glm::vec3(0), kStays)[0];
+  const auto wake = placeDecorations(decorationsOf(scene, look), scene, back, 5, glm::vec3(0), kStays)[0];
   float farthest = 0;
   for (int i = 1; i < wake.count; ++i) farthest = std::min(farthest, wake.points[i].y);
   EXPECT_NEAR(wake.points[1].y, -6, 0.01);
@@ -135,13 +136,11 @@ TEST(Decorations, stoppingLeavesWhatWasMade) {
   std::vector<scene::PlayedClip> once{{}};
   once[0].repeat = scene::Repeat::once;
   const look::LookData look = lookOf({{"node", "Boat"}, {"length", "4"}, {"lasts", "3"}});
-  const auto wake =
-      placeDecorations(decorationsOf(scene, look, -1), scene, once, 5.5, glm::vec3(0), kStays)[0];
+  const auto wake = placeDecorations(decorationsOf(scene, look), scene, once, 5.5, glm::vec3(0), kStays)[0];
   ASSERT_GT(wake.count, 2);
   EXPECT_EQ(wake.points[1].w, 0);
   EXPECT_NEAR(wake.points[wake.count - 1].w, 1, 1e-3);
-  EXPECT_EQ(placeDecorations(decorationsOf(scene, look, -1), scene, once, 20, glm::vec3(0), kStays)[0].count,
-            0);
+  EXPECT_EQ(placeDecorations(decorationsOf(scene, look), scene, once, 20, glm::vec3(0), kStays)[0].count, 0);
 }
 
 TEST(Decorations, ringsBeginWhenTheyAreTold) {
@@ -149,7 +148,7 @@ TEST(Decorations, ringsBeginWhenTheyAreTold) {
   const Knobs knobs{
       {"kind", "ripples"}, {"node", "Boat"}, {"start", "0.5"}, {"every", "1"}, {"lasts", "2.25"}};
   const auto at = [&](double time) {
-    return placeDecorations(decorationsOf(scene, lookOf(knobs), -1), scene, kPlays, time, glm::vec3(0),
+    return placeDecorations(decorationsOf(scene, lookOf(knobs)), scene, kPlays, time, glm::vec3(0),
                             kStays)[0];
   };
   EXPECT_EQ(at(0.49).count, 0);
@@ -169,7 +168,7 @@ TEST(Decorations, ringsBeginWhenTheyAreTold) {
 
 TEST(Decorations, moreThanThereIsRoomForAreTheNewest) {
   const look::LookData look = lookOf({{"kind", "splash"}, {"every", "0.001"}, {"lasts", "100"}});
-  const auto one = placeDecorations(decorationsOf({}, look, -1), {}, {}, 50, glm::vec3(0), kStays)[0];
+  const auto one = placeDecorations(decorationsOf({}, look), {}, {}, 50, glm::vec3(0), kStays)[0];
   ASSERT_EQ(one.count, shared::kDecorationPoints);
   EXPECT_NEAR(one.points[one.count - 1].z, 0.025, 1e-3);
 }
@@ -179,7 +178,7 @@ TEST(Decorations, whatRidesHasAWake) {
   const auto decorations = [&](const Knobs& knobs) {
     Look look;
     for (const auto& [path, value] : knobs) EXPECT_TRUE(look.set(path, value).ok());
-    return decorationsOf(scene, look.data().at(0), -1);
+    return decorationsOf(scene, look.data().at(0));
   };
   EXPECT_TRUE(decorations({}).empty());
   const auto rides = decorations({{"nodes.Boat.float.rides", "on"}, {"nodes.Boat.float.length", "7"}});
@@ -202,7 +201,7 @@ TEST(Decorations, whatRidesHasAWake) {
 
 TEST(Decorations, meshesFaceUp) {
   for (const int kind : {shared::kWake, shared::kRipples, shared::kSplash}) {
-    const DecorationMesh mesh = makeDecorationMesh(kind);
+    const scene::Primitive mesh = makeDecorationMesh(kind);
     for (size_t t = 0; t < mesh.indices.size(); t += 3) {
       const glm::vec3 &a = mesh.positions[mesh.indices[t]], &b = mesh.positions[mesh.indices[t + 1]],
                       &c = mesh.positions[mesh.indices[t + 2]];

@@ -46,7 +46,7 @@ OceanShape oceanShape(const scene::SceneData& scene, const look::LookData& look)
   const float half = std::max(0.5f * float(shape.tiles) * shape.tile - shape.cell(), 0.01f * shape.cell());
   shape.falseHorizon = std::min(params.falseHorizon, half);
   shape.horizon = std::max(params.horizon, 1.5f * shape.falseHorizon);
-  for (const Decoration& one : decorationsOf(scene, look, shape.node))
+  for (const Decoration& one : decorationsOf(scene, look, floatingNodes(scene, look, shape.node)))
     shape.decorations.push_back(one.params.kind);
   return shape;
 }
@@ -119,10 +119,7 @@ scene::Primitive makeOceanRing(const OceanShape& shape) {
 }
 
 scene::Primitive makeOceanDecoration(int kind) {
-  DecorationMesh mesh = makeDecorationMesh(kind);
-  scene::Primitive water;
-  water.positions = std::move(mesh.positions);
-  water.indices = std::move(mesh.indices);
+  scene::Primitive water = makeDecorationMesh(kind);
   finish(water);
   return water;
 }
@@ -150,6 +147,7 @@ void OceanWaves::pose(const look::LookData& look, double time, const Travelled& 
   waves_->at(time, field_);
   const float deviation = float(std::sqrt(waves_->variance()));
 
+  floating_ = floatingNodes(scene_, look, shape_.node);
   travelled_ = travelled(time);
   const double cell = double(shape_.cell());
   cells_ = now ? now->cells_ : glm::floor(travelled_ / cell);
@@ -179,8 +177,8 @@ void OceanWaves::pose(const look::LookData& look, double time, const Travelled& 
       for (glm::vec4& point : one.points) point += glm::vec4(slid_, 0.0f, 0.0f);
     }
   } else {
-    decorations_ = placeDecorations(decorationsOf(scene_, look, shape_.node), scene_,
-                                    playedClips(scene_, look), time, shape_.origin, travelled);
+    decorations_ = placeDecorations(decorationsOf(scene_, look, floating_), scene_, playedClips(scene_, look),
+                                    time, shape_.origin, travelled);
   }
   header->decorationCount = int(decorations_.size());
   std::copy(decorations_.begin(), decorations_.end(), header->decorations);

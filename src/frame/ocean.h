@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "frame/decorations.h"
-#include "frame/floating.h"
 #include "gpu/frames_in_flight.h"
 #include "look/look_data.h"
 #include "ocean/surface.h"
@@ -65,7 +64,7 @@ class OceanWaves {
   OceanWaves(gpu::Device& device, const scene::SceneData& scene, const OceanShape& shape);
 
   // The waves at a time, in seconds; the look is one at that time. `travelled`: how far over the water the
-  // scene is at any time (travelledAt).
+  // scene is at any time.
   // `now`: waves of another time whose points of the mesh are to be followed, for where they were at this
   // one; null: the mesh stays. Decorations are then those of `now`, carried along by the water.
   void pose(const look::LookData& look, double time, const Travelled& travelled,
@@ -80,8 +79,8 @@ class OceanWaves {
   glm::vec2 ringPattern() const { return patternAt(travelled_); }
   // Where a decoration's mesh is; empty where it draws nothing.
   scene::Bounds decorationBounds(size_t decoration) const;
-  // The ocean's own node; -1: none.
-  int node() const { return shape_.node; }
+  // What rides.
+  const std::vector<FloatingNode>& floating() const { return floating_; }
   // How far vertices may be from their place at rest, metres.
   const glm::vec3& reach() const { return reach_; }
 
@@ -111,6 +110,7 @@ class OceanWaves {
   glm::vec2 within_{0.0f};     // the rest
   glm::vec2 slid_{0.0f};       // metres that the water has slid since, to the time whose points are followed
   glm::vec3 reach_{0.0f};
+  std::vector<FloatingNode> floating_;
   std::vector<shared::WaterDecoration> decorations_;
   gpu::PerFrameBuffer buffer_;  // shared::OceanField, then grid * grid shared::OceanPoint
 };

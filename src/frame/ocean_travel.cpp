@@ -145,9 +145,10 @@ class Course {
 
 }  // namespace
 
-glm::dvec2 travelledAt(const look::LookData& look, double time) {
-  const Course course(look);
-  return time < 0 ? -course.integral(time, 0) : course.integral(0, time);
+Travelled travelledBy(const look::LookData& look) {
+  return [course = Course(look)](double time) {
+    return time < 0 ? -course.integral(time, 0) : course.integral(0, time);
+  };
 }
 
 }  // namespace scumble::frame

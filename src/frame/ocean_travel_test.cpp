@@ -19,7 +19,7 @@ Look lookWith(const std::string& ocean) {
 }
 
 void expectAt(const Look& look, double time, const glm::dvec2& expected, double tolerance = 1e-6) {
-  const glm::dvec2 at = travelledAt(look.data(), time);
+  const glm::dvec2 at = travelledBy(look.data())(time);
   EXPECT_NEAR(at.x, expected.x, tolerance) << "at " << time;
   EXPECT_NEAR(at.y, expected.y, tolerance) << "at " << time;
 }
@@ -94,7 +94,7 @@ TEST(OceanTravel, isContinuousAndAsFastAsTheSpeed) {
   const Look look = lookWith(R"({"speed": {"keys": [[1, 0], [2, 7], [4, 1]], "repeat": true},
                                  "heading": {"keys": [[0, 0], [5, 90], [7, -10]], "repeat": true}})");
   for (double time = -9; time < 40; time += 0.01) {
-    const glm::dvec2 step = travelledAt(look.data(), time + 0.01) - travelledAt(look.data(), time);
+    const glm::dvec2 step = travelledBy(look.data())(time + 0.01) - travelledBy(look.data())(time);
     const double speed = double(look.data().at(time + 0.005).get<OceanParams>().speed);
     ASSERT_NEAR(glm::length(step), 0.01 * speed, 1.5e-3) << time;
   }
@@ -113,9 +113,9 @@ TEST(OceanTravel, costIsBounded) {
             R"(], "repeat": true}, "heading": {"keys": [[0, 0], [1e6, 180]]}})"}) {
     const Look look = lookWith(text);
     const auto start = std::chrono::steady_clock::now();
-    const glm::dvec2 at = travelledAt(look.data(), 999999.0);
+    const glm::dvec2 at = travelledBy(look.data())(999999.0);
     EXPECT_TRUE(std::isfinite(at.x) && std::isfinite(at.y));
-    EXPECT_EQ(at, travelledAt(look.data(), 999999.0));
+    EXPECT_EQ(at, travelledBy(look.data())(999999.0));
     EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(), 2.0);
   }
 }

@@ -117,11 +117,10 @@ void SceneMotion::pose(const look::LookData& look, double time, const OceanWaves
 
   // What rides the waves is moved by them as the waves are now, however long poses are held.
   riding_.clear();
-  const std::vector<FloatingNode> floating =
-      waves ? floatingNodes(scene_, look, waves->node()) : std::vector<FloatingNode>();
-  if (!floating.empty()) {
+  if (waves && !waves->floating().empty()) {
     riding_.resize(scene_.nodes.size());
-    for (const FloatingNode& one : floating) riding_[one.node] = waves->riding(one.params, world_[one.node]);
+    for (const FloatingNode& one : waves->floating())
+      riding_[one.node] = waves->riding(one.params, world_[one.node]);
     for (size_t n = 0; n < scene_.nodes.size(); ++n)
       if (const int parent = scene_.nodes[n].parent; parent >= 0 && riding_[size_t(parent)])
         riding_[n] = riding_[size_t(parent)];

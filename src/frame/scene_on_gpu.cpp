@@ -309,7 +309,7 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
 }
 
 void SceneOnGpu::pose(const look::LookData& look, const look::LookData& now, double time) {
-  if (waves_) waves_->pose(now, time, [&](double t) { return travelledAt(look, t); });
+  if (waves_) waves_->pose(now, time, travelledBy(look));
   motion_->pose(now, time, waves());
   for (size_t i = 0; i < draws_.size(); ++i) {
     draws_[i].bounds = motion_->bounds()[i];
@@ -332,9 +332,7 @@ void SceneOnGpu::look(const shared::FrameUniforms& uniforms, uint32_t viewCount,
 }
 
 void SceneOnGpu::posePrevious(const look::LookData& look, const look::LookData& then, double time) {
-  if (previousWaves_)
-    previousWaves_->pose(
-        then, time, [&](double t) { return travelledAt(look, t); }, waves());
+  if (previousWaves_) previousWaves_->pose(then, time, travelledBy(look), waves());
   previousMotion_->pose(then, time, previousWaves());
 }
 

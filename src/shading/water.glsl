@@ -152,7 +152,7 @@ Decorated decoratedAt(vec2 place) {
   Decorated all = Decorated(vec3(0.0), 0.0, 0.0, 0.0, 1e9);
   for (int index = 0; index < field.decorationCount; ++index) {
     bool isNear = OF.count > 0 && length(place - OF.center) <= OF.reach + 4.0 * field.cell;
-    for (bool isIt = isNear; isIt; isIt = false) {
+    for (; isNear; isNear = false) {
       Decorated one = all;
       for (bool isWake = OF.kind == kWake; isWake; isWake = false) one = wakeAt(index, place);
       for (bool isRipples = OF.kind == kRipples; isRipples; isRipples = false) one = ripplesAt(index, place);

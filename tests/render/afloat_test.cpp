@@ -16,8 +16,6 @@ namespace {
 
 using namespace test;
 
-using Knobs = std::vector<std::pair<std::string, std::string>>;
-
 constexpr int kWidth = 64, kHeight = 48;
 
 const Knobs kStorm{{"ocean.mode", "on"}, {"ocean.wind", "16"}, {"ocean.tiles", "1"}, {"ocean.grid", "40"}};

@@ -18,8 +18,6 @@ namespace {
 
 using namespace test;
 
-using Knobs = std::vector<std::pair<std::string, std::string>>;
-
 Frame drawn(Result<Frame> frame) {
   if (!frame) throw std::runtime_error(frame.error().message());
   return std::move(frame).value();

@@ -15,8 +15,6 @@ namespace {
 
 using namespace test;
 
-using Knobs = std::vector<std::pair<std::string, std::string>>;
-
 constexpr int kWidth = 96, kHeight = 72;
 const Stand kAbove{{0.1f, 20, 0.2f}}, kAside{{7, 4, 9}};
 

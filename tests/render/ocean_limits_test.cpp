@@ -14,8 +14,6 @@ namespace {
 
 using namespace test;
 
-using Knobs = std::vector<std::pair<std::string, std::string>>;
-
 // ---- Memory ----
 
 Scene box() {

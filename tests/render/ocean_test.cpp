@@ -18,8 +18,6 @@ namespace {
 
 using namespace test;
 
-using Knobs = std::vector<std::pair<std::string, std::string>>;
-
 constexpr int kWidth = 64, kHeight = 48;
 
 // A box beside the middle; where `oceanName` says one, a node of that name with a plate of its own at a

@@ -1,26 +1,16 @@
 // The real files beside the checkout, where they are there.
 #pragma once
 
-#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace scumble::test {
 
-inline const std::filesystem::path kAssets = std::filesystem::path(SCUMBLE_SOURCE_DIR) / "../shared/assets";
+extern const std::filesystem::path kAssets;
 
 // All files below a folder with one of these extensions, sorted; none where the folder is not there.
-inline std::vector<std::filesystem::path> filesBelow(const std::filesystem::path& folder,
-                                                     const std::vector<std::string>& extensions) {
-  std::vector<std::filesystem::path> files;
-  if (!std::filesystem::exists(folder)) return files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    if (entry.is_regular_file() &&
-        std::find(extensions.begin(), extensions.end(), entry.path().extension()) != extensions.end())
-      files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
-}
+std::vector<std::filesystem::path> filesBelow(const std::filesystem::path& folder,
+                                              const std::vector<std::string>& extensions);
 
 }  // namespace scumble::test

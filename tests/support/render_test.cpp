@@ -59,9 +59,9 @@ std::string stereoName(const ::testing::TestParamInfo<Stereo>& info) {
   return info.param == Stereo::stereo ? "stereo" : "mono";
 }
 
-Look quietLook(const std::vector<std::pair<std::string, std::string>>& knobs) {
+Look quietLook(const Knobs& knobs) {
   Look look;
-  std::vector<std::pair<std::string, std::string>> all{
+  Knobs all{
       {"ground.mode", "off"}, {"background.mode", "look"}, {"background.air", "0"}, {"final.bloom", "0"}};
   all.insert(all.end(), knobs.begin(), knobs.end());
   for (const auto& [path, value] : all)

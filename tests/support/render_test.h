@@ -41,9 +41,12 @@ std::string stereoName(const ::testing::TestParamInfo<Stereo>& info);
                            ::testing::Values(::scumble::Stereo::mono, ::scumble::Stereo::stereo), \
                            ::scumble::test::stereoName)
 
+// Settings by their paths, as Look::set takes them.
+using Knobs = std::vector<std::pair<std::string, std::string>>;
+
 // A look without what tests of single passes do not want: no ground, a background of the look's own colours,
 // no air, no bloom. Then the given knobs.
-Look quietLook(const std::vector<std::pair<std::string, std::string>>& knobs = {});
+Look quietLook(const Knobs& knobs = {});
 
 // Views from an eye to a target; two eyes stand `ipd` apart. Angles in degrees.
 struct Stand {

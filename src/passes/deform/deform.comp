@@ -7,8 +7,8 @@
 #include "deform.shared.h"
 
 layout(constant_id = 0) const bool kPositionsOnly = false;
-// What this is for: all but water; all but decorations of water; these alone. One's code would cost the others time, since
-// CPU drivers execute both sides of an `if`.
+// 0: for what is no water; kWaves: for all but its decorations; kDecoration: for these alone. In one shader each would pay
+// for the others, since CPU drivers execute both sides of an `if`.
 layout(constant_id = 1) const uint kWater = 0;
 
 layout(local_size_x = kDeformThreads) in;

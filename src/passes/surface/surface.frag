@@ -87,17 +87,17 @@ void main() {
 #ifdef OCEAN
   // Painted already, once a pixel whose middle is water; at the sea's edges that may be a pixel beside this one.
   ivec3 here = ivec3(gl_FragCoord.xy, viewIndex());
-  vec4 painted = texelFetch(oceanLit, here, 0);
-  for (bool isEdge = painted.a == 0.0; isEdge; isEdge = false) {
+  vec4 water = texelFetch(oceanLit, here, 0);
+  for (bool isEdge = water.a == 0.0; isEdge; isEdge = false) {
     const ivec2 kBeside[] = ivec2[](ivec2(0, 1), ivec2(1, 0), ivec2(-1, 0), ivec2(0, -1), ivec2(1, 1), ivec2(-1, 1),
                                     ivec2(1, -1), ivec2(-1, -1));
-    for (int i = 0; i < 8 && painted.a == 0.0; ++i) {
+    for (int i = 0; i < 8 && water.a == 0.0; ++i) {
       ivec3 beside = ivec3(clamp(here.xy + kBeside[i], ivec2(0), ivec2(frame.imageSize) - 1), here.z);
-      painted = texelFetch(oceanLit, beside, 0);
-      if (painted.a != 0.0) here = beside;
+      water = texelFetch(oceanLit, beside, 0);
+      if (water.a != 0.0) here = beside;
     }
   }
-  lit = painted.rgb;
+  lit = water.rgb;
   shadowed = texelFetch(oceanShadowed, here, 0).rgb;
 #else
   if (kVaried != 0) {
