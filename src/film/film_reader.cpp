@@ -22,7 +22,7 @@ namespace {
 
 using film::ChildProcess;
 
-constexpr uint32_t kLargestSide = 16384;
+constexpr uint32_t kLargestPicture = 16384;
 constexpr double kRounding = 1e-3;   // seconds that containers are off
 constexpr size_t kReadOn = 200;      // pictures that are read and dropped rather than starting anew
 constexpr double kUnknownRate = 25;  // frames a second, where a film says nothing about time
@@ -179,7 +179,7 @@ Result<FilmReader::State::Picture> FilmReader::State::readNext() {
   if (words < 4) return Picture();
   unsigned width = 0, height = 0;
   if (std::sscanf(header.c_str(), "P6 %u %u 255", &width, &height) != 2 || width == 0 || height == 0 ||
-      width > kLargestSide || height > kLargestSide)
+      width > kLargestPicture || height > kLargestPicture)
     return unusable("is no film that can be shown: its pictures have no usable size", "use another film");
   std::vector<uint8_t> codes(size_t(width) * height * 3);
   if (ffmpeg->receive(codes.data(), codes.size()) < codes.size()) return Picture();

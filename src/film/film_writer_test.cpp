@@ -49,7 +49,7 @@ std::string decoded(const std::string& film) {
                   "' -f rawvideo -pix_fmt rgb24 -sws_flags accurate_rnd+full_chroma_int+bicubic -");
 }
 
-Image flat(uint32_t width, uint32_t height, std::vector<int> codes, float alpha = 1) {
+Image flatCodes(uint32_t width, uint32_t height, std::vector<int> codes, float alpha = 1) {
   Image image{width, height, {"R", "G", "B", "A"}, {}};
   for (uint32_t i = 0; i < width * height; ++i) {
     for (const int code : codes) image.pixels.push_back(linearFromSrgb8()[size_t(code)]);
@@ -76,7 +76,7 @@ FilmOptions options(uint32_t width, uint32_t height) {
   return result;
 }
 
-Status write(const std::string& path, const FilmOptions& given, const std::vector<Image>& pictures) {
+Status writeFilm(const std::string& path, const FilmOptions& given, const std::vector<Image>& pictures) {
   Result<std::unique_ptr<FilmWriter>> writer = FilmWriter::create(path, given);
   if (!writer) return writer.error();
   for (const Image& picture : pictures)
@@ -92,7 +92,7 @@ TEST(FilmWriter, framesSizeRateAndMarksComeBack) {
   given.fps = 23.976;
   std::vector<Image> pictures;
   for (int i = 0; i < 30; ++i) pictures.push_back(stripes(96, 64, i));
-  const Status status = write(path, given, pictures);
+  const Status status = writeFilm(path, given, pictures);
   ASSERT_TRUE(status.ok()) << status.error().message();
   EXPECT_EQ(folder.count(), 1u);
   std::filesystem::rename(path, plain);
@@ -121,7 +121,7 @@ TEST(FilmWriter, flatColoursComeBack) {
                                       {255, 255, 255}, {0, 0, 0},      {128, 64, 32},
                                       {20, 140, 220},  {250, 200, 10}, {127, 127, 127}};
   for (const std::vector<int>& colour : colours) {
-    ASSERT_TRUE(write(path, options(32, 32), {flat(32, 32, colour)}).ok());
+    ASSERT_TRUE(writeFilm(path, options(32, 32), {flatCodes(32, 32, colour)}).ok());
     const std::string pixels = decoded(path);
     ASSERT_EQ(pixels.size(), 32u * 32 * 3);
     for (size_t i = 0; i < pixels.size(); ++i)
@@ -132,7 +132,8 @@ TEST(FilmWriter, flatColoursComeBack) {
 TEST(FilmWriter, alphaIsOverBlack) {
   NEEDS_FFMPEG();
   TestFolder folder;
-  ASSERT_TRUE(write(folder.file("a.mp4"), options(32, 32), {flat(32, 32, {255, 255, 255}, 0.25f)}).ok());
+  ASSERT_TRUE(
+      writeFilm(folder.file("a.mp4"), options(32, 32), {flatCodes(32, 32, {255, 255, 255}, 0.25f)}).ok());
   EXPECT_NEAR(uint8_t(decoded(folder.file("a.mp4"))[0]), std::lround(255 * film::srgbFromLinear(0.25)), 2);
 }
 
@@ -142,7 +143,7 @@ TEST(FilmWriter, smallAndOddSizesGrowToEvenOnes) {
   const std::string path = folder.file("a.mp4");
   for (const auto& [width, height] : {std::pair{1u, 1u}, {2u, 2u}, {33u, 17u}, {64u, 35u}, {321u, 8u}}) {
     const Status status =
-        write(path, options(width, height), {stripes(width, height, 0), stripes(width, height, 1)});
+        writeFilm(path, options(width, height), {stripes(width, height, 0), stripes(width, height, 1)});
     ASSERT_TRUE(status.ok()) << width << "x" << height << ": " << status.error().message();
     EXPECT_EQ(facts(path, "stream=width,height,nb_frames"),
               "width=" + std::to_string((width + 1) / 2 * 2) +
@@ -157,8 +158,8 @@ TEST(FilmWriter, sameBytesEveryTime) {
   for (int i = 0; i < 40; ++i) pictures.push_back(stripes(320, 180, i));
   FilmOptions given = options(320, 180);
   given.layout = FilmLayout::sideBySide;
-  ASSERT_TRUE(write(folder.file("a.mp4"), given, pictures).ok());
-  ASSERT_TRUE(write(folder.file("b.mp4"), given, pictures).ok());
+  ASSERT_TRUE(writeFilm(folder.file("a.mp4"), given, pictures).ok());
+  ASSERT_TRUE(writeFilm(folder.file("b.mp4"), given, pictures).ok());
   EXPECT_EQ(contentOf(folder.file("a.mp4")), contentOf(folder.file("b.mp4")));
 }
 
@@ -176,7 +177,7 @@ TEST(FilmWriter, playersLearnTheLayoutOfEyes) {
   for (const auto& c : cases) {
     FilmOptions given = options(64, 64);
     given.layout = c.layout;
-    ASSERT_TRUE(write(path, given, {stripes(64, 64, 0), stripes(64, 64, 1)}).ok());
+    ASSERT_TRUE(writeFilm(path, given, {stripes(64, 64, 0), stripes(64, 64, 1)}).ok());
     const std::string inFile = facts(path, "stream_side_data=side_data_type,type,inverted");
     EXPECT_EQ(inFile, c.stream);
     EXPECT_EQ(facts(path, "frame_tags=stereo_mode").find("TAG:stereo_mode=" + c.frame) != std::string::npos,
@@ -192,8 +193,8 @@ TEST(FilmWriter, qualityCounts) {
   fine.quality = 0;
   coarse.quality = 51;
   const std::vector<Image> pictures = {stripes(160, 96, 0), stripes(160, 96, 1)};
-  ASSERT_TRUE(write(folder.file("fine.mp4"), fine, pictures).ok());
-  ASSERT_TRUE(write(folder.file("coarse.mp4"), coarse, pictures).ok());
+  ASSERT_TRUE(writeFilm(folder.file("fine.mp4"), fine, pictures).ok());
+  ASSERT_TRUE(writeFilm(folder.file("coarse.mp4"), coarse, pictures).ok());
   EXPECT_GT(contentOf(folder.file("fine.mp4")).size(), 2 * contentOf(folder.file("coarse.mp4")).size());
 }
 
@@ -285,7 +286,7 @@ TEST(FilmWriter, aHostThatIgnoresItsChildrenGetsItsFilm) {
   NEEDS_FFMPEG();
   TestFolder folder;
   const auto handler = signal(SIGCHLD, SIG_IGN);
-  const Status status = write(folder.file("a.mp4"), options(64, 64), {stripes(64, 64, 0)});
+  const Status status = writeFilm(folder.file("a.mp4"), options(64, 64), {stripes(64, 64, 0)});
   signal(SIGCHLD, handler);
   ASSERT_TRUE(status.ok()) << status.error().message();
   EXPECT_EQ(facts(folder.file("a.mp4"), "stream=nb_frames"), "nb_frames=1\n");
@@ -306,7 +307,7 @@ TEST(FilmWriter, fullDiskIsNamedAndLeavesTheOldFile) {
     struct rlimit small = before;
     small.rlim_cur = limit;
     setrlimit(RLIMIT_FSIZE, &small);
-    const Status status = write(path, options(160, 96), pictures);
+    const Status status = writeFilm(path, options(160, 96), pictures);
     setrlimit(RLIMIT_FSIZE, &before);
     ASSERT_FALSE(status.ok()) << limit;
     EXPECT_EQ(status.error().kind, ErrorKind::outputNotWritten);
@@ -334,7 +335,7 @@ class OtherFfmpeg : public testing::Test {
   std::string failure() {
     TestFolder folder;
     const std::vector<Image> pictures(200, stripes(64, 64, 0));
-    const Status status = write(folder.file("a.mp4"), options(64, 64), pictures);
+    const Status status = writeFilm(folder.file("a.mp4"), options(64, 64), pictures);
     EXPECT_EQ(folder.count(), 0u);
     if (status) return "";
     EXPECT_EQ(status.error().kind, ErrorKind::outputNotWritten);

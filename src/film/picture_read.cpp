@@ -5,18 +5,18 @@
 
 #include "base/file_bytes.h"
 #include "base/image_decode.h"
+#include "film/picture_limits.h"
 #include "film/srgb.h"
 #include "scumble/image.h"
 
 namespace scumble {
+
+using film::kMostPixels;
+using film::unusable;
+
 namespace {
 
-constexpr uint32_t kMostSide = 16384;                // as renderers draw
-constexpr uint64_t kMostPixels = uint64_t(1) << 27;  // as readPng
-
-Error unusable(const std::string& path, const std::string& problem, const std::string& advice) {
-  return {ErrorKind::unusableFile, path, 0, "", problem, advice};
-}
+constexpr uint32_t kMostSide = 16384;  // as renderers draw
 
 // Numbers of a TIFF block, in its byte order; 0 beyond its end.
 struct Tiff {
@@ -61,6 +61,7 @@ Image upright(const Pixels& pixels, uint32_t orientation) {
   Image image;
   image.width = turned ? h : w, image.height = turned ? w : h;
   image.channels = {"R", "G", "B", "A"};
+  image.isColor = true;
   image.pixels.resize(size_t(w) * h * 4);
   const std::array<float, 256>& linear = film::linearFromSrgb8();
   float* out = image.pixels.data();

@@ -9,26 +9,20 @@
 #include <memory>
 #include <system_error>
 
+#include "film/picture_limits.h"
 #include "film/srgb.h"
 #include "scumble/image.h"
 
 namespace scumble {
+
+using film::kMostPixels;
+using film::unusable;
+
 namespace {
 
-// 2 GiB of floats; the largest power-of-two panorama (16384 x 8192) still fits.
-constexpr uint64_t kMostPixels = uint64_t(1) << 27;
 constexpr png_alloc_size_t kMostChunkBytes = 1 << 20;  // all chunks that are kept are far smaller
 // Deflate cannot make data more than 1032 times smaller; the rest is for tiny files.
 constexpr uint64_t kMostRatio = 1032, kSlack = 4096;
-
-Error unusable(const std::string& path, const std::string& problem, const std::string& advice) {
-  Error error;
-  error.kind = ErrorKind::unusableFile;
-  error.file = path;
-  error.problem = problem;
-  error.advice = advice;
-  return error;
-}
 
 struct Decoded {
   uint32_t width = 0, height = 0;
@@ -101,6 +95,7 @@ Image toLinear(const Decoded& decoded) {
   image.width = decoded.width;
   image.height = decoded.height;
   image.channels = {"R", "G", "B", "A"};
+  image.isColor = true;
   const size_t pixels = size_t(image.width) * image.height;
   image.pixels.resize(pixels * 4);
   float* out = image.pixels.data();

@@ -18,7 +18,7 @@ Reference reference(double r, double g, double b) {
   return {16 + 219 * y / 255, 128 + 224 * (b - y) / 1.8556 / 255, 128 + 224 * (r - y) / 1.5748 / 255};
 }
 
-Image flat(uint32_t width, uint32_t height, const std::vector<float>& pixel) {
+Image evenly(uint32_t width, uint32_t height, const std::vector<float>& pixel) {
   Image image{width, height, std::vector<std::string>(pixel.size(), "x"), {}};
   for (uint32_t i = 0; i < width * height; ++i)
     image.pixels.insert(image.pixels.end(), pixel.begin(), pixel.end());
@@ -31,7 +31,7 @@ TEST(Yuv, everyColourIsRoundedFromBt709) {
     for (int g = 0; g < 256; g += 15)
       for (int b = 0; b < 256; b += 15) {
         const std::vector<uint8_t> planes =
-            yuv420(flat(2, 2, {linear[size_t(r)], linear[size_t(g)], linear[size_t(b)]}));
+            yuv420(evenly(2, 2, {linear[size_t(r)], linear[size_t(g)], linear[size_t(b)]}));
         ASSERT_EQ(planes.size(), 6u);
         const Reference exact = reference(r, g, b);
         ASSERT_NEAR(planes[0], exact.y, 0.501);
@@ -42,12 +42,12 @@ TEST(Yuv, everyColourIsRoundedFromBt709) {
 
 TEST(Yuv, greysHaveNoColour) {
   for (const float grey : linearFromSrgb8()) {
-    const std::vector<uint8_t> planes = yuv420(flat(2, 2, {grey}));
+    const std::vector<uint8_t> planes = yuv420(evenly(2, 2, {grey}));
     ASSERT_EQ(planes[4], 128);
     ASSERT_EQ(planes[5], 128);
   }
-  EXPECT_EQ(yuv420(flat(2, 2, {0}))[0], 16);
-  EXPECT_EQ(yuv420(flat(2, 2, {1}))[0], 235);
+  EXPECT_EQ(yuv420(evenly(2, 2, {0}))[0], 16);
+  EXPECT_EQ(yuv420(evenly(2, 2, {1}))[0], 235);
 }
 
 TEST(Yuv, oddSizesRepeatTheirLastColumnAndRow) {
@@ -57,7 +57,7 @@ TEST(Yuv, oddSizesRepeatTheirLastColumnAndRow) {
   for (uint32_t y = 0; y < 4; ++y)
     for (uint32_t x = 0; x < 4; ++x) even.pixels.push_back(odd.at(std::min(x, 2u), std::min(y, 2u), 0));
   EXPECT_EQ(yuv420(odd), yuv420(even));
-  EXPECT_EQ(yuv420(flat(1, 1, {0.5f, 0, 0})), yuv420(flat(2, 2, {0.5f, 0, 0})));
+  EXPECT_EQ(yuv420(evenly(1, 1, {0.5f, 0, 0})), yuv420(evenly(2, 2, {0.5f, 0, 0})));
 }
 
 TEST(Yuv, chromaLiesOnTheLeftPixelOfAPair) {
@@ -73,9 +73,9 @@ TEST(Yuv, chromaLiesOnTheLeftPixelOfAPair) {
 }
 
 TEST(Yuv, alphaIsOverBlackInLinearLight) {
-  EXPECT_EQ(yuv420(flat(2, 2, {0.8f, 0.4f, 0.2f, 0.5f})), yuv420(flat(2, 2, {0.4f, 0.2f, 0.1f})));
-  EXPECT_EQ(yuv420(flat(2, 2, {0.8f, 0.4f, 0.2f, NAN})), yuv420(flat(2, 2, {0, 0, 0})));
-  EXPECT_EQ(yuv420(flat(2, 2, {NAN, -INFINITY, INFINITY, 7})), yuv420(flat(2, 2, {0, 0, 1})));
+  EXPECT_EQ(yuv420(evenly(2, 2, {0.8f, 0.4f, 0.2f, 0.5f})), yuv420(evenly(2, 2, {0.4f, 0.2f, 0.1f})));
+  EXPECT_EQ(yuv420(evenly(2, 2, {0.8f, 0.4f, 0.2f, NAN})), yuv420(evenly(2, 2, {0, 0, 0})));
+  EXPECT_EQ(yuv420(evenly(2, 2, {NAN, -INFINITY, INFINITY, 7})), yuv420(evenly(2, 2, {0, 0, 1})));
 }
 
 }  // namespace

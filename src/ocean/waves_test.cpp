@@ -15,7 +15,7 @@ namespace {
 using std::numbers::pi;
 using Complex = std::complex<double>;
 
-WaveField fieldOf(const Spectrum& spectrum, double seconds) {
+WaveField fieldAt(const Spectrum& spectrum, double seconds) {
   WaveField field;
   Waves(spectrum).at(seconds, field);
   return field;
@@ -81,7 +81,7 @@ TEST(Waves, areTheSumOfTheirWaves) {
       s.choppiness = 1.3;
       s.seed = uint32_t(grid);
       for (const double seconds : {0.0, 3.7, -101.3}) {
-        const WaveField field = fieldOf(s, seconds);
+        const WaveField field = fieldAt(s, seconds);
         const std::vector<Sum> sums = directSum(s, seconds);
         ASSERT_EQ(field.displacement.size(), sums.size());
         const float near = 1e-6f * float(1 + 20 * std::sqrt(Waves(s).variance()));
@@ -153,7 +153,7 @@ TEST(Waves, gridsHaveTheVarianceThatIsPromised) {
     double measured = 0;
     for (int i = 0; i < kSeeds; ++i) {
       s.seed = uint32_t(i);
-      measured += meanSquare(fieldOf(s, i * 1.7)) / kSeeds;
+      measured += meanSquare(fieldAt(s, i * 1.7)) / kSeeds;
     }
     EXPECT_NEAR(measured, Waves(s).variance(), 0.04 * measured) << kind;
   }
@@ -205,14 +205,14 @@ TEST(Waves, travelWithTheWind) {
 
 TEST(Waves, choppinessDrawsWaterToCrests) {
   Spectrum s;
-  const WaveField field = fieldOf(s, 1);
+  const WaveField field = fieldAt(s, 1);
   double together = 0;
   for (const glm::vec4& d : field.displacement) together += d.y * (d.w - 1);
   EXPECT_LT(together, 0);
 
   Spectrum flat = s;
   flat.choppiness = 0;
-  const WaveField upright = fieldOf(flat, 1);
+  const WaveField upright = fieldAt(flat, 1);
   for (size_t i = 0; i < field.displacement.size(); ++i) {
     EXPECT_EQ(upright.displacement[i].x, 0);
     EXPECT_EQ(upright.displacement[i].z, 0);
@@ -227,7 +227,7 @@ TEST(Waves, choppinessDrawsWaterToCrests) {
 }
 
 TEST(Waves, shiftsAreBounds) {
-  const WaveField field = fieldOf({}, 8);
+  const WaveField field = fieldAt({}, 8);
   glm::vec2 least(1e9f), greatest(-1e9f);
   for (const glm::vec4& d : field.displacement) {
     least = glm::min(least, glm::vec2(d.x, d.z));
@@ -243,7 +243,7 @@ TEST(Waves, slopesAndJacobianAreDerivatives) {
   s.grid = 240;
   s.smallest = 15;
   s.choppiness = 1.4;
-  const WaveField field = fieldOf(s, 12);
+  const WaveField field = fieldAt(s, 12);
   const double cell = s.tile / s.grid;
   const auto at = [&](int x, int z) {
     return glm::dvec4(field.displacement[size_t((z + 240) % 240 * 240 + (x + 240) % 240)]);
@@ -275,7 +275,7 @@ TEST(Waves, slopesAndJacobianAreDerivatives) {
 
 TEST(Waves, calmIsFlatToTheBit) {
   const auto expectCalm = [](const Spectrum& s) {
-    const WaveField field = fieldOf(s, 3);
+    const WaveField field = fieldAt(s, 3);
     ASSERT_EQ(field.displacement.size(), size_t(s.grid) * size_t(s.grid));
     for (const glm::vec4& d : field.displacement) ASSERT_EQ(d, glm::vec4(0, 0, 0, 1));
     for (const glm::vec2& slope : field.slopes) ASSERT_EQ(slope, glm::vec2(0));
@@ -308,7 +308,7 @@ TEST(Waves, noKnobMakesThemGoWrong) {
               for (const double fetch : {1.0, 10000.0})
                 for (const double smallest : {0.0, 100.0}) {
                   s = {grid, tile, kind, wind, 77, fetch, 2, depth, loop, 50, smallest, 3};
-                  const WaveField field = fieldOf(s, 1e7);
+                  const WaveField field = fieldAt(s, 1e7);
                   for (size_t i = 0; i < field.displacement.size(); ++i)
                     for (int c = 0; c < 4; ++c)
                       ASSERT_TRUE(std::isfinite(field.displacement[i][c]) &&
@@ -320,8 +320,8 @@ TEST(Waves, areTheSameEveryTimeAndOnEveryMachine) {
   Spectrum s;
   s.grid = 20;
   s.seed = 42;
-  const WaveField field = fieldOf(s, 5);
-  EXPECT_EQ(field.displacement, fieldOf(s, 5).displacement);
+  const WaveField field = fieldAt(s, 5);
+  EXPECT_EQ(field.displacement, fieldAt(s, 5).displacement);
   // From a second implementation, in Python.
   EXPECT_NEAR(waveGaussian(42, 3, -2).real(), -0.2853483067234057, 1e-12);
   EXPECT_NEAR(waveGaussian(42, 3, -2).imag(), -0.3536840898510485, 1e-12);
@@ -334,7 +334,7 @@ TEST(Waves, areTheSameEveryTimeAndOnEveryMachine) {
     for (int c = 0; c < 4; ++c) EXPECT_NEAR(field.displacement[i][c], expected[c], 1e-5) << i << " " << c;
 
   s.seed = 43;
-  const WaveField other = fieldOf(s, 5);
+  const WaveField other = fieldAt(s, 5);
   double product = 0;
   for (size_t i = 0; i < 400; ++i) product += field.displacement[i].y * other.displacement[i].y / 400;
   EXPECT_LT(std::abs(product), 0.7 * rms(field) * rms(other));
@@ -352,10 +352,10 @@ TEST(Waves, longWavesStayWhenTheGridChanges) {
   };
   Spectrum s;
   s.grid = 16;
-  const WaveField coarse = fieldOf(s, 6);
+  const WaveField coarse = fieldAt(s, 6);
   for (const int grid : {17, 45, 80}) {
     s.grid = grid;
-    const WaveField fine = fieldOf(s, 6);
+    const WaveField fine = fieldAt(s, 6);
     for (const auto& [x, z] : {std::pair(1, 0), {0, 1}, {3, -2}, {-7, 7}, {7, 7}, {5, 0}})
       EXPECT_NEAR(std::abs(waveIn(coarse, x, z) - waveIn(fine, x, z)), 0, 1e-6)
           << grid << " " << x << " " << z;

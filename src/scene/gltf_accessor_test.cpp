@@ -4,18 +4,11 @@
 
 #include <functional>
 
+#include "scene/loaded_test_gltf.h"
 #include "scene/scene_data.h"
-#include "scene/test_gltf.h"
-#include "scumble/scene.h"
 
 namespace scumble::scene {
 namespace {
-
-Scene loaded(const std::string& text) {
-  const Result<Scene> scene = Scene::loadFromMemory(text.data(), text.size(), "test.gltf", "");
-  EXPECT_TRUE(scene.ok()) << scene.error().message();
-  return scene.ok() ? scene.value() : Scene::combine({});
-}
 
 const Primitive& first(const Scene& scene) {
   static const Primitive none;

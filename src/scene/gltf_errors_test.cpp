@@ -10,8 +10,8 @@
 #include "scene/animation.h"
 #include "scene/gltf_uri.h"
 #include "scene/import_failure.h"
+#include "scene/loaded_test_gltf.h"
 #include "scene/scene_data.h"
-#include "scene/test_gltf.h"
 #include "scumble/scene.h"
 
 namespace scumble::scene {
@@ -32,12 +32,6 @@ std::string failingPath(const std::string& text) {
   EXPECT_FALSE(scene.error().problem.empty());
   EXPECT_EQ(scene.error().message().find('\n'), std::string::npos);
   return scene.error().jsonPath;
-}
-
-TestGltf quad() {
-  TestGltf g;
-  g.addQuad();
-  return g;
 }
 
 TEST(GltfErrors, jsonMistakesHaveALine) {

@@ -1,4 +1,4 @@
-// Tests only: a small glTF through the importer.
+// Tests only: small glTFs through the importer.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,11 +9,19 @@
 namespace scumble::scene {
 
 // Fails the test where it cannot be loaded; the scene is empty then.
-inline Scene loaded(const TestGltf& g) {
-  const std::string text = g.glb();
-  const Result<Scene> scene = Scene::loadFromMemory(text.data(), text.size(), "test.glb", "");
+inline Scene loaded(const std::string& text, const SceneOptions& options = {}) {
+  const Result<Scene> scene = Scene::loadFromMemory(text.data(), text.size(), "folder/test.glb", "", options);
   EXPECT_TRUE(scene.ok()) << scene.error().message();
   return scene.ok() ? scene.value() : Scene::combine({});
+}
+inline Scene loaded(const TestGltf& g, const SceneOptions& options = {}) {
+  return loaded(g.glb(), options);
+}
+
+inline TestGltf quad() {
+  TestGltf g;
+  g.addQuad();
+  return g;
 }
 
 }  // namespace scumble::scene

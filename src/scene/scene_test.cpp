@@ -7,26 +7,13 @@
 #include <functional>
 #include <limits>
 
+#include "scene/loaded_test_gltf.h"
 #include "scene/scene_data.h"
-#include "scene/test_gltf.h"
 
 namespace scumble::scene {
 namespace {
 
 using Json = TestGltf::Json;
-
-Scene loaded(const TestGltf& g, const SceneOptions& options = {}) {
-  const std::string text = g.glb();
-  const Result<Scene> scene = Scene::loadFromMemory(text.data(), text.size(), "folder/test.glb", "", options);
-  EXPECT_TRUE(scene.ok()) << scene.error().message();
-  return scene.ok() ? scene.value() : Scene::combine({});
-}
-
-TestGltf quad() {
-  TestGltf g;
-  g.addQuad();
-  return g;
-}
 
 TEST(Scene, materials) {
   TestGltf g = quad();

@@ -16,7 +16,7 @@ namespace {
 
 using namespace test;
 
-constexpr int kWidth = 64, kHeight = 48;
+constexpr int kAfloatWidth = 64, kAfloatHeight = 48;
 
 const Knobs kStorm{{"ocean.mode", "on"}, {"ocean.wind", "16"}, {"ocean.tiles", "1"}, {"ocean.grid", "40"}};
 
@@ -50,8 +50,8 @@ AnimatedScene boatWithCamera(const Json& boatExtras = Json::object()) {
 class Afloat : public BothEyes {
  protected:
   static std::vector<View> camera(const Scene& scene, const Look& look, double time) {
-    Result<std::vector<View>> views =
-        makeViews(scene, Viewpoint{.camera = "0"}, float(kWidth) / kHeight, GetParam(), 0.2f, look, time);
+    Result<std::vector<View>> views = makeViews(
+        scene, Viewpoint{.camera = "0"}, float(kAfloatWidth) / kAfloatHeight, GetParam(), 0.2f, look, time);
     if (!views) throw std::runtime_error(views.error().message());
     return *views;
   }
@@ -63,8 +63,9 @@ class Afloat : public BothEyes {
   }
   // From aside, with positions and ids.
   static Frame aside(const Scene& scene, const Look& look, double time = 2.3) {
-    return drawFrom(scene, look, time, viewsFrom(scene, {{6, 9, 9}, {1, 2, 0}}, kWidth, kHeight, GetParam()),
-                    sized(kWidth, kHeight, {"position", "id"}));
+    return drawFrom(scene, look, time,
+                    viewsFrom(scene, {{6, 9, 9}, {1, 2, 0}}, kAfloatWidth, kAfloatHeight, GetParam()),
+                    sized(kAfloatWidth, kAfloatHeight, {"position", "id"}));
   }
   static void expectSame(const Frame& a, const Frame& b, const std::string& what) {
     for (size_t v = 0; v < viewCount(); ++v)
@@ -95,7 +96,7 @@ TEST_P(Afloat, aCameraOnABoatSeesTheBoatStandAndTheHorizonMove) {
     return count;
   };
   const auto drawn = [&](const Look& look, double time) {
-    RenderOptions options = sized(kWidth, kHeight, {"id", "motion"});
+    RenderOptions options = sized(kAfloatWidth, kAfloatHeight, {"id", "motion"});
     options.previousTime = time - 0.25;
     options.previousViews = camera(scene, look, *options.previousTime);
     return drawFrom(scene, look, time, camera(scene, look, time), options);
@@ -111,8 +112,8 @@ TEST_P(Afloat, aCameraOnABoatSeesTheBoatStandAndTheHorizonMove) {
       horizon = std::max(horizon, apart(mask(later, ocean, v), mask(first, ocean, v)));
       standing = std::max(standing, apart(mask(standsLater, lamp, v), mask(standsFirst, lamp, v)));
       double boat = 0, water = 0;
-      for (int y = 0; y < kHeight; ++y)
-        for (int x = 0; x < kWidth; ++x) {
+      for (int y = 0; y < kAfloatHeight; ++y)
+        for (int x = 0; x < kAfloatWidth; ++x) {
           const int id = int(texel(aov(later, "id", v), x, y).x);
           const double moved = glm::length(glm::dvec2(texel(aov(later, "motion", v), x, y)));
           if (id == lamp) boat = std::max(boat, moved);
@@ -169,12 +170,12 @@ TEST_P(Afloat, aLightRides) {
                               {"light.terminatorSharpness", "64"},
                               {"shadowMap.cast", "off"},
                               {"warp.amount", "0"}});
-    const Frame frame =
-        drawFrom(scene, look, time, viewsFrom(scene, {{0, 6, 12}, {0, 6, 0}}, kWidth, kHeight, GetParam()),
-                 sized(kWidth, kHeight, {"position", "id", "shadow"}));
+    const Frame frame = drawFrom(
+        scene, look, time, viewsFrom(scene, {{0, 6, 12}, {0, 6, 0}}, kAfloatWidth, kAfloatHeight, GetParam()),
+        sized(kAfloatWidth, kAfloatHeight, {"position", "id", "shadow"}));
     double sum = 0, weight = 0;
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kAfloatHeight; ++y)
+      for (int x = 0; x < kAfloatWidth; ++x) {
         if (int(texel(aov(frame, "id"), x, y).x) != 1) continue;
         const double lit = texel(aov(frame, "shadow"), x, y).x;
         sum += lit * texel(aov(frame, "position"), x, y).y, weight += lit;
@@ -217,15 +218,15 @@ TEST_P(Afloat, aSkinRidesWithItsJoints) {
   const Scene plain = barOn(false), skinned = barOn(true);
   const auto seen = [&](const Scene& scene, const Knobs& knobs) {
     return drawFrom(scene, stormy(knobs), 2.3,
-                    viewsFrom(scene, {{0.5f, 7, 9}, {0.5f, 5, 0}}, kWidth, kHeight, GetParam()),
-                    sized(kWidth, kHeight, {"position", "id"}));
+                    viewsFrom(scene, {{0.5f, 7, 9}, {0.5f, 5, 0}}, kAfloatWidth, kAfloatHeight, GetParam()),
+                    sized(kAfloatWidth, kAfloatHeight, {"position", "id"}));
   };
   const Knobs boat{{"nodes.Boat.float.rides", "on"}};
   const Frame rides = seen(skinned, boat), expected = seen(plain, boat), still = seen(skinned, {});
   for (size_t v = 0; v < viewCount(); ++v) {
     Difference along(1e-3), from(0.02);
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kAfloatHeight; ++y)
+      for (int x = 0; x < kAfloatWidth; ++x) {
         const auto isBar = [&](const Frame& frame, const Scene& scene) {
           return int(texel(aov(frame, "id", v), x, y).x) == idOf(scene, "Bar");
         };

@@ -15,7 +15,7 @@ namespace {
 
 using namespace test;
 
-constexpr int kWidth = 96, kHeight = 72;
+constexpr int kWakeWidth = 96, kWakeHeight = 72;
 const Stand kAbove{{0.1f, 20, 0.2f}}, kAside{{7, 4, 9}};
 
 // A small box, "Boat", that goes along x by so many metres in four seconds, and begins anew.
@@ -44,10 +44,10 @@ class Decorations : public BothEyes {
  protected:
   static Frame drawAt(const Scene& scene, const Knobs& knobs, double time, const Stand& stand = kAbove,
                       double before = 0) {
-    RenderOptions options = sized(kWidth, kHeight, {"lit", "position", "id", "motion"});
+    RenderOptions options = sized(kWakeWidth, kWakeHeight, {"lit", "position", "id", "motion"});
     options.previousTime = before;
-    Result<Frame> frame = renderer().render(scene, seaLook(knobs), time,
-                                            viewsFrom(scene, stand, kWidth, kHeight, GetParam()), options);
+    Result<Frame> frame = renderer().render(
+        scene, seaLook(knobs), time, viewsFrom(scene, stand, kWakeWidth, kWakeHeight, GetParam()), options);
     if (!frame) throw std::runtime_error(frame.error().message());
     return std::move(frame).value();
   }
@@ -57,8 +57,8 @@ class Decorations : public BothEyes {
   // Where in the world there is foam.
   static std::vector<glm::dvec3> foam(const Frame& frame, size_t v) {
     std::vector<glm::dvec3> places;
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kWakeHeight; ++y)
+      for (int x = 0; x < kWakeWidth; ++x) {
         const glm::dvec4 lit = texel(aov(frame, "lit", v), x, y);
         if (lit.r > 0.8 && lit.g < 0.2 && lit.b > 0.8)
           places.emplace_back(texel(aov(frame, "position", v), x, y));
@@ -67,8 +67,8 @@ class Decorations : public BothEyes {
   }
   static double highest(const Scene& scene, const Frame& frame, size_t v) {
     double most = -1e9;
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x)
+    for (int y = 0; y < kWakeHeight; ++y)
+      for (int x = 0; x < kWakeWidth; ++x)
         if (isSea(scene, frame, x, y, v))
           most = std::max(most, double(texel(aov(frame, "position", v), x, y).y));
     return most;
@@ -116,8 +116,8 @@ TEST_P(Decorations, holesShowTheWaterAtItsHeight) {
       for (size_t v = 0; v < viewCount(); ++v) {
         Difference heights(0.08);
         size_t differ = 0;
-        for (int y = 0; y < kHeight; ++y)
-          for (int x = 0; x < kWidth; ++x) {
+        for (int y = 0; y < kWakeHeight; ++y)
+          for (int x = 0; x < kWakeWidth; ++x) {
             if (!isSea(scene, bare, x, y, v) || !isSea(scene, with, x, y, v)) continue;
             const glm::dvec4 a = texel(aov(bare, "position", v), x, y),
                              b = texel(aov(with, "position", v), x, y);
@@ -231,15 +231,15 @@ TEST_P(Decorations, motionIsTheWaters) {
       scene,
       {{"ocean.speed", "2"}, {"decorations.D.water.node", "Boat"}, {"decorations.D.water.height", "0"}}, 2.5,
       kAbove, 2.25);
-  const auto views = viewsFrom(scene, kAbove, kWidth, kHeight, GetParam());
+  const auto views = viewsFrom(scene, kAbove, kWakeWidth, kWakeHeight, GetParam());
   for (size_t v = 0; v < viewCount(); ++v) {
     Difference moved(0.03);
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kWakeHeight; ++y)
+      for (int x = 0; x < kWakeWidth; ++x) {
         if (!isSea(scene, frame, x, y, v)) continue;
         const glm::dvec3 at(texel(aov(frame, "position", v), x, y));
         const glm::dvec2 expected =
-            glm::dvec2(x, y) + 0.5 - pixelOf(views[v], at + glm::dvec3(0.5, 0, 0), kWidth, kHeight);
+            glm::dvec2(x, y) + 0.5 - pixelOf(views[v], at + glm::dvec3(0.5, 0, 0), kWakeWidth, kWakeHeight);
         moved.add(texel(aov(frame, "motion", v), x, y).x, expected.x);
         moved.add(texel(aov(frame, "motion", v), x, y).y, expected.y);
       }

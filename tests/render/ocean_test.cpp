@@ -18,7 +18,7 @@ namespace {
 
 using namespace test;
 
-constexpr int kWidth = 64, kHeight = 48;
+constexpr int kSeaWidth = 64, kSeaHeight = 48;
 
 // A box beside the middle; where `oceanName` says one, a node of that name with a plate of its own at a
 // height of 0.5 m.
@@ -86,12 +86,12 @@ class OceanDrawn : public BothEyes {
  protected:
   static Frame drawAt(const Scene& scene, const Look& look, double time, const std::vector<View>& views,
                       const std::vector<std::string>& aovs) {
-    Result<Frame> frame = renderer().render(scene, look, time, views, sized(kWidth, kHeight, aovs));
+    Result<Frame> frame = renderer().render(scene, look, time, views, sized(kSeaWidth, kSeaHeight, aovs));
     if (!frame) throw std::runtime_error(frame.error().message());
     return std::move(frame).value();
   }
   static std::vector<View> viewsOf(const Scene& scene, const Stand& stand) {
-    return viewsFrom(scene, stand, kWidth, kHeight, GetParam());
+    return viewsFrom(scene, stand, kSeaWidth, kSeaHeight, GetParam());
   }
   static int oceanId(const Scene& scene) { return int(scene.data().nodes.size()) + 2; }
   static size_t count(const Frame& frame, int id, size_t v) {
@@ -107,8 +107,8 @@ class OceanDrawn : public BothEyes {
     size_t compared = 0;
     for (size_t v = 0; v < viewCount(); ++v) {
       Difference heights(tolerance);
-      for (int y = 0; y < kHeight; ++y)
-        for (int x = 0; x < kWidth; ++x) {
+      for (int y = 0; y < kSeaHeight; ++y)
+        for (int x = 0; x < kSeaWidth; ++x) {
           if (int(texel(aov(frame, "id", v), x, y).x) != oceanId(scene)) continue;
           const glm::dvec3 at(texel(aov(frame, "position", v), x, y));
           const double away =
@@ -125,14 +125,14 @@ class OceanDrawn : public BothEyes {
 };
 INSTANTIATE_BOTH_EYES(OceanDrawn);
 
-const Stand kAside{{9, 6, 12}}, kAbove{{0.1f, 14, 0.2f}}, kLow{{-7, 2.4f, 6}, {0, 1.6f, -3}};
+const Stand kFromAside{{9, 6, 12}}, kFromAbove{{0.1f, 14, 0.2f}}, kLow{{-7, 2.4f, 6}, {0, 1.6f, -3}};
 
 // ---- Whether there is one ----
 
 TEST_P(OceanDrawn, onlyWhereANodeOrTheLookSaysSo) {
   const std::vector<std::string> aovs{"id", "position"};
   const auto drawn = [&](const Scene& scene, const Knobs& knobs) {
-    return drawAt(scene, quietLook(knobs), 0.4, viewsOf(scene, kAside), aovs);
+    return drawAt(scene, quietLook(knobs), 0.4, viewsOf(scene, kFromAside), aovs);
   };
   const auto expectSame = [&](const Frame& a, const Frame& b, const char* what) {
     for (const char* name : {"", "id", "position"})
@@ -173,11 +173,11 @@ TEST_P(OceanDrawn, calmWaterIsFlatAtItsLevel) {
       const Look look = quietLook({{"ocean.mode", isNode ? "auto" : "on"},
                                    {"ocean.wind", "0"},
                                    {"ocean.level", std::to_string(level)}});
-      const Frame frame = drawAt(scene, look, 1.5, viewsOf(scene, kAside), {"position", "id", "normal"});
+      const Frame frame = drawAt(scene, look, 1.5, viewsOf(scene, kFromAside), {"position", "id", "normal"});
       for (size_t v = 0; v < viewCount(); ++v) {
         Difference heights(1e-4), normals(1e-3);
-        for (int y = 0; y < kHeight; ++y)
-          for (int x = 0; x < kWidth; ++x) {
+        for (int y = 0; y < kSeaHeight; ++y)
+          for (int x = 0; x < kSeaWidth; ++x) {
             if (int(texel(aov(frame, "id", v), x, y).x) != oceanId(scene)) continue;
             const glm::dvec4 at = texel(aov(frame, "position", v), x, y);
             if (glm::length(glm::dvec2(at.x, at.z)) > 60) continue;
@@ -201,7 +201,7 @@ TEST_P(OceanDrawn, isTheMeshOfTheWaves) {
            {{"ocean.spectrum", "phillips"}, {"ocean.seed", "7"}, {"ocean.windDirection", "-120"}},
            {{"ocean.speed", "3.7"}, {"ocean.heading", "35"}},
            {{"ocean.speed", "-11"}, {"ocean.heading", "100"}, {"ocean.choppiness", "0"}}})
-    for (const auto& [time, stand] : {std::pair{0.0, kLow}, {7.3, kAside}, {-2.6, kAbove}})
+    for (const auto& [time, stand] : {std::pair{0.0, kLow}, {7.3, kFromAside}, {-2.6, kFromAbove}})
       compared += compare(scene, quietLook(knobs), time, stand,
                           (knobs.empty() ? "usual" : knobs[0].second) + " at " + std::to_string(time));
   EXPECT_GT(compared, 12 * 1000 * viewCount());
@@ -229,7 +229,7 @@ TEST_P(OceanDrawn, isTheMeshOfTheWavesForAnyGrid) {
                                  {"ocean.speed", "2.3"},
                                  {"ocean.heading", "-50"}});
     const std::string what = std::to_string(tiles) + " tiles of " + std::to_string(grid);
-    const size_t compared = compare(scene, look, time, kAbove, what);
+    const size_t compared = compare(scene, look, time, kFromAbove, what);
     if (tiles * grid > 15) {
       EXPECT_GT(compared, 150u) << what;
     }
@@ -268,7 +268,7 @@ TEST_P(OceanDrawn, repeatsAfterItsLoop) {
   const auto at = [&](double time, const Knobs& more = {}) {
     Knobs knobs{{"ocean.tiles", "1"}, {"ocean.loop", "12"}, {"ocean.paint.live", "0.5"}};
     knobs.insert(knobs.end(), more.begin(), more.end());
-    return drawAt(scene, quietLook(knobs), time, viewsOf(scene, kAside), {"position"});
+    return drawAt(scene, quietLook(knobs), time, viewsOf(scene, kFromAside), {"position"});
   };
   const Frame once = at(2.25), again = at(14.25), before = at(-9.75), later = at(3.5),
               other = at(2.25, {{"ocean.seed", "2"}});
@@ -287,9 +287,10 @@ TEST_P(OceanDrawn, repeatsAfterItsLoop) {
 TEST_P(OceanDrawn, waterMovesAndSlides) {
   const Scene scene = harbour("Ocean").load();
   const auto motion = [&](const Knobs& knobs, double time, double before) {
-    RenderOptions options = sized(kWidth, kHeight, {"position", "id", "motion"});
+    RenderOptions options = sized(kSeaWidth, kSeaHeight, {"position", "id", "motion"});
     options.previousTime = before;
-    Result<Frame> frame = renderer().render(scene, quietLook(knobs), time, viewsOf(scene, kAside), options);
+    Result<Frame> frame =
+        renderer().render(scene, quietLook(knobs), time, viewsOf(scene, kFromAside), options);
     if (!frame) throw std::runtime_error(frame.error().message());
     return std::move(frame).value();
   };
@@ -306,7 +307,7 @@ TEST_P(OceanDrawn, waterMovesAndSlides) {
         0.25 * speed,
         motion({{"ocean.wind", "0"}, {"ocean.speed", std::to_string(speed)}, {"ocean.heading", "40"}}, 2.5,
                2.25));
-  const auto views = viewsOf(scene, kAside);
+  const auto views = viewsOf(scene, kFromAside);
   for (size_t v = 0; v < viewCount(); ++v) {
     EXPECT_LT(largest(loop, v), 0.02);
     EXPECT_GT(largest(moves, v), 0.3);
@@ -314,12 +315,13 @@ TEST_P(OceanDrawn, waterMovesAndSlides) {
       const double heading = glm::radians(40.0);
       const glm::dvec3 by = slid * glm::dvec3(std::cos(heading), 0, std::sin(heading));
       Difference moved(0.03);
-      for (int y = 0; y < kHeight; ++y)
-        for (int x = 0; x < kWidth; ++x) {
+      for (int y = 0; y < kSeaHeight; ++y)
+        for (int x = 0; x < kSeaWidth; ++x) {
           if (int(texel(aov(frame, "id", v), x, y).x) != oceanId(scene)) continue;
           const glm::dvec3 at(texel(aov(frame, "position", v), x, y));
           if (glm::length(at) > 60) continue;
-          const glm::dvec2 expected = glm::dvec2(x, y) + 0.5 - pixelOf(views[v], at + by, kWidth, kHeight);
+          const glm::dvec2 expected =
+              glm::dvec2(x, y) + 0.5 - pixelOf(views[v], at + by, kSeaWidth, kSeaHeight);
           moved.add(texel(aov(frame, "motion", v), x, y).x, expected.x);
           moved.add(texel(aov(frame, "motion", v), x, y).y, expected.y);
         }
@@ -336,7 +338,7 @@ TEST_P(OceanDrawn, travelsAsFarAsItsSpeedTookIt) {
     const Result<Look> look =
         Look::fromJson(R"({"ocean": {"tiles": 1, "speed": )" + speed + "}}", "sea.json");
     EXPECT_TRUE(look.ok());
-    return drawAt(scene, *look, 10, viewsOf(scene, kAside), {"position"});
+    return drawAt(scene, *look, 10, viewsOf(scene, kFromAside), {"position"});
   };
   const Frame track = drawn(R"({"keys": [[0, 0], [10, 3]]})"), constant = drawn("1.5"), last = drawn("3");
   for (size_t v = 0; v < viewCount(); ++v) {
@@ -349,8 +351,8 @@ TEST_P(OceanDrawn, travelsAsFarAsItsSpeedTookIt) {
 TEST_P(OceanDrawn, framesUnderWayAreThoseAlone) {
   const Scene scene = harbour("Ocean").load();
   const Look look = quietLook({{"ocean.tiles", "1"}, {"ocean.speed", "3"}, {"nodes.Box.float.rides", "on"}});
-  const auto views = viewsOf(scene, kAside);
-  const RenderOptions options = sized(kWidth, kHeight, {"position"});
+  const auto views = viewsOf(scene, kFromAside);
+  const RenderOptions options = sized(kSeaWidth, kSeaHeight, {"position"});
   std::vector<Frame> alone;
   for (int i = 0; i < 3; ++i) alone.push_back(drawAt(scene, look, i * 0.7, views, options.aovs));
   for (int i = 0; i < 2; ++i) ASSERT_TRUE(renderer().begin(scene, look, i * 0.7, views, options).ok());
@@ -412,8 +414,8 @@ TEST_P(OceanDrawn, nodesRideTheWaves) {
         const int id = idOf(name);
         const glm::dmat4 toNode = glm::inverse(glm::dmat4(rest[size_t(id) - 1]));
         Difference faces(1e-4);
-        for (int y = 0; y < kHeight; ++y)
-          for (int x = 0; x < kWidth; ++x) {
+        for (int y = 0; y < kSeaHeight; ++y)
+          for (int x = 0; x < kSeaWidth; ++x) {
             if (int(texel(aov(drawn, "id", v), x, y).x) != id) continue;
             glm::dvec3 at(texel(aov(drawn, "position", v), x, y));
             if (rides) at = glm::transpose(tilt) * (at - middle) + glm::dvec3(place);
@@ -491,7 +493,7 @@ TEST_P(OceanDrawn, hostileSettingsGiveFinitePictures) {
            {{"ocean.speed", "100"}, {"ocean.heading", "-179"}, {"ocean.loop", "1"}},
            {{"ocean.paint.live", "4"}, {"ocean.paint.liveSpread", "1"}, {"ocean.paint.dither", "2"}}}) {
     if (turn++ % 2 + 1 != viewCount()) continue;
-    const Stand stand = turn % 4 < 2 ? kAside : Stand{{0, 2, 0.1f}, {0, 1.9f, -30}};
+    const Stand stand = turn % 4 < 2 ? kFromAside : Stand{{0, 2, 0.1f}, {0, 1.9f, -30}};
     Knobs all = knobs;
     all.insert(all.end(), {{"nodes.Box.float.rides", "on"}, {"nodes.Box.float.length", "1000"}});
     const Frame frame = drawAt(scene, quietLook(all), 1234.5, viewsOf(scene, stand),
@@ -511,7 +513,7 @@ class OceanPainted : public OceanDrawn {
   static Frame lit(const Scene& scene, const Knobs& knobs, double time = 0.5) {
     Knobs small{{"ocean.tiles", "1"}};  // sooner drawn
     small.insert(small.end(), knobs.begin(), knobs.end());
-    return drawAt(scene, quietLook(small), time, viewsOf(scene, kAside), {"lit", "shadowed", "id"});
+    return drawAt(scene, quietLook(small), time, viewsOf(scene, kFromAside), {"lit", "shadowed", "id"});
   }
 };
 INSTANTIATE_BOTH_EYES(OceanPainted);
@@ -561,8 +563,8 @@ TEST_P(OceanPainted, picturesOfOnesOwn) {
     const Frame frame = lit(scene, all);
     for (size_t v = 0; v < viewCount(); ++v) {
       Difference colors(0.02);
-      for (int y = 0; y < kHeight; ++y)
-        for (int x = 0; x < kWidth; ++x)
+      for (int y = 0; y < kSeaHeight; ++y)
+        for (int x = 0; x < kSeaWidth; ++x)
           if (int(texel(aov(frame, "id", v), x, y).x) == oceanId(scene))
             for (int c = 0; c < 3; ++c) colors.add(texel(aov(frame, "lit", v), x, y)[c], expected[c]);
       EXPECT_GT(colors.count, 3000u) << what;
@@ -593,8 +595,8 @@ TEST_P(OceanPainted, foamWhereItIsAskedFor) {
                                     {"ocean.paint.colors", "open-sea"},
                                     {"ocean.paint.sky", "open-sea"}});
     size_t pixels = 0;
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kSeaHeight; ++y)
+      for (int x = 0; x < kSeaWidth; ++x) {
         const glm::dvec4 color = texel(aov(frame, "lit"), x, y);
         pixels += int(texel(aov(frame, "id"), x, y).x) == oceanId(scene) && color.x > 0.5 && color.y < 0.2;
       }
@@ -624,7 +626,7 @@ TEST_P(OceanPainted, strokesLiveOrStandStill) {
 
 TEST_F(OceanDrawn, eachEyeSeesWhatOneWouldSee) {
   const Scene scene = harbour("Ocean").load();
-  const auto both = viewsFrom(scene, kAside, kWidth, kHeight, Stereo::stereo);
+  const auto both = viewsFrom(scene, kFromAside, kSeaWidth, kSeaHeight, Stereo::stereo);
   const std::vector<std::string> aovs{"depth", "position", "normal", "uv", "uv-gradient", "id"};
   for (const double time : {0.6, 3.0}) {
     const Look look = quietLook({{"ocean.speed", "1.7"}});
@@ -649,8 +651,8 @@ TEST_P(OceanDrawn, shadowsFallOnIt) {
   for (size_t v = 0; v < viewCount(); ++v) {
     double dark = 0, light = 0;
     size_t darkCount = 0, lightCount = 0;
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kSeaHeight; ++y)
+      for (int x = 0; x < kSeaWidth; ++x) {
         if (int(texel(aov(frame, "id", v), x, y).x) != oceanId(scene)) continue;
         const glm::dvec4 at = texel(aov(frame, "position", v), x, y);
         const double shadow = texel(aov(frame, "final-shadow", v), x, y).x;

@@ -18,8 +18,8 @@ using namespace test;
 using frame::ColorRule;
 using frame::Grade;
 
-constexpr double kByte = 1.0 / 255;
-constexpr int kWidth = 64, kHeight = 48;
+constexpr double kSetsByte = 1.0 / 255;
+constexpr int kSetsWidth = 64, kSetsHeight = 48;
 
 // Four texels of one colour each, linear.
 Image fourColors(const std::vector<glm::vec3>& colors) {
@@ -37,7 +37,8 @@ class ColorSetsTest : public BothEyes {
   static void expectColor(const glm::dvec4& got, const glm::dvec3& expected, double roots = 1.0) {
     // Targets hold square roots in 8 bits.
     for (int c = 0; c < 3; ++c)
-      EXPECT_NEAR(std::sqrt(got[c]), std::sqrt(std::max(expected[c], 0.0)), roots * kByte) << "channel " << c;
+      EXPECT_NEAR(std::sqrt(got[c]), std::sqrt(std::max(expected[c], 0.0)), roots * kSetsByte)
+          << "channel " << c;
   }
 
   // Where the four texels stand on the wall, x and y.
@@ -49,19 +50,19 @@ class ColorSetsTest : public BothEyes {
   };
   // What a wall with the material shows at each quarter, in all views (which must agree).
   static Sets drawn(const Scene& scene, const Look& look, double time = 0) {
-    const auto views = viewsFrom(scene, {{0, 0, 3.5f}}, kWidth, kHeight, GetParam());
+    const auto views = viewsFrom(scene, {{0, 0, 3.5f}}, kSetsWidth, kSetsHeight, GetParam());
     Result<Frame> result =
-        renderer().render(scene, look, time, views, sized(kWidth, kHeight, {"lit", "shadowed"}));
+        renderer().render(scene, look, time, views, sized(kSetsWidth, kSetsHeight, {"lit", "shadowed"}));
     if (!result) throw std::runtime_error(result.error().message());
     Sets sets;
     for (size_t v = 0; v < viewCount(); ++v)
       for (int i = 0; i < 4; ++i) {
-        const glm::ivec2 at(pixelOf(views[v], quarter(i), kWidth, kHeight));
+        const glm::ivec2 at(pixelOf(views[v], quarter(i), kSetsWidth, kSetsHeight));
         const glm::dvec4 lit = texel(aov(result.value(), "lit", v), at.x, at.y),
                          shadowed = texel(aov(result.value(), "shadowed", v), at.x, at.y);
         if (v > 0) {
-          EXPECT_LT(glm::length(lit - sets.lit[i]), 6 * kByte);
-          EXPECT_LT(glm::length(shadowed - sets.shadowed[i]), 6 * kByte);
+          EXPECT_LT(glm::length(lit - sets.lit[i]), 6 * kSetsByte);
+          EXPECT_LT(glm::length(shadowed - sets.shadowed[i]), 6 * kSetsByte);
         }
         sets.lit[i] = lit, sets.shadowed[i] = shadowed;
       }
@@ -213,8 +214,8 @@ TEST_P(ColorSetsTest, byNode) {
 // Settings that change nothing change no bit, also where nodes have materials of their own.
 TEST_P(ColorSetsTest, defaultsChangeNothing) {
   const Scene scene = stillLife().load();
-  const auto views = viewsFrom(scene, {{2, 2, 5}}, kWidth, kHeight, GetParam());
-  const auto options = sized(kWidth, kHeight, {"lit", "shadowed", "shadow"}, 4);
+  const auto views = viewsFrom(scene, {{2, 2, 5}}, kSetsWidth, kSetsHeight, GetParam());
+  const auto options = sized(kSetsWidth, kSetsHeight, {"lit", "shadowed", "shadow"}, 4);
   const Frame plain = draw(scene, quietLook(), views, options);
   const Frame same = draw(scene,
                           quietLook({{"nodes.*.lit.saturation", "1"},
@@ -254,15 +255,15 @@ TEST_P(ColorSetsTest, leaveTheGroundAlone) {
   s.add(boxMesh({-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f}),
         s.material(TestScene::colored("Box", {0.4f, 0.4f, 0.4f, 1})));
   const Scene scene = s.load();
-  const auto views = viewsFrom(scene, {{1, 2, 4}, {0, 0.4f, 0}}, kWidth, kHeight, GetParam());
-  const RenderOptions options = sized(kWidth, kHeight, {"lit", "id"});
+  const auto views = viewsFrom(scene, {{1, 2, 4}, {0, 0.4f, 0}}, kSetsWidth, kSetsHeight, GetParam());
+  const RenderOptions options = sized(kSetsWidth, kSetsHeight, {"lit", "id"});
   const Frame without = draw(scene, quietLook({{"ground.mode", "on"}}), views, options),
               with = draw(scene, quietLook({{"ground.mode", "on"}, {"lit.texture", file.string()}}), views,
                           options);
   std::filesystem::remove(file);
   size_t ground = 0, changed = 0;
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kSetsHeight; ++y)
+    for (int x = 0; x < kSetsWidth; ++x) {
       const bool isSame = texel(aov(with, "lit"), x, y) == texel(aov(without, "lit"), x, y);
       const double id = texel(aov(with, "id"), x, y).x;
       ground += id > 1, changed += id == 1 && !isSame;
@@ -277,18 +278,18 @@ TEST_P(ColorSetsTest, glow) {
   TestScene s;
   s.add(wall(), s.material(TestScene::colored("Wall", {0.2f, 0.2f, 0.2f, 1})));
   const Scene scene = s.load();
-  const auto views = viewsFrom(scene, {{0, 0, 3.5f}}, kWidth, kHeight, GetParam());
+  const auto views = viewsFrom(scene, {{0, 0, 3.5f}}, kSetsWidth, kSetsHeight, GetParam());
   const auto brightnessBeside = [&](const Look& look) {
-    const Frame frame = draw(scene, look, views, sized(kWidth, kHeight, {"shadow"}));
-    const glm::ivec2 inside(pixelOf(views[0], {0, 0, 0}, kWidth, kHeight)),
-        beside(pixelOf(views[0], {0, 1.05, 0}, kWidth, kHeight));
+    const Frame frame = draw(scene, look, views, sized(kSetsWidth, kSetsHeight, {"shadow"}));
+    const glm::ivec2 inside(pixelOf(views[0], {0, 0, 0}, kSetsWidth, kSetsHeight)),
+        beside(pixelOf(views[0], {0, 1.05, 0}, kSetsWidth, kSetsHeight));
     return std::pair(texel(aov(frame, "shadow"), inside.x, inside.y).y,
                      texel(aov(frame, ""), beside.x, beside.y).r);
   };
   const auto without = brightnessBeside(quietLook({{"final.bloom", "1"}}));
   const auto with = brightnessBeside(quietLook({{"final.bloom", "1"}, {"materials.W*.surface.glow", "0.6"}}));
   EXPECT_EQ(without.first, 0);
-  EXPECT_NEAR(with.first, 0.6, kByte);
+  EXPECT_NEAR(with.first, 0.6, kSetsByte);
   EXPECT_GT(with.second, without.second + 0.02);
 }
 

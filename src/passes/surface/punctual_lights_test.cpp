@@ -10,8 +10,8 @@ namespace {
 
 using namespace test;
 
-constexpr double kByte = 1.0 / 255;
-constexpr int kWidth = 96, kHeight = 72;
+constexpr double kLightByte = 1.0 / 255;
+constexpr int kLampsWidth = 96, kLampsHeight = 72;
 
 struct Lamp {
   glm::dvec3 position;
@@ -72,18 +72,18 @@ TEST_P(PunctualLightsTest, followTheExtension) {
   s.light({0, -1, -1});
   addLamps(s, lamps);
   const Scene scene = s.load();
-  const auto views = viewsFrom(scene, {{0, 1.5f, 4}, {0, 0.4f, 0}}, kWidth, kHeight, GetParam());
+  const auto views = viewsFrom(scene, {{0, 1.5f, 4}, {0, 0.4f, 0}}, kLampsWidth, kLampsHeight, GetParam());
   const Frame frame = draw(scene,
                            quietLook({{"light.punctualUnit", "candela"},
                                       {"light.punctual", "0.8"},
                                       {"light.terminatorSharpness", "64"},
                                       {"shadowMap.cast", "off"}}),
-                           views, sized(kWidth, kHeight, {"shadow", "position", "normal", "id"}));
+                           views, sized(kLampsWidth, kLampsHeight, {"shadow", "position", "normal", "id"}));
   for (size_t v = 0; v < viewCount(); ++v) {
-    Difference light(2.0 * kByte);
+    Difference light(2.0 * kLightByte);
     double most = 0;
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kLampsHeight; ++y)
+      for (int x = 0; x < kLampsWidth; ++x) {
         if (texel(aov(frame, "id", v), x, y).x == 0) continue;
         const glm::dvec3 point(texel(aov(frame, "position", v), x, y)),
             normal(texel(aov(frame, "normal", v), x, y));
@@ -108,8 +108,8 @@ TEST_P(PunctualLightsTest, offChangesNothing) {
     return s.load();
   };
   const Scene with = sceneWith({{{1.05, 1, 1.05}, 500, 0, 0, 0, 0}}), without = sceneWith({});
-  const auto views = viewsFrom(without, {{0, 1, 5}, {0, 1, 0}}, kWidth, kHeight, GetParam());
-  const auto options = sized(kWidth, kHeight, {"shadow"}, 4);
+  const auto views = viewsFrom(without, {{0, 1, 5}, {0, 1, 0}}, kLampsWidth, kLampsHeight, GetParam());
+  const auto options = sized(kLampsWidth, kLampsHeight, {"shadow"}, 4);
   const Frame dark = draw(without, quietLook(), views, options),
               off = draw(with, quietLook({{"light.punctual", "0"}}), views, options),
               on = draw(with, quietLook(), views, options);
@@ -117,8 +117,8 @@ TEST_P(PunctualLightsTest, offChangesNothing) {
     EXPECT_TRUE(sameBytes(aov(dark, "", v), aov(off, "", v)));
     EXPECT_TRUE(sameBytes(aov(dark, "shadow", v), aov(off, "shadow", v)));
     int lit = 0;
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
+    for (int y = 0; y < kLampsHeight; ++y)
+      for (int x = 0; x < kLampsWidth; ++x) {
         const glm::dvec4 before = texel(aov(dark, "shadow", v), x, y),
                          after = texel(aov(on, "shadow", v), x, y);
         EXPECT_GE(after.x, before.x);
