@@ -14,7 +14,7 @@ namespace {
 struct Block {
   glm::vec2 imageSize;
   float askew;
-  MetaTexture meta;
+  MetaTextureUniforms meta;
 };
 
 struct Case {
@@ -54,18 +54,16 @@ int main(int argc, char** argv) {
   for (size_t i = 0; i < cases.size(); ++i) {
     WarpMetaTextureParams params;
     params.skip = cases[i].skip;
-    const Block block{
-        {float(screen.width()), float(screen.height())},
-        cases[i].askew,
-        metaTextureUse(params, 0b0111, {}, examples, float(screen.height()) / 1080.0f, glm::vec2(0.0f)).meta};
+    MetaTextureUse use =
+        metaTextureUse(params, 0b0111, {}, examples, float(screen.height()) / 1080.0f, glm::vec2(0.0f));
+    use.meta.skew = int(cases[i].skew), use.meta.wrapping = 0;
+    const Block block{{float(screen.width()), float(screen.height())}, cases[i].askew, use.meta.uniforms()};
     std::memcpy(uniforms.mapped() + i * kStride, &block, sizeof(block));
     sets.writeBuffer(i, 0, uniforms.handle(), i * kStride, sizeof(block));
     sets.writeTexture(i, 1, example.image.view(),
-                      samplers.get(cases[i].method == 2 ? MetaTextureUse{block.meta, &example}.sampler()
-                                                        : ExampleTextures::kSampler));
+                      samplers.get(cases[i].method == 2 ? use.sampler() : ExampleTextures::kSampler));
     pipelines.push_back(screen.pipeline({shaders::metatexture_bench_frag},
-                                        {cases[i].method, cases[i].skew, cases[i].skip > 0},
-                                        {layout.handle()}));
+                                        {cases[i].method, use.meta.features()}, {layout.handle()}));
   }
   std::vector<bench::FullScreenCase> drawn;
   for (size_t i = 0; i < cases.size(); ++i)

@@ -5,8 +5,7 @@
 #include "../../src/shading/metatexture.glsl"
 
 layout(constant_id = 0) const int kMethod = 0;  // 0 nothing, 1 trilinear, 2 MetaTexture
-layout(constant_id = 1) const int kSkew = 0;    // 0: 4 samples, 2: 8 samples
-layout(constant_id = 2) const int kSkips = 0;
+layout(constant_id = 1) const int kFeatures = 0;  // MetaTexture.features: without skew 4 samples, else 8
 
 layout(set = 0, binding = 0, scalar) uniform Block {
   vec2 imageSize;
@@ -30,8 +29,7 @@ void main() {
     vec2 dSdu, dSdv;
     metaTextureFromDerivatives(byX, byY, dSdu, dSdv);
     MetaTexture m = u.meta;
-    m.mode = 0, m.skew = kSkew, m.orient = 0, m.levelRotation = 0.0, m.base = 2.0, m.wrapping = 0;
-    if (kSkips == 0) m.skip = 0.0;
+    m.features = kFeatures;
     MetaTextureChoice chosen = metaTextureChoose(m, dSdu, dSdv, 1.0);
     result = metaTextureSample(m, chosen, example, uv, vec2(0.0), gl_FragCoord.xy);
   }

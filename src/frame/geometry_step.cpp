@@ -52,10 +52,11 @@ void GeometryStep::create(gpu::Device& device, const FrameResources& resources, 
   makePipelines(scene);
 }
 
-void GeometryStep::specialise(const SceneOnGpu& scene, uint32_t constant, std::vector<uint8_t> extras) {
-  if (constant_ == constant && extras_ == extras) return;
+void GeometryStep::specialise(const SceneOnGpu& scene, uint32_t constant,
+                              std::vector<MaterialVariant> materials) {
+  if (constant_ == constant && materials_ == materials) return;
   constant_ = constant;
-  extras_ = std::move(extras);
+  materials_ = std::move(materials);
   makePipelines(scene);
 }
 
@@ -73,27 +74,30 @@ bool GeometryStep::includes(const SceneOnGpu& scene, const Draw& draw) const {
 void GeometryStep::makePipelines(const SceneOnGpu& scene) {
   for (const Draw& draw : scene.draws()) {
     if (!includes(scene, draw)) continue;
-    gpu::Pipeline& made = pipelines_[variant(draw)];
+    const Variant of = variant(draw);
+    gpu::Pipeline& made = pipelines_[of];
     if (made) continue;
+    const MaterialVariant& material = of.material;
     const bool depthOnly = draw.alpha == AlphaMode::opaque && !desc_.depthOnlyVertex.words.empty();
     gpu::GraphicsPipelineDesc pipeline;
-    pipeline.vertex = depthOnly         ? desc_.depthOnlyVertex
-                      : isPainted(draw) ? desc_.paintedVertex
-                                        : desc_.vertex;
+    pipeline.vertex = depthOnly            ? desc_.depthOnlyVertex
+                      : material.isPainted ? desc_.paintedVertex
+                                           : desc_.vertex;
     if (!depthOnly)
-      pipeline.fragment = isOcean(draw)     ? desc_.oceanFragment
-                          : isPainted(draw) ? desc_.paintedFragment
-                                            : desc_.fragment;
-    const uint32_t sets = extras(draw) / 2 & 3;
+      pipeline.fragment = material.isOcean     ? desc_.oceanFragment
+                          : material.isPainted ? desc_.paintedFragment
+                                               : desc_.fragment;
+    const bool varies = material.isPainted || material.isOcean || material.sets != 0;
     pipeline.constants = {uint32_t(draw.alpha),
-                          draw.varied || extras(draw) != 0,
-                          draw.textured || sets != 0,
+                          draw.varied || varies,
+                          draw.textured || material.sets != 0,
                           desc_.viewCount,
                           constant_,
-                          sets};
-    addVertexInput(pipeline, depthOnly         ? uint32_t(kPosition)
-                             : isPainted(draw) ? desc_.paintedInputs
-                                               : desc_.inputs);
+                          material.sets,
+                          material.options};
+    addVertexInput(pipeline, depthOnly            ? uint32_t(kPosition)
+                             : material.isPainted ? desc_.paintedInputs
+                                                  : desc_.inputs);
     pipeline.colorFormats = desc_.colorFormats;
     pipeline.depthFormat = VK_FORMAT_D32_SFLOAT;
     pipeline.depthCompare = desc_.depthCompare;

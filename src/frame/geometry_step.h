@@ -1,6 +1,7 @@
 // What the geometry passes share: the vertex streams, and one pipeline for each kind of material.
 #pragma once
 
+#include <compare>
 #include <map>
 
 #include "frame/pass.h"
@@ -46,31 +47,41 @@ struct GeometryStepDesc {
   std::vector<uint32_t> materialStrides;
 };
 
+// What of the look goes into a material's pipelines besides its vertex colours and the scene's textures.
+struct MaterialVariant {
+  bool isOcean = false;
+  uint8_t sets = 0;        // ColorSets; specialisation constant 5
+  bool isPainted = false;  // the look paints a texture on it
+  uint32_t options = 0;    // specialisation constant 6, the pass's own
+  auto operator<=>(const MaterialVariant&) const = default;
+};
+
 class GeometryStep {
  public:
   void create(gpu::Device& device, const FrameResources& resources, const SceneOnGpu& scene,
               const GeometryStepDesc& desc);
-  // What of the look goes into the pipelines: specialisation constant 4, the pass's own; and by material,
-  // what makes its colours vary besides vertex colours and the scene's textures: whether the look paints
-  // textures on it, and the sets of colours that it has (ColorSets times 2). Makes the pipelines that are
-  // still missing.
-  static constexpr uint8_t kPainted = 1, kOcean = 8;
-  void specialise(const SceneOnGpu& scene, uint32_t constant, std::vector<uint8_t> extras = {});
+  // What of the look goes into the pipelines: specialisation constant 4, the pass's own, and what each
+  // material has. Makes the pipelines that are still missing.
+  void specialise(const SceneOnGpu& scene, uint32_t constant, std::vector<MaterialVariant> materials = {});
   // Draws opaque, then masked, then blended surfaces: by pipeline and material, the nearest first; blended
   // ones from far to near. `passSets`: set 2, one for all or one for each material; null for none.
   void draw(VkCommandBuffer commands, const FrameResources& resources, const SceneOnGpu& scene,
             const gpu::DescriptorSets* passSets, uint32_t firstView) const;
 
  private:
-  // Pipelines by alpha mode (constant 0), by whether colours vary (1), by whether the scene's textures are
-  // read (2), by whether the look paints, by sets of colours (5), and by the pass's own constant (4).
-  uint8_t extras(const Draw& draw) const {
-    return draw.material < extras_.size() ? extras_[draw.material] : uint8_t(0);
-  }
-  bool isPainted(const Draw& draw) const { return extras(draw) & kPainted; }
-  bool isOcean(const Draw& draw) const { return extras(draw) & kOcean; }
-  uint32_t variant(const Draw& draw) const {
-    return constant_ * 256 + uint32_t(draw.alpha) * 64 + extras(draw) * 4u + draw.varied * 2 + draw.textured;
+  // What a pipeline is made for, in the order in which they draw: specialisation constant 0 is the alpha
+  // mode, 1 whether colours vary, 2 whether the scene's textures are read.
+  struct Variant {
+    uint32_t constant;
+    AlphaMode alpha;
+    MaterialVariant material;
+    bool varied, textured;
+    auto operator<=>(const Variant&) const = default;
+  };
+  Variant variant(const Draw& draw) const {
+    return {constant_, draw.alpha,
+            draw.material < materials_.size() ? materials_[draw.material] : MaterialVariant(), draw.varied,
+            draw.textured};
   }
   // Whether a draw is ever one of the step's.
   bool includes(const SceneOnGpu& scene, const Draw& draw) const;
@@ -80,8 +91,8 @@ class GeometryStep {
   GeometryStepDesc desc_;
   std::vector<VkDescriptorSetLayout> setLayouts_;
   uint32_t constant_ = 0;
-  std::vector<uint8_t> extras_;
-  std::map<uint32_t, gpu::Pipeline> pipelines_;
+  std::vector<MaterialVariant> materials_;
+  std::map<Variant, gpu::Pipeline> pipelines_;
 };
 
 }  // namespace scumble::frame

@@ -51,8 +51,11 @@ glm::vec2 patternShift(uint32_t seed) {
                    : glm::vec2(float(hash(seed) & 0xFFFF), float(hash(seed + 1) & 0xFFFF)) / 65536.0f;
 }
 
-TangentOptions tangentOptions(const WarpMetaTextureParams& params) {
-  return {uint32_t(int(params.gradients)), bool(params.cyclopean), bool(params.radial)};
+uint32_t tangentOptions(const WarpMetaTextureParams& params, const shared::FrameUniforms& frame) {
+  const bool isBetween = frame.worldToCyclopean != frame.views[0].worldToClip ||
+                         frame.worldToCyclopean != frame.views[1].worldToClip;
+  return (params.gradients == 1 ? shared::kFragmentGradients : 0) |
+         (params.cyclopean && isBetween ? shared::kCyclopean : 0) | (params.radial ? shared::kRadial : 0);
 }
 
 }  // namespace scumble::frame

@@ -3,6 +3,7 @@
 
 #include "frame/example_textures.h"
 #include "frame/pass.h"
+#include "shading/surface_tangents.shared.h"
 
 namespace scumble::frame {
 
@@ -46,18 +47,33 @@ namespace scumble::frame {
 #undef METATEXTURE_SKEW
 #undef METATEXTURE_SIZE
 
-// Mirrors MetaTexture in shading/metatexture.glsl, which says what each field is.
+// Mirrors MetaTexture in shading/metatexture.glsl.
+struct MetaTextureUniforms {
+  glm::vec4 mean;
+  glm::vec2 size, shift;
+  float base, levelRotation, blend, skip, lod, skewLevels, tiles;
+  uint32_t features;
+};
+static_assert(sizeof(MetaTextureUniforms) == 64, "scalar layout, as the shaders read it");
+
+// What shading/metatexture.glsl says of each field, the word of features apart.
 struct MetaTexture {
   glm::vec4 mean{0.5f};
   glm::vec2 size{256.0f}, shift{0.0f};
   float base = 2, levelRotation = 0, blend = 1, skip = 0, lod = 0, skewLevels = 4, tiles = 1;
-  int32_t mode = 0, skew = 0, orient = 0, contrast = 0, wrapping = 1;
+  int mode = 0, skew = 0, orient = 0, contrast = 0, wrapping = 1;
   bool operator==(const MetaTexture&) const = default;
-  // Whether a shader needs more than the plain method at ratio 2 (metaTexturePlain in
-  // shading/metatexture.glsl).
-  bool isUnusual() const { return mode != 0 || orient != 0 || base != 2 || levelRotation != 0; }
+
+  // A shader for which this is a specialisation constant has no branches by uniforms: such branches would be
+  // executed both ways, or, where a driver makes a shader of its own for each value, fill the memory.
+  uint32_t features() const {
+    return uint32_t(mode | skew << 2 | contrast << 4 | (orient != 0) << 6 | (wrapping != 0) << 7 |
+                    (skip > 0) << 8 | (levelRotation != 0) << 9 | (base != 2) << 10);
+  }
+  MetaTextureUniforms uniforms() const {
+    return {mean, size, shift, base, levelRotation, blend, skip, lod, skewLevels, tiles, features()};
+  }
 };
-static_assert(sizeof(MetaTexture) == 80, "scalar layout, as the shaders read it");
 
 enum MetaTextureContrast : int32_t { kContrastOff, kContrastVariance, kContrastHistogram };
 
@@ -103,11 +119,8 @@ WarpMetaTextureParams sameRows(const Params& params) {
   return result;
 }
 
-// Mirrors SurfaceTangents in shading/surface_tangents.glsl: which view's screen, and which gradients, a use
-// counts by.
-struct TangentOptions {
-  uint32_t fragmentGradients = 0, cyclopean = 1, radial = 0;
-};
-TangentOptions tangentOptions(const WarpMetaTextureParams& params);
+// Which view's screen, and which gradients, a use counts by (shading/surface_tangents.shared.h).
+// Where both eyes stand in one place, each is the view between them.
+uint32_t tangentOptions(const WarpMetaTextureParams& params, const shared::FrameUniforms& frame);
 
 }  // namespace scumble::frame

@@ -5,6 +5,15 @@
 #include "shared_types.h"
 
 SHARED_BEGIN
+// What of it is used, for a specialisation constant.
+const int kBackdropIsThere = 1;
+const int kBackdropMinified = 2;
+const int kBackdropSimplified = 4;
+const int kBackdropMixed = 8;  // simplified by less than a pixel: as it is, in part
+const int kBackdropStyled = 16;
+const int kBackdropTornNear = 32;  // where something is near
+const int kBackdropTorn = 64;      // everywhere
+
 struct Backdrop {
   vec2 scale;                      // texture coordinates per part of the frame, from the middle of both
   float minified;                  // 0 to 1: how much finer than a pixel its texels are, up to half a pixel

@@ -17,8 +17,8 @@ vec4 depthsOf(vec4 distance, int layer) {
 }
 float depthOf(float distance, int layer) { return depthsOf(vec4(distance), layer).x; }
 
-// `warp`, `depth`: the slots; `behindDepth`: of what lies behind, where the frame has `layers`, else anything.
-Place displaced(Displacement knobs, sampler2DArray warp, sampler2DArray depth, sampler2DArray behindDepth, bool layers,
+// `warp`, `depth`: the slots; `behindDepth`: of what lies behind, where ripple is layered, else anything.
+Place displaced(Displacement knobs, int ripple, sampler2DArray warp, sampler2DArray depth, sampler2DArray behindDepth,
                 ivec2 pixel, int layer) {
   ivec3 at = ivec3(pixel, layer);
   vec4 vector = texelFetch(warp, at, 0);
@@ -36,7 +36,7 @@ Place displaced(Displacement knobs, sampler2DArray warp, sampler2DArray depth, s
   float slope = min(around.x, around.y) + min(around.z, around.w);
   float beyond = depthOf(1.01 * vector.a, layer);
   bool revealed = false;
-  if (knobs.ripple > 0 && vector.a > 0.0) {
+  if (ripple != kRipplePaper && vector.a > 0.0) {
     float rise = slope * (length(vector.xy) + 1.5);  // pixels are whole, vectors are not
     // FORMULAS 10: outside the silhouette, covered by the inflated surface only, and about to fetch something that lies
     // behind that surface: such a pixel keeps its own colour. At a round silhouette the inflated surface stands before
@@ -50,7 +50,7 @@ Place displaced(Displacement knobs, sampler2DArray warp, sampler2DArray depth, s
     // Torn off: the object's own pixel, and a sample from outside the silhouette. What lies behind the pixel shows
     // instead, if that is what the sample shows a piece of: inside a fold there is nothing behind but the rest of the
     // world.
-    if (layers && !outside && movedDepth + rise < beyond) {
+    if (ripple == kRippleLayered && !outside && movedDepth + rise < beyond) {
       float there = texelFetch(warp, ivec3(ivec2(moved), layer), 0).a;
       bool beside = there == 0.0 || movedDepth < depthOf(1.15 * there, layer);
       revealed = beside && texelFetch(behindDepth, at, 0).r >= 0.8 * movedDepth;

@@ -4,9 +4,10 @@
 #include "shared_types.h"
 
 SHARED_BEGIN
+// For a specialisation constant.
+const int kRipplePaper = 0, kRippleDepthAware = 1, kRippleLayered = 2;
 struct Displacement {
   float inflation;  // pixels, the most of any material
-  int ripple;       // 0 paper, 1 depth-aware, 2 layered
 };
 SHARED_END
 #endif

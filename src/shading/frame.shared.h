@@ -26,11 +26,12 @@ struct FrameUniforms {
   mat4 worldToLight;  // x, y in [-1, 1] over everything that casts shadows; z in [0, 1], growing away from
                       // the light
   vec3 toLight;       // unit, world
-  uint lightCount;    // point and spot lights
+  uint lightCount;    // point and spot lights: all that the buffer holds, or none
   float time;         // seconds
   vec2 shadowCenter;  // light-space x, y near the viewer, where the shadow map is finest
-  vec2 shadowScale;   // coordinates in the map = scale * sigmoid(strength * (p - center)) + shift, which go
-                      // from 0 to 1 for p from -1 to 1
+  vec2 shadowScale;   // coordinates in the map = scale * sigmoid(t) + even * t + shift with
+                      // t = strength * (p - center), which go from 0 to 1 for p from -1 to 1
+  float shadowEven;
   vec2 shadowShift;
   float shadowWarp;        // strength of the sigmoid, above 0
   float shadowTexel;       // size of a shadow-map texel in unwarped light space

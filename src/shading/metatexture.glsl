@@ -10,8 +10,8 @@
 //
 // dSdu, dSdv: the tangent vectors dP/du and dP/dv of the surface, projected to the screen, in pixels per unit of u and
 // v (x right, y down); metaTextureProject does that. Where there are no tangents, metaTextureFromDerivatives makes
-// them from dFdx(uv) and dFdy(uv). Values that are fixed in a shader, as `m.skew = kSkew`, specialise it: 4 samples at
-// most without skew, 8 with; with m.skip = 0 it has no loops.
+// them from dFdx(uv) and dFdy(uv). Where a shader fixes them, as `m.features = kFeatures` with a specialisation constant,
+// nothing else is left in it: 4 samples at most without skew, 8 with; no loops where nothing is skipped.
 #ifndef SCUMBLE_METATEXTURE_GLSL
 #define SCUMBLE_METATEXTURE_GLSL
 
@@ -26,21 +26,25 @@ struct MetaTexture {
   float lod;            // mip level of the example at its size on the screen, 0 or more
   float skewLevels;     // n of eq. 16, 1 or more
   float tiles;          // copies a unit of uv in mode 1
-  int mode;             // 0 MetaTexture; 1 object: ordinary mapping; 2 screen; 3 fractal: summed octaves
-  int skew;             // 0 off, 1 approximate (eq. 14), 2 exact
-  int orient;           // 1: the texture's horizontal runs across the foreshortening (section 3.5)
-  int contrast;         // 0 off, 1 by variance, 2 the example has a Gaussian histogram (metaTextureHistogram)
-  int wrapping;         // 1: some mapping closes on itself (`wraps` of metaTextureSample)
+  int features;         // what shaders decide by:
+  // bits 0, 1: mode: 0 MetaTexture; 1 object: ordinary mapping; 2 screen; 3 fractal: summed octaves
+  // bits 2, 3: skew: 0 off, 1 approximate (eq. 14), 2 exact
+  // bits 4, 5: contrast: 0 off, 1 by variance, 2 the example has a Gaussian histogram (metaTextureHistogram)
+  // bit 6: the texture's horizontal runs across the foreshortening (section 3.5)
+  // bit 7: some mapping closes on itself (`wraps` of metaTextureSample)
+  // bit 8: skip is not 0
+  // bit 9: levelRotation is not 0
+  // bit 10: base is not 2
 };
 
-// For shaders that are specialised to the plain method: no other mode, no turns, every scale twice the one below.
-MetaTexture metaTexturePlain(MetaTexture m) {
-  m.mode = 0;
-  m.orient = 0;
-  m.base = 2.0;
-  m.levelRotation = 0.0;
-  return m;
-}
+int metaTextureMode(MetaTexture m) { return m.features & 3; }
+int metaTextureSkew(MetaTexture m) { return m.features >> 2 & 3; }
+int metaTextureContrast(MetaTexture m) { return m.features >> 4 & 3; }
+bool metaTextureOrients(MetaTexture m) { return (m.features & 64) != 0; }
+bool metaTextureWraps(MetaTexture m) { return (m.features & 128) != 0; }
+bool metaTextureSkips(MetaTexture m) { return (m.features & 256) != 0; }
+bool metaTextureTurns(MetaTexture m) { return (m.features & 512) != 0; }
+float metaTextureBase(MetaTexture m) { return (m.features & 1024) != 0 ? m.base : 2.0; }
 
 // The transforms chosen at one point. Arrays: the two neighbouring levels of skew.
 struct MetaTextureChoice {
@@ -81,13 +85,14 @@ void metaTextureFromDerivatives(vec2 uvByX, vec2 uvByY, out vec2 dSdu, out vec2 
 float metaTextureBlend(MetaTexture m, float t) {
   t = clamp((t - 0.5) / m.blend + 0.5, 0.0, 1.0);
   float b = t * t * (3.0 - 2.0 * t);
-  return clamp((b - m.skip) / (1.0 - 2.0 * m.skip), 0.0, 1.0);
+  float skip = metaTextureSkips(m) ? m.skip : 0.0;
+  return clamp((b - skip) / (1.0 - 2.0 * skip), 0.0, 1.0);
 }
 
 // Eq. 1, 2 and 11, from the squares of the gradients' lengths. A least length keeps the exponents finite.
 vec2 metaTextureExponent(MetaTexture m, vec2 squares, float alpha) {
   vec2 size = alpha * m.size;
-  return clamp(-0.5 / log2(m.base) * log2(size * size * max(squares, vec2(1e-24))), vec2(-60.0), vec2(60.0));
+  return clamp(-0.5 / log2(metaTextureBase(m)) * log2(size * size * max(squares, vec2(1e-24))), vec2(-60.0), vec2(60.0));
 }
 
 // `alpha`: radial angle compensation (eq. 11 to 13), 1 for none.
@@ -96,30 +101,31 @@ MetaTextureChoice metaTextureChoose(MetaTexture m, vec2 dSdu, vec2 dSdv, float a
   metaTextureInvert(dSdu, dSdv, c.gradU, c.gradV);
   c.q = 0.0;
   float uu = dot(c.gradU, c.gradU), vv = dot(c.gradV, c.gradV), uv = dot(c.gradU, c.gradV);
-  if (m.skew == 1 && uu * vv > 0.0) {
+  int skew = metaTextureSkew(m);
+  if (skew == 1 && uu * vv > 0.0) {
     // Eq. 14 and 15, with the sign that lessens the skew (FORMULAS 5).
     float epsilon = sqrt(min(uu, vv) / max(uu, vv));
     c.q = -atan(epsilon) * uv * inversesqrt(uu) * inversesqrt(vv);
   }
-  if (m.skew == 2 && uu + vv > 0.0)
+  if (skew == 2 && uu + vv > 0.0)
     c.q = clamp(-2.0 * uv / (uu + vv), -kMetaTextureMaxSkew, kMetaTextureMaxSkew);
 
   float level = floor(m.skewLevels * c.q);
   c.skewLevel = level;
-  c.skewBlend = m.skew == 0 ? 0.0 : metaTextureBlend(m, m.skewLevels * c.q - level);
+  c.skewBlend = skew == 0 ? 0.0 : metaTextureBlend(m, m.skewLevels * c.q - level);
   for (int k = 0; k < 2; ++k) {
     float quantised = clamp((level + float(k)) / m.skewLevels, -kMetaTextureMaxSkew, kMetaTextureMaxSkew);
-    if (m.skew == 1) {
+    if (skew == 1) {
       c.psi[k] = vec2(1.0, 0.5 * quantised) * inversesqrt(1.0 + 0.25 * quantised * quantised);
     } else {
       // cos and sin of asin(q) / 2.
       float root = sqrt(1.0 - quantised * quantised);
       c.psi[k] = vec2(sqrt(0.5 + 0.5 * root), (quantised < 0.0 ? -1.0 : 1.0) * sqrt(max(0.5 - 0.5 * root, 0.0)));
     }
-    if (m.skew == 0) c.psi[k] = vec2(1.0, 0.0);
+    if (skew == 0) c.psi[k] = vec2(1.0, 0.0);
     vec2 psi = c.psi[k], squared = psi * psi;
     vec2 squares = squared * uu + squared.yx * vv + 2.0 * psi.x * psi.y * uv;
-    if (m.skew != 0) {
+    if (skew != 0) {
       // What the levels leave of the skew: seen from the edge, both gradients still point across the silhouette, and a
       // scale chosen by them would stretch the texture along it. So below 45 degrees between the two it is the extent
       // along that counts.
@@ -130,7 +136,7 @@ MetaTextureChoice metaTextureChoose(MetaTexture m, vec2 dSdu, vec2 dSdv, float a
     c.exponent[k] = metaTextureExponent(m, squares, alpha);
   }
   // From a quarter octave of foreshortening along u on, the texture turns; at three quarters it has.
-  c.orientBlend = m.orient == 0 ? 0.0 : metaTextureBlend(m, log2(max(uu, 1e-24) / max(vv, 1e-24)) - 0.5);
+  c.orientBlend = metaTextureOrients(m) ? metaTextureBlend(m, log2(max(uu, 1e-24) / max(vv, 1e-24)) - 0.5) : 0.0;
   return c;
 }
 
@@ -158,7 +164,7 @@ float metaTextureVariance(MetaTexture m, MetaTextureChoice c) {
 }
 
 // FORMULAS 2: contrast is restored by the root of the variance.
-float metaTextureGain(MetaTexture m, float variance) { return m.contrast == 0 ? 1.0 : inversesqrt(variance); }
+float metaTextureGain(MetaTexture m, float variance) { return metaTextureContrast(m) == 0 ? 1.0 : inversesqrt(variance); }
 
 // Coordinates that meet where a mapping wraps. Copies at whole multiples meet by themselves; others run to the middle
 // of the wrap and back again, mirrored. `wraps`: 1 for an axis that closes on itself after one unit.
@@ -168,14 +174,14 @@ vec2 metaTextureFold(vec2 uv, vec2 wraps) {
 
 // The copies of one level of skew: the coordinates of the coarser scale in x, of the finer one in y, for u and for v.
 void metaTextureCopies(MetaTexture m, vec2 uv, vec2 psi, vec2 level, vec2 wraps, out vec2 u, out vec2 v) {
-  vec2 coarse = exp2(level * log2(m.base)), fine = m.base * coarse;
+  vec2 coarse = exp2(level * log2(metaTextureBase(m))), fine = metaTextureBase(m) * coarse;
   vec2 turned = vec2(psi.x * uv.x + psi.y * uv.y, psi.x * uv.y + psi.y * uv.x);
   u = vec2(coarse.x, fine.x) * turned.x;
   v = vec2(coarse.y, fine.y) * turned.y;
-  if (m.wrapping == 1) {
+  if (metaTextureWraps(m)) {
     vec2 folded = metaTextureFold(uv, wraps);
     folded = vec2(psi.x * folded.x + psi.y * folded.y, psi.x * folded.y + psi.y * folded.x);
-    bool straight = psi.y == 0.0 && m.levelRotation == 0.0;
+    bool straight = psi.y == 0.0 && !metaTextureTurns(m);
     vec4 scales = vec4(coarse.x, fine.x, coarse.y, fine.y), whole = round(scales);
     bvec4 meets = lessThan(abs(scales - whole), 1e-4 * scales);
     u = mix(vec2(coarse.x, fine.x) * folded.x, whole.xy * turned.x, straight ? meets.xy : bvec2(false));
@@ -186,24 +192,26 @@ void metaTextureCopies(MetaTexture m, vec2 uv, vec2 psi, vec2 level, vec2 wraps,
 // Each copy starts elsewhere in the texture, at a place that depends on its level only. Otherwise all copies would show
 // the same near the origin of uv, and a blend of equals has more contrast than eq. 24 counts with.
 vec4 metaTextureFetch(MetaTexture m, MetaTextureChoice c, sampler2D example, vec2 at, vec2 level, float skewLevel) {
-  if (m.levelRotation != 0.0) {
+  if (metaTextureTurns(m)) {
     float angle = 0.5 * (level.x + level.y) * m.levelRotation;
     at = vec2(cos(angle) * at.x - sin(angle) * at.y, sin(angle) * at.x + cos(angle) * at.y);
   }
   at += m.shift + 0.618034 * level + skewLevel * vec2(0.3711, 0.7133);
   vec4 value = textureLod(example, at, m.lod);
-  return m.orient == 0 ? value : mix(value, textureLod(example, at.yx, m.lod), c.orientBlend);
+  if (metaTextureOrients(m)) value = mix(value, textureLod(example, at.yx, m.lod), c.orientBlend);
+  return value;
 }
 
 // Eq. 8 and 23 with the pairing of FORMULAS 1. `pixel`: where on the screen (mode 2 only).
 vec4 metaTextureSample(MetaTexture m, MetaTextureChoice c, sampler2D example, vec2 uv, vec2 wraps, vec2 pixel) {
   vec4 sum = vec4(0.0);
   float squares = 0.0;
-  if (m.mode == 0) {
+  int mode = metaTextureMode(m), skew = metaTextureSkew(m);
+  if (mode == 0) {
     // Where shares may be skipped, loops run from the first to the last copy that has one; else over all, and unroll.
-    bool skips = m.skip > 0.0;
+    bool skips = metaTextureSkips(m);
     int firstLevel = skips && c.skewBlend >= 1.0 ? 1 : 0;
-    int lastLevel = m.skew == 0 || (skips && c.skewBlend <= 0.0) ? 0 : 1;
+    int lastLevel = skew == 0 || (skips && c.skewBlend <= 0.0) ? 0 : 1;
     for (int k = firstLevel; k <= lastLevel; ++k) {
       float skewShare = k == 0 ? 1.0 - c.skewBlend : c.skewBlend;
       vec2 exponent = k == 0 ? c.exponent[0] : c.exponent[1], psi = k == 0 ? c.psi[0] : c.psi[1];
@@ -216,17 +224,17 @@ vec4 metaTextureSample(MetaTexture m, MetaTextureChoice c, sampler2D example, ve
           float share = skewShare * (i == 0 ? 1.0 - b.x : b.x) * (j == 0 ? 1.0 - b.y : b.y);
           vec2 at = vec2(i == 0 ? u.x : u.y, j == 0 ? v.x : v.y);
           sum += share * metaTextureFetch(m, c, example, at, level + vec2(i, j),
-                                          m.skew == 0 ? 0.0 : c.skewLevel + float(k));
+                                          skew == 0 ? 0.0 : c.skewLevel + float(k));
           squares += share * share;
         }
     }
     squares *= 2.0 * c.orientBlend * c.orientBlend - 2.0 * c.orientBlend + 1.0;
-  } else if (m.mode == 1) {
+  } else if (mode == 1) {
     // Ordinary texture mapping.
     sum = textureGrad(example, uv * m.tiles + m.shift, vec2(c.gradU.x, c.gradV.x) * m.tiles,
                       vec2(c.gradU.y, c.gradV.y) * m.tiles);
     squares = 1.0;
-  } else if (m.mode == 2) {
+  } else if (mode == 2) {
     sum = textureLod(example, pixel / m.size + m.shift, m.lod);
     squares = 1.0;
   } else {
@@ -235,8 +243,8 @@ vec4 metaTextureSample(MetaTexture m, MetaTextureChoice c, sampler2D example, ve
     float exponent = max(c.exponent[0].x, c.exponent[0].y), t = exponent - floor(exponent);
     vec4 shares = vec4(0.5 * (1.0 - t), vec3(2.0, 1.0, 0.0) / 6.0 + t / 6.0);
     for (int i = 0; i < 4; ++i) {
-      vec2 at = exp2((floor(exponent) + float(i) - 1.0) * log2(m.base)) * uv + m.shift;
-      sum += shares[i] * textureLod(example, at, max(m.lod + (float(i) - 1.0 - t) * log2(m.base), 0.0));
+      vec2 at = exp2((floor(exponent) + float(i) - 1.0) * log2(metaTextureBase(m))) * uv + m.shift;
+      sum += shares[i] * textureLod(example, at, max(m.lod + (float(i) - 1.0 - t) * log2(metaTextureBase(m)), 0.0));
       squares += shares[i] * shares[i];
     }
   }

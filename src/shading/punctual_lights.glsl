@@ -5,7 +5,7 @@
 
 float punctualLight(vec3 point, vec3 normal) {
   float sum = 0.0;
-  for (uint i = 0u; i < frame.lightCount; ++i) {
+  for (int i = 0; i < lights.length(); ++i) {
     vec3 away = lights[i].position - point;
     float squared = max(dot(away, away), 1e-12);
     vec3 towards = away * inversesqrt(squared);

@@ -4,21 +4,21 @@
 #include "surface_tangents.glsl"
 
 // Outside of branches. `point`: interpolated pointInTangentView; uv: for fragment gradients.
-void surfaceTangents(SurfaceTangents options, vec3 tangentU, vec3 tangentV, vec3 point, vec2 uv, int view,
+void surfaceTangents(int options, vec3 tangentU, vec3 tangentV, vec3 point, vec2 uv, int view,
                      out vec2 dSdu, out vec2 dSdv) {
-  bool other = kViewCount > 1 && options.cyclopean == 1;
+  bool other = kViewCount > 1 && (options & kCyclopean) != 0;
   vec2 at = other ? point.xy / point.z : gl_FragCoord.xy - 0.5 * frame.imageSize;
   float nearness = other ? 1.0 / point.z : gl_FragCoord.w;
   vec2 uvByX = dFdx(uv), uvByY = dFdy(uv), atByX = dFdx(at), atByY = dFdy(at);
   dSdu = (tangentU.xy - at * tangentU.z) * nearness;
   dSdv = (tangentV.xy - at * tangentV.z) * nearness;
-  if (options.fragmentGradients == 1) {
+  if ((options & kFragmentGradients) != 0) {
     vec2 ownU, ownV;
     metaTextureFromDerivatives(uvByX, uvByY, ownU, ownV);
     dSdu = other ? atByX * ownU.x + atByY * ownU.y : ownU;
     dSdv = other ? atByX * ownV.x + atByY * ownV.y : ownV;
   }
-  if (options.radial == 1) {
+  if ((options & kRadial) != 0) {
     vec4 toRay = other ? frame.cyclopeanNdcToEyeRay : VIEW_FIELD(ndcToEyeRay, view);
     vec2 ray = at / (0.5 * frame.imageSize) * toRay.xy + toRay.zw;
     // A scale that is divided by alpha is one that gradients times alpha choose, or tangents divided by it.

@@ -4,7 +4,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "../../src/shading/metatexture.glsl"
 
-layout(constant_id = 0) const int kSpecialised = 0;  // as the warp pass does it by default: base 2, nothing unusual
+layout(constant_id = 0) const int kFeatures = -1;  // of MetaTexture; -1: as the uniforms say
 
 struct Query {
   vec2 uv, dSdu, dSdv, wraps, pixel;
@@ -28,7 +28,7 @@ void main() {
   if (i >= queries.length()) return;
   Query query = queries[i];
   MetaTexture m = meta;
-  if (kSpecialised != 0) m.base = 2.0, m.levelRotation = 0.0, m.orient = 0, m.skip = 0.0, m.mode = 0;
+  if (kFeatures >= 0) m.features = kFeatures;
   MetaTextureChoice chosen = metaTextureChoose(m, query.dSdu, query.dSdv, query.alpha);
   Answer answer;
   answer.value = metaTextureSample(m, chosen, example, query.uv, query.wraps, query.pixel);

@@ -67,13 +67,14 @@ class MetaTextureTest : public ::testing::Test {
                                       {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kStage},
                                       {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kStage}});
     gpu::DescriptorSets sets(*g.device, layout);
-    gpu::Buffer uniforms(*g.device, sizeof(MetaTexture), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
+    gpu::Buffer uniforms(*g.device, sizeof(frame::MetaTextureUniforms), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT,
                          gpu::MemoryKind::upload);
     gpu::Buffer in(*g.device, queries.size() * sizeof(Query), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                    gpu::MemoryKind::upload);
     gpu::Buffer out(*g.device, queries.size() * sizeof(Answer), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                     gpu::MemoryKind::readback);
-    std::memcpy(uniforms.mapped(), &meta, sizeof(meta));
+    const frame::MetaTextureUniforms data = meta.uniforms();
+    std::memcpy(uniforms.mapped(), &data, sizeof(data));
     std::memcpy(in.mapped(), queries.data(), queries.size() * sizeof(Query));
     sets.writeBuffer(0, 0, uniforms.handle());
     sets.writeBuffer(0, 1, in.handle());
@@ -82,7 +83,7 @@ class MetaTextureTest : public ::testing::Test {
     sets.writeTexture(0, 4, use.inverse().view(), g.samplers->get(frame::ExampleTextures::kInverseSampler));
     gpu::ComputePipelineDesc desc;
     desc.shader = {shaders::metatexture_probe_comp};
-    desc.constants = {specialised};
+    desc.constants = {specialised ? meta.features() : ~0u};
     desc.sets = {layout.handle()};
     const gpu::Pipeline pipeline(*g.device, desc);
     g.device->runOnce([&](VkCommandBuffer commands) {

@@ -32,8 +32,9 @@ float depthSharpness(float depthEdge) {
 
 namespace {
 
-// A Gaussian of `sigma` source texels around the centre of an output pixel that spans `factor` of them.
-shared::BlurStep makeStep(bool vertical, int factor, float sigma) {
+// A Gaussian of `sigma` source texels around the centre of an output pixel that spans `factor` of them, and
+// its number of taps.
+std::pair<shared::BlurStep, uint32_t> makeStep(bool vertical, int factor, float sigma) {
   shared::BlurStep step{};
   step.axis = vertical ? glm::ivec2(0, 1) : glm::ivec2(1, 0);
   step.scale = glm::ivec2(1) + step.axis * (factor - 1);
@@ -41,12 +42,12 @@ shared::BlurStep makeStep(bool vertical, int factor, float sigma) {
   const float center = 0.5f * float(factor - 1);
   const int reach = std::min(int(std::ceil(2.0f * sigma)), shared::kMaxBlurTaps / 2 - 1);
   step.firstTap = int(std::ceil(center)) - reach;
-  step.taps = int(std::floor(center)) + reach - step.firstTap + 1;
-  for (int i = 0; i < step.taps; ++i) {
+  const int taps = int(std::floor(center)) + reach - step.firstTap + 1;
+  for (int i = 0; i < taps; ++i) {
     const float x = float(step.firstTap + i) - center;
     step.weights[i] = sigma > 0 ? std::exp(-0.5f * x * x / (sigma * sigma)) : float(x == 0);
   }
-  return step;
+  return {step, uint32_t(taps)};
 }
 
 class Blur : public Pass {
@@ -65,7 +66,7 @@ class Blur : public Pass {
     const ImageShader shader{{shaders::blur_image_frag}, {shaders::blur_image_comp}};
     for (size_t i = 0; i < steps_.size(); ++i)
       steps_[i].declare(frame, "blur", shader, {{chain[i]}, {frame.slot(Slot::depth)}}, chain[i + 1],
-                        sizeof(shared::BlurStep), {uint32_t(i == 0)});
+                        sizeof(shared::BlurStep), {uint32_t(i == 0), 1});
   }
 
   void create(FrameBuilder& frame, const FrameResources& resources) override {
@@ -76,8 +77,9 @@ class Blur : public Pass {
     const BlurParams params = input.look.get<BlurParams>();
     const BlurPlan plan = planBlur(params.radius * input.uniforms.pixelScale);
     for (size_t i = 0; i < steps_.size(); ++i) {
-      shared::BlurStep step = makeStep(i % 2 == 1, i < 2 ? 4 : 1, i < 2 ? plan.quarterSigma : plan.fullSigma);
+      auto [step, taps] = makeStep(i % 2 == 1, i < 2 ? 4 : 1, i < 2 ? plan.quarterSigma : plan.fullSigma);
       step.depthSharpness = depthSharpness(params.depthEdge);
+      steps_[i].setJobs({{{uint32_t(i == 0), taps}, {}}});
       steps_[i].update(step);
     }
   }

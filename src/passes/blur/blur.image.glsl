@@ -10,6 +10,7 @@
 #include "blur.shared.h"
 
 layout(constant_id = 0) const int kFirst = 0;  // 1: depth comes from the depth buffer, else from B
+layout(constant_id = 1) const int kTaps = 1;
 layout(set = 1, binding = 0, scalar) uniform Block { BlurStep blurStep; };
 layout(set = 1, binding = 1) uniform sampler2DArray source;
 layout(set = 1, binding = 2) uniform sampler2DArray depth;
@@ -29,7 +30,7 @@ vec4 shade(ivec2 pixel, int layer) {
 
   vec4 sum = vec4(0.0);
   float weights = 1e-6;
-  for (int i = 0; i < blurStep.taps; ++i) {
+  for (int i = 0; i < kTaps; ++i) {
     ivec2 at = clamp(first + i * blurStep.axis, ivec2(0), last);
     vec4 tap = texelFetch(source, ivec3(at, layer), 0);
     if (kFirst != 0) tap.b = fetchDepth(at, layer);

@@ -5,11 +5,10 @@
 SHARED_BEGIN
 const int kMaxBlurTaps = 64;
 struct BlurStep {
-  ivec2 axis;    // (1, 0) or (0, 1)
-  ivec2 scale;   // source texels an output pixel, per axis of the image
-  int factor;    // the same along `axis`
-  int firstTap;  // relative to the output pixel's first source texel
-  int taps;
+  ivec2 axis;            // (1, 0) or (0, 1)
+  ivec2 scale;           // source texels an output pixel, per axis of the image
+  int factor;            // the same along `axis`
+  int firstTap;          // relative to the output pixel's first source texel
   float depthSharpness;  // a tap at relative depth z counts 1 / (1 + sharpness z^2)^2 of its weight
   float weights[kMaxBlurTaps];
 };

@@ -64,7 +64,7 @@ bool isType(int shape, int kind, int type) {
   return has(1 << other) && ((kFeatures & kTypes) == 1 << other || type == other);
 }
 
-// What the volume has along the ray or at its end, from 0 to 1 but for rounding.
+// What the volume has along the ray or at its end.
 float strength(int index, vec4 eyeRow, int type, Sight sight) {
   const int kSurface = 0, kFog = 1, kSpheres = 3 << 2 * kShapeSphere,
             kOthers = (1 << 2 * kShapeScene) - (1 << 2 * kShapeEllipsoid);
@@ -109,11 +109,9 @@ float strength(int index, vec4 eyeRow, int type, Sight sight) {
 // half floats hold.
 vec3 colorized(vec3 from, int index, Sight sight, int layer) {
   Rows rows = commonRows(index, layer);
-  float x = strength(index, rows.a, int(rows.d.w), sight);
-  if (has(kHasFalloff)) {
-    x = clamp(x, 0.0, 1.0);
-    x = x / (x + rows.c.w * (1.0 - x));
-  }
+  // Ways longer than the axis gather more than 1.
+  float x = clamp(strength(index, rows.a, int(rows.d.w), sight), 0.0, 1.0);
+  if (has(kHasFalloff)) x = x / (x + rows.c.w * (1.0 - x));
   float amount = clamp(rows.b.w * x, 0.0, 1.0);
   vec3 graded = rows.b.rgb + rows.c.rgb * from;
   if (has(kHasSaturation)) graded += rows.d.rgb * dot(from, vec3(0.2126, 0.7152, 0.0722));

@@ -166,6 +166,48 @@ TEST_P(ColorizeTest, everyShapeEqualsItsReference) {
     }
 }
 
+// Along the longest way through each shape fog counts as much as along its axis, whatever the falloff:
+// exactly at its default, where the curve is left out, as beside it.
+TEST_P(ColorizeTest, longestWaysCountAsTheAxis) {
+  const Scene scene = stillLife().load();
+  const auto from = viewsFrom(scene, {{0, 1, 9}, {0, 1, 0}, 40}, kWidth, kHeight, GetParam());
+  struct Case {
+    int shape;
+    const char* name;
+    glm::dvec3 degrees;  // turns its longest way to the viewer
+    glm::dvec3 size;
+    double length;
+  };
+  const Case cases[] = {{kVolumeSphere, "sphere", {0, 0, 0}, {1, 1, 1}, 0},
+                        {kVolumeEllipsoid, "ellipsoid", {0, 0, 0}, {0.6, 0.6, 3}, 0},
+                        {kVolumeBox, "box", {45, -35.264389682754654, 0}, {1, 1, 1}, 0},
+                        {kVolumeCapsule, "capsule", {90, 0, 0}, {1, 1, 1}, 3}};
+  for (const Case& one : cases)
+    for (const char* falloff : {"0.49", "0.5", "0.51"}) {
+      Reference r;
+      r.shape = one.shape, r.density = 0.3, r.falloff = std::stod(falloff), r.axis = one.length;
+      r.tint = linear("#C03020");
+      glm::dmat4 placed = glm::translate(glm::dmat4(1.0), {0, 1, 4});
+      for (const int axis : {2, 1, 0}) {
+        glm::dvec3 about(0);
+        about[axis] = 1;
+        placed = glm::rotate(placed, glm::radians(one.degrees[axis]), about);
+      }
+      r.toUnit = glm::inverse(glm::scale(placed, one.size));
+      const Look look = quietLook({{"colorizers.A.volume.shape", one.name},
+                                   {"colorizers.A.volume.kind", "atmospheric"},
+                                   {"colorizers.A.volume.center", "0,1,4"},
+                                   {"colorizers.A.volume.rotation", text(one.degrees)},
+                                   {"colorizers.A.volume.size", text(one.size)},
+                                   {"colorizers.A.volume.length", std::to_string(one.length)},
+                                   {"colorizers.A.volume.density", "0.3"},
+                                   {"colorizers.A.volume.falloff", falloff},
+                                   {"colorizers.A.grade.tint", "#C03020"}});
+      SCOPED_TRACE(std::string(one.name) + ", falloff " + falloff);
+      EXPECT_GT(compare(scene, look, {r}, from), 300u);
+    }
+}
+
 TEST_F(ColorizeTest, parallelProjection) {
   const Scene scene = stillLife().load();
   Reference sphere, box;

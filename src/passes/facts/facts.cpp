@@ -20,8 +20,7 @@ constexpr std::array kFacts{Slot::factDepth,  Slot::position,    Slot::normal, S
 
 // Mirrors the block of facts.frag.
 struct FactsMaterial {
-  MetaTexture meta;
-  TangentOptions tangents;
+  MetaTextureUniforms meta;
 };
 
 class Facts : public Pass {
@@ -61,13 +60,16 @@ class Facts : public Pass {
   }
 
   void update(const FrameInput& input) override {
+    std::vector<MaterialVariant> variants;
     for (size_t m = 0; m < input.scene.materialCount(); ++m) {
       const std::string& name = input.scene.materialName(m);
       const auto params = input.look.getForMaterial<WarpMetaTextureParams>(name);
       const MetaTextureUse use =
           metaTextureUse(params, 0b0011, input.look, *examples_, input.uniforms.pixelScale, glm::vec2(0.0f));
-      materials_.write(m, {use.meta, tangentOptions(params)});
+      materials_.write(m, {use.meta.uniforms()});
+      variants.push_back({.options = use.meta.features() | tangentOptions(params, input.uniforms) << 11});
     }
+    step_.specialise(input.scene, 0, std::move(variants));
   }
 
  private:

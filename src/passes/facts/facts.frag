@@ -8,6 +8,7 @@
 #include "facts.glsl"
 
 layout(constant_id = 0) const int kAlphaMode = 0;
+layout(constant_id = 6) const int kOptions = 0;  // MetaTexture.features; from bit 11 on those of surface_tangents.shared.h
 
 layout(location = 0) in vec3 inPosition;
 layout(location = 1) in vec3 inNormal;
@@ -32,14 +33,16 @@ layout(location = 7) out vec4 outId;
 
 void main() {
   vec2 metaU, metaV;
-  surfaceTangents(facts.tangents, inMetaTangentU, inMetaTangentV, inMetaPoint, inUv, viewIndex(), metaU, metaV);
+  surfaceTangents(kOptions >> 11, inMetaTangentU, inMetaTangentV, inMetaPoint, inUv, viewIndex(), metaU, metaV);
   if (kAlphaMode != 0 && isHole(inBaseUvAlpha.xy, inBaseUvAlpha.z, kAlphaMode)) discard;
   float w = 1.0 / gl_FragCoord.w;
   vec2 ndc = gl_FragCoord.xy / frame.imageSize * 2.0 - 1.0;
   vec2 gradU, gradV;
   metaTextureInvert(metaTextureProject(inTangentU, ndc, w, frame.imageSize),
                     metaTextureProject(inTangentV, ndc, w, frame.imageSize), gradU, gradV);
-  MetaTextureChoice chosen = metaTextureChoose(facts.meta, metaU, metaV, 1.0);
+  MetaTexture meta = facts.meta;
+  meta.features = kOptions;
+  MetaTextureChoice chosen = metaTextureChoose(meta, metaU, metaV, 1.0);
 
   outDepth = vec4(eyeDepth(gl_FragCoord.z, viewIndex()));
   outPosition = vec4(inPosition, 1.0);
@@ -47,7 +50,7 @@ void main() {
   outUv = vec4(inUv, 0.0, 1.0);
   outUvGradient = vec4(gradU, gradV);
   outMetaTexture = vec4(metaTextureMeanExponent(chosen), chosen.q,
-                        metaTextureGain(facts.meta, metaTextureVariance(facts.meta, chosen)));
+                        metaTextureGain(meta, metaTextureVariance(meta, chosen)));
   vec2 previous = (inPrevious.xy / inPrevious.w * 0.5 + 0.5) * frame.imageSize;
   outMotion = vec4(gl_FragCoord.xy - previous, 0.0, 1.0);
   outId = vec4(float(objects[inObject].id));

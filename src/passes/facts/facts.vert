@@ -7,6 +7,8 @@
 #include "../../shading/view_index.glsl"
 #include "facts.glsl"
 
+layout(constant_id = 6) const int kOptions = 0;
+
 layout(constant_id = 0) const int kAlphaMode = 0;
 
 layout(location = 0) in vec3 inPosition;
@@ -39,10 +41,10 @@ void main() {
   outUv = inPatternUv + objects[gl_InstanceIndex].patternShift;
   outTangentU = (worldToClip * vec4(inDPdu, 0.0)).xyw;
   outTangentV = (worldToClip * vec4(inDPdv, 0.0)).xyw;
-  mat4 tangentClip = tangentView(facts.tangents, worldToClip);
+  mat4 tangentClip = tangentView(kOptions >> 11, worldToClip);
   outMetaTangentU = tangentToClip(tangentClip, inDPdu);
   outMetaTangentV = tangentToClip(tangentClip, inDPdv);
-  outMetaPoint = pointInTangentView(facts.tangents, worldToClip, inPosition);
+  outMetaPoint = pointInTangentView(kOptions >> 11, worldToClip, inPosition);
   outPrevious = VIEW_FIELD(previousWorldToClip, viewIndex()) * vec4(inPreviousPosition, 1.0);
   outObject = gl_InstanceIndex;
   if (kAlphaMode != 0) outBaseUvAlpha = vec3(baseUv(inUv0, inUv1), inColor.a);

@@ -3,7 +3,7 @@
 // One of its texels a pixel, or the mean of the four that a pixel covers.
 vec3 pictureAlone(vec2 uv) {
   vec2 apart = 0.25 * u.backdrop.minified * u.backdrop.scale / frame.imageSize;
-  if (u.backdrop.minified <= 0.0) {
+  if ((kBackdrop & kBackdropMinified) == 0) {
     // At the very middle of a texel filters add what they round; a picture as large as the frame stays what it is.
     vec2 texel = uv * vec2(textureSize(backdrop, 0)), middle = floor(texel) + 0.5;
     if (all(lessThan(abs(texel - middle), vec2(1e-3)))) return texelFetch(backdrop, ivec2(middle), 0).rgb;
@@ -37,11 +37,11 @@ vec3 pictureSimplified(vec2 uv) {
 // The pixel's place in the picture. `torn`: where the warp fetches this pixel's colour from.
 vec2 backdropPlace(ivec2 pixel, vec2 torn, int layer) {
   vec2 own = vec2(pixel) + 0.5;
-  if (u.backdrop.warp == 2) {
+  if ((kBackdrop & kBackdropTorn) != 0) {
     vec2 field = texture(tear, own / u.backdrop.tearSize + u.backdrop.tearShift).xy - u.tearMean;
     return own + 2.0 * u.backdrop.tear * field;
   }
-  if (u.backdrop.warp == 0) return own;
+  if ((kBackdrop & kBackdropTornNear) == 0) return own;
   // Near what is drawn: not where the ground alone, which is not seen, would tear it.
   vec2 ndc = own / frame.imageSize * 2.0 - 1.0;
   vec4 toRay = VIEW_FIELD(ndcToEyeRay, layer);
@@ -74,13 +74,17 @@ float matteShadowBehind(ivec2 pixel, int layer) {
 // Lays a premultiplied colour over the picture, `matte` of which is in shadow.
 vec4 overBackdrop(vec4 color, float matte, float distance, vec2 at) {
   vec2 uv = (at / frame.imageSize - 0.5) * u.backdrop.scale + 0.5;
-  vec3 own = u.backdrop.radius > 0.0 ? pictureSimplified(uv) : pictureAlone(uv);
-  if (u.backdrop.radius > 0.0 && u.backdrop.radius < 1.0) own = mix(pictureAlone(uv), own, u.backdrop.radius);
+  vec3 own;
+  if ((kBackdrop & kBackdropSimplified) != 0)
+    own = pictureSimplified(uv);
+  else
+    own = pictureAlone(uv);
+  if ((kBackdrop & kBackdropMixed) != 0) own = mix(pictureAlone(uv), own, u.backdrop.radius);
   vec3 inLight = own;
   float open = 1.0 - color.a;
   matte = min(matte * (1.0 - smoothstep(u.backdrop.matteNear, u.backdrop.matteFar, distance)), open);
   vec3 root = sqrt(clamp(own, 0.0, 1.0));
-  if (u.backdrop.style > 0.0) {
+  if ((kBackdrop & kBackdropStyled) != 0) {
     vec3 styled = applyColorMap(u.backdrop.lit, root);
     inLight = mix(own, styled * styled, u.backdrop.style);
   }

@@ -12,6 +12,17 @@ using namespace frame;
 
 namespace {
 
+// What the shader decides by.
+uint32_t backdropFeatures(const BackdropInput* backdrop) {
+  if (!backdrop) return 0;
+  const shared::Backdrop& b = backdrop->uniforms;
+  return shared::kBackdropIsThere | (b.minified > 0 ? shared::kBackdropMinified : 0) |
+         (b.radius > 0 ? shared::kBackdropSimplified : 0) |
+         (b.radius > 0 && b.radius < 1 ? shared::kBackdropMixed : 0) |
+         (b.style > 0 ? shared::kBackdropStyled : 0) | (b.warp == 1 ? shared::kBackdropTornNear : 0) |
+         (b.warp == 2 ? shared::kBackdropTorn : 0);
+}
+
 class FinalColor : public Pass {
  public:
   explicit FinalColor(InflationOf inflation) : inflation_(inflation) {}
@@ -21,7 +32,7 @@ class FinalColor : public Pass {
     const Configuration& c = frame.configuration();
     // Where there are no layers, anything stands for them.
     const auto layer = [&](Slot behind, Slot other) { return frame.slot(c.layered ? behind : other); };
-    constants_ = {uint32_t(c.glows), uint32_t(c.layered), uint32_t(c.backdropWidth > 0)};
+    glows_ = c.glows;
     step_.declare(frame, "final-color",
                   {{shaders::final_color_image_frag}, {shaders::final_color_image_comp}},
                   {{frame.slot(frame.configuration().colors()), true},
@@ -34,7 +45,7 @@ class FinalColor : public Pass {
                    {frame.slot(Slot::lit)},
                    {layer(Slot::behindShadow, Slot::finalShadow)},
                    {layer(Slot::behindLit, Slot::lit)}},
-                  frame.slot(Slot::finalColor), sizeof(shared::FinalColorUniforms), constants_, 2);
+                  frame.slot(Slot::finalColor), sizeof(shared::FinalColorUniforms), {}, 2);
   }
   void create(FrameBuilder& frame, const FrameResources& resources) override {
     step_.create(frame, resources);
@@ -45,7 +56,7 @@ class FinalColor : public Pass {
     const FinalColorParams params = input.look.get<FinalColorParams>();
     shared::FinalColorUniforms uniforms{};
     uniforms.bloom = params.bloom * glm::vec3(params.bloomTint);
-    uniforms.displacement = {inflation_(input.look, input.scene, input.uniforms.imageSize.y), params.ripple};
+    uniforms.displacement = {inflation_(input.look, input.scene, input.uniforms.imageSize.y)};
     const WarpMetaTextureParams tear = input.look.get<WarpMetaTextureParams>();
     const ExampleTexture& example = examples_->get(input.look, tear.example);
     const gpu::Image* picture = &example.image;
@@ -57,7 +68,9 @@ class FinalColor : public Pass {
       uniforms.backdrop.tearShift = patternShift(input.seed);
       picture = input.backdrop->image;
     }
-    step_.setJobs({{constants_, {{picture, kPictureSampler}, {&example.image, ExampleTextures::kSampler}}}});
+    const uint32_t ripple = uint32_t(params.ripple);
+    step_.setJobs({{{glows_, ripple, backdropFeatures(input.backdrop)},
+                    {{picture, kPictureSampler}, {&example.image, ExampleTextures::kSampler}}}});
     step_.update(uniforms);
   }
 
@@ -67,7 +80,7 @@ class FinalColor : public Pass {
 
   InflationOf inflation_;
   ImageStep step_;
-  std::vector<uint32_t> constants_;
+  bool glows_ = false;
   ExampleTextures* examples_ = nullptr;
 };
 

@@ -11,9 +11,6 @@ namespace scumble::passes {
 #define PARAMS_TARGETS kScene
 #include "look/define_params.h"
 
-// The choices of final.ripple.
-enum Ripple : int { kRipplePaper, kRippleDepthAware, kRippleLayered };
-
 // What the warp pass says: the largest inflation of any of the scene's materials, in pixels.
 using InflationOf = float (*)(const look::LookData& look, const frame::SceneOnGpu& scene, float imageHeight);
 

@@ -8,8 +8,9 @@
 #include "final_color.shared.h"
 
 layout(constant_id = 0) const int kGlows = 1;     // whether anything in the scene acts on the lens
-layout(constant_id = 1) const int kLayered = 0;   // whether there is a colour of what lies behind
-layout(constant_id = 2) const int kBackdrop = 0;  // whether there is a picture behind everything
+layout(constant_id = 1) const int kRipple = 0;    // of displacement.shared.h; layered: there is what lies behind
+layout(constant_id = 2) const int kBackdrop = 0;  // kBackdropIsThere ...; 0: there is no picture behind everything
+const bool kLayered = kRipple == kRippleLayered;
 layout(set = 1, binding = 0, scalar) uniform Block { FinalColorUniforms u; };
 layout(set = 1, binding = 1) uniform sampler2DArray color;
 layout(set = 1, binding = 2) uniform sampler2DArray warp;
@@ -26,9 +27,9 @@ layout(set = 1, binding = 12) uniform sampler2D tear;
 #include "backdrop.glsl"
 
 vec4 shade(ivec2 pixel, int layer) {
-  Place place = displaced(u.displacement, warp, depth, behindDepth, kLayered != 0, pixel, layer);
+  Place place = displaced(u.displacement, kRipple, warp, depth, behindDepth, pixel, layer);
   vec4 result = textureLod(color, vec3(place.at / frame.imageSize, layer), 0.0);
-  bool isBehind = kLayered != 0 && place.isBehind;
+  bool isBehind = kLayered && place.isBehind;
   if (isBehind) result = texelFetch(behind, ivec3(pixel, layer), 0);
   if (kBackdrop != 0) {
     float matte = isBehind ? matteShadowBehind(pixel, layer) : matteShadow(place.at, layer);

@@ -72,7 +72,7 @@ class FinalShadow : public Pass {
     uniforms.glowReach = glowReach(params.glowWidth, steps.darkest);
     uniforms.indication = params.indication;
     uniforms.dither = params.dither;
-    uniforms.indicationSteps = params.indicationSteps;
+    step_.setJobs({{{uint32_t(params.indicationSteps)}, {}}});
     const BlurFacts blur = blurFacts_(input.look, input.uniforms.pixelScale);
     uniforms.blurAmount = blur.amount;
     uniforms.depthSharpness = blur.depthSharpness;

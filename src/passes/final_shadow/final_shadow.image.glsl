@@ -7,6 +7,7 @@
 #include "../../shading/frame.glsl"
 #include "final_shadow.shared.h"
 
+layout(constant_id = 0) const int kIndicationSteps = 1;
 layout(set = 1, binding = 0, scalar) uniform Block { FinalShadowUniforms u; };
 layout(set = 1, binding = 1) uniform sampler2DArray blurred;
 layout(set = 1, binding = 2) uniform sampler2DArray shadow;
@@ -53,11 +54,11 @@ vec4 shade(ivec2 pixel, int layer) {
   // steps, each a flat shape.
   float push = light + own.b * warped.b * u.indication;
   float pushed = 0.0;
-  for (int i = 1; i <= u.indicationSteps; ++i) {
-    float level = u.brightestEdge + 0.9 * u.indication * float(i) / float(u.indicationSteps);
+  for (int i = 1; i <= kIndicationSteps; ++i) {
+    float level = u.brightestEdge + 0.9 * u.indication * float(i) / float(kIndicationSteps);
     pushed += clamp(0.5 + (push - level) * 25.0, 0.0, 1.0);
   }
-  if (own.b > 0.0) lit = max(lit, pushed * clamp(light * 6.0, 0.0, 1.0) / float(u.indicationSteps));
+  if (own.b > 0.0) lit = max(lit, pushed * clamp(light * 6.0, 0.0, 1.0) / float(kIndicationSteps));
 
   // Inner glow: the inverted blur, clamped, adds light to the interior of the dark, none at its edge.
   float inside = clamp((u.darkestEdge - light) / u.darkestEdge / u.glowReach, 0.0, 1.0);

@@ -13,7 +13,6 @@ struct FinalShadowUniforms {
   float glowReach;                   // how far below it the glow is full, as a part of it
   float indication;
   float dither;
-  int indicationSteps;
   float depthSharpness;  // as the blur's
   float blurAmount;      // 1; less where the knob asks for less roundness than the blur can be small
 };

@@ -47,8 +47,7 @@ class Matte : public Pass {
                     {firstDepth_},
                     {layered ? behind_.objects : firstDepth_},
                     {layered ? frame.slot(Slot::behindDepth) : firstDepth_}},
-                   {frame.slot(Slot::matte), frame.slot(Slot::matteRest)}, sizeof(shared::MatteUniforms),
-                   {uint32_t(layered)});
+                   {frame.slot(Slot::matte), frame.slot(Slot::matteRest)}, sizeof(shared::MatteUniforms));
   }
 
   void create(FrameBuilder& frame, const FrameResources& resources) override {
@@ -65,6 +64,7 @@ class Matte : public Pass {
   void update(const FrameInput& input) override {
     for (size_t m = 0; m < input.scene.materialCount(); ++m)
       materials_.write(m, {picture_.simplify(input.look, input.scene, m)});
+    image_.setJobs({{{uint32_t(picture_.ripple(input.look))}, {}}});
     image_.update(
         shared::MatteUniforms{picture_.displacement(input.look, input.scene, input.uniforms.imageSize.y)});
   }

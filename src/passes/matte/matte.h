@@ -11,6 +11,7 @@ namespace scumble::passes {
 struct PictureFacts {
   shared::Displacement (*displacement)(const look::LookData& look, const frame::SceneOnGpu& scene,
                                        float imageHeight);
+  int (*ripple)(const look::LookData& look);  // of shading/displacement.shared.h
   // Of a material's textures, in mip levels.
   float (*simplify)(const look::LookData& look, const frame::SceneOnGpu& scene, size_t material);
 };

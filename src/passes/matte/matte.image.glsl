@@ -8,7 +8,7 @@
 #include "../../shading/frame.glsl"
 #include "matte.shared.h"
 
-layout(constant_id = 0) const int kLayered = 0;  // whether there are objects of what lies behind
+layout(constant_id = 0) const int kRipple = 0;  // of displacement.shared.h; layered: there are objects behind
 layout(set = 1, binding = 0, scalar) uniform Block { MatteUniforms u; };
 #ifdef MULTISAMPLED
 layout(set = 1, binding = 1) uniform sampler2DMSArray objects4;  // the frame's four samples
@@ -25,7 +25,7 @@ layout(set = 1, binding = 5) uniform sampler2DArray behindDepth;
 const float kNone = 1e30;  // after all objects' numbers
 
 void shadeTwo(ivec2 pixel, int layer, out vec4 first, out vec4 second) {
-  Place place = displaced(u.displacement, warp, depth, behindDepth, kLayered != 0, pixel, layer);
+  Place place = displaced(u.displacement, kRipple, warp, depth, behindDepth, pixel, layer);
   // Weights in steps of 1/256, as Vulkan asks of filters: all sums are exact then, in whatever order, and what is covered
   // wholly is so by exactly 1.
   vec2 low = floor(place.at - 0.5);
@@ -47,7 +47,7 @@ void shadeTwo(ivec2 pixel, int layer, out vec4 first, out vec4 second) {
                     texelFetch(objects1, ivec3(a.x, d.y, layer), 0).r, texelFetch(objects1, ivec3(d, layer), 0).r);
   weights[0] = texelWeights;
 #endif
-  if (kLayered != 0 && place.isBehind) {
+  if (kRipple == kRippleLayered && place.isBehind) {
     for (int g = 0; g < kGroups; ++g) numbers[g] = vec4(texelFetch(behind, ivec3(pixel, layer), 0).r);
   }
   for (int g = 0; g < kGroups; ++g) {

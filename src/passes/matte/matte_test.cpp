@@ -326,29 +326,31 @@ TEST_F(MatteTest, numbersHaveNames) {
   TestScene s = stillLife();
   s.json()["nodes"][1]["name"] = "Ball";
   const Scene scene = s.load();
-  const std::vector<std::string> names = scene.objectNames();
+  const auto views = viewsFrom(scene, {{2, 2.5f, 6}, {-0.7f, 0.8f, 0.4f}}, kWidth, kHeight);
+  const Frame frame = draw(scene, quietLook({{"warp.amount", "0"}, {"ground.mode", "on"}}), views,
+                           sized(kWidth, kHeight, {"cryptomatte"}));
+  const std::vector<std::string>& names = frame.objects;
   ASSERT_EQ(names.size(), scene.summary().nodes + 2);
   EXPECT_EQ(names[0], "node 1");
   EXPECT_EQ(names[1], "Ball");
   EXPECT_EQ(names[names.size() - 2], "Ground");
-  EXPECT_EQ(names.back(), "Ocean");
-  EXPECT_TRUE(Scene().objectNames().empty());
+  EXPECT_EQ(names.back(), "");  // there is no ocean
 
-  const auto views = viewsFrom(scene, {{2, 2.5f, 6}, {-0.7f, 0.8f, 0.4f}}, kWidth, kHeight);
-  const Frame frame = draw(scene, quietLook({{"warp.amount", "0"}, {"ground.mode", "on"}}), views,
-                           sized(kWidth, kHeight, {"cryptomatte"}));
   const auto nameAt = [&](int x, int y) {
     const Coverages list = listed(aov(frame, "cryptomatte"), x, y);
     return list.empty() ? "" : names.at(size_t(list.begin()->first - 1));
   };
   EXPECT_EQ(nameAt(kWidth / 2, kHeight / 2), "Ball");
   EXPECT_EQ(nameAt(0, kHeight - 1), "Ground");
+
+  const Frame bare = draw(scene, quietLook(), views, sized(kWidth, kHeight, {"id"}));
+  EXPECT_EQ(bare.objects[bare.objects.size() - 2], "");
+  EXPECT_TRUE(draw(scene, quietLook(), views, sized(kWidth, kHeight)).objects.empty());
 }
 
 // Both may be there at once.
 TEST_F(MatteTest, groundAndOceanHaveNamesOfTheirOwn) {
   const Scene scene = stillLife().load();
-  const std::vector<std::string> names = scene.objectNames();
   const auto views = viewsFrom(scene, {{2, 2.5f, 6}, {-0.7f, 0.8f, 0.4f}}, kWidth, kHeight);
   const auto nameBelow = [&](const char* ground, const char* level) {
     const Frame frame = draw(scene,
@@ -363,7 +365,7 @@ TEST_F(MatteTest, groundAndOceanHaveNamesOfTheirOwn) {
     const int id = int(texel(aov(frame, "id"), 0, kHeight - 1).x);
     if (list.empty()) return std::string();
     EXPECT_EQ(id, int(list.begin()->first));
-    return names.at(size_t(id - 1));
+    return frame.objects.at(size_t(id - 1));
   };
   EXPECT_EQ(nameBelow("on", "-100"), "Ground");
   EXPECT_EQ(nameBelow("on", "0.5"), "Ocean");

@@ -22,7 +22,7 @@ namespace {
 
 // Mirrors the block of ocean.image.glsl.
 struct PaintUniforms {
-  MetaTexture meta;
+  MetaTextureUniforms meta;
   shared::OceanPaint ocean;
 };
 
@@ -35,7 +35,6 @@ class Ocean : public Pass {
     pattern_ = frame.transient("ocean pattern", {kPatternFormat, c.width, c.height, c.viewCount});
     waves_ = frame.transient("ocean waves", {kWavesFormat, c.width, c.height, c.viewCount});
     depth_ = frame.transient("ocean depth", {VK_FORMAT_D32_SFLOAT, c.width, c.height, c.viewCount});
-    tangents_ = frame.uniform(sizeof(TangentOptions));
     frame.addStep("ocean",
                   {{frame.finalVertices(), gpu::Use::vertexBuffer},
                    {pattern_, gpu::Use::colorTarget},
@@ -54,13 +53,10 @@ class Ocean : public Pass {
     configuration_ = frame.configuration();
     examples_ = &frame.examples();
     maps_.emplace(frame.device());
-    layout_ = gpu::SetLayout(
-        frame.device(),
-        {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT},
-         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT}});
+    layout_ =
+        gpu::SetLayout(frame.device(), {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT}});
     sets_ = gpu::DescriptorSets(frame.device(), layout_);
-    sets_.writeBuffer(0, 0, tangents_.buffer, tangents_.offset, tangents_.size);
-    sets_.writeBuffer(0, 1, scene_->waves()->buffer().handle());
+    sets_.writeBuffer(0, 0, scene_->waves()->buffer().handle());
 
     GeometryStepDesc desc;
     desc.what = GeometryStepDesc::What::ocean;
@@ -78,16 +74,17 @@ class Ocean : public Pass {
   void update(const FrameInput& input) override {
     const OceanPaintParams p = input.look.get<OceanPaintParams>();
     const auto metaParams = sameRows(input.look.get<OceanMetaTextureParams>());
-    tangents_.write(tangentOptions(metaParams));
-    const MetaTextureUse use = metaTextureUse(metaParams, 0b0111, input.look, *examples_,
-                                              input.uniforms.pixelScale, patternShift(input.seed));
+    step_.specialise(input.scene, tangentOptions(metaParams, input.uniforms));
+    MetaTextureUse use = metaTextureUse(metaParams, 0b0111, input.look, *examples_, input.uniforms.pixelScale,
+                                        patternShift(input.seed));
+    use.meta.wrapping = 0;
     constexpr double kTurn = 6.283185307179586;
     const PaletteParams palette =
         input.scene.knobs<PaletteParams>(input.look, size_t(input.scene.oceanMaterial()));
     const glm::vec3 foam(p.foamColor);
     const OceanParams params = input.look.get<OceanParams>();
     const float wind = glm::radians(float(params.windDirection));
-    PaintUniforms uniforms{use.meta, {}};
+    PaintUniforms uniforms{use.meta.uniforms(), {}};
     uniforms.ocean = {.dither = p.dither,
                       .lightDither = p.lightDither,
                       .reflection = p.reflection,
@@ -108,12 +105,8 @@ class Ocean : public Pass {
                       .wind = {std::cos(wind), std::sin(wind)}};
     image_.update(uniforms);
     const bool goesOver = p.next > 0;
-    const MetaTexture& m = use.meta;
-    const uint32_t needs = (goesOver ? shared::kOceanNext : 0) | (m.isUnusual() ? shared::kOceanUnusual : 0) |
-                           (m.skip > 0 ? shared::kOceanSkip : 0) |
-                           (m.contrast == kContrastHistogram ? shared::kOceanHistogram : 0);
     const gpu::SamplerDesc clamped;
-    image_.setJobs({{{needs, uint32_t(m.skew)},
+    image_.setJobs({{{goesOver ? uint32_t(shared::kOceanNext) : 0u, use.meta.features()},
                      {{&use.image(), use.sampler()},
                       {&use.inverse(), ExampleTextures::kInverseSampler},
                       {&examples_->get(input.look, look::Picture{kFoamExample}).image, use.sampler()},
@@ -136,7 +129,6 @@ class Ocean : public Pass {
   }
 
   gpu::ResourceId pattern_ = 0, waves_ = 0, depth_ = 0;
-  UniformSlice tangents_;
   const FrameResources* resources_ = nullptr;
   const SceneOnGpu* scene_ = nullptr;
   Configuration configuration_;

@@ -7,7 +7,7 @@
 #include "ocean.shared.h"
 
 layout(constant_id = 0) const int kNeeds = 0;
-layout(constant_id = 1) const int kSkew = 0;  // 0: 4 samples, else 8
+layout(constant_id = 1) const int kFeatures = 0;  // MetaTexture.features
 const bool kNext = (kNeeds & kOceanNext) != 0;
 layout(set = 1, binding = 0, scalar) uniform Block {
   MetaTexture metaOfLook;
@@ -53,20 +53,11 @@ vec3 worldAt(ivec2 pixel, float far, int layer) {
   return VIEW_FIELD(eye, layer) + inEye * mat3(VIEW_FIELD(worldToEye, layer));
 }
 
-// Without what the look does not need.
-MetaTexture specialised() {
-  MetaTexture m = metaOfLook;
-  m.skew = kSkew;
-  m.wrapping = 0;
-  if ((kNeeds & kOceanUnusual) == 0) m = metaTexturePlain(m);
-  if ((kNeeds & kOceanSkip) == 0) m.skip = 0.0;
-  return m;
-}
-
 void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
   ivec2 pixel = here.xy;
   int layer = here.z;
-  MetaTexture meta = specialised();
+  MetaTexture meta = metaOfLook;
+  meta.features = kFeatures;
   uvec4 packed = texelFetch(pattern, here, 0);
   uvec4 water = texelFetch(waves, here, 0);
   vec4 wave = vec4(unpackHalf2x16(water.x), unpackSnorm2x16(water.y));
@@ -74,7 +65,7 @@ void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
   vec2 uv = uintBitsToFloat(packed.xy);
   MetaTextureChoice chosen = metaTextureChoose(meta, unpackBfloat(packed.z), unpackBfloat(packed.w), 1.0);
   vec4 value = metaTextureSample(meta, chosen, example, uv, vec2(0.0), vec2(pixel) + 0.5);
-  if ((kNeeds & kOceanHistogram) != 0) value = metaTextureHistogram(inverse, value);
+  if (metaTextureContrast(meta) == 2) value = metaTextureHistogram(inverse, value);
 
   // Both eyes mirror the same sky: what is hand-cut must not rival.
   vec3 world = worldAt(pixel, far, layer);

@@ -5,7 +5,7 @@
 SHARED_BEGIN
 
 // What the image step is specialised to.
-const int kOceanNext = 1, kOceanUnusual = 2, kOceanSkip = 4, kOceanHistogram = 8;
+const int kOceanNext = 1;  // colours go over into others
 
 // How the ocean is painted; most are the knobs of ocean.paint.
 struct OceanPaint {

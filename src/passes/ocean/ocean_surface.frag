@@ -8,7 +8,7 @@
 #include "../../shading/surface_tangents_at_pixel.glsl"
 #include "../../shading/view_index.glsl"
 
-layout(set = 2, binding = 0, scalar) uniform TangentBlock { SurfaceTangents tangents; };
+layout(constant_id = 4) const int kTangents = 0;  // options of surface_tangents.shared.h
 
 layout(location = 0) in vec2 inPatternUv;
 layout(location = 1) in vec3 inTangentU;
@@ -21,7 +21,7 @@ layout(location = 1) out uvec4 outWave;
 
 void main() {
   vec2 dSdu, dSdv;
-  surfaceTangents(tangents, inTangentU, inTangentV, inPoint, inPatternUv, viewIndex(), dSdu, dSdv);
+  surfaceTangents(kTangents, inTangentU, inTangentV, inPoint, inPatternUv, viewIndex(), dSdu, dSdv);
   outPattern = uvec4(floatBitsToUint(inPatternUv), packBfloat(dSdu), packBfloat(dSdv));
   outWave = uvec4(packHalf2x16(inWave.xy), packSnorm2x16(inWave.zw),
                   packUnorm2x16(inDecorated * vec2(0.5, 1.0)), 0u);

@@ -7,8 +7,8 @@
 #include "../../shading/surface_tangents.glsl"
 #include "../../shading/view_index.glsl"
 
-layout(set = 2, binding = 0, scalar) uniform TangentBlock { SurfaceTangents tangents; };
-layout(set = 2, binding = 1, scalar) readonly buffer Waves { OceanField field; OceanPoint points[]; };
+layout(constant_id = 4) const int kTangents = 0;  // options of surface_tangents.shared.h
+layout(set = 2, binding = 0, scalar) readonly buffer Waves { OceanField field; OceanPoint points[]; };
 #include "../../shading/water.glsl"
 
 layout(location = 0) in vec3 inPosition;
@@ -29,10 +29,10 @@ void main() {
   gl_Position = worldToClip * vec4(inPosition, 1.0);
   ObjectData object = objects[gl_InstanceIndex];
   outPatternUv = inPatternUv + object.patternShift;
-  mat4 tangentClip = tangentView(tangents, worldToClip);
+  mat4 tangentClip = tangentView(kTangents, worldToClip);
   outTangentU = tangentToClip(tangentClip, inDPdu);
   outTangentV = tangentToClip(tangentClip, inDPdv);
-  outPoint = pointInTangentView(tangents, worldToClip, inPosition);
+  outPoint = pointInTangentView(kTangents, worldToClip, inPosition);
 
   vec2 fromMiddle = inPatternUv * kWaterPerPattern;
   vec2 place = fromMiddle - (object.water == kWaves ? field.within : vec2(0.0));

@@ -26,10 +26,8 @@ struct SurfaceUniforms {
 
 // Mirrors PaintedMaterial in surface.glsl.
 struct PaintedMaterial {
-  MetaTexture meta;
-  TangentOptions tangents;
+  MetaTextureUniforms meta;
   float amount;
-  int32_t blend;
 };
 
 class Surface : public Pass {
@@ -123,7 +121,7 @@ class Surface : public Pass {
     const LightParams light = input.look.get<LightParams>();
     uniforms_.write(SurfaceUniforms{light.terminator, light.terminatorSharpness});
 
-    std::vector<uint8_t> extras;
+    std::vector<MaterialVariant> variants;
     for (size_t m = 0; m < input.scene.materialCount(); ++m) {
       const TextureParams texture = input.scene.knobs<TextureParams>(input.look, m);
       auto metaParams = sameRows(input.scene.knobs<TextureMetaTextureParams>(input.look, m));
@@ -131,16 +129,23 @@ class Surface : public Pass {
       if (texture.amount <= 0) metaParams = WarpMetaTextureParams();
       const MetaTextureUse use = metaTextureUse(metaParams, 0b0111, input.look, frame_->examples(),
                                                 input.uniforms.pixelScale, patternShift(input.seed));
-      painted_.write(m, {use.meta, tangentOptions(metaParams), texture.amount, texture.blend});
-      extras.push_back(
-          uint8_t(int(m) == input.scene.oceanMaterial()
-                      ? GeometryStep::kOcean
-                      : (texture.amount > 0 ? GeometryStep::kPainted : 0) | input.scene.colorSets(m) * 2));
+      painted_.write(m, {use.meta.uniforms(), texture.amount});
+      MaterialVariant variant;
+      if (int(m) == input.scene.oceanMaterial()) {
+        variant.isOcean = true;
+      } else {
+        variant.sets = input.scene.colorSets(m);
+        variant.isPainted = texture.amount > 0;
+        if (variant.isPainted)
+          variant.options = use.meta.features() | tangentOptions(metaParams, input.uniforms) << 11 |
+                            uint32_t(texture.blend) << 14;
+      }
+      variants.push_back(variant);
       sets_.writeTexture(m, 4, use.image().view(), frame_->samplers().get(use.sampler()));
       sets_.writeTexture(m, 5, use.inverse().view(),
                          frame_->samplers().get(ExampleTextures::kInverseSampler));
     }
-    step_.specialise(input.scene, constant(input.uniforms.lightCount > 0), std::move(extras));
+    step_.specialise(input.scene, constant(input.uniforms.lightCount > 0), std::move(variants));
   }
 
  private:

@@ -17,6 +17,9 @@ layout(constant_id = 1) const int kVaried = 0;
 layout(constant_id = 2) const int kTextured = 0;
 layout(constant_id = 4) const int kOptions = 0;  // 1: only what lies behind the first surface; 2: there are lights
 layout(constant_id = 5) const int kSets = 0;     // sets of colours of its own: 1 for light, 2 for shadow
+// MetaTexture.features of what the look paints; from bit 11 on the options of surface_tangents.shared.h; from bit 14 on
+// how it is laid: 0 multiply, 1 overlay, 2 replace.
+layout(constant_id = 6) const int kPainted = 0;
 const bool kBehind = (kOptions & 1) != 0;
 
 layout(set = 2, binding = 0, scalar) uniform ParamsBlock { SurfaceParams params; };
@@ -48,19 +51,22 @@ layout(location = 8) flat in uint inWraps;
 // What the look paints.
 vec3 paintedTexture() {
   vec2 dSdu, dSdv;
-  surfaceTangents(painted.tangents, inTangentU, inTangentV, inPoint, inPatternUv, viewIndex(), dSdu, dSdv);
-  MetaTextureChoice chosen = metaTextureChoose(painted.meta, dSdu, dSdv, 1.0);
-  vec4 value = metaTextureSample(painted.meta, chosen, paintedExample, inPatternUv,
+  surfaceTangents(kPainted >> 11, inTangentU, inTangentV, inPoint, inPatternUv, viewIndex(), dSdu, dSdv);
+  MetaTexture meta = painted.meta;
+  meta.features = kPainted;
+  MetaTextureChoice chosen = metaTextureChoose(meta, dSdu, dSdv, 1.0);
+  vec4 value = metaTextureSample(meta, chosen, paintedExample, inPatternUv,
                                  vec2(inWraps & 1u, inWraps >> 1), gl_FragCoord.xy);
-  if (painted.meta.contrast == 2) value = metaTextureHistogram(paintedInverse, value);
+  if (metaTextureContrast(meta) == 2) value = metaTextureHistogram(paintedInverse, value);
   return clamp(value.rgb, 0.0, 1.0);
 }
 
 // It over the square root of a colour.
 vec3 paint(vec3 over, vec3 root) {
   vec3 result = over;
-  if (painted.blend == 0) result = root * over;
-  if (painted.blend == 1)
+  const int kBlend = kPainted >> 14;
+  if (kBlend == 0) result = root * over;
+  if (kBlend == 1)
     result = mix(2.0 * root * over, 1.0 - 2.0 * (1.0 - root) * (1.0 - over), greaterThan(root, vec3(0.5)));
   return mix(root, result, painted.amount);
 }
@@ -143,7 +149,7 @@ void main() {
   light = max(light, material.unlit);
 
   // What a matte shows has its own light already; only what is cast on it is new.
-  if (material.matte > 0.0) light = frame.toLight.y > 0.0 ? reaches : 1.0;
+  light = mix(light, frame.toLight.y > 0.0 ? reaches : 1.0, material.matte);
 
   // Blue: where the breakup map may act, which is where the surface is oblique to a light that reaches it.
   float oblique = clamp(1.0 - abs(turn) / params.indicationWidth, 0.0, 1.0) * reaches * params.indication;

@@ -6,9 +6,7 @@ struct SurfaceParams {
 // What a material has where the look paints a texture on it.
 struct PaintedMaterial {
   MetaTexture meta;
-  SurfaceTangents tangents;
   float amount;
-  int blend;  // 0 multiply, 1 overlay, 2 replace
 };
 struct SurfaceUniforms {
   float terminator;

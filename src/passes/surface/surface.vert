@@ -59,11 +59,12 @@ void main() {
   }
   if (kVaried != 0) outColor = inColor;
 #ifdef PAINTED
-  mat4 tangentClip = tangentView(painted.tangents, worldToClip);
+layout(constant_id = 6) const int kPainted = 0;  // as in the fragment shader
+  mat4 tangentClip = tangentView(kPainted >> 11, worldToClip);
   outPatternUv = inPatternUv + objects[gl_InstanceIndex].patternShift;
   outTangentU = tangentToClip(tangentClip, inDPdu);
   outTangentV = tangentToClip(tangentClip, inDPdv);
-  outPoint = pointInTangentView(painted.tangents, worldToClip, inPosition);
+  outPoint = pointInTangentView(kPainted >> 11, worldToClip, inPosition);
   outWraps = objects[gl_InstanceIndex].wraps;
 #endif
   if (kTextured != 0) outUvs = vec4(baseUv(inUv0, inUv1), emissiveUv(inUv0, inUv1));

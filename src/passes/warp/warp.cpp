@@ -23,12 +23,11 @@ namespace {
 // Mirrors WarpMaterial in warp.glsl.
 struct WarpMaterial {
   float amount, inflation, distance, setup;
-  TangentOptions tangents;
 };
 
 // Mirrors the block of warp.image.glsl.
 struct SetupUniforms {
-  MetaTexture field, marks;
+  MetaTextureUniforms field, marks;
   float setup, marksAmount;
 };
 
@@ -40,15 +39,6 @@ struct WarpSetup {
 
   // One evaluation serves both where the marks are the field's blue channel.
   bool isApart() const { return !(field == marks); }
-  uint32_t needs() const {
-    uint32_t bits = isApart() ? shared::kWarpApart : 0;
-    for (const MetaTexture& m : {field.meta, marks.meta}) {
-      if (m.contrast == kContrastHistogram) bits |= shared::kWarpHistogram;
-      if (m.isUnusual()) bits |= shared::kWarpUnusual;
-      if (m.skip > 0) bits |= shared::kWarpSkip;
-    }
-    return bits;
-  }
 };
 
 class Warp : public Pass {
@@ -100,7 +90,7 @@ class Warp : public Pass {
 
   void update(const FrameInput& input) override {
     std::vector<WarpSetup> setups;
-    uint32_t needs = 0;
+    std::vector<MaterialVariant> variants;
     const float pixelScale = input.uniforms.pixelScale;
     for (size_t m = 0; m < input.scene.materialCount(); ++m) {
       const std::string& name = input.scene.materialName(m);
@@ -112,29 +102,29 @@ class Warp : public Pass {
       const float inflation = params.inflationUnit == 0
                                   ? params.inflation * pixelScale
                                   : params.inflation * 0.01f * input.uniforms.imageSize.y;
-      const TangentOptions tangents = tangentOptions(metaParams);
-      if (tangents.fragmentGradients) needs |= shared::kWarpFragmentGradients;
-      if (tangents.radial) needs |= shared::kWarpRadial;
       // The sea's horizon is a quiet line.
       const float distance = int(m) == input.scene.oceanMaterial()
                                  ? std::max(params.distance, 1 / input.scene.options().ocean.falseHorizon)
                                  : params.distance;
-      if (distance > 0) needs |= shared::kWarpDistance;
-      materials_.write(m, {params.amount * pixelScale, inflation, distance, float(index + 1), tangents});
+      variants.push_back({.options = tangentOptions(metaParams, input.uniforms) |
+                                     (distance > 0 ? shared::kWarpDistance : 0)});
+      materials_.write(m, {params.amount * pixelScale, inflation, distance, float(index + 1)});
     }
-    step_.specialise(input.scene, needs);
+    step_.specialise(input.scene, 0, std::move(variants));
 
     std::vector<ImageStep::Job> jobs;
-    const uint32_t ofAll = (setups.size() > 1 ? shared::kWarpSeveral : 0) | (wraps_ ? shared::kWarpWrap : 0);
     for (size_t i = 0; i < setups.size(); ++i) {
       const WarpSetup& setup = setups[i];
-      image_.update(SetupUniforms{setup.field.meta, setup.marks.meta, float(i + 1), setup.marksAmount}, i);
-      jobs.push_back(
-          {{setup.needs() | ofAll, uint32_t(setup.field.meta.skew), uint32_t(setup.marks.meta.skew)},
-           {{&setup.field.image(), setup.field.sampler()},
-            {&setup.field.inverse(), ExampleTextures::kInverseSampler},
-            {&setup.marks.image(), setup.marks.sampler()},
-            {&setup.marks.inverse(), ExampleTextures::kInverseSampler}}});
+      image_.update(SetupUniforms{setup.field.meta.uniforms(), setup.marks.meta.uniforms(), float(i + 1),
+                                  setup.marksAmount},
+                    i);
+      const uint32_t needs =
+          (setup.isApart() ? shared::kWarpApart : 0) | (setups.size() > 1 ? shared::kWarpSeveral : 0);
+      jobs.push_back({{needs, setup.field.meta.features(), setup.marks.meta.features()},
+                      {{&setup.field.image(), setup.field.sampler()},
+                       {&setup.field.inverse(), ExampleTextures::kInverseSampler},
+                       {&setup.marks.image(), setup.marks.sampler()},
+                       {&setup.marks.inverse(), ExampleTextures::kInverseSampler}}});
     }
     image_.setJobs(std::move(jobs));
   }
@@ -151,8 +141,11 @@ class Warp : public Pass {
     if (const int drawing = boilDrawing(params, input.time))
       shift += params.boil * patternShift(0x5EA0u + 2 * uint32_t(drawing));
     const float pixelScale = input.uniforms.pixelScale;
-    return {metaTextureUse(metaParams, 0b0011, input.look, *examples_, pixelScale, shift),
-            metaTextureUse(breakupMeta, 0b0100, input.look, *examples_, pixelScale, shift), breakup.amount};
+    WarpSetup setup{metaTextureUse(metaParams, 0b0011, input.look, *examples_, pixelScale, shift),
+                    metaTextureUse(breakupMeta, 0b0100, input.look, *examples_, pixelScale, shift),
+                    breakup.amount};
+    setup.field.meta.wrapping = setup.marks.meta.wrapping = wraps_;
+    return setup;
   }
 
   void record(VkCommandBuffer commands) const {

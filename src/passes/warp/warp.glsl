@@ -4,6 +4,5 @@ struct WarpMaterial {
   float inflation;  // pixels
   float distance;   // 1 / metre
   float setup;      // number of the material's setup, from 1
-  SurfaceTangents tangents;
 };
 layout(set = 2, binding = 0, scalar) uniform WarpBlock { WarpMaterial warp; };

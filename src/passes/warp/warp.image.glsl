@@ -9,8 +9,8 @@
 #include "warp.shared.h"
 
 layout(constant_id = 0) const int kNeeds = 0;
-layout(constant_id = 1) const int kFieldSkew = 0;  // 0: 4 samples, else 8
-layout(constant_id = 2) const int kMarksSkew = 0;
+layout(constant_id = 1) const int kFieldFeatures = 0;  // MetaTexture.features
+layout(constant_id = 2) const int kMarksFeatures = 0;
 
 layout(set = 1, binding = 0, scalar) uniform Block {
   MetaTexture field, marks;
@@ -25,20 +25,12 @@ layout(set = 1, binding = 5) uniform sampler2D fieldInverse;
 layout(set = 1, binding = 6) uniform sampler2D marksExample;
 layout(set = 1, binding = 7) uniform sampler2D marksInverse;
 
-// Without what no material of the setup needs.
-MetaTexture specialised(MetaTexture m, int skew) {
-  m.skew = skew;
-  if ((kNeeds & kWarpUnusual) == 0) m = metaTexturePlain(m);
-  if ((kNeeds & kWarpSkip) == 0) m.skip = 0.0;
-  m.wrapping = (kNeeds & kWarpWrap) != 0 ? 1 : 0;
-  return m;
-}
-
-vec4 valueOf(MetaTexture m, sampler2D example, sampler2D inverse, vec2 uv, vec2 dSdu, vec2 dSdv, vec2 wraps, vec2 at,
+vec4 valueOf(MetaTexture m, int features, sampler2D example, sampler2D inverse, vec2 uv, vec2 dSdu, vec2 dSdv, vec2 wraps, vec2 at,
              out MetaTextureChoice chosen) {
+  m.features = features;
   chosen = metaTextureChoose(m, dSdu, dSdv, 1.0);
   vec4 value = metaTextureSample(m, chosen, example, uv, wraps, at);
-  if ((kNeeds & kWarpHistogram) != 0 && m.contrast == 2) value = metaTextureHistogram(inverse, value);
+  if (metaTextureContrast(m) == 2) value = metaTextureHistogram(inverse, value);
   return value;
 }
 
@@ -50,19 +42,20 @@ vec4 shade(ivec2 pixel, int layer) {
   float wrapping = knob.g - 4.0 * floor(0.25 * knob.g);
   vec2 wraps = vec2(mod(wrapping, 2.0), floor(0.5 * wrapping));
   MetaTextureChoice chosen;
-  vec4 value = valueOf(specialised(u.field, kFieldSkew), fieldExample, fieldInverse, uv, dSdu, dSdv, wraps, vec2(pixel) + 0.5, chosen);
+  vec4 value = valueOf(u.field, kFieldFeatures, fieldExample, fieldInverse, uv, dSdu, dSdv, wraps, vec2(pixel) + 0.5, chosen);
   vec2 vector = (value.xy - u.field.mean.xy) * 2.0;
+  vector *= min(kFarthestTear * inversesqrt(max(dot(vector, vector), 1e-12)), 1.0);
   float marks = value.b;
   if ((kNeeds & kWarpApart) != 0) {
     MetaTextureChoice other;
-    marks = valueOf(specialised(u.marks, kMarksSkew), marksExample, marksInverse, uv, dSdu, dSdv, wraps, vec2(pixel) + 0.5, other).b;
+    marks = valueOf(u.marks, kMarksFeatures, marksExample, marksInverse, uv, dSdu, dSdv, wraps, vec2(pixel) + 0.5, other).b;
   }
   marks = clamp((marks - u.marks.mean.b) * u.marksAmount + u.marks.mean.b, 0.0, 1.0);
 
   // Camera roll (section 4.3): the frame of reference follows the gradient of u, so the pattern sticks to the surface.
   // Its direction is across dS/dv, on the side that does not change where a mapping is mirrored along u.
   float lengthV = length(dSdv);
-  vec2 axis = lengthV > 0.0 && u.field.mode != 2 ? vec2(dSdv.y, -dSdv.x) / lengthV : vec2(1.0, 0.0);
+  vec2 axis = lengthV > 0.0 && (kFieldFeatures & 3) != 2 ? vec2(dSdv.y, -dSdv.x) / lengthV : vec2(1.0, 0.0);
   vector = vec2(axis.x * vector.x - axis.y * vector.y, axis.y * vector.x + axis.x * vector.y) * knob.r;
   float far = min(eyeDepth(texelFetch(depth, at, 0).r, layer), 60000.0);
   return knob.g > 0.0 ? vec4(vector, marks, far) : vec4(0.0);

@@ -4,16 +4,12 @@
 
 SHARED_BEGIN
 // Specialisation constant 0 of the image step: what its setup needs, so that others do not pay for it.
-const int kWarpApart = 1;      // the breakup map is not in the blue channel of the same texture
-const int kWarpHistogram = 2;  // a Gaussian twin
-const int kWarpUnusual =
-    4;  // another mode than MetaTexture, another base than 2, rotation, orientation to contour
-const int kWarpSkip = 8;      // samples are skipped
-const int kWarpWrap = 16;     // a mapping closes on itself
-const int kWarpSeveral = 32;  // there are other setups: most pixels are another's
-// Specialisation constant 4 of the geometry step: what any material needs.
-const int kWarpFragmentGradients = 1;
-const int kWarpRadial = 2;
-const int kWarpDistance = 4;
+const int kWarpApart = 1;    // the breakup map is not in the blue channel of the same texture
+const int kWarpSeveral = 2;  // there are other setups: most pixels are another's
+// No vector is longer than this times the amount; of those of the examples that are built in, one in a
+// thousand would be.
+const float kFarthestTear = 2.0;
+// The geometry step's options of a material, beside those of surface_tangents.shared.h.
+const int kWarpDistance = 8;
 SHARED_END
 #endif

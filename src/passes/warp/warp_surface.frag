@@ -16,7 +16,7 @@
 #include "warp.shared.h"
 
 layout(constant_id = 0) const int kAlphaMode = 0;
-layout(constant_id = 4) const int kNeeds = 0;
+layout(constant_id = 6) const int kOptions = 0;  // of surface_tangents.shared.h, and kWarpDistance
 
 layout(location = 0) in vec3 inUvScale;
 layout(location = 1) in vec3 inTangentU;
@@ -29,15 +29,12 @@ layout(location = 1) out vec2 outKnobs;
 
 void main() {
   vec2 dSdu, dSdv;
-  SurfaceTangents options = warp.tangents;
-  if ((kNeeds & kWarpFragmentGradients) == 0) options.fragmentGradients = 0;
-  if ((kNeeds & kWarpRadial) == 0) options.radial = 0;
-  surfaceTangents(options, inTangentU, inTangentV, inPoint, inUvScale.xy, viewIndex(), dSdu, dSdv);
+  surfaceTangents(kOptions, inTangentU, inTangentV, inPoint, inUvScale.xy, viewIndex(), dSdu, dSdv);
   if (kAlphaMode != 0 && isHole(inBaseUvAlpha.xy, inBaseUvAlpha.z, kAlphaMode)) discard;
   outPattern = uvec4(floatBitsToUint(inUvScale.xy), packBfloat(dSdu), packBfloat(dSdv));
   // Paper 000, eq. 26; FORMULAS 12: the distance has a scale.
   float amount = warp.amount * inUvScale.z;
-  if ((kNeeds & kWarpDistance) != 0) {
+  if ((kOptions & kWarpDistance) != 0) {
     float far = warp.distance * eyeDepth(gl_FragCoord.z, viewIndex());
     amount /= 1.0 + far * far;
   }

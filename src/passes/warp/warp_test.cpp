@@ -115,7 +115,8 @@ TEST_P(WarpTest, equalsItsReference) {
             const glm::dvec4 e = reference.at(uv, gradU, gradV, 1, {isBall, false}).value;
             // The vector is turned along the gradient of u, on the side where u and v turn to the right.
             const glm::dvec2 axis = glm::normalize(gradU) * (turn < 0 ? -1.0 : 1.0),
-                             w = (glm::dvec2(e) - glm::dvec2(reference.mean)) * 2.0;
+                             free = (glm::dvec2(e) - glm::dvec2(reference.mean)) * 2.0,
+                             w = free * std::min(1.0, 2.0 / glm::length(free));
             const double amount = 48 * scale;
             vectors.add(got.x / amount, axis.x * w.x - axis.y * w.y);
             vectors.add(got.y / amount, axis.y * w.x + axis.x * w.y);
@@ -303,6 +304,38 @@ TEST_P(WarpTest, inflationWidensTheSilhouette) {
       EXPECT_NEAR(std::sqrt(inflated / 3.14159265) - std::sqrt(area / 3.14159265), pixels, 0.4);
     }
   }
+}
+
+// What warp.amount promises: 0.6 of it on the average, and nowhere more than twice as much, however copies
+// are blended and contrast is restored.
+TEST_P(WarpTest, nothingIsTornFartherThanTwice) {
+  const Scene scene = wall().load();
+  constexpr double kAmount = 48;
+  double longest = 0;
+  for (const char* base : {"2", "1.1"})
+    for (const char* skew : {"off", "exact"}) {
+      double sum = 0, count = 0;
+      for (const float away : {2.0f, 2.7f, 3.6f}) {
+        Look look = lookOf(kAmount, 40);
+        EXPECT_TRUE(look.set("warp.metatexture.base", base).ok());
+        EXPECT_TRUE(look.set("warp.metatexture.skew", skew).ok());
+        const Frame frame =
+            draw(scene, look, viewsFrom(scene, {{0.3f, 0.2f, away}}, 4 * kWidth, 4 * kHeight, GetParam()),
+                 sized(4 * kWidth, 4 * kHeight, {"warp"}));
+        for (size_t v = 0; v < viewCount(); ++v)
+          for (int y = 0; y < 4 * kHeight; ++y)
+            for (int x = 0; x < 4 * kWidth; ++x) {
+              const glm::dvec4 got = texel(aov(frame, "warp", v), x, y);
+              if (got.w == 0) continue;
+              const double length = glm::length(glm::dvec2(got)) / (kAmount * 4 * kHeight / 1080);
+              longest = std::max(longest, length), sum += length, ++count;
+            }
+      }
+      ASSERT_GT(count, 10000);
+      EXPECT_NEAR(sum / count, 0.6, 0.1) << "base " << base << ", skew " << skew;
+    }
+  EXPECT_LE(longest, 2.002);  // half floats
+  EXPECT_GT(longest, 1.5);
 }
 
 // Eq. 26: the amount falls with distance.

@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+"""No shader branches on what comes from uniforms alone.
+
+A CPU driver makes a copy of such a shader for the values that it meets, in each frame anew, and keeps it: a film
+fills the memory. Other drivers lose time. What a uniform would decide is a specialisation constant here.
+
+    uniform_branches_test.py FOLDER_OF_SPIRV
+"""
+import pathlib
+import re
+import subprocess
+import sys
+
+# Not part of frames.
+EXEMPT = ("metatexture_probe", "metatexture_bench", "plain_reads")
+
+
+def instructions(text):
+    for line in text.splitlines():
+        if match := re.match(r"\s*(?:(%\w+) = )?(Op\w+)\s*(.*)", line):
+            yield match[1], match[2], match[3].split()
+
+
+class Shader:
+    def __init__(self, text):
+        self.definitions, self.conditions, self.known = {}, [], {}
+        for result, op, operands in instructions(text):
+            if result:
+                self.definitions[result] = (op, operands)
+            if op in ("OpBranchConditional", "OpSwitch"):
+                self.conditions.append(operands[0])
+
+    def isUniform(self, variable):
+        op, operands = self.definitions.get(variable, ("", []))
+        return op == "OpVariable" and operands[1] in ("Uniform", "PushConstant")
+
+    # 0: constant, also by specialisation; 1: depends on uniforms, on constants and on loops' counters alone;
+    # 2: on something else.
+    def rank(self, value, seen=()):
+        if value in self.known:
+            return self.known[value]
+        if value in seen:
+            return 0  # a counter that counts itself on
+        op, operands = self.definitions.get(value, ("", []))
+        sources = [operand for operand in operands[1:] if operand.startswith("%")]
+        if op.startswith(("OpConstant", "OpSpecConstant")):
+            rank = 0
+        elif op == "OpLoad":
+            chain, path = self.definitions.get(sources[0], ("", []))
+            isPlain = chain == "OpAccessChain" and self.isUniform(path[1])
+            rank = 1 if isPlain and all(self.rank(index) == 0 for index in path[2:]) else 2
+        elif op == "OpPhi":
+            # A loop's counter: constants, and itself counted on. Others are values that branches chose.
+            parts = [self.rank(source, seen + (value,)) for source in sources[::2]]
+            isCounter = any(self.reaches(source, value) for source in sources[::2])
+            rank = max(parts) if isCounter else 2
+        elif op.startswith(("OpImage", "OpFunction", "OpVariable", "OpExtInst", "OpGroup", "OpAtomic")) or not op:
+            rank = 2
+        else:
+            rank = max((self.rank(source, seen) for source in sources), default=0)
+        if not seen:
+            self.known[value] = rank
+        return rank
+
+    def reaches(self, value, wanted, depth=0):
+        if value == wanted:
+            return True
+        op, operands = self.definitions.get(value, ("", []))
+        return depth < 4 and op in ("OpIAdd", "OpISub") and any(
+            self.reaches(operand, wanted, depth + 1) for operand in operands[1:] if operand.startswith("%"))
+
+    def uniformBranches(self):
+        return [condition for condition in self.conditions if self.rank(condition) == 1]
+
+
+def selfTest():
+    shader = Shader("""
+      %block = OpVariable %pointer Uniform
+      %input = OpVariable %pointer Input
+      %zero = OpConstant %int 0
+      %fixed = OpSpecConstant %int 1
+      %chain = OpAccessChain %pointer %block %zero
+      %uniform = OpLoad %int %chain
+      %pixel = OpLoad %int %input
+      %byUniform = OpIEqual %bool %uniform %zero
+      %byPixel = OpIEqual %bool %uniform %pixel
+      %byConstant = OpIEqual %bool %fixed %zero
+      %i = OpPhi %int %zero %before %next %body
+      %next = OpIAdd %int %i %fixed
+      %loop = OpSLessThan %bool %i %uniform
+      %fixedLoop = OpSLessThan %bool %i %fixed
+      %chosen = OpPhi %int %zero %before %fixed %body
+      %byChosen = OpIEqual %bool %chosen %uniform
+                  OpBranchConditional %byUniform %a %b
+                  OpBranchConditional %byPixel %a %b
+                  OpBranchConditional %byConstant %a %b
+                  OpBranchConditional %loop %a %b
+                  OpBranchConditional %fixedLoop %a %b
+                  OpBranchConditional %byChosen %a %b
+    """)
+    assert shader.uniformBranches() == ["%byUniform", "%loop"], shader.uniformBranches()
+
+
+def main():
+    selfTest()
+    files = sorted(pathlib.Path(sys.argv[1]).glob("*.spv"))
+    assert len(files) > 20, f"only {len(files)} shaders in {sys.argv[1]}"
+    bad = 0
+    for file in files:
+        if file.stem.startswith(EXEMPT):
+            continue
+        text = subprocess.run(["spirv-dis", "--no-color", file], check=True, capture_output=True, text=True).stdout
+        shader = Shader(text)
+        for condition in shader.uniformBranches():
+            bad += 1
+            print(f"{file.stem}: a branch or loop by uniforms alone: {condition} = "
+                  f"{' '.join(map(str, shader.definitions[condition]))}")
+    print(f"{len(files)} shaders, {bad} branches by uniforms alone")
+    return bad > 0
+
+
+sys.exit(main())
