@@ -14,6 +14,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kEyes[] = {"left", "right"};
+constexpr const char* kCryptomatte = "cryptomatte";  // the AOV
 
 // "dir/name.png" with "left" gives "dir/name.left.png".
 std::string withPart(const std::string& path, const std::string& part, const std::string& extension) {
@@ -92,18 +93,13 @@ std::string OutputPlan::framePath(std::optional<int> number) const {
   return path.substr(0, first) + (*number < 0 ? "-" : "") + digits + path.substr(last);
 }
 
-bool OutputPlan::isCryptomatte(const std::string& layer) const {
-  return std::any_of(exr.cryptomattes.begin(), exr.cryptomattes.end(),
-                     [&](const Cryptomatte& cryptomatte) { return cryptomatte.layer == layer; });
-}
-
-Status OutputPlan::writeLayers(const std::string& path_, const std::vector<ImageLayer>& layers) const {
-  // A file says nothing of mattes that it does not hold.
+Status OutputPlan::writeLayers(const Frame& frame, const std::string& path_,
+                               const std::vector<ImageLayer>& layers) const {
   ExrOptions options = exr;
-  std::erase_if(options.cryptomattes, [&](const Cryptomatte& cryptomatte) {
-    return std::none_of(layers.begin(), layers.end(),
-                        [&](const ImageLayer& layer) { return layer.name == cryptomatte.layer; });
-  });
+  // Compositors know objects by their names.
+  if (std::any_of(layers.begin(), layers.end(),
+                  [](const ImageLayer& layer) { return layer.name == kCryptomatte; }))
+    options.cryptomattes = {{kCryptomatte, frame.objects}};
   return writeExr(path_, layers, options);
 }
 
@@ -143,8 +139,8 @@ Status OutputPlan::writePicturePng(const Frame& frame, size_t file, const std::s
   };
   for (size_t i = 1; i < frame.layers.size(); ++i) {
     const std::string& name = frame.layers[i].name;
-    const ImageLayer layer{isCryptomatte(name) ? name : "", "", &picture(frame.layers[i]), isHalf(name)};
-    if (const Status status = writeLayers(withPart(path_, name, ".exr"), {layer}); !status)
+    const ImageLayer layer{name == kCryptomatte ? name : "", "", &picture(frame.layers[i]), isHalf(name)};
+    if (const Status status = writeLayers(frame, withPart(path_, name, ".exr"), {layer}); !status)
       return status.error();
   }
   return writePng(path_, picture(frame.layers[0]));
@@ -160,7 +156,7 @@ Status OutputPlan::writeLayeredExr(const Frame& frame, size_t file, const std::s
                            layer.views[0].width != width || layer.views[0].height != height;
     if (otherSize) {
       const ImageLayer alone{"", "", &layer.views[0], isHalf(layer.name)};
-      if (const Status status = writeLayers(withPart(path_, layer.name, ".exr"), {alone}); !status)
+      if (const Status status = writeLayers(frame, withPart(path_, layer.name, ".exr"), {alone}); !status)
         return status.error();
     } else if (asFiles() || viewCount == 1) {
       layers.push_back({layer.name, "", &layer.views[viewCount == 1 ? 0 : file], isHalf(layer.name)});
@@ -169,7 +165,7 @@ Status OutputPlan::writeLayeredExr(const Frame& frame, size_t file, const std::s
         layers.push_back({layer.name, kEyes[view], &layer.views[view], isHalf(layer.name)});
     }
   }
-  return writeLayers(path_, layers);
+  return writeLayers(frame, path_, layers);
 }
 
 Result<FilmOutput> FilmOutput::create(const OutputPlan& plan, double fps, int quality) {

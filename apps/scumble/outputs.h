@@ -47,8 +47,8 @@ struct OutputPlan {
   friend class FilmOutput;
   bool asFiles() const { return separateEyes && viewCount > 1; }
   bool isHalf(const std::string& layer) const { return half && !Renderer::needsFloat(layer); }
-  bool isCryptomatte(const std::string& layer) const;
-  Status writeLayers(const std::string& path, const std::vector<ImageLayer>& layers) const;
+  Status writeLayers(const Frame& frame, const std::string& path,
+                     const std::vector<ImageLayer>& layers) const;
   Status writePicturePng(const Frame& frame, size_t file, const std::string& path) const;
   Status writeLayeredExr(const Frame& frame, size_t file, const std::string& path) const;
 };

@@ -244,8 +244,6 @@ int run(const RenderArguments& args) {
   if (!look) return fail(look.error());
   const Result<Scene> scene = args.scene.load(args.quiet);
   if (!scene) return fail(scene.error());
-  // Compositors know objects by their names.
-  output->exr.cryptomattes = {{"cryptomatte", scene->objectNames()}};
   look = args.look.withClip(*look, *scene);
   if (!look) return fail(look.error());
   if (!args.quiet) warnOfIdle(*scene, *look);

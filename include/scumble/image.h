@@ -14,6 +14,9 @@ struct Image {
   uint32_t width = 0, height = 0;
   std::vector<std::string> channels;  // names, e.g. {"R", "G", "B", "A"}, in the order of the data
   std::vector<float> pixels;          // width * height * channels.size()
+  // Whether R, G and B are a colour of which A is the coverage, as in pictures and in the AOVs of colours. Of
+  // others, A is a number like the rest.
+  bool isColor = false;
 
   float at(uint32_t x, uint32_t y, uint32_t channel) const {
     return pixels[(size_t(y) * width + x) * channels.size() + channel];
@@ -53,19 +56,21 @@ struct ExrOptions {
 // The file appears whole or not at all. Fails with ErrorKind::outputNotWritten.
 Status writePng(const std::string& path, const Image& image);
 
-// Reads what writePng writes, and any other PNG, as linear floats (R, G, B, A).
+// Reads what writePng writes, and any other PNG, as linear floats (R, G, B, A); a colour.
 Result<Image> readPng(const std::string& path);
 
-// Reads a PNG, JPEG or WebP, whatever its name says, as linear floats (R, G, B, A). Photographs come upright,
-// as their EXIF says. Colour profiles are not looked at: values are sRGB. Fails with ErrorKind::unusableFile.
+// Reads a PNG, JPEG or WebP, whatever its name says, as linear floats (R, G, B, A); a colour. Photographs
+// come upright, as their EXIF says. Colour profiles are not looked at: values are sRGB. Fails with
+// ErrorKind::unusableFile.
 Result<Image> readPicture(const std::string& path);
 
-// Float, compressed without loss; alpha is straight, as in Image. Channels are named LAYER.CHANNEL. In stereo
-// (layers with views) the standard multiView attribute lists the views, "left" first; the picture's channels
-// are R, G, B, A for the left eye and right.R ... for the right one, those of layers LAYER.left.CHANNEL and
-// LAYER.right.CHANNEL, since OpenEXR gives only names without a period to the default view. All layers have
-// one size. Fails with ErrorKind::usage for layers that do not fit together, and with
-// ErrorKind::outputNotWritten.
+// Float, compressed without loss. Colours (Image::isColor) are multiplied by their alpha, as OpenEXR and
+// compositors have it; a colour of which nothing is there is black. Everything else is as given. Channels are
+// named LAYER.CHANNEL. In stereo (layers with views) the standard multiView attribute lists the views, "left"
+// first; the picture's channels are R, G, B, A for the left eye and right.R ... for the right one, those of
+// layers LAYER.left.CHANNEL and LAYER.right.CHANNEL, since OpenEXR gives only names without a period to the
+// default view. All layers have one size. Fails with ErrorKind::usage for layers that do not fit together,
+// and with ErrorKind::outputNotWritten.
 Status writeExr(const std::string& path, const std::vector<ImageLayer>& layers,
                 const ExrOptions& options = {});
 

@@ -34,6 +34,9 @@ struct RendererOptions {
   std::string cacheFolder;  // compiled pipelines are kept here between runs; empty: nowhere
   ImagePassKind imagePasses = ImagePassKind::automatic;  // how image passes run; automatic measures nothing,
                                                          // it chooses by the kind of device (docs/gpu.md)
+  // Bytes of device memory up to which scenes that were drawn stay on the device, ready to be drawn again
+  // beside others; the one drawn last always does.
+  uint64_t sceneBudget = uint64_t(1) << 29;
 };
 
 struct RenderOptions {
@@ -78,6 +81,10 @@ struct Frame {
     std::vector<Image> views;  // one a view; shadow-map has one for all
   };
   std::vector<Layer> layers;
+  // What the numbers of objects mean in the AOVs `id` and `cryptomatte`, where one of them was asked for:
+  // number n is entry n - 1. One entry a node (its number, "node 12", where it has no name; empty where it
+  // shows nothing), then "Ground" and "Ocean", empty where none is drawn.
+  std::vector<std::string> objects;
   FrameStats stats;
 };
 

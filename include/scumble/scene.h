@@ -57,11 +57,6 @@ class Scene {
 
   SceneSummary summary() const;
 
-  // What the numbers of objects mean in the AOVs `id` and `cryptomatte`: number n is entry n - 1. One entry a
-  // node (its number, "node 12", where it has no name; empty where it shows nothing), then "Ground" and
-  // "Ocean" for those that the renderer may add.
-  std::vector<std::string> objectNames() const;
-
   const std::vector<std::string>& warnings() const;  // what was ignored or replaced, each once
   const SceneTimings& timings() const;
 

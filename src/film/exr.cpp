@@ -98,7 +98,7 @@ std::string problemWith(const std::vector<ImageLayer>& layers, const ExrOptions&
   return "";
 }
 
-Error usage(const std::string& path, const std::string& problem) {
+Error misfit(const std::string& path, const std::string& problem) {
   Error error;
   error.kind = ErrorKind::usage;
   error.file = path;
@@ -125,6 +125,15 @@ std::vector<half> halves(const std::vector<float>& values) {
   return result;
 }
 
+bool isStraight(const Image& image) {
+  return image.isColor && image.channels.size() == 4;
+}
+Image premultiplied(Image image) {
+  for (size_t i = 0; i < image.pixels.size(); i += 4)
+    for (size_t c = 0; c < 3; ++c) image.pixels[i + c] *= image.pixels[i + 3];
+  return image;
+}
+
 // What goes into the file: its channels, and the pixels that are not in the caller's pictures.
 struct Content {
   Imf::FrameBuffer frame;
@@ -134,7 +143,8 @@ struct Content {
 
 Status addLayer(const std::string& path, const ImageLayer& layer, const Imf::StringVector& views,
                 Imf::Header& header, Content& content) {
-  const Image& image = *layer.image;
+  if (isStraight(*layer.image)) content.made.push_back(premultiplied(*layer.image));
+  const Image& image = isStraight(*layer.image) ? content.made.back() : *layer.image;
   const size_t channels = image.channels.size();
   // OpenEXR reads through this pointer only; its type is shared with reading.
   char* base = reinterpret_cast<char*>(const_cast<float*>(image.pixels.data()));
@@ -146,7 +156,7 @@ Status addLayer(const std::string& path, const ImageLayer& layer, const Imf::Str
   const size_t size = layer.half ? sizeof(half) : sizeof(float);
   for (size_t c = 0; c < channels; ++c) {
     const std::string name = channelName(layer, image.channels[c], views);
-    if (header.channels().findChannel(name)) return usage(path, "the channel '" + name + "' is there twice");
+    if (header.channels().findChannel(name)) return misfit(path, "the channel '" + name + "' is there twice");
     header.channels().insert(name, Imf::Channel(type));
     content.frame.insert(name,
                          Imf::Slice(type, base + c * size, channels * size, channels * size * image.width));
@@ -201,7 +211,7 @@ Status writeExr(const std::string& path, const std::vector<ImageLayer>& layers, 
   std::string reason = "not enough memory";
   try {
     if (const std::string problem = problemWith(layers, options); !problem.empty())
-      return usage(path, problem);
+      return misfit(path, problem);
     film::WholeFile file(path);
     if (!file.ok()) return file.commit();
     try {

@@ -72,6 +72,27 @@ TEST(Exr, layersAreNamedAndComeBackExactly) {
   EXPECT_EQ(folder.count(), 1u);
 }
 
+// OpenEXR's convention: compositors would draw fringes around straight colours.
+TEST(Exr, coloursAreMultipliedByTheirAlpha) {
+  TestFolder folder;
+  const std::string path = folder.file("a.exr");
+  Image picture{3, 1, {"R", "G", "B", "A"}, {0.5f, 2, 0.25f, 1, 0.5f, 2, 0.25f, 0.5f, 0.5f, 2, 0.25f, 0}};
+  Image gradients = picture, opaque{3, 1, {"R", "G", "B"}, std::vector<float>(9, 0.5f)};
+  picture.isColor = opaque.isColor = true;
+  ASSERT_TRUE(
+      writeExr(
+          path,
+          {{"", "", &picture}, {"lit", "", &picture}, {"uv-gradient", "", &gradients}, {"rgb", "", &opaque}})
+          .ok());
+  const std::vector<float> multiplied{2, 1, 0}, straight{2, 2, 2}, half{0.5f, 0.5f, 0.5f};
+  EXPECT_EQ(channelOf(path, "G"), multiplied);
+  EXPECT_EQ(channelOf(path, "lit.G"), multiplied);
+  EXPECT_EQ(channelOf(path, "A"), (std::vector<float>{1, 0.5f, 0}));
+  EXPECT_EQ(channelOf(path, "uv-gradient.G"), straight);
+  EXPECT_EQ(channelOf(path, "rgb.G"), half);
+  EXPECT_EQ(picture.at(1, 0, 1), 2);  // the caller's own
+}
+
 TEST(Exr, whatIsNoColourSurvivesBitByBit) {
   TestFolder folder;
   const std::string path = folder.file("a.exr");

@@ -18,26 +18,28 @@ void paste(const Image& from, uint32_t x, uint32_t y, Image* to) {
   }
 }
 
-Image blank(uint32_t width, uint32_t height, const std::vector<std::string>& channels) {
+// A picture of nothing, of the same kind as another.
+Image blank(uint32_t width, uint32_t height, const Image& like) {
   Image image;
   image.width = width;
   image.height = height;
-  image.channels = channels;
-  image.pixels.assign(size_t(width) * height * channels.size(), 0.0f);
+  image.channels = like.channels;
+  image.isColor = like.isColor;
+  image.pixels.assign(size_t(width) * height * image.channels.size(), 0.0f);
   return image;
 }
 
 }  // namespace
 
 Image sideBySide(const Image& left, const Image& right) {
-  Image both = blank(left.width + right.width, std::max(left.height, right.height), left.channels);
+  Image both = blank(left.width + right.width, std::max(left.height, right.height), left);
   paste(left, 0, 0, &both);
   paste(right, left.width, 0, &both);
   return both;
 }
 
 Image overUnder(const Image& left, const Image& right) {
-  Image both = blank(std::max(left.width, right.width), left.height + right.height, left.channels);
+  Image both = blank(std::max(left.width, right.width), left.height + right.height, left);
   paste(left, 0, 0, &both);
   paste(right, 0, left.height, &both);
   return both;

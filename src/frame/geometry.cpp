@@ -63,10 +63,10 @@ float groundHeight(const scene::Bounds& bounds) {
 
 float longestEdge(float shadowWarp) {
   if (shadowWarp <= 0) return std::numeric_limits<float>::infinity();
-  // The algebraic sigmoid's second derivative is at most 0.858; the warp scales t by the strength and its
-  // range to 2.
+  // The algebraic sigmoid's second derivative is at most 0.858; the warp scales t by the strength, and what
+  // it has of the range to 2.
   const float range = 2 * shadowWarp / std::sqrt(1 + shadowWarp * shadowWarp);
-  const float curvature = 2 * shadowWarp * shadowWarp * 0.858f / range;
+  const float curvature = (1 - kEvenShare) * 2 * shadowWarp * shadowWarp * 0.858f / range;
   const float tolerance = 2.0f / float(kShadowMapSize);
   return std::sqrt(8 * tolerance / curvature);
 }
@@ -137,7 +137,7 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
     GeometryItem item;
     item.node = GeometryItem::kNoNode;
     item.material = uint32_t(oceanMaterial);
-    item.id = uint32_t(scene.nodes.size() + 2);  // as Scene::objectNames has them
+    item.id = uint32_t(scene.nodes.size() + 2);  // as Frame::objects has them
     item.casts = false;
     struct Part {
       const scene::Primitive* primitive;

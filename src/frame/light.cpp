@@ -113,8 +113,9 @@ void setLightSpace(shared::FrameUniforms& uniforms, const SceneOnGpu& scene, con
   const auto sigmoid = [](const glm::vec2& t) { return t / glm::sqrt(1.0f + t * t); };
   const glm::vec2 low = sigmoid(uniforms.shadowWarp * (-1.0f - uniforms.shadowCenter));
   const glm::vec2 high = sigmoid(uniforms.shadowWarp * (1.0f - uniforms.shadowCenter));
-  uniforms.shadowScale = 1.0f / (high - low);
-  uniforms.shadowShift = -uniforms.shadowScale * low;
+  uniforms.shadowScale = (1 - kEvenShare) / (high - low);
+  uniforms.shadowEven = 0.5f * kEvenShare / uniforms.shadowWarp;
+  uniforms.shadowShift = -uniforms.shadowScale * low + kEvenShare * (0.5f + 0.5f * uniforms.shadowCenter);
 }
 
 }  // namespace scumble::frame

@@ -79,9 +79,11 @@ std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration
     list.push_back(passes::makeMatte({
         .displacement =
             [](const look::LookData& look, const SceneOnGpu& scene, float imageHeight) {
-              return shared::Displacement{largestInflation(look, scene, imageHeight),
-                                          look.get<passes::FinalColorParams>().ripple};
+              return shared::Displacement{largestInflation(look, scene, imageHeight)};
             },
+        .ripple = [](const look::LookData& look) -> int {
+          return look.get<passes::FinalColorParams>().ripple;
+        },
         .simplify =
             [](const look::LookData& look, const SceneOnGpu& scene, size_t material) {
               return scene.knobs<passes::SurfaceParams>(look, material).simplify;
@@ -99,7 +101,7 @@ float largestInflation(const look::LookData& look, const SceneOnGpu& scene, floa
 }
 
 bool wantsLayers(const look::LookData& look) {
-  return look.get<passes::FinalColorParams>().ripple == passes::kRippleLayered;
+  return look.get<passes::FinalColorParams>().ripple == shared::kRippleLayered;
 }
 
 bool glows(const scene::SceneData& scene, const look::LookData& look) {

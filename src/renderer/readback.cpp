@@ -65,13 +65,10 @@ std::vector<std::string> channelNames(Slot slot) {
   return {kNames, kNames + slotInfo(slot).channels};
 }
 
-// What is accumulated under partial coverage comes back premultiplied by it.
-bool isPremultiplied(Slot slot) {
+bool isColor(Slot slot) {
   switch (slot) {
-    case Slot::shadow:
     case Slot::lit:
     case Slot::shadowed:
-    case Slot::blur:
     case Slot::color:
     case Slot::limit:
     case Slot::colorize:
@@ -81,6 +78,11 @@ bool isPremultiplied(Slot slot) {
     default:
       return false;
   }
+}
+
+// What is accumulated under partial coverage comes back premultiplied by it.
+bool isPremultiplied(Slot slot) {
+  return isColor(slot) || slot == Slot::shadow || slot == Slot::blur;
 }
 
 Image enlarge(const Image& small, uint32_t width, uint32_t height) {
@@ -148,6 +150,7 @@ std::vector<Image> Readback::images(uint32_t frame, uint32_t width, uint32_t hei
   halfTable();
   for (uint32_t layer = 0; layer < desc.layers; ++layer) {
     Image image{desc.width, desc.height, names, {}};
+    image.isColor = isColor(slot_);
     image.pixels.resize(pixelsALayer * channels);
     constexpr uint32_t kRows = 64;
     scene::parallelFor((desc.height + kRows - 1) / kRows, scene::threadCount(0), [&](size_t band) {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <deque>
+#include <list>
 #include <optional>
 
 #include "frame/framing.h"
@@ -70,12 +71,28 @@ GpuInfo toPublic(const gpu::DeviceInfo& info) {
   return result;
 }
 
+// Frame::objects.
+std::vector<std::string> objectNames(const scene::SceneData& scene, const GeometryOptions& options) {
+  std::vector<std::string> names;
+  for (const scene::Node& node : scene.nodes)
+    names.push_back(node.mesh < 0       ? ""
+                    : node.name.empty() ? "node " + std::to_string(names.size() + 1)
+                                        : node.name);
+  names.push_back(options.ground ? "Ground" : "");
+  names.push_back(options.ocean.isThere ? "Ocean" : "");
+  return names;
+}
+
 // Views that hang on nodes, where waves move those.
 std::vector<View> ridden(std::vector<View> views, const SceneMotion& motion) {
   for (View& view : views)
     if (view.node >= 0) view.worldToEye *= glm::inverse(motion.riding(size_t(view.node)));
   return views;
 }
+
+}  // namespace
+
+namespace renderer {
 
 // Everything that lives as long as scene and configuration stay the same.
 struct Setup {
@@ -97,15 +114,25 @@ struct Setup {
   }
 };
 
+// A scene that is on the device, and what its frames are drawn with.
+struct Resident {
+  Resident(gpu::Device& device, gpu::Samplers& samplers, const Scene& kept, const GeometryOptions& options)
+      : scene(kept), onGpu(device, samplers, scene.data(), options) {}
+  Scene scene;  // keeps the data alive that onGpu refers to
+  SceneOnGpu onGpu;
+  std::unique_ptr<Setup> setup;
+};
+
 // A frame between begin() and finish().
 struct Begun {
+  Resident* of;
   uint32_t slot;  // of those in flight
   RenderOptions options;
   Frame frame;  // statistics so far; the pictures, where they had to be fetched early
   bool fetched = false;
 };
 
-}  // namespace
+}  // namespace renderer
 
 struct Renderer::Impl {
   std::unique_ptr<gpu::Device> device;
@@ -113,9 +140,8 @@ struct Renderer::Impl {
   std::optional<ExampleTextures> examples;
   std::optional<LookTextures> lookTextures;
   ImagePassKind imagePasses = ImagePassKind::automatic;
-  std::optional<Scene> scene;  // keeps the data alive that sceneOnGpu refers to
-  std::optional<SceneOnGpu> sceneOnGpu;
-  std::unique_ptr<Setup> setup;
+  uint64_t sceneBudget = 0;
+  std::list<Resident> residents;  // the one that was drawn last first
   std::optional<Backdrop> backdrop;
   ColorMaps colorMaps;
   std::optional<gpu::Submission> submissions[gpu::kFramesInFlight];
@@ -124,35 +150,47 @@ struct Renderer::Impl {
 
   ~Impl() {
     for (auto& submission : submissions) submission.reset();
-    setup.reset();
+    residents.clear();
     backdrop.reset();
-    sceneOnGpu.reset();
     lookTextures.reset();
     examples.reset();
     samplers.reset();
   }
 
-  void useScene(const Scene& wanted, const GeometryOptions& options) {
-    if (sceneOnGpu && &scene->data() == &wanted.data() && sceneOnGpu->options() == options) return;
+  // The scene to draw, first of the residents.
+  Resident& useScene(const Scene& wanted, const GeometryOptions& options) {
+    const auto found = std::find_if(residents.begin(), residents.end(), [&](const Resident& resident) {
+      return &resident.scene.data() == &wanted.data();
+    });
+    if (found != residents.end() && found->onGpu.options() == options) {
+      residents.splice(residents.begin(), residents, found);
+      return residents.front();
+    }
     fetchAll();
-    setup.reset();
-    sceneOnGpu.reset();
-    scene = wanted;
-    sceneOnGpu.emplace(*device, *samplers, scene->data(), options);
+    if (found != residents.end()) residents.erase(found);
+    keepBudget(0);
+    return residents.emplace_front(*device, *samplers, wanted, options);
+  }
+  // Takes off the device what was drawn longest ago, but for so many scenes, while there is too much.
+  void keepBudget(size_t least) {
+    while (residents.size() > least && device->memory().bytesInUse() > sceneBudget) {
+      fetchAll();
+      residents.pop_back();
+    }
   }
 
   // Texels of pictures behind everything; none: there is no such picture.
   void useBackdrop(const glm::uvec2& texels) {
     if ((backdrop ? backdrop->size() : glm::uvec2(0)) == texels) return;
     fetchAll();
-    setup.reset();
+    for (Resident& resident : residents) resident.setup.reset();
     backdrop.reset();
     if (texels.x > 0) backdrop.emplace(*device, texels);
   }
 
-  void useConfiguration(const Configuration& configuration);
-  void record(VkCommandBuffer commands, uint32_t slot, const RenderOptions& options);
-  void readTimes(uint32_t slot, FrameStats& stats);
+  void useConfiguration(Resident& resident, const Configuration& configuration);
+  void record(VkCommandBuffer commands, Resident& resident, uint32_t slot, const RenderOptions& options);
+  void readTimes(Begun& frame);
   // Waits for a frame and fetches its pictures, unless that has been done.
   void fetch(Begun& frame);
   // Before anything goes that frames under way use.
@@ -163,8 +201,10 @@ struct Renderer::Impl {
   void abandon() {
     for (auto& submission : submissions) submission.reset();
     begun.clear();
-    setup.reset();
-    if (sceneOnGpu) sceneOnGpu->forgetPoses();
+    for (Resident& resident : residents) {
+      resident.setup.reset();
+      resident.onGpu.forgetPoses();
+    }
     if (backdrop) backdrop->forget();
   }
   Error failure(const gpu::VulkanError& error) {
@@ -180,23 +220,24 @@ struct Renderer::Impl {
   }
 };
 
-void Renderer::Impl::useConfiguration(const Configuration& configuration) {
-  if (setup && setup->configuration == configuration) return;
+void Renderer::Impl::useConfiguration(Resident& resident, const Configuration& configuration) {
+  if (resident.setup && resident.setup->configuration == configuration) return;
   fetchAll();
-  setup.reset();
+  resident.setup.reset();
+  SceneOnGpu& scene = resident.onGpu;
   auto next = std::make_unique<Setup>();
   next->device = device->handle();
   next->configuration = configuration;
 
   // Uniform memory: what holds for the frame, then what each material has in each pass.
   const uint64_t lightBytes =
-      std::max<size_t>(1, punctualLightCount(scene->data())) * sizeof(shared::PunctualLight);
-  const uint64_t size = (64 << 10) + sceneOnGpu->materialCount() * 2048 + lightBytes +
+      std::max<size_t>(1, punctualLightCount(scene.data())) * sizeof(shared::PunctualLight);
+  const uint64_t size = (64 << 10) + scene.materialCount() * 2048 + lightBytes +
                         (configuration.colorize ? passes::kColorizeUniformBytes : 0);
   next->uniformBuffer = gpu::PerFrameBuffer(
       *device, size, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
-  if (configuration.facts) sceneOnGpu->keepPrevious();
-  next->builder.emplace(*device, *samplers, *examples, configuration, *sceneOnGpu,
+  if (configuration.facts) scene.keepPrevious();
+  next->builder.emplace(*device, *samplers, *examples, configuration, scene,
                         UniformSlice{next->uniformBuffer.handle(), 0, size, next->uniformBuffer.contents()});
   next->frameSlice = next->builder->uniform(sizeof(shared::FrameUniforms));
   next->lightSlice = next->builder->uniform(lightBytes);
@@ -212,7 +253,7 @@ void Renderer::Impl::useConfiguration(const Configuration& configuration) {
                                                {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_ALL}});
   next->frameSet = gpu::DescriptorSets(*device, next->frameLayout);
   next->frameSet.writeBuffer(0, 0, next->frameSlice.buffer, next->frameSlice.offset, next->frameSlice.size);
-  next->frameSet.writeBuffer(0, 1, sceneOnGpu->motion().objects());
+  next->frameSet.writeBuffer(0, 1, scene.motion().objects());
   next->frameSet.writeBuffer(0, 2, next->lightSlice.buffer, next->lightSlice.offset, next->lightSlice.size);
   next->resources.emplace(*device, *next->builder, next->frameLayout, next->frameSet[0]);
   for (const auto& pass : next->passes) pass->create(*next->builder, *next->resources);
@@ -226,10 +267,12 @@ void Renderer::Impl::useConfiguration(const Configuration& configuration) {
     for (VkQueryPool& pool : next->queries)
       SCUMBLE_VK(vkCreateQueryPool(device->handle(), &info, nullptr, &pool));
   }
-  setup = std::move(next);
+  resident.setup = std::move(next);
 }
 
-void Renderer::Impl::record(VkCommandBuffer commands, uint32_t slot, const RenderOptions& options) {
+void Renderer::Impl::record(VkCommandBuffer commands, Resident& resident, uint32_t slot,
+                            const RenderOptions& options) {
+  Setup* const setup = resident.setup.get();
   const gpu::FrameGraph& graph = setup->builder->graph();
   const VkQueryPool queries = setup->queries[slot];
   const auto stamp = [&](uint32_t query) {
@@ -238,7 +281,7 @@ void Renderer::Impl::record(VkCommandBuffer commands, uint32_t slot, const Rende
   for (const auto& readback : setup->readbacks) readback->setFrame(slot);
   if (queries) vkCmdResetQueryPool(commands, queries, 0, uint32_t(setup->barriers.size() + 1));
   std::vector<gpu::PerFrameBuffer*> uploads{&setup->uniformBuffer};
-  sceneOnGpu->addUploads(uploads);
+  resident.onGpu.addUploads(uploads);
   gpu::recordUploads(commands, uploads, slot);
   if (backdrop) backdrop->upload(commands, slot, options.background);
   stamp(0);
@@ -275,7 +318,10 @@ void Renderer::Impl::record(VkCommandBuffer commands, uint32_t slot, const Rende
   }
 }
 
-void Renderer::Impl::readTimes(uint32_t slot, FrameStats& stats) {
+void Renderer::Impl::readTimes(Begun& frame) {
+  const Setup* const setup = frame.of->setup.get();
+  const uint32_t slot = frame.slot;
+  FrameStats& stats = frame.frame.stats;
   if (!setup->queries[slot]) return;
   const auto& steps = setup->builder->graph().steps();
   std::vector<uint64_t> stamps(steps.size() + 1);
@@ -297,8 +343,9 @@ void Renderer::Impl::fetch(Begun& frame) {
   if (frame.fetched) return;
   submissions[frame.slot]->wait();
   FrameStats& stats = frame.frame.stats;
-  readTimes(frame.slot, stats);
+  readTimes(frame);
   const Clock::time_point start = Clock::now();
+  const Setup* const setup = frame.of->setup.get();
   const Configuration& configuration = setup->configuration;
   std::vector<Frame::Layer>& layers = frame.frame.layers;
   for (size_t i = 0; i < setup->readbacks.size(); ++i)
@@ -326,6 +373,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
   created->impl_->examples.emplace(*created->impl_->device);
   created->impl_->lookTextures.emplace(*created->impl_->device);
   created->impl_->imagePasses = options.imagePasses;
+  created->impl_->sceneBudget = options.sceneBudget;
   return created;
 }
 
@@ -410,7 +458,7 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
   }
 
   try {
-    Begun next{impl_->nextSlot, options, {}};
+    Begun next{nullptr, impl_->nextSlot, options, {}};
     FrameStats& stats = next.frame.stats;
     auto start = Clock::now();
     const auto lap = [&] {
@@ -426,15 +474,18 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
     geometry.nodes = nodeSettings(scene.data(), now);
     geometry.ocean = ocean;
     geometry.ground &= !ocean.isThere || now.get<GroundParams>().mode == 1;
-    impl_->useScene(scene, geometry);
+    if (configuration.matte || configuration.facts) next.frame.objects = objectNames(scene.data(), geometry);
+    Resident& resident = impl_->useScene(scene, geometry);
+    next.of = &resident;
     impl_->useBackdrop(texels);
     stats.uploadMilliseconds = lap();
-    impl_->useConfiguration(configuration);
+    impl_->useConfiguration(resident, configuration);
+    impl_->keepBudget(1);
     stats.setupMilliseconds = lap();
 
     // Everything to its place, then the uniforms.
-    Setup& setup = *impl_->setup;
-    SceneOnGpu& sceneOnGpu = *impl_->sceneOnGpu;
+    Setup& setup = *resident.setup;
+    SceneOnGpu& sceneOnGpu = resident.onGpu;
     sceneOnGpu.pose(look.data(), now, time);
     if (configuration.facts) sceneOnGpu.posePrevious(look.data(), look.data().at(previousTime), previousTime);
     const std::vector<View> seenFrom = ridden(views, sceneOnGpu.motion());
@@ -472,7 +523,8 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
 
     std::optional<gpu::Submission>& submission = impl_->submissions[next.slot];
     if (!submission) submission.emplace(*impl_->device);
-    submission->submit([&](VkCommandBuffer commands) { impl_->record(commands, next.slot, options); });
+    submission->submit(
+        [&](VkCommandBuffer commands) { impl_->record(commands, resident, next.slot, options); });
     stats.cpuMilliseconds = lap();
     impl_->device->savePipelineCache();
     stats.triangles = sceneOnGpu.triangleCount();

@@ -31,7 +31,10 @@ shared::ViewUniforms viewUniforms(const View& view, const View& previous) {
 }
 
 View cyclopeanView(const std::vector<View>& views) {
-  if (views.size() == 1) return views[0];
+  // Eyes that stand in one place see what one eye sees there, to the bit.
+  if (views.size() == 1 ||
+      (views[0].worldToEye == views[1].worldToEye && views[0].eyeToClip == views[1].eyeToClip))
+    return views[0];
   const glm::mat4 left = glm::inverse(views[0].worldToEye), right = glm::inverse(views[1].worldToEye);
   const glm::quat turn = glm::slerp(glm::quat_cast(glm::mat3(left)), glm::quat_cast(glm::mat3(right)), 0.5f);
   glm::mat4 eyeToWorld = glm::mat4_cast(turn);

@@ -116,17 +116,6 @@ const SceneTimings& Scene::timings() const {
   return timings_;
 }
 
-std::vector<std::string> Scene::objectNames() const {
-  if (!data_) return {};
-  std::vector<std::string> names;
-  for (const Node& node : data_->nodes)
-    names.push_back(node.mesh < 0       ? ""
-                    : node.name.empty() ? "node " + std::to_string(names.size() + 1)
-                                        : node.name);
-  names.insert(names.end(), {"Ground", "Ocean"});
-  return names;
-}
-
 SceneSummary Scene::summary() const {
   const SceneData& data = data_ ? *data_ : emptyScene();
   SceneSummary s;

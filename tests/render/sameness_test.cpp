@@ -121,6 +121,23 @@ TEST_F(Sameness, aPairIsTwoViews) {
   }
 }
 
+// Two eyes in one place see what one eye sees there, also by the view between them.
+TEST_F(Sameness, aPairWithoutDistanceIsOneView) {
+  const Scene scene = richScene().load();
+  const Look look = quietLook({{"final.bloom", "1"}, {"texture.amount", "0.5"}, {"ocean.mode", "on"}});
+  const auto views =
+      viewsFrom(scene, {{2, 2.5f, 6}, {0, 0.8f, 0}, 40, 0, 0.0f}, kWidth, kHeight, Stereo::stereo);
+  const RenderOptions options = sized(kWidth, kHeight, Renderer::aovNames(), 4);
+  const Frame pair = draw(scene, look, views, options), alone = draw(scene, look, {views[0]}, options);
+  std::vector<std::string> names = perViewAovs();
+  names.push_back("");
+  for (const std::string& name : names)
+    for (size_t v = 0; v < 2; ++v)
+      EXPECT_TRUE(sameBytes(aov(pair, name, v), aov(alone, name)))
+          << name << ", eye " << v << ", by up to "
+          << largestDifference(aov(pair, name, v), aov(alone, name));
+}
+
 // Image passes as fragment shaders and as compute shaders: within what half floats round.
 TEST_P(Sameness, fragmentAndComputeGiveOnePicture) {
   const Scene scene = richScene().load();
