@@ -1,15 +1,13 @@
 #include "gpu/device.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <optional>
+
+#include "gpu/pipeline_cache_file.h"
 
 namespace scumble::gpu {
 
@@ -323,19 +321,11 @@ Device::~Device() {
 }
 
 void Device::openPipelineCache(const std::string& folder) {
-  std::vector<char> data;
-  if (!folder.empty()) {
-    // One file a driver build: the driver itself rejects foreign data, the name only keeps them apart.
-    VkPhysicalDeviceProperties properties;
-    vkGetPhysicalDeviceProperties(physical_, &properties);
-    char name[2 * VK_UUID_SIZE + 1];
-    for (uint32_t i = 0; i < VK_UUID_SIZE; ++i)
-      std::snprintf(name + 2 * i, 3, "%02x", properties.pipelineCacheUUID[i]);
-    cacheFile_ = folder + "/pipelines-" + name + ".bin";
-    if (std::ifstream file{cacheFile_, std::ios::binary})
-      data.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
-  }
-  cacheSizeOnDisk_ = data.size();
+  VkPhysicalDeviceProperties properties;
+  vkGetPhysicalDeviceProperties(physical_, &properties);
+  if (!folder.empty()) cacheFile_ = pipelineCacheFile(folder, properties);
+  const std::vector<char> data = folder.empty() ? std::vector<char>() : readPipelineCache(cacheFile_);
+  cachedBytes_ = data.size();
   VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
   info.initialDataSize = data.size();
   info.pInitialData = data.data();
@@ -345,21 +335,12 @@ void Device::openPipelineCache(const std::string& folder) {
 void Device::savePipelineCache() {
   if (cacheFile_.empty()) return;
   size_t size = 0;
-  if (vkGetPipelineCacheData(device_, pipelineCache_, &size, nullptr) != VK_SUCCESS ||
-      size == cacheSizeOnDisk_)
+  if (vkGetPipelineCacheData(device_, pipelineCache_, &size, nullptr) != VK_SUCCESS || size == cachedBytes_)
     return;
   std::vector<char> data(size);
   if (vkGetPipelineCacheData(device_, pipelineCache_, &size, data.data()) != VK_SUCCESS) return;
-  // A cache that cannot be written only costs time at the next start, so failure is silent.
-  std::error_code ignored;
-  const std::filesystem::path file(cacheFile_);
-  std::filesystem::create_directories(file.parent_path(), ignored);
-  const std::filesystem::path temporary = file.string() + "." + std::to_string(getpid()) + ".tmp";
-  const bool written =
-      std::ofstream(temporary, std::ios::binary).write(data.data(), std::streamsize(size)).flush().good();
-  if (written) std::filesystem::rename(temporary, file, ignored);
-  if (!written || ignored) std::filesystem::remove(temporary, ignored);
-  cacheSizeOnDisk_ = size;
+  writePipelineCache(cacheFile_, data);
+  cachedBytes_ = size;
 }
 
 void Device::waitForSubmissions() {
