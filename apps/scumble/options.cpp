@@ -1,5 +1,7 @@
 #include "options.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -15,9 +17,10 @@ Error usage(std::string problem, std::string advice) {
   return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
 }
 
-// $XDG_CACHE_HOME/scumble or ~/.cache/scumble; empty where neither is known.
+// $XDG_CACHE_HOME/scumble or ~/.cache/scumble; empty where neither is known. The XDG Base Directory
+// Specification has a relative path ignored.
 std::string cacheFolder() {
-  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache)
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache == '/')
     return std::string(cache) + "/scumble";
   if (const char* home = std::getenv("HOME"); home && *home) return std::string(home) + "/.cache/scumble";
   return "";
@@ -41,6 +44,13 @@ Result<std::string> findClip(const std::vector<SceneSummary::Clip>& clips, const
 }
 
 }  // namespace
+
+std::string endingOf(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  return ending;
+}
 
 std::optional<std::vector<float>> parseNumbers(const std::string& text) {
   std::vector<float> numbers;
@@ -108,16 +118,17 @@ void LookArguments::addTo(CLI::App& command) {
       "as the look says, else the first one)");
 }
 
+std::string LookArguments::lookFor(const std::string& sceneFile) const {
+  if (!look.empty()) return look;
+  std::filesystem::path beside(sceneFile);
+  beside.replace_extension(".look.json");
+  std::error_code ignored;
+  return std::filesystem::exists(beside, ignored) ? std::filesystem::absolute(beside).string()
+                                                  : "age-of-sail";
+}
+
 Result<Look> LookArguments::load(const std::string& sceneFile) const {
-  std::string name = look;
-  if (name.empty()) {
-    std::filesystem::path beside(sceneFile);
-    beside.replace_extension(".look.json");
-    std::error_code ignored;
-    name =
-        std::filesystem::exists(beside, ignored) ? std::filesystem::absolute(beside).string() : "age-of-sail";
-  }
-  Result<Look> result = Look::load(name);
+  Result<Look> result = Look::load(lookFor(sceneFile));
   if (!result) return result.error();
   if (const Status status = applySettings(*result); !status) return status.error();
   return result;

@@ -26,6 +26,8 @@ struct LookArguments {
   std::vector<std::string> settings;
 
   void addTo(CLI::App& command);
+  // Its name or file.
+  std::string lookFor(const std::string& sceneFile) const;
   // The look with all settings, which win over the clip.
   Result<Look> load(const std::string& sceneFile) const;
   Result<Look> withClip(const Look& look, const Scene& scene) const;
@@ -55,6 +57,8 @@ struct PictureArguments {
   RendererOptions rendererOptions() const;
 };
 
+// A file's ending in lower case, with its dot.
+std::string endingOf(const std::string& path);
 // "1280x720" and the like; nothing when it is not of that form.
 std::optional<std::pair<uint32_t, uint32_t>> parseSize(const std::string& text);
 // Numbers separated by commas, all finite.

@@ -12,7 +12,9 @@
 #include "background.h"
 #include "commands.h"
 #include "frame_writer.h"
+#include "json_option.h"
 #include "options.h"
+#include "output_files.h"
 #include "outputs.h"
 #include "progress.h"
 #include "report.h"
@@ -215,16 +217,17 @@ int run(const RenderArguments& args) {
   if (!background) return fail(background.error());
   const Result<RenderOptions> options = renderOptions(args, *background);
   if (!options) return fail(options.error());
-  std::vector<std::string> inputs = args.scene.files;
-  if (!args.look.look.empty()) inputs.push_back(args.look.look);
-  if (!background->file().empty()) inputs.push_back(background->file());
-  Result<OutputPlan> output = OutputPlan::make(args.output, args.scene.files[0], args.picture.stereo,
-                                               !args.frames.empty(), *options, inputs);
+  Result<OutputPlan> output =
+      OutputPlan::make(args.output, args.scene.files[0], args.picture.stereo, !args.frames.empty(), *options);
   if (!output) return fail(output.error());
   if (const Status status = readExrOptions(args.exr, *output); !status) return fail(status.error());
-  std::vector<std::string> statsInputs = inputs;
-  statsInputs.push_back(output->path);
-  if (const Status status = checkWritable(args.stats, statsInputs); !status) return fail(status.error());
+  std::vector<std::string> inputs = args.scene.files;
+  inputs.push_back(args.look.lookFor(args.scene.files[0]));
+  inputs.push_back(background->file());
+  OutputFiles files(inputs);
+  for (const std::string& file : output->files(output->path))
+    if (const Status status = files.add(file, "the picture"); !status) return fail(status.error());
+  if (const Status status = files.add(args.stats, "--stats"); !status) return fail(status.error());
   const bool isFilm = output->kind == OutputKind::film;
   if (!args.frames.empty()) {
     const auto range = parseFrames(args.frames);
@@ -256,8 +259,8 @@ int run(const RenderArguments& args) {
   if (!numbers) return fail(numbers.error());
   if (output->isSequence())
     for (const int number : *numbers)
-      for (const std::string& path : output->picturePaths(output->framePath(number)))
-        if (const Status status = checkWritable(path, inputs); !status) return fail(status.error());
+      for (const std::string& file : output->files(output->framePath(number)))
+        if (const Status status = files.check(file, "a frame"); !status) return fail(status.error());
   const bool isPicture = args.frames.empty() && !isFilm;
   std::vector<double> times;
   for (const int number : *numbers) times.push_back(number / args.fps);
@@ -316,8 +319,7 @@ int run(const RenderArguments& args) {
                                 {"totalMilliseconds", millisecondsSince(start)},
                                 {"peakResidentBytes", uint64_t(usage.ru_maxrss) * 1024},
                                 {"frames", frameStats}};
-    if (const Status written = writeText(args.stats, report.dump(2) + "\n"); !written)
-      return fail(written.error());
+    if (const Status written = writeText(args.stats, textOf(report)); !written) return fail(written.error());
   }
   return kDone;
 }

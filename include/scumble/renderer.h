@@ -115,10 +115,12 @@ class Renderer {
                const RenderOptions& options);
   Result<Frame> finish();
 
-  // Names of everything that can be saved beside the picture, and whether what one holds (metres, positions,
-  // numbers of objects) needs 32 bits; the picture's own name is empty.
+  // Names of everything that can be saved beside the picture; whether what one holds (metres, positions,
+  // numbers of objects) needs 32 bits; and whether it has a size of its own, and one image for all views. The
+  // picture's own name is empty.
   static std::vector<std::string> aovNames();
   static bool needsFloat(const std::string& aov);
+  static bool hasSizeOfItsOwn(const std::string& aov);
 
   GpuInfo gpu() const;
   int validationMessages() const;  // since the start

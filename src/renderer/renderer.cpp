@@ -517,6 +517,11 @@ bool Renderer::needsFloat(const std::string& aov) {
   return format == VK_FORMAT_R32G32B32A32_SFLOAT || gpu::isDepthFormat(format);
 }
 
+bool Renderer::hasSizeOfItsOwn(const std::string& aov) {
+  const std::optional<Slot> slot = slotOfAov(aov);
+  return slot && slotInfo(*slot).rate == Rate::once;
+}
+
 double playedSeconds(const Scene& scene, const Look& look) {
   if (scene.empty()) return 0;
   double seconds = 0;

@@ -9,6 +9,7 @@ import base64
 import json
 import os
 import re
+import resource
 import shutil
 import struct
 import subprocess
@@ -141,10 +142,12 @@ class Program(unittest.TestCase):
     def new_files(self):
         return self.files() - self.before
 
-    def run_program(self, *args, environment=None):
-        env = dict(os.environ, XDG_CACHE_HOME=str(shared / "cache"), **(environment or {}))
-        return subprocess.run([scumble, *args], cwd=self.folder, env=env, capture_output=True, text=True, timeout=120,
-                              stdin=subprocess.DEVNULL)
+    def run_program(self, *args, environment=None, largest=None, stdout=subprocess.PIPE):
+        """`largest`: a limit on the sizes of files, in bytes."""
+        env = {**os.environ, "XDG_CACHE_HOME": str(shared / "cache"), **(environment or {})}
+        limits = largest and (lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (largest, largest)))
+        return subprocess.run([scumble, *args], cwd=self.folder, env=env, stdout=stdout, stderr=subprocess.PIPE, text=True,
+                              timeout=120, stdin=subprocess.DEVNULL, preexec_fn=limits)
 
     def good(self, *args, warnings=False):
         done = self.run_program(*args)
@@ -156,9 +159,9 @@ class Program(unittest.TestCase):
     def render(self, *args, size=SMALL):
         return self.good("render", *args, *size)
 
-    def bad(self, code, *args, says=(), environment=None):
+    def bad(self, code, *args, says=(), **how):
         """The call fails with this code and one line in the promised form, and leaves nothing behind."""
-        done = self.run_program(*args, environment=environment)
+        done = self.run_program(*args, **how)
         self.assertEqual(done.returncode, code, f"{args}: {done.stderr}")
         self.assertRegex(done.stderr, r"\Ascumble: error: [^\n]+\n\Z", args)
         for text in [says] if isinstance(says, str) else says:
@@ -190,6 +193,11 @@ class Commands(Program):
         text = self.good("--version")
         self.assertRegex(text, r"scumble \d+\.\d+")
         self.assertIn("device: ", text)
+        # A build has a version also where there is no driver.
+        none = self.run_program("--version", environment={"VK_ICD_FILENAMES": "/no.json", "VK_DRIVER_FILES": "/no.json"})
+        self.assertEqual((none.returncode, none.stderr), (DONE, ""))
+        self.assertEqual(none.stdout.splitlines()[0], text.splitlines()[0])
+        self.assertIn("device: none; Vulkan cannot start", none.stdout)
 
     def test_nothing_to_do_shows_help_and_is_wrong_usage(self):
         done = self.run_program()
@@ -201,6 +209,49 @@ class Commands(Program):
                      ["render", "box.gltf", "--time"], ["render", "box.gltf", "--samples", "many"], ["looks", "too", "many"]):
             with self.subTest(args=args):
                 self.bad(USAGE, *args)
+
+    def test_wrong_words_are_named_in_our_own(self):
+        for args, says in ((["rendr", "box.gltf", "-o", "x.png"], "there is no command 'rendr'; did you mean 'render'?"),
+                           (["box.gltf", "-o", "x.png"], "there is no command 'box.gltf'; did you mean `scumble render box.gltf`?"),
+                           (["render", "box.gltf", "--sampels", "1"], "there is no option '--sampels'; did you mean '--samples'?"),
+                           (["render", "box.gltf", "--seed", "-1"], "'-1' is no whole number from 0 to 4294967295; give --seed another"),
+                           (["render", "box.gltf", "--samples", "many"], "'many' is no whole number; give --samples another"),
+                           (["render", "box.gltf", "--fov", "wide"], "'wide' is no number; give --fov another"),
+                           (["render", "box.gltf", "--seed", "1", "--seed", "2"], "--seed is given 2 times; give it once"),
+                           (["render", "box.gltf", "--time"], "--time needs a value; `scumble render --help`"),
+                           (["render", "box.gltf", "--quiet=3"], "--quiet takes no value"),
+                           (["render"], "SCENE is missing; write `scumble render SCENE`"),
+                           (["looks", "too", "many"], "'too' is one argument too many"),
+                           (["render", "box.gltf", "-o", "x.png", "--background", "#12345"], "--background #12345 is no colour; write")):
+            with self.subTest(args=args):
+                self.assertIn("scumble: error: " + says, self.bad(USAGE, *args))
+
+    def test_empty_values_are_refused(self):
+        for option in ("-o", "--stats", "--look", "--camera", "--orbit", "--eye", "--clip", "--background", "--device", "--frames",
+                       "--stereo", "--exr", "--aov", "--set"):
+            with self.subTest(option=option):
+                self.bad(USAGE, "render", "box.gltf", option, "", *TINY, says="empty" if option != "-o" else "--output is empty")
+        self.bad(USAGE, "measure", "box.gltf", "--plot", "")
+        self.bad(USAGE, "info", "box.gltf", "--json=")
+
+    def test_json_prints_and_with_a_name_writes(self):
+        for args, prints in ((["info"], True), (["bench", "--runs", "1", *TINY], True),
+                             (["measure", "--quiet", "--size", "64x36"], False)):  # measure_test.py has it print
+            with self.subTest(args=args):
+                if prints:
+                    report = json.loads(self.good(*args, "box.gltf", "--json"))
+                    self.assertEqual(json.loads(self.good(*args, "--json", "box.gltf")).keys(), report.keys())
+                text = self.good(*args, "box.gltf", "--json", "a.JSON")
+                self.assertNotIn("{", text)
+                self.assertGreater(len(text.splitlines()), 5)
+                written = json.loads((self.folder / "a.JSON").read_text())
+                if prints:
+                    self.assertEqual(written.keys(), report.keys())
+                    self.good(*args, "--json=a.txt", "box.gltf")
+                for name in self.new_files():
+                    (self.folder / name).unlink()
+                self.bad(NOT_WRITTEN, *args, "box.gltf", "--json", "no/such.json", says="no/such.json: the folder does not exist")
+                self.bad(NOT_WRITTEN, *args, "box.gltf", "--json=box.gltf", says="inputs")
 
     def test_looks_lists_the_default(self):
         self.assertRegex(self.good("looks"), r"(?m)^age-of-sail\s+\S")
@@ -559,6 +610,49 @@ class Errors(Program):
         self.bad(NOT_WRITTEN, "render", "box.png", "-o", "box.png", *TINY, says="inputs")
         self.same((self.folder / "box.gltf").read_bytes(), before)
 
+    def test_a_look_that_is_found_is_an_input(self):
+        self.put("box.look.json", "{}")
+        for args in (["render", "box.gltf", "-o", "x.png", "--stats", "box.look.json", *TINY],
+                     ["bench", "box.gltf", "--json", "./box.look.json"], ["measure", "box.gltf", "--json", "box.look.json"]):
+            self.bad(NOT_WRITTEN, *args, says="inputs")
+            self.assertEqual((self.folder / "box.look.json").read_text(), "{}")
+
+    def test_no_two_outputs_have_one_name(self):
+        (self.folder / "there").mkdir()
+        os.symlink("there", self.folder / "link")
+        self.before = self.files()
+        here = str(self.folder)
+        render = ["render", "box.gltf", "--stats"]
+        for args in ([*render, "x.png", "-o", "x.png"], [*render, "./x.png", "-o", "x.png"], [*render, here + "/x.png", "-o", "x.png"],
+                     [*render, "box.png"], [*render, "there/../x.png", "-o", "x.png"], [*render, "link/x.png", "-o", "there/x.png"],
+                     [*render, "x.depth.exr", "-o", "x.png", "--aov", "depth"], [*render, "x.shadow-map.exr", "-o", "x.exr", "--aov", "all"],
+                     [*render, "x.left.png", "-o", "x.png", "--stereo", "separate"],
+                     [*render, "x.right.depth.exr", "-o", "x.png", "--stereo", "separate", "--aov", "depth"],
+                     [*render, "./x.0002.png", "-o", "x.####.png", "--frames", "0..3"],
+                     [*render, "x.1.normal.exr", "-o", "x.#.png", "--frames", "0..1", "--aov", "normal"],
+                     [*render, "x.mp4", "-o", "./x.mp4", "--frames", "0..1"],
+                     ["measure", "box.gltf", "--plot", "a.png", "--json=./a.png"]):
+            with self.subTest(args=args):
+                self.bad(USAGE, *args, *TINY, says=["two outputs would go there", "different names"])
+        # Near misses.
+        self.good("render", "box.gltf", "-o", "x.#.png", "--frames", "0..1", "--quiet", "--stats", "x.2.png", *TINY)
+        self.good("render", "box.gltf", "-o", "y.exr", "--aov", "depth", "--stats", "y.depth.exr", *TINY)
+        self.assertEqual(self.new_files(), {"x.0.png", "x.1.png", "x.2.png", "y.exr", "y.depth.exr"})
+
+    def test_aov_files_are_outputs_like_the_picture(self):
+        (self.folder / "x.depth.exr").mkdir()
+        self.put("y.depth.exr", gltf())
+        self.before = self.files()
+        self.bad(NOT_WRITTEN, "render", "box.gltf", "-o", "x.png", "--aov", "depth", *TINY, says="x.depth.exr: this is a folder")
+        self.bad(NOT_WRITTEN, "render", "y.depth.exr", "-o", "y.png", "--aov", "depth", *TINY, says="inputs")
+
+    def test_endings_in_any_case(self):
+        self.render("box.gltf", "-o", "A.PNG", "--aov", "depth", size=TINY)
+        self.assertEqual(self.new_files(), {"A.PNG", "A.depth.exr"})
+        self.assertEqual(png(self.folder / "A.PNG")[:2], (32, 18))
+        self.render("box.gltf", "-o", "B.Exr", size=TINY)
+        self.assertEqual(exr(self.folder / "B.Exr")["size"], (32, 18))
+
     def test_only_ordinary_files_are_replaced(self):
         os.mkfifo(self.folder / "pipe")
         self.bad(NOT_WRITTEN, "render", "box.gltf", "-o", "x.png", "--stats", "pipe", *TINY, says="ordinary")
@@ -651,6 +745,38 @@ class Errors(Program):
         done = self.run_program("render", "box.gltf", "-o", "x.png", "--stats", "no/such/s.json", *TINY)
         self.assertEqual(done.returncode, NOT_WRITTEN)
         self.assertRegex(done.stderr, r"\Ascumble: error: no/such/s.json: [^\n]+\n\Z")
+
+    def test_where_compiled_pipelines_are_kept_never_matters(self):
+        self.put("file", "mine")
+        self.before = self.files()
+        for cache in ("relative", "file", str(self.folder / "file"), "/dev/null", "/proc/no/such"):
+            with self.subTest(cache=cache):
+                done = self.run_program("render", "box.gltf", "-o", "a.png", *TINY,
+                                        environment={"XDG_CACHE_HOME": cache, "HOME": str(self.folder / "file"),
+                                                     "MESA_SHADER_CACHE_DISABLE": "true"})  # it has messages of its own
+                self.assertEqual((done.returncode, done.stderr), (DONE, ""))
+                self.assertEqual(self.new_files(), {"a.png"})
+
+    def test_a_limit_on_the_sizes_of_files(self):
+        args = ["render", "box.gltf", *TINY]
+        for output in ("a.png", "a.exr"):
+            self.good(*args, "-o", output, "--aov", "depth", "--stats", "s.json")
+        sizes = {path.name: path.stat().st_size for path in self.folder.iterdir()}
+        for name in self.new_files():
+            (self.folder / name).unlink()
+        # Each is the first that is too large.
+        self.assertLess(sizes["a.png"], sizes["s.json"])
+        for limit, output, more in ((100, "a.png", []), (100, "a.exr", []), (100, "a.png", ["--aov", "depth"])):
+            with self.subTest(output=output, more=more):
+                self.bad(NOT_WRITTEN, *args, "-o", output, *more, says="File too large", largest=limit)
+        done = self.run_program(*args, "-o", "a.png", "--stats", "s.json", largest=sizes["a.png"])
+        self.assertEqual(done.returncode, NOT_WRITTEN, done.stderr)
+        self.assertRegex(done.stderr, r"\Ascumble: error: s.json: [^\n]+\n\Z")
+        self.assertEqual(self.new_files(), {"a.png"})
+        with open(self.folder / "printed", "w") as printed:
+            done = self.run_program("info", "box.gltf", "--json", largest=100, stdout=printed)
+        self.assertEqual(done.returncode, NOT_WRITTEN)
+        self.assertRegex(done.stderr, r"\Ascumble: error: [^\n]+\n\Z")
 
     def test_an_old_picture_survives_a_failure(self):
         self.put("x.png", "mine")
