@@ -33,16 +33,20 @@ int run(const BenchArguments& args) {
   if (args.runs < 1 || args.runs > 1000) return failUsage("--runs is out of range", "use 1 to 1000");
   std::vector<std::string> inputs = args.scene.files;
   inputs.push_back(args.look.lookFor(args.scene.files[0]));
-  if (const Status status = OutputFiles(inputs).add(args.json.file(), "--json"); !status)
-    return fail(status.error());
+  OutputFiles files(inputs);
+  if (const Status status = files.add(args.json.file(), "--json"); !status) return fail(status.error());
   const Result<RenderOptions> options = args.picture.renderOptions();
   if (!options) return fail(options.error());
-  Result<Look> look = args.look.load(args.scene.files[0]);
+  Result<Look> look = args.look.load(args.scene.files[0], false);
   if (!look) return fail(look.error());
   const Result<Scene> scene = args.scene.load(false);
   if (!scene) return fail(scene.error());
+  for (const std::vector<std::string>& read : {look->files(), scene->files()})
+    if (const Status status = files.addInputs(read); !status) return fail(status.error());
   look = args.look.withClip(*look, *scene);
   if (!look) return fail(look.error());
+  args.look.warnOfIdle(*look, *scene, args.scene.files[0]);
+  args.picture.warnOfIdle();
   const Result<std::vector<View>> views = args.picture.views(*scene, *look);
   if (!views) return fail(views.error());
   // One renderer each, so that both keep their images and pipelines while they take turns.

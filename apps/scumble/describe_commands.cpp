@@ -56,10 +56,11 @@ nlohmann::json reportOf(const Scene& scene) {
 }
 
 int info(const SceneArguments& args, const JsonOption& json) {
-  if (const Status status = OutputFiles(args.files).add(json.file(), "--json"); !status)
-    return fail(status.error());
+  OutputFiles files(args.files);
+  if (const Status status = files.add(json.file(), "--json"); !status) return fail(status.error());
   const Result<Scene> scene = args.load(json.isPrinted());
   if (!scene) return fail(scene.error());
+  if (const Status status = files.addInputs(scene->files()); !status) return fail(status.error());
   if (const Status status = json.give(reportOf(*scene)); !status) return fail(status.error());
   if (json.isPrinted()) return kDone;
   const SceneSummary s = scene->summary();

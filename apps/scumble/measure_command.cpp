@@ -143,12 +143,18 @@ int run(const MeasureArguments& args) {
   OutputFiles files(inputs);
   for (const auto& [file, option] : {std::pair{args.plot, "--plot"}, {args.json.file(), "--json"}})
     if (const Status status = files.add(file, option); !status) return fail(status.error());
-  Result<Look> look = args.look.load(args.scene.files[0]);
+  Result<Look> look = args.look.load(args.scene.files[0], args.quiet);
   if (!look) return fail(look.error());
   const Result<Scene> scene = args.scene.load(args.quiet);
   if (!scene) return fail(scene.error());
+  for (const std::vector<std::string>& read : {look->files(), scene->files()})
+    if (const Status status = files.addInputs(read); !status) return fail(status.error());
   look = args.look.withClip(*look, *scene);
   if (!look) return fail(look.error());
+  if (!args.quiet) {
+    args.look.warnOfIdle(*look, *scene, args.scene.files[0]);
+    args.picture.warnOfIdle();
+  }
   Result<std::unique_ptr<Renderer>> renderer = Renderer::create(args.picture.rendererOptions());
   if (!renderer) return fail(renderer.error());
 

@@ -18,10 +18,12 @@ class OutputFiles {
   Status add(const std::string& path, const std::string& what);
   // The same for one of many files, like a sequence's, which are known to differ from each other.
   Status check(const std::string& path, const std::string& what) const;
+  // Inputs that were found out later, e.g. a scene's pictures. Fails like add().
+  Status addInputs(const std::vector<std::string>& files);
 
  private:
   struct Added {
-    std::string file, what;
+    std::string path, file, what;
   };
   std::vector<std::string> inputs_;
   std::vector<Added> added_;

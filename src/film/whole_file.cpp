@@ -54,7 +54,8 @@ WholeFile::WholeFile(const std::string& path)
 
 // Returns 0 or the reason why not.
 int WholeFile::openPassing() {
-  if (target_.empty()) return ENOENT;
+  if (path_.empty()) return ENOENT;
+  if (path_.find('\0') != std::string::npos) return EINVAL;
   if (target_.back() == '/') return EISDIR;
 
   // A rename would silently replace things that a plain open would respect: folders, devices, protected

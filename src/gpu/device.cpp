@@ -178,9 +178,9 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
 const char* resultName(VkResult result) {
   switch (result) {
     case VK_ERROR_OUT_OF_HOST_MEMORY:
-      return "out of memory";
+      return "there is not enough memory";
     case VK_ERROR_OUT_OF_DEVICE_MEMORY:
-      return "out of device memory";
+      return "there is not enough memory on the device";
     case VK_ERROR_DEVICE_LOST:
       return "the device was lost";
     case VK_ERROR_INITIALIZATION_FAILED:
@@ -192,12 +192,14 @@ const char* resultName(VkResult result) {
     case VK_ERROR_FORMAT_NOT_SUPPORTED:
       return "a format is not supported";
     default:
-      return "unexpected result";
+      return "the driver gave an unexpected result";
   }
 }
 
 std::string VulkanError::message() const {
-  return std::string(call) + ": " + resultName(result) + " (" + std::to_string(int(result)) + ")";
+  // What was called, without its arguments.
+  return std::string(resultName(result)) + " (" + std::string(call, std::strcspn(call, "(")) + ", " +
+         std::to_string(int(result)) + ")";
 }
 
 Result<std::vector<DeviceInfo>> listDevices() {

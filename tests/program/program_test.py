@@ -434,11 +434,56 @@ class Looks(Program):
         self.render("box.gltf", "-o", "a.png")
         self.render("box.gltf", "-o", "b.png", "--set", "materials.Paint.001.palette.saturation=0")
         self.render("box.gltf", "-o", "c.png", "--set", "materials.P*.palette.saturation=0")
-        self.render("box.gltf", "-o", "d.png", "--set", "materials.Other*.palette.saturation=0")
+        self.render("box.gltf", "-o", "d.png", "--quiet", "--set", "materials.Other*.palette.saturation=0")
         a, b, c, d = ((self.folder / f"{n}.png").read_bytes() for n in "abcd")
         self.different(a, b)
         self.same(b, c)
         self.same(a, d)
+
+    def warnings(self, *args, command="render"):
+        done = self.run_program(command, "box.gltf", *args, *TINY)
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        return [line.removeprefix("scumble: warning: ") for line in done.stderr.splitlines() if "warning" in line]
+
+    def test_names_that_the_scene_does_not_have_are_named(self):
+        why = ": nothing in the scene has such a name (`scumble info` lists names)"
+        look = {"materials": {"Pa*": {"warp": {"amount": 1}}, "Sail*": {"warp": {"amount": 1}}, "Paint.001": {"warp": {"amount": 1}},
+                              "Mian": {"warp": {"amount": 1, "inflation": 1}}}, "clips": {"Wlak": {"play": {"weight": 1}}}}
+        idle = ["materials.Mian" + why, "clips.Wlak" + why]
+        self.put("mine.json", json.dumps(look))
+        self.assertEqual(self.warnings("--look", "mine.json"), idle)
+        self.assertEqual(self.warnings("--look", "mine.json", "--runs", "1", command="bench"), idle)
+        self.assertEqual(self.warnings("--look", "mine.json", "--quiet"), [])
+        self.put("box.look.json", json.dumps(look))
+        self.assertEqual(self.warnings(), idle)
+        for shipped in ("henry", "storm"):
+            self.assertEqual(self.warnings("--look", shipped), [], "it is for many scenes")
+        (self.folder / "box.look.json").unlink()
+        for name in ("Nope", "Nope*"):
+            self.assertEqual(self.warnings("--set", f"materials.{name}.warp.amount=1"), [f"materials.{name}{why}"])
+        self.assertEqual(self.warnings("--set", "materials.*.warp.amount=1", "--set", "nodes.B?x.animation.hold=2"), [])
+
+    def test_keys_that_stand_twice_are_named_with_their_lines(self):
+        self.put("twice.json", '{"shadow": {\n"threshold": 0.2,\n"threshold": 0.3}}')
+        self.assertEqual(self.warnings("--look", "twice.json"),
+                         ["twice.json:3 (shadow.threshold): it stands in line 2 already; what stands here counts"])
+        self.assertEqual(self.warnings("--look", "twice.json", "--quiet"), [])
+
+    def test_options_that_count_for_nothing_are_named(self):
+        for args, told in ((["--orbit", "30,15", "--eye", "3,1,4"], "--orbit does nothing beside --eye"),
+                           (["--orbit", "30,15", "--target", "0,0,0"], "--orbit does nothing beside --target"),
+                           (["--camera", "Front", "--orbit", "30,15"], "--camera does nothing beside --orbit"),
+                           (["--ipd", "0.07"], "--ipd does nothing without --stereo"),
+                           (["--quality", "20"], "--quality does nothing for pictures; it is for films"),
+                           (["--exr", "half"], "--exr does nothing where no EXR is written"),
+                           (["--time", "1", "--frames", "0..0"], "--time does nothing beside --frames: frame n is at n / fps")):
+            with self.subTest(args=args):
+                self.assertEqual(self.warnings(*args), [told])
+                self.assertEqual(self.warnings(*args, "--quiet"), [])
+        for args in (["--ipd", "0.07", "--stereo", "separate"], ["--eye", "3,1,4", "--target", "0,0,0"], ["--exr", "half", "--aov", "depth"],
+                     ["--exr", "half", "-o", "a.exr"]):
+            with self.subTest(args=args):
+                self.assertEqual(self.warnings(*args), [])
 
     def test_colorizers_on_nodes_that_are_not_there_are_named(self):
         def told(node):
@@ -483,6 +528,13 @@ class Looks(Program):
         self.put("typo.json", '{"shadow": {"treshold": 0.4}}')
         self.before = self.files()
         self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--look", "broken.json", *TINY, says="broken.json:3: ")
+        self.put("huge.json", '{"shadow": {\n"threshold": 1e400}}')
+        self.put("nul.json", '{\n"lit": {"texture": "x.png\\u0000.png"}}')
+        self.put("large.json", " " * (17 << 20))
+        self.before = self.files()
+        for name, says in (("huge.json", "huge.json:2: a number here is too large"), ("nul.json", "nul.json:2: a text here holds the character NUL"),
+                           ("large.json", "a look has 16 MiB at most")):
+            self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--look", name, *TINY, says=says)
         self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--look", "wrong.json", *TINY, says="wrong.json (shadow.threshold): ")
         self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--look", "typo.json", *TINY, says="shadow.threshold")
         self.put("box.look.json", "{")
@@ -510,7 +562,7 @@ class Aovs(Program):
         self.assertNotEqual(exr(self.folder / "a.shadow-map.exr")["size"], (160, 90))
 
     def test_some_by_name_in_both_spellings(self):
-        self.render("box.gltf", "-o", "a.exr", "--aov", "depth,final-shadow", "--aov", "id")
+        self.render("box.gltf", "-o", "a.exr", "--aov", "depth,final-shadow", "--aov", "id", "--aov", "depth")
         self.assertEqual(layers(self.folder / "a.exr"), {"", "depth", "final-shadow", "id"})
 
     def test_beside_a_png(self):
@@ -598,6 +650,8 @@ class Sequences(Program):
             with self.subTest(frames=frames):
                 self.bad(USAGE, "render", "box.gltf", "-o", "x.#.png", "--frames", frames, *TINY)
         self.bad(USAGE, "render", "box.gltf", "-o", "x.#.png", "--frames", "0..1", "--fps", "0", *TINY)
+        # Found before the frames that could be drawn are.
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.#.png", "--frames", "99999..100000", "--fps", "0.1", *TINY, says="million")
 
 
 class Errors(Program):
@@ -616,6 +670,28 @@ class Errors(Program):
                      ["bench", "box.gltf", "--json", "./box.look.json"], ["measure", "box.gltf", "--json", "box.look.json"]):
             self.bad(NOT_WRITTEN, *args, says="inputs")
             self.assertEqual((self.folder / "box.look.json").read_text(), "{}")
+
+    def test_what_a_scene_and_a_look_read_is_never_an_output(self):
+        self.render("box.gltf", "-o", "made.png", size=TINY)
+        mine = (self.folder / "made.png").read_bytes()
+        scene = json.loads(gltf())
+        data = base64.b64decode(scene["buffers"][0]["uri"].partition(",")[2])
+        scene["buffers"][0]["uri"] = "data.bin"
+        scene["images"], scene["textures"] = [{"uri": "boat.png"}], [{"source": 0}]
+        scene["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {"index": 0}
+        for name, content in (("boat.gltf", json.dumps(scene)), ("boat.png", mine), ("data.bin", data), ("wood.png", mine),
+                              ("a.json", '{"lit": {"texture": "wood.png"}}')):
+            self.put(name, content)
+        self.before = self.files()
+        # The default name is that of the picture on the boat.
+        for args in (["render", "boat.gltf"], ["render", "boat.gltf", "-o", "x.png", "--stats", "data.bin"],
+                     ["render", "boat.gltf", "-o", "wood.png", "--look", "a.json"], ["info", "boat.gltf", "--json=data.bin"],
+                     ["bench", "boat.gltf", "--json=./boat.png"], ["measure", "boat.gltf", "--plot", "boat.png"],
+                     ["measure", "boat.gltf", "--look", "a.json", "--plot", "wood.png"]):
+            with self.subTest(args=args):
+                self.bad(NOT_WRITTEN, *args, *([] if "info" in args else TINY), says="this is one of the inputs")
+        self.same((self.folder / "boat.png").read_bytes(), mine)
+        self.render("boat.gltf", "-o", "x.png", "--look", "a.json", size=TINY)
 
     def test_no_two_outputs_have_one_name(self):
         (self.folder / "there").mkdir()
@@ -675,7 +751,10 @@ class Errors(Program):
         for args in (["--size", "160"], ["--size", "0x90"], ["--size", "160x90x2"], ["--size", "99999x2"], ["--size", "-1x5"],
                      ["--samples", "2"], ["--orbit", "30"], ["--orbit", "a,b"], ["--orbit", "0,0,0"], ["--eye", "1,2"],
                      ["--eye", "1,2,nan"], ["--target", "x"], ["--fov", "0"], ["--fov", "180"], ["--time", "nan"],
-                     ["--background", "red"], ["--background", "#12345"], ["--eye", "0,0,0", "--target", "0,0,0"]):
+                     ["--background", "red"], ["--background", "#12345"], ["--eye", "0,0,0", "--target", "0,0,0"],
+                     ["--scene", "-7"], ["--scene", "-1"], ["--orbit", "0,1000"], ["--orbit", "0,91"], ["--orbit", "1e30,0"],
+                     ["--orbit", "0,0,1e30"], ["--eye", "1e30,0,0"], ["--roll", "1e30"], ["--ipd", "1e30"], ["--ipd", "-1"],
+                     ["--fps", "1e308"], ["--fps", "0.001"], ["--time", "1e7"], ["--seed", "-1"], ["--seed", "5000000000"]):
             with self.subTest(args=args):
                 size = [] if "--size" in args else ["--size", "32x18"]
                 samples = [] if "--samples" in args else ["--samples", "1"]
@@ -707,6 +786,10 @@ class Errors(Program):
         self.before = self.files()
         self.bad(UNUSABLE, "render", "far.gltf", "-o", "x.png", *TINY, says=["far.gltf (meshes[0].primitives[0]", "POSITION"])
         self.bad(UNUSABLE, "render", "comma.gltf", "-o", "x.png", *TINY, says="comma.gltf:2")
+        self.put("huge.gltf", '{\n "asset": {"version": "2.0"},\n "scene": 1e400\n}')
+        self.before = self.files()
+        self.bad(UNUSABLE, "render", "huge.gltf", "-o", "x.png", *TINY, says="huge.gltf:3: ")
+        self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--scene", "5", *TINY, says="holds 1 scene, but scene 5 was asked for")
 
     def test_no_network(self):
         scene = json.loads(gltf())
