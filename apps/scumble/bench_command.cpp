@@ -45,10 +45,10 @@ int run(const BenchArguments& args) {
     if (const Status status = files.addInputs(read); !status) return fail(status.error());
   look = args.look.withClip(*look, *scene);
   if (!look) return fail(look.error());
-  args.look.warnOfIdle(*look, *scene, args.scene.files[0]);
-  args.picture.warnOfIdle();
   const Result<std::vector<View>> views = args.picture.views(*scene, *look);
   if (!views) return fail(views.error());
+  args.look.warnOfIdle(*look, *scene, args.scene.files[0]);
+  args.picture.warnOfIdle();
   // One renderer each, so that both keep their images and pipelines while they take turns.
   Result<std::unique_ptr<Renderer>> painter = Renderer::create(args.picture.rendererOptions());
   if (!painter) return fail(painter.error());

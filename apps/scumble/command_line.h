@@ -9,7 +9,7 @@
 
 namespace scumble::app {
 
-// The words as the parser takes them. `--json` prints, and writes where a name follows that ends in .json:
+// The words as the parser takes them. `--json` prints, and writes where a name follows that is no scene's:
 // the parser itself would take the scene that follows for a file.
 std::vector<std::string> wordsOf(int argc, char** argv);
 

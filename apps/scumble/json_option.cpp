@@ -8,14 +8,13 @@
 namespace scumble::app {
 
 bool JsonOption::isFile(const std::string& word) {
-  return !word.starts_with('-') && endingOf(word) == ".json";
+  const std::string ending = endingOf(word);
+  return !word.starts_with('-') && ending != ".glb" && ending != ".gltf";
 }
 
 void JsonOption::addTo(CLI::App& command) {
-  command
-      .add_option("--json", value_,
-                  "Print JSON in place of the text; with a name that ends in .json, write it there")
-      ->type_name("[FILE.json]");
+  command.add_option("--json", value_, "Print JSON in place of the text; with a name, write it there")
+      ->type_name("[FILE]");
 }
 
 Status JsonOption::give(const nlohmann::json& report) const {

@@ -247,7 +247,6 @@ int run(const RenderArguments& args) {
     return failUsage("--fps is out of range", "use 0.01 to 1000 frames a second");
   if (!(std::abs(args.time) < kMostSeconds))
     return failUsage("--time is out of range", "it is in seconds, up to a million");
-  if (!args.quiet) warnOfIdle(args, *output);
   Result<Look> look = loadLook(args, *background);
   if (!look) return fail(look.error());
   const Result<Scene> scene = args.scene.load(args.quiet);
@@ -258,7 +257,6 @@ int run(const RenderArguments& args) {
   output->exr.cryptomattes = {{"cryptomatte", scene->objectNames()}};
   look = args.look.withClip(*look, *scene);
   if (!look) return fail(look.error());
-  if (!args.quiet) args.look.warnOfIdle(*look, *scene, args.scene.files[0]);
   // A camera that does not exist is found before there is a device.
   const Result<std::vector<View>> views = args.picture.views(*scene, *look);
   if (!views) return fail(views.error());
@@ -268,6 +266,10 @@ int run(const RenderArguments& args) {
     for (const int number : *numbers)
       for (const std::string& file : output->files(output->framePath(number)))
         if (const Status status = files.check(file, "a frame"); !status) return fail(status.error());
+  if (!args.quiet) {
+    warnOfIdle(args, *output);
+    args.look.warnOfIdle(*look, *scene, args.scene.files[0]);
+  }
   const bool isPicture = args.frames.empty() && !isFilm;
   std::vector<double> times;
   for (const int number : *numbers) times.push_back(number / args.fps);

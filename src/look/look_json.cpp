@@ -61,7 +61,7 @@ class Reader {
         continue;
       }
       const Section* section = findSection(key);
-      if (isDotted(key)) return nestAdvice(key, key);
+      if (const Status good = checkKey(key, key); !good) return good;
       const Status status = section ? readSection(*section, value) : readGroup(value, key, "", nullptr, key);
       if (!status) return status;
     }
@@ -71,10 +71,11 @@ class Reader {
  private:
   JsonPlace place(const std::string& path) const { return {file_, path}; }
 
-  // One way to write a knob, the schema's: a key is one word of its path.
-  static bool isDotted(const std::string& key) { return key.find('.') != std::string::npos; }
-  Error nestAdvice(const std::string& key, const std::string& path) const {
+  // A key is one word of a knob's path, as the schema has it.
+  Status checkKey(const std::string& key, const std::string& path) const {
+    if (key.empty()) return place(path).fail("a key is empty", "give it a name, or leave it out");
     const size_t dot = key.find('.');
+    if (dot == std::string::npos) return Done{};
     return place(path).fail("a dot stands in this key", "nest it: \"" + key.substr(0, dot) + "\": { \"" +
                                                             key.substr(dot + 1) + "\": ... }");
   }
@@ -109,7 +110,7 @@ class Reader {
       if (std::count(knobPath.begin(), knobPath.end(), '.') > 8)
         return place(jsonPath).fail("there is no knob so deep inside", "`scumble params` lists them all");
       for (const auto& [key, child] : value.items()) {
-        if (isDotted(key)) return nestAdvice(key, jsonPath + "." + key);
+        if (const Status good = checkKey(key, jsonPath + "." + key); !good) return good;
         const Status status = readGroup(child, knobPath.empty() ? key : knobPath + "." + key, pattern,
                                         section, jsonPath + "." + key);
         if (!status) return status;

@@ -155,6 +155,7 @@ TEST(LookSchema, agreesWithTheReaderOnKeys) {
     expectSame({{section.name, json::object()}}, true);
     expectSame({{section.name, {{"A.001", json::object()}}}}, true);
     expectSame({{section.name, {{"", json::object()}}}}, false);
+    expectSame({{section.name, {{"A", {{"", json::object()}}}}}}, false);
     expectSame({{std::string(section.name) + ".A", json::object()}}, false);
   }
 }

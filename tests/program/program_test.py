@@ -247,7 +247,9 @@ class Commands(Program):
                 written = json.loads((self.folder / "a.JSON").read_text())
                 if prints:
                     self.assertEqual(written.keys(), report.keys())
-                    self.good(*args, "--json=a.txt", "box.gltf")
+                    self.good(*args, "--json", "a.txt", "box.gltf")
+                    self.good(*args, "--json=b.gltf", "box.gltf")
+                    self.assertEqual(self.new_files(), {"a.JSON", "a.txt", "b.gltf"})
                 for name in self.new_files():
                     (self.folder / name).unlink()
                 self.bad(NOT_WRITTEN, *args, "box.gltf", "--json", "no/such.json", says="no/such.json: the folder does not exist")
@@ -456,7 +458,7 @@ class Looks(Program):
         self.assertEqual(self.warnings("--look", "mine.json", "--quiet"), [])
         self.put("box.look.json", json.dumps(look))
         self.assertEqual(self.warnings(), idle)
-        for shipped in ("henry", "storm"):
+        for shipped in ("open-sea", "storm"):
             self.assertEqual(self.warnings("--look", shipped), [], "it is for many scenes")
         (self.folder / "box.look.json").unlink()
         for name in ("Nope", "Nope*"):
@@ -658,7 +660,7 @@ class Errors(Program):
     def test_inputs_are_never_outputs(self):
         before = (self.folder / "box.gltf").read_bytes()
         self.bad(NOT_WRITTEN, "render", "box.gltf", "-o", "x.png", "--stats", "box.gltf", *TINY, says="inputs")
-        self.bad(NOT_WRITTEN, "bench", "box.gltf", "--runs", "1", "--json", "box.gltf", *TINY, says="inputs")
+        self.bad(NOT_WRITTEN, "bench", "box.gltf", "--runs", "1", "--json=box.gltf", *TINY, says="inputs")
         self.put("box.png", before.decode())  # what a file is decides its content, not its name
         self.before = self.files()
         self.bad(NOT_WRITTEN, "render", "box.png", "-o", "box.png", *TINY, says="inputs")
