@@ -58,12 +58,18 @@ std::string helpOf(const CLI::App& command) {
 
 // The option that the parser's message is about, or null.
 const CLI::Option* optionOf(const CLI::App& command, const std::string& message) {
-  for (const CLI::Option* option : command.get_options()) {
-    const std::string name = option->get_name();
-    const size_t at = message.find(name);
-    if (at == std::string::npos || (at > 0 && message[at - 1] != ' ')) continue;
+  const auto names = [&](const std::string& name, size_t at) {
     const size_t end = at + name.size();
-    if (end == message.size() || message[end] == ' ' || message[end] == ':') return option;
+    return message.compare(at, name.size(), name) == 0 &&
+           (end == message.size() || message[end] == ' ' || message[end] == ':');
+  };
+  for (const CLI::Option* option : command.get_options()) {
+    // It stands first, sometimes without its dashes, or after a colon.
+    const std::string name = option->get_name();
+    const size_t after = message.find(": ");
+    if (names(name, 0) || (after != std::string::npos && names(name, after + 2))) return option;
+    for (const std::string& bare : option->get_lnames())
+      if (names(bare, 0)) return option;
   }
   return nullptr;
 }
