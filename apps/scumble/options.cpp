@@ -173,8 +173,12 @@ void LookArguments::warnOfIdle(const Look& from, const Scene& scene, const std::
   // one.
   const std::string name = lookFor(sceneFile);
   const bool isFile = name.find('/') != std::string::npos || endingOf(name) == ".json";
-  for (const std::string& setting : settingsWithoutEffect(scene, from, isFile))
-    warnOf({setting}, "nothing in the scene has such a name (`scumble info` lists names)");
+  const std::vector<std::string> byHand = settingsWithoutEffect(scene, from);
+  for (const std::string& setting : settingsWithoutEffect(scene, from, isFile)) {
+    const bool isByHand = std::find(byHand.begin(), byHand.end(), setting) != byHand.end();
+    warnOf({(isByHand ? "--set " : "") + setting},
+           "nothing in the scene has such a name (`scumble info` lists names)");
+  }
   warnOf(settingsWithoutNode(scene, from), "the scene has no node of that name (`scumble info` lists names)");
   warnOf(settingsWithoutOcean(scene, from), "there is no ocean; --set ocean.mode=on puts one");
 }

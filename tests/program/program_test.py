@@ -462,7 +462,7 @@ class Looks(Program):
             self.assertEqual(self.warnings("--look", shipped), [], "it is for many scenes")
         (self.folder / "box.look.json").unlink()
         for name in ("Nope", "Nope*"):
-            self.assertEqual(self.warnings("--set", f"materials.{name}.warp.amount=1"), [f"materials.{name}{why}"])
+            self.assertEqual(self.warnings("--set", f"materials.{name}.warp.amount=1"), [f"--set materials.{name}{why}"])
         self.assertEqual(self.warnings("--set", "materials.*.warp.amount=1", "--set", "nodes.B?x.animation.hold=2"), [])
 
     def test_keys_that_stand_twice_are_named_with_their_lines(self):
