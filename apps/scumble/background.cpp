@@ -1,17 +1,16 @@
 #include "background.h"
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
+
+#include "options.h"
+#include "scumble/look.h"
 
 namespace scumble::app {
 
 namespace {
 
-bool isPictureName(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
+bool isPictureName(const std::string& path) {
+  const std::string ending = endingOf(path);
   return ending == ".png" || ending == ".jpg" || ending == ".jpeg" || ending == ".webp";
 }
 
@@ -20,7 +19,14 @@ bool isPictureName(const std::filesystem::path& path) {
 Result<Background> Background::make(const std::string& text) {
   Background background;
   background.text_ = text;
-  if (text.empty() || background.isTransparent() || background.isColor()) return background;
+  if (text.empty() || background.isTransparent()) return background;
+  if (background.isColor()) {
+    // A knob for a colour knows what one is.
+    if (const Status color = Look().set("background.horizon", text); !color)
+      return Error{ErrorKind::usage,    "", 0, "", "--background " + text + " is no colour",
+                   color.error().advice};
+    return background;
+  }
   std::error_code ignored;
   // What looks like no file and is none was meant to be a colour.
   if (text.find_first_of("./") == std::string::npos && !std::filesystem::exists(text, ignored))

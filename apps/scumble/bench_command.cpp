@@ -7,8 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "json_option.h"
 #include "options.h"
-#include "outputs.h"
+#include "output_files.h"
 #include "report.h"
 
 namespace scumble::app {
@@ -19,7 +20,7 @@ struct BenchArguments {
   SceneArguments scene;
   LookArguments look;
   PictureArguments picture;
-  std::string json;
+  JsonOption json;
   int runs = 9;
 };
 
@@ -30,17 +31,24 @@ double median(std::vector<double> values) {
 
 int run(const BenchArguments& args) {
   if (args.runs < 1 || args.runs > 1000) return failUsage("--runs is out of range", "use 1 to 1000");
-  if (const Status status = checkWritable(args.json, args.scene.files); !status) return fail(status.error());
+  std::vector<std::string> inputs = args.scene.files;
+  inputs.push_back(args.look.lookFor(args.scene.files[0]));
+  OutputFiles files(inputs);
+  if (const Status status = files.add(args.json.file(), "--json"); !status) return fail(status.error());
   const Result<RenderOptions> options = args.picture.renderOptions();
   if (!options) return fail(options.error());
-  Result<Look> look = args.look.load(args.scene.files[0]);
+  Result<Look> look = args.look.load(args.scene.files[0], false);
   if (!look) return fail(look.error());
   const Result<Scene> scene = args.scene.load(false);
   if (!scene) return fail(scene.error());
+  for (const std::vector<std::string>& read : {look->files(), scene->files()})
+    if (const Status status = files.addInputs(read); !status) return fail(status.error());
   look = args.look.withClip(*look, *scene);
   if (!look) return fail(look.error());
   const Result<std::vector<View>> views = args.picture.views(*scene, *look);
   if (!views) return fail(views.error());
+  args.look.warnOfIdle(*look, *scene, args.scene.files[0]);
+  args.picture.warnOfIdle();
   // One renderer each, so that both keep their images and pipelines while they take turns.
   Result<std::unique_ptr<Renderer>> painter = Renderer::create(args.picture.rendererOptions());
   if (!painter) return fail(painter.error());
@@ -83,32 +91,31 @@ int run(const BenchArguments& args) {
   }
 
   nlohmann::json passReport = nlohmann::json::array();
-  std::printf("%s, %s\n", (*painter)->gpu().name.c_str(), (*painter)->gpu().driver.c_str());
-  std::printf("%u x %u, %u samples, %zu views, %llu triangles, medians of %d\n", options->width,
-              options->height, options->samples, views->size(), static_cast<unsigned long long>(triangles),
-              args.runs);
-  for (const std::string& name : order) {
-    std::printf("  %-14s %9.2f ms\n", name.c_str(), median(passes[name]));
+  for (const std::string& name : order)
     passReport.push_back({{"name", name}, {"milliseconds", median(passes[name])}});
+  const nlohmann::json report{{"device", (*painter)->gpu().name},
+                              {"driver", (*painter)->gpu().driver},
+                              {"scene", args.scene.files},
+                              {"size", {options->width, options->height}},
+                              {"samples", options->samples},
+                              {"views", views->size()},
+                              {"triangles", triangles},
+                              {"runs", args.runs},
+                              {"passes", passReport},
+                              {"frameMilliseconds", median(frame)},
+                              {"yardstickMilliseconds", median(plainFrame)},
+                              {"ratio", median(ratios)}};
+  if (!args.json.isPrinted()) {
+    std::printf("%s, %s\n", (*painter)->gpu().name.c_str(), (*painter)->gpu().driver.c_str());
+    std::printf("%u x %u, %u samples, %zu views, %llu triangles, medians of %d\n", options->width,
+                options->height, options->samples, views->size(), static_cast<unsigned long long>(triangles),
+                args.runs);
+    for (const std::string& name : order)
+      std::printf("  %-14s %9.2f ms\n", name.c_str(), median(passes[name]));
+    std::printf("  %-14s %9.2f ms\n  %-14s %9.2f ms\n  %-14s %9.2f\n", "frame", median(frame), "yardstick",
+                median(plainFrame), "ratio", median(ratios));
   }
-  std::printf("  %-14s %9.2f ms\n  %-14s %9.2f ms\n  %-14s %9.2f\n", "frame", median(frame), "yardstick",
-              median(plainFrame), "ratio", median(ratios));
-  if (!args.json.empty()) {
-    const nlohmann::json report{{"device", (*painter)->gpu().name},
-                                {"driver", (*painter)->gpu().driver},
-                                {"scene", args.scene.files},
-                                {"size", {options->width, options->height}},
-                                {"samples", options->samples},
-                                {"views", views->size()},
-                                {"triangles", triangles},
-                                {"runs", args.runs},
-                                {"passes", passReport},
-                                {"frameMilliseconds", median(frame)},
-                                {"yardstickMilliseconds", median(plainFrame)},
-                                {"ratio", median(ratios)}};
-    if (const Status status = writeText(args.json, report.dump(2) + "\n"); !status)
-      return fail(status.error());
-  }
+  if (const Status status = args.json.give(report); !status) return fail(status.error());
   return kDone;
 }
 
@@ -122,7 +129,7 @@ void addBench(CLI::App& program, int& exitCode) {
   args->picture.addTo(*command);
   args->picture.addStereoTo(*command);
   command->add_option("--runs", args->runs, "Frames to take the median of")->capture_default_str();
-  command->add_option("--json", args->json, "Also write the result here")->type_name("FILE");
+  args->json.addTo(*command);
   command->footer("Example: scumble bench boat.glb --samples 1 --json boat.json");
   command->callback([args, &exitCode] { exitCode = run(*args); });
 }

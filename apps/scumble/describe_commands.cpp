@@ -5,7 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "json_option.h"
 #include "options.h"
+#include "output_files.h"
 #include "report.h"
 
 namespace scumble::app {
@@ -30,33 +32,38 @@ std::string shortened(std::vector<std::string> names) {
   return joined(names) + (more > 0 ? fmt::format(" and {} more (--json has them all)", more) : "");
 }
 
-int info(const SceneArguments& args, bool asJson) {
-  const Result<Scene> scene = args.load(asJson);
+nlohmann::json reportOf(const Scene& scene) {
+  const SceneSummary s = scene.summary();
+  nlohmann::json clips = nlohmann::json::array();
+  for (const auto& clip : s.clips) clips.push_back({{"name", clip.name}, {"duration", clip.duration}});
+  return {{"meshes", s.meshes},
+          {"primitives", s.primitives},
+          {"triangles", s.triangles},
+          {"vertices", s.vertices},
+          {"nodes", s.nodes},
+          {"nodeNames", s.nodeNames},
+          {"materials", s.materialNames},
+          {"images", s.images},
+          {"skins", s.skins},
+          {"morphTargets", s.morphTargets},
+          {"clips", clips},
+          {"cameras", s.cameras},
+          {"lights", s.lights},
+          {"extensionsUsed", s.extensionsUsed},
+          {"extensionsNotSupported", s.extensionsNotSupported},
+          {"bounds", {{"min", s.min}, {"max", s.max}}},
+          {"warnings", scene.warnings()}};
+}
+
+int info(const SceneArguments& args, const JsonOption& json) {
+  OutputFiles files(args.files);
+  if (const Status status = files.add(json.file(), "--json"); !status) return fail(status.error());
+  const Result<Scene> scene = args.load(json.isPrinted());
   if (!scene) return fail(scene.error());
+  if (const Status status = files.addInputs(scene->files()); !status) return fail(status.error());
+  if (const Status status = json.give(reportOf(*scene)); !status) return fail(status.error());
+  if (json.isPrinted()) return kDone;
   const SceneSummary s = scene->summary();
-  if (asJson) {
-    nlohmann::json clips = nlohmann::json::array();
-    for (const auto& clip : s.clips) clips.push_back({{"name", clip.name}, {"duration", clip.duration}});
-    const nlohmann::json report{{"meshes", s.meshes},
-                                {"primitives", s.primitives},
-                                {"triangles", s.triangles},
-                                {"vertices", s.vertices},
-                                {"nodes", s.nodes},
-                                {"nodeNames", s.nodeNames},
-                                {"materials", s.materialNames},
-                                {"images", s.images},
-                                {"skins", s.skins},
-                                {"morphTargets", s.morphTargets},
-                                {"clips", clips},
-                                {"cameras", s.cameras},
-                                {"lights", s.lights},
-                                {"extensionsUsed", s.extensionsUsed},
-                                {"extensionsNotSupported", s.extensionsNotSupported},
-                                {"bounds", {{"min", s.min}, {"max", s.max}}},
-                                {"warnings", scene->warnings()}};
-    print(report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
-    return kDone;
-  }
   print(fmt::format("meshes      {} ({} primitives, {} triangles, {} vertices)\n", s.meshes, s.primitives,
                     s.triangles, s.vertices));
   print(
@@ -139,14 +146,14 @@ int devices() {
 void addDescriptions(CLI::App& program, int& exitCode) {
   struct Arguments {
     SceneArguments scene;
-    bool json = false;
+    JsonOption json;
     std::string prefix;
   };
   auto args = std::make_shared<Arguments>();
 
   CLI::App* infoCommand = program.add_subcommand("info", "What is in a file");
   args->scene.addTo(*infoCommand);
-  infoCommand->add_flag("--json", args->json, "As JSON");
+  args->json.addTo(*infoCommand);
   infoCommand->footer("Example: scumble info boat.glb --json");
   infoCommand->callback([args, &exitCode] { exitCode = info(args->scene, args->json); });
 

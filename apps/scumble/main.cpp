@@ -1,7 +1,10 @@
 // The program: reads the command line and hands over to a subcommand.
+#include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 
+#include "command_line.h"
 #include "commands.h"
 #include "report.h"
 #include "scumble/renderer.h"
@@ -9,6 +12,20 @@
 using namespace scumble;
 
 namespace {
+
+// The build, and the device where there is one: a machine without has a build all the same.
+void nameBuild() {
+  std::printf("scumble %s\n", SCUMBLE_VERSION);
+  const Result<std::vector<GpuInfo>> gpus = listGpus();
+  const GpuInfo* used = nullptr;
+  if (gpus)
+    for (const GpuInfo& gpu : *gpus)
+      if (gpu.wouldBeUsed) used = &gpu;
+  if (used)
+    std::printf("device: %s (%s)\n", used->name.c_str(), used->driver.c_str());
+  else
+    std::printf("device: none; %s\n", gpus ? "`scumble devices` says why" : gpus.error().message().c_str());
+}
 
 int run(int argc, char** argv) {
   try {
@@ -27,20 +44,19 @@ int run(int argc, char** argv) {
     program.footer(
         "Example: scumble render boat.glb -o boat.png\n`scumble COMMAND --help` shows a command's options.");
 
+    app::refuseSlips(program);
+
     try {
-      program.parse(argc, argv);
+      std::vector<std::string> words = app::wordsOf(argc, argv);
+      std::reverse(words.begin(), words.end());  // as the parser wants them
+      program.parse(std::move(words));
     } catch (const CLI::Success& done) {
       return program.exit(done);
     } catch (const CLI::ParseError& error) {
-      std::string what = error.what();
-      return app::failUsage(what, "`scumble --help` and `scumble COMMAND --help` show what there is");
+      return app::fail(app::wrongWords(program, error));
     }
     if (version) {
-      std::printf("scumble %s\n", SCUMBLE_VERSION);
-      const Result<std::vector<GpuInfo>> gpus = listGpus();
-      if (!gpus) return app::fail(gpus.error());
-      for (const GpuInfo& gpu : *gpus)
-        if (gpu.wouldBeUsed) std::printf("device: %s (%s)\n", gpu.name.c_str(), gpu.driver.c_str());
+      nameBuild();
       return app::kDone;
     }
     if (program.get_subcommands().empty()) {
@@ -56,6 +72,8 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A limit on the sizes of files is an output that cannot be written, also where it is printed.
+  std::signal(SIGXFSZ, SIG_IGN);
   const int exitCode = run(argc, argv);
   // What was printed counts as output too: a script that saves it must learn when it did not arrive.
   if (exitCode == app::kDone && (std::fflush(stdout) != 0 || std::ferror(stdout)))

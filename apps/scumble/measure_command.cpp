@@ -9,8 +9,9 @@
 
 #include "chart.h"
 #include "commands.h"
+#include "json_option.h"
 #include "options.h"
-#include "outputs.h"
+#include "output_files.h"
 #include "progress.h"
 #include "report.h"
 #include "scumble/measure.h"
@@ -25,7 +26,8 @@ struct MeasureArguments {
   PictureArguments picture;
   std::optional<float> ipd;
   std::string plot;
-  bool json = false, quiet = false;
+  JsonOption json;
+  bool quiet = false;
 };
 
 // One row of the table a number, one column a mode.
@@ -135,16 +137,24 @@ int run(const MeasureArguments& args) {
   const Result<Viewpoint> viewpoint = args.picture.viewpoint();
   if (!viewpoint) return fail(viewpoint.error());
   std::vector<std::string> inputs = args.scene.files;
-  if (!args.look.look.empty()) inputs.push_back(args.look.look);
-  if (!args.plot.empty() && !args.plot.ends_with(".png"))
+  inputs.push_back(args.look.lookFor(args.scene.files[0]));
+  if (!args.plot.empty() && endingOf(args.plot) != ".png")
     return failUsage("a chart cannot go into '" + args.plot + "'", "name it like chart.png");
-  if (const Status status = checkWritable(args.plot, inputs); !status) return fail(status.error());
-  Result<Look> look = args.look.load(args.scene.files[0]);
+  OutputFiles files(inputs);
+  for (const auto& [file, option] : {std::pair{args.plot, "--plot"}, {args.json.file(), "--json"}})
+    if (const Status status = files.add(file, option); !status) return fail(status.error());
+  Result<Look> look = args.look.load(args.scene.files[0], args.quiet);
   if (!look) return fail(look.error());
   const Result<Scene> scene = args.scene.load(args.quiet);
   if (!scene) return fail(scene.error());
+  for (const std::vector<std::string>& read : {look->files(), scene->files()})
+    if (const Status status = files.addInputs(read); !status) return fail(status.error());
   look = args.look.withClip(*look, *scene);
   if (!look) return fail(look.error());
+  if (!args.quiet) {
+    args.look.warnOfIdle(*look, *scene, args.scene.files[0]);
+    args.picture.warnOfIdle();
+  }
   Result<std::unique_ptr<Renderer>> renderer = Renderer::create(args.picture.rendererOptions());
   if (!renderer) return fail(renderer.error());
 
@@ -176,10 +186,7 @@ int run(const MeasureArguments& args) {
   if (!args.plot.empty())
     if (const Status status = writeChart(args.plot, *measured, "Coherence: " + names, conditions); !status)
       return fail(status.error());
-  if (!args.json) {
-    printTable(*measured, names + ", " + conditions);
-    return kDone;
-  }
+  if (!args.json.isPrinted()) printTable(*measured, names + ", " + conditions);
   nlohmann::json modes = nlohmann::json::object(), targets = nlohmann::json::array();
   for (const ModeMeasurements& mode : measured->modes) modes[mode.mode] = toJson(mode);
   for (const MeasureTarget& target : measured->targets)
@@ -199,7 +206,7 @@ int run(const MeasureArguments& args) {
                               {"exampleFrequency", toJson(measured->exampleFrequency)},
                               {"modes", modes},
                               {"targets", targets}};
-  std::puts(report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  if (const Status status = args.json.give(report); !status) return fail(status.error());
   return kDone;
 }
 
@@ -217,7 +224,7 @@ void addMeasure(CLI::App& program, int& exitCode) {
   command->add_option(
       "--ipd", args->ipd,
       "Distance between the eyes, metres (default: 1/40 of the distance to the scene's centre)");
-  command->add_flag("--json", args->json, "Print JSON instead of the table");
+  args->json.addTo(*command);
   command->add_option("--plot", args->plot, "Also draw a chart")->type_name("FILE.png");
   command->add_flag("--quiet", args->quiet, "No warnings and no progress");
   command->footer("Example: scumble measure boat.glb --plot boat.png");

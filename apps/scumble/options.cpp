@@ -1,5 +1,7 @@
 #include "options.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -15,9 +17,10 @@ Error usage(std::string problem, std::string advice) {
   return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
 }
 
-// $XDG_CACHE_HOME/scumble or ~/.cache/scumble; empty where neither is known.
+// $XDG_CACHE_HOME/scumble or ~/.cache/scumble; empty where neither is known. The XDG Base Directory
+// Specification has a relative path ignored.
 std::string cacheFolder() {
-  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache)
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache == '/')
     return std::string(cache) + "/scumble";
   if (const char* home = std::getenv("HOME"); home && *home) return std::string(home) + "/.cache/scumble";
   return "";
@@ -41,6 +44,13 @@ Result<std::string> findClip(const std::vector<SceneSummary::Clip>& clips, const
 }
 
 }  // namespace
+
+std::string endingOf(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  return ending;
+}
 
 std::optional<std::vector<float>> parseNumbers(const std::string& text) {
   std::vector<float> numbers;
@@ -79,7 +89,10 @@ void SceneArguments::addTo(CLI::App& command) {
 
 Result<Scene> SceneArguments::load(bool quiet) const {
   SceneOptions options;
-  options.scene = sceneNumber;
+  if (sceneNumber.value_or(0) < 0)
+    return usage("there is no scene " + std::to_string(*sceneNumber),
+                 "--scene counts a file's scenes from 0");
+  options.scene = sceneNumber.value_or(-1);
   options.allowOutside = allowOutside;
   std::vector<Scene> scenes;
   std::set<std::string> warned;
@@ -108,17 +121,19 @@ void LookArguments::addTo(CLI::App& command) {
       "as the look says, else the first one)");
 }
 
-Result<Look> LookArguments::load(const std::string& sceneFile) const {
-  std::string name = look;
-  if (name.empty()) {
-    std::filesystem::path beside(sceneFile);
-    beside.replace_extension(".look.json");
-    std::error_code ignored;
-    name =
-        std::filesystem::exists(beside, ignored) ? std::filesystem::absolute(beside).string() : "age-of-sail";
-  }
-  Result<Look> result = Look::load(name);
+std::string LookArguments::lookFor(const std::string& sceneFile) const {
+  if (!look.empty()) return look;
+  std::filesystem::path beside(sceneFile);
+  beside.replace_extension(".look.json");
+  std::error_code ignored;
+  return std::filesystem::exists(beside, ignored) ? std::filesystem::absolute(beside).string()
+                                                  : "age-of-sail";
+}
+
+Result<Look> LookArguments::load(const std::string& sceneFile, bool quiet) const {
+  Result<Look> result = Look::load(lookFor(sceneFile));
   if (!result) return result.error();
+  if (!quiet) warn(result->warnings());
   if (const Status status = applySettings(*result); !status) return status.error();
   return result;
 }
@@ -146,6 +161,28 @@ Result<Look> LookArguments::withClip(const Look& from, const Scene& scene) const
   return result;
 }
 
+void LookArguments::warnOfIdle(const Look& from, const Scene& scene, const std::string& sceneFile) const {
+  const auto warnOf = [](const std::vector<std::string>& idle, const std::string& why) {
+    if (idle.empty()) return;
+    std::string names = idle.front();
+    if (idle.size() == 2) names += " and " + idle.back();
+    if (idle.size() > 2) names += " and " + std::to_string(idle.size() - 1) + " more";
+    warn({names + ": " + why});
+  };
+  // A look that ships is for many scenes; a file that was named, or that lies beside the scene, is for this
+  // one.
+  const std::string name = lookFor(sceneFile);
+  const bool isFile = name.find('/') != std::string::npos || endingOf(name) == ".json";
+  const std::vector<std::string> byHand = settingsWithoutEffect(scene, from);
+  for (const std::string& setting : settingsWithoutEffect(scene, from, isFile)) {
+    const bool isByHand = std::find(byHand.begin(), byHand.end(), setting) != byHand.end();
+    warnOf({(isByHand ? "--set " : "") + setting},
+           "nothing in the scene has such a name (`scumble info` lists names)");
+  }
+  warnOf(settingsWithoutNode(scene, from), "the scene has no node of that name (`scumble info` lists names)");
+  warnOf(settingsWithoutOcean(scene, from), "there is no ocean; --set ocean.mode=on puts one");
+}
+
 void PictureArguments::addTo(CLI::App& command) {
   command.add_option(
       "--camera", camera,
@@ -167,7 +204,7 @@ void PictureArguments::addTo(CLI::App& command) {
 
 void PictureArguments::addStereoTo(CLI::App& command) {
   command.add_option("--stereo", stereo, "Two views: side-by-side, over-under or separate");
-  command.add_option("--ipd", ipd, "Distance between the eyes, metres")->capture_default_str();
+  ipdOption = command.add_option("--ipd", ipd, "Distance between the eyes, metres")->capture_default_str();
 }
 
 Result<RenderOptions> PictureArguments::renderOptions() const {
@@ -208,9 +245,17 @@ Result<Viewpoint> PictureArguments::viewpoint() const {
     return usage("--eye " + eye + " is no point", "write it like 2,1.5,4");
   if (!target.empty() && !(viewpoint.target = point(target)))
     return usage("--target " + target + " is no point", "write it like 0,1,0");
-  if (!std::isfinite(roll) || !std::isfinite(ipd) || ipd < 0)
-    return usage("--roll or --ipd is out of range", "use degrees, and metres from 0 on");
   return viewpoint;
+}
+
+void PictureArguments::warnOfIdle() const {
+  const std::string counts = !eye.empty()      ? "--eye"
+                             : !target.empty() ? "--target"
+                             : !orbit.empty()  ? "--orbit"
+                                               : "";
+  if (!orbit.empty() && counts != "--orbit") warn({"--orbit does nothing beside " + counts});
+  if (!camera.empty() && !counts.empty()) warn({"--camera does nothing beside " + counts});
+  if (ipdOption && ipdOption->count() > 0 && !isStereo()) warn({"--ipd does nothing without --stereo"});
 }
 
 bool PictureArguments::usesSceneCamera(const Scene& scene) const {

@@ -13,7 +13,7 @@ namespace scumble::app {
 struct SceneArguments {
   std::vector<std::string> files;
   bool allowOutside = false;
-  int sceneNumber = -1;
+  std::optional<int> sceneNumber;
 
   void addTo(CLI::App& command);
   // All files in one world; warnings go to stderr.
@@ -26,9 +26,13 @@ struct LookArguments {
   std::vector<std::string> settings;
 
   void addTo(CLI::App& command);
-  // The look with all settings, which win over the clip.
-  Result<Look> load(const std::string& sceneFile) const;
+  // Its name or file.
+  std::string lookFor(const std::string& sceneFile) const;
+  // The look with all settings, which win over the clip; warnings go to stderr.
+  Result<Look> load(const std::string& sceneFile, bool quiet) const;
   Result<Look> withClip(const Look& look, const Scene& scene) const;
+  // Of what it sets to no effect in this scene.
+  void warnOfIdle(const Look& look, const Scene& scene, const std::string& sceneFile) const;
 
  private:
   Status applySettings(Look& look) const;
@@ -40,6 +44,7 @@ struct PictureArguments {
   std::optional<float> fov;
   int samples = 4;
   float ipd = 0.063f;
+  const CLI::Option* ipdOption = nullptr;
   std::string device;
   uint32_t seed = 0;
   bool validate = false;
@@ -49,12 +54,16 @@ struct PictureArguments {
   bool isStereo() const { return !stereo.empty(); }
   Result<RenderOptions> renderOptions() const;
   Result<Viewpoint> viewpoint() const;
+  // Of options that count for nothing beside others.
+  void warnOfIdle() const;
   // At a time in seconds; of all times the same where the camera is none of the scene's.
   Result<std::vector<View>> views(const Scene& scene, const Look& look, double time = 0) const;
   bool usesSceneCamera(const Scene& scene) const;
   RendererOptions rendererOptions() const;
 };
 
+// A file's ending in lower case, with its dot.
+std::string endingOf(const std::string& path);
 // "1280x720" and the like; nothing when it is not of that form.
 std::optional<std::pair<uint32_t, uint32_t>> parseSize(const std::string& text);
 // Numbers separated by commas, all finite.

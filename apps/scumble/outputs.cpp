@@ -1,11 +1,9 @@
 #include "outputs.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
+
+#include "options.h"
 
 namespace scumble::app {
 
@@ -34,28 +32,8 @@ Error badOutput(std::string problem, std::string advice) {
 
 }  // namespace
 
-Status checkWritable(const std::string& path, const std::vector<std::string>& inputs) {
-  if (path.empty()) return Done{};
-  const auto fail_ = [&](std::string problem, std::string advice) {
-    return Error{ErrorKind::outputNotWritten, path, 0, "", std::move(problem), std::move(advice)};
-  };
-  fs::path folder = fs::path(path).parent_path();
-  if (folder.empty()) folder = ".";
-  std::error_code ignored;
-  if (!fs::is_directory(folder, ignored)) return fail_("the folder does not exist", "make it first");
-  if (access(folder.c_str(), W_OK) != 0)
-    return fail_(std::string("the folder cannot be written: ") + std::strerror(errno), "choose another one");
-  if (fs::is_directory(path, ignored)) return fail_("this is a folder", "give a file's name");
-  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))
-    return fail_("it is not an ordinary file", "give another name");
-  for (const std::string& input : inputs)
-    if (fs::equivalent(path, input, ignored)) return fail_("this is one of the inputs", "give another name");
-  return Done{};
-}
-
 Result<OutputPlan> OutputPlan::make(const std::string& given, const std::string& sceneFile,
-                                    const std::string& layout, bool hasFrames, const RenderOptions& options,
-                                    const std::vector<std::string>& inputs) {
+                                    const std::string& layout, bool hasFrames, const RenderOptions& options) {
   OutputPlan plan;
   plan.layout = layout;
   plan.path = given.empty() ? fs::path(sceneFile).stem().string() + ".png" : given;
@@ -63,7 +41,7 @@ Result<OutputPlan> OutputPlan::make(const std::string& given, const std::string&
   plan.viewCount = layout.empty() ? 1 : 2;
   plan.width = options.width, plan.height = options.height;
   plan.aovs = options.aovs;
-  const std::string extension = fs::path(plan.path).extension().string();
+  const std::string extension = endingOf(plan.path);
   if (extension == ".exr")
     plan.kind = OutputKind::exr;
   else if (extension == ".mp4")
@@ -78,8 +56,6 @@ Result<OutputPlan> OutputPlan::make(const std::string& given, const std::string&
   if (plan.isSequence() && !hasFrames)
     return badOutput("'" + plan.path + "' names a sequence, but there is no range of frames",
                      "add --frames A..B, or name one picture");
-  for (const std::string& path : plan.picturePaths(plan.path))
-    if (const Status status = checkWritable(path, inputs); !status) return status.error();
   return plan;
 }
 
@@ -91,6 +67,10 @@ std::string OutputPlan::framePath(std::optional<int> number) const {
   std::string digits = std::to_string(std::abs(*number));
   if (digits.size() < last - first) digits.insert(0, last - first - digits.size(), '0');
   return path.substr(0, first) + (*number < 0 ? "-" : "") + digits + path.substr(last);
+}
+
+bool OutputPlan::isFileOfItsOwn(const std::string& aov) const {
+  return kind == OutputKind::png || Renderer::hasSizeOfItsOwn(aov);
 }
 
 Status OutputPlan::writeLayers(const Frame& frame, const std::string& path_,
@@ -109,17 +89,25 @@ std::vector<std::string> OutputPlan::picturePaths(const std::string& framePath_)
   return {withPart(framePath_, kEyes[0], extension), withPart(framePath_, kEyes[1], extension)};
 }
 
+std::vector<std::string> OutputPlan::files(const std::string& framePath_) const {
+  std::vector<std::string> files = picturePaths(framePath_);
+  const size_t pictures = files.size();
+  for (size_t i = 0; i < pictures; ++i)
+    for (const std::string& aov : aovs)
+      if (isFileOfItsOwn(aov)) files.push_back(withPart(files[i], aov, ".exr"));
+  return files;
+}
+
 bool OutputPlan::isThere(const std::string& framePath_) const {
   const bool together = viewCount > 1 && !separateEyes && kind == OutputKind::png;
   const uint32_t across = together && layout != "over-under" ? 2 : 1;
   const uint32_t down = together && layout == "over-under" ? 2 : 1;
-  for (const std::string& path_ : picturePaths(framePath_)) {
-    if (!isWholePicture(path_, width * across, height * down)) return false;
-    if (kind != OutputKind::png) continue;
-    for (const std::string& aov : aovs)
-      if (!isWholePicture(withPart(path_, aov, ".exr"))) return false;
-  }
-  return true;
+  const std::vector<std::string> all = files(framePath_), pictures = picturePaths(framePath_);
+  return std::all_of(
+             pictures.begin(), pictures.end(),
+             [&](const std::string& file) { return isWholePicture(file, width * across, height * down); }) &&
+         std::all_of(all.begin() + std::ptrdiff_t(pictures.size()), all.end(),
+                     [](const std::string& file) { return isWholePicture(file); });
 }
 
 Status OutputPlan::write(const Frame& frame, const std::string& framePath_) const {
@@ -152,9 +140,7 @@ Status OutputPlan::writeLayeredExr(const Frame& frame, size_t file, const std::s
   // of flat pictures.
   std::vector<ImageLayer> layers;
   for (const Frame::Layer& layer : frame.layers) {
-    const bool otherSize = layer.views.size() != frame.layers[0].views.size() ||
-                           layer.views[0].width != width || layer.views[0].height != height;
-    if (otherSize) {
+    if (isFileOfItsOwn(layer.name)) {
       const ImageLayer alone{"", "", &layer.views[0], isHalf(layer.name)};
       if (const Status status = writeLayers(frame, withPart(path_, layer.name, ".exr"), {alone}); !status)
         return status.error();

@@ -24,11 +24,9 @@ struct OutputPlan {
   bool half = false;  // EXR: layers that 16 bits are enough for
   ExrOptions exr;
 
-  // Fails with usage for a name whose ending is not known, and with outputNotWritten where it cannot be
-  // written at all.
+  // Fails with usage for a name whose ending is not known.
   static Result<OutputPlan> make(const std::string& given, const std::string& sceneFile,
-                                 const std::string& layout, bool hasFrames, const RenderOptions& options,
-                                 const std::vector<std::string>& inputs);
+                                 const std::string& layout, bool hasFrames, const RenderOptions& options);
 
   // The path of frame `number`: #### is replaced by the number, zero-padded.
   std::string framePath(std::optional<int> number) const;
@@ -36,6 +34,8 @@ struct OutputPlan {
 
   // The files of a frame's picture: one, or one an eye.
   std::vector<std::string> picturePaths(const std::string& framePath) const;
+  // All files that a frame writes: those, then AOVs that are files of their own.
+  std::vector<std::string> files(const std::string& framePath) const;
   // Whether every file of this frame is there, whole, and of the right size.
   bool isThere(const std::string& framePath) const;
 
@@ -46,6 +46,7 @@ struct OutputPlan {
  private:
   friend class FilmOutput;
   bool asFiles() const { return separateEyes && viewCount > 1; }
+  bool isFileOfItsOwn(const std::string& aov) const;
   bool isHalf(const std::string& layer) const { return half && !Renderer::needsFloat(layer); }
   Status writeLayers(const Frame& frame, const std::string& path,
                      const std::vector<ImageLayer>& layers) const;
@@ -64,9 +65,5 @@ class FilmOutput {
   std::string layout_;
   std::vector<std::unique_ptr<FilmWriter>> films_;
 };
-
-// Whether a file could be written (an empty path: none is wanted), before long work begins: no input (scene,
-// look) and nothing but an ordinary file is ever replaced.
-Status checkWritable(const std::string& path, const std::vector<std::string>& inputs);
 
 }  // namespace scumble::app

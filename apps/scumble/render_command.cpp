@@ -1,6 +1,7 @@
 // scumble render: one image, a range of frames, or a film.
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -12,7 +13,9 @@
 #include "background.h"
 #include "commands.h"
 #include "frame_writer.h"
+#include "json_option.h"
 #include "options.h"
+#include "output_files.h"
 #include "outputs.h"
 #include "progress.h"
 #include "report.h"
@@ -35,9 +38,13 @@ struct RenderArguments {
   double time = 0, fps = 24;
   int quality = FilmOptions().quality;
   bool quiet = false, resume = false;
+  const CLI::App* command = nullptr;
+
+  bool isGiven(const char* option) const { return command->count(option) > 0; }
 };
 
 constexpr int kMostFrame = 10'000'000;
+constexpr double kMostSeconds = 1e6;  // as renderers take them
 constexpr unsigned kMostWriters = 4;  // beyond them disks are slower than encoders
 
 // "3..17"; nothing when it is not of that form.
@@ -89,13 +96,12 @@ Status readExrOptions(const std::string& text, OutputPlan& output) {
 Result<RenderOptions> renderOptions(const RenderArguments& args, const Background& background) {
   Result<RenderOptions> options = args.picture.renderOptions();
   if (!options) return options;
-  for (const std::string& name : args.aovs) {
-    if (name == "all") {
-      for (const std::string& every : Renderer::aovNames()) options->aovs.push_back(every);
-    } else if (!name.empty()) {
-      options->aovs.push_back(name);
-    }
-  }
+  std::vector<std::string> wanted;
+  for (const std::string& name : args.aovs)
+    for (const std::string& each : name == "all" ? Renderer::aovNames() : std::vector{name})
+      if (!each.empty() && std::find(wanted.begin(), wanted.end(), each) == wanted.end())
+        wanted.push_back(each);
+  options->aovs = std::move(wanted);
   options->transparent = background.isTransparent();
   return options;
 }
@@ -108,7 +114,7 @@ Result<Look> loadLook(const RenderArguments& args, const Background& background)
       arguments.settings.push_back(knob + args.background);
     arguments.settings.push_back("background.mode=look");
   }
-  return arguments.load(args.scene.files[0]);
+  return arguments.load(args.scene.files[0], args.quiet);
 }
 
 // The numbers of all frames that are wanted; nothing for one picture.
@@ -187,18 +193,16 @@ class FrameLoop {
   Renderer& renderer_;
 };
 
-void warnOfIdle(const Scene& scene, const Look& look) {
-  for (const std::string& setting : settingsWithoutEffect(scene, look))
-    warn({"--set " + setting + ": nothing in the scene has such a name (`scumble info` lists names)"});
-  const auto warnOf = [](const std::vector<std::string>& idle, const std::string& why) {
-    if (idle.empty()) return;
-    std::string names = idle.front();
-    if (idle.size() == 2) names += " and " + idle.back();
-    if (idle.size() > 2) names += " and " + std::to_string(idle.size() - 1) + " more";
-    warn({names + ": " + why});
-  };
-  warnOf(settingsWithoutNode(scene, look), "the scene has no node of that name (`scumble info` lists names)");
-  warnOf(settingsWithoutOcean(scene, look), "there is no ocean; --set ocean.mode=on puts one");
+// Of options that count for nothing beside others or for this output.
+void warnOfIdle(const RenderArguments& args, const OutputPlan& output) {
+  const bool isFilm = output.kind == OutputKind::film;
+  if (args.isGiven("--time") && !args.frames.empty())
+    warn({"--time does nothing beside --frames: frame n is at n / fps"});
+  if (args.isGiven("--time") && args.frames.empty() && isFilm) warn({"--time does nothing for a film"});
+  if (args.isGiven("--quality") && !isFilm) warn({"--quality does nothing for pictures; it is for films"});
+  if (args.isGiven("--exr") && (isFilm || (output.kind == OutputKind::png && output.aovs.empty())))
+    warn({"--exr does nothing where no EXR is written"});
+  args.picture.warnOfIdle();
 }
 
 int run(const RenderArguments& args) {
@@ -215,16 +219,17 @@ int run(const RenderArguments& args) {
   if (!background) return fail(background.error());
   const Result<RenderOptions> options = renderOptions(args, *background);
   if (!options) return fail(options.error());
-  std::vector<std::string> inputs = args.scene.files;
-  if (!args.look.look.empty()) inputs.push_back(args.look.look);
-  if (!background->file().empty()) inputs.push_back(background->file());
-  Result<OutputPlan> output = OutputPlan::make(args.output, args.scene.files[0], args.picture.stereo,
-                                               !args.frames.empty(), *options, inputs);
+  Result<OutputPlan> output =
+      OutputPlan::make(args.output, args.scene.files[0], args.picture.stereo, !args.frames.empty(), *options);
   if (!output) return fail(output.error());
   if (const Status status = readExrOptions(args.exr, *output); !status) return fail(status.error());
-  std::vector<std::string> statsInputs = inputs;
-  statsInputs.push_back(output->path);
-  if (const Status status = checkWritable(args.stats, statsInputs); !status) return fail(status.error());
+  std::vector<std::string> inputs = args.scene.files;
+  inputs.push_back(args.look.lookFor(args.scene.files[0]));
+  inputs.push_back(background->file());
+  OutputFiles files(inputs);
+  for (const std::string& file : output->files(output->path))
+    if (const Status status = files.add(file, "the picture"); !status) return fail(status.error());
+  if (const Status status = files.add(args.stats, "--stats"); !status) return fail(status.error());
   const bool isFilm = output->kind == OutputKind::film;
   if (!args.frames.empty()) {
     const auto range = parseFrames(args.frames);
@@ -238,15 +243,18 @@ int run(const RenderArguments& args) {
   if (isFilm && args.resume)
     return failUsage("a film cannot be resumed",
                      "write name.####.png with --resume, then make the film of those");
-  if (!std::isfinite(args.time) || !(args.fps > 0) || !std::isfinite(args.fps))
-    return failUsage("--time or --fps is out of range", "time is in seconds, fps above 0");
+  if (!(args.fps >= 0.01 && args.fps <= 1000))
+    return failUsage("--fps is out of range", "use 0.01 to 1000 frames a second");
+  if (!(std::abs(args.time) < kMostSeconds))
+    return failUsage("--time is out of range", "it is in seconds, up to a million");
   Result<Look> look = loadLook(args, *background);
   if (!look) return fail(look.error());
   const Result<Scene> scene = args.scene.load(args.quiet);
   if (!scene) return fail(scene.error());
+  for (const std::vector<std::string>& read : {look->files(), scene->files()})
+    if (const Status status = files.addInputs(read); !status) return fail(status.error());
   look = args.look.withClip(*look, *scene);
   if (!look) return fail(look.error());
-  if (!args.quiet) warnOfIdle(*scene, *look);
   // A camera that does not exist is found before there is a device.
   const Result<std::vector<View>> views = args.picture.views(*scene, *look);
   if (!views) return fail(views.error());
@@ -254,11 +262,19 @@ int run(const RenderArguments& args) {
   if (!numbers) return fail(numbers.error());
   if (output->isSequence())
     for (const int number : *numbers)
-      for (const std::string& path : output->picturePaths(output->framePath(number)))
-        if (const Status status = checkWritable(path, inputs); !status) return fail(status.error());
+      for (const std::string& file : output->files(output->framePath(number)))
+        if (const Status status = files.check(file, "a frame"); !status) return fail(status.error());
+  if (!args.quiet) {
+    warnOfIdle(args, *output);
+    args.look.warnOfIdle(*look, *scene, args.scene.files[0]);
+  }
   const bool isPicture = args.frames.empty() && !isFilm;
   std::vector<double> times;
   for (const int number : *numbers) times.push_back(number / args.fps);
+  for (const double time : times)
+    if (!(std::abs(time - 1 / args.fps) < kMostSeconds && std::abs(time) < kMostSeconds))
+      return failUsage("a frame's time is out of range",
+                       "frame n is at n / fps seconds, which may be up to a million");
   if (isPicture && !(args.resume && output->isThere(output->path))) times.push_back(args.time);
   lap("sceneMilliseconds");
   Result<std::unique_ptr<Renderer>> renderer = Renderer::create(args.picture.rendererOptions());
@@ -314,8 +330,7 @@ int run(const RenderArguments& args) {
                                 {"totalMilliseconds", millisecondsSince(start)},
                                 {"peakResidentBytes", uint64_t(usage.ru_maxrss) * 1024},
                                 {"frames", frameStats}};
-    if (const Status written = writeText(args.stats, report.dump(2) + "\n"); !written)
-      return fail(written.error());
+    if (const Status written = writeText(args.stats, textOf(report)); !written) return fail(written.error());
   }
   return kDone;
 }
@@ -363,6 +378,7 @@ void addRender(CLI::App& program, int& exitCode) {
       ->type_name("FILE");
   command->add_flag("--quiet", args->quiet, "No warnings and no progress");
   command->footer("Example: scumble render boat.glb -o boat.png --orbit 30,15 --set shadow.threshold=0.4");
+  args->command = command;
   command->callback([args, &exitCode] { exitCode = run(*args); });
 }
 

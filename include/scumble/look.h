@@ -48,6 +48,10 @@ class Look {
   Status set(const std::string& path, const std::string& value);
 
   const std::string& description() const;
+  // Pictures that it has read from files.
+  std::vector<std::string> files() const;
+  // What the file says to no effect, each a line with its place: keys that stand twice.
+  const std::vector<std::string>& warnings() const;
 
   static std::vector<ShippedLook> shipped();
   static std::vector<Knob> knobs();

@@ -91,9 +91,11 @@ struct Frame {
 // Seconds after which every clip that a look plays has played once; 0 where none does.
 double playedSeconds(const Scene& scene, const Look& look);
 
-// Of the settings made by Look::set for one material, node or clip, those whose name the scene does not have,
-// e.g. "materials.Sial": slips, most of them. Patterns and the look's file may know other scenes.
-std::vector<std::string> settingsWithoutEffect(const Scene& scene, const Look& look);
+// Names and patterns of materials, nodes and clips that the look sets something for and that the scene does
+// not have, e.g. "materials.Sial": slips, most of them. Of what Look::set has set all of them; of the look's
+// file none, for it may know other scenes, but where it is meant for this one (`fileToo`) its names: patterns
+// ('*' and '?') may still be meant for many.
+std::vector<std::string> settingsWithoutEffect(const Scene& scene, const Look& look, bool fileToo = false);
 // Settings of the look by which something hangs, at any time, on a node which the scene does not have, e.g.
 // "colorizers.Glow.volume.node": it is left out then.
 std::vector<std::string> settingsWithoutNode(const Scene& scene, const Look& look);
@@ -101,6 +103,8 @@ std::vector<std::string> settingsWithoutNode(const Scene& scene, const Look& loo
 // where it declares any, and groups of knobs that Look::set set, e.g. "ocean.paint".
 std::vector<std::string> settingsWithoutOcean(const Scene& scene, const Look& look);
 
+// One thread at a time uses a renderer: a call of another one meanwhile fails with usage and changes nothing,
+// and nobody destroys a renderer while a call is under way. Renderers of their own are independent.
 class Renderer {
  public:
   static Result<std::unique_ptr<Renderer>> create(const RendererOptions& options = {});
@@ -122,16 +126,19 @@ class Renderer {
                const RenderOptions& options);
   Result<Frame> finish();
 
-  // Names of everything that can be saved beside the picture, and whether what one holds (metres, positions,
-  // numbers of objects) needs 32 bits; the picture's own name is empty.
+  // Names of everything that can be saved beside the picture; whether what one holds (metres, positions,
+  // numbers of objects) needs 32 bits; and whether it has a size of its own, and one image for all views. The
+  // picture's own name is empty.
   static std::vector<std::string> aovNames();
   static bool needsFloat(const std::string& aov);
+  static bool hasSizeOfItsOwn(const std::string& aov);
 
   GpuInfo gpu() const;
   int validationMessages() const;  // since the start
 
  private:
   Renderer();
+  class Turn;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -42,7 +42,7 @@ struct SceneSummary {
 // An immutable scene; copies are cheap and share the data. May be used from several threads.
 class Scene {
  public:
-  // Reads .gltf or .glb. Fails with ErrorKind::unusableFile.
+  // Reads .gltf or .glb. Fails with ErrorKind::unusableFile, and with usage for options out of range.
   static Result<Scene> load(const std::string& path, const SceneOptions& options = {});
 
   // The same from a glTF or GLB in memory; URIs are resolved relative to `folder`. With an empty `folder` no
@@ -57,6 +57,8 @@ class Scene {
 
   SceneSummary summary() const;
 
+  // Files beside its own that the scene names, whether or not they are there: who writes files spares these.
+  const std::vector<std::string>& files() const;
   const std::vector<std::string>& warnings() const;  // what was ignored or replaced, each once
   const SceneTimings& timings() const;
 

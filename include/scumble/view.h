@@ -11,11 +11,13 @@
 
 namespace scumble {
 
-// One eye. Matrices are column-major, for column vectors.
+// One eye. Matrices are column-major, for column vectors. Renderers refuse those of other conventions
+// (ErrorKind::usage).
 struct View {
-  glm::mat4 worldToEye{1.0f};  // eye space: x right, y up, looking along -z; metres
+  // Eye space: x right, y up, looking along -z; metres. Its last row is 0, 0, 0, 1, and it can be inverted.
+  glm::mat4 worldToEye{1.0f};
   // Eye to clip space in Vulkan's convention: y down, depth reversed (1 at the near plane, 0 far away). May
-  // be off-centre.
+  // be off-centre. There is no default: the identity is refused.
   glm::mat4 eyeToClip{1.0f};
   // The scene's node that the view hangs on: where the ocean's waves move that, the view goes with it, and
   // worldToEye is from where it is without them. -1: none.
@@ -31,12 +33,13 @@ glm::mat4 orthographicProjection(float halfHeight, float aspect, float near, flo
 struct Viewpoint {
   std::string camera;  // name or number of a scene's camera; empty: the first
   bool orbit = false;  // around the scene's centre
-  float azimuth = 0,
-        elevation = 0;  // degrees; azimuth 0 looks at the scene's front (+Z), growing to its left (+X)
-  std::optional<float> distance;         // in scene radii; default: everything in the frame
-  std::optional<glm::vec3> eye, target;  // metres
-  float roll = 0;                        // degrees, clockwise as seen by the viewer
-  std::optional<float> verticalFov;      // degrees
+  // Degrees: azimuth 0 looks at the scene's front (+Z), growing to its left (+X), up to a hundred turns;
+  // elevation -90 to 90.
+  float azimuth = 0, elevation = 0;
+  std::optional<float> distance;  // in scene radii, above 0 up to a million; default: everything in the frame
+  std::optional<glm::vec3> eye, target;  // metres, up to 1e15 as all of a scene
+  float roll = 0;                        // degrees, clockwise as seen by the viewer, up to a hundred turns
+  std::optional<float> verticalFov;      // degrees, 0.1 to 177
 };
 
 enum class Stereo { mono, stereo };
@@ -44,8 +47,8 @@ enum class Stereo { mono, stereo };
 // One view, or the left and the right one (ipd metres apart, parallel axes), at a time in seconds. A camera
 // of the scene goes where the clips that the look plays take it, held by nothing, and names its node, so that
 // it rides the ocean's waves where that does; every other viewpoint stands still, and sees what the scene
-// takes up while they play. Fails with ErrorKind::usage for an unknown camera and for a viewpoint that sees
-// nothing (eye on the target).
+// takes up while they play. `ipd` is 0 to a million. Fails with ErrorKind::usage for an unknown camera,
+// numbers out of range, and a viewpoint that sees nothing (eye on the target).
 Result<std::vector<View>> makeViews(const Scene& scene, const Viewpoint& viewpoint, float aspect,
                                     Stereo stereo = Stereo::mono, float ipd = 0.063f,
                                     const Look& look = Look(), double time = 0);

@@ -25,6 +25,10 @@ FileBytes::~FileBytes() {
 }
 
 bool FileBytes::open(const std::string& path, std::string& problem) {
+  if (path.find('\0') != std::string::npos) {
+    problem = "its name holds the character NUL";
+    return false;
+  }
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (file < 0) {
     problem =

@@ -2,6 +2,8 @@
 // standard input, and writes into a file without a name, so that no kill of any process leaves one. From that
 // file the film is put together.
 #include <fmt/format.h>
+#include <signal.h>
+#include <string.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -103,8 +105,10 @@ Error FilmWriter::State::lost(std::string problem, std::string advice) {
 // What ffmpeg has said, in our words where we know what it means.
 Error FilmWriter::State::encoderFailed(const std::string& how) {
   const std::string& said = ffmpeg.said();
-  for (const char* reason : {"No space left on device", "Disk quota exceeded", "File too large"})
-    if (said.find(reason) != std::string::npos)
+  // The last one is how the signal is called that ends a child beyond a limit.
+  for (const char* reason : {"No space left on device", "Disk quota exceeded", "File too large",
+                             static_cast<const char*>(strsignal(SIGXFSZ))})
+    if ((said + how).find(reason) != std::string::npos)
       return lost(std::string("cannot be written: ") + reason,
                   "make room on the disk or choose another place");
   if (said.find("Unknown encoder") != std::string::npos)

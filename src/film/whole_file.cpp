@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/file_size_signal.h"
 #include "film/passing_file.h"
 
 namespace scumble::film {
@@ -53,7 +54,8 @@ WholeFile::WholeFile(const std::string& path)
 
 // Returns 0 or the reason why not.
 int WholeFile::openPassing() {
-  if (target_.empty()) return ENOENT;
+  if (path_.empty()) return ENOENT;
+  if (path_.find('\0') != std::string::npos) return EINVAL;
   if (target_.back() == '/') return EISDIR;
 
   // A rename would silently replace things that a plain open would respect: folders, devices, protected
@@ -78,12 +80,14 @@ int WholeFile::openPassing() {
 }
 
 WholeFile::~WholeFile() {
+  const FileSizeSignalHeld held;  // closing writes what is left
   if (file_) fclose(file_);
   if (!passing_.empty()) unlink(passing_.c_str());
 }
 
 void WholeFile::write(const void* bytes, size_t size) {
   if (!ok() || size == 0) return;
+  const FileSizeSignalHeld held;
   errno = 0;
   if (fwrite(bytes, 1, size, file_) != size) return fail(errno);
   position_ += size;
@@ -91,6 +95,7 @@ void WholeFile::write(const void* bytes, size_t size) {
 
 void WholeFile::seek(uint64_t position) {
   if (!ok() || position == position_) return;
+  const FileSizeSignalHeld held;
   errno = 0;
   if (fseeko(file_, off_t(position), SEEK_SET) != 0) return fail(errno);
   position_ = position;
@@ -98,6 +103,7 @@ void WholeFile::seek(uint64_t position) {
 
 Status WholeFile::commit() {
   if (file_) {
+    const FileSizeSignalHeld held;
     // A full disk may show only here, when the last buffer goes out. The second descriptor keeps a file
     // without a name alive.
     const int descriptor = fcntl(fileno(file_), F_DUPFD_CLOEXEC, 0);

@@ -85,6 +85,30 @@ Error badViewpoint(std::string problem, std::string advice) {
   return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
 }
 
+// Turns and places beyond which floats tell neighbouring ones no longer apart.
+constexpr float kMostDegrees = 36000, kMostRadii = 1e6f, kMostMetres = 1e15f, kMostIpd = 1e6f;
+
+Status checkRanges(const Viewpoint& viewpoint, float ipd) {
+  const auto isBeyond = [](float number, float most) { return !(std::abs(number) <= most); };
+  if (isBeyond(viewpoint.roll, kMostDegrees))
+    return badViewpoint("the roll is out of range", "it is in degrees, up to a hundred turns");
+  if (!(ipd >= 0 && ipd <= kMostIpd))
+    return badViewpoint("the distance between the eyes (ipd) is out of range",
+                        "it is in metres, 0 to a million");
+  if (isBeyond(viewpoint.azimuth, kMostDegrees))
+    return badViewpoint("the orbit's azimuth is out of range", "it is in degrees, up to a hundred turns");
+  if (isBeyond(viewpoint.elevation, 90))
+    return badViewpoint("the orbit's elevation is out of range", "it is -90 to 90 degrees");
+  if (viewpoint.distance && !(*viewpoint.distance > 0 && *viewpoint.distance <= kMostRadii))
+    return badViewpoint("the orbit's distance is out of range",
+                        "it is in scene radii, above 0 and up to a million");
+  for (const auto& point : {viewpoint.eye, viewpoint.target})
+    for (int axis = 0; axis < 3; ++axis)
+      if (point && isBeyond((*point)[axis], kMostMetres))
+        return badViewpoint("the eye or its target is out of range", "they are in metres, up to 1e15");
+  return Done{};
+}
+
 // Index of the camera with this name, or with this number.
 std::optional<size_t> findCamera(const SceneData& scene, const std::string& name) {
   for (size_t i = 0; i < scene.cameras.size(); ++i)
@@ -116,6 +140,7 @@ Result<std::vector<View>> makeViews(const Scene& scene, const Viewpoint& viewpoi
   if (!(fov > 0.001f && fov < 3.1f))
     return badViewpoint("a field of view of that size sees nothing", "use 1 to 170 degrees");
   if (!(aspect > 0)) return badViewpoint("the picture has no area", "give a size like 1280x720");
+  if (const Status status = checkRanges(viewpoint, ipd); !status) return status.error();
 
   View view;
   if (viewpoint.eye || viewpoint.target || viewpoint.orbit ||
@@ -136,8 +161,6 @@ Result<std::vector<View>> makeViews(const Scene& scene, const Viewpoint& viewpoi
                                                   : orbitDirection(kDefaultAzimuth, kDefaultElevation);
       const float distance =
           viewpoint.distance ? *viewpoint.distance * radius : framingDistance(bounds, direction, fov, aspect);
-      if (!(distance > 0))
-        return badViewpoint("the orbit's distance is not above zero", "give it in scene radii, e.g. 3");
       view = lookAt(bounds.center() + distance * direction, bounds.center(), viewpoint.roll);
       view.eyeToClip = perspectiveProjection(fov, aspect, std::min(near, 0.1f * distance));
     }

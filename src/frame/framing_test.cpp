@@ -292,6 +292,38 @@ TEST(Viewpoint, viewsThatSeeNothingAreUsageErrors) {
   for (const float aspect : {0.0f, -1.0f, std::nanf("")}) expectUsage({}, aspect);
 }
 
+TEST(Viewpoint, numbersOutOfRangeAreUsageErrors) {
+  const Scene scene = loaded(boxScene({0, 0, 0}, {1, 1, 1}));
+  const auto problem = [&](const Viewpoint& viewpoint, float ipd = 0.063f) -> std::string {
+    const auto views = makeViews(scene, viewpoint, 1, Stereo::stereo, ipd);
+    if (views) return "";
+    EXPECT_EQ(views.error().kind, ErrorKind::usage);
+    EXPECT_FALSE(views.error().advice.empty());
+    return views.error().problem;
+  };
+  const auto orbit = [](float azimuth, float elevation, std::optional<float> distance = {}) {
+    Viewpoint viewpoint;
+    viewpoint.orbit = true;
+    viewpoint.azimuth = azimuth, viewpoint.elevation = elevation, viewpoint.distance = distance;
+    return viewpoint;
+  };
+  for (const float degrees : {-90.0f, 0.0f, 90.0f}) EXPECT_EQ(problem(orbit(-400, degrees)), "");
+  for (const float degrees : {-91.0f, 1000.0f, std::nanf("")})
+    EXPECT_EQ(problem(orbit(0, degrees)), "the orbit's elevation is out of range");
+  EXPECT_EQ(problem(orbit(1e30f, 0)), "the orbit's azimuth is out of range");
+  EXPECT_EQ(problem(orbit(0, 0, 1e30f)), "the orbit's distance is out of range");
+  Viewpoint rolled, far;
+  rolled.roll = 720;
+  EXPECT_EQ(problem(rolled), "");
+  rolled.roll = 1e30f;
+  EXPECT_EQ(problem(rolled), "the roll is out of range");
+  far.eye = glm::vec3(0, 0, 1e16f);
+  EXPECT_EQ(problem(far), "the eye or its target is out of range");
+  for (const float ipd : {0.0f, 10.0f}) EXPECT_EQ(problem({}, ipd), "");
+  for (const float ipd : {-1.0f, 1e30f, std::nanf("")})
+    EXPECT_EQ(problem({}, ipd), "the distance between the eyes (ipd) is out of range");
+}
+
 // -- Stereo
 
 TEST(Stereo, eyesAreSideBySideAndParallel) {

@@ -1,15 +1,13 @@
 #include "gpu/device.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <optional>
+
+#include "gpu/pipeline_cache_file.h"
 
 namespace scumble::gpu {
 
@@ -180,9 +178,9 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
 const char* resultName(VkResult result) {
   switch (result) {
     case VK_ERROR_OUT_OF_HOST_MEMORY:
-      return "out of memory";
+      return "there is not enough memory";
     case VK_ERROR_OUT_OF_DEVICE_MEMORY:
-      return "out of device memory";
+      return "there is not enough memory on the device";
     case VK_ERROR_DEVICE_LOST:
       return "the device was lost";
     case VK_ERROR_INITIALIZATION_FAILED:
@@ -194,12 +192,14 @@ const char* resultName(VkResult result) {
     case VK_ERROR_FORMAT_NOT_SUPPORTED:
       return "a format is not supported";
     default:
-      return "unexpected result";
+      return "the driver gave an unexpected result";
   }
 }
 
 std::string VulkanError::message() const {
-  return std::string(call) + ": " + resultName(result) + " (" + std::to_string(int(result)) + ")";
+  // What was called, without its arguments.
+  return std::string(resultName(result)) + " (" + std::string(call, std::strcspn(call, "(")) + ", " +
+         std::to_string(int(result)) + ")";
 }
 
 Result<std::vector<DeviceInfo>> listDevices() {
@@ -323,19 +323,11 @@ Device::~Device() {
 }
 
 void Device::openPipelineCache(const std::string& folder) {
-  std::vector<char> data;
-  if (!folder.empty()) {
-    // One file a driver build: the driver itself rejects foreign data, the name only keeps them apart.
-    VkPhysicalDeviceProperties properties;
-    vkGetPhysicalDeviceProperties(physical_, &properties);
-    char name[2 * VK_UUID_SIZE + 1];
-    for (uint32_t i = 0; i < VK_UUID_SIZE; ++i)
-      std::snprintf(name + 2 * i, 3, "%02x", properties.pipelineCacheUUID[i]);
-    cacheFile_ = folder + "/pipelines-" + name + ".bin";
-    if (std::ifstream file{cacheFile_, std::ios::binary})
-      data.assign(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
-  }
-  cacheSizeOnDisk_ = data.size();
+  VkPhysicalDeviceProperties properties;
+  vkGetPhysicalDeviceProperties(physical_, &properties);
+  if (!folder.empty()) cacheFile_ = pipelineCacheFile(folder, properties);
+  const std::vector<char> data = folder.empty() ? std::vector<char>() : readPipelineCache(cacheFile_);
+  cachedBytes_ = data.size();
   VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
   info.initialDataSize = data.size();
   info.pInitialData = data.data();
@@ -345,21 +337,12 @@ void Device::openPipelineCache(const std::string& folder) {
 void Device::savePipelineCache() {
   if (cacheFile_.empty()) return;
   size_t size = 0;
-  if (vkGetPipelineCacheData(device_, pipelineCache_, &size, nullptr) != VK_SUCCESS ||
-      size == cacheSizeOnDisk_)
+  if (vkGetPipelineCacheData(device_, pipelineCache_, &size, nullptr) != VK_SUCCESS || size == cachedBytes_)
     return;
   std::vector<char> data(size);
   if (vkGetPipelineCacheData(device_, pipelineCache_, &size, data.data()) != VK_SUCCESS) return;
-  // A cache that cannot be written only costs time at the next start, so failure is silent.
-  std::error_code ignored;
-  const std::filesystem::path file(cacheFile_);
-  std::filesystem::create_directories(file.parent_path(), ignored);
-  const std::filesystem::path temporary = file.string() + "." + std::to_string(getpid()) + ".tmp";
-  const bool written =
-      std::ofstream(temporary, std::ios::binary).write(data.data(), std::streamsize(size)).flush().good();
-  if (written) std::filesystem::rename(temporary, file, ignored);
-  if (!written || ignored) std::filesystem::remove(temporary, ignored);
-  cacheSizeOnDisk_ = size;
+  writePipelineCache(cacheFile_, data);
+  cachedBytes_ = size;
 }
 
 void Device::waitForSubmissions() {

@@ -88,7 +88,7 @@ class Device {
   VkCommandPool pool_ = VK_NULL_HANDLE;
   VkPipelineCache pipelineCache_ = VK_NULL_HANDLE;
   std::string cacheFile_;
-  size_t cacheSizeOnDisk_ = 0;
+  size_t cachedBytes_ = 0;
   std::unique_ptr<MemoryPool> memory_;
   DeviceInfo info_;
   VkPhysicalDeviceLimits limits_{};

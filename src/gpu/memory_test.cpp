@@ -112,5 +112,17 @@ TEST(RangeAllocatorDeathTest, givingBackWhatIsFreeIsOurMistake) {
   EXPECT_DEATH(allocator.release(0, 32), "release");
 }
 
+// The words come first; what was called, for those who report it, has no C++ in it.
+TEST(VulkanError, saysWhatIsWrongAndWhatWasCalled) {
+  const auto message = [](VkResult result) {
+    return VulkanError{"vkAllocateMemory(device_, &info, nullptr, &memory)", result}.message();
+  };
+  EXPECT_EQ(message(VK_ERROR_OUT_OF_DEVICE_MEMORY),
+            "there is not enough memory on the device (vkAllocateMemory, -2)");
+  EXPECT_EQ(message(VK_ERROR_OUT_OF_HOST_MEMORY), "there is not enough memory (vkAllocateMemory, -1)");
+  EXPECT_EQ(message(VK_ERROR_DEVICE_LOST), "the device was lost (vkAllocateMemory, -4)");
+  EXPECT_EQ(message(VK_ERROR_UNKNOWN), "the driver gave an unexpected result (vkAllocateMemory, -13)");
+}
+
 }  // namespace
 }  // namespace scumble::gpu

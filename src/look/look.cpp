@@ -22,6 +22,16 @@ const std::string& Look::description() const {
   return data_->description;
 }
 
+std::vector<std::string> Look::files() const {
+  std::vector<std::string> files;
+  for (const auto& picture : data_->pictures) files.push_back(picture->file);
+  return files;
+}
+
+const std::vector<std::string>& Look::warnings() const {
+  return data_->warnings;
+}
+
 Result<Look> Look::load(const std::string& nameOrFile) {
   const bool isFile = nameOrFile.find('/') != std::string::npos ||
                       (nameOrFile.size() > 5 && nameOrFile.compare(nameOrFile.size() - 5, 5, ".json") == 0);
@@ -41,7 +51,7 @@ Result<Look> Look::load(const std::string& nameOrFile) {
                                     : "did you mean '" + suggestion + "'?"};
   }
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(nameOrFile, ignored))
+  if (nameOrFile.find('\0') != std::string::npos || !std::filesystem::is_regular_file(nameOrFile, ignored))
     return Error{
         ErrorKind::unusableFile,
         nameOrFile,
@@ -54,8 +64,13 @@ Result<Look> Look::load(const std::string& nameOrFile) {
   if (!file || size < 0)
     return Error{ErrorKind::unusableFile, nameOrFile, 0, "", "the look cannot be opened", "check the path"};
   if (size_t(size) > kMaxLookFile)
-    return Error{ErrorKind::unusableFile,        nameOrFile,      0, "",
-                 "this is too large for a look", "check the path"};
+    return Error{
+        ErrorKind::unusableFile,
+        nameOrFile,
+        0,
+        "",
+        "this is too large for a look: " + std::to_string((size_t(size) + (1 << 20) - 1) >> 20) + " MiB",
+        "a look has " + std::to_string(kMaxLookFile >> 20) + " MiB at most; check the path"};
   std::string text(size_t(size), '\0');
   file.seekg(0);
   if (!file.read(text.data(), size) && size > 0)
@@ -64,6 +79,8 @@ Result<Look> Look::load(const std::string& nameOrFile) {
 }
 
 Status Look::set(const std::string& path, const std::string& value) {
+  if ((path + value).find('\0') != std::string::npos)
+    return Error{ErrorKind::usage, "", 0, "", "a setting holds the character NUL", "leave it out"};
   Result<look::Assignment> assignment = look::parseSettingPath(path);
   if (!assignment) return assignment.error();
   auto changed = std::make_shared<look::LookData>(*data_);

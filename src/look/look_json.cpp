@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "look/look_text.h"
 #include "look/read_value.h"
 #include "look/setting_path.h"
 #include "scumble/look.h"
@@ -50,13 +51,17 @@ class Reader {
   Status readRoot(const Json& root) {
     if (!root.is_object()) return place("").fail("a look is a JSON object", "see `scumble schema`");
     for (const auto& [key, value] : root.items()) {
-      if (key == "$schema") continue;
+      if (key == "$schema") {
+        if (!value.is_string()) return place(key).fail("the schema is no string", "write its name in quotes");
+        continue;
+      }
       if (key == "description") {
         if (!value.is_string()) return place(key).fail("the description is no string", "write it in quotes");
         out_.description = value.get<std::string>();
         continue;
       }
       const Section* section = findSection(key);
+      if (const Status good = checkKey(key, key); !good) return good;
       const Status status = section ? readSection(*section, value) : readGroup(value, key, "", nullptr, key);
       if (!status) return status;
     }
@@ -65,6 +70,15 @@ class Reader {
 
  private:
   JsonPlace place(const std::string& path) const { return {file_, path}; }
+
+  // A key is one word of a knob's path, as the schema has it.
+  Status checkKey(const std::string& key, const std::string& path) const {
+    if (key.empty()) return place(path).fail("a key is empty", "give it a name, or leave it out");
+    const size_t dot = key.find('.');
+    if (dot == std::string::npos) return Done{};
+    return place(path).fail("a dot stands in this key", "nest it: \"" + key.substr(0, dot) + "\": { \"" +
+                                                            key.substr(dot + 1) + "\": ... }");
+  }
 
   Status readSection(const Section& section, const Json& value) {
     const std::string one = section.one;
@@ -96,6 +110,7 @@ class Reader {
       if (std::count(knobPath.begin(), knobPath.end(), '.') > 8)
         return place(jsonPath).fail("there is no knob so deep inside", "`scumble params` lists them all");
       for (const auto& [key, child] : value.items()) {
+        if (const Status good = checkKey(key, jsonPath + "." + key); !good) return good;
         const Status status = readGroup(child, knobPath.empty() ? key : knobPath + "." + key, pattern,
                                         section, jsonPath + "." + key);
         if (!status) return status;
@@ -169,18 +184,10 @@ Result<Value> readJsonValue(const ParamRow& row, const Json& value, const JsonPl
 
 Result<Look> Look::fromJson(const std::string& text, const std::string& file) {
   auto data = std::make_shared<look::LookData>();
-  try {
-    const look::Json root = look::Json::parse(text);
-    const Status status = look::Reader(*data, file).readRoot(root);
-    if (!status) return status.error();
-  } catch (const look::Json::parse_error& error) {
-    const size_t end = std::min(error.byte, text.size());
-    const int line = 1 + int(std::count(text.begin(), text.begin() + long(end), '\n'));
-    return Error{
-        ErrorKind::unusableFile, file, line, "", "this is no JSON", "mind commas, quotes and brackets there"};
-  } catch (const look::Json::exception&) {
-    return Error{ErrorKind::unusableFile, file, 0, "", "this JSON cannot be read", "see `scumble schema`"};
-  }
+  const Result<look::Json> root = look::parseText(text, file, data->warnings);
+  if (!root) return root.error();
+  const Status status = look::Reader(*data, file).readRoot(*root);
+  if (!status) return status.error();
   Look look;
   look.data_ = std::move(data);
   return look;

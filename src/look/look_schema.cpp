@@ -112,7 +112,8 @@ std::string Look::jsonSchema() {
     look::Json single = look::group();
     for (const look::ParamBlock* block : look::allBlocks())
       if (block->targets & section.target) look::addBlock(single, *block);
-    root["properties"][section.name] = {{"type", "object"}, {"additionalProperties", single}};
+    root["properties"][section.name] = {
+        {"type", "object"}, {"propertyNames", {{"minLength", 1}}}, {"additionalProperties", single}};
   }
   root["$defs"] = {{"smoothTrack", look::trackSchema({"step", "linear", "cubic"}, "linear")},
                    {"stepTrack", look::trackSchema({"step"}, "step")}};

@@ -41,6 +41,10 @@ bool accepts(const json& root, const json& schema, const json& value) {
       ok = !value.is_number() || value >= rule;
     } else if (word == "maximum") {
       ok = !value.is_number() || value <= rule;
+    } else if (word == "minLength") {
+      ok = !value.is_string() || value.get<std::string>().size() >= rule;
+    } else if (word == "propertyNames" && value.is_object()) {
+      for (const auto& [name, child] : value.items()) ok &= accepts(root, rule, name);
     } else if (word == "minItems") {
       ok = !value.is_array() || value.size() >= rule;
     } else if (word == "maxItems") {
@@ -65,9 +69,9 @@ bool accepts(const json& root, const json& schema, const json& value) {
         ok &= (schema.contains("properties") && schema["properties"].contains(name)) ||
               accepts(root, rule, child);
     } else {
-      static const std::set<std::string> kOthers{"$schema",     "$defs",      "title",
-                                                 "description", "default",    "items",
-                                                 "prefixItems", "properties", "additionalProperties"};
+      static const std::set<std::string> kOthers{
+          "$schema", "$defs",       "title",      "description",          "default",
+          "items",   "prefixItems", "properties", "additionalProperties", "propertyNames"};
       ok = kOthers.count(word);
     }
     if (!ok) return false;
@@ -137,6 +141,23 @@ TEST(LookSchema, groupsForbidUnknownKnobs) {
   for (const look::Section& section : look::kSections)
     visit(schema["properties"][section.name]["additionalProperties"]);
   EXPECT_GT(groups, look::allBlocks().size());
+}
+
+TEST(LookSchema, agreesWithTheReaderOnKeys) {
+  const json amount = {{"warp", {{"amount", 1}}}};
+  expectSame(amount, true);
+  expectSame({{"warp.amount", 1}}, false);
+  expectSame({{"warp", {{"metatexture.size", 200}}}}, false);
+  expectSame({{"", amount}}, false);
+  expectSame({{"$schema", "look.schema.json"}}, true);
+  expectSame({{"$schema", 1}}, false);
+  for (const look::Section& section : look::kSections) {
+    expectSame({{section.name, json::object()}}, true);
+    expectSame({{section.name, {{"A.001", json::object()}}}}, true);
+    expectSame({{section.name, {{"", json::object()}}}}, false);
+    expectSame({{section.name, {{"A", {{"", json::object()}}}}}}, false);
+    expectSame({{std::string(section.name) + ".A", json::object()}}, false);
+  }
 }
 
 TEST(LookSchema, acceptsTheLooksThatShip) {

@@ -436,7 +436,7 @@ Result<Measurements> measure(Renderer& renderer, const Scene& scene, const Look&
     return usage("a picture of " + std::to_string(options.width) + "x" + std::to_string(options.height) +
                      " cannot be measured",
                  "use 16x16 to 4096x4096");
-  if (options.ipd && !(std::isfinite(*options.ipd) && *options.ipd > 0))
+  if (options.ipd && !(std::isfinite(*options.ipd) && *options.ipd > 0 && *options.ipd <= 1e6f))
     return usage("the distance between the eyes is not above zero", "give it in metres");
   return Measurer(renderer, scene, look, options).run();
 }

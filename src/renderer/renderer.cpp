@@ -1,16 +1,19 @@
 #include "scumble/renderer.h"
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <deque>
 #include <list>
 #include <optional>
+#include <thread>
 
 #include "frame/framing.h"
 #include "frame/light.h"
 #include "frame/palette.h"
 #include "frame/playing.h"
+#include "frame/view_check.h"
 #include "look/setting_path.h"
 #include "passes/colorize/colorize.h"
 #include "renderer/pass_list.h"
@@ -45,12 +48,6 @@ std::optional<Slot> slotOfAov(const std::string& name) {
   for (size_t i = 0; i < size_t(Slot::count); ++i)
     if (slotInfo(Slot(i)).isAov && name == slotInfo(Slot(i)).name) return Slot(i);
   return std::nullopt;
-}
-
-bool isFinite(const glm::mat4& m) {
-  for (int i = 0; i < 16; ++i)
-    if (!std::isfinite(m[i / 4][i % 4])) return false;
-  return true;
 }
 
 bool isPicture(const Image& image) {
@@ -135,6 +132,7 @@ struct Begun {
 }  // namespace renderer
 
 struct Renderer::Impl {
+  std::atomic<std::thread::id> user;  // the thread that is inside, if one is
   std::unique_ptr<gpu::Device> device;
   std::optional<gpu::Samplers> samplers;
   std::optional<ExampleTextures> examples;
@@ -218,6 +216,30 @@ struct Renderer::Impl {
     return {ErrorKind::noUsableGpu,          "", 0, "", "there is not enough memory",
             "use a smaller picture or scene"};
   }
+};
+
+// While one is taken, other threads are refused; the one that has it may enter again.
+class Renderer::Turn {
+ public:
+  explicit Turn(Impl& impl) : impl_(impl) {
+    std::thread::id user;
+    isFirst_ = impl_.user.compare_exchange_strong(user, std::this_thread::get_id());
+    isTaken_ = isFirst_ || user == std::this_thread::get_id();
+  }
+  ~Turn() {
+    if (isFirst_) impl_.user = std::thread::id();
+  }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+
+  explicit operator bool() const { return isTaken_; }
+  Error refusal() const {
+    return usage("this renderer is in use by another thread", "give each thread a renderer of its own");
+  }
+
+ private:
+  Impl& impl_;
+  bool isFirst_, isTaken_;
 };
 
 void Renderer::Impl::useConfiguration(Resident& resident, const Configuration& configuration) {
@@ -379,6 +401,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
 
 Result<Frame> Renderer::render(const Scene& scene, const Look& look, double time,
                                const std::vector<View>& views, const RenderOptions& options) {
+  const Turn turn(*impl_);
+  if (!turn) return turn.refusal();
   if (!impl_->begun.empty())
     return usage("other frames have been begun", "call finish() until all are finished");
   if (const Status status = begin(scene, look, time, views, options); !status) return status.error();
@@ -387,6 +411,8 @@ Result<Frame> Renderer::render(const Scene& scene, const Look& look, double time
 
 Status Renderer::begin(const Scene& scene, const Look& look, double time, const std::vector<View>& views,
                        const RenderOptions& options) {
+  const Turn turn(*impl_);
+  if (!turn) return turn.refusal();
   // Check what the caller wants.
   if (scene.empty()) return usage("the scene is empty", "load one with Scene::load");
   const uint32_t largest = std::min(kMaxSize, impl_->device->limits().maxImageDimension2D);
@@ -398,13 +424,14 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
     return usage("the number of samples is neither 1 nor 4", "use 4");
   if (options.samples == 4 && !impl_->device->supports4Samples())
     return usage("this device has no 4 samples a pixel", "use --samples 1");
-  if (views.empty() || views.size() > size_t(shared::kMaxViews) ||
-      (!options.previousViews.empty() && options.previousViews.size() != views.size()))
+  if (views.empty() || views.size() > size_t(shared::kMaxViews))
     return usage("the number of views is neither one nor two", "give one, or a left and a right one");
+  if (!options.previousViews.empty() && options.previousViews.size() != views.size())
+    return usage("there are not as many previous views as views", "give one for each, or none at all");
   for (const std::vector<View>* seen : {&views, &options.previousViews})
     for (const View& view : *seen) {
-      if (!isFinite(view.worldToEye) || !isFinite(view.eyeToClip))
-        return usage("a view is not finite", "check the camera");
+      if (const std::string problem = problemWith(view); !problem.empty())
+        return usage(problem, "see View in scumble/view.h, or make views with makeViews");
       if (view.node >= int(scene.data().nodes.size()))
         return usage("a view hangs on a node that the scene does not have", "make views of this scene");
     }
@@ -542,6 +569,8 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
 }
 
 Result<Frame> Renderer::finish() {
+  const Turn turn(*impl_);
+  if (!turn) return turn.refusal();
   if (impl_->begun.empty()) return usage("no frame has been begun", "call begin() first");
   try {
     impl_->fetch(impl_->begun.front());
@@ -567,6 +596,11 @@ bool Renderer::needsFloat(const std::string& aov) {
   if (!slot) return false;
   const VkFormat format = slotInfo(*slot).format;
   return format == VK_FORMAT_R32G32B32A32_SFLOAT || gpu::isDepthFormat(format);
+}
+
+bool Renderer::hasSizeOfItsOwn(const std::string& aov) {
+  const std::optional<Slot> slot = slotOfAov(aov);
+  return slot && slotInfo(*slot).rate == Rate::once;
 }
 
 double playedSeconds(const Scene& scene, const Look& look) {

@@ -11,14 +11,13 @@
 
 namespace scumble {
 
-std::vector<std::string> settingsWithoutEffect(const Scene& scene, const Look& look) {
+std::vector<std::string> settingsWithoutEffect(const Scene& scene, const Look& look, bool fileToo) {
   if (scene.empty()) return {};
   const scene::SceneData& data = scene.data();
   std::vector<std::string> idle;
   for (const look::Assignment& setting : look.data().assignments) {
-    if (!setting.byHand || setting.target == look::kScene) continue;
-    // A pattern is meant for many scenes.
-    if (setting.pattern.find_first_of("*?") != std::string::npos) continue;
+    if (setting.target == look::kScene) continue;
+    if (!setting.byHand && (!fileToo || look::isPattern(setting.pattern))) continue;
     const auto matchesAny = [&](const auto& named) {
       return std::any_of(named.begin(), named.end(),
                          [&](const auto& one) { return look::matches(setting.pattern, one.name); });
@@ -29,7 +28,8 @@ std::vector<std::string> settingsWithoutEffect(const Scene& scene, const Look& l
                        : setting.target == look::kNodes ? matchesAny(data.nodes)
                        : setting.target == look::kClips ? matchesAny(data.clips)
                                                         : true;
-    if (!found) idle.push_back(std::string(look::firstSection(setting.target).name) + "." + setting.pattern);
+    const std::string path = std::string(look::firstSection(setting.target).name) + "." + setting.pattern;
+    if (!found && std::find(idle.begin(), idle.end(), path) == idle.end()) idle.push_back(path);
   }
   return idle;
 }

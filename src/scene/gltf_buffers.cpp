@@ -136,16 +136,21 @@ std::vector<uint8_t> GltfBuffers::decodeMeshopt(const JsonView& view, const Json
   return bytes;
 }
 
-void GltfBuffers::checkUris() const {
+std::vector<std::string> GltfBuffers::files() const {
+  std::vector<std::string> files;
   for (const char* name : {"buffers", "images"}) {
     const JsonView list = document_.list(name);
     for (size_t i = 0; i < list.size(); ++i) {
       const JsonView json = list.at(i);
       if (!json.has("uri") || !json.json()["uri"].is_string()) continue;
       const std::string& uri = json.json()["uri"].get_ref<const std::string&>();
-      if (!uri.empty() && !isDataUri(uri)) resolveFileUri(uri, ".", allowOutside_, json.pathOf("uri"));
+      if (uri.empty() || isDataUri(uri)) continue;
+      std::string file =
+          resolveFileUri(uri, folder_.empty() ? "." : folder_, allowOutside_, json.pathOf("uri"));
+      if (!folder_.empty()) files.push_back(std::move(file));
     }
   }
+  return files;
 }
 
 bool GltfBuffers::imageFile(const std::string& uri, const std::string& jsonPath, Holder& holder, Bytes& bytes,

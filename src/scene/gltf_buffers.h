@@ -28,8 +28,9 @@ class GltfBuffers {
   size_t viewStride(size_t i) const;  // 0: not given
   size_t viewCount() const { return views_.size(); }
 
-  // Fails when any URI of the file is remote or leads out of its folder, used or not.
-  void checkUris() const;
+  // The files that URIs name, used or not; none where the folder is empty. Fails when any is remote or leads
+  // out of the folder.
+  std::vector<std::string> files() const;
 
   // The bytes of an image's URI. `holder` keeps what is not part of the file itself. False when they cannot
   // be had, and `problem` says why.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/json_place.h"
+
 namespace scumble::scene {
 
 namespace {
@@ -81,7 +83,11 @@ Json parseJson(std::string_view text) {
     failInLine(lineAt(text, error.byte > 0 ? error.byte - 1 : 0),
                "is not valid JSON: " + causeOf(error.what()), "mend the text or export the scene again");
   } catch (const Json::exception& error) {
-    failInLine(0, "is not valid JSON: " + causeOf(error.what()), "mend the text or export the scene again");
+    // Such a number's place is not told, but how far the parser reads it can be.
+    const char* lastRead = text.data();
+    Json::accept(JsonReading(text.data(), lastRead), JsonReading(text.data() + text.size(), lastRead));
+    failInLine(lineOf(text, lastRead), "is not valid JSON: " + causeOf(error.what()),
+               "mend the text or export the scene again");
   }
 }
 

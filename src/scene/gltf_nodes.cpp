@@ -59,9 +59,9 @@ std::vector<size_t> findRoots(const GltfImport& import, int wantedScene, const s
   int64_t chosen = wantedScene;
   if (wantedScene >= 0 && static_cast<size_t>(wantedScene) >= scenes.size())
     fail("scenes",
-         "holds " + std::to_string(scenes.size()) + " scenes, but scene " + std::to_string(wantedScene) +
-             " was asked for",
-         "choose a smaller number");
+         "holds " + std::to_string(scenes.size()) + (scenes.size() == 1 ? " scene" : " scenes") +
+             ", but scene " + std::to_string(wantedScene) + " was asked for",
+         "they are counted from 0");
   if (chosen < 0)
     chosen = std::max<int64_t>(0, import.document.root().index("scene", scenes.size(), "scene"));
   const JsonView nodes = scenes.at(chosen).list("nodes");

@@ -39,7 +39,7 @@ std::shared_ptr<SceneData> import(Bytes bytes, const std::string& name, const st
   budget.addBacking(bytes.size());
   const GltfDocument document(bytes, warnings);
   GltfBuffers buffers(document, folder, options.allowOutside, budget);
-  buffers.checkUris();
+  data->files = buffers.files();
   GltfAccessors accessors(document, buffers, budget);
   const GltfImport import{document, buffers, accessors, budget, warnings, threadCount(options.threads)};
   data->extensionsUsed = document.extensionsUsed();
@@ -93,6 +93,10 @@ Result<Scene> Scene::load(const std::string& path, const SceneOptions& options) 
 
 Result<Scene> Scene::loadFromMemory(const void* bytes, size_t size, const std::string& name,
                                     const std::string& folder, const SceneOptions& options) {
+  if (options.scene < -1)
+    return Error{
+        ErrorKind::usage,           name, 0, {}, "there is no scene " + std::to_string(options.scene),
+        "scenes are counted from 0"};
   try {
     Scene scene;
     scene.data_ = import({static_cast<const uint8_t*>(bytes), size}, name, folder, options, scene.timings_);
@@ -110,6 +114,10 @@ Result<Scene> Scene::loadFromMemory(const void* bytes, size_t size, const std::s
 
 const std::vector<std::string>& Scene::warnings() const {
   return data_ ? data_->warnings : emptyScene().warnings;
+}
+
+const std::vector<std::string>& Scene::files() const {
+  return data_ ? data_->files : emptyScene().files;
 }
 
 const SceneTimings& Scene::timings() const {

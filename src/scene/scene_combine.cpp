@@ -68,6 +68,7 @@ void addScene(SceneData& all, const SceneData& one) {
   }
   appendNew(all.extensionsUsed, one.extensionsUsed);
   appendNew(all.extensionsNotSupported, one.extensionsNotSupported);
+  appendNew(all.files, one.files);
   appendNew(all.warnings, one.warnings);
   if (!one.bounds.empty) {
     all.bounds.add(one.bounds.min);

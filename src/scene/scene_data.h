@@ -205,6 +205,7 @@ struct SceneData {
   std::vector<Skin> skins;
   std::vector<Clip> clips;
   std::vector<std::string> extensionsUsed, extensionsNotSupported;
+  std::vector<std::string> files;     // that its URIs name
   std::vector<std::string> warnings;  // what was ignored or replaced, each once, one line each
   Bounds bounds;                      // world space, rest pose
 };

@@ -9,6 +9,7 @@ import base64
 import json
 import os
 import re
+import resource
 import shutil
 import struct
 import subprocess
@@ -141,10 +142,12 @@ class Program(unittest.TestCase):
     def new_files(self):
         return self.files() - self.before
 
-    def run_program(self, *args, environment=None):
-        env = dict(os.environ, XDG_CACHE_HOME=str(shared / "cache"), **(environment or {}))
-        return subprocess.run([scumble, *args], cwd=self.folder, env=env, capture_output=True, text=True, timeout=120,
-                              stdin=subprocess.DEVNULL)
+    def run_program(self, *args, environment=None, largest=None, stdout=subprocess.PIPE):
+        """`largest`: a limit on the sizes of files, in bytes."""
+        env = {**os.environ, "XDG_CACHE_HOME": str(shared / "cache"), **(environment or {})}
+        limits = largest and (lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (largest, largest)))
+        return subprocess.run([scumble, *args], cwd=self.folder, env=env, stdout=stdout, stderr=subprocess.PIPE, text=True,
+                              timeout=120, stdin=subprocess.DEVNULL, preexec_fn=limits)
 
     def good(self, *args, warnings=False):
         done = self.run_program(*args)
@@ -156,9 +159,9 @@ class Program(unittest.TestCase):
     def render(self, *args, size=SMALL):
         return self.good("render", *args, *size)
 
-    def bad(self, code, *args, says=(), environment=None):
+    def bad(self, code, *args, says=(), **how):
         """The call fails with this code and one line in the promised form, and leaves nothing behind."""
-        done = self.run_program(*args, environment=environment)
+        done = self.run_program(*args, **how)
         self.assertEqual(done.returncode, code, f"{args}: {done.stderr}")
         self.assertRegex(done.stderr, r"\Ascumble: error: [^\n]+\n\Z", args)
         for text in [says] if isinstance(says, str) else says:
@@ -190,6 +193,11 @@ class Commands(Program):
         text = self.good("--version")
         self.assertRegex(text, r"scumble \d+\.\d+")
         self.assertIn("device: ", text)
+        # A build has a version also where there is no driver.
+        none = self.run_program("--version", environment={"VK_ICD_FILENAMES": "/no.json", "VK_DRIVER_FILES": "/no.json"})
+        self.assertEqual((none.returncode, none.stderr), (DONE, ""))
+        self.assertEqual(none.stdout.splitlines()[0], text.splitlines()[0])
+        self.assertIn("device: none; Vulkan cannot start", none.stdout)
 
     def test_nothing_to_do_shows_help_and_is_wrong_usage(self):
         done = self.run_program()
@@ -201,6 +209,51 @@ class Commands(Program):
                      ["render", "box.gltf", "--time"], ["render", "box.gltf", "--samples", "many"], ["looks", "too", "many"]):
             with self.subTest(args=args):
                 self.bad(USAGE, *args)
+
+    def test_wrong_words_are_named_in_our_own(self):
+        for args, says in ((["rendr", "box.gltf", "-o", "x.png"], "there is no command 'rendr'; did you mean 'render'?"),
+                           (["box.gltf", "-o", "x.png"], "there is no command 'box.gltf'; did you mean `scumble render box.gltf`?"),
+                           (["render", "box.gltf", "--sampels", "1"], "there is no option '--sampels'; did you mean '--samples'?"),
+                           (["render", "box.gltf", "--seed", "-1"], "'-1' is no whole number from 0 to 4294967295; give --seed another"),
+                           (["render", "box.gltf", "--samples", "many"], "'many' is no whole number; give --samples another"),
+                           (["render", "box.gltf", "--fov", "wide"], "'wide' is no number; give --fov another"),
+                           (["render", "box.gltf", "--seed", "1", "--seed", "2"], "--seed is given 2 times; give it once"),
+                           (["render", "box.gltf", "--time"], "--time needs a value; `scumble render --help`"),
+                           (["render", "box.gltf", "--quiet=3"], "--quiet takes no value"),
+                           (["render"], "SCENE is missing; write `scumble render SCENE`"),
+                           (["looks", "too", "many"], "'too' is one argument too many"),
+                           (["render", "box.gltf", "-o", "x.png", "--background", "#12345"], "--background #12345 is no colour; write")):
+            with self.subTest(args=args):
+                self.assertIn("scumble: error: " + says, self.bad(USAGE, *args))
+
+    def test_empty_values_are_refused(self):
+        for option in ("-o", "--stats", "--look", "--camera", "--orbit", "--eye", "--clip", "--background", "--device", "--frames",
+                       "--stereo", "--exr", "--aov", "--set"):
+            with self.subTest(option=option):
+                self.bad(USAGE, "render", "box.gltf", option, "", *TINY, says="empty" if option != "-o" else "--output is empty")
+        self.bad(USAGE, "measure", "box.gltf", "--plot", "")
+        self.bad(USAGE, "info", "box.gltf", "--json=")
+
+    def test_json_prints_and_with_a_name_writes(self):
+        for args, prints in ((["info"], True), (["bench", "--runs", "1", *TINY], True),
+                             (["measure", "--quiet", "--size", "64x36"], False)):  # measure_test.py has it print
+            with self.subTest(args=args):
+                if prints:
+                    report = json.loads(self.good(*args, "box.gltf", "--json"))
+                    self.assertEqual(json.loads(self.good(*args, "--json", "box.gltf")).keys(), report.keys())
+                text = self.good(*args, "box.gltf", "--json", "a.JSON")
+                self.assertNotIn("{", text)
+                self.assertGreater(len(text.splitlines()), 5)
+                written = json.loads((self.folder / "a.JSON").read_text())
+                if prints:
+                    self.assertEqual(written.keys(), report.keys())
+                    self.good(*args, "--json", "a.txt", "box.gltf")
+                    self.good(*args, "--json=b.gltf", "box.gltf")
+                    self.assertEqual(self.new_files(), {"a.JSON", "a.txt", "b.gltf"})
+                for name in self.new_files():
+                    (self.folder / name).unlink()
+                self.bad(NOT_WRITTEN, *args, "box.gltf", "--json", "no/such.json", says="no/such.json: the folder does not exist")
+                self.bad(NOT_WRITTEN, *args, "box.gltf", "--json=box.gltf", says="inputs")
 
     def test_looks_lists_the_default(self):
         self.assertRegex(self.good("looks"), r"(?m)^age-of-sail\s+\S")
@@ -383,11 +436,56 @@ class Looks(Program):
         self.render("box.gltf", "-o", "a.png")
         self.render("box.gltf", "-o", "b.png", "--set", "materials.Paint.001.palette.saturation=0")
         self.render("box.gltf", "-o", "c.png", "--set", "materials.P*.palette.saturation=0")
-        self.render("box.gltf", "-o", "d.png", "--set", "materials.Other*.palette.saturation=0")
+        self.render("box.gltf", "-o", "d.png", "--quiet", "--set", "materials.Other*.palette.saturation=0")
         a, b, c, d = ((self.folder / f"{n}.png").read_bytes() for n in "abcd")
         self.different(a, b)
         self.same(b, c)
         self.same(a, d)
+
+    def warnings(self, *args, command="render"):
+        done = self.run_program(command, "box.gltf", *args, *TINY)
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        return [line.removeprefix("scumble: warning: ") for line in done.stderr.splitlines() if "warning" in line]
+
+    def test_names_that_the_scene_does_not_have_are_named(self):
+        why = ": nothing in the scene has such a name (`scumble info` lists names)"
+        look = {"materials": {"Pa*": {"warp": {"amount": 1}}, "Sail*": {"warp": {"amount": 1}}, "Paint.001": {"warp": {"amount": 1}},
+                              "Mian": {"warp": {"amount": 1, "inflation": 1}}}, "clips": {"Wlak": {"play": {"weight": 1}}}}
+        idle = ["materials.Mian" + why, "clips.Wlak" + why]
+        self.put("mine.json", json.dumps(look))
+        self.assertEqual(self.warnings("--look", "mine.json"), idle)
+        self.assertEqual(self.warnings("--look", "mine.json", "--runs", "1", command="bench"), idle)
+        self.assertEqual(self.warnings("--look", "mine.json", "--quiet"), [])
+        self.put("box.look.json", json.dumps(look))
+        self.assertEqual(self.warnings(), idle)
+        for shipped in ("open-sea", "storm"):
+            self.assertEqual(self.warnings("--look", shipped), [], "it is for many scenes")
+        (self.folder / "box.look.json").unlink()
+        for name in ("Nope", "Nope*"):
+            self.assertEqual(self.warnings("--set", f"materials.{name}.warp.amount=1"), [f"--set materials.{name}{why}"])
+        self.assertEqual(self.warnings("--set", "materials.*.warp.amount=1", "--set", "nodes.B?x.animation.hold=2"), [])
+
+    def test_keys_that_stand_twice_are_named_with_their_lines(self):
+        self.put("twice.json", '{"shadow": {\n"threshold": 0.2,\n"threshold": 0.3}}')
+        self.assertEqual(self.warnings("--look", "twice.json"),
+                         ["twice.json:3 (shadow.threshold): it stands in line 2 already; what stands here counts"])
+        self.assertEqual(self.warnings("--look", "twice.json", "--quiet"), [])
+
+    def test_options_that_count_for_nothing_are_named(self):
+        for args, told in ((["--orbit", "30,15", "--eye", "3,1,4"], "--orbit does nothing beside --eye"),
+                           (["--orbit", "30,15", "--target", "0,0,0"], "--orbit does nothing beside --target"),
+                           (["--camera", "Front", "--orbit", "30,15"], "--camera does nothing beside --orbit"),
+                           (["--ipd", "0.07"], "--ipd does nothing without --stereo"),
+                           (["--quality", "20"], "--quality does nothing for pictures; it is for films"),
+                           (["--exr", "half"], "--exr does nothing where no EXR is written"),
+                           (["--time", "1", "--frames", "0..0"], "--time does nothing beside --frames: frame n is at n / fps")):
+            with self.subTest(args=args):
+                self.assertEqual(self.warnings(*args), [told])
+                self.assertEqual(self.warnings(*args, "--quiet"), [])
+        for args in (["--ipd", "0.07", "--stereo", "separate"], ["--eye", "3,1,4", "--target", "0,0,0"], ["--exr", "half", "--aov", "depth"],
+                     ["--exr", "half", "-o", "a.exr"]):
+            with self.subTest(args=args):
+                self.assertEqual(self.warnings(*args), [])
 
     def test_colorizers_on_nodes_that_are_not_there_are_named(self):
         def told(node):
@@ -432,6 +530,13 @@ class Looks(Program):
         self.put("typo.json", '{"shadow": {"treshold": 0.4}}')
         self.before = self.files()
         self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--look", "broken.json", *TINY, says="broken.json:3: ")
+        self.put("huge.json", '{"shadow": {\n"threshold": 1e400}}')
+        self.put("nul.json", '{\n"lit": {"texture": "x.png\\u0000.png"}}')
+        self.put("large.json", " " * (17 << 20))
+        self.before = self.files()
+        for name, says in (("huge.json", "huge.json:2: a number here is too large"), ("nul.json", "nul.json:2: a text here holds the character NUL"),
+                           ("large.json", "a look has 16 MiB at most")):
+            self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--look", name, *TINY, says=says)
         self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--look", "wrong.json", *TINY, says="wrong.json (shadow.threshold): ")
         self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--look", "typo.json", *TINY, says="shadow.threshold")
         self.put("box.look.json", "{")
@@ -459,7 +564,7 @@ class Aovs(Program):
         self.assertNotEqual(exr(self.folder / "a.shadow-map.exr")["size"], (160, 90))
 
     def test_some_by_name_in_both_spellings(self):
-        self.render("box.gltf", "-o", "a.exr", "--aov", "depth,final-shadow", "--aov", "id")
+        self.render("box.gltf", "-o", "a.exr", "--aov", "depth,final-shadow", "--aov", "id", "--aov", "depth")
         self.assertEqual(layers(self.folder / "a.exr"), {"", "depth", "final-shadow", "id"})
 
     def test_beside_a_png(self):
@@ -547,17 +652,84 @@ class Sequences(Program):
             with self.subTest(frames=frames):
                 self.bad(USAGE, "render", "box.gltf", "-o", "x.#.png", "--frames", frames, *TINY)
         self.bad(USAGE, "render", "box.gltf", "-o", "x.#.png", "--frames", "0..1", "--fps", "0", *TINY)
+        # Found before the frames that could be drawn are.
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.#.png", "--frames", "99999..100000", "--fps", "0.1", *TINY, says="million")
 
 
 class Errors(Program):
     def test_inputs_are_never_outputs(self):
         before = (self.folder / "box.gltf").read_bytes()
         self.bad(NOT_WRITTEN, "render", "box.gltf", "-o", "x.png", "--stats", "box.gltf", *TINY, says="inputs")
-        self.bad(NOT_WRITTEN, "bench", "box.gltf", "--runs", "1", "--json", "box.gltf", *TINY, says="inputs")
+        self.bad(NOT_WRITTEN, "bench", "box.gltf", "--runs", "1", "--json=box.gltf", *TINY, says="inputs")
         self.put("box.png", before.decode())  # what a file is decides its content, not its name
         self.before = self.files()
         self.bad(NOT_WRITTEN, "render", "box.png", "-o", "box.png", *TINY, says="inputs")
         self.same((self.folder / "box.gltf").read_bytes(), before)
+
+    def test_a_look_that_is_found_is_an_input(self):
+        self.put("box.look.json", "{}")
+        for args in (["render", "box.gltf", "-o", "x.png", "--stats", "box.look.json", *TINY],
+                     ["bench", "box.gltf", "--json", "./box.look.json"], ["measure", "box.gltf", "--json", "box.look.json"]):
+            self.bad(NOT_WRITTEN, *args, says="inputs")
+            self.assertEqual((self.folder / "box.look.json").read_text(), "{}")
+
+    def test_what_a_scene_and_a_look_read_is_never_an_output(self):
+        self.render("box.gltf", "-o", "made.png", size=TINY)
+        mine = (self.folder / "made.png").read_bytes()
+        scene = json.loads(gltf())
+        data = base64.b64decode(scene["buffers"][0]["uri"].partition(",")[2])
+        scene["buffers"][0]["uri"] = "data.bin"
+        scene["images"], scene["textures"] = [{"uri": "boat.png"}], [{"source": 0}]
+        scene["materials"][0]["pbrMetallicRoughness"]["baseColorTexture"] = {"index": 0}
+        for name, content in (("boat.gltf", json.dumps(scene)), ("boat.png", mine), ("data.bin", data), ("wood.png", mine),
+                              ("a.json", '{"lit": {"texture": "wood.png"}}')):
+            self.put(name, content)
+        self.before = self.files()
+        # The default name is that of the picture on the boat.
+        for args in (["render", "boat.gltf"], ["render", "boat.gltf", "-o", "x.png", "--stats", "data.bin"],
+                     ["render", "boat.gltf", "-o", "wood.png", "--look", "a.json"], ["info", "boat.gltf", "--json=data.bin"],
+                     ["bench", "boat.gltf", "--json=./boat.png"], ["measure", "boat.gltf", "--plot", "boat.png"],
+                     ["measure", "boat.gltf", "--look", "a.json", "--plot", "wood.png"]):
+            with self.subTest(args=args):
+                self.bad(NOT_WRITTEN, *args, *([] if "info" in args else TINY), says="this is one of the inputs")
+        self.same((self.folder / "boat.png").read_bytes(), mine)
+        self.render("boat.gltf", "-o", "x.png", "--look", "a.json", size=TINY)
+
+    def test_no_two_outputs_have_one_name(self):
+        (self.folder / "there").mkdir()
+        os.symlink("there", self.folder / "link")
+        self.before = self.files()
+        here = str(self.folder)
+        render = ["render", "box.gltf", "--stats"]
+        for args in ([*render, "x.png", "-o", "x.png"], [*render, "./x.png", "-o", "x.png"], [*render, here + "/x.png", "-o", "x.png"],
+                     [*render, "box.png"], [*render, "there/../x.png", "-o", "x.png"], [*render, "link/x.png", "-o", "there/x.png"],
+                     [*render, "x.depth.exr", "-o", "x.png", "--aov", "depth"], [*render, "x.shadow-map.exr", "-o", "x.exr", "--aov", "all"],
+                     [*render, "x.left.png", "-o", "x.png", "--stereo", "separate"],
+                     [*render, "x.right.depth.exr", "-o", "x.png", "--stereo", "separate", "--aov", "depth"],
+                     [*render, "./x.0002.png", "-o", "x.####.png", "--frames", "0..3"],
+                     [*render, "x.1.normal.exr", "-o", "x.#.png", "--frames", "0..1", "--aov", "normal"],
+                     [*render, "x.mp4", "-o", "./x.mp4", "--frames", "0..1"],
+                     ["measure", "box.gltf", "--plot", "a.png", "--json=./a.png"]):
+            with self.subTest(args=args):
+                self.bad(USAGE, *args, *TINY, says=["two outputs would go there", "different names"])
+        # Near misses.
+        self.good("render", "box.gltf", "-o", "x.#.png", "--frames", "0..1", "--quiet", "--stats", "x.2.png", *TINY)
+        self.good("render", "box.gltf", "-o", "y.exr", "--aov", "depth", "--stats", "y.depth.exr", *TINY)
+        self.assertEqual(self.new_files(), {"x.0.png", "x.1.png", "x.2.png", "y.exr", "y.depth.exr"})
+
+    def test_aov_files_are_outputs_like_the_picture(self):
+        (self.folder / "x.depth.exr").mkdir()
+        self.put("y.depth.exr", gltf())
+        self.before = self.files()
+        self.bad(NOT_WRITTEN, "render", "box.gltf", "-o", "x.png", "--aov", "depth", *TINY, says="x.depth.exr: this is a folder")
+        self.bad(NOT_WRITTEN, "render", "y.depth.exr", "-o", "y.png", "--aov", "depth", *TINY, says="inputs")
+
+    def test_endings_in_any_case(self):
+        self.render("box.gltf", "-o", "A.PNG", "--aov", "depth", size=TINY)
+        self.assertEqual(self.new_files(), {"A.PNG", "A.depth.exr"})
+        self.assertEqual(png(self.folder / "A.PNG")[:2], (32, 18))
+        self.render("box.gltf", "-o", "B.Exr", size=TINY)
+        self.assertEqual(exr(self.folder / "B.Exr")["size"], (32, 18))
 
     def test_only_ordinary_files_are_replaced(self):
         os.mkfifo(self.folder / "pipe")
@@ -581,7 +753,10 @@ class Errors(Program):
         for args in (["--size", "160"], ["--size", "0x90"], ["--size", "160x90x2"], ["--size", "99999x2"], ["--size", "-1x5"],
                      ["--samples", "2"], ["--orbit", "30"], ["--orbit", "a,b"], ["--orbit", "0,0,0"], ["--eye", "1,2"],
                      ["--eye", "1,2,nan"], ["--target", "x"], ["--fov", "0"], ["--fov", "180"], ["--time", "nan"],
-                     ["--background", "red"], ["--background", "#12345"], ["--eye", "0,0,0", "--target", "0,0,0"]):
+                     ["--background", "red"], ["--background", "#12345"], ["--eye", "0,0,0", "--target", "0,0,0"],
+                     ["--scene", "-7"], ["--scene", "-1"], ["--orbit", "0,1000"], ["--orbit", "0,91"], ["--orbit", "1e30,0"],
+                     ["--orbit", "0,0,1e30"], ["--eye", "1e30,0,0"], ["--roll", "1e30"], ["--ipd", "1e30"], ["--ipd", "-1"],
+                     ["--fps", "1e308"], ["--fps", "0.001"], ["--time", "1e7"], ["--seed", "-1"], ["--seed", "5000000000"]):
             with self.subTest(args=args):
                 size = [] if "--size" in args else ["--size", "32x18"]
                 samples = [] if "--samples" in args else ["--samples", "1"]
@@ -613,6 +788,10 @@ class Errors(Program):
         self.before = self.files()
         self.bad(UNUSABLE, "render", "far.gltf", "-o", "x.png", *TINY, says=["far.gltf (meshes[0].primitives[0]", "POSITION"])
         self.bad(UNUSABLE, "render", "comma.gltf", "-o", "x.png", *TINY, says="comma.gltf:2")
+        self.put("huge.gltf", '{\n "asset": {"version": "2.0"},\n "scene": 1e400\n}')
+        self.before = self.files()
+        self.bad(UNUSABLE, "render", "huge.gltf", "-o", "x.png", *TINY, says="huge.gltf:3: ")
+        self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--scene", "5", *TINY, says="holds 1 scene, but scene 5 was asked for")
 
     def test_no_network(self):
         scene = json.loads(gltf())
@@ -651,6 +830,38 @@ class Errors(Program):
         done = self.run_program("render", "box.gltf", "-o", "x.png", "--stats", "no/such/s.json", *TINY)
         self.assertEqual(done.returncode, NOT_WRITTEN)
         self.assertRegex(done.stderr, r"\Ascumble: error: no/such/s.json: [^\n]+\n\Z")
+
+    def test_where_compiled_pipelines_are_kept_never_matters(self):
+        self.put("file", "mine")
+        self.before = self.files()
+        for cache in ("relative", "file", str(self.folder / "file"), "/dev/null", "/proc/no/such"):
+            with self.subTest(cache=cache):
+                done = self.run_program("render", "box.gltf", "-o", "a.png", *TINY,
+                                        environment={"XDG_CACHE_HOME": cache, "HOME": str(self.folder / "file"),
+                                                     "MESA_SHADER_CACHE_DISABLE": "true"})  # it has messages of its own
+                self.assertEqual((done.returncode, done.stderr), (DONE, ""))
+                self.assertEqual(self.new_files(), {"a.png"})
+
+    def test_a_limit_on_the_sizes_of_files(self):
+        args = ["render", "box.gltf", *TINY]
+        for output in ("a.png", "a.exr"):
+            self.good(*args, "-o", output, "--aov", "depth", "--stats", "s.json")
+        sizes = {path.name: path.stat().st_size for path in self.folder.iterdir()}
+        for name in self.new_files():
+            (self.folder / name).unlink()
+        # Each is the first that is too large.
+        self.assertLess(sizes["a.png"], sizes["s.json"])
+        for limit, output, more in ((100, "a.png", []), (100, "a.exr", []), (100, "a.png", ["--aov", "depth"])):
+            with self.subTest(output=output, more=more):
+                self.bad(NOT_WRITTEN, *args, "-o", output, *more, says="File too large", largest=limit)
+        done = self.run_program(*args, "-o", "a.png", "--stats", "s.json", largest=sizes["a.png"])
+        self.assertEqual(done.returncode, NOT_WRITTEN, done.stderr)
+        self.assertRegex(done.stderr, r"\Ascumble: error: s.json: [^\n]+\n\Z")
+        self.assertEqual(self.new_files(), {"a.png"})
+        with open(self.folder / "printed", "w") as printed:
+            done = self.run_program("info", "box.gltf", "--json", largest=100, stdout=printed)
+        self.assertEqual(done.returncode, NOT_WRITTEN)
+        self.assertRegex(done.stderr, r"\Ascumble: error: [^\n]+\n\Z")
 
     def test_an_old_picture_survives_a_failure(self):
         self.put("x.png", "mine")

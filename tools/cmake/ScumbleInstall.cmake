@@ -1,4 +1,4 @@
-# cmake --install: program, library, headers, looks, and a package for find_package(scumble).
+# cmake --install: program, library, headers, looks, pages, and a package for find_package(scumble).
 include(CMakePackageConfigHelpers)
 
 add_library(scumble::scumble ALIAS scumble)  # so that add_subdirectory and find_package give the same name
@@ -10,7 +10,10 @@ install(DIRECTORY ${CMAKE_SOURCE_DIR}/include/scumble DESTINATION ${CMAKE_INSTAL
         FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/looks/ DESTINATION ${CMAKE_INSTALL_DATADIR}/scumble/looks
         FILES_MATCHING PATTERN "*.json")
-install(FILES ${CMAKE_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# The pages with their pictures, in the folders that their links name.
+install(FILES ${CMAKE_SOURCE_DIR}/README.md ${CMAKE_SOURCE_DIR}/LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR}
+        FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
 
 get_property(programs DIRECTORY ${CMAKE_SOURCE_DIR}/apps/scumble PROPERTY BUILDSYSTEM_TARGETS)
 foreach(program ${programs})
@@ -26,8 +29,9 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/scumbleConfigVersion.cmake 
 install(FILES ${CMAKE_BINARY_DIR}/scumbleConfig.cmake ${CMAKE_BINARY_DIR}/scumbleConfigVersion.cmake
         DESTINATION ${SCUMBLE_PACKAGE_FOLDER})
 
-# What ./demo builds: the program and the scenes' generators, without the tests.
+# What ./demo builds: the program, the scenes' generators, and the tool for painters that docs/sea.md sends to,
+# without the tests.
 if(SCUMBLE_TESTS)
   add_custom_target(demo)
-  add_dependencies(demo ${programs} demo_scene henry_room)
+  add_dependencies(demo ${programs} demo_scene henry_room ocean_maps)
 endif()
