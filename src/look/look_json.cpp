@@ -1,12 +1,12 @@
-// Reading a look's JSON file; its tracks are read in look_json_track.cpp.
+// Reading a look's JSON file; its tracks are read in look_json_track.cpp, what it extends in look_source.cpp.
 #include "look/look_json.h"
 
 #include <algorithm>
 #include <filesystem>
 
+#include "look/look_source.h"
 #include "look/read_value.h"
 #include "look/setting_path.h"
-#include "scumble/look.h"
 
 namespace scumble {
 
@@ -14,14 +14,10 @@ namespace look {
 
 namespace {
 
-bool leadsOutside(const std::filesystem::path& path) {
-  return path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end();
-}
-
 std::string adviceFor(const ParamRow& row) {
   switch (row.kind) {
     case ParamKind::color:
-      return "write a colour as \"#RRGGBB\"";
+      return "write a colour as \"#RRGGBB\", \"#RGB\" or a name of CSS";
     case ParamKind::choice:
       return std::string("choose one of ") + row.unit;
     case ParamKind::picture:
@@ -45,12 +41,16 @@ bool isTriple(const Json& value) {
 // Walks a look's JSON; the first mistake ends it.
 class Reader {
  public:
-  Reader(LookData& out, std::string file) : out_(out), file_(std::move(file)) {}
+  Reader(LookData& out, const LookChain& chain) : out_(out), chain_(chain), file_(chain.back()) {}
 
   Status readRoot(const Json& root) {
     if (!root.is_object()) return place("").fail("a look is a JSON object", "see `scumble schema`");
+    // Wherever that stands, it comes first.
+    if (root.contains("extends"))
+      if (const Status status = readExtended(root["extends"], place("extends"), chain_, out_); !status)
+        return status.error();
     for (const auto& [key, value] : root.items()) {
-      if (key == "$schema") continue;
+      if (key == "$schema" || key == "extends") continue;
       if (key == "description") {
         if (!value.is_string()) return place(key).fail("the description is no string", "write it in quotes");
         out_.description = value.get<std::string>();
@@ -82,6 +82,11 @@ class Reader {
           readGroup(knobs, "", pattern, &section, std::string(section.name) + "." + pattern);
       if (!status) return status;
     }
+    // Those of the looks that this one extends count too.
+    if (section.most > 0 && out_.declared(section.target).size() > section.most)
+      return place(section.name)
+          .fail("these are too many " + std::string(section.name) + ", with those of the look it extends",
+                "a look declares " + std::to_string(section.most) + " at most");
     return Done{};
   }
 
@@ -129,10 +134,15 @@ class Reader {
   }
 
   LookData& out_;
-  std::string file_;
+  const LookChain& chain_;
+  const std::string& file_;
 };
 
 }  // namespace
+
+bool leadsOutside(const std::filesystem::path& path) {
+  return path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end();
+}
 
 Error JsonPlace::fail(std::string problem, std::string advice) const {
   return {ErrorKind::unusableFile, file, 0, path, std::move(problem), std::move(advice)};
@@ -165,25 +175,22 @@ Result<Value> readJsonValue(const ParamRow& row, const Json& value, const JsonPl
                     parsed.error().advice);
 }
 
-}  // namespace look
-
-Result<Look> Look::fromJson(const std::string& text, const std::string& file) {
-  auto data = std::make_shared<look::LookData>();
+Status readLook(const LookSource& source, LookChain chain, LookData& out) {
+  const auto& [file, text] = source;
+  chain.push_back(file);
   try {
-    const look::Json root = look::Json::parse(text);
-    const Status status = look::Reader(*data, file).readRoot(root);
-    if (!status) return status.error();
-  } catch (const look::Json::parse_error& error) {
+    constexpr bool kThrows = true, kSkipsComments = true;
+    return Reader(out, chain).readRoot(Json::parse(text, nullptr, kThrows, kSkipsComments));
+  } catch (const Json::parse_error& error) {
     const size_t end = std::min(error.byte, text.size());
     const int line = 1 + int(std::count(text.begin(), text.begin() + long(end), '\n'));
     return Error{
         ErrorKind::unusableFile, file, line, "", "this is no JSON", "mind commas, quotes and brackets there"};
-  } catch (const look::Json::exception&) {
+  } catch (const Json::exception&) {
     return Error{ErrorKind::unusableFile, file, 0, "", "this JSON cannot be read", "see `scumble schema`"};
   }
-  Look look;
-  look.data_ = std::move(data);
-  return look;
 }
+
+}  // namespace look
 
 }  // namespace scumble

@@ -1,6 +1,7 @@
 // Reading the parts of a look's JSON file.
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "look/look_data.h"
@@ -19,6 +20,9 @@ struct JsonPlace {
   JsonPlace item(size_t i) const { return {file, path + "[" + std::to_string(i) + "]"}; }
   Error fail(std::string problem, std::string advice) const;
 };
+
+// Whether a path may lead out of the folder that it is relative to.
+bool leadsOutside(const std::filesystem::path& path);
 
 // A knob's value; a picture that it names is loaded into `data`, once.
 Result<Value> readJsonValue(const ParamRow& row, const Json& value, const JsonPlace& place, LookData& data);
