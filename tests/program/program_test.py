@@ -639,7 +639,7 @@ class Errors(Program):
         for output in ("no/such/folder/x.png", "file/x.png", "folder.png", "/proc/x.png", "/dev/full/x.png"):
             with self.subTest(output=output):
                 self.bad(NOT_WRITTEN, "render", "box.gltf", "-o", output, *TINY, says=output)
-        self.bad(USAGE, "render", "box.gltf", "-o", "x.jpeg", *TINY, says=".png")
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.tiff", *TINY, says=".png")
         self.bad(USAGE, "render", "box.gltf", "-o", "x", *TINY)
 
     @unittest.skipIf(os.geteuid() == 0, "root writes everywhere")
