@@ -35,7 +35,7 @@ Result<Background> Background::make(const std::string& text) {
                  0,
                  "",
                  "'" + text + "' is no background",
-                 "use #RRGGBB, transparent, or the name of a picture or film"};
+                 "use a colour like #RRGGBB or navy, transparent, or the name of a picture or film"};
   if (isPictureName(text)) {
     Result<Image> picture = readPicture(text);
     if (!picture) return picture.error();

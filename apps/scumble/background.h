@@ -5,6 +5,7 @@
 #include <string>
 
 #include "scumble/film.h"
+#include "scumble/look.h"
 #include "scumble/result.h"
 
 namespace scumble::app {
@@ -15,7 +16,8 @@ class Background {
   static Result<Background> make(const std::string& text);
 
   bool isTransparent() const { return text_ == "transparent"; }
-  bool isColor() const { return text_.starts_with('#'); }
+  // Also of what is meant to be one: the look says then what is wrong with it.
+  bool isColor() const { return text_.starts_with('#') || scumble::isColor(text_); }
   // Its name, or empty.
   std::string file() const { return picture_ || film_ ? text_ : ""; }
 

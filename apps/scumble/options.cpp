@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 
+#include "placements.h"
 #include "report.h"
 
 namespace scumble::app {
@@ -80,8 +81,20 @@ std::optional<std::pair<uint32_t, uint32_t>> parseSize(const std::string& text) 
 }
 
 void SceneArguments::addTo(CLI::App& command) {
-  command.add_option("SCENE", files, "glTF 2.0 files (.gltf or .glb); several are placed in one world")
+  command
+      .add_option(
+          "SCENE", files,
+          "glTF 2.0 files (.gltf or .glb), or worlds (.json) that list some with their places; several are "
+          "placed in one world")
       ->required();
+  command
+      .add_option(
+          "--place", places,
+          "Puts a scene, by its name or number from 1 on, in a place (metres), turned (degrees about "
+          "the vertical, or X,Y,Z), scaled, and on a node of another scene, with which it rides; e.g. "
+          "'dog:at=0,0.4,0;turn=90;scale=0.5;on=Boat'; repeatable")
+      ->type_name("SCENE:HOW")
+      ->allow_extra_args(false);
   command.add_option("--scene", sceneNumber,
                      "Which of the file's scenes, by number (default: the file's own choice)");
   command.add_flag("--allow-outside", allowOutside, "Let paths in the scene lead out of its folder");
@@ -103,7 +116,7 @@ Result<Scene> SceneArguments::load(bool quiet) const {
       if (!quiet && warned.insert(warning).second) warn({warning});
     scenes.push_back(std::move(scene).value());
   }
-  return scenes.size() == 1 ? scenes[0] : Scene::combine(scenes);
+  return placedScenes(scenes, files, places);
 }
 
 void LookArguments::addTo(CLI::App& command) {
@@ -186,13 +199,16 @@ void LookArguments::warnOfIdle(const Look& from, const Scene& scene, const std::
 void PictureArguments::addTo(CLI::App& command) {
   command.add_option(
       "--camera", camera,
-      "A camera of the scene, by name or number (default: the first, or a framing of everything)");
+      "A camera of the scene, by name or number (default: the look's camera, else the scene's first, else a "
+      "framing of everything)");
   command.add_option("--orbit", orbit, "Degrees around the scene's centre, and the distance in scene radii")
       ->type_name("AZ,EL[,DIST]");
   command.add_option("--eye", eye, "Where the camera stands, metres")->type_name("X,Y,Z");
   command.add_option("--target", target, "What it looks at, metres")->type_name("X,Y,Z");
-  command.add_option("--roll", roll, "Degrees, clockwise")->capture_default_str();
-  command.add_option("--fov", fov, "Vertical field of view, degrees");
+  command.add_option("--roll", roll, "Degrees, clockwise (default: the look's camera.roll)");
+  command.add_option(
+      "--fov", fov,
+      "Vertical field of view, degrees (default: the look's camera.fov, the scene's camera's, else 34)");
   command.add_option("--size", size, "Width and height in pixels")->type_name("WxH")->capture_default_str();
   command.add_option("--samples", samples, "Anti-aliasing: 1 or 4")->capture_default_str();
   command.add_option("--device", device, "A GPU by name or number, or cpu (`scumble devices` lists them)");
@@ -205,6 +221,29 @@ void PictureArguments::addTo(CLI::App& command) {
 void PictureArguments::addStereoTo(CLI::App& command) {
   command.add_option("--stereo", stereo, "Two views: side-by-side, over-under or separate");
   ipdOption = command.add_option("--ipd", ipd, "Distance between the eyes, metres")->capture_default_str();
+}
+
+void PictureArguments::addTurntableTo(CLI::App& command) {
+  constexpr const char* kUsual = "8";
+  // A scene's name after it would be taken for the seconds.
+  const auto isNumber = [](const std::string& text) {
+    const auto numbers = parseNumbers(text);
+    return numbers && numbers->size() == 1
+               ? std::string()
+               : "'" + text + "' is no number of seconds; write --turntable=" + kUsual;
+  };
+  command
+      .add_option_function<std::string>(
+          "--turntable",
+          [this](const std::string& seconds) {
+            turntable = parseNumbers(seconds.empty() ? kUsual : seconds)->front();
+          },
+          "Once around the scene in so many seconds, 8 if none are given: a film or sequence that loops, "
+          "its length those seconds unless --frames says otherwise. It begins at --orbit or the look's "
+          "camera")
+      ->check(CLI::Validator(isNumber, ""))
+      ->type_name("[SECONDS]")
+      ->expected(0, 1);
 }
 
 Result<RenderOptions> PictureArguments::renderOptions() const {
@@ -223,7 +262,20 @@ Result<RenderOptions> PictureArguments::renderOptions() const {
 }
 
 Result<Viewpoint> PictureArguments::viewpoint() const {
+  // Each of these says where the camera stands; a turntable may begin at an orbit.
+  const std::pair<const char*, bool> ways[] = {{"--camera", !camera.empty()},
+                                               {"--orbit", !orbit.empty()},
+                                               {"--turntable", turntable.has_value()},
+                                               {"--eye", !eye.empty()},
+                                               {"--target", !target.empty()}};
+  for (size_t i = 0; i < std::size(ways); ++i)
+    for (size_t j = i + 1; j < std::size(ways); ++j)
+      if (ways[i].second && ways[j].second && !(i == 1 && j == 2) && i != 3)
+        return usage(
+            std::string(ways[i].first) + " and " + ways[j].first + " both say where the camera stands",
+            "give one of them");
   Viewpoint viewpoint;
+  viewpoint.turntable = turntable;
   viewpoint.camera = camera;
   viewpoint.roll = roll;
   viewpoint.verticalFov = fov;
@@ -249,18 +301,7 @@ Result<Viewpoint> PictureArguments::viewpoint() const {
 }
 
 void PictureArguments::warnOfIdle() const {
-  const std::string counts = !eye.empty()      ? "--eye"
-                             : !target.empty() ? "--target"
-                             : !orbit.empty()  ? "--orbit"
-                                               : "";
-  if (!orbit.empty() && counts != "--orbit") warn({"--orbit does nothing beside " + counts});
-  if (!camera.empty() && !counts.empty()) warn({"--camera does nothing beside " + counts});
   if (ipdOption && ipdOption->count() > 0 && !isStereo()) warn({"--ipd does nothing without --stereo"});
-}
-
-bool PictureArguments::usesSceneCamera(const Scene& scene) const {
-  return eye.empty() && target.empty() && orbit.empty() &&
-         (!camera.empty() || !scene.summary().cameras.empty());
 }
 
 Result<std::vector<View>> PictureArguments::views(const Scene& scene, const Look& look, double time) const {

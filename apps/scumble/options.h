@@ -11,12 +11,12 @@
 namespace scumble::app {
 
 struct SceneArguments {
-  std::vector<std::string> files;
+  std::vector<std::string> files, places;
   bool allowOutside = false;
   std::optional<int> sceneNumber;
 
   void addTo(CLI::App& command);
-  // All files in one world; warnings go to stderr.
+  // All files in one world, at their places; warnings go to stderr.
   Result<Scene> load(bool quiet) const;
 };
 
@@ -40,8 +40,8 @@ struct LookArguments {
 
 struct PictureArguments {
   std::string camera, orbit, eye, target, size = "1280x720", stereo;
-  float roll = 0;
-  std::optional<float> fov;
+  std::optional<float> roll, fov;
+  std::optional<double> turntable;  // seconds
   int samples = 4;
   float ipd = 0.063f;
   const CLI::Option* ipdOption = nullptr;
@@ -50,15 +50,15 @@ struct PictureArguments {
   bool validate = false;
 
   void addTo(CLI::App& command);
-  void addStereoTo(CLI::App& command);  // for commands that draw one view or two
+  void addStereoTo(CLI::App& command);     // for commands that draw one view or two
+  void addTurntableTo(CLI::App& command);  // for commands that draw films
   bool isStereo() const { return !stereo.empty(); }
   Result<RenderOptions> renderOptions() const;
   Result<Viewpoint> viewpoint() const;
   // Of options that count for nothing beside others.
   void warnOfIdle() const;
-  // At a time in seconds; of all times the same where the camera is none of the scene's.
+  // At a time in seconds.
   Result<std::vector<View>> views(const Scene& scene, const Look& look, double time = 0) const;
-  bool usesSceneCamera(const Scene& scene) const;
   RendererOptions rendererOptions() const;
 };
 

@@ -41,14 +41,10 @@ Result<OutputPlan> OutputPlan::make(const std::string& given, const std::string&
   plan.viewCount = layout.empty() ? 1 : 2;
   plan.width = options.width, plan.height = options.height;
   plan.aovs = options.aovs;
-  const std::string extension = endingOf(plan.path);
-  if (extension == ".exr")
-    plan.kind = OutputKind::exr;
-  else if (extension == ".mp4")
-    plan.kind = OutputKind::film;
-  else if (extension != ".png")
-    return badOutput("'" + plan.path + "' ends in none of .png, .exr and .mp4",
-                     "name the output like picture.png");
+  const Result<const OutputFormat*> format = formatOf(plan.path);
+  if (!format) return format.error();
+  plan.format = *format;
+  plan.kind = plan.format->kind;
   if (plan.isSequence() && plan.kind == OutputKind::film)
     return badOutput("'" + plan.path + "' names a sequence of films", "name one film, or name.####.png");
   if (plan.kind == OutputKind::film && !options.aovs.empty())
@@ -70,7 +66,7 @@ std::string OutputPlan::framePath(std::optional<int> number) const {
 }
 
 bool OutputPlan::isFileOfItsOwn(const std::string& aov) const {
-  return kind == OutputKind::png || Renderer::hasSizeOfItsOwn(aov);
+  return kind == OutputKind::picture || Renderer::hasSizeOfItsOwn(aov);
 }
 
 Status OutputPlan::writeLayers(const Frame& frame, const std::string& path_,
@@ -99,7 +95,7 @@ std::vector<std::string> OutputPlan::files(const std::string& framePath_) const 
 }
 
 bool OutputPlan::isThere(const std::string& framePath_) const {
-  const bool together = viewCount > 1 && !separateEyes && kind == OutputKind::png;
+  const bool together = viewCount > 1 && !separateEyes && kind == OutputKind::picture;
   const uint32_t across = together && layout != "over-under" ? 2 : 1;
   const uint32_t down = together && layout == "over-under" ? 2 : 1;
   const std::vector<std::string> all = files(framePath_), pictures = picturePaths(framePath_);
@@ -113,14 +109,14 @@ bool OutputPlan::isThere(const std::string& framePath_) const {
 Status OutputPlan::write(const Frame& frame, const std::string& framePath_) const {
   const std::vector<std::string> paths = picturePaths(framePath_);
   for (size_t file = 0; file < paths.size(); ++file)
-    if (const Status status = kind == OutputKind::png ? writePicturePng(frame, file, paths[file])
-                                                      : writeLayeredExr(frame, file, paths[file]);
+    if (const Status status = kind == OutputKind::picture ? writePicture(frame, file, paths[file])
+                                                          : writeLayeredExr(frame, file, paths[file]);
         !status)
       return status.error();
   return Done{};
 }
 
-Status OutputPlan::writePicturePng(const Frame& frame, size_t file, const std::string& path_) const {
+Status OutputPlan::writePicture(const Frame& frame, size_t file, const std::string& path_) const {
   Image made;
   const auto picture = [&](const Frame::Layer& layer) -> const Image& {
     return asFiles() && layer.views.size() > 1 ? layer.views[file] : arrange(layer.views, layout, made);
@@ -131,7 +127,7 @@ Status OutputPlan::writePicturePng(const Frame& frame, size_t file, const std::s
     if (const Status status = writeLayers(frame, withPart(path_, name, ".exr"), {layer}); !status)
       return status.error();
   }
-  return writePng(path_, picture(frame.layers[0]));
+  return format->write(path_, picture(frame.layers[0]), quality);
 }
 
 Status OutputPlan::writeLayeredExr(const Frame& frame, size_t file, const std::string& path_) const {
@@ -154,11 +150,12 @@ Status OutputPlan::writeLayeredExr(const Frame& frame, size_t file, const std::s
   return writeLayers(frame, path_, layers);
 }
 
-Result<FilmOutput> FilmOutput::create(const OutputPlan& plan, double fps, int quality) {
+Result<FilmOutput> FilmOutput::create(const OutputPlan& plan, double fps) {
   FilmOptions options;
   options.width = plan.width, options.height = plan.height;
   options.fps = fps;
-  options.quality = quality;
+  options.quality = plan.quality;
+  options.format = plan.format->film;
   FilmOutput output;
   output.layout_ = plan.layout;
   if (plan.layout == "side-by-side") options.width *= 2, options.layout = FilmLayout::sideBySide;

@@ -6,16 +6,17 @@
 #include <string>
 #include <vector>
 
+#include "output_format.h"
 #include "scumble/film.h"
 #include "scumble/renderer.h"
 
 namespace scumble::app {
 
-enum class OutputKind { png, exr, film };
-
 struct OutputPlan {
   std::string path;  // as given, or made from the scene's name
-  OutputKind kind = OutputKind::png;
+  OutputKind kind = OutputKind::picture;
+  const OutputFormat* format = nullptr;
+  std::optional<int> quality;  // default: the format's
   bool separateEyes = false;
   std::string layout;  // "", "side-by-side", "over-under" or "separate"
   size_t viewCount = 1;
@@ -39,8 +40,8 @@ struct OutputPlan {
   // Whether every file of this frame is there, whole, and of the right size.
   bool isThere(const std::string& framePath) const;
 
-  // Writes the picture and its AOVs: layers of an EXR, or beside a PNG as NAME.AOV.exr. The picture comes
-  // last: where it is, the others are.
+  // Writes the picture and its AOVs: layers of an EXR, or beside another picture as NAME.AOV.exr. The picture
+  // comes last: where it is, the others are.
   Status write(const Frame& frame, const std::string& framePath) const;
 
  private:
@@ -50,14 +51,14 @@ struct OutputPlan {
   bool isHalf(const std::string& layer) const { return half && !Renderer::needsFloat(layer); }
   Status writeLayers(const Frame& frame, const std::string& path,
                      const std::vector<ImageLayer>& layers) const;
-  Status writePicturePng(const Frame& frame, size_t file, const std::string& path) const;
+  Status writePicture(const Frame& frame, size_t file, const std::string& path) const;
   Status writeLayeredExr(const Frame& frame, size_t file, const std::string& path) const;
 };
 
 // A film, or two where each eye has its own.
 class FilmOutput {
  public:
-  static Result<FilmOutput> create(const OutputPlan& plan, double fps, int quality);
+  static Result<FilmOutput> create(const OutputPlan& plan, double fps);
   Status add(const Frame& frame);
   Status finish();
 

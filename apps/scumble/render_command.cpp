@@ -35,8 +35,9 @@ struct RenderArguments {
   PictureArguments picture;
   std::string output, frames, background, stats, exr = "float,zip";
   std::vector<std::string> aovs;
-  double time = 0, fps = 24;
-  int quality = FilmOptions().quality;
+  std::optional<double> time;  // seconds
+  double fps = 24;
+  std::optional<int> quality;
   bool quiet = false, resume = false;
   const CLI::App* command = nullptr;
 
@@ -45,6 +46,7 @@ struct RenderArguments {
 
 constexpr int kMostFrame = 10'000'000;
 constexpr double kMostSeconds = 1e6;  // as renderers take them
+constexpr double kMostTurn = 86400;   // seconds
 constexpr unsigned kMostWriters = 4;  // beyond them disks are slower than encoders
 
 // "3..17"; nothing when it is not of that form.
@@ -117,29 +119,40 @@ Result<Look> loadLook(const RenderArguments& args, const Background& background)
   return arguments.load(args.scene.files[0], args.quiet);
 }
 
+// A turn has whole frames, so that its loop closes: the nearest to the seconds that were asked for.
+int framesOfTurn(const RenderArguments& args) {
+  return int(std::clamp(std::round(*args.picture.turntable * args.fps), 1.0, double(kMostFrame)));
+}
+
 // The numbers of all frames that are wanted; nothing for one picture.
 Result<std::vector<int>> frameNumbers(const RenderArguments& args, const OutputPlan& output,
                                       const Scene& scene, const Look& look) {
   std::vector<int> numbers;
   if (args.frames.empty()) {
-    if (output.kind != OutputKind::film) return numbers;
-    const double frames = std::ceil(playedSeconds(scene, look) * args.fps - 1e-3);
+    if (output.kind != OutputKind::film && !output.isSequence()) return numbers;
+    const double frames =
+        args.picture.turntable ? framesOfTurn(args) : std::ceil(playedSeconds(scene, look) * args.fps - 1e-3);
     if (!(frames >= 1))
-      return Error{ErrorKind::usage,   "", 0, "", "nothing says how long the film is: no clip plays",
-                   "add --frames A..B"};
+      return Error{ErrorKind::usage,
+                   "",
+                   0,
+                   "",
+                   "nothing says how long the film is: no clip plays",
+                   "add --frames A..B or --turntable"};
     for (int number = 0; number < std::min(frames, double(kMostFrame)); ++number) numbers.push_back(number);
-    return numbers;
+  } else {
+    const auto range = *parseFrames(args.frames);
+    for (int number = range.first; number <= range.second; ++number) numbers.push_back(number);
   }
-  const auto range = *parseFrames(args.frames);
-  for (int number = range.first; number <= range.second; ++number)
-    if (!args.resume || !output.isThere(output.framePath(number))) numbers.push_back(number);
+  if (args.resume)
+    std::erase_if(numbers, [&](int number) { return output.isThere(output.framePath(number)); });
   return numbers;
 }
 
 // Two frames are under way on the device while earlier ones are written.
 class FrameLoop {
  public:
-  // `still`: the views of all frames, unless a camera of the scene is used.
+  // `still`: the views of all frames, unless they move.
   FrameLoop(const RenderArguments& args, const Scene& scene, const Look& look, const RenderOptions& options,
             const Background& background, const Result<std::vector<View>>& still, Renderer& renderer)
       : args_(args),
@@ -152,7 +165,7 @@ class FrameLoop {
 
   // One frame for each time; `take` gets them in this order.
   Status draw(const std::vector<double>& times, const std::function<Status(size_t, Frame)>& take) {
-    const bool moves = args_.picture.usesSceneCamera(scene_);
+    const bool moves = viewsMove(scene_, args_.picture.viewpoint().value(), look_);
     const auto viewsAt = [&](double time) {
       return moves ? args_.picture.views(scene_, look_, time) : still_;
     };
@@ -199,13 +212,12 @@ void warnOfIdle(const RenderArguments& args, const OutputPlan& output) {
   if (args.isGiven("--time") && !args.frames.empty())
     warn({"--time does nothing beside --frames: frame n is at n / fps"});
   if (args.isGiven("--time") && args.frames.empty() && isFilm) warn({"--time does nothing for a film"});
-  if (args.isGiven("--quality") && !isFilm) warn({"--quality does nothing for pictures; it is for films"});
-  if (args.isGiven("--exr") && (isFilm || (output.kind == OutputKind::png && output.aovs.empty())))
+  if (args.isGiven("--exr") && (isFilm || (output.kind == OutputKind::picture && output.aovs.empty())))
     warn({"--exr does nothing where no EXR is written"});
   args.picture.warnOfIdle();
 }
 
-int run(const RenderArguments& args) {
+int run(RenderArguments args) {
   const auto start = Clock::now();
   nlohmann::json steps = nlohmann::json::object();
   auto lapStart = start;
@@ -219,9 +231,11 @@ int run(const RenderArguments& args) {
   if (!background) return fail(background.error());
   const Result<RenderOptions> options = renderOptions(args, *background);
   if (!options) return fail(options.error());
-  Result<OutputPlan> output =
-      OutputPlan::make(args.output, args.scene.files[0], args.picture.stereo, !args.frames.empty(), *options);
+  Result<OutputPlan> output = OutputPlan::make(args.output, args.scene.files[0], args.picture.stereo,
+                                               !args.frames.empty() || args.picture.turntable, *options);
   if (!output) return fail(output.error());
+  output->quality = args.quality;
+  if (const Status status = output->format->checkQuality(args.quality); !status) return fail(status.error());
   if (const Status status = readExrOptions(args.exr, *output); !status) return fail(status.error());
   std::vector<std::string> inputs = args.scene.files;
   inputs.push_back(args.look.lookFor(args.scene.files[0]));
@@ -245,8 +259,16 @@ int run(const RenderArguments& args) {
                      "write name.####.png with --resume, then make the film of those");
   if (!(args.fps >= 0.01 && args.fps <= 1000))
     return failUsage("--fps is out of range", "use 0.01 to 1000 frames a second");
-  if (!(std::abs(args.time) < kMostSeconds))
+  if (!(std::abs(args.time.value_or(0)) < kMostSeconds))
     return failUsage("--time is out of range", "it is in seconds, up to a million");
+  if (args.picture.turntable) {
+    if (!(*args.picture.turntable > 0 && *args.picture.turntable <= kMostTurn))
+      return failUsage("--turntable is out of range", "give seconds above 0, a day at most");
+    if (args.frames.empty() && !args.time && !isFilm && !output->isSequence())
+      return failUsage("a turn does not go into one '" + output->path + "'",
+                       "name it like picture.mp4 or picture.####.png, or say --time");
+    args.picture.turntable = framesOfTurn(args) / args.fps;
+  }
   Result<Look> look = loadLook(args, *background);
   if (!look) return fail(look.error());
   const Result<Scene> scene = args.scene.load(args.quiet);
@@ -268,14 +290,14 @@ int run(const RenderArguments& args) {
     warnOfIdle(args, *output);
     args.look.warnOfIdle(*look, *scene, args.scene.files[0]);
   }
-  const bool isPicture = args.frames.empty() && !isFilm;
+  const bool isPicture = args.frames.empty() && !isFilm && !output->isSequence();
   std::vector<double> times;
   for (const int number : *numbers) times.push_back(number / args.fps);
   for (const double time : times)
     if (!(std::abs(time - 1 / args.fps) < kMostSeconds && std::abs(time) < kMostSeconds))
       return failUsage("a frame's time is out of range",
                        "frame n is at n / fps seconds, which may be up to a million");
-  if (isPicture && !(args.resume && output->isThere(output->path))) times.push_back(args.time);
+  if (isPicture && !(args.resume && output->isThere(output->path))) times.push_back(args.time.value_or(0));
   lap("sceneMilliseconds");
   Result<std::unique_ptr<Renderer>> renderer = Renderer::create(args.picture.rendererOptions());
   if (!renderer) return fail(renderer.error());
@@ -284,7 +306,7 @@ int run(const RenderArguments& args) {
   // Draw, and write beside it: pictures on several threads, a film in order.
   std::optional<FilmOutput> film;
   if (isFilm) {
-    Result<FilmOutput> created = FilmOutput::create(*output, args.fps, args.quality);
+    Result<FilmOutput> created = FilmOutput::create(*output, args.fps);
     if (!created) return fail(created.error());
     film = std::move(created).value();
   }
@@ -343,12 +365,15 @@ void addRender(CLI::App& program, int& exitCode) {
   args->scene.addTo(*command);
   command->add_option(
       "-o,--output", args->output,
-      "The picture: .png (8 bit sRGB) or .exr (linear float, both eyes as views); name.####.png for a "
-      "sequence; .mp4 for a film, by ffmpeg (default: the scene's name + .png in the current folder)");
+      "The picture: .png, .jpg, .webp (8 bit sRGB) or .exr (linear float, both eyes as views); "
+      "name.####.png for a sequence; .mp4, .webm or .gif for a film, by ffmpeg (default: the scene's name + "
+      ".png "
+      "in the current folder)");
   args->look.addTo(*command);
   args->picture.addTo(*command);
   args->picture.addStereoTo(*command);
-  command->add_option("--time", args->time, "Seconds")->capture_default_str();
+  args->picture.addTurntableTo(*command);
+  command->add_option("--time", args->time, "Seconds (default: 0)");
   command
       ->add_option(
           "--frames", args->frames,
@@ -356,24 +381,26 @@ void addRender(CLI::App& program, int& exitCode) {
       ->type_name("A..B");
   command->add_option("--fps", args->fps, "Frames a second")->capture_default_str();
   command->add_flag("--resume", args->resume, "Leave out frames whose files are there, whole");
-  command
-      ->add_option("--quality", args->quality, "Films: constant quality, 0 to 51; lower is better and larger")
-      ->capture_default_str();
+  command->add_option(
+      "--quality", args->quality,
+      "JPEG: 1 to 100 (default 92), WebP: 0 to 100, which is lossless (90), higher is better; films, "
+      "constant quality, lower is better: MP4 0 to 51 (16), WebM 0 to 63 (20)");
   command->add_option("--exr", args->exr, "EXR: float or half (facts stay float), zip or piz")
       ->capture_default_str();
   std::string names;
   for (const std::string& name : Renderer::aovNames()) names += (names.empty() ? "" : ", ") + name;
   command
       ->add_option("--aov", args->aovs,
-                   "Also write a pass's output, into the EXR as layers or beside a PNG as NAME.AOV.exr: all, "
+                   "Also write a pass's output, into the EXR as layers or beside another picture as "
+                   "NAME.AOV.exr: all, "
                    "or some of " +
                        names)
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option(
-      "--background", args->background,
-      "What is behind everything: #RRGGBB, transparent, or a picture (.png, .jpg, .webp) or film; "
-      "before those, the ground shows only the shadows on it");
+  command->add_option("--background", args->background,
+                      "What is behind everything: a colour (#RRGGBB, #RGB or a name of CSS), transparent, or "
+                      "a picture (.png, .jpg, .webp) or film; "
+                      "before those, the ground shows only the shadows on it");
   command->add_option("--stats", args->stats, "Write JSON with milliseconds of each pass, counts and memory")
       ->type_name("FILE");
   command->add_flag("--quiet", args->quiet, "No warnings and no progress");

@@ -1,9 +1,10 @@
-// Films: pictures one after another into an MP4 file, encoded as H.264 by the program ffmpeg; and the
-// pictures of any film that ffmpeg reads.
+// Films: pictures one after another into a file, encoded by the program ffmpeg; and the pictures of any film
+// that ffmpeg reads.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "scumble/image.h"
@@ -18,28 +19,38 @@ enum class FilmLayout {
   overUnder    // the left eye's picture on top
 };
 
+enum class FilmFormat {
+  mp4,   // H.264
+  webm,  // VP9
+  gif    // 256 colours a picture, dithered; repeats for ever. Times are whole hundredths of a second
+};
+
 struct FilmOptions {
-  // Pixels of each picture as it is added, with both eyes in it; 1 ... 16384. H.264 stores even sizes: an odd
-  // one grows by a column on the right or a row at the bottom that repeats the last one. Both eyes must have
-  // one size: the width is even for side by side, the height for over under.
+  FilmFormat format = FilmFormat::mp4;
+
+  // Pixels of each picture as it is added, with both eyes in it; 1 ... 16384. MP4 and WebM store even sizes:
+  // an odd one grows by a column on the right or a row at the bottom that repeats the last one. Both eyes
+  // must have one size: the width is even for side by side, the height for over under.
   uint32_t width = 0, height = 0;
 
-  // Frames a second, 0.01 ... 1000. Stored as a fraction: whole numbers exactly, 23.976 or 23.98 as
-  // 24000/1001 and 29.97 as 30000/1001, others as the nearest one whose denominator is at most 1001.
+  // Frames a second, 0.01 ... 1000; of a GIF, at most 50, since players slow down faster ones. Stored as a
+  // fraction: whole numbers exactly, 23.976 or 23.98 as 24000/1001 and 29.97 as 30000/1001, others as the
+  // nearest one whose denominator is at most 1001.
   double fps = 24;
 
-  // Constant quality (x264's CRF), 0 ... 51: lower is better and larger. 0 is lossless after the conversion
-  // to Y'CbCr, in a profile that not every player knows.
-  int quality = 16;
+  // Constant quality (CRF): lower is better and larger. MP4: 0 ... 51, default 16; WebM: 0 ... 63, default
+  // 20; a GIF has none. 0 is lossless after the conversion to Y'CbCr, in a profile that not every player
+  // knows.
+  std::optional<int> quality;
 
-  FilmLayout layout = FilmLayout::mono;
+  FilmLayout layout = FilmLayout::mono;  // a GIF cannot say it
 };
 
 // Writes one film. The file appears whole when finish() succeeds, and not at all otherwise.
 //
-// Colours are those of writePng: sRGB, 8 bit, then Y'CbCr 4:2:0 (BT.709 matrix and primaries, limited range),
-// and marked so. A film has no alpha: pictures with alpha (four channels) are put over black. The same
-// pictures give the same bytes with one version of ffmpeg, whatever the number of processors.
+// Colours are those of writePng: sRGB, 8 bit; of MP4 and WebM then Y'CbCr 4:2:0 (BT.709 matrix and primaries,
+// limited range), and marked so. A film has no alpha: pictures with alpha (four channels) are put over black.
+// The same pictures give the same bytes with one version of ffmpeg, whatever the number of processors.
 //
 // ffmpeg is looked for on the PATH and runs as a child process until finish(), or until the writer is
 // destroyed. No signal state of this process is changed. One writer is used by one thread at a time; several

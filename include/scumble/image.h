@@ -56,6 +56,14 @@ struct ExrOptions {
 // The file appears whole or not at all. Fails with ErrorKind::outputNotWritten.
 Status writePng(const std::string& path, const Image& image);
 
+// The same as a JPEG: quality 1 ... 100, higher is better and larger; chroma at full resolution from 90 on.
+// There is no alpha: it is put over black. EXIF says that values are sRGB. At most 65500 pixels a side.
+Status writeJpeg(const std::string& path, const Image& image, int quality = 92);
+
+// The same as a WebP: quality 0 ... 100, where 100 is lossless; alpha is kept as writePng does. At most 16383
+// pixels a side.
+Status writeWebp(const std::string& path, const Image& image, int quality = 90);
+
 // Reads what writePng writes, and any other PNG, as linear floats (R, G, B, A); a colour.
 Result<Image> readPng(const std::string& path);
 
@@ -74,8 +82,8 @@ Result<Image> readPicture(const std::string& path);
 Status writeExr(const std::string& path, const std::vector<ImageLayer>& layers,
                 const ExrOptions& options = {});
 
-// Whether a file is a PNG or EXR with all its pixels, of this size unless it is 0; false where it cannot be
-// read. Pixels themselves are not checked.
+// Whether a file is a PNG, JPEG, WebP or EXR with all its pixels, of this size unless it is 0; false where it
+// cannot be read. Pixels themselves are not checked.
 bool isWholePicture(const std::string& path, uint32_t width = 0, uint32_t height = 0);
 
 // A report beside pictures, e.g. JSON. The file appears whole or not at all. Fails with

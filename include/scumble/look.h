@@ -31,13 +31,17 @@ struct Knob {
   std::vector<std::string> targets;
 };
 
+// Whether a text is a colour as knobs take them: "#RRGGBB", "#RGB", or one of CSS's names in small letters.
+bool isColor(const std::string& text);
+
 // Values for knobs; what is not set has its default. Copies are cheap.
 class Look {
  public:
   Look();  // all defaults
 
   // A look that ships (by name), or a JSON file (by a path with '/' or ending in .json). Fails with
-  // unusableFile for files and with usage for unknown names.
+  // unusableFile for files and with usage for unknown names. A look may extend another one ("extends"): that
+  // one's settings come before its own. JSON with comments is taken.
   static Result<Look> load(const std::string& nameOrFile);
   static Result<Look> fromJson(const std::string& text, const std::string& file);
 

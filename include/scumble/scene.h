@@ -1,6 +1,7 @@
 // Scenes: glTF 2.0 files in memory, checked, with everything that the renderer draws from.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -39,10 +40,13 @@ struct SceneSummary {
   double min[3] = {0, 0, 0}, max[3] = {0, 0, 0};  // world bounds, metres
 };
 
+struct PlacedScene;
+
 // An immutable scene; copies are cheap and share the data. May be used from several threads.
 class Scene {
  public:
-  // Reads .gltf or .glb. Fails with ErrorKind::unusableFile, and with usage for options out of range.
+  // Reads .gltf or .glb, or a world: a .json that lists such files with their places (docs/scene.md). Fails
+  // with ErrorKind::unusableFile, and with usage for options out of range.
   static Result<Scene> load(const std::string& path, const SceneOptions& options = {});
 
   // The same from a glTF or GLB in memory; URIs are resolved relative to `folder`. With an empty `folder` no
@@ -52,6 +56,12 @@ class Scene {
 
   // Several scenes in one world, in the given order; cameras of the first come first.
   static Scene combine(const std::vector<Scene>& scenes);
+
+  // The same, each at its place: its roots hang below a new node of its name, and that below the node that it
+  // stands on. So it rides with that, whatever moves it. A scene that stands in the list more than once
+  // shares meshes, materials and images. Fails with ErrorKind::usage for numbers that place nothing, nodes
+  // that are not there or are several scenes', and scenes that stand on each other in a circle.
+  static Result<Scene> place(const std::vector<PlacedScene>& scenes);
 
   bool empty() const { return !data_; }  // true of a Scene that was not loaded
 
@@ -68,6 +78,22 @@ class Scene {
  private:
   std::shared_ptr<const scene::SceneData> data_;
   SceneTimings timings_;
+};
+
+// A scene and its place in a world.
+struct PlacedScene {
+  Scene scene;
+  // How others call it, and the name of the node that carries it; empty: its file's, without folder and
+  // ending. Of scenes of one name the second is called "NAME-2", and so on.
+  std::string name = {};
+  // Where its origin lies: in the world, or from the origin of the node that it stands on, along the axes of
+  // the scene which that belongs to, as they are at rest. Metres, each within +-1e6.
+  glm::vec3 at{0.0f};
+  glm::vec3 turn{0.0f};  // degrees about x, then y, then z
+  float scale = 1;       // above 0
+  // A node of another one of the scenes, "boat/Deck" to say of which, or one of those by its name; empty: it
+  // stands in the world.
+  std::string on = {};
 };
 
 }  // namespace scumble

@@ -28,8 +28,9 @@ struct View {
 glm::mat4 perspectiveProjection(float verticalFov, float aspect, float near);  // infinite far plane
 glm::mat4 orthographicProjection(float halfHeight, float aspect, float near, float far);
 
-// Where the camera stands, as the command line says it. The first that is given counts: eye and target,
-// orbit, the scene's camera, its first camera, and else a framing of everything.
+// Where the camera stands, as the caller says it. The first that is given counts: eye and target, turntable,
+// orbit, camera; then the look's camera (its knobs `camera`, of which any may have a track); then the scene's
+// first camera, and else a framing of everything.
 struct Viewpoint {
   std::string camera;  // name or number of a scene's camera; empty: the first
   bool orbit = false;  // around the scene's centre
@@ -37,20 +38,30 @@ struct Viewpoint {
   // elevation -90 to 90.
   float azimuth = 0, elevation = 0;
   std::optional<float> distance;  // in scene radii, above 0 up to a million; default: everything in the frame
+  // Goes once around in so many seconds, above 0, the azimuth growing: around what the look's camera looks at
+  // (the scene's centre where it says nothing), from the orbit above where that is given, else from that of
+  // the look. Where neither has a distance, everything is in the frame all the way.
+  std::optional<double> turntable;
   std::optional<glm::vec3> eye, target;  // metres, up to 1e15 as all of a scene
-  float roll = 0;                        // degrees, clockwise as seen by the viewer, up to a hundred turns
-  std::optional<float> verticalFov;      // degrees, 0.1 to 177
+  // Degrees, clockwise as seen by the viewer, up to a hundred turns; default: the look's.
+  std::optional<float> roll;
+  std::optional<float> verticalFov;  // degrees, 0.1 to 177; default: the look's, the scene's camera's, 34
 };
 
 enum class Stereo { mono, stereo };
 
-// One view, or the left and the right one (ipd metres apart, parallel axes), at a time in seconds. A camera
-// of the scene goes where the clips that the look plays take it, held by nothing, and names its node, so that
-// it rides the ocean's waves where that does; every other viewpoint stands still, and sees what the scene
-// takes up while they play. `ipd` is 0 to a million. Fails with ErrorKind::usage for an unknown camera,
-// numbers out of range, and a viewpoint that sees nothing (eye on the target).
+// One view, or the left and the right one (ipd metres apart, parallel axes), at a time in seconds: a pure
+// function of what it is given. A camera of the scene goes where the clips that the look plays take it, held
+// by nothing, and names its node, so that it rides the ocean's waves where that does. The look's camera and a
+// turntable go with the node that they look at as clips take it, and waves do not shake them. Orbits and
+// framings see what the scene takes up while the clips play. `ipd` is 0 to a million. Fails with
+// ErrorKind::usage for an unknown camera, numbers out of range, and a viewpoint that sees nothing (eye on the
+// target).
 Result<std::vector<View>> makeViews(const Scene& scene, const Viewpoint& viewpoint, float aspect,
                                     Stereo stereo = Stereo::mono, float ipd = 0.063f,
                                     const Look& look = Look(), double time = 0);
+
+// Whether views may be others at other times. Where not, one call of makeViews serves a whole film.
+bool viewsMove(const Scene& scene, const Viewpoint& viewpoint, const Look& look);
 
 }  // namespace scumble

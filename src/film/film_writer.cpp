@@ -1,4 +1,4 @@
-// Films. ffmpeg gets Y'CbCr frames (made here, so that colours are the same with every version of it) on its
+// Films. ffmpeg gets raw frames (made here, so that colours are the same with every version of it) on its
 // standard input, and writes into a file without a name, so that no kill of any process leaves one. From that
 // file the film is put together.
 #include <fmt/format.h>
@@ -14,20 +14,15 @@
 #include "film/checks.h"
 #include "film/child_process.h"
 #include "film/ffmpeg.h"
-#include "film/frame_rate.h"
-#include "film/mp4.h"
+#include "film/film_format.h"
 #include "film/passing_file.h"
 #include "film/whole_file.h"
-#include "film/yuv.h"
 #include "scumble/film.h"
 
 namespace scumble {
 namespace {
 
 constexpr uint32_t kLargestSide = 16384;  // x264's limit
-
-// Fixed, as the bytes depend on it.
-constexpr int kThreads = 8;
 
 std::string problemWith(const FilmOptions& options) {
   if (options.width == 0 || options.height == 0) return "the film has no size";
@@ -36,8 +31,12 @@ std::string problemWith(const FilmOptions& options) {
                        kLargestSide);
   if (!(options.fps >= 0.01 && options.fps <= 1000))
     return fmt::format("{} frames a second are not from 0.01 to 1000", options.fps);
-  if (options.quality < 0 || options.quality > 51)
-    return fmt::format("the quality {} is not from 0 to 51", options.quality);
+  const film::FormatFacts& format = film::factsOf(options.format);
+  if (options.fps > format.fastest)
+    return fmt::format("{} frames a second are more than the {} of a GIF", options.fps, format.fastest);
+  if (options.quality && format.worstQuality < 0) return "a GIF has no quality to choose";
+  if (options.quality && (*options.quality < 0 || *options.quality > format.worstQuality))
+    return fmt::format("the quality {} is not from 0 to {}", *options.quality, format.worstQuality);
   if (options.layout == FilmLayout::sideBySide && options.width % 2 != 0)
     return "two eyes side by side need an even width";
   if (options.layout == FilmLayout::overUnder && options.height % 2 != 0)
@@ -46,26 +45,11 @@ std::string problemWith(const FilmOptions& options) {
 }
 
 std::vector<std::string> ffmpegCommand(const FilmOptions& options) {
-  const film::FrameRate rate = film::frameRateOf(options.fps);
-  // Once for the container, once for the stream. The transfer curve is sRGB's, because the codes are.
-  std::string x264 = "colorprim=bt709:transfer=iec61966-2-1:colormatrix=bt709:range=tv";
-  // Arrangement types of H.264's frame packing message.
-  if (options.layout == FilmLayout::sideBySide) x264 += ":frame-packing=3";
-  if (options.layout == FilmLayout::overUnder) x264 += ":frame-packing=4";
-  // clang-format off
-  return {"ffmpeg", "-hide_banner", "-nostdin", "-nostats", "-loglevel", "error", "-y",
-          "-f", "rawvideo", "-pixel_format", "yuv420p", "-color_range", "tv",
-          "-video_size", fmt::format("{}x{}", (options.width + 1) & ~1u, (options.height + 1) & ~1u),
-          "-framerate", fmt::format("{}/{}", rate.numerator, rate.denominator), "-i", "pipe:0",
-          "-map", "0:v:0", "-map_metadata", "-1",
-          "-c:v", "libx264", "-preset", "medium", "-crf", std::to_string(options.quality),
-          "-pix_fmt", "yuv420p", "-threads", std::to_string(kThreads),
-          "-color_range", "tv", "-colorspace", "bt709", "-color_primaries", "bt709",
-          "-color_trc", "iec61966-2-1", "-chroma_sample_location", "left", "-x264-params", x264,
-          // No dates and no version of the container's writer.
-          "-fflags", "+bitexact", "-flags:v", "+bitexact",
-          "-f", "mp4", fmt::format("/proc/self/fd/{}", film::ChildProcess::kPassed)};
-  // clang-format on
+  std::vector<std::string> command{"ffmpeg",    "-hide_banner", "-nostdin", "-nostats",
+                                   "-loglevel", "error",        "-y"};
+  for (std::string& word : film::encoderArguments(options)) command.push_back(std::move(word));
+  command.push_back(fmt::format("/proc/self/fd/{}", film::ChildProcess::kPassed));
+  return command;
 }
 
 }  // namespace
@@ -87,6 +71,8 @@ struct FilmWriter::State {
   std::string writeSequence() const {
     return "write " + std::filesystem::path(path).stem().string() + ".####.png";
   }
+
+  const char* encoder() const { return film::factsOf(options.format).encoder; }
 
   std::string path;
   FilmOptions options;
@@ -112,8 +98,8 @@ Error FilmWriter::State::encoderFailed(const std::string& how) {
       return lost(std::string("cannot be written: ") + reason,
                   "make room on the disk or choose another place");
   if (said.find("Unknown encoder") != std::string::npos)
-    return lost("this ffmpeg has no libx264, which films are encoded with",
-                "install an ffmpeg with libx264, or " + writeSequence());
+    return lost(fmt::format("this ffmpeg has no {0}, which films are encoded with", encoder()),
+                fmt::format("install an ffmpeg with {0}, or {1}", encoder(), writeSequence()));
   const std::string line = film::lastLine(said);
   return lost("cannot be written: ffmpeg " + how + (line.empty() ? "" : ": " + line),
               writeSequence() + " instead");
@@ -145,7 +131,7 @@ Status FilmWriter::State::add(const Image& picture) {
   if (picture.width != options.width || picture.height != options.height)
     return usage(fmt::format("a picture of {}x{} does not fit a film of {}x{}", picture.width, picture.height,
                              options.width, options.height));
-  const std::vector<uint8_t> planes = film::yuv420(picture);
+  const std::vector<uint8_t> planes = film::rawPicture(picture, options.format);
   if (!ffmpeg.send(planes.data(), planes.size())) {
     const std::string how = ffmpeg.finish();
     return encoderFailed(how.empty() ? "ended too early" : how);
@@ -158,7 +144,7 @@ Status FilmWriter::State::finish() {
   if (failure) return *failure;
   if (frames == 0) return usage("a film needs at least one picture");
   if (const std::string how = ffmpeg.finish(); !how.empty()) return encoderFailed(how);
-  const std::string problem = film::rearrangeMp4(scratch, options.layout, frames, file);
+  const std::string problem = film::completeFilm(scratch, options, frames, file);
   if (!problem.empty() && file.ok())
     return encoderFailed("left something that is no film of ours (" + problem + ")");
   const Status status = file.commit();

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <fstream>
 
+#include "base/file_bytes.h"
+#include "base/image_decode.h"
 #include "scumble/image.h"
 
 namespace scumble {
@@ -24,6 +26,43 @@ bool fits(uint32_t wanted, uint32_t found) {
   return wanted == 0 || wanted == found;
 }
 
+template <size_t kSize>
+bool startsAs(const std::array<unsigned char, kSize>& bytes, const char* text) {
+  return std::memcmp(bytes.data(), text, std::strlen(text)) == 0;
+}
+
+uint64_t sizeOf(std::ifstream& file) {
+  file.clear();
+  file.seekg(0, std::ios::end);
+  return uint64_t(file.tellg());
+}
+
+bool hasSize(const std::string& path, uint32_t width, uint32_t height) {
+  FileBytes bytes;
+  std::string problem;
+  uint32_t foundWidth = 0, foundHeight = 0;
+  return bytes.open(path, problem) && readImageSize(bytes.bytes(), foundWidth, foundHeight, problem) &&
+         fits(width, foundWidth) && fits(height, foundHeight);
+}
+
+// It ends with the marker that says so.
+bool isWholeJpeg(const std::string& path, std::ifstream& file, uint32_t width, uint32_t height) {
+  unsigned char end[2] = {};
+  file.seekg(-2, std::ios::end);
+  return file.read(reinterpret_cast<char*>(end), sizeof end) && end[0] == 0xFF && end[1] == 0xD9 &&
+         hasSize(path, width, height);
+}
+
+// It is as long as its header says.
+bool isWholeWebp(const std::string& path, std::ifstream& file, uint32_t width, uint32_t height) {
+  unsigned char length[4] = {};
+  file.seekg(4);
+  if (!file.read(reinterpret_cast<char*>(length), sizeof length)) return false;
+  const uint32_t told =
+      uint32_t(length[3]) << 24 | uint32_t(length[2]) << 16 | uint32_t(length[1]) << 8 | length[0];
+  return sizeOf(file) == uint64_t(told) + 8 && hasSize(path, width, height);
+}
+
 }  // namespace
 
 bool isWholePicture(const std::string& path, uint32_t width, uint32_t height) {
@@ -39,6 +78,8 @@ bool isWholePicture(const std::string& path, uint32_t width, uint32_t height) {
       return exr.isComplete() && fits(width, uint32_t(window.max.x - window.min.x + 1)) &&
              fits(height, uint32_t(window.max.y - window.min.y + 1));
     }
+    if (startsAs(start, "\xff\xd8\xff")) return isWholeJpeg(path, file, width, height);
+    if (startsAs(start, "RIFF")) return isWholeWebp(path, file, width, height);
     if (std::memcmp(start.data(), kPngStart, sizeof(kPngStart)) != 0) return false;
     // The header's chunk comes first: length, name, width, height.
     if (!fits(width, bigEndian(&start[16])) || !fits(height, bigEndian(&start[20]))) return false;

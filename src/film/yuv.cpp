@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "film/srgb.h"
+#include "film/codes.h"
 
 namespace scumble::film {
 namespace {
@@ -35,20 +35,6 @@ constexpr Weights kRedDifference = {fixed((1 - kRed) * kCr), -fixed((1 - kRed) *
 uint8_t rounded(int sum, int offset, int extraBits) {
   const int bits = kFraction + extraBits;
   return uint8_t(offset + ((sum + (1 << (bits - 1))) >> bits));
-}
-
-// One row of codes, three a pixel, with the last pixel repeated up to `padded` of them.
-void encodeRow(const Image& image, uint32_t y, uint32_t padded, uint8_t* out) {
-  const SrgbEncoder& encode = SrgbEncoder::instance();
-  const size_t channels = image.channels.size();
-  const float* in = image.pixels.data() + size_t(y) * image.width * channels;
-  for (uint32_t x = 0; x < image.width; ++x, in += channels, out += 3) {
-    const float alpha = channels == 4 ? (in[3] > 0 ? std::min(in[3], 1.0f) : 0.0f) : 1.0f;
-    out[0] = encode(in[0] * alpha);
-    out[1] = channels > 1 ? encode(in[1] * alpha) : out[0];
-    out[2] = channels > 2 ? encode(in[2] * alpha) : (channels == 1 ? out[0] : uint8_t(0));
-  }
-  for (uint32_t x = image.width; x < padded; ++x, out += 3) std::copy_n(out - 3, 3, out);
 }
 
 }  // namespace

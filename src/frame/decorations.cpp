@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/tileable_noise.h"
+#include "scene/find_node.h"
 
 namespace scumble::frame {
 
@@ -140,9 +141,9 @@ std::vector<Decoration> decorationsOf(const scene::SceneData& scene, const look:
     one.params = look.getFor<DecorationParams>(look::kDecorations, name);
     const std::string& node = look.text(one.params.node);
     if (node.empty()) continue;
-    for (size_t n = 0; n < scene.nodes.size() && !one.node; ++n)
-      if (scene.nodes[n].name == node) one.node = n;
-    one.isThere = one.node.has_value();
+    const int found = scene::findNode(scene, node);
+    if (found >= 0) one.node = size_t(found);
+    one.isThere = found >= 0;
   }
   for (const FloatingNode& rides : floating) {
     const auto isItsWake = [&](const Decoration& one) {

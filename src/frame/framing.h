@@ -19,4 +19,8 @@ glm::vec3 orbitDirection(float azimuth, float elevation);
 float framingDistance(const scene::Bounds& bounds, const glm::vec3& direction, float verticalFov,
                       float aspect);
 
+// The least distance at which all of it is seen from every azimuth, so that it stays while one goes around.
+// The elevation is in degrees.
+float framingDistanceAllAround(const scene::Bounds& bounds, float elevation, float verticalFov, float aspect);
+
 }  // namespace scumble::frame

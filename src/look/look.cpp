@@ -1,20 +1,13 @@
 // The public face of looks: loading them, setting knobs, listing the knobs and the looks that ship.
 #include "scumble/look.h"
 
-#include <filesystem>
-#include <fstream>
-
+#include "base/color_text.h"
+#include "look/look_source.h"
 #include "look/read_value.h"
 #include "look/setting_path.h"
 #include "look/shipped_looks.h"
 
 namespace scumble {
-
-namespace {
-
-constexpr size_t kMaxLookFile = 16 << 20;
-
-}  // namespace
 
 Look::Look() : data_(std::make_shared<look::LookData>()) {}
 
@@ -23,7 +16,7 @@ const std::string& Look::description() const {
 }
 
 std::vector<std::string> Look::files() const {
-  std::vector<std::string> files;
+  std::vector<std::string> files = data_->files;
   for (const auto& picture : data_->pictures) files.push_back(picture->file);
   return files;
 }
@@ -32,50 +25,22 @@ const std::vector<std::string>& Look::warnings() const {
   return data_->warnings;
 }
 
+bool isColor(const std::string& text) {
+  return parseColor(text).has_value();
+}
+
 Result<Look> Look::load(const std::string& nameOrFile) {
-  const bool isFile = nameOrFile.find('/') != std::string::npos ||
-                      (nameOrFile.size() > 5 && nameOrFile.compare(nameOrFile.size() - 5, 5, ".json") == 0);
-  if (!isFile) {
-    std::vector<std::string> names;
-    for (const look::ShippedLookFile& file : look::shippedLookFiles()) {
-      if (file.name == nameOrFile) return fromJson(std::string(file.text), nameOrFile);
-      names.emplace_back(file.name);
-    }
-    const std::string suggestion = look::nearest(nameOrFile, names);
-    return Error{ErrorKind::usage,
-                 "",
-                 0,
-                 "",
-                 "no look is called '" + nameOrFile + "'",
-                 suggestion.empty() ? "`scumble looks` lists them; a file's name ends in .json"
-                                    : "did you mean '" + suggestion + "'?"};
-  }
-  std::error_code ignored;
-  if (nameOrFile.find('\0') != std::string::npos || !std::filesystem::is_regular_file(nameOrFile, ignored))
-    return Error{
-        ErrorKind::unusableFile,
-        nameOrFile,
-        0,
-        "",
-        std::filesystem::exists(nameOrFile, ignored) ? "this is no ordinary file" : "there is no such look",
-        "give a JSON file, or a name that `scumble looks` lists"};
-  std::ifstream file(nameOrFile, std::ios::binary | std::ios::ate);
-  const auto size = file ? file.tellg() : std::streampos(-1);
-  if (!file || size < 0)
-    return Error{ErrorKind::unusableFile, nameOrFile, 0, "", "the look cannot be opened", "check the path"};
-  if (size_t(size) > kMaxLookFile)
-    return Error{
-        ErrorKind::unusableFile,
-        nameOrFile,
-        0,
-        "",
-        "this is too large for a look: " + std::to_string((size_t(size) + (1 << 20) - 1) >> 20) + " MiB",
-        "a look has " + std::to_string(kMaxLookFile >> 20) + " MiB at most; check the path"};
-  std::string text(size_t(size), '\0');
-  file.seekg(0);
-  if (!file.read(text.data(), size) && size > 0)
-    return Error{ErrorKind::unusableFile, nameOrFile, 0, "", "the look cannot be read", "check the path"};
-  return fromJson(text, nameOrFile);
+  const Result<look::LookSource> source = look::findLook(nameOrFile);
+  if (!source) return source.error();
+  return fromJson(source->text, source->file);
+}
+
+Result<Look> Look::fromJson(const std::string& text, const std::string& file) {
+  auto data = std::make_shared<look::LookData>();
+  if (const Status status = look::readLook({file, text}, {}, *data); !status) return status.error();
+  Look look;
+  look.data_ = std::move(data);
+  return look;
 }
 
 Status Look::set(const std::string& path, const std::string& value) {

@@ -6,6 +6,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <optional>
+
+#include "base/color_text.h"
+#include "base/nearest.h"
 
 namespace scumble::look {
 
@@ -48,32 +52,6 @@ Error badValue(std::string problem, std::string advice) {
 
 bool sets(const Assignment& a, const ParamBlock& block, const char* row, Target target) {
   return a.block == &block && a.target == target && std::strcmp(a.row->name, row) == 0;
-}
-
-size_t editDistance(const std::string& a, const std::string& b) {
-  std::vector<size_t> row(b.size() + 1);
-  for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (size_t i = 1; i <= a.size(); ++i) {
-    size_t diagonal = row[0];
-    row[0] = i;
-    for (size_t j = 1; j <= b.size(); ++j) {
-      const size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
-}
-
-// The candidate nearest to `word`, or empty when all are farther than `most` letters.
-std::string nearestWithin(const std::string& word, const std::vector<std::string>& candidates, size_t most) {
-  std::string best;
-  size_t bestDistance = most + 1;
-  for (const std::string& candidate : candidates) {
-    const size_t distance = editDistance(word.substr(0, 64), candidate);
-    if (distance < bestDistance) best = candidate, bestDistance = distance;
-  }
-  return best;
 }
 
 std::string firstWord(const std::string& path) {
@@ -206,7 +184,7 @@ bool matches(const std::string& pattern, const std::string& name) {
 }
 
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
-  return nearestWithin(word, candidates, std::max<size_t>(2, std::min<size_t>(word.size(), 64) / 3));
+  return scumble::nearest(word, candidates);
 }
 
 Result<KnobRef> findKnob(const std::string& path, Targets targets) {
@@ -268,11 +246,14 @@ Result<Value> parseTriple(const ParamRow& row, const std::string& text) {
 
 Result<Value> parseValue(const ParamRow& row, const std::string& text) {
   if (row.kind == ParamKind::color) {
-    // Digits only: strtoul would also take a sign, spaces and 0x.
-    if (text.size() != 7 || text[0] != '#' ||
-        text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos)
-      return badValue("'" + text + "' is no colour", "write it as #RRGGBB");
-    return Value{0, linearFromSrgb(uint32_t(std::strtoul(text.c_str() + 1, nullptr, 16)))};
+    if (const std::optional<uint32_t> color = parseColor(text)) return Value{0, linearFromSrgb(*color)};
+    std::string small = text;
+    for (char& c : small)
+      if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+    const std::string meant = text.starts_with('#') ? "" : nearest(small, colorNames());
+    return badValue("'" + text + "' is no colour", meant.empty()
+                                                       ? "write it as #RRGGBB, #RGB or a name of CSS"
+                                                       : "did you mean '" + meant + "'?");
   }
   if (row.kind == ParamKind::choice || row.kind == ParamKind::picture) {
     const std::vector<std::string> names = choiceNames(row);

@@ -35,6 +35,7 @@ struct LookData {
   std::vector<Assignment> assignments;
   std::vector<std::shared_ptr<const LookPicture>> pictures;
   std::vector<std::string> texts;  // what knobs name (Name::index)
+  std::vector<std::string> files;  // that were read, pictures apart
   std::vector<std::string> warnings;
 
   // Whether a setting changes with time.

@@ -1,13 +1,13 @@
-// Reading a look's JSON file; its tracks are read in look_json_track.cpp.
+// Reading a look's JSON file; its tracks are read in look_json_track.cpp, what it extends in look_source.cpp.
 #include "look/look_json.h"
 
 #include <algorithm>
 #include <filesystem>
 
+#include "look/look_source.h"
 #include "look/look_text.h"
 #include "look/read_value.h"
 #include "look/setting_path.h"
-#include "scumble/look.h"
 
 namespace scumble {
 
@@ -15,14 +15,10 @@ namespace look {
 
 namespace {
 
-bool leadsOutside(const std::filesystem::path& path) {
-  return path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end();
-}
-
 std::string adviceFor(const ParamRow& row) {
   switch (row.kind) {
     case ParamKind::color:
-      return "write a colour as \"#RRGGBB\"";
+      return "write a colour as \"#RRGGBB\", \"#RGB\" or a name of CSS";
     case ParamKind::choice:
       return std::string("choose one of ") + row.unit;
     case ParamKind::picture:
@@ -46,11 +42,16 @@ bool isTriple(const Json& value) {
 // Walks a look's JSON; the first mistake ends it.
 class Reader {
  public:
-  Reader(LookData& out, std::string file) : out_(out), file_(std::move(file)) {}
+  Reader(LookData& out, const LookChain& chain) : out_(out), chain_(chain), file_(chain.back()) {}
 
   Status readRoot(const Json& root) {
     if (!root.is_object()) return place("").fail("a look is a JSON object", "see `scumble schema`");
+    // Wherever that stands, it comes first.
+    if (root.contains("extends"))
+      if (const Status status = readExtended(root["extends"], place("extends"), chain_, out_); !status)
+        return status.error();
     for (const auto& [key, value] : root.items()) {
+      if (key == "extends") continue;
       if (key == "$schema") {
         if (!value.is_string()) return place(key).fail("the schema is no string", "write its name in quotes");
         continue;
@@ -96,6 +97,11 @@ class Reader {
           readGroup(knobs, "", pattern, &section, std::string(section.name) + "." + pattern);
       if (!status) return status;
     }
+    // Those of the looks that this one extends count too.
+    if (section.most > 0 && out_.declared(section.target).size() > section.most)
+      return place(section.name)
+          .fail("these are too many " + std::string(section.name) + ", with those of the look it extends",
+                "a look declares " + std::to_string(section.most) + " at most");
     return Done{};
   }
 
@@ -144,10 +150,15 @@ class Reader {
   }
 
   LookData& out_;
-  std::string file_;
+  const LookChain& chain_;
+  const std::string& file_;
 };
 
 }  // namespace
+
+bool leadsOutside(const std::filesystem::path& path) {
+  return path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end();
+}
 
 Error JsonPlace::fail(std::string problem, std::string advice) const {
   return {ErrorKind::unusableFile, file, 0, path, std::move(problem), std::move(advice)};
@@ -180,17 +191,15 @@ Result<Value> readJsonValue(const ParamRow& row, const Json& value, const JsonPl
                     parsed.error().advice);
 }
 
-}  // namespace look
-
-Result<Look> Look::fromJson(const std::string& text, const std::string& file) {
-  auto data = std::make_shared<look::LookData>();
-  const Result<look::Json> root = look::parseText(text, file, data->warnings);
+Status readLook(const LookSource& source, LookChain chain, LookData& out) {
+  const auto& [file, text] = source;
+  chain.push_back(file);
+  if (isLookFile(file)) out.files.push_back(file);
+  const Result<Json> root = parseText(text, file, out.warnings);
   if (!root) return root.error();
-  const Status status = look::Reader(*data, file).readRoot(*root);
-  if (!status) return status.error();
-  Look look;
-  look.data_ = std::move(data);
-  return look;
+  return Reader(out, chain).readRoot(*root);
 }
+
+}  // namespace look
 
 }  // namespace scumble

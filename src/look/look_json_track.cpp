@@ -11,7 +11,7 @@ namespace {
 constexpr double kMaxTime = 1e9;
 
 const std::vector<std::string> kMembers{"keys", "interpolation", "repeat"};
-const std::vector<std::string> kInterpolations{"step", "linear", "cubic"};
+const std::vector<std::string> kInterpolations{"step", "linear", "cubic", "ease"};
 
 Status readKeys(const ParamRow& row, const Json& keys, const JsonPlace& place, LookData& data, Track& out) {
   if (!keys.is_array()) return place.fail("the keys are no list", "write them like [[0, 0.3], [2.5, 0.5]]");
@@ -39,7 +39,7 @@ Status readKeys(const ParamRow& row, const Json& keys, const JsonPlace& place, L
 }
 
 Status readInterpolation(const ParamRow& row, const Json& value, const JsonPlace& place, Track& out) {
-  const char* names = "it is step, linear or cubic";
+  const char* names = "it is step, linear, cubic or ease";
   if (!value.is_string()) return place.fail("the interpolation is no name", names);
   const std::string name = value.get<std::string>();
   for (size_t i = 0; i < kInterpolations.size(); ++i)

@@ -130,9 +130,10 @@ TEST(LookTracks, mistakesNameTheirPath) {
       {R"({"keys": [[0, 1], [1, 1], [2, "1"]]})", ".keys[2][1]", "wrong type"},
       {R"({"keys": [[0, [1]]]})", ".keys[0][1]", "wrong type"},
       {R"({"keys": [[0, {"keys": [[0, 1]]}]]})", ".keys[0][1]", "wrong type"},
-      {R"({"keys": [[0, 1]], "interpolation": 1})", ".interpolation", "step, linear or cubic"},
+      {R"({"keys": [[0, 1]], "interpolation": 1})", ".interpolation", "step, linear, cubic or ease"},
       {R"({"keys": [[0, 1]], "interpolation": "liner"})", ".interpolation", "'linear'"},
-      {R"({"keys": [[0, 1]], "interpolation": "bezier by hand"})", ".interpolation", "step, linear or cubic"},
+      {R"({"keys": [[0, 1]], "interpolation": "bezier by hand"})", ".interpolation",
+       "step, linear, cubic or ease"},
       {R"({"keys": [[0, 1]], "repeat": 1})", ".repeat", "true or false"},
   };
   for (const auto& c : cases)

@@ -1,6 +1,7 @@
 // The JSON schema of look files, made from the knobs' rows.
 #include <algorithm>
 
+#include "base/color_text.h"
 #include "look/look_json.h"
 #include "look/setting_path.h"
 #include "scumble/look.h"
@@ -15,7 +16,7 @@ namespace {
 Json valueSchema(const ParamRow& row) {
   switch (row.kind) {
     case ParamKind::color:
-      return {{"type", "string"}, {"pattern", "^#[0-9A-Fa-f]{6}$"}};
+      return Json::object({{"$ref", "#/$defs/color"}});
     case ParamKind::choice:
       return Json::object({{"enum", choiceNames(row)}});
     case ParamKind::picture:
@@ -115,7 +116,15 @@ std::string Look::jsonSchema() {
     root["properties"][section.name] = {
         {"type", "object"}, {"propertyNames", {{"minLength", 1}}}, {"additionalProperties", single}};
   }
-  root["$defs"] = {{"smoothTrack", look::trackSchema({"step", "linear", "cubic"}, "linear")},
+  const look::Json digits{{"type", "string"}, {"pattern", "^#([0-9A-Fa-f]{3}|[0-9A-Fa-f]{6})$"}};
+  const look::Json color{
+      {"description", "A colour in sRGB: #RRGGBB, #RGB, or a name of CSS."},
+      {"oneOf", look::Json::array({digits, look::Json::object({{"enum", colorNames()}})})}};
+  root["properties"]["extends"] = {
+      {"description", "A look that ships, or a .json beside this one: its settings come before these."},
+      {"type", "string"}};
+  root["$defs"] = {{"color", color},
+                   {"smoothTrack", look::trackSchema({"step", "linear", "cubic", "ease"}, "linear")},
                    {"stepTrack", look::trackSchema({"step"}, "step")}};
   return root.dump(2);
 }

@@ -176,7 +176,7 @@ TEST(Look, valuesOfAWrongTypeAreRefused) {
         break;
       case ParamKind::color:
         for (const char* text : {"", "#", "#12345", "#1234567", "123456", "#12345g", "#-12345", "#+12345",
-                                 "# 12345", "#0x1234", "red"})
+                                 "# 12345", "#0x1234", "rouge"})
           expectRefused(row, text);
         wrong.insert(wrong.end(), {0x123456, true, json::array({1, 0, 0})});
         break;
@@ -281,7 +281,7 @@ TEST(LookFile, aSyntaxErrorNamesItsLine) {
                {"{}\n\n\nx", 4},
                {"{\n\"a\": \"\x01\"}", 2},
                {"{\n\n\"description\": \"\xff\"}", 3},
-               {"{ /* comment */ }", 1}};
+               {"{ /* comment */ }\n/* open", 2}};
   for (const auto& c : cases) {
     const Result<Look> look = Look::fromJson(c.text, "dir/a.look.json");
     ASSERT_FALSE(look.ok()) << c.text;

@@ -109,14 +109,16 @@ Result<Json> parseText(const std::string& text, const std::string& file, std::ve
     return Error{ErrorKind::unusableFile, file, lineOf(text, lastRead), "", std::move(problem),
                  std::move(advice)};
   };
+  constexpr bool kThrows = true, kSkipsComments = true;
   try {
     Follower follower(text, file, lastRead, warnings);
-    Json root =
-        Json::parse(JsonReading(text.data(), lastRead), JsonReading(text.data() + text.size(), lastRead),
-                    [&](int, Json::parse_event_t event, const Json& parsed) {
-                      follower.follow(event, parsed);
-                      return true;
-                    });
+    Json root = Json::parse(
+        JsonReading(text.data(), lastRead), JsonReading(text.data() + text.size(), lastRead),
+        [&](int, Json::parse_event_t event, const Json& parsed) {
+          follower.follow(event, parsed);
+          return true;
+        },
+        kThrows, kSkipsComments);
     follower.finish();
     if (const std::optional<Error> failure = follower.failure()) return *failure;
     return root;

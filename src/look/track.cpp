@@ -56,11 +56,40 @@ Neighbours around(const Track& track, const ParamRow& row, size_t i) {
   return n;
 }
 
-glm::dvec3 cubic(const Neighbours& n, double u) {
-  // Tangents times the interval's length, written so that near keys do not divide by next to nothing.
+// Tangents times the interval's length, written so that near keys do not divide by next to nothing.
+struct Tangents {
+  glm::dvec3 leaving, arriving;
+};
+
+Tangents cubicTangents(const Neighbours& n) {
   const double length = n.to - n.from;
-  const glm::dvec3 leaving = (n.valueTo - n.valueBefore) * (length / (n.to - n.before)),
-                   arriving = (n.valueAfter - n.valueFrom) * (length / (n.after - n.from));
+  return {(n.valueTo - n.valueBefore) * (length / (n.to - n.before)),
+          (n.valueAfter - n.valueFrom) * (length / (n.after - n.from))};
+}
+
+// Those of `cubic`, but none where the values turn back, stay or end, and nowhere steeper than three times
+// the straight way on either side: so they stay monotone (Fritsch and Carlson 1980).
+Tangents easeTangents(const Neighbours& n) {
+  const double length = n.to - n.from, before = n.from - n.before, after = n.after - n.to;
+  Tangents tangents = cubicTangents(n);
+  const auto rein = [length](double& tangent, double here, double there, double thereLength) {
+    if (thereLength <= 0 || here * there <= 0)
+      tangent = 0;
+    else
+      tangent = std::copysign(
+          std::min({std::abs(tangent), 3 * std::abs(here), 3 * std::abs(there) * (length / thereLength)}),
+          here);
+  };
+  for (int i = 0; i < 3; ++i) {
+    const double here = n.valueTo[i] - n.valueFrom[i];
+    rein(tangents.leaving[i], here, n.valueFrom[i] - n.valueBefore[i], before);
+    rein(tangents.arriving[i], here, n.valueAfter[i] - n.valueTo[i], after);
+  }
+  return tangents;
+}
+
+glm::dvec3 hermite(const Neighbours& n, const Tangents& tangents, double u) {
+  const auto& [leaving, arriving] = tangents;
   const double u2 = u * u, u3 = u2 * u;
   return (2 * u3 - 3 * u2 + 1) * n.valueFrom + (u3 - 2 * u2 + u) * leaving + (3 * u2 - 2 * u3) * n.valueTo +
          (u3 - u2) * arriving;
@@ -90,7 +119,11 @@ Value Track::at(const ParamRow& row, double time) const {
   if (interpolation == Interpolation::step || next == keys.end() || time == keys[i].time)
     return keys[i].value;
   const double u = (time - keys[i].time) / (next->time - keys[i].time);
-  if (interpolation == Interpolation::cubic) return fromMix(row, cubic(around(*this, row, i), u));
+  if (interpolation == Interpolation::cubic || interpolation == Interpolation::ease) {
+    const Neighbours n = around(*this, row, i);
+    return fromMix(row,
+                   hermite(n, interpolation == Interpolation::cubic ? cubicTangents(n) : easeTangents(n), u));
+  }
   return fromMix(row, glm::mix(toMix(row, keys[i].value), toMix(row, next->value), u));
 }
 

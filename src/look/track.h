@@ -7,7 +7,7 @@
 
 namespace scumble::look {
 
-enum class Interpolation : uint8_t { step, linear, cubic };
+enum class Interpolation : uint8_t { step, linear, cubic, ease };
 
 struct Key {
   double time;  // seconds
@@ -21,8 +21,9 @@ struct Track {
 
   // The value at a time in seconds, in the row's range. `step`: that of the last key before. `linear`.
   // `cubic`: Hermite with Catmull-Rom's tangents, (v[i+1] - v[i-1]) / (t[i+1] - t[i-1]), one-sided at the
-  // ends, of which a track that repeats and ends as it begins has none. Colours are mixed in OKLab, integers
-  // rounded to the nearest.
+  // ends, of which a track that repeats and ends as it begins has none. `ease`: Hermite too, but at rest at
+  // the ends and at keys from which the values turn back or stay, and between two keys never beyond their
+  // values. Colours are mixed in OKLab, integers rounded to the nearest.
   Value at(const ParamRow& row, double time) const;
 };
 

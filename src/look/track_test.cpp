@@ -57,6 +57,45 @@ TEST(LookTrack, cubicFollowsItsTangents) {
   EXPECT_NEAR(at(numbers({{1, 2}, {3, 6}}, Interpolation::cubic), 1.5), 3, 1e-12);
 }
 
+// Two keys: smoothstep. In between: Catmull-Rom where that does not swing over, rest where values turn or
+// stay.
+TEST(LookTrack, easeStartsAndEndsAtRestAndFlowsThrough) {
+  const Track two = numbers({{1, 0}, {3, 8}}, Interpolation::ease);
+  EXPECT_NEAR(at(two, 1.5), 8 * (3 / 16.0 - 2 / 64.0), 1e-12);
+  EXPECT_NEAR(at(two, 2), 4, 1e-12);
+  const double h = 1e-6;
+  const Track track = numbers({{0, 0}, {1, 1}, {2, 3}, {4, 3}, {5, -2}, {6, 2}}, Interpolation::ease);
+  const double slopes[] = {0, 1.5, 0, 0, 0, 0};  // the second is (3 - 0) / 2
+  for (size_t i = 0; i < track.keys.size(); ++i) {
+    const double time = track.keys[i].time;
+    EXPECT_EQ(at(track, time), track.keys[i].value.number);
+    EXPECT_NEAR((at(track, time) - at(track, time - h)) / h, slopes[i], 1e-4) << i;
+    EXPECT_NEAR((at(track, time + h) - at(track, time)) / h, slopes[i], 1e-4) << i;
+  }
+  for (int i = 0; i < 50; ++i) EXPECT_NEAR(at(track, 2 + i / 25.0), 3, 1e-12);  // where they stay, they do
+}
+
+TEST(LookTrack, easeNeverGoesBeyondItsKeys) {
+  const Track track =
+      numbers({{0, -9}, {1e-6, -8.99}, {1, -8.9}, {1.1, 9}, {50, 9.1}, {51, -3}}, Interpolation::ease);
+  for (size_t i = 0; i + 1 < track.keys.size(); ++i) {
+    const Key &from = track.keys[i], &to = track.keys[i + 1];
+    double before = from.value.number;
+    for (int k = 1; k <= 200; ++k) {
+      const double value = at(track, from.time + (to.time - from.time) * k / 200);
+      ASSERT_GE((value - before) * (to.value.number - from.value.number), -1e-12) << i << " " << k;
+      before = value;
+    }
+  }
+}
+
+// A turn that closes has no end to rest at; as `cubic` has it.
+TEST(LookTrack, easeFlowsOverTheSeamOfALoop) {
+  const Track loop = numbers({{0, 0}, {1, 1}, {3, -1}, {4, 0}}, Interpolation::ease, true);
+  const double h = 1e-4;  // times nearer to the seam are on it
+  EXPECT_NEAR((at(loop, 4 + h) - at(loop, 4 - h)) / (2 * h), 1, 1e-3);
+}
+
 TEST(LookTrack, cubicIsContinuousAndSoIsItsSlope) {
   const Track track = numbers({{-1, 0}, {0, 3}, {0.25, -2}, {2, 1}, {2.5, 1}, {6, -4}}, Interpolation::cubic);
   const double h = 1e-6;

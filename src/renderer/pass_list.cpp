@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "frame/animation_params.h"
+#include "frame/camera.h"
 #include "frame/light.h"
 #include "frame/metatexture.h"
 #include "frame/palette.h"
@@ -41,7 +42,7 @@ const std::vector<const ParamBlock*>& allBlocks() {
       &frame::AnimationParams::block(),   &frame::PlayParams::block(),
       &frame::OceanParams::block(),       &frame::DecorationParams::block(),
       &passes::OceanPaintParams::block(), &frame::OceanMetaTextureParams::block(),
-      &frame::FloatParams::block()};
+      &frame::FloatParams::block(),       &frame::CameraParams::block()};
   return blocks;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "frame/animation_params.h"
+#include "frame/camera.h"
 #include "frame/light.h"
 #include "frame/metatexture.h"
 #include "frame/ocean.h"
@@ -97,6 +98,7 @@ TEST(PassList, structsStartWithTheirRowsDefaults) {
   expectRowsDefaults<TextureMetaTextureParams>(seen);
   expectRowsDefaults<AnimationParams>(seen);
   expectRowsDefaults<PlayParams>(seen);
+  expectRowsDefaults<CameraParams>(seen);
   expectRowsDefaults<passes::VolumeParams>(seen);
   expectRowsDefaults<passes::GradeParams>(seen);
   expectRowsDefaults<OceanParams>(seen);

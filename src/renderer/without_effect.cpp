@@ -2,11 +2,12 @@
 #include <algorithm>
 #include <set>
 
+#include "frame/camera.h"
 #include "frame/ocean.h"
 #include "look/look_data.h"
 #include "look/setting_path.h"
 #include "passes/colorize/colorize.h"
-#include "scene/scene_data.h"
+#include "scene/find_node.h"
 #include "scumble/renderer.h"
 
 namespace scumble {
@@ -36,7 +37,6 @@ std::vector<std::string> settingsWithoutEffect(const Scene& scene, const Look& l
 
 std::vector<std::string> settingsWithoutNode(const Scene& scene, const Look& look) {
   if (scene.empty()) return {};
-  const std::vector<scene::Node>& nodes = scene.data().nodes;
   const look::LookData& data = look.data();
   // When a node is named anew.
   std::set<double> times{0};
@@ -46,19 +46,19 @@ std::vector<std::string> settingsWithoutNode(const Scene& scene, const Look& loo
   std::vector<std::string> idle;
   for (const double time : times) {
     const look::LookData now = data.at(time);
-    const auto check = [&](look::Target target, const std::string& name, look::Name named, const char* knob) {
+    const auto check = [&](const std::string& path, look::Name named) {
       const std::string& node = now.text(named);
-      const std::string path = std::string(look::firstSection(target).name) + "." + name + "." + knob;
-      const bool found = node.empty() || std::any_of(nodes.begin(), nodes.end(),
-                                                     [&](const auto& n) { return n.name == node; });
-      if (!found && std::find(idle.begin(), idle.end(), path) == idle.end()) idle.push_back(path);
+      if (!node.empty() && scene::findNode(scene.data(), node) < 0 &&
+          std::find(idle.begin(), idle.end(), path) == idle.end())
+        idle.push_back(path);
     };
+    check("camera.target", now.get<frame::CameraParams>().target);
     for (const std::string& name : now.declared(look::kColorizers))
-      check(look::kColorizers, name, now.getFor<passes::VolumeParams>(look::kColorizers, name).node,
-            "volume.node");
+      check("colorizers." + name + ".volume.node",
+            now.getFor<passes::VolumeParams>(look::kColorizers, name).node);
     for (const std::string& name : now.declared(look::kDecorations))
-      check(look::kDecorations, name, now.getFor<frame::DecorationParams>(look::kDecorations, name).node,
-            "water.node");
+      check("decorations." + name + ".water.node",
+            now.getFor<frame::DecorationParams>(look::kDecorations, name).node);
   }
   return idle;
 }

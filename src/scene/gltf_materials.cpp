@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/color_text.h"
 #include "scene/gltf_import.h"
 
 namespace scumble::scene {
@@ -157,19 +158,17 @@ class MaterialReader {
   std::optional<glm::vec3> colorOf(const Json& json, const std::string& path) {
     glm::vec3 srgb(-1.0f);
     if (json.is_string()) {
-      const std::string text = json.get<std::string>();
-      if (text.size() == 7 && text[0] == '#' &&
-          text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos)
-        for (int i = 0; i < 3; ++i)
-          srgb[i] = static_cast<float>(std::stoi(text.substr(1 + 2 * i, 2), nullptr, 16)) / 255.0f;
+      if (const std::optional<uint32_t> color = parseColor(json.get<std::string>()))
+        for (int i = 0; i < 3; ++i) srgb[i] = static_cast<float>(*color >> (16 - 8 * i) & 0xFF) / 255.0f;
     } else if (json.is_array() && json.size() == 3) {
       for (int i = 0; i < 3; ++i)
         if (json[i].is_number()) srgb[i] = static_cast<float>(json[i].get<double>());
     }
     for (int i = 0; i < 3; ++i)
       if (!(srgb[i] >= 0.0f && srgb[i] <= 1.0f)) {
-        import_.warnings.add(
-            path, "a shadowed colour is ignored: it is neither \"#RRGGBB\" nor three numbers in [0, 1]");
+        import_.warnings.add(path,
+                             "a shadowed colour is ignored: it is neither a colour like \"#RRGGBB\" nor "
+                             "three numbers in [0, 1]");
         return std::nullopt;
       }
     return glm::vec3(linearOf(srgb.x), linearOf(srgb.y), linearOf(srgb.z));

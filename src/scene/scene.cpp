@@ -8,6 +8,7 @@
 #include "scene/gltf_import.h"
 #include "scene/parallel.h"
 #include "scene/scene_bounds.h"
+#include "scene/world_file.h"
 
 namespace scumble {
 
@@ -75,6 +76,8 @@ Error internalError(const std::string& name, const std::string& what) {
 
 Result<Scene> Scene::load(const std::string& path, const SceneOptions& options) {
   try {
+    if (path.ends_with(".json"))
+      if (std::optional<Result<Scene>> world = loadWorld(path, options)) return *std::move(world);
     Stopwatch watch;
     FileBytes file;
     std::string problem;
@@ -82,7 +85,7 @@ Result<Scene> Scene::load(const std::string& path, const SceneOptions& options) 
       return Error{ErrorKind::unusableFile, path, 0, {}, problem, "give the path of a .gltf or .glb"};
     const double read = watch.lap();
     std::string folder = std::filesystem::path(path).parent_path().string();
-    if (folder.empty()) folder = ".";
+    if (folder.empty()) folder += '.';
     Result<Scene> scene = loadFromMemory(file.bytes().data(), file.bytes().size(), path, folder, options);
     if (scene) scene->timings_.read = read;
     return scene;

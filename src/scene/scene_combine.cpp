@@ -1,14 +1,13 @@
 // Several scenes in one world: every list is the lists one after another, every index moves along.
 #include <algorithm>
 
-#include "scene/scene_data.h"
-#include "scumble/scene.h"
+#include "scene/scene_place.h"
 
 namespace scumble {
 
-namespace {
+namespace scene {
 
-using namespace scene;
+namespace {
 
 template <class T>
 void append(std::vector<T>& to, const std::vector<T>& from) {
@@ -33,47 +32,57 @@ struct Tail {
   auto end() { return list.end(); }
 };
 
-void addScene(SceneData& all, const SceneData& one) {
-  const size_t images = all.images.size(), materials = all.materials.size(), meshes = all.meshes.size(),
-               nodes = all.nodes.size(), cameras = all.cameras.size(), lights = all.lights.size(),
-               skins = all.skins.size(), clips = all.clips.size();
-  append(all.images, one.images);
-  append(all.materials, one.materials);
-  append(all.meshes, one.meshes);
-  append(all.nodes, one.nodes);
+}  // namespace
+
+void appendScene(SceneData& all, const SceneData& one, size_t firstNode, const Appended* shared) {
+  const size_t cameras = all.cameras.size(), lights = all.lights.size(), skins = all.skins.size(),
+               clips = all.clips.size();
+  const Appended at = shared ? *shared : Appended{all.images.size(), all.materials.size(), all.meshes.size()};
+  if (!shared) {
+    append(all.images, one.images);
+    append(all.materials, one.materials);
+    append(all.meshes, one.meshes);
+    for (Material& material : Tail<Material>{all.materials, at.materials})
+      for (TextureUse* use : {&material.baseColorTexture, &material.emissiveTexture, &material.litTexture,
+                              &material.shadowedTexture})
+        moveBy(use->image, at.images);
+    for (Mesh& mesh : Tail<Mesh>{all.meshes, at.meshes})
+      for (Primitive& primitive : mesh.primitives) moveBy(primitive.material, at.materials);
+  }
   append(all.cameras, one.cameras);
   append(all.lights, one.lights);
   append(all.skins, one.skins);
   append(all.clips, one.clips);
-  for (Material& material : Tail<Material>{all.materials, materials}) {
-    for (TextureUse* use : {&material.baseColorTexture, &material.emissiveTexture, &material.litTexture,
-                            &material.shadowedTexture})
-      moveBy(use->image, images);
-  }
-  for (Mesh& mesh : Tail<Mesh>{all.meshes, meshes})
-    for (Primitive& primitive : mesh.primitives) moveBy(primitive.material, materials);
-  for (Node& node : Tail<Node>{all.nodes, nodes}) {
-    moveBy(node.parent, nodes);
-    moveBy(node.mesh, meshes);
+  for (size_t n = 0; n < one.nodes.size(); ++n) {
+    Node& node = all.nodes[firstNode + n] = one.nodes[n];
+    moveBy(node.parent, firstNode);
+    moveBy(node.mesh, at.meshes);
     moveBy(node.camera, cameras);
     moveBy(node.light, lights);
     moveBy(node.skin, skins);
   }
   for (Skin& skin : Tail<Skin>{all.skins, skins})
-    for (int& joint : skin.joints) moveBy(joint, nodes);
+    for (int& joint : skin.joints) moveBy(joint, firstNode);
   const int files = clips > 0 ? all.clips[clips - 1].file + 1 : 0;
   for (Clip& clip : Tail<Clip>{all.clips, clips}) {
     clip.file += files;
-    for (Channel& channel : clip.channels) moveBy(channel.node, nodes);
+    for (Channel& channel : clip.channels) moveBy(channel.node, firstNode);
   }
   appendNew(all.extensionsUsed, one.extensionsUsed);
   appendNew(all.extensionsNotSupported, one.extensionsNotSupported);
   appendNew(all.files, one.files);
   appendNew(all.warnings, one.warnings);
-  if (!one.bounds.empty) {
-    all.bounds.add(one.bounds.min);
-    all.bounds.add(one.bounds.max);
-  }
+}
+
+}  // namespace scene
+
+namespace {
+
+void add(SceneTimings& all, const SceneTimings& one) {
+  all.read += one.read;
+  all.parse += one.parse;
+  all.geometry += one.geometry;
+  all.images += one.images;
 }
 
 }  // namespace
@@ -81,19 +90,37 @@ void addScene(SceneData& all, const SceneData& one) {
 Scene Scene::combine(const std::vector<Scene>& scenes) {
   Scene combined;
   if (scenes.size() == 1 && scenes[0].data_) return scenes[0];
-  auto data = std::make_shared<SceneData>();
-  for (const Scene& scene : scenes) {
-    if (!scene.data_) continue;
-    if (data->name.empty()) data->name = scene.data_->name;
-    addScene(*data, *scene.data_);
-    combined.timings_.read += scene.timings_.read;
-    combined.timings_.parse += scene.timings_.parse;
-    combined.timings_.geometry += scene.timings_.geometry;
-    combined.timings_.images += scene.timings_.images;
+  auto data = std::make_shared<scene::SceneData>();
+  for (const Scene& one : scenes) {
+    if (!one.data_) continue;
+    if (data->name.empty()) data->name = one.data_->name;
+    const size_t firstNode = data->nodes.size();
+    data->nodes.resize(firstNode + one.data_->nodes.size());
+    scene::appendScene(*data, *one.data_, firstNode, nullptr);
+    if (!one.data_->bounds.empty) data->bounds.add(one.data_->bounds);
+    add(combined.timings_, one.timings_);
   }
   if (data->materials.empty()) data->materials.resize(1);
   combined.data_ = std::move(data);
   return combined;
+}
+
+Result<Scene> Scene::place(const std::vector<PlacedScene>& scenes) {
+  std::vector<PlacedScene> named = scenes;
+  scene::PlacementProblem problem;
+  Scene placed;
+  placed.data_ = scene::placeScenes(named, problem);
+  if (!placed.data_) {
+    const std::string who = problem.scene < named.size() ? "'" + named[problem.scene].name + "': " : "";
+    return Error{ErrorKind::usage, "", 0, "", who + problem.problem, problem.advice};
+  }
+  std::vector<const scene::SceneData*> counted;
+  for (const PlacedScene& one : scenes)
+    if (std::find(counted.begin(), counted.end(), one.scene.data_.get()) == counted.end()) {
+      counted.push_back(one.scene.data_.get());
+      add(placed.timings_, one.scene.timings_);
+    }
+  return placed;
 }
 
 }  // namespace scumble

@@ -517,7 +517,7 @@ class Looks(Program):
     def test_set_errors(self):
         for setting, says in (("shadow.treshold=0.4", "did you mean 'shadow.threshold'?"), ("shadow.threshold", "="),
                               ("shadow.threshold=", "shadow.threshold"), ("shadow.threshold=9", "range"), ("shadow.threshold=x", "number"),
-                              ("ground.mode=maybe", "auto|on|off"), ("ground.tint=red", "#RRGGBB"), ("=1", ""),
+                              ("ground.mode=maybe", "auto|on|off"), ("ground.tint=rubbish", "#RRGGBB"), ("=1", ""),
                               ("materials.A.shadow.threshold=0.4", ""), ("materials.A=1", "")):
             with self.subTest(setting=setting):
                 self.bad(USAGE, "render", "box.gltf", "-o", "x.png", "--set", setting, *TINY, says=says)
@@ -753,7 +753,7 @@ class Errors(Program):
         for args in (["--size", "160"], ["--size", "0x90"], ["--size", "160x90x2"], ["--size", "99999x2"], ["--size", "-1x5"],
                      ["--samples", "2"], ["--orbit", "30"], ["--orbit", "a,b"], ["--orbit", "0,0,0"], ["--eye", "1,2"],
                      ["--eye", "1,2,nan"], ["--target", "x"], ["--fov", "0"], ["--fov", "180"], ["--time", "nan"],
-                     ["--background", "red"], ["--background", "#12345"], ["--eye", "0,0,0", "--target", "0,0,0"],
+                     ["--background", "rde"], ["--background", "#12345"], ["--eye", "0,0,0", "--target", "0,0,0"],
                      ["--scene", "-7"], ["--scene", "-1"], ["--orbit", "0,1000"], ["--orbit", "0,91"], ["--orbit", "1e30,0"],
                      ["--orbit", "0,0,1e30"], ["--eye", "1e30,0,0"], ["--roll", "1e30"], ["--ipd", "1e30"], ["--ipd", "-1"],
                      ["--fps", "1e308"], ["--fps", "0.001"], ["--time", "1e7"], ["--seed", "-1"], ["--seed", "5000000000"]):
@@ -818,7 +818,7 @@ class Errors(Program):
         for output in ("no/such/folder/x.png", "file/x.png", "folder.png", "/proc/x.png", "/dev/full/x.png"):
             with self.subTest(output=output):
                 self.bad(NOT_WRITTEN, "render", "box.gltf", "-o", output, *TINY, says=output)
-        self.bad(USAGE, "render", "box.gltf", "-o", "x.jpeg", *TINY, says=".png")
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.tiff", *TINY, says=".png")
         self.bad(USAGE, "render", "box.gltf", "-o", "x", *TINY)
 
     @unittest.skipIf(os.geteuid() == 0, "root writes everywhere")

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "scene/find_node.h"
+
 namespace scumble::passes {
 
 namespace {
@@ -17,8 +19,8 @@ bool isIdentity(const GradeParams& grade) {
 std::optional<glm::dmat4> spaceOf(const std::string& node, const scene::SceneData& scene,
                                   const std::vector<glm::mat4>& worlds) {
   if (node.empty()) return glm::dmat4(1.0);
-  for (size_t n = 0; n < scene.nodes.size(); ++n)
-    if (scene.nodes[n].name == node) return glm::dmat4(worlds[n]);
+  const int found = scene::findNode(scene, node);
+  if (found >= 0) return glm::dmat4(worlds[size_t(found)]);
   return std::nullopt;
 }
 

@@ -1,0 +1,29 @@
+// What the formats of films differ in.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "film/whole_file.h"
+#include "scumble/film.h"
+
+namespace scumble::film {
+
+struct FormatFacts {
+  const char* encoder;               // as ffmpeg calls it
+  int defaultQuality, worstQuality;  // a GIF: -1
+  double fastest;                    // frames a second
+};
+const FormatFacts& factsOf(FilmFormat format);
+
+// ffmpeg's words from its input on, which is raw pictures as rawPicture() makes them; without the output.
+std::vector<std::string> encoderArguments(const FilmOptions& options);
+std::vector<uint8_t> rawPicture(const Image& picture, FilmFormat format);
+
+// Copies what ffmpeg wrote to `descriptor` into the film, put right where that is needed. `frames`: how many
+// it must have, where the format says it. Returns what is wrong with it, or nothing; failures of writing are
+// kept in `out`.
+std::string completeFilm(int descriptor, const FilmOptions& options, uint64_t frames, WholeFile& out);
+
+}  // namespace scumble::film
