@@ -6,14 +6,11 @@
 #include <limits>
 
 #include "json_option.h"
+#include "report.h"
 
 namespace scumble::app {
 
 namespace {
-
-Error usage(std::string problem, std::string advice) {
-  return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
-}
 
 bool isOption(const std::string& word) {
   return word.size() > 1 && word[0] == '-';

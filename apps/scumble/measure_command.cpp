@@ -31,7 +31,7 @@ struct MeasureArguments {
 };
 
 // One row of the table a number, one column a mode.
-using NumberOf = std::function<double(const ModeMeasurements&)>;
+using MeasureOf = std::function<double(const ModeMeasurements&)>;
 using FieldNumberOf = std::function<PerField(const ModeMeasurements&)>;
 struct FieldRow {
   const char* name;
@@ -50,7 +50,7 @@ const FieldRow kFieldRows[] = {
     {"stereo difference", [](const ModeMeasurements& m) { return m.stereo.warp; }},
 };
 
-void printRow(const std::string& name, const Measurements& measured, const NumberOf& numberOf,
+void printRow(const std::string& name, const Measurements& measured, const MeasureOf& numberOf,
               const char* format = "{:14.3f}") {
   std::string line = fmt::format("  {:29}", name);
   for (const ModeMeasurements& mode : measured.modes)

@@ -14,10 +14,6 @@ namespace scumble::app {
 
 namespace {
 
-Error usage(std::string problem, std::string advice) {
-  return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
-}
-
 // $XDG_CACHE_HOME/scumble or ~/.cache/scumble; empty where neither is known. The XDG Base Directory
 // Specification has a relative path ignored.
 std::string cacheFolder() {

@@ -4,6 +4,8 @@
 #include <cctype>
 #include <filesystem>
 
+#include "report.h"
+
 namespace scumble::app {
 
 namespace {
@@ -26,10 +28,6 @@ constexpr OutputFormat kFormats[] = {{".png", OutputKind::picture, 0, -1, FilmFo
                                      {".mp4", OutputKind::film, 0, 51, FilmFormat::mp4},
                                      {".webm", OutputKind::film, 0, 63, FilmFormat::webm},
                                      {".gif", OutputKind::film, 0, -1, FilmFormat::gif}};
-
-Error usage(std::string problem, std::string advice) {
-  return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
-}
 
 }  // namespace
 

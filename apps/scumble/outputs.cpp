@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "options.h"
+#include "report.h"
 
 namespace scumble::app {
 
@@ -26,10 +27,6 @@ const Image& arrange(const std::vector<Image>& views, const std::string& layout,
   return made = layout == "over-under" ? overUnder(views[0], views[1]) : sideBySide(views[0], views[1]);
 }
 
-Error badOutput(std::string problem, std::string advice) {
-  return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
-}
-
 }  // namespace
 
 Result<OutputPlan> OutputPlan::make(const std::string& given, const std::string& sceneFile,
@@ -46,12 +43,12 @@ Result<OutputPlan> OutputPlan::make(const std::string& given, const std::string&
   plan.format = *format;
   plan.kind = plan.format->kind;
   if (plan.isSequence() && plan.kind == OutputKind::film)
-    return badOutput("'" + plan.path + "' names a sequence of films", "name one film, or name.####.png");
+    return usage("'" + plan.path + "' names a sequence of films", "name one film, or name.####.png");
   if (plan.kind == OutputKind::film && !options.aovs.empty())
-    return badOutput("a film holds the picture only", "write AOVs to name.####.exr");
+    return usage("a film holds the picture only", "write AOVs to name.####.exr");
   if (plan.isSequence() && !hasFrames)
-    return badOutput("'" + plan.path + "' names a sequence, but there is no range of frames",
-                     "add --frames A..B, or name one picture");
+    return usage("'" + plan.path + "' names a sequence, but there is no range of frames",
+                 "add --frames A..B, or name one picture");
   return plan;
 }
 

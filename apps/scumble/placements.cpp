@@ -6,14 +6,11 @@
 #include <sstream>
 
 #include "options.h"
+#include "report.h"
 
 namespace scumble::app {
 
 namespace {
-
-Error usage(std::string problem, std::string advice) {
-  return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
-}
 
 constexpr const char* kExample = "write it like 'dog:at=0,0.4,0;turn=90;scale=0.5;on=Boat'";
 

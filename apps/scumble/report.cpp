@@ -4,6 +4,10 @@
 
 namespace scumble::app {
 
+Error usage(std::string problem, std::string advice) {
+  return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
+}
+
 int fail(const Error& error) {
   std::fprintf(stderr, "scumble: error: %s\n", error.message().c_str());
   switch (error.kind) {

@@ -10,6 +10,9 @@ namespace scumble::app {
 
 enum ExitCode { kDone = 0, kOurFault = 1, kWrongUsage = 2, kUnusableFile = 3, kNoGpu = 4, kNotWritten = 5 };
 
+// A call that makes no sense.
+Error usage(std::string problem, std::string advice);
+
 // "scumble: error: ..." on stderr; returns the exit code of the error's kind.
 int fail(const Error& error);
 int failUsage(const std::string& problem, const std::string& advice);

@@ -15,7 +15,7 @@ namespace {
 using film::contentOf;
 using film::TestFolder;
 
-std::string outputOf(const std::string& command) {
+std::string printedBy(const std::string& command) {
   FILE* pipe = popen(command.c_str(), "r");
   std::string output;
   char bytes[4096];
@@ -37,8 +37,8 @@ class FilmFormats : public testing::TestWithParam<FilmFormat> {
     return result;
   }
   std::string facts(const std::string& entries) const {
-    return outputOf("ffprobe -v error -count_frames -select_streams v -of default=nw=1 -show_entries " +
-                    entries + " '" + path_ + "'");
+    return printedBy("ffprobe -v error -count_frames -select_streams v -of default=nw=1 -show_entries " +
+                     entries + " '" + path_ + "'");
   }
   void write(const FilmOptions& given, int frames, float alpha = 1) {
     Result<std::unique_ptr<FilmWriter>> writer = FilmWriter::create(path_, given);
@@ -77,7 +77,7 @@ TEST_P(FilmFormats, coloursComeBackAndAlphaIsOverBlack) {
   for (const float alpha : {1.0f, 0.5f}) {
     write(given, 2, alpha);
     const std::string codes =
-        outputOf("ffmpeg -v error -i '" + path_ + "' -vsync passthrough -f rawvideo -pix_fmt rgb24 -");
+        printedBy("ffmpeg -v error -i '" + path_ + "' -vsync passthrough -f rawvideo -pix_fmt rgb24 -");
     ASSERT_EQ(codes.size(), size_t(2 * 32 * 32 * 3));
     for (size_t i = 0; i < codes.size(); i += 3 * 7) {
       EXPECT_NEAR(uint8_t(codes[i + 1]), 255 * film::srgbFromLinear(0.3 * alpha), 8) << i;

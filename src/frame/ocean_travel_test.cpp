@@ -12,7 +12,7 @@
 namespace scumble::frame {
 namespace {
 
-Look lookWith(const std::string& ocean) {
+Look lookOfOcean(const std::string& ocean) {
   Result<Look> look = Look::fromJson(R"({"ocean": )" + ocean + "}", "test.json");
   if (!look) throw std::runtime_error(look.error().message());
   return *look;
@@ -36,13 +36,13 @@ glm::dvec2 summed(const Look& look, double time, int steps) {
 }
 
 TEST(OceanTravel, isSpeedTimesTimeWhereNothingChanges) {
-  const Look look = lookWith(R"({"speed": 3, "heading": 90})");
+  const Look look = lookOfOcean(R"({"speed": 3, "heading": 90})");
   for (const double time : {0.0, 1.0, 12.5, -7.0, 999999.0}) expectAt(look, time, {0, 3 * time}, 1e-7);
   expectAt(Look(), 100, {0, 0}, 0);
 }
 
 TEST(OceanTravel, isTheAreaUnderTheSpeed) {
-  const Look look = lookWith(R"({"speed": {"keys": [[0, 0], [10, 3]]}})");
+  const Look look = lookOfOcean(R"({"speed": {"keys": [[0, 0], [10, 3]]}})");
   expectAt(look, 5, {3.75, 0});
   expectAt(look, 10, {15, 0});
   // Three metres a second from there, and none before.
@@ -50,11 +50,11 @@ TEST(OceanTravel, isTheAreaUnderTheSpeed) {
   expectAt(look, 100010, {300015, 0}, 1e-6);
   expectAt(look, -20, {0, 0});
   // A track that begins later, or before 0.
-  expectAt(lookWith(R"({"speed": {"keys": [[2, 1], [4, 3]]}})"), 5, {2 + 4 + 3, 0});
-  expectAt(lookWith(R"({"speed": {"keys": [[-4, 2], [-2, 0]]}})"), 5, {0, 0});
-  expectAt(lookWith(R"({"speed": {"keys": [[-4, 2], [-2, 0]]}})"), -6, {-2 - 4, 0});
+  expectAt(lookOfOcean(R"({"speed": {"keys": [[2, 1], [4, 3]]}})"), 5, {2 + 4 + 3, 0});
+  expectAt(lookOfOcean(R"({"speed": {"keys": [[-4, 2], [-2, 0]]}})"), 5, {0, 0});
+  expectAt(lookOfOcean(R"({"speed": {"keys": [[-4, 2], [-2, 0]]}})"), -6, {-2 - 4, 0});
   // A jump.
-  expectAt(lookWith(R"({"speed": {"keys": [[0, 1], [2, 5]], "interpolation": "step"}})"), 3, {7, 0}, 1e-5);
+  expectAt(lookOfOcean(R"({"speed": {"keys": [[0, 1], [2, 5]], "interpolation": "step"}})"), 3, {7, 0}, 1e-5);
   // What is set by hand wins.
   Look byHand = look;
   ASSERT_TRUE(byHand.set("ocean.speed", "2").ok());
@@ -62,13 +62,13 @@ TEST(OceanTravel, isTheAreaUnderTheSpeed) {
 }
 
 TEST(OceanTravel, aFullCircleReturns) {
-  const Look look = lookWith(R"({"speed": 4, "heading": {"keys": [[0, -180], [20, 180]]}})");
+  const Look look = lookOfOcean(R"({"speed": 4, "heading": {"keys": [[0, -180], [20, 180]]}})");
   expectAt(look, 20, {0, 0});
   const double radius = 4 * 20 / (2 * 3.14159265358979);
   expectAt(look, 10, {0, -2 * radius});
   expectAt(look, 25, {-20, 0});
   const Look forever =
-      lookWith(R"({"speed": 4, "heading": {"keys": [[0, -180], [20, 180]], "repeat": true}})");
+      lookOfOcean(R"({"speed": 4, "heading": {"keys": [[0, -180], [20, 180]], "repeat": true}})");
   for (const double time : {20.0, 40.0, -20.0, 200000.0}) expectAt(forever, time, {0, 0}, 1e-3);
   expectAt(forever, 200010, {0, -2 * radius}, 1e-3);
   expectAt(forever, -10, {0, -2 * radius});
@@ -84,14 +84,14 @@ TEST(OceanTravel, isTheSumOfSmallSteps) {
         R"({"speed": {"keys": [[0, 2], [0.7, 9], [1.1, 2]], "repeat": true},
             "heading": {"keys": [[5, 10], [25, 120]]}})"})
     for (const double time : {60.0, 13.7, -31.0}) {
-      const Look look = lookWith(text);
+      const Look look = lookOfOcean(text);
       const glm::dvec2 expected = summed(look, time, 200000);
       expectAt(look, time, expected, 1e-3);
     }
 }
 
 TEST(OceanTravel, isContinuousAndAsFastAsTheSpeed) {
-  const Look look = lookWith(R"({"speed": {"keys": [[1, 0], [2, 7], [4, 1]], "repeat": true},
+  const Look look = lookOfOcean(R"({"speed": {"keys": [[1, 0], [2, 7], [4, 1]], "repeat": true},
                                  "heading": {"keys": [[0, 0], [5, 90], [7, -10]], "repeat": true}})");
   for (double time = -9; time < 40; time += 0.01) {
     const glm::dvec2 step = travelledBy(look.data())(time + 0.01) - travelledBy(look.data())(time);
@@ -111,7 +111,7 @@ TEST(OceanTravel, costIsBounded) {
                         "heading": {"keys": [[0, 10], [0.0271828, 80]], "repeat": true}})"),
         R"({"speed": {"keys": [)" + keys +
             R"(], "repeat": true}, "heading": {"keys": [[0, 0], [1e6, 180]]}})"}) {
-    const Look look = lookWith(text);
+    const Look look = lookOfOcean(text);
     const auto start = std::chrono::steady_clock::now();
     const glm::dvec2 at = travelledBy(look.data())(999999.0);
     EXPECT_TRUE(std::isfinite(at.x) && std::isfinite(at.y));

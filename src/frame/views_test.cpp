@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "frame/framing.h"
+#include "frame/seen_views.h"
 #include "scene/loaded_test_gltf.h"
 #include "scumble/view.h"
 
@@ -60,19 +61,6 @@ std::vector<View> seen(const Scene& scene, const Viewpoint& viewpoint, const Loo
   return views.ok() ? views.value() : std::vector<View>(2);
 }
 
-glm::vec3 eyeOf(const View& view) {
-  return glm::vec3(glm::inverse(view.worldToEye)[3]);
-}
-glm::vec3 axisOf(const View& view) {
-  return -glm::vec3(glm::inverse(view.worldToEye)[2]);
-}
-float fovOf(const View& view) {
-  return glm::degrees(2 * std::atan(1 / -view.eyeToClip[1][1]));
-}
-void expectClose(const glm::vec3& a, const glm::vec3& b, float tolerance = 1e-3f) {
-  EXPECT_LT(glm::length(a - b), tolerance)
-      << a.x << " " << a.y << " " << a.z << ", not " << b.x << " " << b.y << " " << b.z;
-}
 float difference(const View& a, const View& b) {
   float most = 0;
   for (int i = 0; i < 16; ++i)

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <optional>
 
+#include "gpu/pipeline.h"
 #include "gpu/pipeline_cache_file.h"
 
 namespace scumble::gpu {
@@ -299,6 +300,7 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
                                            VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, device->queueFamily_};
     SCUMBLE_VK(vkCreateCommandPool(device->device_, &poolInfo, nullptr, &device->pool_));
     device->memory_ = std::make_unique<MemoryPool>(device->physical_, device->device_);
+    device->pipelines_ = std::make_unique<PipelineStore>(device->device_);
     device->openPipelineCache(options.cacheFolder);
   } catch (const VulkanError& error) {
     return Error{ErrorKind::noUsableGpu, "", 0, "", error.message(), "choose another device with --device"};
@@ -306,11 +308,13 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
   return device;
 }
 
+Device::Device() = default;
 Device::~Device() {
   if (device_) {
     vkDeviceWaitIdle(device_);
     if (pipelineCache_) vkDestroyPipelineCache(device_, pipelineCache_, nullptr);
     if (pool_) vkDestroyCommandPool(device_, pool_, nullptr);
+    pipelines_.reset();
     memory_.reset();
     vkDestroyDevice(device_, nullptr);
   }

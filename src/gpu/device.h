@@ -33,6 +33,8 @@ Result<std::vector<DeviceInfo>> listDevices();
 // Index of the device that `choice` means; fails with noUsableGpu.
 Result<size_t> chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& choice);
 
+class PipelineStore;
+
 class Device {
  public:
   static Result<std::unique_ptr<Device>> create(const DeviceOptions& options);
@@ -45,6 +47,7 @@ class Device {
   VkQueue queue() const { return queue_; }
   uint32_t queueFamily() const { return queueFamily_; }
   VkPipelineCache pipelineCache() const { return pipelineCache_; }
+  PipelineStore& pipelines() { return *pipelines_; }
   MemoryPool& memory() { return *memory_; }
   const DeviceInfo& info() const { return info_; }
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
@@ -76,7 +79,7 @@ class Device {
   int validationMessages() const { return validationMessages_; }
 
  private:
-  Device() = default;
+  Device();
   void openPipelineCache(const std::string& folder);
 
   VkInstance instance_ = VK_NULL_HANDLE;
@@ -89,6 +92,7 @@ class Device {
   VkPipelineCache pipelineCache_ = VK_NULL_HANDLE;
   std::string cacheFile_;
   size_t cachedBytes_ = 0;
+  std::unique_ptr<PipelineStore> pipelines_;
   std::unique_ptr<MemoryPool> memory_;
   DeviceInfo info_;
   VkPhysicalDeviceLimits limits_{};

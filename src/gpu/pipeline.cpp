@@ -47,25 +47,18 @@ VkPipelineShaderStageCreateInfo shaderStage(VkShaderStageFlagBits stage, const S
 
 }  // namespace
 
-SetLayout::SetLayout(Device& device, std::vector<Binding> bindings)
-    : device_(&device), bindings_(std::move(bindings)) {
-  std::vector<VkDescriptorSetLayoutBinding> entries;
-  for (uint32_t i = 0; i < bindings_.size(); ++i)
-    entries.push_back({i, bindings_[i].type, 1, bindings_[i].stages, nullptr});
-  VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
-  info.bindingCount = uint32_t(entries.size());
-  info.pBindings = entries.data();
-  SCUMBLE_VK(vkCreateDescriptorSetLayout(device.handle(), &info, nullptr, &layout_));
-}
-
-SetLayout::~SetLayout() {
-  if (layout_) vkDestroyDescriptorSetLayout(device_->handle(), layout_, nullptr);
-}
-
-void SetLayout::swap(SetLayout& other) {
-  std::swap(device_, other.device_);
-  std::swap(layout_, other.layout_);
-  std::swap(bindings_, other.bindings_);
+SetLayout::SetLayout(Device& device, std::vector<Binding> bindings) : bindings_(std::move(bindings)) {
+  VkDescriptorSetLayout& made = device.pipelines().setLayout(bindings_);
+  if (!made) {
+    std::vector<VkDescriptorSetLayoutBinding> entries;
+    for (uint32_t i = 0; i < bindings_.size(); ++i)
+      entries.push_back({i, bindings_[i].type, 1, bindings_[i].stages, nullptr});
+    VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+    info.bindingCount = uint32_t(entries.size());
+    info.pBindings = entries.data();
+    SCUMBLE_VK(vkCreateDescriptorSetLayout(device.handle(), &info, nullptr, &made));
+  }
+  layout_ = made;
 }
 
 DescriptorSets::DescriptorSets(Device& device, const SetLayout& layout, uint32_t count)
@@ -132,30 +125,57 @@ void DescriptorSets::writeStorageImage(size_t set, uint32_t binding, VkImageView
   write(set, binding, nullptr, &info);
 }
 
-void Pipeline::createLayout(const std::vector<VkDescriptorSetLayout>& sets, uint32_t pushConstantBytes) {
+namespace {
+
+// A description as numbers; lists begin with their length, so that no two descriptions have the same.
+class KeyWriter {
+ public:
+  PipelineStore::Key key;
+  KeyWriter& number(uint64_t value) {
+    key.push_back(value);
+    return *this;
+  }
+  KeyWriter& shader(const Shader& shader) {
+    return number(reinterpret_cast<uintptr_t>(shader.words.data())).number(shader.words.size());
+  }
+  KeyWriter& numbers(const auto& list) {
+    number(list.size());
+    for (const auto& value : list) number(uint64_t(value));
+    return *this;
+  }
+  KeyWriter& handles(const auto& list) {
+    number(list.size());
+    for (const auto& handle : list) number(reinterpret_cast<uintptr_t>(handle));
+    return *this;
+  }
+};
+
+VkPipelineLayout pipelineLayout(Device& device, const std::vector<VkDescriptorSetLayout>& sets,
+                                uint32_t pushConstantBytes) {
   const VkPushConstantRange range{VK_SHADER_STAGE_ALL, 0, pushConstantBytes};
   VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
   info.setLayoutCount = uint32_t(sets.size());
   info.pSetLayouts = sets.data();
   info.pushConstantRangeCount = pushConstantBytes > 0;
   info.pPushConstantRanges = &range;
-  SCUMBLE_VK(vkCreatePipelineLayout(device_->handle(), &info, nullptr, &layout_));
+  VkPipelineLayout layout;
+  SCUMBLE_VK(vkCreatePipelineLayout(device.handle(), &info, nullptr, &layout));
+  return layout;
 }
 
-Pipeline::Pipeline(Device& device, const ComputePipelineDesc& desc)
-    : device_(&device), bindPoint_(VK_PIPELINE_BIND_POINT_COMPUTE) {
-  createLayout(desc.sets, desc.pushConstantBytes);
+void make(Device& device, const ComputePipelineDesc& desc, PipelineStore::Made& made) {
+  if (!made.layout) made.layout = pipelineLayout(device, desc.sets, desc.pushConstantBytes);
   const ShaderModule module(device, desc.shader);
   const Constants constants(desc.constants);
   VkComputePipelineCreateInfo info{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
   info.stage = shaderStage(VK_SHADER_STAGE_COMPUTE_BIT, module, constants);
-  info.layout = layout_;
+  info.layout = made.layout;
   SCUMBLE_VK(
-      vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr, &pipeline_));
+      vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr, &made.pipeline));
 }
 
-Pipeline::Pipeline(Device& device, const GraphicsPipelineDesc& desc) : device_(&device) {
-  createLayout(desc.sets, desc.pushConstantBytes);
+void make(Device& device, const GraphicsPipelineDesc& desc, PipelineStore::Made& made) {
+  if (!made.layout) made.layout = pipelineLayout(device, desc.sets, desc.pushConstantBytes);
 
   // Shaders.
   const Constants constants(desc.constants);
@@ -225,22 +245,54 @@ Pipeline::Pipeline(Device& device, const GraphicsPipelineDesc& desc) : device_(&
   info.pDepthStencilState = &depth;
   info.pColorBlendState = &blend;
   info.pDynamicState = &dynamicState;
-  info.layout = layout_;
+  info.layout = made.layout;
   SCUMBLE_VK(
-      vkCreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr, &pipeline_));
+      vkCreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr, &made.pipeline));
 }
 
-Pipeline::~Pipeline() {
-  if (!device_) return;
-  vkDestroyPipeline(device_->handle(), pipeline_, nullptr);
-  vkDestroyPipelineLayout(device_->handle(), layout_, nullptr);
+}  // namespace
+
+Pipeline::Pipeline(Device& device, const ComputePipelineDesc& desc)
+    : bindPoint_(VK_PIPELINE_BIND_POINT_COMPUTE) {
+  KeyWriter writer;
+  writer.number(bindPoint_)
+      .shader(desc.shader)
+      .numbers(desc.constants)
+      .handles(desc.sets)
+      .number(desc.pushConstantBytes);
+  PipelineStore::Made& made = device.pipelines().pipeline(std::move(writer.key));
+  if (!made.pipeline) make(device, desc, made);
+  layout_ = made.layout, pipeline_ = made.pipeline;
 }
 
-void Pipeline::swap(Pipeline& other) {
-  std::swap(device_, other.device_);
-  std::swap(layout_, other.layout_);
-  std::swap(pipeline_, other.pipeline_);
-  std::swap(bindPoint_, other.bindPoint_);
+Pipeline::Pipeline(Device& device, const GraphicsPipelineDesc& desc) {
+  KeyWriter writer;
+  writer.number(bindPoint_).shader(desc.vertex).shader(desc.fragment).numbers(desc.constants);
+  writer.number(desc.vertexBindings.size());
+  for (const VkVertexInputBindingDescription& binding : desc.vertexBindings)
+    writer.number(binding.binding).number(binding.stride).number(binding.inputRate);
+  writer.number(desc.vertexAttributes.size());
+  for (const VkVertexInputAttributeDescription& attribute : desc.vertexAttributes)
+    writer.number(attribute.location)
+        .number(attribute.binding)
+        .number(attribute.format)
+        .number(attribute.offset);
+  writer.numbers(desc.colorFormats).number(uint64_t(desc.blend));
+  writer.number(desc.depthFormat).number(desc.depthCompare).number(desc.depthWrite);
+  writer.number(desc.samples).number(desc.viewMask).number(desc.dynamicCulling);
+  writer.handles(desc.sets).number(desc.pushConstantBytes);
+  PipelineStore::Made& made = device.pipelines().pipeline(std::move(writer.key));
+  if (!made.pipeline) make(device, desc, made);
+  layout_ = made.layout, pipeline_ = made.pipeline;
+}
+
+PipelineStore::~PipelineStore() {
+  for (const auto& [key, made] : pipelines_) {
+    if (made.pipeline) vkDestroyPipeline(device_, made.pipeline, nullptr);
+    if (made.layout) vkDestroyPipelineLayout(device_, made.layout, nullptr);
+  }
+  for (const auto& [bindings, layout] : setLayouts_)
+    if (layout) vkDestroyDescriptorSetLayout(device_, layout, nullptr);
 }
 
 Samplers::~Samplers() {

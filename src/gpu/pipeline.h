@@ -1,7 +1,10 @@
 // Pipelines, descriptor sets and samplers: the parts of Vulkan that passes touch.
 #pragma once
 
+#include <compare>
+#include <cstddef>
 #include <initializer_list>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -18,24 +21,18 @@ struct Shader {
 struct Binding {
   VkDescriptorType type;
   VkShaderStageFlags stages;
+  auto operator<=>(const Binding&) const = default;
 };
 
+// Made once for each list of bindings; the device keeps it.
 class SetLayout {
  public:
   SetLayout() = default;
   SetLayout(Device& device, std::vector<Binding> bindings);
-  ~SetLayout();
-  SetLayout(SetLayout&& other) noexcept { swap(other); }
-  SetLayout& operator=(SetLayout&& other) noexcept {
-    swap(other);
-    return *this;
-  }
   VkDescriptorSetLayout handle() const { return layout_; }
   const std::vector<Binding>& bindings() const { return bindings_; }
 
  private:
-  void swap(SetLayout& other);
-  Device* device_ = nullptr;
   VkDescriptorSetLayout layout_ = VK_NULL_HANDLE;
   std::vector<Binding> bindings_;
 };
@@ -97,17 +94,13 @@ struct ComputePipelineDesc {
   uint32_t pushConstantBytes = 0;
 };
 
+// Compiled once for each description; the device keeps it, so that another size of the picture, or a part of
+// it that is switched on and off again, compiles nothing anew.
 class Pipeline {
  public:
   Pipeline() = default;
   Pipeline(Device& device, const GraphicsPipelineDesc& desc);
   Pipeline(Device& device, const ComputePipelineDesc& desc);
-  ~Pipeline();
-  Pipeline(Pipeline&& other) noexcept { swap(other); }
-  Pipeline& operator=(Pipeline&& other) noexcept {
-    swap(other);
-    return *this;
-  }
   VkPipelineLayout layout() const { return layout_; }
   void bind(VkCommandBuffer commands) const { vkCmdBindPipeline(commands, bindPoint_, pipeline_); }
   void bindSet(VkCommandBuffer commands, uint32_t index, VkDescriptorSet set,
@@ -123,12 +116,32 @@ class Pipeline {
   explicit operator bool() const { return pipeline_ != VK_NULL_HANDLE; }
 
  private:
-  void swap(Pipeline& other);
-  void createLayout(const std::vector<VkDescriptorSetLayout>& sets, uint32_t pushConstantBytes);
-  Device* device_ = nullptr;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   VkPipeline pipeline_ = VK_NULL_HANDLE;
   VkPipelineBindPoint bindPoint_ = VK_PIPELINE_BIND_POINT_GRAPHICS;
+};
+
+// What a device has made of set layouts and pipelines, by what they were made from. Shaders count by where
+// their words stand, which is the same as long as the process runs.
+class PipelineStore {
+ public:
+  explicit PipelineStore(VkDevice device) : device_(device) {}
+  ~PipelineStore();
+  PipelineStore(const PipelineStore&) = delete;
+  PipelineStore& operator=(const PipelineStore&) = delete;
+
+  using Key = std::vector<uint64_t>;
+  struct Made {
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    VkPipeline pipeline = VK_NULL_HANDLE;
+  };
+  VkDescriptorSetLayout& setLayout(const std::vector<Binding>& bindings) { return setLayouts_[bindings]; }
+  Made& pipeline(Key key) { return pipelines_[std::move(key)]; }
+
+ private:
+  VkDevice device_;
+  std::map<std::vector<Binding>, VkDescriptorSetLayout> setLayouts_;
+  std::map<Key, Made> pipelines_;
 };
 
 struct SamplerDesc {

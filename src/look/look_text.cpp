@@ -1,5 +1,6 @@
 #include "look/look_text.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 
@@ -11,59 +12,76 @@ namespace {
 
 constexpr size_t kMaxWarnings = 100;  // a hostile file could ask for any number
 
-// Follows the parser through the text.
-class Follower {
+// Builds the JSON as the parser goes through the text. (The library's own builder, when it may be asked about
+// each value, looks through all of an object after each of its members.)
+class Builder : public nlohmann::json_sax<Json> {
  public:
-  Follower(const std::string& text, const std::string& file, const char*& lastRead,
-           std::vector<std::string>& warnings)
-      : text_(text), file_(file), lastRead_(lastRead), warnings_(warnings) {}
+  Builder(const std::string& text, const std::string& file, const char*& lastRead,
+          std::vector<std::string>& warnings)
+      : file_(file), lastRead_(lastRead), warnings_(warnings), counted_(text.data()) {}
 
-  void follow(Json::parse_event_t event, const Json& parsed) {
-    using Event = Json::parse_event_t;
-    switch (event) {
-      case Event::object_start:
-      case Event::array_start:
-        levels_.push_back({event == Event::array_start, 0, "", {}});
-        break;
-      case Event::object_end:
-      case Event::array_end:
-        levels_.pop_back();
-        countItem();
-        break;
-      case Event::key:
-        takeKey(parsed.get_ref<const std::string&>());
-        break;
-      case Event::value:
-        if (parsed.is_string()) checkText(parsed.get_ref<const std::string&>());
-        countItem();
-        break;
-    }
+  bool null() override { return add(nullptr); }
+  bool boolean(bool value) override { return add(value); }
+  bool number_integer(Json::number_integer_t value) override { return add(value); }
+  bool number_unsigned(Json::number_unsigned_t value) override { return add(value); }
+  bool number_float(Json::number_float_t value, const std::string&) override { return add(value); }
+  bool string(std::string& value) override { return checkText(value) && add(std::move(value)); }
+  bool binary(Json::binary_t&) override { return false; }
+  bool start_object(size_t) override { return begin(Json::object()); }
+  bool start_array(size_t) override { return begin(Json::array()); }
+  bool end_object() override { return end(); }
+  bool end_array() override { return end(); }
+  bool key(std::string& key) override { return checkText(key) && takeKey(key); }
+  bool parse_error(size_t, const std::string&, const nlohmann::detail::exception& error) override {
+    constexpr int kNumberOverflow = 406;
+    if (error.id == kNumberOverflow) return fail("a number here is too large", "no knob takes such a number");
+    return fail("this is no JSON", "mind commas, quotes and brackets there");
   }
 
-  std::optional<Error> failure() const { return failure_; }
-  void finish() const {
+  const std::optional<Error>& failure() const { return failure_; }
+  Json finish() {
     if (leftOut_ > 0) warnings_.push_back(file_ + ": " + std::to_string(leftOut_) + " more keys stand twice");
+    return std::move(root_);
   }
 
  private:
   struct Level {
-    bool isList;
-    size_t item;
-    std::string key;
-    std::map<std::string, int> lines;  // of keys
+    Json* value;
+    std::string key;                   // of an object: the last one
+    std::map<std::string, int> lines;  // of its keys
   };
 
-  void countItem() {
-    if (!levels_.empty() && levels_.back().isList) ++levels_.back().item;
+  // Where the next value stands. What is open does not move while something in it is.
+  Json& place() {
+    if (levels_.empty()) return root_;
+    Level& level = levels_.back();
+    return level.value->is_array() ? level.value->emplace_back() : (*level.value)[level.key];
+  }
+  bool add(Json value) {
+    place() = std::move(value);
+    return true;
+  }
+  bool begin(Json empty) {
+    Json& value = place();
+    value = std::move(empty);
+    levels_.push_back({&value, "", {}});
+    return true;
+  }
+  bool end() {
+    levels_.pop_back();
+    return true;
+  }
+  bool fail(std::string problem, std::string advice) {
+    failure_ = Error{ErrorKind::unusableFile, file_, lineHere(), "", std::move(problem), std::move(advice)};
+    return false;
   }
 
-  void takeKey(const std::string& key) {
+  bool takeKey(const std::string& key) {
     Level& level = levels_.back();
     level.key = key;
-    checkText(key);
-    const int line = lineOf(text_, lastRead_);
+    const int line = lineHere();
     const auto [known, isNew] = level.lines.try_emplace(key, line);
-    if (isNew) return;
+    if (isNew) return true;
     if (warnings_.size() >= kMaxWarnings)
       ++leftOut_;
     else
@@ -72,63 +90,58 @@ class Follower {
                                 "what stands here counts"}
                               .message());
     known->second = line;
+    return true;
+  }
+
+  // Counted on from the last place, since all of the text for each key would take a large look minutes.
+  int lineHere() {
+    line_ += int(std::count(counted_, lastRead_, '\n'));
+    counted_ = lastRead_;
+    return line_;
   }
 
   // Where C ends a text, a name would go on.
-  void checkText(const std::string& text) {
-    if (failure_ || text.find('\0') == std::string::npos) return;
-    failure_ = Error{
-        ErrorKind::unusableFile, file_, lineOf(text_, lastRead_), "", "a text here holds the character NUL",
-        "leave \\u0000 out"};
+  bool checkText(const std::string& text) {
+    return text.find('\0') == std::string::npos ||
+           fail("a text here holds the character NUL", "leave \\u0000 out");
   }
 
   std::string path() const {
     std::string path;
     for (const Level& level : levels_)
-      if (level.isList)
-        path += "[" + std::to_string(level.item) + "]";
+      if (level.value->is_array())
+        path += "[" + std::to_string(level.value->size() - 1) + "]";
       else
         path += (path.empty() ? "" : ".") + level.key;
     return path;
   }
 
-  const std::string& text_;
   const std::string& file_;
   const char*& lastRead_;
   std::vector<std::string>& warnings_;
+  Json root_;
   std::vector<Level> levels_;
   std::optional<Error> failure_;
   size_t leftOut_ = 0;
+  const char* counted_;  // up to where lines are counted
+  int line_ = 1;
 };
 
 }  // namespace
 
 Result<Json> parseText(const std::string& text, const std::string& file, std::vector<std::string>& warnings) {
   const char* lastRead = text.data();
-  const auto fail = [&](std::string problem, std::string advice) {
-    return Error{ErrorKind::unusableFile, file, lineOf(text, lastRead), "", std::move(problem),
-                 std::move(advice)};
-  };
-  constexpr bool kThrows = true, kSkipsComments = true;
+  Builder builder(text, file, lastRead, warnings);
+  constexpr bool kIsWhole = true, kSkipsComments = true;
   try {
-    Follower follower(text, file, lastRead, warnings);
-    Json root = Json::parse(
-        JsonReading(text.data(), lastRead), JsonReading(text.data() + text.size(), lastRead),
-        [&](int, Json::parse_event_t event, const Json& parsed) {
-          follower.follow(event, parsed);
-          return true;
-        },
-        kThrows, kSkipsComments);
-    follower.finish();
-    if (const std::optional<Error> failure = follower.failure()) return *failure;
-    return root;
-  } catch (const Json::parse_error&) {
-    return fail("this is no JSON", "mind commas, quotes and brackets there");
-  } catch (const Json::out_of_range&) {
-    return fail("a number here is too large", "no knob takes such a number");
+    Json::sax_parse(JsonReading(text.data(), lastRead), JsonReading(text.data() + text.size(), lastRead),
+                    &builder, Json::input_format_t::json, kIsWhole, kSkipsComments);
   } catch (const Json::exception&) {
-    return fail("this JSON cannot be read", "see `scumble schema`");
+    return Error{ErrorKind::unusableFile, file, lineOf(text, lastRead), "", "this JSON cannot be read",
+                 "see `scumble schema`"};
   }
+  if (builder.failure()) return *builder.failure();
+  return builder.finish();
 }
 
 }  // namespace scumble::look

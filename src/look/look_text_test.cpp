@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
+
 #include "scumble/look.h"
 
 namespace scumble {
@@ -91,6 +94,27 @@ TEST(LookText, aKeyIsOneWordOfAPath) {
             "a.json (warp.amount): a dot stands in this key; nest it: \"warp\": { \"amount\": ... }");
   // Names of a scene may hold dots.
   EXPECT_TRUE(read("{\"materials\": {\"Paint.001\": {\"warp\": {\"amount\": 0}}}}").ok());
+}
+
+// Ten times as many names take ten times as long: a hundred times would be too much.
+TEST(LookText, timeIsLinear) {
+  const auto seconds = [](int names) {
+    std::string text = "{\"materials\": {";
+    for (int i = 0; i < names; ++i)
+      text += (i ? "," : "") + std::string("\n\"Material") + std::to_string(i) +
+              "\": {\"warp\": {\"amount\": 1}}";
+    text += "}}";
+    double least = 1e9;
+    for (int run = 0; run < 3; ++run) {
+      const auto start = std::chrono::steady_clock::now();
+      const Result<Look> look = Look::fromJson(text, "many.json");
+      least =
+          std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+      EXPECT_TRUE(look.ok());
+    }
+    return least;
+  };
+  EXPECT_LT(seconds(30000), 40 * seconds(3000));
 }
 
 }  // namespace

@@ -472,11 +472,7 @@ class Looks(Program):
         self.assertEqual(self.warnings("--look", "twice.json", "--quiet"), [])
 
     def test_options_that_count_for_nothing_are_named(self):
-        for args, told in ((["--orbit", "30,15", "--eye", "3,1,4"], "--orbit does nothing beside --eye"),
-                           (["--orbit", "30,15", "--target", "0,0,0"], "--orbit does nothing beside --target"),
-                           (["--camera", "Front", "--orbit", "30,15"], "--camera does nothing beside --orbit"),
-                           (["--ipd", "0.07"], "--ipd does nothing without --stereo"),
-                           (["--quality", "20"], "--quality does nothing for pictures; it is for films"),
+        for args, told in ((["--ipd", "0.07"], "--ipd does nothing without --stereo"),
                            (["--exr", "half"], "--exr does nothing where no EXR is written"),
                            (["--time", "1", "--frames", "0..0"], "--time does nothing beside --frames: frame n is at n / fps")):
             with self.subTest(args=args):

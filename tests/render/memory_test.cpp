@@ -63,11 +63,11 @@ struct Frames {
 
 class Memory : public ::testing::TestWithParam<Stereo> {
  protected:
-  // Megabytes by which 150 frames grow, after those that make and warm everything.
+  // Megabytes by which 80 frames grow, after those that make and warm everything.
   static double growth(const Frames& frames) {
-    frames(0, 20);
+    frames(0, 10);
     const double before = residentMegabytes();
-    frames(20, 170);
+    frames(10, 90);
     return residentMegabytes() - before;
   }
   static std::unique_ptr<Renderer> made(ImagePassKind kind = ImagePassKind::automatic) {

@@ -97,7 +97,7 @@ TEST(OceanLimits, mistakesAreNamedByTheirPath) {
       {R"({"ocean": {"paint": 3}})", "ocean.paint", ""},
       {R"({"ocean": {"paint": {"sky": "purple"}}})", "ocean.paint.sky", ""},
       {R"({"ocean": {"paint": {"colours": "storm"}}})", "ocean.paint.colours", ""},
-      {R"({"ocean": {"paint": {"foamColor": "white"}}})", "ocean.paint.foamColor", ""},
+      {R"({"ocean": {"paint": {"foamColor": "whitish"}}})", "ocean.paint.foamColor", ""},
       {R"({"ocean": {"wind": {"keys": [[0, 3], [10, 99]]}}})", "ocean.wind.keys[1][1]", "0 to 60"},
       {R"({"ocean": {"wind": {"keys": [[5, 3], [5, 4]]}}})", "ocean.wind.keys[1][0]", ""},
       {R"({"ocean": {"mode": {"keys": [[0, "on"]], "interpolation": "linear"}}})", "ocean.mode.interpolation",

@@ -316,7 +316,7 @@ TEST_P(WarpTest, nothingIsTornFartherThanTwice) {
     for (const char* skew : {"off", "exact"}) {
       double sum = 0, count = 0;
       for (const float away : {2.0f, 2.7f, 3.6f}) {
-        Look look = lookOf(kAmount, 40);
+        Look look = lookOf(kAmount, 960);  // an example's texel is a pixel
         EXPECT_TRUE(look.set("warp.metatexture.base", base).ok());
         EXPECT_TRUE(look.set("warp.metatexture.skew", skew).ok());
         const Frame frame =
