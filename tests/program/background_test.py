@@ -105,7 +105,7 @@ class Pictures(Background):
         self.before = self.files()
         for name in ("text.jpg", "cut.png", "absent.png", "absent.webp"):
             self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--background", name, *TINY, says=name)
-        self.bad(USAGE, "render", "box.gltf", "-o", "x.png", "--background", "blue", *TINY, says="'blue'")
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.png", "--background", "bluish", *TINY, says="'bluish'")
         self.bad(NOT_WRITTEN, "render", "box.gltf", "-o", "behind.png", "--background", "behind.png", *TINY, says="behind.png")
 
 
