@@ -8,7 +8,7 @@ using meshkit::kPi;
 
 // She heads to the left and towards the viewer, and her crew's weight heels her to this side, so that the
 // deck shows. The waves add theirs.
-constexpr float kYaw = -0.26f, kHeel = 0.13f, kTrim = 0.012f;  // radians
+constexpr float kYaw = -0.26f, kHeel = 0.13f, kTrimAngle = 0.012f;  // radians
 constexpr glm::vec3 kPlace = {2.3f, 0.03f, 0.0f};
 
 glm::quat course() {
@@ -16,7 +16,8 @@ glm::quat course() {
 }
 
 glm::quat attitude() {
-  return course() * glm::angleAxis(kTrim, glm::vec3(0, 0, 1)) * glm::angleAxis(-kHeel, glm::vec3(1, 0, 0));
+  return course() * glm::angleAxis(kTrimAngle, glm::vec3(0, 0, 1)) *
+         glm::angleAxis(-kHeel, glm::vec3(1, 0, 0));
 }
 
 }  // namespace
