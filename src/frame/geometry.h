@@ -69,6 +69,6 @@ float longestEdge(float shadowWarp);
 // Part of the shadow map that lies evenly over the casters, whatever the sigmoid's strength: no place is
 // coarser than that, so that neither shadows far from the viewer nor the bias against self-shadowing of large
 // receivers, whose corners lie there, run away.
-constexpr float kEvenShare = 0.5f;
+constexpr float kEvenShare = 0.25f;
 
 }  // namespace scumble::frame

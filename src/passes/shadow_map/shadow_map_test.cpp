@@ -56,8 +56,8 @@ TEST_P(ShadowMapTest, pointsLieWhereTheSigmoidPutsThem) {
     const auto warped = [&](double p, double at) {
       if (strength == 0) return p;
       const double a = sigmoid(strength * (-1 - at)), b = sigmoid(strength * (1 - at));
-      // Half of the map is the sigmoid's, half of it is even.
-      return 0.5 * ((sigmoid(strength * (p - at)) - a) / (b - a) * 2 - 1) + 0.5 * p;
+      // A quarter of the map is even.
+      return 0.75 * ((sigmoid(strength * (p - at)) - a) / (b - a) * 2 - 1) + 0.25 * p;
     };
     std::mt19937 random(7);
     std::uniform_real_distribution<double> number(0, 1);
