@@ -3,8 +3,8 @@
 
     bench/start_to_picture.py SCENE... [--runs N] [--json FILE] [--program FILE] [-- OPTION...]
 
-Each scene is rendered once to warm up (disk and pipeline cache), then N times; the table gives the median and the fastest
-run, and the largest peak of resident memory. Options after -- go to `scumble render`. With --stats of the program, its
+Each scene is rendered once to warm up (disk and pipeline cache), then N times; the table gives the median, the fastest
+and the slowest run, and the largest peak of resident memory. Options after -- go to `scumble render`. With --stats of the program, its
 own times of each step are kept in the JSON (those of the median run).
 """
 import argparse
@@ -18,7 +18,7 @@ import time
 from pathlib import Path
 
 sys.dont_write_bytecode = True
-from surroundings import parse, surroundings  # noqa: E402
+from surroundings import head, parse  # noqa: E402
 
 PNG_END = b"\x00\x00\x00\x00IEND\xaeB`\x82"
 
@@ -85,7 +85,7 @@ def main():
     if chosen.runs < 1:
         parser.error("--runs must be at least 1")
 
-    report = surroundings(chosen.program, options)
+    report = head(chosen.program, options)
     print(f"{'scene':40} {'median s':>9} {'fastest':>9} {'slowest':>9} {'peak MiB':>9}")
     for scene in chosen.scenes:
         result = measure(chosen.program, scene, chosen.runs, options)

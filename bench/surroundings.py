@@ -36,15 +36,17 @@ def machine():
     }
 
 
-def surroundings(program, options):
+def surroundings():
+    """When, of what and where something was measured."""
     return {
         "date": datetime.datetime.now(datetime.timezone.utc).isoformat(timespec="seconds"),
         "revision": output_of(["git", "describe", "--always", "--dirty", "--abbrev=12"]),
-        "program": output_of([program, "--version"]),
-        "options": options,
         "machine": machine(),
-        "results": [],
     }
+
+
+def head(program, options):
+    return {**surroundings(), "program": output_of([program, "--version"]), "options": options, "results": []}
 
 
 def parse(parser):

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "options.h"
+#include "report.h"
 #include "scumble/look.h"
 
 namespace scumble::app {
@@ -21,10 +22,10 @@ Result<Background> Background::make(const std::string& text) {
   background.text_ = text;
   if (text.empty() || background.isTransparent()) return background;
   if (background.isColor()) {
-    // A knob for a colour knows what one is.
-    if (const Status color = Look().set("background.horizon", text); !color)
-      return Error{ErrorKind::usage,    "", 0, "", "--background " + text + " is no colour",
-                   color.error().advice};
+    if (!scumble::isColor(text))
+      // A knob for a colour says what one is.
+      return usage("--background " + text + " is no colour",
+                   Look().set("background.horizon", text).error().advice);
     return background;
   }
   std::error_code ignored;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -22,7 +23,19 @@ struct BenchArguments {
   PictureArguments picture;
   JsonOption json;
   int runs = 9;
+  double time = 0;  // seconds
+  bool moving = false;
 };
+
+constexpr double kFramesASecond = 24;  // of what moves
+
+// Of all turns. The first one is not counted; where frames move it is the frame before the first that is.
+std::vector<double> timesOf(const BenchArguments& args) {
+  std::vector<double> times;
+  for (int turn = 0; turn <= args.runs; ++turn)
+    times.push_back(args.moving ? args.time + (turn - 1) / kFramesASecond : args.time);
+  return times;
+}
 
 double median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
@@ -31,6 +44,9 @@ double median(std::vector<double> values) {
 
 int run(const BenchArguments& args) {
   if (args.runs < 1 || args.runs > 1000) return failUsage("--runs is out of range", "use 1 to 1000");
+  const std::vector<double> times = timesOf(args);
+  if (!(std::abs(times.front()) < kMostSeconds && std::abs(times.back()) < kMostSeconds))
+    return failUsage("--time is out of range", "use a time within a million seconds");
   std::vector<std::string> inputs = args.scene.files;
   inputs.push_back(args.look.lookFor(args.scene.files[0]));
   OutputFiles files(inputs);
@@ -45,8 +61,9 @@ int run(const BenchArguments& args) {
     if (const Status status = files.addInputs(read); !status) return fail(status.error());
   look = args.look.withClip(*look, *scene);
   if (!look) return fail(look.error());
-  const Result<std::vector<View>> views = args.picture.views(*scene, *look);
-  if (!views) return fail(views.error());
+  const Result<std::vector<View>> still = args.picture.views(*scene, *look, args.time);
+  if (!still) return fail(still.error());
+  const bool viewsGo = args.moving && viewsMove(*scene, args.picture.viewpoint().value(), *look);
   args.look.warnOfIdle(*look, *scene, args.scene.files[0]);
   args.picture.warnOfIdle();
   // One renderer each, so that both keep their images and pipelines while they take turns.
@@ -54,6 +71,7 @@ int run(const BenchArguments& args) {
   if (!painter) return fail(painter.error());
   Result<std::unique_ptr<Renderer>> yardstick = Renderer::create(args.picture.rendererOptions());
   if (!yardstick) return fail(yardstick.error());
+
   RenderOptions plain = *options;
   plain.plain = true;
 
@@ -63,9 +81,12 @@ int run(const BenchArguments& args) {
   uint64_t triangles = 0;
   // The first turn compiles pipelines and is not counted.
   for (int i = 0; i <= args.runs; ++i) {
-    const Result<Frame> painted = (*painter)->render(*scene, *look, 0, *views, *options);
+    const double time = times[size_t(i)];
+    const Result<std::vector<View>> views = viewsGo ? args.picture.views(*scene, *look, time) : still;
+    if (!views) return fail(views.error());
+    const Result<Frame> painted = (*painter)->render(*scene, *look, time, *views, *options);
     if (!painted) return fail(painted.error());
-    const Result<Frame> drawn = (*yardstick)->render(*scene, *look, 0, *views, plain);
+    const Result<Frame> drawn = (*yardstick)->render(*scene, *look, time, *views, plain);
     if (!drawn) return fail(drawn.error());
     if ((*painter)->validationMessages() + (*yardstick)->validationMessages() > 0)
       return fail(Error{ErrorKind::internal, "", 0, "", "the validation layers found mistakes",
@@ -93,23 +114,40 @@ int run(const BenchArguments& args) {
   nlohmann::json passReport = nlohmann::json::array();
   for (const std::string& name : order)
     passReport.push_back({{"name", name}, {"milliseconds", median(passes[name])}});
+  // One time where nothing moves.
+  const std::vector<double> counted(times.begin() + 1, args.moving ? times.end() : times.begin() + 2);
+  const auto spread = [](const std::vector<double>& values) {
+    return nlohmann::json{{"median", median(values)},
+                          {"least", *std::min_element(values.begin(), values.end())},
+                          {"most", *std::max_element(values.begin(), values.end())}};
+  };
   const nlohmann::json report{{"device", (*painter)->gpu().name},
                               {"driver", (*painter)->gpu().driver},
                               {"scene", args.scene.files},
                               {"size", {options->width, options->height}},
                               {"samples", options->samples},
-                              {"views", views->size()},
+                              {"views", still->size()},
+                              {"mode", args.moving ? "moving" : "still"},
+                              {"times", counted},
                               {"triangles", triangles},
                               {"runs", args.runs},
                               {"passes", passReport},
                               {"frameMilliseconds", median(frame)},
                               {"yardstickMilliseconds", median(plainFrame)},
-                              {"ratio", median(ratios)}};
+                              {"ratio", median(ratios)},
+                              {"spread",
+                               {{"frameMilliseconds", spread(frame)},
+                                {"yardstickMilliseconds", spread(plainFrame)},
+                                {"ratio", spread(ratios)}}}};
   if (!args.json.isPrinted()) {
     std::printf("%s, %s\n", (*painter)->gpu().name.c_str(), (*painter)->gpu().driver.c_str());
     std::printf("%u x %u, %u samples, %zu views, %llu triangles, medians of %d\n", options->width,
-                options->height, options->samples, views->size(), static_cast<unsigned long long>(triangles),
+                options->height, options->samples, still->size(), static_cast<unsigned long long>(triangles),
                 args.runs);
+    if (args.moving)
+      std::printf("moving: from %g s to %g s\n", counted.front(), counted.back());
+    else
+      std::printf("still: at %g s\n", args.time);
     for (const std::string& name : order)
       std::printf("  %-14s %9.2f ms\n", name.c_str(), median(passes[name]));
     std::printf("  %-14s %9.2f ms\n  %-14s %9.2f ms\n  %-14s %9.2f\n", "frame", median(frame), "yardstick",
@@ -129,6 +167,12 @@ void addBench(CLI::App& program, int& exitCode) {
   args->picture.addTo(*command);
   args->picture.addStereoTo(*command);
   command->add_option("--runs", args->runs, "Frames to take the median of")->capture_default_str();
+  command->add_option("--time", args->time, "Seconds; with --moving those of the first frame")
+      ->capture_default_str();
+  command->add_flag(
+      "--moving", args->moving,
+      "Each frame is a twenty-fourth of a second later, as in films, so that what moves is posed "
+      "anew (default: all frames are at one time)");
   args->json.addTo(*command);
   command->footer("Example: scumble bench boat.glb --samples 1 --json boat.json");
   command->callback([args, &exitCode] { exitCode = run(*args); });

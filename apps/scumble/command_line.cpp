@@ -7,6 +7,7 @@
 
 #include "json_option.h"
 #include "report.h"
+#include "scumble/nearest.h"
 
 namespace scumble::app {
 
@@ -16,30 +17,11 @@ bool isOption(const std::string& word) {
   return word.size() > 1 && word[0] == '-';
 }
 
-size_t editDistance(const std::string& a, const std::string& b) {
-  std::vector<size_t> row(b.size() + 1);
-  for (size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (size_t i = 1; i <= a.size(); ++i) {
-    size_t diagonal = row[0];
-    row[0] = i;
-    for (size_t j = 1; j <= b.size(); ++j) {
-      const size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1])});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
-}
-
 // "did you mean 'render'?", or `otherwise` where nothing is near.
 std::string suggestion(const std::string& word, const std::vector<std::string>& known,
                        const std::string& otherwise) {
-  const std::string* best = nullptr;
-  size_t least = std::max<size_t>(2, std::min<size_t>(word.size(), 64) / 3) + 1;
-  for (const std::string& candidate : known)
-    if (const size_t distance = editDistance(word.substr(0, 64), candidate); distance < least)
-      best = &candidate, least = distance;
-  return best ? "did you mean '" + *best + "'?" : otherwise;
+  const std::string meant = nearest(word, known);
+  return meant.empty() ? otherwise : "did you mean '" + meant + "'?";
 }
 
 // The command that was given, or the program.

@@ -125,7 +125,7 @@ int params(const std::string& prefix) {
 }
 
 int devices() {
-  const Result<std::vector<GpuInfo>> gpus = listGpus();
+  const Result<std::vector<GpuInfo>> gpus = listGpus("", cacheFolder());
   if (!gpus) return fail(gpus.error());
   bool any = false;
   for (size_t i = 0; i < gpus->size(); ++i) {
@@ -133,6 +133,7 @@ int devices() {
     print(fmt::format("{} {} {}  Vulkan {}  {}{}\n", gpu.wouldBeUsed ? "*" : " ", i, gpu.name, gpu.apiVersion,
                       gpu.driver,
                       gpu.unusableBecause.empty() ? "" : "  cannot be used: " + gpu.unusableBecause));
+    for (const std::string& workaround : gpu.workarounds) print(fmt::format("      {}\n", workaround));
     any |= gpu.wouldBeUsed;
   }
   if (!any)

@@ -14,15 +14,6 @@ namespace scumble::app {
 
 namespace {
 
-// $XDG_CACHE_HOME/scumble or ~/.cache/scumble; empty where neither is known. The XDG Base Directory
-// Specification has a relative path ignored.
-std::string cacheFolder() {
-  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache == '/')
-    return std::string(cache) + "/scumble";
-  if (const char* home = std::getenv("HOME"); home && *home) return std::string(home) + "/.cache/scumble";
-  return "";
-}
-
 // By its name, by its number, or by what follows the last '|' of its name, where that is one clip's only:
 // Blender's exporter writes names like "Armature|Walk".
 Result<std::string> findClip(const std::vector<SceneSummary::Clip>& clips, const std::string& wanted) {
@@ -182,10 +173,10 @@ void LookArguments::warnOfIdle(const Look& from, const Scene& scene, const std::
   // one.
   const std::string name = lookFor(sceneFile);
   const bool isFile = name.find('/') != std::string::npos || endingOf(name) == ".json";
-  const std::vector<std::string> byHand = settingsWithoutEffect(scene, from);
+  const std::vector<std::string> idleByHand = settingsWithoutEffect(scene, from);
+  const std::set<std::string> byHand(idleByHand.begin(), idleByHand.end());
   for (const std::string& setting : settingsWithoutEffect(scene, from, isFile)) {
-    const bool isByHand = std::find(byHand.begin(), byHand.end(), setting) != byHand.end();
-    warnOf({(isByHand ? "--set " : "") + setting},
+    warnOf({(byHand.contains(setting) ? "--set " : "") + setting},
            "nothing in the scene has such a name (`scumble info` lists names)");
   }
   warnOf(settingsWithoutNode(scene, from), "the scene has no node of that name (`scumble info` lists names)");
@@ -317,6 +308,13 @@ RendererOptions PictureArguments::rendererOptions() const {
   options.validation = validate;
   options.cacheFolder = cacheFolder();
   return options;
+}
+
+std::string cacheFolder() {
+  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache == '/')
+    return std::string(cache) + "/scumble";
+  if (const char* home = std::getenv("HOME"); home && *home) return std::string(home) + "/.cache/scumble";
+  return "";
 }
 
 }  // namespace scumble::app

@@ -38,6 +38,8 @@ struct LookArguments {
   Status applySettings(Look& look) const;
 };
 
+constexpr double kMostSeconds = 1e6;  // of time, either way: what renderers take
+
 struct PictureArguments {
   std::string camera, orbit, eye, target, size = "1280x720", stereo;
   std::optional<float> roll, fov;
@@ -68,5 +70,9 @@ std::string endingOf(const std::string& path);
 std::optional<std::pair<uint32_t, uint32_t>> parseSize(const std::string& text);
 // Numbers separated by commas, all finite.
 std::optional<std::vector<float>> parseNumbers(const std::string& text);
+
+// $XDG_CACHE_HOME/scumble or ~/.cache/scumble; empty where neither is known. The XDG Base Directory
+// Specification has a relative path ignored.
+std::string cacheFolder();
 
 }  // namespace scumble::app

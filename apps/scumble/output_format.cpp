@@ -1,9 +1,6 @@
 #include "output_format.h"
 
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
-
+#include "options.h"
 #include "report.h"
 
 namespace scumble::app {
@@ -42,9 +39,7 @@ Status OutputFormat::checkQuality(std::optional<int> quality) const {
 }
 
 Result<const OutputFormat*> formatOf(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return char(std::tolower(c)); });
+  const std::string ending = endingOf(path);
   for (const OutputFormat& format : kFormats)
     if (ending == format.ending) return &format;
   std::string all;

@@ -41,10 +41,9 @@ Result<OutputPlan> OutputPlan::make(const std::string& given, const std::string&
   const Result<const OutputFormat*> format = formatOf(plan.path);
   if (!format) return format.error();
   plan.format = *format;
-  plan.kind = plan.format->kind;
-  if (plan.isSequence() && plan.kind == OutputKind::film)
+  if (plan.isSequence() && plan.kind() == OutputKind::film)
     return usage("'" + plan.path + "' names a sequence of films", "name one film, or name.####.png");
-  if (plan.kind == OutputKind::film && !options.aovs.empty())
+  if (plan.kind() == OutputKind::film && !options.aovs.empty())
     return usage("a film holds the picture only", "write AOVs to name.####.exr");
   if (plan.isSequence() && !hasFrames)
     return usage("'" + plan.path + "' names a sequence, but there is no range of frames",
@@ -63,7 +62,7 @@ std::string OutputPlan::framePath(std::optional<int> number) const {
 }
 
 bool OutputPlan::isFileOfItsOwn(const std::string& aov) const {
-  return kind == OutputKind::picture || Renderer::hasSizeOfItsOwn(aov);
+  return kind() == OutputKind::picture || Renderer::hasSizeOfItsOwn(aov);
 }
 
 Status OutputPlan::writeLayers(const Frame& frame, const std::string& path_,
@@ -92,7 +91,7 @@ std::vector<std::string> OutputPlan::files(const std::string& framePath_) const 
 }
 
 bool OutputPlan::isThere(const std::string& framePath_) const {
-  const bool together = viewCount > 1 && !separateEyes && kind == OutputKind::picture;
+  const bool together = viewCount > 1 && !separateEyes && kind() == OutputKind::picture;
   const uint32_t across = together && layout != "over-under" ? 2 : 1;
   const uint32_t down = together && layout == "over-under" ? 2 : 1;
   const std::vector<std::string> all = files(framePath_), pictures = picturePaths(framePath_);
@@ -106,8 +105,8 @@ bool OutputPlan::isThere(const std::string& framePath_) const {
 Status OutputPlan::write(const Frame& frame, const std::string& framePath_) const {
   const std::vector<std::string> paths = picturePaths(framePath_);
   for (size_t file = 0; file < paths.size(); ++file)
-    if (const Status status = kind == OutputKind::picture ? writePicture(frame, file, paths[file])
-                                                          : writeLayeredExr(frame, file, paths[file]);
+    if (const Status status = kind() == OutputKind::picture ? writePicture(frame, file, paths[file])
+                                                            : writeLayeredExr(frame, file, paths[file]);
         !status)
       return status.error();
   return Done{};

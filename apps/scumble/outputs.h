@@ -14,7 +14,6 @@ namespace scumble::app {
 
 struct OutputPlan {
   std::string path;  // as given, or made from the scene's name
-  OutputKind kind = OutputKind::picture;
   const OutputFormat* format = nullptr;
   std::optional<int> quality;  // default: the format's
   bool separateEyes = false;
@@ -31,6 +30,7 @@ struct OutputPlan {
 
   // The path of frame `number`: #### is replaced by the number, zero-padded.
   std::string framePath(std::optional<int> number) const;
+  OutputKind kind() const { return format->kind; }
   bool isSequence() const { return path.find('#') != std::string::npos; }
 
   // The files of a frame's picture: one, or one an eye.

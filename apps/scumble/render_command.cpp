@@ -45,7 +45,6 @@ struct RenderArguments {
 };
 
 constexpr int kMostFrame = 10'000'000;
-constexpr double kMostSeconds = 1e6;  // as renderers take them
 constexpr double kMostTurn = 86400;   // seconds
 constexpr unsigned kMostWriters = 4;  // beyond them disks are slower than encoders
 
@@ -129,7 +128,7 @@ Result<std::vector<int>> frameNumbers(const RenderArguments& args, const OutputP
                                       const Scene& scene, const Look& look) {
   std::vector<int> numbers;
   if (args.frames.empty()) {
-    if (output.kind != OutputKind::film && !output.isSequence()) return numbers;
+    if (output.kind() != OutputKind::film && !output.isSequence()) return numbers;
     const double frames =
         args.picture.turntable ? framesOfTurn(args) : std::ceil(playedSeconds(scene, look) * args.fps - 1e-3);
     if (!(frames >= 1))
@@ -208,11 +207,10 @@ class FrameLoop {
 
 // Of options that count for nothing beside others or for this output.
 void warnOfIdle(const RenderArguments& args, const OutputPlan& output) {
-  const bool isFilm = output.kind == OutputKind::film;
-  if (args.isGiven("--time") && !args.frames.empty())
-    warn({"--time does nothing beside --frames: frame n is at n / fps"});
-  if (args.isGiven("--time") && args.frames.empty() && isFilm) warn({"--time does nothing for a film"});
-  if (args.isGiven("--exr") && (isFilm || (output.kind == OutputKind::picture && output.aovs.empty())))
+  const bool isFilm = output.kind() == OutputKind::film;
+  if (args.time && !args.frames.empty()) warn({"--time does nothing beside --frames: frame n is at n / fps"});
+  if (args.time && args.frames.empty() && isFilm) warn({"--time does nothing for a film"});
+  if (args.isGiven("--exr") && (isFilm || (output.kind() == OutputKind::picture && output.aovs.empty())))
     warn({"--exr does nothing where no EXR is written"});
   args.picture.warnOfIdle();
 }
@@ -244,7 +242,7 @@ int run(RenderArguments args) {
   for (const std::string& file : output->files(output->path))
     if (const Status status = files.add(file, "the picture"); !status) return fail(status.error());
   if (const Status status = files.add(args.stats, "--stats"); !status) return fail(status.error());
-  const bool isFilm = output->kind == OutputKind::film;
+  const bool isFilm = output->kind() == OutputKind::film;
   if (!args.frames.empty()) {
     const auto range = parseFrames(args.frames);
     if (!range)

@@ -79,8 +79,8 @@ double FullScreen::milliseconds(const FullScreenCase& one, const gpu::Image& tar
     vkCmdPipelineBarrier2(commands, &dependency);
     vkCmdResetQueryPool(commands, queries, 0, 2);
     vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries, 0);
-    const Target to{&target, nullptr, {}, Target::Before::undefined};
-    drawViews(commands, configuration, {&to, 1}, nullptr, [&](uint32_t) { one.draw(commands); });
+    const gpu::Target to{&target, nullptr, {}, gpu::Target::Before::undefined};
+    gpu::drawViews(commands, configuration.views(), {&to, 1}, nullptr, [&](uint32_t) { one.draw(commands); });
     vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries, 1);
   });
   uint64_t stamps[2];

@@ -10,7 +10,7 @@ namespace {
 
 using namespace meshkit;
 
-enum Joint : int { kAtBlock, kInHands, kOnLap };
+enum SheetJoint : int { kAtBlock, kInHands, kOnLap };
 
 // Where his lower hand lets the sheet go, in the boat.
 glm::vec3 gripAt(float time) {

@@ -52,7 +52,7 @@ class Look {
   Status set(const std::string& path, const std::string& value);
 
   const std::string& description() const;
-  // Pictures that it has read from files.
+  // Files that it was read from: looks, those that it extends too, and pictures.
   std::vector<std::string> files() const;
   // What the file says to no effect, each a line with its place: keys that stand twice.
   const std::vector<std::string>& warnings() const;

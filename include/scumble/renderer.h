@@ -21,10 +21,15 @@ struct GpuInfo {
   bool isCpu = false;
   std::string unusableBecause;  // empty when scumble can use it
   bool wouldBeUsed = false;
+  // What the device gets wrong or lacks, and what is done instead, a sentence each; found by drawing
+  // (docs/gpu.md). From listGpus() alone.
+  std::vector<std::string> workarounds;
 };
 
-// Every Vulkan device found, and which one the given choice (as in RendererOptions::device) means.
-Result<std::vector<GpuInfo>> listGpus(const std::string& choice = "");
+// Every Vulkan device found, and which one the given choice (as in RendererOptions::device) means. Tries out
+// each usable one, which takes up to a second where `cacheFolder` (as in RendererOptions) holds no answers
+// yet.
+Result<std::vector<GpuInfo>> listGpus(const std::string& choice = "", const std::string& cacheFolder = "");
 
 enum class ImagePassKind { automatic, fragment, compute };
 

@@ -1,4 +1,4 @@
-#include "base/nearest.h"
+#include "scumble/nearest.h"
 
 #include <algorithm>
 

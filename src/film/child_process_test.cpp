@@ -7,7 +7,7 @@
 
 #include <cerrno>
 
-#include "film/test_folder.h"
+#include "base/test_folder.h"
 
 namespace scumble::film {
 namespace {

@@ -7,6 +7,15 @@
 
 namespace scumble::film {
 
+namespace {
+
+uint8_t alphaCode(float alpha) {
+  if (!(alpha > 0)) return 0;
+  return alpha >= 1 ? 255 : uint8_t(std::lround(alpha * 255.0));
+}
+
+}  // namespace
+
 void encodeRow(const Image& image, uint32_t y, uint32_t padded, uint8_t* out) {
   const SrgbEncoder& encode = SrgbEncoder::instance();
   const size_t channels = image.channels.size();
@@ -27,21 +36,19 @@ std::vector<uint8_t> rgbOverBlack(const Image& image) {
   return codes;
 }
 
-std::vector<uint8_t> rgbaOf(const Image& image, bool& opaque) {
+bool encodeRgba(const Image& image, uint32_t begin, uint32_t end, uint8_t* out) {
   const SrgbEncoder& encode = SrgbEncoder::instance();
   const size_t channels = image.channels.size();
-  std::vector<uint8_t> codes(size_t(image.width) * image.height * 4);
-  const float* in = image.pixels.data();
-  opaque = true;
-  for (size_t i = 0; i < codes.size(); i += 4, in += channels) {
-    codes[i] = encode(in[0]);
-    codes[i + 1] = channels > 1 ? encode(in[1]) : codes[i];
-    codes[i + 2] = channels > 2 ? encode(in[2]) : (channels == 1 ? codes[i] : uint8_t(0));
-    const float alpha = channels == 4 ? (in[3] > 0 ? std::min(in[3], 1.0f) : 0.0f) : 1.0f;
-    codes[i + 3] = uint8_t(std::lround(alpha * 255.0));
-    opaque &= codes[i + 3] == 255;
+  const float* in = image.pixels.data() + size_t(begin) * image.width * channels;
+  uint8_t leastAlpha = 255;
+  for (size_t left = size_t(end - begin) * image.width; left > 0; --left, in += channels, out += 4) {
+    out[0] = encode(in[0]);
+    out[1] = channels > 1 ? encode(in[1]) : out[0];
+    out[2] = channels > 2 ? encode(in[2]) : (channels == 1 ? out[0] : uint8_t(0));
+    out[3] = channels == 4 ? alphaCode(in[3]) : uint8_t(255);
+    leastAlpha = std::min(leastAlpha, out[3]);
   }
-  return codes;
+  return leastAlpha == 255;
 }
 
 }  // namespace scumble::film

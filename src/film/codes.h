@@ -15,7 +15,8 @@ void encodeRow(const Image& image, uint32_t y, uint32_t padded, uint8_t* out);
 // All rows, red, green and blue.
 std::vector<uint8_t> rgbOverBlack(const Image& image);
 
-// Red, green, blue and straight alpha, as writePng has them. `opaque`: whether alpha is 255 everywhere.
-std::vector<uint8_t> rgbaOf(const Image& image, bool& opaque);
+// Rows `begin` to `end`, without the latter, as red, green, blue and straight alpha, four a pixel. Whether
+// all of them are opaque.
+bool encodeRgba(const Image& image, uint32_t begin, uint32_t end, uint8_t* out);
 
 }  // namespace scumble::film

@@ -213,6 +213,8 @@ Difference compareOver(const Image& a, const Image& b, double background) {
   }
   Difference difference;
   const size_t pixels = seen[0].plane[0].size();
+  const auto tilesOf = [](uint32_t side) { return (side + kDifferenceTile - 1) / kDifferenceTile; };
+  std::vector<double> sums(size_t(tilesOf(a.width)) * tilesOf(a.height));
   for (size_t i = 0; i < pixels; ++i) {
     Color lab[2];
     for (int k = 0; k < 2; ++k) {
@@ -227,7 +229,12 @@ Difference compareOver(const Image& a, const Image& b, double background) {
     const double value = byColor == 0 ? 0 : std::pow(byColor, 1 - byFeature);
     difference.mean += value / double(pixels);
     difference.max = std::max(difference.max, value);
+    const size_t tileRow = i / a.width / kDifferenceTile, tileColumn = i % a.width / kDifferenceTile;
+    sums[tileRow * tilesOf(a.width) + tileColumn] += value;
   }
+  // Tiles that the border cuts count as if they were whole: a few pixels are no place.
+  const double whole = double(kDifferenceTile) * kDifferenceTile;
+  difference.tile = std::min(1.0, *std::max_element(sums.begin(), sums.end()) / whole);
   return difference;
 }
 
@@ -241,11 +248,12 @@ bool hasAlpha(const Image& image) {
 }  // namespace
 
 Difference comparePictures(const Image& a, const Image& b) {
-  if (a.width != b.width || a.height != b.height || a.pixels.empty() || b.pixels.empty()) return {1, 1};
+  if (a.width != b.width || a.height != b.height || a.pixels.empty() || b.pixels.empty()) return {1, 1, 1};
   Difference difference = compareOver(a, b, 0);
   if (hasAlpha(a) || hasAlpha(b)) {
     const Difference overWhite = compareOver(a, b, 1);
     difference.mean = std::max(difference.mean, overWhite.mean);
+    difference.tile = std::max(difference.tile, overWhite.tile);
     difference.max = std::max(difference.max, overWhite.max);
   }
   return difference;

@@ -7,10 +7,13 @@
 namespace scumble::film {
 
 // 0: looks the same; 1: as different as green and blue (black against white: 0.96). For golden tests: `mean`
-// catches what is everywhere a little, `max` what is wrong in one place.
+// catches what is everywhere a little, `tile` what is wrong in one place, `max` tells how wrong.
 struct Difference {
-  double mean = 0, max = 0;
+  double mean = 0;
+  double tile = 0;  // the largest mean of a tile of kDifferenceTile pixels a side
+  double max = 0;
 };
+constexpr uint32_t kDifferenceTile = 16;
 
 // FLIP (Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", HPG 2020) for pictures seen
 // at 67 pixels per degree. In every pixel

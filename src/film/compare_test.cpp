@@ -107,6 +107,38 @@ TEST(Compare, extremesReachTheirDocumentedValues) {
   EXPECT_NEAR(comparePictures(flat(0, 0, 0), flat(1, 1, 1)).mean, 0.96, 0.01);
 }
 
+// What fills one tile and leaves the rest as it is: the mean hardly sees it.
+TEST(Compare, theWorstTileFindsWhatIsWrongInOnePlace) {
+  const uint32_t tiles = kSize / kDifferenceTile;
+  const Image gray = flat(0.3f, 0.3f, 0.3f);
+  for (const uint32_t column : {0u, 3u, tiles - 1})
+    for (const uint32_t row : {0u, 5u, tiles - 1}) {
+      Image spotted = gray;
+      for (uint32_t y = 0; y < kDifferenceTile; ++y)
+        for (uint32_t x = 0; x < kDifferenceTile; ++x) {
+          const size_t at = (size_t(row * kDifferenceTile + y) * kSize + column * kDifferenceTile + x) * 3;
+          spotted.pixels[at] = spotted.pixels[at + 2] = 1, spotted.pixels[at + 1] = 0;
+        }
+      const Difference difference = comparePictures(gray, spotted);
+      EXPECT_LT(difference.mean, 0.03) << column << " " << row;
+      EXPECT_GT(difference.tile, 0.7) << column << " " << row;
+    }
+  // An even change is as large in each tile as in the mean.
+  const Difference even = comparePictures(gray, flat(0.4f, 0.3f, 0.3f));
+  EXPECT_NEAR(even.tile, even.mean, 1e-6);
+}
+
+TEST(Compare, tilesThatTheBorderCutsCountByTheirArea) {
+  const auto grays = [](float value) { return Image{20, 16, {"Y"}, std::vector<float>(20 * 16, value)}; };
+  Image right = grays(0.2f);
+  for (size_t y = 0; y < 16; ++y)
+    for (size_t x = 16; x < 20; ++x) right.pixels[y * 20 + x] = 1;
+  const double whole = comparePictures(grays(0.2f), grays(1)).mean;
+  const double tile = comparePictures(grays(0.2f), right).tile;
+  EXPECT_LT(tile, 0.5 * whole);
+  EXPECT_GT(tile, 0.1 * whole);
+}
+
 TEST(Compare, differentSizesDifferCompletely) {
   const Image small{1, 1, {"R", "G", "B"}, {0, 0, 0}};
   EXPECT_EQ(comparePictures(scene(0), small).mean, 1);
@@ -118,6 +150,14 @@ TEST(Compare, alphaIsSeenWhateverTheColour) {
   EXPECT_GT(comparePictures(solid, clear).mean, 0.5);
   const Image white{1, 1, {"R", "G", "B", "A"}, {1, 1, 1, 0}};
   EXPECT_LT(comparePictures(clear, white).mean, 1e-4);  // colours that nobody sees
+  // Over black nothing differs: every number is that over white.
+  Image tile{kDifferenceTile, kDifferenceTile, {"R", "G", "B", "A"}, {}}, hole = tile;
+  tile.pixels.assign(4 * kDifferenceTile * kDifferenceTile, 0.0f), hole.pixels = tile.pixels;
+  for (size_t i = 3; i < tile.pixels.size(); i += 4) tile.pixels[i] = 1;
+  const Difference cut = comparePictures(tile, hole);
+  EXPECT_GT(cut.mean, 0.5);
+  EXPECT_GT(cut.tile, 0.5);
+  EXPECT_GT(cut.max, 0.5);
 }
 
 }  // namespace

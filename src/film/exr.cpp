@@ -24,9 +24,9 @@
 #include <stdexcept>
 #include <thread>
 
+#include "base/whole_file.h"
 #include "film/checks.h"
 #include "film/cryptomatte.h"
-#include "film/whole_file.h"
 #include "scumble/image.h"
 
 namespace scumble {
@@ -36,7 +36,7 @@ constexpr float kLargestHalf = 65504;
 
 class StreamToWholeFile : public Imf::OStream {
  public:
-  StreamToWholeFile(film::WholeFile* file, const char* name) : OStream(name), file_(file) {}
+  StreamToWholeFile(WholeFile* file, const char* name) : OStream(name), file_(file) {}
   void write(const char bytes[], int size) override {
     file_->write(bytes, size_t(size));
     // Stops the encoder; the reason is kept in the file.
@@ -46,7 +46,7 @@ class StreamToWholeFile : public Imf::OStream {
   void seekp(uint64_t position) override { file_->seek(position); }
 
  private:
-  film::WholeFile* file_;
+  WholeFile* file_;
 };
 
 // The views in the order of their appearance, but `left` first where it is among them.
@@ -165,7 +165,7 @@ Status addLayer(const std::string& path, const ImageLayer& layer, const Imf::Str
 }
 
 Status writeExrThrowing(const std::string& path, const std::vector<ImageLayer>& layers,
-                        const ExrOptions& options, film::WholeFile& file) {
+                        const ExrOptions& options, WholeFile& file) {
   const int width = int(layers[0].image->width), height = int(layers[0].image->height);
   Imf::Header header(width, height);
   header.compression() =
@@ -212,7 +212,7 @@ Status writeExr(const std::string& path, const std::vector<ImageLayer>& layers, 
   try {
     if (const std::string problem = problemWith(layers, options); !problem.empty())
       return misfit(path, problem);
-    film::WholeFile file(path);
+    WholeFile file(path);
     if (!file.ok()) return file.commit();
     try {
       return writeExrThrowing(path, layers, options, file);

@@ -12,13 +12,11 @@
 #include <cstring>
 #include <limits>
 
-#include "film/test_folder.h"
+#include "base/test_folder.h"
 #include "scumble/image.h"
 
 namespace scumble {
 namespace {
-
-using film::TestFolder;
 
 Image pattern(uint32_t width, uint32_t height, std::vector<std::string> channels, float first = 0) {
   Image image{width, height, std::move(channels), {}};
@@ -300,10 +298,10 @@ TEST(Exr, otherProgramsReadIt) {
     }
     const std::string said = folder.file("said");
     ASSERT_EQ(system((std::string(reader.command) + " '" + path + "' >'" + said + "' 2>&1").c_str()), 0)
-        << film::contentOf(said);
+        << contentOf(said);
     for (const char* expected : reader.says)
-      EXPECT_NE(film::contentOf(said).find(expected), std::string::npos)
-          << reader.program << " does not say: " << expected << "\nbut: " << film::contentOf(said);
+      EXPECT_NE(contentOf(said).find(expected), std::string::npos)
+          << reader.program << " does not say: " << expected << "\nbut: " << contentOf(said);
   }
   if (missing > 0) GTEST_SKIP() << "exrheader or oiiotool is not installed";
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "film/whole_file.h"
+#include "base/whole_file.h"
 #include "scumble/film.h"
 
 namespace scumble::film {

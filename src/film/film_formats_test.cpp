@@ -2,34 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
+#include "base/test_folder.h"
 #include "film/srgb.h"
-#include "film/test_folder.h"
+#include "film/test_ffmpeg.h"
 #include "scumble/film.h"
 
 namespace scumble {
 namespace {
 
-using film::contentOf;
-using film::TestFolder;
-
-std::string printedBy(const std::string& command) {
-  FILE* pipe = popen(command.c_str(), "r");
-  std::string output;
-  char bytes[4096];
-  while (const size_t count = fread(bytes, 1, sizeof bytes, pipe)) output.append(bytes, count);
-  EXPECT_EQ(pclose(pipe), 0) << command;
-  return output;
-}
-
 class FilmFormats : public testing::TestWithParam<FilmFormat> {
  protected:
-  void SetUp() override {
-    if (system("ffmpeg -version >/dev/null 2>&1 && ffprobe -version >/dev/null 2>&1") != 0)
-      GTEST_SKIP() << "ffmpeg or ffprobe is not installed";
-  }
+  void SetUp() override { NEEDS_FFMPEG(); }
   FilmOptions options(uint32_t width, uint32_t height) const {
     FilmOptions result;
     result.format = GetParam();
@@ -37,8 +21,8 @@ class FilmFormats : public testing::TestWithParam<FilmFormat> {
     return result;
   }
   std::string facts(const std::string& entries) const {
-    return printedBy("ffprobe -v error -count_frames -select_streams v -of default=nw=1 -show_entries " +
-                     entries + " '" + path_ + "'");
+    return film::outputOf("ffprobe -v error -count_frames -select_streams v -of default=nw=1 -show_entries " +
+                          entries + " '" + path_ + "'");
   }
   void write(const FilmOptions& given, int frames, float alpha = 1) {
     Result<std::unique_ptr<FilmWriter>> writer = FilmWriter::create(path_, given);
@@ -77,7 +61,7 @@ TEST_P(FilmFormats, coloursComeBackAndAlphaIsOverBlack) {
   for (const float alpha : {1.0f, 0.5f}) {
     write(given, 2, alpha);
     const std::string codes =
-        printedBy("ffmpeg -v error -i '" + path_ + "' -vsync passthrough -f rawvideo -pix_fmt rgb24 -");
+        film::outputOf("ffmpeg -v error -i '" + path_ + "' -vsync passthrough -f rawvideo -pix_fmt rgb24 -");
     ASSERT_EQ(codes.size(), size_t(2 * 32 * 32 * 3));
     for (size_t i = 0; i < codes.size(); i += 3 * 7) {
       EXPECT_NEAR(uint8_t(codes[i + 1]), 255 * film::srgbFromLinear(0.3 * alpha), 8) << i;

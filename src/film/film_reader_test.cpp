@@ -5,7 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "film/test_folder.h"
+#include "base/test_folder.h"
+#include "film/test_ffmpeg.h"
 #include "scumble/film.h"
 
 namespace scumble::film {
@@ -20,10 +21,7 @@ float levelOf(int frame) {
 
 class FilmReaderTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    if (system("ffmpeg -version >/dev/null 2>&1 && ffprobe -version >/dev/null 2>&1") != 0)
-      GTEST_SKIP() << "ffmpeg is not installed";
-  }
+  void SetUp() override { NEEDS_FFMPEG(); }
 
   void write(double fps) {
     FilmOptions options;

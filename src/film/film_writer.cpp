@@ -11,12 +11,12 @@
 #include <optional>
 #include <system_error>
 
+#include "base/passing_file.h"
+#include "base/whole_file.h"
 #include "film/checks.h"
 #include "film/child_process.h"
 #include "film/ffmpeg.h"
 #include "film/film_format.h"
-#include "film/passing_file.h"
-#include "film/whole_file.h"
 #include "scumble/film.h"
 
 namespace scumble {
@@ -76,7 +76,7 @@ struct FilmWriter::State {
 
   std::string path;
   FilmOptions options;
-  film::WholeFile file;
+  WholeFile file;
   int scratch = -1;  // where ffmpeg writes to; it has no name
   film::ChildProcess ffmpeg;
   uint64_t frames = 0;
@@ -107,7 +107,7 @@ Error FilmWriter::State::encoderFailed(const std::string& how) {
 
 Status FilmWriter::State::start() {
   if (!file.ok()) return file.commit();
-  film::PassingFile passing = film::openPassingFile(film::folderOf(path));
+  PassingFile passing = openPassingFile(folderOf(path));
   const int code = passing.descriptor < 0 ? errno : 0;
   if (!passing.name.empty()) unlink(passing.name.c_str());
   scratch = passing.descriptor;

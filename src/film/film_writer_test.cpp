@@ -9,34 +9,16 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "base/test_folder.h"
 #include "film/srgb.h"
-#include "film/test_folder.h"
+#include "film/test_ffmpeg.h"
 #include "scumble/film.h"
 
 namespace scumble {
 namespace {
 
-using film::contentOf;
 using film::linearFromSrgb8;
-using film::putContent;
-using film::TestFolder;
-
-// What a program writes on its standard output.
-std::string outputOf(const std::string& command) {
-  FILE* pipe = popen(command.c_str(), "r");
-  std::string output;
-  char bytes[4096];
-  while (const size_t count = fread(bytes, 1, sizeof bytes, pipe)) output.append(bytes, count);
-  EXPECT_EQ(pclose(pipe), 0) << command;
-  return output;
-}
-
-bool hasFfmpeg() {
-  static const bool has = system("ffmpeg -version >/dev/null 2>&1 && ffprobe -version >/dev/null 2>&1") == 0;
-  return has;
-}
-#define NEEDS_FFMPEG() \
-  if (!hasFfmpeg()) GTEST_SKIP() << "ffmpeg or ffprobe is not installed"
+using film::outputOf;
 
 std::string facts(const std::string& film, const std::string& entries) {
   return outputOf("ffprobe -v error -select_streams v -of default=nw=1 -show_entries " + entries + " '" +

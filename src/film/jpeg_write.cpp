@@ -2,13 +2,11 @@
 #include <csetjmp>
 #include <cstdio>
 #include <cstdlib>
-#include <exception>
 // jpeglib.h needs stdio.h before it.
 #include <jpeglib.h>
 
-#include "film/checks.h"
 #include "film/codes.h"
-#include "film/whole_file.h"
+#include "film/lossy_write.h"
 #include "scumble/image.h"
 
 namespace scumble {
@@ -68,31 +66,17 @@ bool encode(JpegEncoder& encoder, const uint8_t* codes, uint32_t width, uint32_t
   return true;
 }
 
-Error wrong(const std::string& path, ErrorKind kind, std::string problem, std::string advice) {
-  return {kind, path, 0, "", std::move(problem), std::move(advice)};
-}
-
 }  // namespace
 
 Status writeJpeg(const std::string& path, const Image& image, int quality) {
-  try {
-    if (std::string problem = film::problemWith(image); !problem.empty())
-      return wrong(path, ErrorKind::internal, std::move(problem), "please report this");
-    if (quality < 1 || quality > 100)
-      return wrong(path, ErrorKind::usage, "the quality " + std::to_string(quality) + " is not from 1 to 100",
-                   "higher is better and larger");
-    if (image.width > JPEG_MAX_DIMENSION || image.height > JPEG_MAX_DIMENSION)
-      return wrong(path, ErrorKind::outputNotWritten, "is larger than a JPEG can be", "write a PNG");
+  const film::Lossy jpeg{1, "higher is better and larger", "JPEG", JPEG_MAX_DIMENSION};
+  return film::writeLossy(path, image, quality, jpeg, [&](WholeFile& file) {
     const std::vector<uint8_t> codes = film::rgbOverBlack(image);
-    film::WholeFile file(path);
     JpegEncoder encoder;
-    if (!encode(encoder, codes.data(), image.width, image.height, quality)) throw std::bad_alloc();
+    if (!encode(encoder, codes.data(), image.width, image.height, quality)) return false;
     file.write(encoder.bytes, encoder.size);
-    return file.commit();
-  } catch (const std::exception&) {
-    return wrong(path, ErrorKind::outputNotWritten, "cannot be written: not enough memory",
-                 "choose a smaller size");
-  }
+    return true;
+  });
 }
 
 }  // namespace scumble

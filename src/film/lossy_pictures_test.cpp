@@ -3,16 +3,12 @@
 
 #include <cmath>
 
+#include "base/test_folder.h"
 #include "film/srgb.h"
-#include "film/test_folder.h"
 #include "scumble/image.h"
 
 namespace scumble {
 namespace {
-
-using film::contentOf;
-using film::putContent;
-using film::TestFolder;
 
 // Soft gradients, with an edge across; alpha fades from left to right.
 Image picture(uint32_t width, uint32_t height, bool alpha) {

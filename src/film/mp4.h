@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "film/whole_file.h"
+#include "base/whole_file.h"
 #include "scumble/film.h"
 
 namespace scumble::film {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "film/test_folder.h"
+#include "base/test_folder.h"
 
 namespace scumble::film {
 namespace {

@@ -1,7 +1,7 @@
 // Pictures of every format, and photographs that lie on their side.
 #include <gtest/gtest.h>
 
-#include "film/test_folder.h"
+#include "base/test_folder.h"
 #include "scumble/image.h"
 
 namespace scumble::film {

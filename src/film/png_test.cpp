@@ -6,17 +6,14 @@
 #include <cstring>
 #include <limits>
 
+#include "base/test_folder.h"
 #include "film/srgb.h"
-#include "film/test_folder.h"
 #include "scumble/image.h"
 
 namespace scumble {
 namespace {
 
-using film::contentOf;
 using film::linearFromSrgb8;
-using film::putContent;
-using film::TestFolder;
 
 // Every sRGB code in turn, so that what comes back must be exactly what went in.
 Image codes(uint32_t width, uint32_t height, std::vector<std::string> channels, bool opaque) {
@@ -74,11 +71,17 @@ TEST(Png, anyNumberOfChannelsGivesAPicture) {
                {{half, quarter, 1}, {half, quarter, 1, 1}},
                {{half, quarter, 1, 0}, {half, quarter, 1, 0}},
                {{half, quarter, 1, 0, 0}, {half, quarter, 1, 1}}};
+  // Twice, so that after a pixel's channels come the other's.
+  const auto twice = [](const std::vector<float>& pixel) {
+    std::vector<float> both = pixel;
+    both.insert(both.end(), pixel.begin(), pixel.end());
+    return both;
+  };
   for (const auto& c : cases) {
-    ASSERT_TRUE(writePng(path, {1, 1, std::vector<std::string>(c.in.size(), "x"), c.in}).ok());
+    ASSERT_TRUE(writePng(path, {2, 1, std::vector<std::string>(c.in.size(), "x"), twice(c.in)}).ok());
     const Result<Image> back = readPng(path);
     ASSERT_TRUE(back.ok());
-    EXPECT_EQ(back->pixels, c.out) << c.in.size();
+    EXPECT_EQ(back->pixels, twice(c.out)) << c.in.size();
   }
 }
 
@@ -90,6 +93,21 @@ TEST(Png, valuesThatAreNoColoursAreClamped) {
   ASSERT_TRUE(
       writePng(path, {2, 1, {"R", "G", "B", "A"}, {nan, -1, infinity, nan, 0, 2, -infinity, 5}}).ok());
   EXPECT_EQ(readPng(path)->pixels, (std::vector<float>{0, 0, 1, 0, 0, 1, 0, 1}));
+}
+
+// To the nearest code, not the one below.
+TEST(Png, alphaIsRounded) {
+  TestFolder folder;
+  const std::string path = folder.file("a.png");
+  Image image{2 * 255, 1, {"R", "G", "B", "A"}, {}};
+  for (int code = 0; code < 255; ++code)
+    for (const double beyond : {0.4, 0.6})
+      image.pixels.insert(image.pixels.end(), {1, 1, 1, float((code + beyond) / 255)});
+  ASSERT_TRUE(writePng(path, image).ok());
+  const Result<Image> back = readPng(path);
+  ASSERT_TRUE(back.ok()) << back.error().message();
+  for (uint32_t x = 0; x < image.width; ++x)
+    EXPECT_NEAR(back->at(x, 0, 3) * 255, double(x / 2 + x % 2), 1e-4) << x;
 }
 
 TEST(Png, sameBytesEveryTime) {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <cmath>
 #include <cstring>
 #include <functional>
 #include <memory>
@@ -14,15 +13,13 @@
 #include <system_error>
 #include <thread>
 
+#include "base/whole_file.h"
 #include "film/checks.h"
-#include "film/srgb.h"
-#include "film/whole_file.h"
+#include "film/codes.h"
 #include "scumble/image.h"
 
 namespace scumble {
 namespace {
-
-using film::SrgbEncoder;
 
 constexpr size_t kStripeBytes = 256 << 10;  // large enough that cutting costs no compression to speak of
 
@@ -31,11 +28,6 @@ constexpr size_t kStripeBytes = 256 << 10;  // large enough that cutting costs n
 // makes smaller files of them (0.6 to 0.9 times, measured on rendered scenes).
 constexpr int kLevel = 1;
 constexpr int kStrategy = Z_RLE;
-
-uint8_t alphaCode(float alpha) {
-  if (!(alpha > 0)) return 0;
-  return alpha >= 1 ? 255 : uint8_t(std::lround(alpha * 255.0));
-}
 
 // Runs work(0) ... work(count - 1) on all processors. `work` must not throw.
 void forEachStripe(uint32_t count, const std::function<void(uint32_t)>& work) {
@@ -53,24 +45,6 @@ void forEachStripe(uint32_t count, const std::function<void(uint32_t)>& work) {
   }
   loop();
   for (std::thread& helper : helpers) helper.join();
-}
-
-// RGBA, 8 bit. One channel is grey, two are red and green; channels after the third are not colours, but the
-// fourth of exactly four is alpha.
-void encodeRows(const Image& image, uint32_t begin, uint32_t end, uint8_t* out, bool* opaque) {
-  const SrgbEncoder& encode = SrgbEncoder::instance();
-  const size_t channels = image.channels.size();
-  const float* in = image.pixels.data() + size_t(begin) * image.width * channels;
-  out += size_t(begin) * image.width * 4;
-  uint8_t leastAlpha = 255;
-  for (size_t left = size_t(end - begin) * image.width; left > 0; --left, in += channels, out += 4) {
-    out[0] = encode(in[0]);
-    out[1] = channels > 1 ? encode(in[1]) : out[0];
-    out[2] = channels > 2 ? encode(in[2]) : (channels == 1 ? out[0] : 0);
-    out[3] = channels == 4 ? alphaCode(in[3]) : 255;
-    leastAlpha = std::min(leastAlpha, out[3]);
-  }
-  *opaque = leastAlpha == 255;
 }
 
 // Filter type 1, "Sub": one for all rows, as trying several takes longer than it saves.
@@ -127,7 +101,7 @@ struct Part {
   const void* bytes;
   size_t size;
 };
-void writeChunk(film::WholeFile& file, const char* type, std::initializer_list<Part> parts) {
+void writeChunk(WholeFile& file, const char* type, std::initializer_list<Part> parts) {
   size_t size = 0;
   uLong crc = crc32(0, reinterpret_cast<const Bytef*>(type), 4);
   for (const Part& part : parts) {
@@ -155,7 +129,7 @@ Status writePngThrowing(const std::string& path, const Image& image) {
   if (const std::string problem = film::problemWith(image); !problem.empty())
     return failure(path, ErrorKind::usage, problem);
   // A place that cannot be written to is found before any work is done.
-  film::WholeFile file(path);
+  WholeFile file(path);
   if (!file.ok()) return file.commit();
 
   // Encode, and learn whether alpha is needed.
@@ -170,7 +144,8 @@ Status writePngThrowing(const std::string& path, const Image& image) {
     stripes[i].endRow = std::min(height, stripes[i].firstRow + stripeRows);
   }
   forEachStripe(uint32_t(stripes.size()), [&](uint32_t i) {
-    encodeRows(image, stripes[i].firstRow, stripes[i].endRow, encoded.data.get(), &stripes[i].opaque);
+    stripes[i].opaque = film::encodeRgba(image, stripes[i].firstRow, stripes[i].endRow,
+                                         encoded.data.get() + rowBytes * stripes[i].firstRow);
   });
   const bool opaque = std::all_of(stripes.begin(), stripes.end(), [](const Stripe& s) { return s.opaque; });
 

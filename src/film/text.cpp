@@ -1,10 +1,10 @@
-#include "film/whole_file.h"
+#include "base/whole_file.h"
 #include "scumble/image.h"
 
 namespace scumble {
 
 Status writeText(const std::string& path, const std::string& text) {
-  film::WholeFile file(path);
+  WholeFile file(path);
   file.write(text.data(), text.size());
   return file.commit();
 }

@@ -1,12 +1,8 @@
 // WebP files, by libwebp. The format says of itself that values are sRGB.
 #include <webp/encode.h>
 
-#include <exception>
-#include <new>
-
-#include "film/checks.h"
 #include "film/codes.h"
-#include "film/whole_file.h"
+#include "film/lossy_write.h"
 #include "scumble/image.h"
 
 namespace scumble {
@@ -23,10 +19,6 @@ struct Encoder {
     WebPMemoryWriterClear(&written);
   }
 };
-
-Error wrong(const std::string& path, ErrorKind kind, std::string problem, std::string advice) {
-  return {kind, path, 0, "", std::move(problem), std::move(advice)};
-}
 
 bool encode(Encoder& encoder, const std::vector<uint8_t>& rgba, bool opaque, uint32_t width, uint32_t height,
             int quality) {
@@ -52,25 +44,15 @@ bool encode(Encoder& encoder, const std::vector<uint8_t>& rgba, bool opaque, uin
 }  // namespace
 
 Status writeWebp(const std::string& path, const Image& image, int quality) {
-  try {
-    if (std::string problem = film::problemWith(image); !problem.empty())
-      return wrong(path, ErrorKind::internal, std::move(problem), "please report this");
-    if (quality < 0 || quality > 100)
-      return wrong(path, ErrorKind::usage, "the quality " + std::to_string(quality) + " is not from 0 to 100",
-                   "higher is better and larger, 100 is lossless");
-    if (image.width > WEBP_MAX_DIMENSION || image.height > WEBP_MAX_DIMENSION)
-      return wrong(path, ErrorKind::outputNotWritten, "is larger than a WebP can be", "write a PNG");
-    bool opaque = true;
-    const std::vector<uint8_t> rgba = film::rgbaOf(image, opaque);
-    film::WholeFile file(path);
+  const film::Lossy webp{0, "higher is better and larger, 100 is lossless", "WebP", WEBP_MAX_DIMENSION};
+  return film::writeLossy(path, image, quality, webp, [&](WholeFile& file) {
+    std::vector<uint8_t> rgba(size_t(image.width) * image.height * 4);
+    const bool opaque = film::encodeRgba(image, 0, image.height, rgba.data());
     Encoder encoder;
-    if (!encode(encoder, rgba, opaque, image.width, image.height, quality)) throw std::bad_alloc();
+    if (!encode(encoder, rgba, opaque, image.width, image.height, quality)) return false;
     file.write(encoder.written.mem, encoder.written.size);
-    return file.commit();
-  } catch (const std::exception&) {
-    return wrong(path, ErrorKind::outputNotWritten, "cannot be written: not enough memory",
-                 "choose a smaller size");
-  }
+    return true;
+  });
 }
 
 }  // namespace scumble

@@ -1,4 +1,4 @@
-#include "film/whole_file.h"
+#include "base/whole_file.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -10,11 +10,11 @@
 #include <algorithm>
 #include <cstring>
 
-#include "film/passing_file.h"
-#include "film/test_folder.h"
+#include "base/passing_file.h"
+#include "base/test_folder.h"
 #include "scumble/image.h"
 
-namespace scumble::film {
+namespace scumble {
 namespace {
 
 // Both writers, so that every promise is tested for each of them.
@@ -196,4 +196,4 @@ TEST(PassingFile, aFailureSaysWhyAndLeavesNothing) {
 }
 
 }  // namespace
-}  // namespace scumble::film
+}  // namespace scumble

@@ -112,6 +112,13 @@ void GeometryStep::makePipelines(const SceneOnGpu& scene) {
     pipeline.sets = setLayouts_;
     made = gpu::Pipeline(*device_, pipeline);
   }
+
+  std::map<Variant, Chosen> byVariant;
+  for (const auto& [of, pipeline] : pipelines_) byVariant[of] = {&pipeline, uint32_t(byVariant.size())};
+  chosen_.assign(scene.draws().size(), {});
+  for (size_t i = 0; i < chosen_.size(); ++i)
+    if (const auto found = byVariant.find(variant(scene.draws()[i])); found != byVariant.end())
+      chosen_[i] = found->second;
 }
 
 void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resources, const SceneOnGpu& scene,
@@ -125,10 +132,11 @@ void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resource
   for (const Draw& draw : scene.draws())
     if (includes(scene, draw) && (draw.visible || desc_.what == GeometryStepDesc::What::casters))
       order.push_back(&draw);
+  const auto chosen = [&](const Draw* draw) { return chosen_[size_t(draw - scene.draws().data())]; };
   std::stable_sort(order.begin(), order.end(), [&](const Draw* a, const Draw* b) {
     if (a->alpha != b->alpha) return a->alpha < b->alpha;
     if (a->alpha == AlphaMode::blend) return a->distance > b->distance;
-    if (variant(*a) != variant(*b)) return variant(*a) < variant(*b);
+    if (chosen(a).rank != chosen(b).rank) return chosen(a).rank < chosen(b).rank;
     if (a->material != b->material) {
       const float nearA = scene.nearestOf(a->material), nearB = scene.nearestOf(b->material);
       return nearA != nearB ? nearA < nearB : a->material < b->material;
@@ -142,7 +150,7 @@ void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resource
   int cull = -1, front = -1;
   std::vector<uint32_t> offsetsOfMaterial(desc_.materialStrides.size());
   for (const Draw* draw : order) {
-    const gpu::Pipeline& pipeline = pipelines_.at(variant(*draw));
+    const gpu::Pipeline& pipeline = *chosen(draw).pipeline;
     if (bound != &pipeline) {
       pipeline.bind(commands);
       pipeline.bindSet(commands, 0, resources.frameSet());

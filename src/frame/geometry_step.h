@@ -93,6 +93,12 @@ class GeometryStep {
   uint32_t constant_ = 0;
   std::vector<MaterialVariant> materials_;
   std::map<Variant, gpu::Pipeline> pipelines_;
+  // For each draw of the scene: its pipeline, where it has one, and where that stands among all of them.
+  struct Chosen {
+    const gpu::Pipeline* pipeline = nullptr;
+    uint32_t rank = 0;
+  };
+  std::vector<Chosen> chosen_;
 };
 
 }  // namespace scumble::frame

@@ -94,7 +94,7 @@ const gpu::Pipeline& ImageStep::pipelineFor(const std::vector<uint32_t>& constan
     desc.constants = std::move(all);
     for (const gpu::ResourceId output : outputs_)
       desc.colorFormats.push_back(resources_->image(output).desc().format);
-    desc.viewMask = viewMask(configuration_);
+    desc.viewMask = configuration_.views().mask();
     desc.pushConstantBytes = 4;
     desc.sets = {resources_->frameLayout().handle(), inputLayout_.handle()};
     pipeline = gpu::Pipeline(frame_->device(), desc);
@@ -119,10 +119,10 @@ void ImageStep::record(VkCommandBuffer commands) const {
     }
     return;
   }
-  std::vector<Target> targets;
+  std::vector<gpu::Target> targets;
   for (const gpu::ResourceId id : outputs_)
-    targets.push_back({&resources_->image(id), nullptr, {}, Target::Before::undefined});
-  drawViews(commands, configuration_, targets, nullptr, [&](uint32_t firstView) {
+    targets.push_back({&resources_->image(id), nullptr, {}, gpu::Target::Before::undefined});
+  gpu::drawViews(commands, configuration_.views(), targets, nullptr, [&](uint32_t firstView) {
     for (size_t job = 0; job < jobs_.size(); ++job) {
       bind(job);
       jobs_[job]->push(commands, firstView);

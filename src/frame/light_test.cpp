@@ -96,5 +96,41 @@ TEST(PunctualLights, rangeAndCone) {
   }
 }
 
+// -- The key light
+
+// The scene's own shines along -Z of its node, whatever that node's scale.
+TEST(KeyLight, ofTheSceneComesFromItsNodesZ) {
+  auto scene = lampScene({lamp(scene::LightKind::point, 1), lamp(scene::LightKind::directional, 1)});
+  const glm::mat4 turned = glm::rotate(glm::scale(glm::mat4(1), glm::vec3(3)), 0.6f, {1, 0, 0});
+  const glm::vec3 got = keyLightDirection(scene, {}, {glm::mat4(1), turned});
+  // Z turned about X by 0.6: towards -y.
+  EXPECT_LT(glm::length(got - glm::vec3(0, -std::sin(0.6f), std::cos(0.6f))), 1e-6f);
+  // The look's where the look says so.
+  LightParams look;
+  look.source = 1.0;
+  EXPECT_GT(glm::length(keyLightDirection(scene, look, {glm::mat4(1), turned}) - got), 0.1f);
+}
+
+// Azimuth from the scene's default view, positive to its right, and elevation, in degrees.
+TEST(KeyLight, ofTheLookIsMeasuredFromTheDefaultView) {
+  LightParams look;
+  look.azimuth = 40, look.elevation = 25;
+  const double elevation = glm::radians(25.0);
+  for (const double camera : {0.0, 70.0, 200.0}) {
+    scene::SceneData scene;
+    scene.cameras.resize(1);
+    scene::Node node;
+    node.camera = 0;
+    node.local.rotation = glm::angleAxis(float(glm::radians(camera)), glm::vec3(0, 1, 0));
+    scene.nodes.push_back(node);
+    // It looks along its -Z: the eye is on the side of its Z.
+    const double azimuth = glm::radians(camera + 40);
+    const glm::dvec3 expected(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
+                              std::cos(azimuth) * std::cos(elevation));
+    const glm::dvec3 got(keyLightDirection(scene, look, {node.local.matrix()}));
+    EXPECT_LT(glm::length(got - expected), 1e-5) << "camera turned by " << camera;
+  }
+}
+
 }  // namespace
 }  // namespace scumble::frame

@@ -77,11 +77,6 @@ struct MetaTexture {
 
 enum MetaTextureContrast : int32_t { kContrastOff, kContrastVariance, kContrastHistogram };
 
-// A use, ready for the shaders. `channels`: which of the example's channels are read (1 for R, 2 for G, ...);
-// they decide what contrast `auto` means.
-MetaTexture metaTexture(const WarpMetaTextureParams& params, const ExampleTexture& example, uint32_t channels,
-                        float pixelScale, const glm::vec2& shift);
-
 // A use, ready for the shaders, and its textures.
 struct MetaTextureUse {
   MetaTexture meta;

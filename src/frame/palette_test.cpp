@@ -182,6 +182,10 @@ TEST(Palette, hueAndCurveOfTheShadow) {
   EXPECT_NEAR(dark.x, params.shadowValue * lit.x, 1e-3);
   EXPECT_NEAR(dark.y, -lit.y, 1e-3);
   EXPECT_NEAR(dark.z, -lit.z, 1e-3);
+  params.shadowHue = 90;  // from a towards b, from red towards yellow
+  dark = oklabFromLinear(shadowedColor(params, albedo));
+  EXPECT_NEAR(dark.y, -lit.z, 1e-3);
+  EXPECT_NEAR(dark.z, lit.y, 1e-3);
   params.shadowHue = 0, params.shadowCurve = 2;
   dark = oklabFromLinear(shadowedColor(params, albedo));
   EXPECT_NEAR(dark.x, params.shadowValue * lit.x * lit.x, 1e-3);
@@ -298,6 +302,12 @@ TEST(Ground, followsItsKnobAndTheScenesShape) {
   scene::SceneData tall, flat;
   tall.bounds.add({-1, 0, -1}), tall.bounds.add({1, 2, 1});
   flat.bounds.add({-10, 0, -10}), flat.bounds.add({10, 1, 10});
+  // A pier is low beside its longer side, whichever that is.
+  for (const glm::vec3& size : {glm::vec3(20, 1, 2), glm::vec3(2, 1, 20)}) {
+    scene::SceneData pier;
+    pier.bounds.add(glm::vec3(0.0f)), pier.bounds.add(size);
+    EXPECT_FALSE(hasGround(pier, {}, false));
+  }
   look::LookData look;
   EXPECT_TRUE(hasGround(tall, look, false));
   EXPECT_FALSE(hasGround(flat, look, false));

@@ -16,6 +16,7 @@
 #include "frame/slots.h"
 #include "gpu/frame_graph.h"
 #include "gpu/pipeline.h"
+#include "gpu/view_drawing.h"
 #include "look/look_data.h"
 #include "shading/frame.shared.h"
 
@@ -48,8 +49,10 @@ struct Configuration {
   bool plain = false;
   bool ocean = false;     // whether the ocean pass runs
   bool colorize = false;  // whether the colorize pass runs
-  bool multiview = true;  // all views at once; else one after the other
+  gpu::ViewDrawing viewDrawing = gpu::ViewDrawing::together;
   bool operator==(const Configuration&) const = default;
+
+  gpu::Views views() const { return {viewCount, viewDrawing}; }
 
   // Where the colours are that become the picture, and before the limit pass.
   Slot colors() const { return limit ? Slot::limit : colorsToLimit(); }
@@ -91,7 +94,7 @@ class FrameBuilder {
   gpu::ResourceId finalVertices() const { return finalVertices_; }
   // An image of the pass's own.
   gpu::ResourceId transient(std::string name, const gpu::ImageDesc& desc) {
-    return graph_.addImage(name, desc);
+    return graph_.addImage(std::move(name), desc);
   }
 
   void addStep(const std::string& name, std::vector<gpu::ResourceUse> uses, Record record);
@@ -138,28 +141,5 @@ class Pass {
   virtual void create(FrameBuilder& frame, const FrameResources& resources) = 0;
   virtual void update(const FrameInput&) {}
 };
-
-// What a pass draws into.
-struct Target {
-  const gpu::Image* image = nullptr;
-  const gpu::Image* resolve = nullptr;  // null where `image` has one sample
-  VkClearValue clear{};
-  enum class Before : uint8_t {
-    cleared,
-    undefined,
-    kept
-  } before = Before::cleared;  // what is in it to begin with
-};
-
-// The mask that pipelines for these views are made with.
-uint32_t viewMask(const Configuration& configuration);
-
-// Begins rendering into targets of one size, calls `draw` with the number of the first view that it draws,
-// and ends rendering: once for all views with multiview, else once for each.
-void drawViews(VkCommandBuffer commands, const Configuration& configuration, std::span<const Target> colors,
-               const Target* depth, const std::function<void(uint32_t firstView)>& draw);
-
-// The same for what is drawn once a frame, whatever the views.
-void drawOnce(VkCommandBuffer commands, const Target& depth, const std::function<void()>& draw);
 
 }  // namespace scumble::frame

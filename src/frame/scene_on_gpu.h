@@ -89,6 +89,8 @@ class SceneOnGpu {
   // Finds out what can be seen from the frame's views, and up to so many pixels beside them, and sorts what
   // is transparent; after pose().
   void look(const shared::FrameUniforms& uniforms, uint32_t viewCount, float marginPixels);
+  // The largest factor on a material's inflation that vertices of it have (attribute _WARP), at least 1.
+  float warpScaleOf(size_t material) const { return warpScaleOf_[material]; }
   // Metres from the first view to the nearest draw of a material.
   float nearestOf(uint32_t material) const { return nearestOf_[material]; }
   // Where it was a frame ago; after keepPrevious() only.
@@ -154,7 +156,8 @@ class SceneOnGpu {
   std::vector<MaterialUse> materialUses_;
   int groundMaterial_ = -1, oceanMaterial_ = -1;
   std::vector<Draw> draws_;
-  std::vector<float> nearestOf_;  // by material
+  std::vector<float> nearestOf_;
+  std::vector<float> warpScaleOf_;  // by material  // by material
   SceneColors colors_;
   scene::Bounds bounds_;
   std::deque<scene::PrimitiveExtent> extents_;  // moving_ refers to them

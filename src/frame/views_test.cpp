@@ -213,6 +213,8 @@ TEST(LookCamera, whoWins) {
   const Look lens = lookOf(R"({"camera": {"fov": 20, "roll": 90}})");
   expectClose(eyeOf(seen(scene, {}, lens)[0]), top);
   EXPECT_NEAR(fovOf(seen(scene, {}, lens)[0]), 20, 1e-3);
+  // Clockwise: what is up lies to the left.
+  expectClose(glm::mat3(seen(scene, {}, lens)[0].worldToEye) * glm::vec3(0, 1, 0), {-1, 0, 0});
   EXPECT_NEAR(fovOf(seen(scene, {}, {})[0]), glm::degrees(0.9f), 1e-3);
   EXPECT_NEAR(fovOf(seen(without, {}, {})[0]), 34, 1e-3);
   byName.verticalFov = 50.0f, byName.roll = 0.0f;

@@ -7,8 +7,9 @@
 #include <cstring>
 #include <optional>
 
+#include "gpu/cache_file.h"
 #include "gpu/pipeline.h"
-#include "gpu/pipeline_cache_file.h"
+#include "gpu/view_probe.h"
 
 namespace scumble::gpu {
 
@@ -56,6 +57,40 @@ bool hasSubgroups(VkPhysicalDevice physical) {
          (subgroups.supportedStages & kStages) == kStages;
 }
 
+// What frames ask of images, beyond what Vulkan promises for these formats. Empty where all is there.
+std::string missingOfFormats(VkPhysicalDevice physical) {
+  constexpr VkFormatFeatureFlags2 kDrawnAndRead =
+      VK_FORMAT_FEATURE_2_COLOR_ATTACHMENT_BIT | VK_FORMAT_FEATURE_2_SAMPLED_IMAGE_BIT;
+  constexpr VkFormatFeatureFlags2 kFiltered = VK_FORMAT_FEATURE_2_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
+  const struct {
+    VkFormat format;
+    VkFormatFeatureFlags2 features;
+    const char* lacking;
+  } needs[] = {
+      {VK_FORMAT_D32_SFLOAT,
+       VK_FORMAT_FEATURE_2_DEPTH_STENCIL_ATTACHMENT_BIT | VK_FORMAT_FEATURE_2_SAMPLED_IMAGE_BIT |
+           VK_FORMAT_FEATURE_2_SAMPLED_IMAGE_DEPTH_COMPARISON_BIT,
+       "comparison with 32 bit depth"},
+      {VK_FORMAT_R16G16B16A16_SFLOAT, kDrawnAndRead | kFiltered | VK_FORMAT_FEATURE_2_STORAGE_IMAGE_BIT,
+       "half floats as images of every kind"},
+      {VK_FORMAT_R32G32B32A32_SFLOAT, kDrawnAndRead, "32 bit floats as colours"},
+      {VK_FORMAT_R32G32B32A32_UINT, kDrawnAndRead, "32 bit integers as colours"},
+      {VK_FORMAT_R8G8B8A8_SRGB, kDrawnAndRead | kFiltered, "sRGB as colours"},
+      {VK_FORMAT_R16G16_SNORM, VK_FORMAT_FEATURE_2_VERTEX_BUFFER_BIT, "16 bit normals"},
+  };
+  for (const auto& need : needs) {
+    VkFormatProperties3 has{VK_STRUCTURE_TYPE_FORMAT_PROPERTIES_3};
+    VkFormatProperties2 properties{VK_STRUCTURE_TYPE_FORMAT_PROPERTIES_2, &has, {}};
+    vkGetPhysicalDeviceFormatProperties2(physical, need.format, &properties);
+    const VkFormatFeatureFlags2 there = has.optimalTilingFeatures | has.bufferFeatures;
+    if ((there & need.features) != need.features) return need.lacking;
+  }
+  return "";
+}
+
+// Targets that one step draws into: the facts pass has most.
+constexpr uint32_t kMostTargets = 8;
+
 bool hasGraphicsQueue(VkPhysicalDevice physical, uint32_t* family) {
   uint32_t count = 0;
   vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
@@ -68,13 +103,6 @@ bool hasGraphicsQueue(VkPhysicalDevice physical, uint32_t* family) {
       return true;
     }
   return false;
-}
-
-VkDriverId driverOf(VkPhysicalDevice physical) {
-  VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
-  VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, &driver};
-  vkGetPhysicalDeviceProperties2(physical, &properties);
-  return driver.driverID;
 }
 
 DeviceInfo describe(VkPhysicalDevice physical) {
@@ -101,6 +129,13 @@ DeviceInfo describe(VkPhysicalDevice physical) {
     });
     if (info.unusableBecause.empty() && !hasSubgroups(physical))
       info.unusableBecause = "it lacks arithmetic and quads of subgroups";
+    if (info.unusableBecause.empty())
+      if (const std::string missing = missingOfFormats(physical); !missing.empty())
+        info.unusableBecause = "it lacks " + missing;
+    const VkPhysicalDeviceLimits& limits = properties.properties.limits;
+    if (info.unusableBecause.empty() &&
+        std::min(limits.maxColorAttachments, limits.maxFragmentOutputAttachments) < kMostTargets)
+      info.unusableBecause = "it draws into fewer than " + std::to_string(kMostTargets) + " targets at once";
   }
   return info;
 }
@@ -262,7 +297,6 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
   VkPhysicalDeviceProperties properties;
   vkGetPhysicalDeviceProperties(device->physical_, &properties);
   device->limits_ = properties.limits;
-  device->isLlvmpipe_ = driverOf(device->physical_) == VK_DRIVER_ID_MESA_LLVMPIPE;
   device->supports4Samples_ = properties.limits.framebufferColorSampleCounts &
                               properties.limits.framebufferDepthSampleCounts & VK_SAMPLE_COUNT_4_BIT;
 
@@ -329,8 +363,11 @@ Device::~Device() {
 void Device::openPipelineCache(const std::string& folder) {
   VkPhysicalDeviceProperties properties;
   vkGetPhysicalDeviceProperties(physical_, &properties);
-  if (!folder.empty()) cacheFile_ = pipelineCacheFile(folder, properties);
-  const std::vector<char> data = folder.empty() ? std::vector<char>() : readPipelineCache(cacheFile_);
+  if (!folder.empty()) {
+    cacheFile_ = cacheFile(folder, "pipelines", properties);
+    viewsFile_ = cacheFile(folder, "views", properties);
+  }
+  const std::vector<char> data = folder.empty() ? std::vector<char>() : readCache(cacheFile_);
   cachedBytes_ = data.size();
   VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
   info.initialDataSize = data.size();
@@ -343,10 +380,26 @@ void Device::savePipelineCache() {
   size_t size = 0;
   if (vkGetPipelineCacheData(device_, pipelineCache_, &size, nullptr) != VK_SUCCESS || size == cachedBytes_)
     return;
+  // Mesa's CPU driver keeps no pipelines in it.
+  if (size <= sizeof(VkPipelineCacheHeaderVersionOne)) return;
   std::vector<char> data(size);
   if (vkGetPipelineCacheData(device_, pipelineCache_, &size, data.data()) != VK_SUCCESS) return;
-  writePipelineCache(cacheFile_, data);
+  writeCache(cacheFile_, data);
   cachedBytes_ = size;
+}
+
+std::optional<ViewDrawing> Device::viewDrawing(uint32_t samples) {
+  if (!viewDrawings_) {
+    const std::string driver = info_.name + ", " + info_.driver;
+    if (!viewsFile_.empty()) viewDrawings_ = readViewDrawings(viewsFile_, driver);
+    if (!viewDrawings_) {
+      viewDrawings_.emplace();
+      viewDrawings_->of1Sample = findViewDrawing(*this, 1);
+      if (supports4Samples_) viewDrawings_->of4Samples = findViewDrawing(*this, 4);
+      if (!viewsFile_.empty()) writeViewDrawings(viewsFile_, driver, *viewDrawings_);
+    }
+  }
+  return samples == 1 ? viewDrawings_->of1Sample : viewDrawings_->of4Samples;
 }
 
 void Device::waitForSubmissions() {

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,7 @@ namespace scumble::gpu {
 struct DeviceOptions {
   std::string choice;  // part of a name, a number in the order of listDevices(), "cpu", or empty: the best
   bool validation = false;  // core and synchronisation validation; noUsableGpu where the layer is absent
-  std::string cacheFolder;  // where compiled pipelines are kept; empty: nowhere
+  std::string cacheFolder;  // where compiled pipelines and what the probe found are kept; empty: nowhere
 };
 
 struct DeviceInfo {
@@ -34,6 +35,19 @@ Result<std::vector<DeviceInfo>> listDevices();
 Result<size_t> chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& choice);
 
 class PipelineStore;
+
+// How several views are drawn into the layers of an image, the fastest first.
+enum class ViewDrawing : uint8_t {
+  together,          // by multiview
+  separately,        // one view after the other
+  resolvedTogether,  // one view after the other; their samples are kept, and all layers resolved at once
+};
+
+// By the number of samples; nothing where no way is right.
+struct ViewDrawings {
+  std::optional<ViewDrawing> of1Sample, of4Samples;
+  bool operator==(const ViewDrawings&) const = default;
+};
 
 class Device {
  public:
@@ -55,9 +69,9 @@ class Device {
   // Whether image passes run faster as compute shaders. Measured: CPU drivers draw a full screen 1.45 times
   // faster than they dispatch it; servers' GPUs have few graphics units and dispatch up to 30 times faster.
   bool prefersCompute() const { return !info_.isCpu; }
-  // Whether several views can be drawn at once. Mesa 22.3's llvmpipe draws what covers whole tiles into the
-  // first layer, whatever the view: it gets one view at a time.
-  bool multiviewWorks() const { return !isLlvmpipe_; }
+  // How several views are drawn at this number of samples: found by drawing when it is first asked for, and
+  // kept beside the pipeline cache. Nothing where no way gives the right pictures.
+  std::optional<ViewDrawing> viewDrawing(uint32_t samples);
   bool hasTimestamps() const { return limits_.timestampComputeAndGraphics && limits_.timestampPeriod > 0; }
 
   // Records with `record` into a command buffer that was reset, and submits it; `done`, where it is not null,
@@ -90,14 +104,15 @@ class Device {
   uint32_t queueFamily_ = 0;
   VkCommandPool pool_ = VK_NULL_HANDLE;
   VkPipelineCache pipelineCache_ = VK_NULL_HANDLE;
-  std::string cacheFile_;
+  std::string cacheFile_, viewsFile_;
   size_t cachedBytes_ = 0;
   std::unique_ptr<PipelineStore> pipelines_;
   std::unique_ptr<MemoryPool> memory_;
   DeviceInfo info_;
   VkPhysicalDeviceLimits limits_{};
   int underWay_ = 0;
-  bool supports4Samples_ = false, isLlvmpipe_ = false;
+  bool supports4Samples_ = false;
+  std::optional<ViewDrawings> viewDrawings_;
   std::atomic<int> validationMessages_ = 0;
 };
 

@@ -126,4 +126,35 @@ std::vector<std::vector<Barrier>> FrameGraph::planBarriers() const {
   return plan;
 }
 
+void recordBarriers(VkCommandBuffer commands, std::span<const Barrier> barriers,
+                    const std::function<const Image*(ResourceId)>& imageOf) {
+  std::vector<VkImageMemoryBarrier2> images;
+  VkMemoryBarrier2 memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+  for (const Barrier& barrier : barriers) {
+    const Image* const image = imageOf(barrier.resource);
+    if (!image) {
+      memory.srcStageMask |= barrier.sourceStages, memory.srcAccessMask |= barrier.sourceAccess;
+      memory.dstStageMask |= barrier.targetStages, memory.dstAccessMask |= barrier.targetAccess;
+      continue;
+    }
+    VkImageMemoryBarrier2 out{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+    out.srcStageMask = barrier.sourceStages, out.srcAccessMask = barrier.sourceAccess;
+    out.dstStageMask = barrier.targetStages, out.dstAccessMask = barrier.targetAccess;
+    out.oldLayout = barrier.oldLayout, out.newLayout = barrier.newLayout;
+    out.srcQueueFamilyIndex = out.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    out.image = image->handle();
+    out.subresourceRange = {
+        VkImageAspectFlags(isDepthFormat(image->desc().format) ? VK_IMAGE_ASPECT_DEPTH_BIT
+                                                               : VK_IMAGE_ASPECT_COLOR_BIT),
+        0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
+    images.push_back(out);
+  }
+  VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+  dependency.imageMemoryBarrierCount = uint32_t(images.size());
+  dependency.pImageMemoryBarriers = images.data();
+  dependency.memoryBarrierCount = memory.dstStageMask != 0;
+  dependency.pMemoryBarriers = &memory;
+  if (!images.empty() || memory.dstStageMask != 0) vkCmdPipelineBarrier2(commands, &dependency);
+}
+
 }  // namespace scumble::gpu

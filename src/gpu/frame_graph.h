@@ -3,6 +3,8 @@
 // one.
 #pragma once
 
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -79,5 +81,9 @@ class FrameGraph {
   std::vector<ResourceInfo> resources_;
   std::vector<Step> steps_;
 };
+
+// Records the barriers before a step; `imageOf` gives null for buffers.
+void recordBarriers(VkCommandBuffer commands, std::span<const Barrier> barriers,
+                    const std::function<const Image*(ResourceId)>& imageOf);
 
 }  // namespace scumble::gpu

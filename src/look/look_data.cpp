@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "base/color_text.h"
-#include "base/nearest.h"
+#include "scumble/nearest.h"
 
 namespace scumble::look {
 
@@ -181,10 +181,6 @@ bool matches(const std::string& pattern, const std::string& name) {
   }
   while (p < pattern.size() && pattern[p] == '*') ++p;
   return p == pattern.size();
-}
-
-std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
-  return scumble::nearest(word, candidates);
 }
 
 Result<KnobRef> findKnob(const std::string& path, Targets targets) {

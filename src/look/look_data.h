@@ -107,9 +107,6 @@ struct KnobRef {
 Result<KnobRef> findKnob(const std::string& path, Targets targets = ~Targets(0));
 bool isKnob(const std::string& path);
 
-// The candidate nearest to `word`, or empty when none is near.
-std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
-
 // Reads a value as text ("0.4", "true", "exact", "#EADFC8", the name of a picture that is built in); the
 // problem is in Error::problem.
 Result<Value> parseValue(const ParamRow& row, const std::string& text);

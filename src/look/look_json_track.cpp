@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "look/look_json.h"
+#include "scumble/nearest.h"
 
 namespace scumble::look {
 

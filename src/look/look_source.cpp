@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "look/shipped_looks.h"
+#include "scumble/nearest.h"
 
 namespace scumble::look {
 

@@ -2,11 +2,10 @@
 #include "look/look_source.h"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <filesystem>
-#include <fstream>
 
+#include "base/test_folder.h"
 #include "look/setting_path.h"
 #include "look/test_rows.h"
 #include "scumble/look.h"
@@ -14,21 +13,8 @@
 namespace scumble {
 namespace {
 
-class LookExtends : public testing::Test {
+class LookExtends : public testing::Test, protected TestFolder {
  protected:
-  LookExtends() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "scumble look XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~LookExtends() override {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-  std::string put(const std::string& name, const std::string& content) {
-    std::filesystem::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name, std::ios::binary) << content;
-    return (folder_ / name).string();
-  }
   static Look mustLoad(const std::string& file) {
     const Result<Look> look = Look::load(file);
     EXPECT_TRUE(look.ok()) << look.error().message();
@@ -39,7 +25,6 @@ class LookExtends : public testing::Test {
     EXPECT_FALSE(look.ok()) << file;
     return look.ok() ? Error() : look.error();
   }
-  std::filesystem::path folder_;
 };
 
 float knob(const Look& look, const char* block, const char* row, const std::string* material = nullptr,
@@ -109,7 +94,7 @@ TEST_F(LookExtends, circlesNameTheirFiles) {
   for (const char* name : {"a.json -> ", "b.json -> ", "c.json -> "})
     EXPECT_NE(circle.problem.find(name), std::string::npos) << circle.message();
   // A link is the same file.
-  std::filesystem::create_symlink(folder_ / "d.json", folder_ / "link.json");
+  std::filesystem::create_symlink(file("d.json"), file("link.json"));
   EXPECT_NE(mustFail(put("d.json", R"({"extends": "link.json"})")).problem.find("each other"),
             std::string::npos);
 }
@@ -148,7 +133,7 @@ TEST_F(LookExtends, whatCannotBeExtended) {
   // A long way is cut off.
   for (int i = 0; i < 40; ++i)
     put("l" + std::to_string(i) + ".json", R"({"extends": "l)" + std::to_string(i + 1) + R"(.json"})");
-  EXPECT_NE(mustFail((folder_ / "l0.json").string()).problem.find("more than 16 looks"), std::string::npos);
+  EXPECT_NE(mustFail(file("l0.json")).problem.find("more than 16 looks"), std::string::npos);
 }
 
 // -- Comments and colours

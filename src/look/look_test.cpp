@@ -4,16 +4,15 @@
 #include "scumble/look.h"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "base/test_folder.h"
 #include "look/setting_path.h"
 #include "look/shipped_looks.h"
 #include "look/test_rows.h"
@@ -331,22 +330,7 @@ TEST(LookFile, hostileFilesAreErrors) {
   }
 }
 
-class LookLoad : public testing::Test {
- protected:
-  LookLoad() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "scumble look XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~LookLoad() override {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-  std::string put(const std::string& name, const std::string& content) {
-    std::ofstream(folder_ / name, std::ios::binary) << content;
-    return (folder_ / name).string();
-  }
-  std::filesystem::path folder_;
-};
+class LookLoad : public testing::Test, protected TestFolder {};
 
 TEST_F(LookLoad, aFileByItsPath) {
   const Result<Look> look = Look::load(put("mine.json", R"({"description": "Mine"})"));
@@ -357,9 +341,9 @@ TEST_F(LookLoad, aFileByItsPath) {
 }
 
 TEST_F(LookLoad, filesThatCannotBeReadAreUnusable) {
-  const std::string folder = (folder_ / "folder.json").string();
+  const std::string folder = file("folder.json");
   std::filesystem::create_directory(folder);
-  for (const std::string& path : {(folder_ / "absent.json").string(), std::string("absent.json"), folder,
+  for (const std::string& path : {file("absent.json"), std::string("absent.json"), folder,
                                   put("broken.json", "{"), put("empty.json", "")}) {
     const Result<Look> look = Look::load(path);
     ASSERT_FALSE(look.ok()) << path;
@@ -430,15 +414,6 @@ TEST(LookColor, srgbGoesThereAndBack) {
   EXPECT_EQ(look::linearFromSrgb(0xFFFFFF), glm::vec3(1.0f));
   EXPECT_NEAR(look::linearFromSrgb(0x808080).g, 0.2158605f, 1e-6f);
   EXPECT_EQ(look::srgbFromLinear({-1, 0.5f, 9}), 0x00BCFFu);
-}
-
-TEST(LookNearest, findsSlipsAndOnlySlips) {
-  const std::vector<std::string> words{"warp.amount", "warp.inflation", "blur.radius"};
-  EXPECT_EQ(look::nearest("warp.amont", words), "warp.amount");
-  EXPECT_EQ(look::nearest("blur.radii", words), "blur.radius");
-  EXPECT_EQ(look::nearest("zzzz", words), "");
-  EXPECT_EQ(look::nearest("", words), "");
-  EXPECT_EQ(look::nearest(std::string(100000, 'x'), words), "");
 }
 
 }  // namespace

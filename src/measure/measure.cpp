@@ -11,6 +11,7 @@
 #include "measure/cooccurrence.h"
 #include "measure/field.h"
 #include "measure/magnify.h"
+#include "measure/measurer.h"
 #include "measure/reprojection.h"
 #include "measure/statistics.h"
 
@@ -115,8 +116,8 @@ constexpr const char* kSheet = R"({"asset": {"version": "2.0"}, "scene": 0, "sce
 
 class Measurer {
  public:
-  Measurer(Renderer& renderer, const Scene& scene, const Look& look, const MeasureOptions& options)
-      : renderer_(renderer), scene_(scene), look_(look), options_(options) {}
+  Measurer(const Draw& draw, const Scene& scene, const Look& look, const MeasureOptions& options)
+      : draw_(draw), scene_(scene), look_(look), options_(options) {}
 
   Result<Measurements> run() {
     if (const Status status = frameScene(); !status) return status.error();
@@ -162,7 +163,7 @@ class Measurer {
     frame.aovs = std::move(aovs);
     frame.seed = options_.seed + uint32_t(seed);
     frame.previousViews = previous;
-    Result<Frame> rendered = renderer_.render(scene, look, 0, views, frame);
+    Result<Frame> rendered = draw_(scene, look, views, frame);
     if (rendered && options_.progress) options_.progress(++done_, total());
     return rendered;
   }
@@ -411,7 +412,7 @@ class Measurer {
          ratio(ours.stereo.warp.vectors, showerDoor.stereo.warp.vectors), 0.2}};
   }
 
-  Renderer& renderer_;
+  const Draw& draw_;
   const Scene& scene_;
   const Look& look_;
   const MeasureOptions& options_;
@@ -429,6 +430,11 @@ class Measurer {
 
 }  // namespace
 
+Result<Measurements> measuring::measureWith(const Draw& draw, const Scene& scene, const Look& look,
+                                            const MeasureOptions& options) {
+  return Measurer(draw, scene, look, options).run();
+}
+
 Result<Measurements> measure(Renderer& renderer, const Scene& scene, const Look& look,
                              const MeasureOptions& options) {
   if (scene.empty()) return usage("the scene is empty", "load one with Scene::load");
@@ -438,7 +444,9 @@ Result<Measurements> measure(Renderer& renderer, const Scene& scene, const Look&
                  "use 16x16 to 4096x4096");
   if (options.ipd && !(std::isfinite(*options.ipd) && *options.ipd > 0 && *options.ipd <= 1e6f))
     return usage("the distance between the eyes is not above zero", "give it in metres");
-  return Measurer(renderer, scene, look, options).run();
+  const Draw draw = [&](const Scene& drawn, const Look& with, const std::vector<View>& views,
+                        const RenderOptions& frame) { return renderer.render(drawn, with, 0, views, frame); };
+  return measureWith(draw, scene, look, options);
 }
 
 }  // namespace scumble

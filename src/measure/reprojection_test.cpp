@@ -94,5 +94,47 @@ TEST(Reprojection, emptyPixelsDoNotCount) {
   EXPECT_TRUE(places.valid[30 * kSize + 12]);
 }
 
+// A wall across the picture, a pixel of which covers `pixel` metres, in a parallel projection or at `depth`.
+Surface wallOf(float pixel, bool parallel, float depth) {
+  Surface surface{Field(16, 16, 3), Field(16, 16, 1), parallel ? pixel : pixel / depth, parallel};
+  for (size_t i = 0; i < surface.position.pixelCount(); ++i) {
+    surface.position.at(i)[0] = pixel * (float(i % 16) + 0.5f),
+    surface.position.at(i)[1] = pixel * float(i / 16);
+    *surface.depth.at(i) = depth;
+    surface.position.valid[i] = surface.depth.valid[i] = 1;
+  }
+  return surface;
+}
+bool isFollowed(const Surface& now, const Surface& earlier) {
+  Field still(16, 16, 2);
+  still.valid.assign(still.pixelCount(), 1);
+  return placesByMotion(still, now, earlier).valid[8 * 16 + 8];
+}
+
+TEST(Reprojection, pointsAreTheSameWithinTwoFootprints) {
+  for (const bool parallel : {false, true})
+    for (const float pixel : {0.01f, 5.0f}) {
+      const Surface now = wallOf(pixel, parallel, 40);
+      for (const auto& [footprints, same] : {std::pair(0.0f, true), {2.15f, true}, {2.25f, false}}) {
+        Surface earlier = now;
+        for (size_t i = 0; i < earlier.position.pixelCount(); ++i)
+          earlier.position.at(i)[2] += footprints * pixel;
+        EXPECT_EQ(isFollowed(now, earlier), same) << parallel << pixel << " " << footprints;
+      }
+    }
+}
+
+TEST(Reprojection, noEdgeIsAmongThePixelsOfTheKernel) {
+  // Pixel 8 at its centre takes 6 to 11 along each axis.
+  for (const bool parallel : {false, true})
+    for (int x = 0; x < 16; ++x)
+      for (const bool across : {false, true}) {
+        const Surface now = wallOf(0.1f, parallel, 40);
+        Surface earlier = now;
+        *earlier.depth.at(size_t(across ? 8 * 16 + x : x * 16 + 8)) += 30 * 0.1f;
+        EXPECT_EQ(isFollowed(now, earlier), x < 6 || x > 11) << x;
+      }
+}
+
 }  // namespace
 }  // namespace scumble::measuring

@@ -63,6 +63,14 @@ TEST(DominantFrequency, ofWavesIsTheirs) {
   }
 }
 
+TEST(DominantFrequency, isThatOfTheMeanLag) {
+  // Lags of 1 / (6 f): 10 pixels along x, 2.5 along y.
+  const Field wave = fieldFrom(240, 240, [](double x, double y) {
+    return std::cos(2 * std::numbers::pi * x / 60) * std::cos(2 * std::numbers::pi * y / 15);
+  });
+  EXPECT_NEAR(frequencyOf(wave) * 6 * (10 + 2.5) / 2, 1, 0.03);
+}
+
 TEST(DominantFrequency, ofWhiteNoiseIsAQuarter) {
   EXPECT_NEAR(frequencyOf(whiteNoise(200, 5)), 0.25, 0.01);
 }

@@ -96,8 +96,10 @@ std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration
 float largestInflation(const look::LookData& look, const SceneOnGpu& scene, float imageHeight) {
   float most = 0;
   for (size_t m = 0; m < scene.materialCount(); ++m)
-    most = std::max(most, passes::inflationPixels(
-                              look.getForMaterial<passes::WarpParams>(scene.materialName(m)), imageHeight));
+    most =
+        std::max(most, scene.warpScaleOf(m) *
+                           passes::inflationPixels(
+                               look.getForMaterial<passes::WarpParams>(scene.materialName(m)), imageHeight));
   return most;
 }
 

@@ -19,6 +19,7 @@
 #include "renderer/pass_list.h"
 #include "renderer/readback.h"
 #include "renderer/uniforms.h"
+#include "scumble/nearest.h"
 
 namespace scumble {
 
@@ -54,6 +55,27 @@ bool isPicture(const Image& image) {
   const size_t channels = image.channels.size();
   return image.width > 0 && image.height > 0 && (channels == 3 || channels == 4) &&
          image.pixels.size() == size_t(image.width) * image.height * channels;
+}
+
+// Sentences on what the device does not do as it should.
+std::vector<std::string> workaroundsFor(gpu::Device& device) {
+  std::vector<std::string> sentences;
+  for (const uint32_t samples : {1u, 4u}) {
+    const std::string at = " at " + std::to_string(samples) + (samples == 1 ? " sample" : " samples");
+    if (samples == 4 && !device.supports4Samples()) {
+      sentences.push_back("it has no 4 samples a pixel: use --samples 1");
+      continue;
+    }
+    const std::optional<gpu::ViewDrawing> way = device.viewDrawing(samples);
+    if (!way)
+      sentences.push_back("it draws two views wrongly" + at + ", whichever way: stereo is refused there");
+    else if (*way == gpu::ViewDrawing::separately)
+      sentences.push_back("its multiview is wrong" + at + ": views are drawn one after the other");
+    else if (*way == gpu::ViewDrawing::resolvedTogether)
+      sentences.push_back("its multiview is wrong" + at +
+                          ": views are drawn one after the other and resolved together");
+  }
+  return sentences;
 }
 
 GpuInfo toPublic(const gpu::DeviceInfo& info) {
@@ -308,33 +330,9 @@ void Renderer::Impl::record(VkCommandBuffer commands, Resident& resident, uint32
   if (backdrop) backdrop->upload(commands, slot, options.background);
   stamp(0);
   for (size_t s = 0; s < graph.steps().size(); ++s) {
-    std::vector<VkImageMemoryBarrier2> images;
-    VkMemoryBarrier2 memory{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-    for (const gpu::Barrier& barrier : setup->barriers[s]) {
-      if (!graph.resources()[barrier.resource].isImage) {
-        memory.srcStageMask |= barrier.sourceStages, memory.srcAccessMask |= barrier.sourceAccess;
-        memory.dstStageMask |= barrier.targetStages, memory.dstAccessMask |= barrier.targetAccess;
-        continue;
-      }
-      const gpu::Image& image = setup->resources->image(barrier.resource);
-      VkImageMemoryBarrier2 out{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
-      out.srcStageMask = barrier.sourceStages, out.srcAccessMask = barrier.sourceAccess;
-      out.dstStageMask = barrier.targetStages, out.dstAccessMask = barrier.targetAccess;
-      out.oldLayout = barrier.oldLayout, out.newLayout = barrier.newLayout;
-      out.srcQueueFamilyIndex = out.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-      out.image = image.handle();
-      out.subresourceRange = {
-          VkImageAspectFlags(gpu::isDepthFormat(image.desc().format) ? VK_IMAGE_ASPECT_DEPTH_BIT
-                                                                     : VK_IMAGE_ASPECT_COLOR_BIT),
-          0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
-      images.push_back(out);
-    }
-    VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-    dependency.imageMemoryBarrierCount = uint32_t(images.size());
-    dependency.pImageMemoryBarriers = images.data();
-    dependency.memoryBarrierCount = memory.dstStageMask != 0;
-    dependency.pMemoryBarriers = &memory;
-    if (!images.empty() || memory.dstStageMask != 0) vkCmdPipelineBarrier2(commands, &dependency);
+    gpu::recordBarriers(commands, setup->barriers[s], [&](gpu::ResourceId id) {
+      return graph.resources()[id].isImage ? &setup->resources->image(id) : nullptr;
+    });
     setup->builder->records()[s](commands);
     stamp(uint32_t(s + 1));
   }
@@ -464,7 +462,6 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
   const glm::uvec2 texels =
       background ? Backdrop::sizeFor(*background, options.width, options.height) : glm::uvec2(0);
   configuration.backdropWidth = texels.x, configuration.backdropHeight = texels.y;
-  configuration.multiview = impl_->device->multiviewWorks();
   configuration.computeImagePasses =
       impl_->imagePasses == ImagePassKind::compute ||
       (impl_->imagePasses == ImagePassKind::automatic && impl_->device->prefersCompute());
@@ -472,7 +469,7 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
   for (const std::string& aov : options.aovs) {
     const std::optional<Slot> slot = slotOfAov(aov);
     if (!slot || options.plain) {
-      const std::string suggestion = look::nearest(aov, aovNames());
+      const std::string suggestion = nearest(aov, aovNames());
       return usage("there is no AOV '" + aov + "'", suggestion.empty()
                                                         ? "`scumble render --help` lists them"
                                                         : "did you mean '" + suggestion + "'?");
@@ -485,6 +482,14 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
   }
 
   try {
+    if (views.size() > 1) {
+      const std::optional<gpu::ViewDrawing> drawing = impl_->device->viewDrawing(options.samples);
+      if (!drawing)
+        return usage("this device draws several views wrongly, whichever way, at " +
+                         std::to_string(options.samples) + " samples a pixel",
+                     options.samples > 1 ? "use --samples 1" : "choose another device");
+      configuration.viewDrawing = *drawing;
+    }
     Begun next{nullptr, impl_->nextSlot, options, {}};
     FrameStats& stats = next.frame.stats;
     auto start = Clock::now();
@@ -622,7 +627,7 @@ int Renderer::validationMessages() const {
   return impl_->device->validationMessages();
 }
 
-Result<std::vector<GpuInfo>> listGpus(const std::string& choice) {
+Result<std::vector<GpuInfo>> listGpus(const std::string& choice, const std::string& cacheFolder) {
   const Result<std::vector<gpu::DeviceInfo>> devices = gpu::listDevices();
   if (!devices) return devices.error();
   std::vector<GpuInfo> gpus;
@@ -630,6 +635,22 @@ Result<std::vector<GpuInfo>> listGpus(const std::string& choice) {
   const Result<size_t> chosen = gpu::chooseDevice(*devices, choice);
   if (chosen) gpus[*chosen].wouldBeUsed = true;
   if (!chosen && !choice.empty()) return chosen.error();
+  for (size_t i = 0; i < gpus.size(); ++i) {
+    if (!gpus[i].unusableBecause.empty()) continue;
+    gpu::DeviceOptions options;
+    options.choice = std::to_string(i);
+    options.cacheFolder = cacheFolder;
+    const Result<std::unique_ptr<gpu::Device>> device = gpu::Device::create(options);
+    if (!device) {
+      gpus[i].unusableBecause = device.error().problem;
+      continue;
+    }
+    try {
+      gpus[i].workarounds = workaroundsFor(**device);
+    } catch (const gpu::VulkanError& error) {
+      gpus[i].unusableBecause = error.message();
+    }
+  }
   return gpus;
 }
 

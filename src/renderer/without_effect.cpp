@@ -16,6 +16,7 @@ std::vector<std::string> settingsWithoutEffect(const Scene& scene, const Look& l
   if (scene.empty()) return {};
   const scene::SceneData& data = scene.data();
   std::vector<std::string> idle;
+  std::set<std::string> told;
   for (const look::Assignment& setting : look.data().assignments) {
     if (setting.target == look::kScene) continue;
     if (!setting.byHand && (!fileToo || look::isPattern(setting.pattern))) continue;
@@ -30,7 +31,7 @@ std::vector<std::string> settingsWithoutEffect(const Scene& scene, const Look& l
                        : setting.target == look::kClips ? matchesAny(data.clips)
                                                         : true;
     const std::string path = std::string(look::firstSection(setting.target).name) + "." + setting.pattern;
-    if (!found && std::find(idle.begin(), idle.end(), path) == idle.end()) idle.push_back(path);
+    if (!found && told.insert(path).second) idle.push_back(path);
   }
   return idle;
 }

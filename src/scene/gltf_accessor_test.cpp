@@ -64,17 +64,23 @@ TEST(GltfAccessor, readsInterleavedVertices) {
 
 TEST(GltfAccessor, sparseValuesReplaceElementsAlsoWithoutABase) {
   for (const bool withBase : {true, false}) {
-    TestGltf g;
-    const int position = withBase ? g.addFloats(kTriangle, 3) : g.addAccessor(-1, 5126, "VEC3", 3);
-    const int indices = g.addView<uint8_t>({1, 2}), values = g.addView<float>({5, 0, 0, 0, 6, 0});
-    g.json["accessors"][position]["sparse"] = {
-        {"count", 2},
-        {"indices", {{"bufferView", indices}, {"componentType", 5121}}},
-        {"values", {{"bufferView", values}}}};
-    g.addMesh({{"POSITION", position}});
-    const Scene scene = loaded(g.gltf());
-    EXPECT_EQ(first(scene).positions[1], glm::vec3(5, 0, 0));
-    EXPECT_EQ(first(scene).positions[2], glm::vec3(0, 6, 0));
+    for (const int type : {5121, 5123, 5125}) {
+      TestGltf g;
+      const int position = withBase ? g.addFloats(kTriangle, 3) : g.addAccessor(-1, 5126, "VEC3", 3);
+      const int indices = type == 5121   ? g.addView<uint8_t>({1, 2})
+                          : type == 5123 ? g.addView<uint16_t>({1, 2})
+                                         : g.addView<uint32_t>({1, 2});
+      const int values = g.addView<float>({5, 0, 0, 0, 6, 0});
+      g.json["accessors"][position]["sparse"] = {
+          {"count", 2},
+          {"indices", {{"bufferView", indices}, {"componentType", type}}},
+          {"values", {{"bufferView", values}}}};
+      g.addMesh({{"POSITION", position}});
+      const Scene scene = loaded(g.gltf());
+      ASSERT_EQ(first(scene).vertexCount(), 3u) << type;
+      EXPECT_EQ(first(scene).positions[1], glm::vec3(5, 0, 0)) << type;
+      EXPECT_EQ(first(scene).positions[2], glm::vec3(0, 6, 0)) << type;
+    }
   }
 }
 

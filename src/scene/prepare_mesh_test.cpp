@@ -90,6 +90,31 @@ TEST(PrepareMesh, missingNormalsAreFlatAndSmoothNormalsShared) {
   }
 }
 
+// A corner of 120 degrees, the first of its triangle or the second, and one of 90: their angles are the
+// weights.
+TEST(PrepareMesh, obtuseCornersWeighWhatTheyAre) {
+  const float s = 0.8660254f;
+  for (const std::vector<uint16_t>& obtuse :
+       {std::vector<uint16_t>{0, 1, 2}, std::vector<uint16_t>{2, 0, 1}, std::vector<uint16_t>{1, 2, 0}}) {
+    TestGltf g;
+    const int position = g.addFloats({0, 0, 0, 1, 0, 0, -0.5f, s, 0, 0, 0, 1}, 3);
+    std::vector<uint16_t> indices = {0, 3, 1};
+    indices.insert(indices.end(), obtuse.begin(), obtuse.end());
+    g.addMesh({{"POSITION", position}}, g.addIndices(indices));
+    const Scene scene = loaded(g);
+    const Primitive& p = scene.data().meshes[0].primitives[0];
+    // 120 degrees of +z and 90 of +y.
+    const glm::dvec3 expected = glm::normalize(glm::dvec3(0, 90, 120));
+    int seen = 0;
+    for (size_t i = 0; i < p.vertexCount(); ++i) {
+      if (p.positions[i] != glm::vec3(0.0f)) continue;
+      EXPECT_LT(glm::length(glm::dvec3(p.smoothNormals[i]) - expected), 1e-3);
+      ++seen;
+    }
+    EXPECT_EQ(seen, 2);
+  }
+}
+
 TEST(PrepareMesh, smoothNormalsAreSharedBetweenPrimitives) {
   TestGltf g;
   const int a = g.addFloats({0, 0, 0, 1, 0, 0, 0, 0, -1}, 3),

@@ -6,10 +6,10 @@
 #include <map>
 #include <set>
 
-#include "base/nearest.h"
 #include "scene/find_node.h"
 #include "scene/import_failure.h"
 #include "scene/scene_bounds.h"
+#include "scumble/nearest.h"
 
 namespace scumble::scene {
 

@@ -131,6 +131,14 @@ TEST(ScenePlace, theNodesOwnAxesAndScaleDoNotCount) {
   // Twice as large as the ship is, and turned as that: (3, 0, 1) + (0, 0.5, 1), doubled, x to -z and z to x.
   expectClose(originOf(placed, "Body"), {4, 1, -6});
   expectClose(originOf(placed, "Body", 0.999), {4, 1 + 2 * 0.999f, -6});
+  // What is written in metres follows the whole chain of scales.
+  const Camera& eye = placed.data().cameras[0];
+  EXPECT_FLOAT_EQ(eye.halfHeight, 2);
+  EXPECT_FLOAT_EQ(eye.far, 10);
+  const Scene towed = mustPlace({{boat("Raft"), "raft", {}, {}, 3, "Deck"}, {ship, "ship", {}, {}, 2}});
+  const Node& hull = towed.data().nodes[size_t(findNode(towed.data(), "Hull"))];
+  ASSERT_TRUE(hull.floats.has_value());
+  EXPECT_FLOAT_EQ(*hull.floats->length, 4 * 3 * 2);
   g.json["nodes"][0]["scale"] = {1, 0, 1};
   const Result<Scene> flat = Scene::place({{loaded(g), "ship"}, {dog(), "dog", {}, {}, 1, "Deck"}});
   ASSERT_FALSE(flat.ok());

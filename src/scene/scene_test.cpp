@@ -237,6 +237,29 @@ TEST(Scene, camerasAndLights) {
   EXPECT_EQ(scene.data().nodes[1].camera, 0);
 }
 
+// KHR_lights_punctual: an inner angle of 0 and an outer one of a quarter of pi, where the file says nothing.
+TEST(Scene, conesOfSpots) {
+  TestGltf g = quad();
+  TestGltf::Json& lights = g.json["extensions"]["KHR_lights_punctual"]["lights"];
+  lights = {{{"type", "spot"}},
+            {{"type", "spot"}, {"spot", TestGltf::Json::object()}},
+            {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.25}}}},
+            {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}},
+            {{"type", "spot"}, {"spot", {{"innerConeAngle", 3}, {"outerConeAngle", 4}}}}};
+  for (size_t i = 0; i < lights.size(); ++i) {
+    g.json["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
+    g.json["scenes"][0]["nodes"].push_back(i + 1);
+  }
+  const double pi = 3.14159265358979;
+  const double cones[][2] = {{0, pi / 4}, {0, pi / 4}, {0.25, pi / 4}, {0.25, 0.5}, {pi / 2, pi / 2}};
+  const Scene scene = loaded(g);
+  ASSERT_EQ(scene.data().lights.size(), std::size(cones));
+  for (size_t i = 0; i < std::size(cones); ++i) {
+    EXPECT_NEAR(scene.data().lights[i].innerCone, cones[i][0], 1e-6) << i;
+    EXPECT_NEAR(scene.data().lights[i].outerCone, cones[i][1], 1e-6) << i;
+  }
+}
+
 // A quad that follows one joint, with a morph target and a clip with unsorted, doubled and broken keys.
 TestGltf animated() {
   TestGltf g = quad();

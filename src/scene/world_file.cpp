@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file_bytes.h"
-#include "base/nearest.h"
 #include "scene/gltf_uri.h"
 #include "scene/import_failure.h"
 #include "scene/scene_place.h"
+#include "scumble/nearest.h"
 
 namespace scumble::scene {
 

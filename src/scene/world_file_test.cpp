@@ -2,11 +2,8 @@
 #include "scene/world_file.h"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
-#include <filesystem>
-#include <fstream>
-
+#include "base/test_folder.h"
 #include "scene/find_node.h"
 #include "scene/scene_data.h"
 #include "scene/test_gltf.h"
@@ -16,27 +13,15 @@ namespace {
 
 using namespace scene;
 
-class WorldFile : public testing::Test {
+class WorldFile : public testing::Test, protected TestFolder {
  protected:
   WorldFile() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "scumble world XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
     TestGltf g;
     g.addQuad();
     g.json["nodes"][0]["name"] = "Plank";
     put("boat.gltf", g.gltf());
     put("parts/dog.glb", g.glb());
   }
-  ~WorldFile() override {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-  std::string put(const std::string& name, const std::string& content) {
-    std::filesystem::create_directories((folder_ / name).parent_path());
-    std::ofstream(folder_ / name, std::ios::binary) << content;
-    return (folder_ / name).string();
-  }
-  std::filesystem::path folder_;
 };
 
 TEST_F(WorldFile, listsScenesWithTheirPlaces) {
@@ -59,7 +44,7 @@ TEST_F(WorldFile, listsScenesWithTheirPlaces) {
   // A world in a world.
   put("harbour.json",
       R"({"scenes": [{"file": "world.json", "at": [9, 0, 0]}, {"file": "boat.gltf", "on": "world/boat/Plank"}]})");
-  const Result<Scene> harbour = Scene::load((folder_ / "harbour.json").string());
+  const Result<Scene> harbour = Scene::load(file("harbour.json"));
   ASSERT_TRUE(harbour.ok()) << harbour.error().message();
   EXPECT_LT(glm::length(glm::vec3(worldMatrices(
                             harbour->data())[size_t(findNode(harbour->data(), "world/boat/Plank"))][3]) -
@@ -117,18 +102,18 @@ TEST_F(WorldFile, mistakesAreToldWithTheirPlace) {
   }
   // What is wrong with a scene is told of that.
   const Result<Scene> absent = Scene::load(put("world.json", R"({"scenes": [{"file": "cat.glb"}]})"));
-  EXPECT_EQ(absent.error().file, (folder_ / "cat.glb").string());
+  EXPECT_EQ(absent.error().file, file("cat.glb"));
   EXPECT_EQ(absent.error().kind, ErrorKind::unusableFile);
 }
 
 TEST_F(WorldFile, outsideWithLeave) {
   put("low/world.json", R"({"scenes": [{"file": "../boat.gltf"}]})");
   SceneOptions options;
-  EXPECT_FALSE(Scene::load((folder_ / "low/world.json").string(), options).ok());
+  EXPECT_FALSE(Scene::load(file("low/world.json"), options).ok());
   options.allowOutside = true;
-  EXPECT_TRUE(Scene::load((folder_ / "low/world.json").string(), options).ok());
+  EXPECT_TRUE(Scene::load(file("low/world.json"), options).ok());
   options.scene = 0;
-  EXPECT_FALSE(Scene::load((folder_ / "low/world.json").string(), options).ok());
+  EXPECT_FALSE(Scene::load(file("low/world.json"), options).ok());
 }
 
 // Worlds within worlds multiply: that ends before memory does.
@@ -139,7 +124,7 @@ TEST_F(WorldFile, aBombOfWorldsIsDefused) {
     return "{\"scenes\": [" + entries + "]}";
   };
   put("one.json", many("boat.gltf")), put("two.json", many("one.json"));
-  const Result<Scene> scene = Scene::load((folder_ / "two.json").string());
+  const Result<Scene> scene = Scene::load(file("two.json"));
   ASSERT_FALSE(scene.ok());
   EXPECT_NE(scene.error().problem.find("too many nodes"), std::string::npos) << scene.error().message();
 }

@@ -60,4 +60,35 @@ def colours():
     return g.text()
 
 
-SCENES = {"sphere": sphere, "alpha": alpha, "colours": colours}
+def lamps():
+    """A dim room: a point light, a spot, something that glows, and colours of a palette to be limited to."""
+    g = Gltf()
+    wall, ground = g.material("Wall", (0.5, 0.42, 0.4, 1)), g.material("Ground", (0.45, 0.35, 0.25, 1))
+    clay, bulb = g.material("Clay", (0.7, 0.3, 0.2, 1)), g.material("Bulb", (1, 0.8, 0.4, 1), emissiveFactor=[1, 0.8, 0.4])
+    g.floor(6, ground)
+    g.quad(8, wall, (0, 0, -2.5))
+    g.torus(0.8, 0.3, clay, translation=(-1.2, 1.1, 0))
+    g.lathe([(0, 2), (0.5, 1.7), (0.3, 1), (0.8, 0.3), (0.6, 0)], clay, translation=(1.4, 0, 0.2))
+    g.ball(0.15, bulb, 12, 24, translation=(0.1, 1.6, 0.8))
+    g.json["extensionsUsed"] = ["KHR_lights_punctual"]
+    g.json["extensions"] = {"KHR_lights_punctual": {"lights": [
+        {"type": "point", "intensity": 30, "color": [1, 0.8, 0.5]},
+        {"type": "spot", "intensity": 60, "color": [0.5, 0.7, 1], "spot": {"outerConeAngle": 0.4}}]}}
+    for light, place in ((0, (0.1, 1.6, 0.8)), (1, (2.5, 1.5, 5))):
+        g.json["nodes"].append({"translation": place, "extensions": {"KHR_lights_punctual": {"light": light}}})
+        g.json["scenes"][0]["nodes"].append(len(g.json["nodes"]) - 1)
+    g.camera(9, 2.5, 0.5)
+    return g.text()
+
+
+SCENES = {"sphere": sphere, "alpha": alpha, "colours": colours, "lamps": lamps}
+
+
+def backdrop():
+    """A picture for behind everything: a sky, hills with a hard edge, a field with fine rows."""
+    def pixel(x, y):
+        if y < 24 + 10 * math.sin(x / 17):
+            return (150 + y // 2, 180 + y // 3, 215)
+        return (96, 120, 70) if (x + 3 * y) % 8 < 5 else (140, 150, 80)
+
+    return make_png(160, 90, pixel)

@@ -274,6 +274,26 @@ class Commands(Program):
     def test_devices(self):
         self.assertRegex(self.good("devices"), r"(?m)^\* \d+ .*Vulkan 1\.")
 
+    def test_what_devices_get_wrong_is_found_once(self):
+        cache = {"XDG_CACHE_HOME": str(self.folder / "found")}
+        first = self.run_program("devices", environment=cache).stdout
+        kept = {path: path.read_bytes() for path in (self.folder / "found" / "scumble").iterdir()}
+        self.assertTrue(any(path.name.startswith("views-") for path in kept), kept)
+        self.assertEqual(self.run_program("devices", environment=cache).stdout, first)
+        for path in kept:  # what is damaged is found anew
+            path.write_bytes(b"damaged")
+        self.assertEqual(self.run_program("devices", environment=cache).stdout, first)
+        self.assertEqual({path: path.read_bytes() for path in kept}, kept)
+
+    def test_both_eyes_are_drawn_whatever_the_device(self):
+        for samples in "1", "4":
+            self.good("render", "box.gltf", "-o", "both.png", "--stereo", "side-by-side", "--ipd", "0", "--samples", samples,
+                      "--size", "32x18", "--validate")
+            width, _, channels, rows = png(self.folder / "both.png")
+            half = width // 2 * channels
+            self.assertEqual([row[:half] for row in rows], [row[half:] for row in rows], samples)
+            self.assertGreater(len({bytes(row[i:i + 3]) for row in rows for i in range(0, half, channels)}), 5)
+
     def test_bench_reports_passes_and_yardstick(self):
         self.good("bench", "box.gltf", "--runs", "1", "--json", "b.json", *TINY)
         report = json.loads((self.folder / "b.json").read_text())

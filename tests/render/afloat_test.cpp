@@ -10,6 +10,7 @@
 #include "tests/support/animated_scene.h"
 #include "tests/support/aov.h"
 #include "tests/support/render_test.h"
+#include "tests/support/test_device.h"
 
 namespace scumble {
 namespace {
@@ -81,6 +82,7 @@ INSTANTIATE_BOTH_EYES(Afloat);
 // ---- Cameras and lights ----
 
 TEST_P(Afloat, aCameraOnABoatSeesTheBoatStandAndTheHorizonMove) {
+  NEEDS_FINE_RASTER();
   const Scene scene = boatWithCamera().load();
   const int lamp = idOf(scene, "Lamp"), ocean = int(scene.data().nodes.size()) + 2;
   const Look rides = stormy({{"nodes.Boat.float.rides", "on"}, {"ocean.speed", "2"}}),
@@ -196,6 +198,7 @@ TEST_P(Afloat, aLightRides) {
 
 // A skin goes with its joints, as in glTF: the node that they hang on is the one to name.
 TEST_P(Afloat, aSkinRidesWithItsJoints) {
+  NEEDS_FINE_RASTER();
   const AnimatedMesh bar = bendingBar(4);
   const auto barOn = [&](bool isSkinned) {
     AnimatedScene s;
@@ -293,6 +296,7 @@ TEST_P(Afloat, extrasOfANodeMakeItTheOcean) {
 
 TEST(AfloatFar, ridingEndsWithoutAStep) {
   gpu::DeviceOptions options;
+  options.choice = testDevice();
   const std::unique_ptr<gpu::Device> device = std::move(gpu::Device::create(options)).value();
   frame::OceanShape shape;
   shape.isThere = true;

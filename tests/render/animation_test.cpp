@@ -12,6 +12,7 @@
 #include "tests/support/posed_scene.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
+#include "tests/support/test_device.h"
 
 namespace scumble {
 namespace {
@@ -153,6 +154,7 @@ class AnimationDrawn : public BothEyes {
 INSTANTIATE_BOTH_EYES(AnimationDrawn);
 
 TEST_P(AnimationDrawn, rigidNodes) {
+  NEEDS_FINE_RASTER();
   AnimatedScene s;
   const int box = s.mesh(rigid(oddBox()), grey(s)), clip = s.clip("Move");
   // One for each interpolation; the second below the first, and mirrored.
@@ -227,6 +229,7 @@ TEST_P(AnimationDrawn, manyJoints) {
 }
 
 TEST_P(AnimationDrawn, morphTargets) {
+  NEEDS_FINE_RASTER();
   AnimatedScene s;
   const int material = grey(s), clip = s.clip("Swell");
   // Several targets, one of them sparse, one without positions, one without normals; weights of all kinds.
@@ -252,6 +255,7 @@ TEST_P(AnimationDrawn, morphTargets) {
 }
 
 TEST_P(AnimationDrawn, morphedInstances) {
+  NEEDS_FINE_RASTER();
   AnimatedScene s;
   const int clip = s.clip("Swell");
   AnimatedMesh ball = rigid(sphereMesh({0, 0, 0}, 0.6f, 16));
@@ -339,6 +343,7 @@ bool mayBeAnimated(const std::filesystem::path& file) {
 }
 
 TEST_F(AnimationDrawn, everyAnimatedAsset) {
+  NEEDS_FINE_RASTER();
   constexpr int kTinyWidth = 64, kTinyHeight = 48;
   size_t files = 0, number = 0;
   for (const auto& file : filesBelow(kAssets, {".gltf", ".glb"})) {
@@ -497,6 +502,7 @@ TEST_P(OnTwos, theCameraIsNot) {
 // ---- Motion ----
 
 TEST_P(AnimationDrawn, motion) {
+  NEEDS_FINE_RASTER();
   const Scene scene = troupe().load();
   const scene::SceneData& data = scene.data();
   for (const int hold : {0, 2, 4})
@@ -577,6 +583,7 @@ TEST_P(AnimationDrawn, motionUnderALookThatChanges) {
 
 // Without a time before, everything stands; and it does where a pose is held and the view stays.
 TEST_P(AnimationDrawn, nothingMovesBetweenHeldPoses) {
+  NEEDS_FINE_RASTER();
   const Scene scene = threeMovers(true, true, false).load();
   const auto views = viewsFrom(scene, {{0, 0, 6}}, kWidth, kHeight, GetParam());
   RenderOptions options = sized(kWidth, kHeight, {"motion"});

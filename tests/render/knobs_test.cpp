@@ -1,77 +1,245 @@
 // The test sweep: every knob at its least and at its most, on a tiny picture that shows light, shadow, edges,
-// texture, holes and glow. Nothing may fail, nothing may be infinite.
+// texture, holes, glow, motion and a sea. Nothing may fail, nothing may be infinite, and every knob must
+// show: a knob that the sweep turns where it does nothing is not tested by it.
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "tests/support/aov.h"
 #include "tests/support/render_test.h"
+#include "tests/support/sanitized.h"
 
 namespace scumble {
 namespace {
 
 using namespace test;
 
-// Where a knob is set for all that it may be set for; a colorizer is declared by its name.
+constexpr uint32_t kWidth = 32, kHeight = 24;
+constexpr double kTime = 0.8;  // seconds: nothing is where it was at 0
+
+// Where a knob is set for all that it may be set for; colorizers and decorations are declared by their name.
 std::string settingPath(const Knob& knob) {
-  return (knob.targets[0] == "scene"        ? ""
-          : knob.targets[0] == "colorizers" ? "colorizers.A."
-                                            : knob.targets[0] + ".*.") +
+  // The scene's counts for joints and morphs alone.
+  if (knob.path == "animation.hold") return "nodes.*." + knob.path;
+  const std::string& target = knob.targets[0];
+  return (target == "scene"                                   ? ""
+          : target == "colorizers" || target == "decorations" ? target + ".A."
+                                                              : target + ".*.") +
          knob.path;
 }
+
+// What a knob needs to show, by the beginning of its path; all that fit are set, before the knob itself.
+const std::pair<std::string, Knobs> kNeeds[] = {
+    {"animation.", {{"clips.*.play.weight", "1"}}},
+    {"background.", {{"background.mode", "look"}, {"ground.mode", "off"}}},
+    {"background.airEnd", {{"background.air", "1"}, {"background.airStart", "0"}}},
+    {"blur.depthEdge", {{"blur.radius", "128"}}},
+    {"breakup.",
+     {{"blur.radius", "128"}, {"shadow.indication", "1"}, {"shadow.dither", "1"}, {"breakup.amount", "4"}}},
+    {"breakup.metatexture.", {{"breakup.metatexture.size", "1000"}}},
+    {"breakup.metatexture.skewLevels", {{"breakup.metatexture.skew", "exact"}}},
+    {"breakup.metatexture.tiles", {{"breakup.metatexture.mode", "object"}}},
+    {"final.", {{"materials.*.surface.glow", "1"}}},
+    {"float.",
+     {{"ocean.mode", "on"}, {"ocean.grid", "8"}, {"ocean.tiles", "3"}, {"nodes.*.float.rides", "true"}}},
+    {"grade.", {{"colorizers.A.grade.gain", "2"}}},
+    {"grade.tint", {{"colorizers.A.volume.shape", "scene"}}},
+    {"grade.gamma", {{"colorizers.A.grade.gain", "0.7"}}},
+    {"ground.tint", {{"ground.mode", "on"}, {"background.mode", "look"}}},
+    {"light.azimuth", {{"light.source", "look"}}},
+    {"light.elevation", {{"light.source", "look"}}},
+    {"limit.", {{"limit.palette", "look"}, {"limit.colors", "16"}, {"background.mode", "look"}}},
+    {"limit.color11", {{"background.horizon", "#2E6474"}}},
+    {"limit.color15", {{"background.horizon", "#14202E"}}},
+    {"limit.color16", {{"background.horizon", "#FFF6E4"}}},
+    {"limit.color2", {{"background.horizon", "#1F3A52"}}},
+    {"lit.overlay", {{"lit.overlayAmount", "1"}}},
+    {"ocean.", {{"ocean.mode", "on"}, {"ocean.grid", "8"}, {"ocean.tiles", "3"}}},
+    {"ocean.heading", {{"ocean.speed", "3"}}},
+    {"ocean.metatexture.",
+     {{"ocean.paint.dither", "2"}, {"ocean.paint.lightDither", "2"}, {"ocean.metatexture.size", "1000"}}},
+    {"ocean.metatexture.skewLevels", {{"ocean.metatexture.skew", "exact"}}},
+    {"ocean.metatexture.tiles", {{"ocean.metatexture.mode", "object"}}},
+    {"ocean.paint.foam",
+     {{"ocean.choppiness", "2"},
+      {"ocean.wind", "25"},
+      {"ocean.paint.foamStart", "1"},
+      {"ocean.paint.foam", "1"}}},
+    {"ocean.paint.next", {{"ocean.paint.next", "0.5"}, {"ocean.paint.nextColors", "storm"}}},
+    {"ocean.paint.nextSky", {{"ocean.paint.reflection", "4"}, {"ocean.paint.sky", "storm"}}},
+    {"ocean.paint.overlay", {{"ocean.paint.overlayAmount", "1"}}},
+    {"ocean.paint.skyOverlay", {{"ocean.paint.skyOverlayAmount", "1"}, {"ocean.paint.reflection", "4"}}},
+    {"palette.litTint", {{"palette.litTintAmount", "2"}}},
+    {"palette.shadowTint", {{"palette.shadowTintAmount", "2"}}},
+    {"play.", {{"clips.*.play.weight", "1"}}},
+    {"play.repeat", {{"clips.*.play.start", "2.5"}}},
+    {"shadow.glow", {{"shadow.innerGlow", "1"}, {"shadow.glowColorAmount", "1"}}},
+    {"shadow.indication",
+     {{"blur.radius", "128"},
+      {"shadow.indication", "1"},
+      {"breakup.amount", "4"},
+      {"surface.indicationWidth", "1"},
+      {"breakup.metatexture.size", "1000"}}},
+    {"shadow.dither", {{"blur.radius", "128"}, {"breakup.amount", "4"}}},
+    {"shadow.stepSpacing", {{"shadow.steps", "3"}}},
+    {"shadowed.overlay", {{"shadowed.overlayAmount", "1"}}},
+    {"surface.glow", {{"final.bloom", "4"}}},
+    {"surface.indication", {{"blur.radius", "128"}, {"shadow.indication", "1"}, {"breakup.amount", "4"}}},
+    {"surface.lens", {{"final.bloom", "4"}}},
+    {"texture.", {{"texture.amount", "1"}}},
+    {"texture.metatexture.skewLevels", {{"texture.metatexture.skew", "exact"}}},
+    {"texture.metatexture.tiles", {{"texture.metatexture.mode", "object"}}},
+    {"volume.", {{"colorizers.A.grade.tint", "#40FF20"}}},
+    {"volume.length", {{"colorizers.A.volume.shape", "capsule"}}},
+    {"volume.node", {{"colorizers.A.volume.radius", "2"}}},
+    {"volume.rotation", {{"colorizers.A.volume.shape", "box"}, {"colorizers.A.volume.size", "3,0.3,1"}}},
+    {"volume.size", {{"colorizers.A.volume.shape", "box"}}},
+    {"warp.", {{"warp.amount", "64"}, {"warp.inflation", "64"}}},
+    {"warp.metatexture.skewLevels", {{"warp.metatexture.skew", "exact"}}},
+    {"warp.metatexture.tiles", {{"warp.metatexture.mode", "object"}}},
+    {"warp.boil", {{"warp.boil", "0.6"}}},
+    {"water.",
+     {{"ocean.mode", "on"},
+      {"ocean.grid", "8"},
+      {"ocean.tiles", "3"},
+      {"ocean.speed", "3"},
+      {"decorations.A.water.at", "0,0,0"}}},
+    {"water.radius", {{"decorations.A.water.kind", "ripples"}}},
+    {"water.crests", {{"decorations.A.water.kind", "ripples"}}},
+    {"water.start", {{"decorations.A.water.kind", "ripples"}}},
+    {"water.every", {{"decorations.A.water.kind", "ripples"}}},
+};
+
+// Values besides the ends, where the default is one of them or nothing.
+const std::map<std::string, std::string> kBetween = {
+    {"camera.target", "Buoy"}, {"ocean.metatexture.contrast", "off"},
+    {"ocean.mode", "on"},      {"play.start", "0.3"},
+    {"volume.node", "Buoy"},   {"volume.rotation", "30,40,50"},
+    {"warp.boil", "0.4"},      {"water.every", "0.5"},
+    {"water.node", "Buoy"}};
+
+// Knobs that cannot show here, each with the reason.
+const std::map<std::string, std::string> kUnseen = {
+    {"breakup.metatexture.cyclopean", "marks lie by the tangents that warp.metatexture chooses"},
+    {"breakup.metatexture.gradients", "marks lie by the tangents that warp.metatexture chooses"},
+    {"breakup.metatexture.radial", "marks lie by the tangents that warp.metatexture chooses"},
+    {"ocean.metatexture.orient",
+     "seen along -z, strokes of the sea run across the foreshortening as they are"}};
 
 class KnobSweep : public BothEyes {};
 INSTANTIATE_BOTH_EYES(KnobSweep);
 
-TEST_P(KnobSweep, everyKnobAtItsEnds) {
-  constexpr uint32_t kWidth = 24, kHeight = 18;
+TEST_P(KnobSweep, everyKnobAtItsEndsDrawsAndShows) {
+  // With sanitizers the sweep takes minutes: there one kind of views and the upper ends are enough.
+  if (kSanitized && viewCount() == 1) GTEST_SKIP() << "two eyes are enough";
   TestScene s = stillLife();
   Json masked = TestScene::colored("Leaf", {1, 1, 1, 1}),
        pane = TestScene::colored("Pane", {0.2f, 0.6f, 0.8f, 0.5f});
-  Image leaf{2, 2, {"R", "G", "B", "A"}, {0.2f, 0.5f, 0.3f, 1, 0, 0, 0, 0, 1, 1, 1, 1, 0.5f, 0.5f, 0.5f, 1}};
+  Image leaf{16, 16, {"R", "G", "B", "A"}, {}};
+  for (int i = 0; i < 16 * 16; ++i) {
+    const float value = (i + i / 16) % 2 ? 0.2f : 0.9f;
+    leaf.pixels.insert(leaf.pixels.end(), {value, 0.5f, 1 - value, i % 16 < 9 ? 1.0f : 0.0f});
+  }
+  Image painted = leaf;
+  for (size_t i = 0; i < painted.pixels.size(); i += 4) painted.pixels[i] = 0.1f;
+  masked["extras"] = {{"scumble_lit_texture", s.texture(painted)},
+                      {"scumble_shadowed_texture", s.texture(leaf)}};
   masked["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", s.texture(leaf)}};
   masked["alphaMode"] = "MASK", pane["alphaMode"] = "BLEND";
   s.add(gridMesh({-1, 0.2f, 1.5f}, {1, 0, 0}, {0, 1, 0}), s.material(masked));
   s.add(gridMesh({0.2f, 0.2f, 1.2f}, {1.5f, 0, 0}, {0, 1.2f, 0}), s.material(pane));
+  // A lamp, and a buoy that a clip moves.
+  s.json()["extensions"]["KHR_lights_punctual"]["lights"].push_back(
+      {{"type", "point"}, {"intensity", 40}, {"color", {1, 0.8, 0.5}}});
+  s.json()["nodes"].push_back(
+      {{"translation", {2, 1.5, 1}}, {"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}});
+  s.json()["scenes"][0]["nodes"].push_back(s.json()["nodes"].size() - 1);
+  s.add(boxMesh({-0.3f, 0, 1.6f}, {0.3f, 0.6f, 2.2f}),
+        s.material(TestScene::colored("Buoy", {0.8f, 0.4f, 0.1f, 1})));
+  s.json()["nodes"].back()["name"] = "Buoy";
+  s.clip("Drift", {0, 1, 2}, {{0, 0, 0}, {1, 0.4f, 0}, {0, 0, 0.5f}});
+  s.json()["materials"].back()["extras"] = {{"scumble_shadowed", "#204080"}};
+  s.json()["samplers"] = Json::array({{{"magFilter", 9729}, {"minFilter", 9987}}});  // with mip levels
   const Scene scene = s.load();
-  const auto views = viewsFrom(scene, {{2, 1.5f, 6}, {0, 1.2f, 0}}, kWidth, kHeight, GetParam());
+
+  const Stand stand{{2, 1.5f, 6}, {0, 1.2f, 0}};
+  const auto given = viewsFrom(scene, stand, kWidth, kHeight, GetParam());
+  // A picture with a hard edge, for knobs about pictures behind everything.
+  auto backdrop = std::make_shared<Image>(Image{16, 12, {"R", "G", "B"}, {}});
+  for (int i = 0; i < 16 * 12; ++i) {
+    const float value = i % 16 < 7 ? 0.1f : 0.5f + 0.02f * float(i % 5);
+    backdrop->pixels.insert(backdrop->pixels.end(), {value, 0.3f, 0.6f * value});
+  }
   const std::vector<std::string> aovs{"warp", "shadow",       "lit",   "shadowed",
                                       "blur", "final-shadow", "color", "colorize"};
-  std::vector<std::vector<float>> seen;
-  const auto check = [&](const Look& look, const std::string& what) {
-    Result<Frame> frame = renderer().render(scene, look, 0, views, sized(kWidth, kHeight, aovs, 4));
-    ASSERT_TRUE(frame.ok()) << what << ": " << frame.error().message();
+  const auto draw = [&](const Look& look, const std::string& what, bool camera, bool behind) {
+    std::vector<float> seen;
+    Viewpoint viewpoint;
+    const std::vector<View> views =
+        camera
+            ? makeViews(scene, viewpoint, float(kWidth) / kHeight, GetParam(), stand.ipd, look, kTime).value()
+            : given;
+    RenderOptions options = sized(kWidth, kHeight, aovs, 4);
+    if (behind) options.background = backdrop;
+    const Result<Frame> frame = renderer().render(scene, look, kTime, views, options);
+    if (!frame) {
+      ADD_FAILURE() << what << ": " << frame.error().message();
+      return seen;
+    }
     for (const Frame::Layer& layer : frame->layers)
-      for (const Image& image : layer.views)
-        for (const float value : image.pixels)
-          ASSERT_TRUE(std::isfinite(value)) << what << ", layer '" << layer.name << "'";
+      for (const Image& image : layer.views) {
+        EXPECT_TRUE(
+            std::all_of(image.pixels.begin(), image.pixels.end(), [](float v) { return std::isfinite(v); }))
+            << what << ", layer '" << layer.name << "'";
+        seen.insert(seen.end(), image.pixels.begin(), image.pixels.end());
+      }
+    return seen;
   };
-  check(Look(), "defaults");
+  // One view is in its own middle.
+  const auto isOfTwoEyes = [&](const std::string& path) {
+    return viewCount() == 1 && path.ends_with(".cyclopean");
+  };
+  draw(Look(), "defaults", false, false);
   size_t count = 0;
-  for (const Knob& knob : Look::knobs())
-    for (const std::string& value : {knob.min, knob.max}) {
-      // What is named has no least and most: every choice is tried.
+  std::set<std::string> unseen;
+  for (const Knob& knob : Look::knobs()) {
+    // What is named has no least and most: its first and last choice are tried. Where those look the same, so
+    // is what lies between: a turn by -180 degrees is one by 180, and a thing a million metres away to either
+    // side is gone.
+    const auto between = kBetween.find(knob.path);
+    std::vector<std::vector<float>> drawn;
+    const std::string values[] = {knob.min, knob.max,
+                                  between != kBetween.end() ? between->second : knob.defaultValue};
+    for (size_t i = kSanitized ? 1 : 0; i < (kSanitized ? 2 : 3); ++i) {
+      const std::string& value = values[i];
+      if (i == 2 && drawn[0] != drawn[1]) break;
       Look look;
-      // A colorizer that does nothing is left out.
-      if (knob.targets[0] == "colorizers" && knob.path != "grade.gain") {
-        ASSERT_TRUE(look.set("colorizers.A.grade.gain", "2").ok());
-      }
-      // An ocean that is quickly drawn.
-      if (knob.path.starts_with("ocean.")) {
-        ASSERT_TRUE(look.set("ocean.mode", "on").ok());
-        ASSERT_TRUE(look.set("ocean.grid", "8").ok());
-        ASSERT_TRUE(look.set("ocean.tiles", "3").ok());
-      }
+      for (const auto& [beginning, knobs] : kNeeds)
+        if (knob.path.starts_with(beginning)) {
+          for (const auto& [needed, to] : knobs) ASSERT_TRUE(look.set(needed, to).ok()) << needed;
+        }
       const Status set = look.set(settingPath(knob), value);
       ASSERT_TRUE(set.ok()) << knob.path << " = " << value << ": " << set.error().message();
-      check(look, knob.path + " = " + value);
+      const bool behind = knob.path == "background.style" || knob.path == "background.simplify" ||
+                          knob.path == "background.warp";
+      drawn.push_back(draw(look, knob.path + " = " + value, knob.path.starts_with("camera."), behind));
       ++count;
     }
-  EXPECT_GT(count, 60u);
+    if (drawn.size() == 3 && drawn[1] == drawn[2]) unseen.insert(knob.path);
+  }
+  EXPECT_GT(count, kSanitized ? 200u : 500u);
+  for (const std::string& path : unseen)
+    EXPECT_TRUE(kUnseen.contains(path) || isOfTwoEyes(path))
+        << path << " does nothing here: give it what it needs in kNeeds";
+  for (const auto& [path, why] : kSanitized ? std::map<std::string, std::string>() : kUnseen)
+    EXPECT_TRUE(unseen.contains(path) || isOfTwoEyes(path))
+        << path << " shows after all, in spite of: " << why;
   // All at their least, and all at their most.
   for (const bool most : {false, true}) {
     Look look;
     for (const Knob& knob : Look::knobs())
       ASSERT_TRUE(look.set(settingPath(knob), most ? knob.max : knob.min).ok());
-    check(look, most ? "all at their most" : "all at their least");
+    draw(look, most ? "all at their most" : "all at their least", false, false);
   }
 }
 

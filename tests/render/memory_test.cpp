@@ -6,12 +6,8 @@
 
 #include "tests/support/animated_scene.h"
 #include "tests/support/render_test.h"
-
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool kKeepsFreed = true;  // for a while, to find what is used after it
-#else
-constexpr bool kKeepsFreed = false;
-#endif
+#include "tests/support/sanitized.h"
+#include "tests/support/test_device.h"
 
 namespace scumble {
 namespace {
@@ -73,13 +69,14 @@ class Memory : public ::testing::TestWithParam<Stereo> {
   static std::unique_ptr<Renderer> made(ImagePassKind kind = ImagePassKind::automatic) {
     RendererOptions options;  // without validation layers, which keep notes of their own
     options.imagePasses = kind;
+    options.device = testDevice();
     return std::move(Renderer::create(options)).value();
   }
 };
 INSTANTIATE_TEST_SUITE_P(Views, Memory, ::testing::Values(Stereo::mono, Stereo::stereo), stereoName);
 
 TEST_P(Memory, doesNotGrowWithAnyLook) {
-  if (kKeepsFreed) GTEST_SKIP() << "AddressSanitizer keeps what is freed";
+  if (kSanitized) GTEST_SKIP() << "AddressSanitizer keeps what is freed";
   const Scene scene = everyday();
   const auto renderer = made();
   for (const ShippedLook& shipped : Look::shipped()) {
@@ -90,7 +87,7 @@ TEST_P(Memory, doesNotGrowWithAnyLook) {
 
 // What no look that ships uses.
 TEST_P(Memory, doesNotGrowWithUnusualKnobs) {
-  if (kKeepsFreed) GTEST_SKIP() << "AddressSanitizer keeps what is freed";
+  if (kSanitized) GTEST_SKIP() << "AddressSanitizer keeps what is freed";
   const Scene scene = everyday();
   const auto renderer = made();
   for (const Knobs& knobs : std::vector<Knobs>{
@@ -111,7 +108,7 @@ TEST_P(Memory, doesNotGrowWithUnusualKnobs) {
 }
 
 TEST_P(Memory, doesNotGrowWithImagePassesAsCompute) {
-  if (kKeepsFreed) GTEST_SKIP() << "AddressSanitizer keeps what is freed";
+  if (kSanitized) GTEST_SKIP() << "AddressSanitizer keeps what is freed";
   const Scene scene = everyday();
   EXPECT_LT(growth({*made(ImagePassKind::compute), scene, Look(), GetParam()}), 8);
 }
@@ -123,6 +120,7 @@ TEST_P(Memory, scenesStayWhileThereIsRoom) {
   const auto drawnWith = [&](uint64_t budget) {
     RendererOptions options;
     options.sceneBudget = budget;
+    options.device = testDevice();
     const auto renderer = std::move(Renderer::create(options)).value();
     std::vector<Frame> frames;
     for (const Scene* scene : {&a, &b, &a, &b, &a})

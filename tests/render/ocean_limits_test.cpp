@@ -8,6 +8,8 @@
 #include "shading/frame.shared.h"
 #include "tests/support/aov.h"
 #include "tests/support/render_test.h"
+#include "tests/support/sanitized.h"
+#include "tests/support/test_device.h"
 
 namespace scumble {
 namespace {
@@ -25,7 +27,7 @@ Scene box() {
 
 // Device memory of a renderer that has drawn one frame, so small that its images do not count.
 uint64_t bytesWith(const Knobs& knobs) {
-  Result<std::unique_ptr<Renderer>> renderer = Renderer::create({});
+  Result<std::unique_ptr<Renderer>> renderer = Renderer::create({testDevice()});
   if (!renderer) throw std::runtime_error(renderer.error().message());
   const Scene scene = box();
   const auto views = viewsFrom(scene, {{3, 2, 5}}, 8, 8);
@@ -45,6 +47,7 @@ uint64_t finalVertexBytes() {
 }
 
 TEST(OceanLimits, whatItLoadsIsBelowFourMebibytes) {
+  NOT_WITH_SANITIZERS();
   const uint64_t without = bytesWith({}), with = bytesWith({{"ocean.mode", "on"}}),
                  twoMoods = bytesWith({{"ocean.mode", "on"},
                                        {"ocean.paint.nextColors", "storm"},

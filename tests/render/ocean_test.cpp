@@ -12,6 +12,8 @@
 #include "tests/support/aov.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
+#include "tests/support/sanitized.h"
+#include "tests/support/test_device.h"
 
 namespace scumble {
 namespace {
@@ -229,9 +231,9 @@ TEST_P(OceanDrawn, isTheMeshOfTheWavesForAnyGrid) {
                                  {"ocean.speed", "2.3"},
                                  {"ocean.heading", "-50"}});
     const std::string what = std::to_string(tiles) + " tiles of " + std::to_string(grid);
-    const size_t compared = compare(scene, look, time, kFromAbove, what);
+    // Between so few points there is no place where waves are whole at all corners.
     if (tiles * grid > 15) {
-      EXPECT_GT(compared, 150u) << what;
+      EXPECT_GT(compare(scene, look, time, kFromAbove, what), 150u) << what;
     }
     // Water everywhere below: the mesh, and around it the flat water, leave nothing open.
     const Frame frame = drawAt(scene, look, time, viewsOf(scene, {{0, 150, 1}}), {"position", "id"});
@@ -285,6 +287,7 @@ TEST_P(OceanDrawn, repeatsAfterItsLoop) {
 
 // The water's own motion: waves that are where they were, and water that slides below the scene.
 TEST_P(OceanDrawn, waterMovesAndSlides) {
+  NEEDS_FINE_RASTER();
   const Scene scene = harbour("Ocean").load();
   const auto motion = [&](const Knobs& knobs, double time, double before) {
     RenderOptions options = sized(kSeaWidth, kSeaHeight, {"position", "id", "motion"});
@@ -625,6 +628,7 @@ TEST_P(OceanPainted, strokesLiveOrStandStill) {
 // ---- Both eyes, shadows ----
 
 TEST_F(OceanDrawn, eachEyeSeesWhatOneWouldSee) {
+  NOT_WITH_SANITIZERS();
   const Scene scene = harbour("Ocean").load();
   const auto both = viewsFrom(scene, kFromAside, kSeaWidth, kSeaHeight, Stereo::stereo);
   const std::vector<std::string> aovs{"depth", "position", "normal", "uv", "uv-gradient", "id"};

@@ -5,6 +5,7 @@
 
 #include "tests/support/aov.h"
 #include "tests/support/render_test.h"
+#include "tests/support/sanitized.h"
 
 namespace scumble {
 namespace {
@@ -80,6 +81,7 @@ TEST_P(Sameness, theSeedShows) {
 }
 
 TEST_F(Sameness, aPairIsTwoViews) {
+  NOT_WITH_SANITIZERS();
   const Scene scene = richScene().load();
   // The shadow map lies around the mean of the eyes: even, it is the same for all.
   // What both eyes share by design is apart: the view between them that chooses MetaTexture's scales.
@@ -123,6 +125,7 @@ TEST_F(Sameness, aPairIsTwoViews) {
 
 // Two eyes in one place see what one eye sees there, also by the view between them.
 TEST_F(Sameness, aPairWithoutDistanceIsOneView) {
+  NOT_WITH_SANITIZERS();
   const Scene scene = richScene().load();
   const Look look = quietLook({{"final.bloom", "1"}, {"texture.amount", "0.5"}, {"ocean.mode", "on"}});
   const auto views =

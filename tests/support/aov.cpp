@@ -1,5 +1,7 @@
 #include "tests/support/aov.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -49,6 +51,10 @@ Texels quarterTexels(const Image& enlarged) {
 double smoothstep(double low, double high, double x) {
   const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
   return t * t * (3 - 2 * t);
+}
+
+Difference::~Difference() {
+  if (count == 0) ADD_FAILURE() << "nothing was compared";
 }
 
 void Difference::add(double got, double expected) {

@@ -35,12 +35,14 @@ Texels quarterTexels(const Image& enlarged);
 
 double smoothstep(double low, double high, double x);
 
-// How two sets of numbers differ; collects, then states it.
+// How two sets of numbers differ; collects, then states it. One that has collected nothing fails the test: a
+// loop that never ran proves nothing.
 struct Difference {
   size_t count = 0, beyond = 0;  // how many there were, and how many differed by more than the tolerance
   double most = 0, sum = 0;
   double tolerance;
-  explicit Difference(double tolerance_) : tolerance(tolerance_) {}
+  explicit Difference(double allowed) : tolerance(allowed) {}
+  ~Difference();
   void add(double got, double expected);
   double mean() const { return count ? sum / double(count) : 0; }
   double beyondPart() const { return count ? double(beyond) / double(count) : 0; }

@@ -17,6 +17,22 @@ glm::dvec4 RepeatingTexture::sample(const glm::dvec2& uv) const {
   return glm::mix(glm::mix(texel(0, 0), texel(1, 0), f.x), glm::mix(texel(0, 1), texel(1, 1), f.x), f.y);
 }
 
+glm::dvec4 meanOf(const Pixels& pixels) {
+  glm::dvec4 sum(0.0);
+  for (size_t i = 0; i < pixels.rgba.size(); ++i) sum[int(i % 4)] += pixels.rgba[i] / 255.0;
+  return sum * 4.0 / double(pixels.rgba.size());
+}
+
+glm::dvec4 deviationOf(const Pixels& pixels) {
+  const glm::dvec4 mean = meanOf(pixels);
+  glm::dvec4 squares(0.0);
+  for (size_t i = 0; i < pixels.rgba.size(); ++i) {
+    const double d = pixels.rgba[i] / 255.0 - mean[int(i % 4)];
+    squares[int(i % 4)] += d * d;
+  }
+  return glm::sqrt(squares * 4.0 / double(pixels.rgba.size()));
+}
+
 MetaTextureReference::Result MetaTextureReference::at(const glm::dvec2& uv, const glm::dvec2& gradU,
                                                       const glm::dvec2& gradV, double alpha,
                                                       const glm::bvec2& wraps) const {
@@ -45,7 +61,8 @@ MetaTextureReference::Result MetaTextureReference::at(const glm::dvec2& uv, cons
     const double sine = std::abs(gu.x * gv.y - gu.y * gv.x) / glm::length(gu) / glm::length(gv);
     const double along = skew == off ? 1 : std::min(1.0, std::sqrt(2.0) * sine);
     const glm::dvec2 e =
-        -glm::log2(alpha * size * along * glm::dvec2(glm::length(gu), glm::length(gv))) / std::log2(base);
+        -glm::log2(alpha * size * along * glm::dvec2(glm::length(gu), height * glm::length(gv))) /
+        std::log2(base);
     const double share = level == 0 ? 1 - between : between;
     result.exponent += share * e;
     const glm::dvec2 whole = glm::floor(e), b(beta(e.x - whole.x), beta(e.y - whole.y));

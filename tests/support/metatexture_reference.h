@@ -14,10 +14,15 @@ struct RepeatingTexture {
   glm::dvec4 sample(const glm::dvec2& uv) const;
 };
 
+// Of a picture's bytes / 255, and the deviation from it.
+glm::dvec4 meanOf(const Pixels& pixels);
+glm::dvec4 deviationOf(const Pixels& pixels);
+
 struct MetaTextureReference {
   RepeatingTexture texture;
   glm::dvec4 mean{0.5};
-  double size = 256, base = 2, levelRotation = 0, blend = 1, skip = 0;  // pixels, ratio, radians a level
+  double size = 256, height = 1;  // of the example on the screen: pixels, and as a part of that
+  double base = 2, levelRotation = 0, blend = 1, skip = 0;  // ratio, radians a level
   int skewLevels = 4;
   enum { off, approximate, exact } skew = off;
   bool contour = false, contrast = true;

@@ -141,46 +141,59 @@ std::vector<glm::dmat4> posedNodes(const scene::SceneData& scene, const Moments&
   return world;
 }
 
-std::vector<WorldTriangle> posedTriangles(const scene::SceneData& scene, const Moments& moments) {
+std::vector<PosedPrimitive> posedPrimitives(const scene::SceneData& scene, const Moments& moments) {
   const std::vector<glm::dmat4> world = posedNodes(scene, moments);
-  std::vector<WorldTriangle> triangles;
+  std::vector<PosedPrimitive> posed;
   for (size_t n = 0; n < scene.nodes.size(); ++n) {
     const scene::Node& node = scene.nodes[n];
     if (node.mesh < 0) continue;
     const scene::Mesh& mesh = scene.meshes[size_t(node.mesh)];
     const std::vector<float>& rest = node.morphWeights.empty() ? mesh.morphWeights : node.morphWeights;
-    const Numbers weights =
-        mixed(scene, moments, n, AnimatedProperty::weights, Numbers(rest.begin(), rest.end()));
+    PosedPrimitive one;
+    one.mesh = &mesh;
+    one.id = int(n) + 1;
+    one.morphWeights = mixed(scene, moments, n, AnimatedProperty::weights, Numbers(rest.begin(), rest.end()));
     for (const scene::Primitive& p : mesh.primitives) {
-      const bool skinned = node.skin >= 0 && p.influences > 0;
-      std::vector<glm::dmat4> places{world[n]};
-      if (!skinned && !node.instances.empty()) {
-        places.clear();
-        for (const glm::mat4& instance : node.instances) places.push_back(world[n] * glm::dmat4(instance));
-      }
-      for (const glm::dmat4& place : places) {
-        std::vector<Vertex> vertices;
+      one.primitive = &p;
+      one.mirror = 1;
+      if (node.skin >= 0 && p.influences > 0) {
+        one.toWorld.clear();
         for (size_t v = 0; v < p.vertexCount(); ++v)
-          vertices.push_back(
-              placed(morphed(p, v, weights),
-                     skinned ? skinMatrix(p, scene.skins[size_t(node.skin)], v, world) : place));
-        // 3.7.4: a mirrored node's triangles keep their outside.
-        const double mirror = !skinned && glm::determinant(glm::dmat3(place)) < 0 ? -1 : 1;
-        for (size_t i = 0; i < p.indices.size(); i += 3) {
-          WorldTriangle t;
-          t.id = int(n) + 1;
-          for (size_t k = 0; k < 3; ++k) {
-            const Vertex& vertex = vertices[p.indices[i + k]];
-            t.positions[k] = vertex.position, t.normals[k] = vertex.normal;
-          }
-          t.outward = mirror * glm::cross(t.positions[1] - t.positions[0], t.positions[2] - t.positions[0]);
-          triangles.push_back(t);
-          if (!scene.materials[size_t(p.material)].doubleSided) continue;
-          t.outward = -t.outward;
-          for (glm::dvec3& normal : t.normals) normal = -normal;
-          triangles.push_back(t);
-        }
+          one.toWorld.push_back(skinMatrix(p, scene.skins[size_t(node.skin)], v, world));
+        posed.push_back(one);
+        continue;
       }
+      const std::vector<glm::mat4> here{glm::mat4(1.0f)};
+      for (const glm::mat4& instance : node.instances.empty() ? here : node.instances) {
+        one.toWorld.assign(p.vertexCount(), world[n] * glm::dmat4(instance));
+        one.mirror = glm::determinant(glm::dmat3(world[n] * glm::dmat4(instance))) < 0 ? -1 : 1;
+        posed.push_back(one);
+      }
+    }
+  }
+  return posed;
+}
+
+std::vector<WorldTriangle> posedTriangles(const scene::SceneData& scene, const Moments& moments) {
+  std::vector<WorldTriangle> triangles;
+  for (const PosedPrimitive& posed : posedPrimitives(scene, moments)) {
+    const scene::Primitive& p = *posed.primitive;
+    std::vector<Vertex> vertices;
+    for (size_t v = 0; v < p.vertexCount(); ++v)
+      vertices.push_back(placed(morphed(p, v, posed.morphWeights), posed.toWorld[v]));
+    for (size_t i = 0; i < p.indices.size(); i += 3) {
+      WorldTriangle t;
+      t.id = posed.id;
+      for (size_t k = 0; k < 3; ++k) {
+        const Vertex& vertex = vertices[p.indices[i + k]];
+        t.positions[k] = vertex.position, t.normals[k] = vertex.normal;
+      }
+      t.outward = posed.mirror * glm::cross(t.positions[1] - t.positions[0], t.positions[2] - t.positions[0]);
+      triangles.push_back(t);
+      if (!scene.materials[size_t(p.material)].doubleSided) continue;
+      t.outward = -t.outward;
+      for (glm::dvec3& normal : t.normals) normal = -normal;
+      triangles.push_back(t);
     }
   }
   return triangles;

@@ -23,6 +23,17 @@ std::vector<double> channelAt(const scene::Channel& channel, double seconds);
 // World matrices of the nodes.
 std::vector<glm::dmat4> posedNodes(const scene::SceneData& scene, const Moments& moments);
 
+// A primitive where a node, or one of its instances, draws it.
+struct PosedPrimitive {
+  const scene::Mesh* mesh = nullptr;
+  const scene::Primitive* primitive = nullptr;
+  int id = 0;                        // of the node, from 1
+  std::vector<double> morphWeights;  // one a target
+  std::vector<glm::dmat4> toWorld;   // one a vertex
+  double mirror = 1;                 // -1 where the node turns triangles inside out (3.7.4)
+};
+std::vector<PosedPrimitive> posedPrimitives(const scene::SceneData& scene, const Moments& moments);
+
 // Everything that is drawn; ids count nodes from 1. The order does not depend on the pose. What a
 // double-sided material covers is there twice, once for either side.
 std::vector<WorldTriangle> posedTriangles(const scene::SceneData& scene, const Moments& moments);

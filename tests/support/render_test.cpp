@@ -3,6 +3,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <stdexcept>
 
+#include "look/look_data.h"
+#include "tests/support/test_device.h"
+
 namespace scumble::test {
 
 namespace {
@@ -21,6 +24,7 @@ Renderer& existing(std::unique_ptr<Renderer>& renderer, ImagePassKind kind) {
     RendererOptions options;
     options.validation = true;
     options.imagePasses = kind;
+    options.device = testDevice();
     Result<std::unique_ptr<Renderer>> made = Renderer::create(options);
     if (!made) throw std::runtime_error(made.error().message());
     renderer = std::move(made).value();
@@ -57,6 +61,13 @@ Frame RenderTest::draw(const Scene& scene, const Look& look, const std::vector<V
 
 std::string stereoName(const ::testing::TestParamInfo<Stereo>& info) {
   return info.param == Stereo::stereo ? "stereo" : "mono";
+}
+
+std::string settingOf(const Look& look, const std::string& path) {
+  const Result<look::KnobRef> knob = look::findKnob(path);
+  if (!knob) throw std::runtime_error(knob.error().message());
+  const look::Assignment* setting = look.data().settingOf(*knob->block, knob->row->name);
+  return look::formatValue(*knob->row, setting ? setting->value.number : knob->row->defaultValue);
 }
 
 Look quietLook(const Knobs& knobs) {

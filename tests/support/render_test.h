@@ -48,6 +48,10 @@ using Knobs = std::vector<std::pair<std::string, std::string>>;
 // no air, no bloom. Then the given knobs.
 Look quietLook(const Knobs& knobs = {});
 
+// What a look says of a knob for the whole scene, as Look::set takes it; the default where it says nothing.
+// Of knobs that are no colours.
+std::string settingOf(const Look& look, const std::string& path);
+
 // Views from an eye to a target; two eyes stand `ipd` apart. Angles in degrees.
 struct Stand {
   glm::vec3 eye{0, 0, 5}, target{0, 0, 0};

@@ -7,7 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <stdexcept>
 
-#include "film/test_folder.h"
+#include "base/test_folder.h"
 
 namespace scumble::test {
 
@@ -128,11 +128,11 @@ Json TestScene::unlit(const std::string& name, const glm::vec4& linear) {
 }
 
 int TestScene::texture(const Image& image) {
-  const film::TestFolder folder;
+  const TestFolder folder;
   const std::string path = folder.file("texture.png");
   if (const Status written = writePng(path, image); !written)
     throw std::runtime_error(written.error().message());
-  const std::string content = film::contentOf(path);
+  const std::string content = contentOf(path);
   return textureFile({content.begin(), content.end()}, "image/png");
 }
 
@@ -244,6 +244,17 @@ void TestScene::light(const glm::vec3& towards) {
   const glm::mat4 matrix(glm::vec4(x, 0), glm::vec4(glm::cross(z, x), 0), glm::vec4(z, 0),
                          glm::vec4(0, 0, 0, 1));
   addNode({{"matrix", numbers(matrix)}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+}
+
+void TestScene::clip(const std::string& name, const std::vector<float>& times,
+                     const std::vector<glm::vec3>& places) {
+  const size_t node = json()["nodes"].size() - 1;
+  json()["nodes"][node].erase("matrix");  // glTF animates no matrices
+  json()["animations"].push_back(
+      {{"name", name},
+       {"samplers", Json::array({{{"input", gltf_.addFloats(times, 1)},
+                                  {"output", gltf_.addFloats(floats(places), 3)}}})},
+       {"channels", Json::array({{{"sampler", 0}, {"target", {{"node", node}, {"path", "translation"}}}}})}});
 }
 
 Scene TestScene::load() const {

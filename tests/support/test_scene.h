@@ -63,6 +63,9 @@ class TestScene {
                   const std::vector<glm::mat4>& inverseBind);
   // A directional light that comes from there.
   void light(const glm::vec3& towards);
+  // A clip that moves what was added last, which must lie where its mesh has it, along these places. Not in
+  // triangles().
+  void clip(const std::string& name, const std::vector<float>& times, const std::vector<glm::vec3>& places);
 
   Scene load() const;  // fails the test on a warning
   std::string text() const { return gltf_.gltf(); }

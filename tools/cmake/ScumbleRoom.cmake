@@ -10,3 +10,11 @@ function(scumble_sources)
     endif()
   endforeach()
 endfunction()
+
+# scumble_arithmetic_tests(FILES...): tests of arithmetic on numbers of their own, which touch no memory that anybody gives.
+# Builds with sanitizers leave them out: compiling them costs more there than they could find.
+function(scumble_arithmetic_tests)
+  if(NOT SCUMBLE_SANITIZE)
+    scumble_sources(${ARGN})
+  endif()
+endfunction()

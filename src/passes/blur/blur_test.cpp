@@ -89,6 +89,41 @@ TEST_P(BlurTest, equalsItsReference) {
   }
 }
 
+// Sizes that no four divide: the last texel stands for what is left over. The AOV is enlarged linearly,
+// straight.
+TEST_P(BlurTest, oddSizesEqualTheirReference) {
+  constexpr int kWidth = 79, kHeight = 61;
+  const Scene scene = stillLife().load();
+  const auto views = viewsFrom(scene, {{2, 2.5f, 6}, {0, 0.8f, 0}}, kWidth, kHeight, GetParam());
+  const Frame frame = draw(scene, quietLook({{"blur.radius", "100"}, {"blur.depthEdge", "0"}}), views,
+                           sized(kWidth, kHeight, {"shadow", "blur"}));
+  const double wanted = 0.5 * 100 * kHeight / 1080.0, rest = std::sqrt(wanted * wanted - 4) / 4;
+  for (size_t v = 0; v < viewCount(); ++v) {
+    Texels source(kWidth, kHeight);
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        source.at(x, y) = texel(aov(frame, "shadow", v), x, y);
+        source.at(x, y).z = 1;
+      }
+    Texels small = blurAxis(blurAxis(source, false, 4, 2, 0), true, 4, 2, 0);
+    small = blurAxis(blurAxis(small, false, 1, rest, 0), true, 1, rest, 0);
+    ASSERT_EQ(small.width, 20);
+    ASSERT_EQ(small.height, 16);
+    Difference coverage(0.01);
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        const glm::dvec2 at =
+            (glm::dvec2(x, y) + 0.5) * glm::dvec2(small.width, small.height) / glm::dvec2(kWidth, kHeight) -
+            0.5;
+        const glm::dvec2 corner = glm::floor(at), f = at - corner;
+        const auto w = [&](int i, int j) { return small.clamped(int(corner.x) + i, int(corner.y) + j).w; };
+        coverage.add(texel(aov(frame, "blur", v), x, y).w,
+                     glm::mix(glm::mix(w(0, 0), w(1, 0), f.x), glm::mix(w(0, 1), w(1, 1), f.x), f.y));
+      }
+    EXPECT_EQ(coverage.beyond, 0u) << coverage.text() << ", view " << v;
+  }
+}
+
 // A step of the light on one plane: its blurred profile has the standard deviation that the knob asks for.
 TEST_F(BlurTest, spreadsByHalfTheRadius) {
   constexpr int kWidth = 256, kHeight = 64;

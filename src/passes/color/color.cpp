@@ -22,6 +22,7 @@ class Color : public Pass {
   const char* name() const override { return "color"; }
 
   void declare(FrameBuilder& frame) override {
+    viewCount_ = frame.configuration().viewCount;
     const auto mix = [&](const char* step, Slot light, Slot lit, Slot shadowed, Slot depth, Slot color) {
       steps_.emplace_back().declare(
           frame, step, {{shaders::color_image_frag}, {shaders::color_image_comp}},
@@ -34,6 +35,7 @@ class Color : public Pass {
           Slot::behind);
   }
   void create(FrameBuilder& frame, const FrameResources& resources) override {
+    viewCount_ = frame.configuration().viewCount;
     for (ImageStep& step : steps_) step.create(frame, resources);
   }
 
@@ -50,7 +52,10 @@ class Color : public Pass {
     uniforms.height = std::sin(glm::radians(params.height));
     uniforms.air = params.air;
     const float radius = input.uniforms.sceneRadius;
-    const float center = glm::length(input.uniforms.sceneCenter - input.uniforms.views[0].eye);
+    // From the middle of all eyes, so that the air is the same in each.
+    glm::vec3 viewer(0.0f);
+    for (uint32_t v = 0; v < viewCount_; ++v) viewer += input.uniforms.views[v].eye / float(viewCount_);
+    const float center = glm::length(input.uniforms.sceneCenter - viewer);
     uniforms.airStart = center + params.airStart * radius;
     uniforms.airEnd = center + std::max(params.airEnd, params.airStart + 1e-3f) * radius;
     uniforms.transparent = input.transparent;
@@ -67,6 +72,7 @@ class Color : public Pass {
 
  private:
   ShadowMixOf shadowMix_;
+  uint32_t viewCount_ = 1;
   std::deque<ImageStep> steps_;  // they are referred to, and stay where they are
 };
 

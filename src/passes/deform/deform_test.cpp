@@ -6,6 +6,7 @@
 #include "tests/support/aov.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
+#include "tests/support/test_device.h"
 
 namespace scumble::passes {
 namespace {
@@ -53,6 +54,7 @@ class DeformTest : public BothEyes {
 INSTANTIATE_BOTH_EYES(DeformTest);
 
 TEST_P(DeformTest, rigid) {
+  NEEDS_FINE_RASTER();
   TestScene s;
   const int m = grey(s);
   glm::mat4 turned =
@@ -63,6 +65,7 @@ TEST_P(DeformTest, rigid) {
 }
 
 TEST_P(DeformTest, mirrored) {
+  NEEDS_FINE_RASTER();
   TestScene s;
   const int m = grey(s);
   const glm::mat4 turned = glm::rotate(glm::mat4(1.0f), 0.6f, glm::vec3(1, 1, 0));
@@ -72,6 +75,7 @@ TEST_P(DeformTest, mirrored) {
 }
 
 TEST_P(DeformTest, sheared) {
+  NEEDS_FINE_RASTER();
   TestScene s;
   glm::mat4 shear(1.0f);
   shear[1][0] = 0.8f, shear[2][1] = -0.5f, shear[0][2] = 0.3f;
@@ -81,6 +85,7 @@ TEST_P(DeformTest, sheared) {
 }
 
 TEST_P(DeformTest, instanced) {
+  NEEDS_FINE_RASTER();
   TestScene s;
   s.addInstances(oddBox(), grey(s), {{-1, 0, 0}, {1, 0.3f, -0.5f}, {0, -0.8f, 0.5f}},
                  {glm::quat(1, 0, 0, 0), glm::normalize(glm::quat(0.8f, 0.3f, -0.4f, 0.2f)),
@@ -90,6 +95,7 @@ TEST_P(DeformTest, instanced) {
 }
 
 TEST_P(DeformTest, skinned) {
+  NEEDS_FINE_RASTER();
   TestScene s;
   // A bar along y whose upper end follows a second joint.
   TestMesh bar;

@@ -52,7 +52,7 @@ class Facts : public Pass {
     desc.fragment = {shaders::facts_frag};
     desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor | kDPdu | kDPdv | kPatternUv | kPreviousPosition;
     for (const Slot fact : kFacts) desc.colorFormats.push_back(slotInfo(fact).format);
-    desc.viewMask = viewMask(configuration_);
+    desc.viewMask = configuration_.views().mask();
     desc.viewCount = configuration_.viewCount;
     desc.passLayout = &layout_;
     desc.materialStrides = {materials_.kStride};
@@ -74,14 +74,15 @@ class Facts : public Pass {
 
  private:
   void record(VkCommandBuffer commands) const {
-    std::array<Target, kFacts.size()> colors;
+    std::array<gpu::Target, kFacts.size()> colors;
     for (size_t i = 0; i < kFacts.size(); ++i) colors[i].image = &resources_->image(targets_[i]);
     const float infinity = std::numeric_limits<float>::infinity();
     static_assert(kFacts[0] == Slot::factDepth);
     colors[0].clear.color = {{infinity, infinity, infinity, infinity}};
-    const Target depth{&resources_->image(depth_), nullptr, {}};
-    drawViews(commands, configuration_, colors, &depth,
-              [&](uint32_t firstView) { step_.draw(commands, *resources_, *scene_, &sets_, firstView); });
+    const gpu::Target depth{&resources_->image(depth_), nullptr, {}};
+    gpu::drawViews(commands, configuration_.views(), colors, &depth, [&](uint32_t firstView) {
+      step_.draw(commands, *resources_, *scene_, &sets_, firstView);
+    });
   }
 
   std::array<gpu::ResourceId, kFacts.size()> targets_{};

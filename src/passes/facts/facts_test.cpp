@@ -4,6 +4,7 @@
 #include "tests/support/aov.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
+#include "tests/support/test_device.h"
 
 namespace scumble::passes {
 namespace {
@@ -17,6 +18,7 @@ class FactsTest : public BothEyes {
 INSTANTIATE_BOTH_EYES(FactsTest);
 
 TEST_P(FactsTest, depthPositionIdAndMotion) {
+  NEEDS_FINE_RASTER();
   const TestScene test = stillLife();
   const Scene scene = test.load();
   auto views = viewsFrom(scene, {{2, 2.5f, 6}, {0, 0.8f, 0}}, kWidth, kHeight, GetParam());
@@ -61,6 +63,7 @@ TEST_P(FactsTest, depthPositionIdAndMotion) {
 }
 
 TEST_F(FactsTest, nothingMovesWhereTheViewStays) {
+  NEEDS_FINE_RASTER();
   const Scene scene = stillLife().load();
   const auto views = viewsFrom(scene, {{2, 2.5f, 6}, {0, 0.8f, 0}}, kWidth, kHeight);
   const Frame frame = draw(scene, quietLook(), views, sized(kWidth, kHeight, {"motion"}));
@@ -69,6 +72,7 @@ TEST_F(FactsTest, nothingMovesWhereTheViewStays) {
 
 // A parallel projection has its own arithmetic.
 TEST_F(FactsTest, depthOfAParallelProjection) {
+  NEEDS_FINE_RASTER();
   const TestScene test = stillLife();
   const View view = parallelView(2.5f, 4.0f / 3);
   const Frame frame = draw(test.load(), quietLook(), {view}, sized(kWidth, kHeight, {"depth"}));

@@ -151,6 +151,31 @@ TEST_P(FinalShadowTest, equalsItsReference) {
   }
 }
 
+// At silhouettes light and lens are those of what is there, however little of the pixel it covers.
+TEST_P(FinalShadowTest, partlyCoveredPixelsAreAsLitAsWholeOnes) {
+  TestScene s;
+  Json lamp = TestScene::unlit("Lamp", {1, 1, 1, 1});
+  lamp["emissiveFactor"] = {0.6, 0.6, 0.6};
+  s.add(gridMesh({-1, -0.8f, 0}, {1.7f, 0.5f, 0}, {-0.4f, 1.3f, 0}), s.material(lamp));
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0, 0, 4}}, kWidth, kHeight, GetParam());
+  Knobs k;
+  k.radius = 0;
+  const Frame frame = draw(scene, lookOf(k), views, sized(kWidth, kHeight, {"final-shadow"}, 4));
+  for (size_t v = 0; v < viewCount(); ++v) {
+    size_t partly = 0;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        const glm::dvec4 got = texel(aov(frame, "final-shadow", v), x, y);
+        if (got.w == 0) continue;
+        partly += got.w < 1;
+        EXPECT_EQ(got.x, 1) << x << ", " << y;
+        EXPECT_NEAR(got.y, 0.6, 3.0 / 255);  // 8 bits of a quarter of it, and again
+      }
+    EXPECT_GT(partly, 50u);
+  }
+}
+
 // FORMULAS 15: an edge is about `softness` pixels wide, however round the shapes are.
 TEST_F(FinalShadowTest, edgesAreAsWideAsAskedFor) {
   TestScene s;

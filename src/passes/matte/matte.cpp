@@ -95,7 +95,7 @@ class Matte : public Pass {
     desc.inputs = kPosition | kUv0 | kUv1 | kColor;
     desc.colorFormats = {kFormat};
     desc.samples = layer.samples;
-    desc.viewMask = viewMask(configuration_);
+    desc.viewMask = configuration_.views().mask();
     desc.viewCount = configuration_.viewCount;
     desc.constant = isBehind;
     desc.passLayout = &layout_;
@@ -104,9 +104,9 @@ class Matte : public Pass {
   }
 
   void record(VkCommandBuffer commands, const ObjectLayer& layer) const {
-    const Target objects{&resources_->image(layer.objects), nullptr, {}};
-    const Target depth{&resources_->image(layer.depth), nullptr, {}};
-    drawViews(commands, configuration_, {&objects, 1}, &depth, [&](uint32_t firstView) {
+    const gpu::Target objects{&resources_->image(layer.objects), nullptr, {}};
+    const gpu::Target depth{&resources_->image(layer.depth), nullptr, {}};
+    gpu::drawViews(commands, configuration_.views(), {&objects, 1}, &depth, [&](uint32_t firstView) {
       layer.step.draw(commands, *resources_, *scene_, &layer.sets, firstView);
     });
   }

@@ -64,7 +64,7 @@ class Ocean : public Pass {
     desc.fragment = {shaders::ocean_surface_frag};
     desc.inputs = kPosition | kNormal | kDPdu | kDPdv | kPatternUv;
     desc.colorFormats = {kPatternFormat, kWavesFormat};
-    desc.viewMask = viewMask(configuration_);
+    desc.viewMask = configuration_.views().mask();
     desc.viewCount = configuration_.viewCount;
     desc.passLayout = &layout_;
     step_.create(frame.device(), resources, frame.scene(), desc);
@@ -122,10 +122,11 @@ class Ocean : public Pass {
   static constexpr int kFoamExample = 4;  // among the built-in ones
 
   void record(VkCommandBuffer commands) const {
-    const Target colors[] = {{&resources_->image(pattern_)}, {&resources_->image(waves_)}};
-    const Target depth{&resources_->image(depth_), nullptr, {}};
-    drawViews(commands, configuration_, colors, &depth,
-              [&](uint32_t firstView) { step_.draw(commands, *resources_, *scene_, &sets_, firstView); });
+    const gpu::Target colors[] = {{&resources_->image(pattern_)}, {&resources_->image(waves_)}};
+    const gpu::Target depth{&resources_->image(depth_), nullptr, {}};
+    gpu::drawViews(commands, configuration_.views(), colors, &depth, [&](uint32_t firstView) {
+      step_.draw(commands, *resources_, *scene_, &sets_, firstView);
+    });
   }
 
   gpu::ResourceId pattern_ = 0, waves_ = 0, depth_ = 0;

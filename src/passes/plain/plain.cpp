@@ -38,7 +38,7 @@ class Plain : public Pass {
     desc.inputs = kPosition | kUv0 | kUv1 | kColor;
     desc.colorFormats = {slotInfo(Slot::plain).format};
     desc.samples = samples_;
-    desc.viewMask = viewMask(configuration_);
+    desc.viewMask = configuration_.views().mask();
     desc.viewCount = configuration_.viewCount;
     desc.blends = true;
     step_.create(frame.device(), resources, frame.scene(), desc);
@@ -46,11 +46,12 @@ class Plain : public Pass {
 
  private:
   void record(VkCommandBuffer commands) const {
-    const Target color{
+    const gpu::Target color{
         &resources_->image(drawn_), samples_ > 1 ? &resources_->image(resolved_) : nullptr, {}};
-    const Target depth{&resources_->image(depth_), nullptr, {}};
-    drawViews(commands, configuration_, {&color, 1}, &depth,
-              [&](uint32_t firstView) { step_.draw(commands, *resources_, *scene_, nullptr, firstView); });
+    const gpu::Target depth{&resources_->image(depth_), nullptr, {}};
+    gpu::drawViews(commands, configuration_.views(), {&color, 1}, &depth, [&](uint32_t firstView) {
+      step_.draw(commands, *resources_, *scene_, nullptr, firstView);
+    });
   }
 
   gpu::ResourceId drawn_ = 0, resolved_ = 0, depth_ = 0;

@@ -37,9 +37,9 @@ class ShadowMap : public Pass {
 
  private:
   void record(VkCommandBuffer commands) const {
-    Target depth{&resources_->image(map_), nullptr, {}};
+    gpu::Target depth{&resources_->image(map_), nullptr, {}};
     depth.clear.depthStencil = {1.0f, 0};
-    drawOnce(commands, depth, [&] { step_.draw(commands, *resources_, *scene_, nullptr, 0); });
+    gpu::drawOnce(commands, depth, [&] { step_.draw(commands, *resources_, *scene_, nullptr, 0); });
   }
 
   gpu::ResourceId map_ = 0;

@@ -6,6 +6,8 @@
 #include "tests/support/aov.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
+#include "tests/support/sanitized.h"
+#include "tests/support/test_device.h"
 
 namespace scumble::passes {
 namespace {
@@ -151,6 +153,8 @@ TEST_P(ShadowMapTest, aPoleCastsAStraightShadow) {
 // A courtyard of posts, seen from anywhere: what the light does not reach by a ray is in shadow, at both ends
 // of the sigmoid's range. Points within a few texels of a shadow's edge may be either.
 TEST_P(ShadowMapTest, shadowsAreWhereRaysAreBlocked) {
+  NOT_WITH_SANITIZERS();
+  NEEDS_FINE_RASTER();
   constexpr int kWidth = 192, kHeight = 144;
   TestScene test;
   const int stone = test.material(TestScene::colored("Stone", {0.6f, 0.6f, 0.6f, 1}));
@@ -219,6 +223,30 @@ TEST_F(ShadowMapTest, castersAndHoles) {
     EXPECT_NEAR(texel(aov(frame, "shadow"), left.x, left.y).x, casts ? 0 : 1, 0.01);
     EXPECT_NEAR(texel(aov(frame, "shadow"), right.x, right.y).x, 1, 0.01);
   }
+}
+
+// What lies deeper than all casters, and within their box as the light has it: there is nothing that could
+// cast.
+TEST_P(ShadowMapTest, whatLiesBeyondAllCastersIsLitBesideTheirShadows) {
+  TestScene test;
+  const int stone = test.material(TestScene::colored("Stone", {0.6f, 0.6f, 0.6f, 1}));
+  test.add(gridMesh({-6, 0, 6}, {12, 0, 0}, {0, 0, -12}),
+           test.material(TestScene::colored("Sand", {0.6f, 0.5f, 0.3f, 1})));
+  // Two corners of a square; at the others there is light.
+  test.add(boxMesh({-1.5f, 2, -1.5f}, {-0.5f, 2.2f, -0.5f}), stone);
+  test.add(boxMesh({0.5f, 2, 0.5f}, {1.5f, 2.2f, 1.5f}), stone);
+  test.light({0.001f, 1, 0});
+  const Scene scene = test.load();
+  const auto views = viewsFrom(scene, {{0, 1.5f, 7}, {0, 0, 0}}, 96, 72, GetParam());
+  const Frame frame = draw(scene, quietLook({{"materials.Sand.shadowMap.cast", "off"}}), views,
+                           sized(96, 72, {"shadow", "id"}));
+  for (size_t v = 0; v < viewCount(); ++v)
+    for (const double x : {-1.0, 1.0})
+      for (const double z : {-1.0, 1.0}) {
+        const glm::ivec2 at(pixelOf(views[v], {x, 0, z}, 96, 72));
+        ASSERT_EQ(texel(aov(frame, "id", v), at.x, at.y).x, 1);
+        EXPECT_NEAR(texel(aov(frame, "shadow", v), at.x, at.y).x, x == z ? 0 : 1, 0.01) << x << ", " << z;
+      }
 }
 
 }  // namespace

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <filesystem>
 
-#include "frame/palette.h"
 #include "passes/surface/surface.h"
 #include "scumble/image.h"
 #include "tests/support/aov.h"
+#include "tests/support/palette_reference.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
 
@@ -15,8 +15,6 @@ namespace scumble::passes {
 namespace {
 
 using namespace test;
-using frame::ColorRule;
-using frame::Grade;
 
 constexpr double kSetsByte = 1.0 / 255;
 constexpr int kSetsWidth = 64, kSetsHeight = 48;
@@ -99,11 +97,15 @@ TEST_P(ColorSetsTest, gradesEachSide) {
                                                 {"shadowed.brightness", "1.2"},
                                                 {"shadowed.overlay", "#203060"},
                                                 {"shadowed.overlayAmount", "0.5"}}));
-    const frame::PaletteParams palette;
-    const Grade lit{-10, 1.2f, 1, 1, 0, {}}, shadowed{0, 1, 1.2f, 1, 0.5f, look::linearFromSrgb(0x203060)};
-    const double roots = varied ? 16 : 1;
-    expectColor(got.lit[0], ColorRule{ColorRule::lit, palette, lit}(color), roots);
-    expectColor(got.shadowed[0], ColorRule{ColorRule::shadowed, palette, shadowed}(color), roots);
+    const PaletteReference palette;
+    const GradeReference lit{-10, 1.2, 1, 1, 0, {}}, shadowed{0, 1, 1.2, 1, 0.5, referenceColor(0x203060)};
+    const auto litRule = [&](const glm::dvec3& c) { return lit(palette.lit(c)); };
+    const auto shadowedRule = [&](const glm::dvec3& c) { return shadowed(palette.shadowed(c)); };
+    // Vertex colours have 8 bits.
+    const glm::dvec3 own(color);
+    expectColor(got.lit[0], varied ? FitReference(litRule)(own) : litRule(own), varied ? 2 : 1);
+    expectColor(got.shadowed[0], varied ? FitReference(shadowedRule)(own) : shadowedRule(own),
+                varied ? 2 : 1);
   }
 }
 
@@ -125,11 +127,12 @@ TEST_P(ColorSetsTest, texturesOfTheFile) {
   // Without one for shadow, it is derived from that for light.
   got =
       drawn(texturedWall(base, kLight, {}), quietLook({{"surface.simplify", "0"}, {"palette.skyTint", "0"}}));
-  frame::PaletteParams palette;
+  PaletteReference palette;
   palette.darkest = 0, palette.lightest = 1, palette.litTintAmount = 0;
+  const FitReference fit([&](const glm::dvec3& c) { return palette.shadowed(c); });
   for (int i = 0; i < 4; ++i) {
     expectColor(got.lit[i], kLight[size_t(i)], 1.5);
-    expectColor(got.shadowed[i], frame::shadowedColor(palette, kLight[size_t(i)]), 16);
+    expectColor(got.shadowed[i], fit(glm::dvec3(kLight[size_t(i)])), 2);
   }
 }
 
@@ -141,6 +144,7 @@ TEST_P(ColorSetsTest, mixesAndGradesTextures) {
   const Sets half = drawn(scene, quietLook({sharp, level, {"palette.ownShadow", "0.5"}}));
   const Sets left = drawn(scene, quietLook({sharp, level, {"shadowed.texture", "derived"}}));
   const Sets grey = drawn(scene, quietLook({sharp, level, {"shadowed.saturation", "0"}}));
+  const FitReference withoutColor(GradeReference{0, 0, 1, 1, 0, {}});
   for (int i = 0; i < 4; ++i) {
     const glm::dvec3 root =
         glm::mix(glm::sqrt(glm::dvec3(derived.shadowed[i])), glm::dvec3(glm::sqrt(kDark[size_t(i)])), 0.5);
@@ -148,7 +152,7 @@ TEST_P(ColorSetsTest, mixesAndGradesTextures) {
     expectColor(half.lit[i], glm::dvec3(derived.lit[i]), 1);
     EXPECT_EQ(left.shadowed[i], derived.shadowed[i]);
     EXPECT_EQ(left.lit[i], derived.lit[i]);
-    expectColor(grey.shadowed[i], frame::graded({0, 0, 1, 1, 0, {}}, kDark[size_t(i)]), 14);
+    expectColor(grey.shadowed[i], withoutColor(glm::dvec3(kDark[size_t(i)])), 2);
   }
 }
 
@@ -240,9 +244,8 @@ TEST_P(ColorSetsTest, tracksMoveThem) {
       "test");
   ASSERT_TRUE(look) << look.error().message();
   for (const float time : {0.0f, 1.0f, 2.0f}) {
-    const Grade grade{0, 1 - time / 2, 1, 1, 0, {}};
-    expectColor(drawn(scene, look.value(), time).lit[0],
-                ColorRule{ColorRule::lit, {}, grade}(glm::dvec3(glm::vec3(0.4f, 0.1f, 0.1f))));
+    const GradeReference grade{0, 1 - time / 2, 1, 1, 0, {}};
+    expectColor(drawn(scene, look.value(), time).lit[0], grade(PaletteReference().lit({0.4, 0.1, 0.1})));
   }
 }
 

@@ -107,7 +107,7 @@ class Surface : public Pass {
     desc.paintedInputs = desc.inputs | kDPdu | kDPdv | kPatternUv;
     for (size_t i = 0; i < kDepthTarget; ++i) desc.colorFormats.push_back(slotInfo(targets_[i]).format);
     desc.samples = samples_;
-    desc.viewMask = viewMask(configuration_);
+    desc.viewMask = configuration_.views().mask();
     desc.viewCount = configuration_.viewCount;
     desc.blends = !isBehind_;
     desc.constant = constant(false);
@@ -159,12 +159,13 @@ class Surface : public Pass {
 
   void record(VkCommandBuffer commands) const {
     const auto target = [&](size_t i) {
-      return Target{
+      return gpu::Target{
           &resources_->image(drawn_[i]), samples_ > 1 ? &resources_->image(resolved_[i]) : nullptr, {}};
     };
-    const Target colors[] = {target(0), target(1), target(2)}, depth = target(3);
-    drawViews(commands, configuration_, colors, &depth,
-              [&](uint32_t firstView) { step_.draw(commands, *resources_, *scene_, &sets_, firstView); });
+    const gpu::Target colors[] = {target(0), target(1), target(2)}, depth = target(3);
+    gpu::drawViews(commands, configuration_.views(), colors, &depth, [&](uint32_t firstView) {
+      step_.draw(commands, *resources_, *scene_, &sets_, firstView);
+    });
   }
 
   bool isBehind_;

@@ -6,6 +6,7 @@
 #include "../../shading/color_map.glsl"
 #include "../../shading/light_space.glsl"
 #include "../../shading/material.glsl"
+#define METATEXTURE_UNROLLS
 #include "../../shading/metatexture.glsl"
 #include "../../shading/punctual_lights.glsl"
 #include "../../shading/surface_tangents_at_pixel.glsl"

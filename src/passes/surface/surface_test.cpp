@@ -10,6 +10,7 @@
 #include "frame/palette.h"
 #include "tests/support/aov.h"
 #include "tests/support/metatexture_reference.h"
+#include "tests/support/palette_reference.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
 
@@ -82,22 +83,23 @@ TEST_P(SurfaceTest, colorsFollowThePalette) {
   const Scene scene = s.load();
   const Look look = quietLook(
       {{"palette.shadowTintAmount", "0.8"}, {"palette.darkest", "0.1"}, {"palette.skyTint", "0.2"}});
-  frame::PaletteParams palette;
-  palette.shadowTintAmount = 0.8f, palette.darkest = 0.1f;
+  PaletteReference palette;
+  palette.shadowTintAmount = 0.8, palette.darkest = 0.1;
   const auto views = viewsFrom(scene, {{0, 0, 3.5f}}, kWidth, kHeight, GetParam());
   const Frame frame = draw(scene, look, views, sized(kWidth, kHeight, {"lit", "shadowed"}));
   // The normals are level: half sky, half ground.
-  const glm::dvec3 up = glm::sqrt(1.0 + 0.2 * glm::dvec3(0, 0.7, 1.6)),
-                   down = glm::sqrt(1.0 + 0.2 * glm::dvec3(0.6, -0.4, -1.2));
-  const glm::dvec3 tint = 0.25 * (up + down) * (up + down);
+  const glm::dvec3 tint = skyTintReference(0.2, 0);
+  const FitReference litFit([&](const glm::dvec3&c) { return palette.lit(c); }),
+      shadowedFit([&](const glm::dvec3&c) { return palette.shadowed(c); });
   for (size_t v = 0; v < viewCount(); ++v)
     for (int i = 0; i < 4; ++i)
       for (const bool varied : {false, true}) {
         const glm::dvec2 at = pixelOf(views[v], {i - 1.5, varied ? -0.5 : 0.5, 0}, kWidth, kHeight);
-        const glm::dvec3 lit = frame::litColor(palette, glm::dvec3(colors[i]));
-        const glm::dvec3 shadowed = frame::shadowedColor(palette, glm::dvec3(colors[i])) * tint;
-        // The polynomial is a fit: as good as palette_test finds it; vertex colours have 8 bits.
-        const double roots = varied ? 16 : 1;
+        const glm::dvec3 own(colors[i]);
+        const glm::dvec3 lit = varied ? litFit(own) : palette.lit(own);
+        const glm::dvec3 shadowed = (varied ? shadowedFit(own) : palette.shadowed(own)) * tint;
+        // Vertex colours have 8 bits.
+        const double roots = varied ? 2 : 1;
         SCOPED_TRACE(std::to_string(i) + (varied ? " varied" : " plain"));
         expectColor(texel(aov(frame, "lit", v), int(at.x), int(at.y)), lit, roots);
         expectColor(texel(aov(frame, "shadowed", v), int(at.x), int(at.y)), shadowed, roots);
@@ -129,7 +131,7 @@ TEST_P(SurfaceTest, unlitAndEmissive) {
   const auto views = viewsFrom(scene, {{0, 0, 3.5f}}, kWidth, kHeight, GetParam());
   const Frame frame = draw(scene, quietLook({{"surface.lens", "1.5"}, {"palette.skyTint", "0"}}), views,
                            sized(kWidth, kHeight, {"shadow", "lit", "shadowed"}));
-  const frame::PaletteParams palette;
+  const PaletteReference palette;
   for (size_t v = 0; v < viewCount(); ++v) {
     const glm::ivec2 sign(pixelOf(views[v], {-1, 0, 0}, kWidth, kHeight)),
         bulb(pixelOf(views[v], {1, 0, 0}, kWidth, kHeight));
@@ -139,10 +141,9 @@ TEST_P(SurfaceTest, unlitAndEmissive) {
     const glm::dvec4 shadow = texel(aov(frame, "shadow", v), bulb.x, bulb.y);
     EXPECT_NEAR(shadow.x, 0, kByte);
     EXPECT_NEAR(shadow.y, 1.5 * glm::dot(emissive, glm::dvec3(0.2126, 0.7152, 0.0722)), kByte);
-    expectColor(texel(aov(frame, "lit", v), bulb.x, bulb.y),
-                frame::litColor(palette, glm::dvec3(0.2f)) + emissive);
+    expectColor(texel(aov(frame, "lit", v), bulb.x, bulb.y), palette.lit(glm::dvec3(0.2f)) + emissive);
     expectColor(texel(aov(frame, "shadowed", v), bulb.x, bulb.y),
-                frame::shadowedColor(palette, glm::dvec3(0.2f)) + emissive);
+                palette.shadowed(glm::dvec3(0.2f)) + emissive);
   }
 }
 
@@ -192,15 +193,15 @@ TEST_P(SurfaceTest, blendedFromFarToNear) {
   const Scene scene = s.load();
   const auto views = viewsFrom(scene, {{0, 0, 6}}, kWidth, kHeight, GetParam());
   const Frame frame = draw(scene, quietLook(), views, sized(kWidth, kHeight, {"lit"}));
-  const frame::PaletteParams palette;
+  const PaletteReference palette;
   for (size_t v = 0; v < viewCount(); ++v)
     for (const bool wall : {false, true}) {
       // Composited as roots, since that is what the target holds.
-      glm::dvec3 sum = wall ? glm::sqrt(frame::litColor(palette, glm::dvec3(0.5))) : glm::dvec3(0.0);
+      glm::dvec3 sum = wall ? glm::sqrt(palette.lit(glm::dvec3(0.5))) : glm::dvec3(0.0);
       double coverage = wall;
       for (const int i : {1, 2, 0}) {
         const double a = colors[i].a;
-        sum = glm::mix(sum, glm::sqrt(frame::litColor(palette, glm::dvec3(colors[i]))), a);
+        sum = glm::mix(sum, glm::sqrt(palette.lit(glm::dvec3(colors[i]))), a);
         coverage += a * (1 - coverage);
       }
       const glm::ivec2 at(pixelOf(views[v], {wall ? -0.5 : 0.5, 0, 0}, kWidth, kHeight));
@@ -259,6 +260,62 @@ TEST_P(SurfaceTest, trianglesOfOneBlendedMeshFromFarToNear) {
   }
 }
 
+// Two triangles across each other's edges, as one mesh or as two: by their distances from between the eyes;
+// of a parallel projection, along its axis. Without the shadow map's warp, which splits triangles: parts that
+// lie before each other have nearly the same distance in every sense.
+TEST_P(SurfaceTest, blendedByDistancesFromBetweenTheEyes) {
+  const glm::vec4 colors[] = {{0.8f, 0.1f, 0.1f, 0.5f}, {0.1f, 0.2f, 0.8f, 0.5f}};
+  struct Case {
+    bool isParallel;
+    glm::vec3 tips[2];  // each triangle goes from its tip to a little beyond the middle
+    int nearer;
+  };
+  // From the left eye the first one is the nearer by far; from the middle it is the farther by a little. And
+  // the second one is the nearer along the axis, but its middle is farther away from the eye.
+  for (const Case& c :
+       {Case{false, {{-4, 0, 0}, {4, 0, 0.1f}}, 1}, Case{true, {{-0.8f, 0, 0}, {4, 0, 0.05f}}, 1}})
+    for (const int order : {0, 1, 2, 3}) {  // each of them first, as two meshes and as one
+      const bool isOneMesh = order >= 2;
+      TestScene s;
+      TestMesh both;
+      Json json = TestScene::unlit("Panes", {1, 1, 1, 1});
+      json["alphaMode"] = "BLEND";
+      json["doubleSided"] = true;
+      const int material = s.material(json);
+      for (const int i : {order % 2, 1 - order % 2}) {
+        const glm::vec3 tip = c.tips[i];
+        const float beyond = tip.x < 0 ? 0.5f : -0.5f;
+        TestMesh one;
+        one.positions = {tip, {beyond, -1.5f, tip.z}, {beyond, 1.5f, tip.z}};
+        one.normals.assign(3, {0, 0, 1});
+        one.uvs.assign(3, {0, 0});
+        one.uvs[1] = {1, 0}, one.uvs[2] = {0, 1};
+        one.indices = {0, 1, 2};
+        TestMesh colored;
+        append(colored, one, colors[i]);
+        append(both, one, colors[i]);
+        if (!isOneMesh) s.add(colored, material);
+      }
+      if (isOneMesh) s.add(both, material);
+      const Scene scene = s.load();
+      const auto views =
+          c.isParallel ? std::vector<View>(viewCount(), parallelView(2, 4.0f / 3))
+                       : viewsFrom(scene, {{0, 0, 4}, {0, 0, 0}, 40, 0, 1}, kWidth, kHeight, GetParam());
+      const Frame frame =
+          draw(scene, quietLook({{"light.shadowWarp", "0"}}), views, sized(kWidth, kHeight, {"lit"}));
+      const glm::dvec4 first(colors[1 - c.nearer]), last(colors[c.nearer]);
+      // Composited as roots; coverage 0.5 and then 0.75.
+      const glm::dvec3 root =
+          (0.25 * glm::sqrt(glm::dvec3(first)) + 0.5 * glm::sqrt(glm::dvec3(last))) / 0.75;
+      for (size_t v = 0; v < viewCount(); ++v) {
+        const glm::ivec2 at(pixelOf(views[v], {0, 0, 0.05}, kWidth, kHeight));
+        SCOPED_TRACE(std::string(c.isParallel ? "parallel" : "perspective") +
+                     (isOneMesh ? ", one mesh" : ""));
+        expectColor(texel(aov(frame, "lit", v), at.x, at.y), root * root, 4);
+      }
+    }
+}
+
 // A texture of the look, painted by MetaTexture on colours that the scene has: against the reference, in each
 // way of painting.
 TEST_P(SurfaceTest, paintsTexturesOfTheLook) {
@@ -278,7 +335,7 @@ TEST_P(SurfaceTest, paintsTexturesOfTheLook) {
     const Frame frame = draw(scene, look, views, sized(kWidth, kHeight, {"lit", "uv", "uv-gradient", "id"}));
     MetaTextureReference reference;
     reference.texture.pixels = frame::builtInExample(2);
-    reference.mean = frame::measure(reference.texture.pixels).mean;
+    reference.mean = meanOf(reference.texture.pixels);
     reference.size = 3000.0 * kHeight / 1080;
     reference.skew = MetaTextureReference::exact;
     reference.skewLevels = 2;

@@ -29,6 +29,8 @@ struct WarpMaterial {
 struct SetupUniforms {
   MetaTextureUniforms field, marks;
   float setup, marksAmount;
+  glm::vec2 fieldMean;
+  float marksMean;
 };
 
 // Materials that share textures and knobs are evaluated together: a setup, one job of the image step.
@@ -77,7 +79,7 @@ class Warp : public Pass {
     desc.fragment = {shaders::warp_surface_frag};
     desc.inputs = kPosition | kUv0 | kUv1 | kColor | kDPdu | kSmoothNormal | kDPdv | kPatternUv | kWarpScale;
     desc.colorFormats = {kPatternFormat, kKnobsFormat};
-    desc.viewMask = viewMask(configuration_);
+    desc.viewMask = configuration_.views().mask();
     desc.viewCount = configuration_.viewCount;
     desc.passLayout = &layout_;
     desc.materialStrides = {materials_.kStride};
@@ -116,7 +118,8 @@ class Warp : public Pass {
     for (size_t i = 0; i < setups.size(); ++i) {
       const WarpSetup& setup = setups[i];
       image_.update(SetupUniforms{setup.field.meta.uniforms(), setup.marks.meta.uniforms(), float(i + 1),
-                                  setup.marksAmount},
+                                  setup.marksAmount, glm::vec2(setup.field.example->statistics.mean),
+                                  setup.marks.example->statistics.mean.b},
                     i);
       const uint32_t needs =
           (setup.isApart() ? shared::kWarpApart : 0) | (setups.size() > 1 ? shared::kWarpSeveral : 0);
@@ -149,10 +152,11 @@ class Warp : public Pass {
   }
 
   void record(VkCommandBuffer commands) const {
-    const Target colors[] = {{&resources_->image(pattern_)}, {&resources_->image(knobs_)}};
-    const Target depth{&resources_->image(depth_), nullptr, {}};
-    drawViews(commands, configuration_, colors, &depth,
-              [&](uint32_t firstView) { step_.draw(commands, *resources_, *scene_, &sets_, firstView); });
+    const gpu::Target colors[] = {{&resources_->image(pattern_)}, {&resources_->image(knobs_)}};
+    const gpu::Target depth{&resources_->image(depth_), nullptr, {}};
+    gpu::drawViews(commands, configuration_.views(), colors, &depth, [&](uint32_t firstView) {
+      step_.draw(commands, *resources_, *scene_, &sets_, firstView);
+    });
   }
 
   gpu::ResourceId pattern_ = 0, knobs_ = 0, depth_ = 0;

@@ -16,6 +16,9 @@ layout(set = 1, binding = 0, scalar) uniform Block {
   MetaTexture field, marks;
   float setup;  // from 1; setup 1 also has the pixels where nothing is
   float marksAmount;
+  // Of the examples themselves; where a Gaussian twin is blended, MetaTexture.mean is the twin's.
+  vec2 fieldMean;
+  float marksMean;
 } u;
 layout(set = 1, binding = 1) uniform usampler2DArray pattern;
 layout(set = 1, binding = 2) uniform sampler2DArray knobs;
@@ -43,14 +46,14 @@ vec4 shade(ivec2 pixel, int layer) {
   vec2 wraps = vec2(mod(wrapping, 2.0), floor(0.5 * wrapping));
   MetaTextureChoice chosen;
   vec4 value = valueOf(u.field, kFieldFeatures, fieldExample, fieldInverse, uv, dSdu, dSdv, wraps, vec2(pixel) + 0.5, chosen);
-  vec2 vector = (value.xy - u.field.mean.xy) * 2.0;
+  vec2 vector = (value.xy - u.fieldMean) * 2.0;
   vector *= min(kFarthestTear * inversesqrt(max(dot(vector, vector), 1e-12)), 1.0);
   float marks = value.b;
   if ((kNeeds & kWarpApart) != 0) {
     MetaTextureChoice other;
     marks = valueOf(u.marks, kMarksFeatures, marksExample, marksInverse, uv, dSdu, dSdv, wraps, vec2(pixel) + 0.5, other).b;
   }
-  marks = clamp((marks - u.marks.mean.b) * u.marksAmount + u.marks.mean.b, 0.0, 1.0);
+  marks = clamp((marks - u.marksMean) * u.marksAmount + u.marksMean, 0.0, 1.0);
 
   // Camera roll (section 4.3): the frame of reference follows the gradient of u, so the pattern sticks to the surface.
   // Its direction is across dS/dv, on the side that does not change where a mapping is mirrored along u.

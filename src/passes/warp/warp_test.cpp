@@ -12,6 +12,7 @@
 #include "tests/support/metatexture_reference.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
+#include "tests/support/test_device.h"
 
 namespace scumble::passes {
 namespace {
@@ -79,7 +80,7 @@ TEST_P(WarpTest, equalsItsReference) {
       const double scale = kHeight / 1080.0;
       MetaTextureReference reference;
       reference.texture.pixels = mipLevel(frame::builtInExample(0), size * scale);
-      reference.mean = frame::measure(frame::builtInExample(0)).mean;
+      reference.mean = meanOf(frame::builtInExample(0));
       reference.size = size * scale;
       reference.skew = MetaTextureReference::exact;
       reference.skewLevels = 2;
@@ -139,6 +140,7 @@ TEST_P(WarpTest, equalsItsReference) {
 // FORMULAS 3: on a tilted plane the smooth gradient is the analytic one, and the difference between pixels,
 // to a percent.
 TEST_P(WarpTest, gradientsOfATiltedPlane) {
+  NEEDS_FINE_RASTER();
   const TestScene test = wall();
   const Scene scene = test.load();
   auto views = viewsFrom(scene, {{5, 3, 4}, {0, 0, 0}, 40, 20}, kWidth, kHeight, GetParam());
@@ -359,6 +361,7 @@ TEST_F(WarpTest, farThingsAreTornLess) {
 // FORMULAS 3 for the other choice: differences between pixels choose the same scales on a plane, to a
 // percent; on a coarse ball they are flat in each triangle where the smooth ones are not.
 TEST_P(WarpTest, fragmentGradientsAgreeOnAPlane) {
+  NEEDS_FINE_RASTER();
   constexpr int width = 2 * kWidth, height = 2 * kHeight;  // differences are over pixels of some size
   const Scene scene = wall({5, 2}).load();
   const auto views = viewsFrom(scene, {{5, 3, 4}, {0, 0, 0}, 40, 20}, width, height, GetParam());

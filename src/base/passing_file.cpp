@@ -1,4 +1,4 @@
-#include "film/passing_file.h"
+#include "base/passing_file.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstdio>
 
-namespace scumble::film {
+namespace scumble {
 namespace {
 
 // Calls use(name) with passing names until one is not taken. Names are short (the target's may already be as
@@ -71,4 +71,4 @@ int putInPlace(int descriptor, const std::string& passingName, const std::string
   return code;
 }
 
-}  // namespace scumble::film
+}  // namespace scumble

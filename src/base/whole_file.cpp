@@ -1,4 +1,4 @@
-#include "film/whole_file.h"
+#include "base/whole_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -12,9 +12,9 @@
 #include <utility>
 
 #include "base/file_size_signal.h"
-#include "film/passing_file.h"
+#include "base/passing_file.h"
 
-namespace scumble::film {
+namespace scumble {
 namespace {
 
 std::string resolveLinks(const std::string& path) {
@@ -134,4 +134,4 @@ void WholeFile::fail(int code) {
   if (errno_ == 0) errno_ = code != 0 ? code : EIO;
 }
 
-}  // namespace scumble::film
+}  // namespace scumble

@@ -4,7 +4,7 @@
 
 #include <string>
 
-namespace scumble::film {
+namespace scumble {
 
 // The part of a path up to its last slash, with the slash; empty where it has none.
 std::string folderOf(const std::string& path);
@@ -21,4 +21,4 @@ PassingFile openPassingFile(const std::string& folder);
 // the reason why not; a file with a passing name keeps it then, and one without stays without.
 int putInPlace(int descriptor, const std::string& passingName, const std::string& target);
 
-}  // namespace scumble::film
+}  // namespace scumble

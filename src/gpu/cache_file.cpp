@@ -1,17 +1,11 @@
-#include "gpu/pipeline_cache_file.h"
+#include "gpu/cache_file.h"
 
-#include <fcntl.h>
-#include <stdlib.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
 
 #include "base/file_bytes.h"
-#include "base/file_size_signal.h"
+#include "base/whole_file.h"
 
 namespace scumble::gpu {
 
@@ -39,19 +33,11 @@ Header headerFor(const char* bytes, size_t size) {
   return header;
 }
 
-bool writeAll(int descriptor, const void* bytes, size_t size) {
-  for (const char* next = static_cast<const char*>(bytes); size > 0;) {
-    const ssize_t written = write(descriptor, next, size);
-    if (written < 0 && errno != EINTR) return false;
-    if (written > 0) next += written, size -= size_t(written);
-  }
-  return true;
-}
-
 }  // namespace
 
-std::string pipelineCacheFile(const std::string& folder, const VkPhysicalDeviceProperties& properties) {
-  std::string file = folder + "/pipelines-";
+std::string cacheFile(const std::string& folder, const std::string& kind,
+                      const VkPhysicalDeviceProperties& properties) {
+  std::string file = folder + "/" + kind + "-";
   for (const uint8_t byte : properties.pipelineCacheUUID) {
     char digits[3];
     std::snprintf(digits, sizeof digits, "%02x", byte);
@@ -60,7 +46,7 @@ std::string pipelineCacheFile(const std::string& folder, const VkPhysicalDeviceP
   return file + ".bin";
 }
 
-std::vector<char> readPipelineCache(const std::string& file) {
+std::vector<char> readCache(const std::string& file) {
   FileBytes opened;
   std::string ignored;
   if (!opened.open(file, ignored) || opened.bytes().size() > kMaxBytes) return {};
@@ -72,22 +58,18 @@ std::vector<char> readPipelineCache(const std::string& file) {
   return std::memcmp(bytes, &wanted, sizeof wanted) == 0 ? data : std::vector<char>();
 }
 
-void writePipelineCache(const std::string& file, const std::vector<char>& data) {
+void writeCache(const std::string& file, const std::vector<char>& data) {
   namespace fs = std::filesystem;
-  if (data.size() <= sizeof(VkPipelineCacheHeaderVersionOne) || data.size() > kMaxBytes) return;
+  if (data.size() > kMaxBytes) return;
   std::error_code ignored;
   fs::create_directories(fs::path(file).parent_path(), ignored);
   const fs::file_type there = fs::symlink_status(file, ignored).type();
   if (there != fs::file_type::regular && there != fs::file_type::not_found) return;
-  const FileSizeSignalHeld held;
-  std::string passing = file + ".XXXXXX";
-  const int descriptor = mkostemp(passing.data(), O_CLOEXEC);
-  if (descriptor < 0) return;
   const Header header = headerFor(data.data(), data.size());
-  const bool written =
-      writeAll(descriptor, &header, sizeof header) && writeAll(descriptor, data.data(), data.size());
-  if (close(descriptor) != 0 || !written || std::rename(passing.c_str(), file.c_str()) != 0)
-    unlink(passing.c_str());
+  WholeFile whole(file);
+  whole.write(&header, sizeof header);
+  whole.write(data.data(), data.size());
+  (void)whole.commit();
 }
 
 }  // namespace scumble::gpu

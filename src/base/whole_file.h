@@ -10,7 +10,7 @@
 
 #include "scumble/result.h"
 
-namespace scumble::film {
+namespace scumble {
 
 class WholeFile {
  public:
@@ -41,4 +41,4 @@ class WholeFile {
   int errno_ = 0;  // last: opening fills the members above
 };
 
-}  // namespace scumble::film
+}  // namespace scumble

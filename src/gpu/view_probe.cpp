@@ -1,0 +1,172 @@
+#include "gpu/view_probe.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstring>
+
+#include "gpu/cache_file.h"
+#include "gpu/frame_graph.h"
+#include "gpu/pipeline.h"
+#include "shaders/view_probe_frag.h"
+#include "shaders/view_probe_vert.h"
+
+namespace scumble::gpu {
+
+namespace {
+
+constexpr ViewDrawing kWays[] = {ViewDrawing::together, ViewDrawing::separately,
+                                 ViewDrawing::resolvedTogether};
+constexpr const char* kWayNames[] = {"together", "separately", "resolved-together"};
+
+constexpr uint32_t kSize = ProbePicture::kSize, kLayers = 2;
+// What view_probe.vert and view_probe.frag draw, and what is there before.
+constexpr uint8_t kDrawn[kLayers] = {51, 204}, kClear = 102;
+constexpr float kDepth[kLayers] = {0.25f, 0.75f}, kClearDepth = 0.0625f;
+constexpr int kLongSide = 160;  // pixels: x + y along the shape's long side
+
+VkClearValue colorOf(uint8_t value) {
+  const float v = float(value) / 255.0f;
+  VkClearValue clear;
+  clear.color = {{v, v, v, v}};
+  return clear;
+}
+
+}  // namespace
+
+bool isRight(const ProbePicture& picture) {
+  for (uint32_t layer = 0; layer < kLayers; ++layer) {
+    const ProbePicture::Layer& l = picture.layers[layer];
+    for (uint32_t y = 0; y < kSize; ++y)
+      for (uint32_t x = 0; x < kSize; ++x) {
+        // The centre is at (x + 1/2, y + 1/2); samples lie within half a pixel of it each way.
+        const int beyond = int(x + y) + 1 - kLongSide;
+        if (std::abs(beyond) <= 1) continue;
+        const bool drawn = beyond < 0;
+        const size_t at = size_t(y) * kSize + x;
+        if (l.byVertexShader[at] != (drawn ? kDrawn[layer] : kClear)) return false;
+        if (l.byFragmentShader[at] != (drawn ? kDrawn[1 - layer] : kClear)) return false;
+        if (std::abs(l.depth[at] - (drawn ? kDepth[layer] : kClearDepth)) > 1e-5f) return false;
+      }
+  }
+  return true;
+}
+
+ProbePicture drawProbe(Device& device, ViewDrawing drawing, uint32_t samples) {
+  const Views views{kLayers, drawing};
+  GraphicsPipelineDesc desc;
+  desc.vertex = {shaders::view_probe_vert}, desc.fragment = {shaders::view_probe_frag};
+  desc.colorFormats.assign(2, VK_FORMAT_R8G8B8A8_UNORM);
+  desc.depthFormat = VK_FORMAT_D32_SFLOAT;
+  desc.samples = samples;
+  desc.viewMask = views.mask();
+  desc.pushConstantBytes = 4;
+  const Pipeline pipeline(device, desc);
+
+  // Images, as frames have them: many samples are drawn and resolved, one is drawn straight away.
+  FrameGraph graph;
+  std::vector<ResourceId> drawn, resolved;
+  for (const VkFormat format : {VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_D32_SFLOAT}) {
+    resolved.push_back(graph.addImage("resolved", {format, kSize, kSize, kLayers}));
+    drawn.push_back(samples == 1 ? resolved.back()
+                                 : graph.addImage("samples", {format, kSize, kSize, kLayers, 1, samples}));
+  }
+  std::vector<ResourceUse> uses;
+  for (size_t i = 0; i < 3; ++i) {
+    const bool isDepth = i == 2;
+    uses.push_back({drawn[i], isDepth ? Use::depthTarget : Use::colorTarget});
+    if (samples > 1) uses.push_back({resolved[i], isDepth ? Use::depthResolveTarget : Use::resolveTarget});
+  }
+  graph.addStep("draw", uses);
+  graph.addStep(
+      "read",
+      {{resolved[0], Use::copySource}, {resolved[1], Use::copySource}, {resolved[2], Use::copySource}});
+  std::vector<Image> images;
+  for (const FrameGraph::ResourceInfo& info : graph.resources())
+    images.emplace_back(device, info.desc, info.usage);
+  const auto imageOf = [&](ResourceId id) { return &images[id]; };
+
+  constexpr size_t kLayerBytes = size_t(kSize) * kSize * 4;
+  const Buffer readback(device, 3 * kLayers * kLayerBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                        MemoryKind::readback);
+  const auto plan = graph.planBarriers();
+  device.runOnce([&](VkCommandBuffer commands) {
+    recordBarriers(commands, plan[0], imageOf);
+    Target targets[3];
+    for (size_t i = 0; i < 3; ++i) {
+      targets[i].image = imageOf(drawn[i]);
+      targets[i].resolve = samples > 1 ? imageOf(resolved[i]) : nullptr;
+      targets[i].clear = colorOf(kClear);
+    }
+    targets[2].clear.depthStencil = {kClearDepth, 0};
+    drawViews(commands, views, {targets, 2}, &targets[2], [&](uint32_t firstView) {
+      pipeline.bind(commands);
+      pipeline.push(commands, firstView);
+      vkCmdDraw(commands, 3, 1, 0, 0);
+    });
+    recordBarriers(commands, plan[1], imageOf);
+    for (size_t i = 0; i < 3; ++i) {
+      VkBufferImageCopy copy{};
+      copy.bufferOffset = i * kLayers * kLayerBytes;
+      copy.imageSubresource = {
+          VkImageAspectFlags(i == 2 ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT), 0, 0, kLayers};
+      copy.imageExtent = {kSize, kSize, 1};
+      vkCmdCopyImageToBuffer(commands, imageOf(resolved[i])->handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                             readback.handle(), 1, &copy);
+    }
+    memoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+  });
+
+  ProbePicture picture;
+  const std::byte* at = readback.mapped();
+  const auto reds = [&](std::vector<uint8_t>& out) {
+    for (size_t p = 0; p < size_t(kSize) * kSize; ++p) out.push_back(uint8_t(at[4 * p]));
+    at += kLayerBytes;
+  };
+  for (auto& layer : picture.layers) reds(layer.byVertexShader);
+  for (auto& layer : picture.layers) reds(layer.byFragmentShader);
+  for (auto& layer : picture.layers) {
+    layer.depth.resize(size_t(kSize) * kSize);
+    std::memcpy(layer.depth.data(), at, kLayerBytes);
+    at += kLayerBytes;
+  }
+  return picture;
+}
+
+std::optional<ViewDrawing> findViewDrawing(Device& device, uint32_t samples) {
+  for (const ViewDrawing way : kWays)
+    if (isRight(drawProbe(device, way, 1)) && (samples == 1 || isRight(drawProbe(device, way, samples))))
+      return way;
+  return std::nullopt;
+}
+
+namespace {
+
+std::string textOf(const std::string& driver, const ViewDrawings& drawings) {
+  std::string text = driver + "\n";
+  for (const std::optional<ViewDrawing>& way : {drawings.of1Sample, drawings.of4Samples})
+    text += std::string(way ? kWayNames[size_t(*way)] : "none") + "\n";
+  return text;
+}
+
+}  // namespace
+
+std::optional<ViewDrawings> readViewDrawings(const std::string& file, const std::string& driver) {
+  const std::vector<char> data = readCache(file);
+  const std::string text(data.begin(), data.end());
+  // There are few possible texts: the one that this is tells what was found.
+  std::vector<std::optional<ViewDrawing>> answers(std::begin(kWays), std::end(kWays));
+  answers.push_back(std::nullopt);
+  for (const std::optional<ViewDrawing>& one : answers)
+    for (const std::optional<ViewDrawing>& four : answers)
+      if (const ViewDrawings drawings{one, four}; text == textOf(driver, drawings)) return drawings;
+  return std::nullopt;
+}
+
+void writeViewDrawings(const std::string& file, const std::string& driver, const ViewDrawings& drawings) {
+  const std::string text = textOf(driver, drawings);
+  writeCache(file, std::vector<char>(text.begin(), text.end()));
+}
+
+}  // namespace scumble::gpu
