@@ -54,8 +54,8 @@ Status checkWritable(const std::string& path) {
 
 Status OutputFiles::check(const std::string& path, const std::string& what) const {
   if (path.empty()) return Done{};
-  if (const Status status = checkWritable(path); !status) return status;
-  if (const Status status = checkInputs(path, inputs_); !status) return status;
+  if (Status status = checkWritable(path); !status) return status;
+  if (Status status = checkInputs(path, inputs_); !status) return status;
   if (added_.empty()) return Done{};
   const std::string file = identityOf(path);
   for (const Added& other : added_)
@@ -71,14 +71,14 @@ Status OutputFiles::check(const std::string& path, const std::string& what) cons
 
 Status OutputFiles::add(const std::string& path, const std::string& what) {
   if (path.empty()) return Done{};
-  if (const Status status = check(path, what); !status) return status;
+  if (Status status = check(path, what); !status) return status;
   added_.push_back({path, identityOf(path), what});
   return Done{};
 }
 
 Status OutputFiles::addInputs(const std::vector<std::string>& files) {
   for (const Added& output : added_)
-    if (const Status status = checkInputs(output.path, files); !status) return status;
+    if (Status status = checkInputs(output.path, files); !status) return status;
   inputs_.insert(inputs_.end(), files.begin(), files.end());
   return Done{};
 }

@@ -55,12 +55,13 @@ Look partly(int seen, int others) {
 // Small ones, spread over the picture.
 Look spread(int count) {
   Look look;
-  for (int i = 0; i < count; ++i)
+  for (int i = 0; i < count; ++i) {
+    const int column = i % 8, row = i / 8;
     add(look, "s" + std::to_string(i),
         {{"volume.kind", "atmospheric"},
-         {"volume.center",
-          std::to_string(-3.5 + i % 8) + "," + std::to_string(-1.75 + 0.5 * (i / 8)) + ",-6"},
+         {"volume.center", std::to_string(-3.5 + column) + "," + std::to_string(-1.75 + 0.5 * row) + ",-6"},
          {"volume.radius", "0.4"}});
+  }
   return look;
 }
 
@@ -76,7 +77,9 @@ int main(int argc, char** argv) {
 
   const std::pair<std::string, std::string> fog{"volume.kind", "atmospheric"};
   std::vector<Case> cases;
-  const auto addCase = [&](std::string name, Look look) { cases.push_back({std::move(name), look}); };
+  const auto addCase = [&](std::string name, Look look) {
+    cases.push_back({std::move(name), std::move(look)});
+  };
   addCase("plain pass with the same reads", Look());
   addCase("1 sphere of fog", fullScreen(1, {fog}));
   addCase("4 spheres of fog", fullScreen(4, {fog}));

@@ -115,7 +115,7 @@ Document makeHarbour(size_t triangles, size_t meshes) {
   for (size_t i = 0, made = 1; i < rows.size(); ++i) {
     const Terrace& row = rows[i];
     owed += std::sqrt(rowHalfWidth(row)) / allWidths * float(meshes - 1);
-    const size_t last = i + 1 == rows.size() ? meshes : std::min(size_t(owed + 0.5f) + 1, meshes);
+    const size_t last = i + 1 == rows.size() ? meshes : std::min(size_t(std::lround(owed)) + 1, meshes);
     const size_t count = last - made;
     const float pitch = 2.0f * rowHalfWidth(row) / float(std::max<size_t>(count, 1));
     for (size_t k = 0; k < count; ++k, ++made) {

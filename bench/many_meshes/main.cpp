@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
       const long number = std::strtol(argv[++i], nullptr, 10);
       if (number < 2 || number > 100000000) return usage();
       (word == "--meshes" ? meshes : triangles) = size_t(number);
-    } else if (word.rfind("-", 0) == 0 || !path.empty()) {
+    } else if (word.starts_with('-') || !path.empty()) {
       return usage();
     } else {
       path = word;

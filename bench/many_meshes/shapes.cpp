@@ -14,8 +14,8 @@ struct Cells {
 };
 Cells cellsFor(size_t triangles, float aspect) {
   const float cells = std::max(0.5f * float(triangles), 24.0f);
-  const size_t columns = std::max<size_t>(size_t(std::sqrt(cells * aspect) + 0.5f), 6);
-  return {std::max<size_t>(size_t(cells / float(columns) + 0.5f), 4), columns};
+  const size_t columns = std::max<size_t>(size_t(std::lround(std::sqrt(cells * aspect))), 6);
+  return {std::max<size_t>(size_t(std::lround(cells / float(columns))), 4), columns};
 }
 
 // Smooth noise in about [-1, 1]: a few waves in random directions.

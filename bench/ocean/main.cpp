@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <nlohmann/json.hpp>
 
 #include "scumble/image.h"
@@ -48,7 +49,7 @@ Cost costOf(const FrameStats& stats) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   std::string file, size = "1280x720", json;
   RendererOptions rendererOptions;
   RenderOptions options;
@@ -126,4 +127,7 @@ int main(int argc, char** argv) {
     return 5;
   }
   return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "ocean_bench: error: %s\n", error.what());
+  return 1;
 }

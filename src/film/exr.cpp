@@ -182,14 +182,14 @@ Status writeExrThrowing(const std::string& path, const std::vector<ImageLayer>& 
   for (const ImageLayer& layer : layers) {
     const Cryptomatte* cryptomatte = cryptomatteOf(layer, options);
     if (!cryptomatte) {
-      if (const Status status = add(layer); !status) return status;
+      if (Status status = add(layer); !status) return status;
       continue;
     }
     int number = 0;
     for (Image& image : film::cryptomatteLayers(*layer.image, cryptomatte->objects)) {
       content.made.push_back(std::move(image));
       // Never half: a number must come back bit by bit.
-      if (const Status status =
+      if (Status status =
               add({fmt::format("{}{:02}", layer.name, number++), layer.view, &content.made.back()});
           !status)
         return status;

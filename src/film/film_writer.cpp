@@ -147,7 +147,7 @@ Status FilmWriter::State::finish() {
   const std::string problem = film::completeFilm(scratch, options, frames, file);
   if (!problem.empty() && file.ok())
     return encoderFailed("left something that is no film of ours (" + problem + ")");
-  const Status status = file.commit();
+  Status status = file.commit();
   failure = status ? usage("the film is finished already") : status.error();
   return status;
 }

@@ -31,7 +31,7 @@ std::string decoded(const std::string& film) {
                   "' -f rawvideo -pix_fmt rgb24 -sws_flags accurate_rnd+full_chroma_int+bicubic -");
 }
 
-Image flatCodes(uint32_t width, uint32_t height, std::vector<int> codes, float alpha = 1) {
+Image flatCodes(uint32_t width, uint32_t height, const std::vector<int>& codes, float alpha = 1) {
   Image image{width, height, {"R", "G", "B", "A"}, {}};
   for (uint32_t i = 0; i < width * height; ++i) {
     for (const int code : codes) image.pixels.push_back(linearFromSrgb8()[size_t(code)]);
@@ -62,7 +62,7 @@ Status writeFilm(const std::string& path, const FilmOptions& given, const std::v
   Result<std::unique_ptr<FilmWriter>> writer = FilmWriter::create(path, given);
   if (!writer) return writer.error();
   for (const Image& picture : pictures)
-    if (const Status status = (*writer)->add(picture); !status) return status;
+    if (Status status = (*writer)->add(picture); !status) return status;
   return (*writer)->finish();
 }
 

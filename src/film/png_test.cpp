@@ -106,8 +106,10 @@ TEST(Png, alphaIsRounded) {
   ASSERT_TRUE(writePng(path, image).ok());
   const Result<Image> back = readPng(path);
   ASSERT_TRUE(back.ok()) << back.error().message();
-  for (uint32_t x = 0; x < image.width; ++x)
-    EXPECT_NEAR(back->at(x, 0, 3) * 255, double(x / 2 + x % 2), 1e-4) << x;
+  for (uint32_t x = 0; x < image.width; ++x) {
+    const uint32_t code = x / 2 + x % 2;
+    EXPECT_NEAR(back->at(x, 0, 3) * 255, double(code), 1e-4) << x;
+  }
 }
 
 TEST(Png, sameBytesEveryTime) {

@@ -64,7 +64,7 @@ std::string lastWord(const std::string& path) {
 
 // The knob that was probably meant, or empty.
 std::string suggestionFor(const std::string& path, const std::vector<std::string>& known) {
-  const std::string slip = nearestWithin(path, known, 2);
+  std::string slip = nearestWithin(path, known, 2);
   if (!slip.empty()) return slip;
   // A right word in a wrong place below the right group (texture.example for texture.metatexture.example) ...
   std::vector<std::string> ofGroup;
@@ -73,7 +73,7 @@ std::string suggestionFor(const std::string& path, const std::vector<std::string
   const std::string row = nearest(lastWord(path), ofGroup);
   for (const std::string& candidate : known)
     if (firstWord(candidate) == firstWord(path) && lastWord(candidate) == row) return candidate;
-  const std::string far = nearest(path, known);
+  std::string far = nearest(path, known);
   if (!far.empty()) return far;
   // ... or in a wrong group.
   for (const std::string& candidate : known)

@@ -62,8 +62,8 @@ class Reader {
         continue;
       }
       const Section* section = findSection(key);
-      if (const Status good = checkKey(key, key); !good) return good;
-      const Status status = section ? readSection(*section, value) : readGroup(value, key, "", nullptr, key);
+      if (Status good = checkKey(key, key); !good) return good;
+      Status status = section ? readSection(*section, value) : readGroup(value, key, "", nullptr, key);
       if (!status) return status;
     }
     return Done{};
@@ -93,8 +93,7 @@ class Reader {
         return place(std::string(section.name) + "." + pattern)
             .fail("these are too many " + std::string(section.name),
                   "a look declares " + std::to_string(section.most) + " at most");
-      const Status status =
-          readGroup(knobs, "", pattern, &section, std::string(section.name) + "." + pattern);
+      Status status = readGroup(knobs, "", pattern, &section, std::string(section.name) + "." + pattern);
       if (!status) return status;
     }
     // Those of the looks that this one extends count too.
@@ -116,9 +115,9 @@ class Reader {
       if (std::count(knobPath.begin(), knobPath.end(), '.') > 8)
         return place(jsonPath).fail("there is no knob so deep inside", "`scumble params` lists them all");
       for (const auto& [key, child] : value.items()) {
-        if (const Status good = checkKey(key, jsonPath + "." + key); !good) return good;
-        const Status status = readGroup(child, knobPath.empty() ? key : knobPath + "." + key, pattern,
-                                        section, jsonPath + "." + key);
+        if (Status good = checkKey(key, jsonPath + "." + key); !good) return good;
+        Status status = readGroup(child, knobPath.empty() ? key : knobPath + "." + key, pattern, section,
+                                  jsonPath + "." + key);
         if (!status) return status;
       }
       return Done{};
@@ -184,7 +183,7 @@ Result<Value> readJsonValue(const ParamRow& row, const Json& value, const JsonPl
     for (size_t i = 0; i < data.pictures.size(); ++i)
       if (data.pictures[i]->file == file) return Value{-1 - double(i), {}};
   }
-  const Result<Value> parsed = readValue(row, text, folder.string(), data);
+  Result<Value> parsed = readValue(row, text, folder.string(), data);
   if (parsed) return parsed;
   const std::string problem = parsed.error().problem;
   return place.fail(parsed.error().file.empty() ? problem : "'" + text + "': " + problem,

@@ -46,7 +46,7 @@ Result<Value> readValue(const ParamRow& row, const std::string& text, const std:
     if (known == data.texts.end()) data.texts.push_back(text);
     return Value{double(index + 1), {}};
   }
-  const Result<Value> parsed = parseValue(row, text);
+  Result<Value> parsed = parseValue(row, text);
   if (parsed || row.kind != ParamKind::picture) return parsed;
   // A word without a dot is a slip in a built-in name rather than a file.
   if (text.find('.') == std::string::npos) return parsed;

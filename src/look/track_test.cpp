@@ -16,7 +16,8 @@ const ParamRow kInteger{"integer", ParamKind::integer, 0, 0, 24, "", "", 0};
 const ParamRow kColor{"color", ParamKind::color, 0, 0, 0xFFFFFF, "", "", 0};
 const ParamRow kChoice{"choice", ParamKind::choice, 0, 0, 2, "a|b|c", "", 0};
 
-Track numbers(std::vector<std::pair<double, double>> keys, Interpolation interpolation, bool repeat = false) {
+Track numbers(const std::vector<std::pair<double, double>>& keys, Interpolation interpolation,
+              bool repeat = false) {
   Track track{{}, interpolation, repeat};
   for (const auto& [time, number] : keys) track.keys.push_back({time, {number, {}}});
   return track;

@@ -12,8 +12,9 @@ using namespace test;
 Places shifted(int size, float byX) {
   Places places(size, size, 2);
   for (size_t pixel = 0; pixel < places.pixelCount(); ++pixel) {
-    places.at(pixel)[0] = float(pixel % size_t(size)) + 0.5f + byX;
-    places.at(pixel)[1] = float(pixel / size_t(size)) + 0.5f;
+    const size_t column = pixel % size_t(size), row = pixel / size_t(size);
+    places.at(pixel)[0] = float(column) + 0.5f + byX;
+    places.at(pixel)[1] = float(row) + 0.5f;
     places.valid[pixel] = 1;
   }
   return places;

@@ -55,8 +55,8 @@ Places placesOf(const Surface& here, const Surface& there, const PlaceOf& placeO
 Places placesByMotion(const Field& motion, const Surface& now, const Surface& earlier) {
   const size_t width = size_t(motion.width);
   return placesOf(now, earlier, [&](size_t pixel, const glm::vec3&) {
-    return glm::vec2(float(pixel % width) + 0.5f - motion.at(pixel)[0],
-                     float(pixel / width) + 0.5f - motion.at(pixel)[1]);
+    const size_t column = pixel % width, row = pixel / width;
+    return glm::vec2(float(column) + 0.5f - motion.at(pixel)[0], float(row) + 0.5f - motion.at(pixel)[1]);
   });
 }
 

@@ -26,8 +26,9 @@ struct Walls {
     const float perMetre = std::tan(glm::radians(20.0f)) * 2 / kSize;
     surface.pixel = perMetre;
     for (size_t pixel = 0; pixel < surface.position.pixelCount(); ++pixel) {
-      const float rayX = (float(pixel % kSize) + 0.5f - kSize / 2) * perMetre,
-                  rayY = -(float(pixel / kSize) + 0.5f - kSize / 2) * perMetre;
+      const size_t column = pixel % kSize, row = pixel / kSize;
+      const float rayX = (float(column) + 0.5f - 0.5f * kSize) * perMetre,
+                  rayY = -(float(row) + 0.5f - 0.5f * kSize) * perMetre;
       const float depth = std::abs(rayX * 5 + x) < 0.6f ? 5.0f : 10.0f;
       const glm::vec3 point(rayX * depth + x, rayY * depth, -depth);
       for (int c = 0; c < 3; ++c) surface.position.at(pixel)[c] = point[c];
@@ -98,8 +99,9 @@ TEST(Reprojection, emptyPixelsDoNotCount) {
 Surface wallOf(float pixel, bool parallel, float depth) {
   Surface surface{Field(16, 16, 3), Field(16, 16, 1), parallel ? pixel : pixel / depth, parallel};
   for (size_t i = 0; i < surface.position.pixelCount(); ++i) {
-    surface.position.at(i)[0] = pixel * (float(i % 16) + 0.5f),
-    surface.position.at(i)[1] = pixel * float(i / 16);
+    const size_t column = i % 16, row = i / 16;
+    surface.position.at(i)[0] = pixel * (float(column) + 0.5f);
+    surface.position.at(i)[1] = pixel * float(row);
     *surface.depth.at(i) = depth;
     surface.position.valid[i] = surface.depth.valid[i] = 1;
   }

@@ -13,8 +13,8 @@ template <class ValueAt>
 Field fieldFrom(int width, int height, const ValueAt& valueAt) {
   Field field(width, height, 1);
   for (size_t pixel = 0; pixel < field.pixelCount(); ++pixel) {
-    *field.at(pixel) =
-        float(valueAt(double(pixel % size_t(width)) + 0.5, double(pixel / size_t(width)) + 0.5));
+    const size_t column = pixel % size_t(width), row = pixel / size_t(width);
+    *field.at(pixel) = float(valueAt(double(column) + 0.5, double(row) + 0.5));
     field.valid[pixel] = 1;
   }
   return field;
@@ -41,8 +41,8 @@ inline Field whiteNoise(int size, uint32_t seed) {
 // A disc is left of the field.
 inline Field masked(Field field, double radius) {
   for (size_t pixel = 0; pixel < field.pixelCount(); ++pixel) {
-    const double x = double(pixel % size_t(field.width)) - 0.5 * field.width,
-                 y = double(pixel / size_t(field.width)) - 0.5 * field.height;
+    const size_t column = pixel % size_t(field.width), row = pixel / size_t(field.width);
+    const double x = double(column) - 0.5 * field.width, y = double(row) - 0.5 * field.height;
     if (std::hypot(x, y) > radius) field.valid[pixel] = 0;
   }
   return field;

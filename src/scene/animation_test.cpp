@@ -15,7 +15,6 @@
 namespace scumble::scene {
 namespace {
 
-using test::ClipMoment;
 using test::posedNodes;
 
 constexpr Interpolation kInterpolations[] = {Interpolation::linear, Interpolation::step,

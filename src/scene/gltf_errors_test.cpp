@@ -351,7 +351,8 @@ TEST(GltfErrors, transformsOfClips) {
 }
 
 TEST(GltfErrors, skins) {
-  const auto skinned = [](const std::vector<float>& weights, std::vector<uint8_t> joints, const Json& skin) {
+  const auto skinned = [](const std::vector<float>& weights, const std::vector<uint8_t>& joints,
+                          const Json& skin) {
     TestGltf g = quad();
     Json& attributes = g.json["meshes"][0]["primitives"][0]["attributes"];
     attributes["JOINTS_0"] = g.add(joints, 5121, "VEC4", 4);

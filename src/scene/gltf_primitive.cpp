@@ -177,7 +177,9 @@ class AttributeReader {
     for (size_t i = 0; i < values.size(); ++i)
       for (int c = 0; c < 4; ++c) {
         const float value = values[i][c];
-        p.colors[i][c] = value >= 1.0f ? 255 : value > 0.0f ? static_cast<uint8_t>(value * 255.0f + 0.5f) : 0;
+        p.colors[i][c] = value >= 1.0f  ? 255
+                         : value > 0.0f ? static_cast<uint8_t>(std::lround(value * 255.0f))
+                                        : 0;
       }
   }
 

@@ -81,7 +81,7 @@ std::vector<uint8_t> decodeDataUri(std::string_view uri, const std::string& json
   uint32_t bits = 0;
   int bitCount = 0;
   for (const char c : text) {
-    const int digit = kBase64[static_cast<unsigned char>(c)];
+    const int8_t digit = kBase64[static_cast<unsigned char>(c)];
     if (digit < 0) fail(jsonPath, "holds base64 with a letter that is none", "export the scene again");
     bits = (bits << 6 | static_cast<uint32_t>(digit)) & 0xffffff;
     bitCount += 6;

@@ -472,7 +472,8 @@ TEST_P(OnTwos, eachForItsOwnTime) {
   for (int frame = 24; frame < 30; ++frame) {
     const double time = frame / 24.0;
     const auto every = [&](int hold) {
-      return posedTriangles(scene.data(), firstClipAt(scene, double(frame / hold * hold) / 24));
+      const int held = frame - frame % hold;
+      return posedTriangles(scene.data(), firstClipAt(scene, held / 24.0));
     };
     std::vector<WorldTriangle> triangles = every(1);
     const auto bar = every(3), ball = every(4);
@@ -830,7 +831,7 @@ void expectFramed(const Scene& scene, size_t clip, const Look& look, const std::
     for (const WorldTriangle& t : posedTriangles(scene.data(), {{clip, time}}))
       for (const glm::dvec3& position : t.positions) {
         const glm::dvec2 pixel = pixelOf(views->at(0), position, kSize, kSize);
-        const double out = std::max(std::abs(pixel.x - kSize / 2), std::abs(pixel.y - kSize / 2));
+        const double out = std::max(std::abs(pixel.x - 0.5 * kSize), std::abs(pixel.y - 0.5 * kSize));
         largest = std::max(largest, out);
       }
   }

@@ -55,8 +55,8 @@ TEST_F(Assets, everyBadPictureIsDrawn) {
       Json json = TestScene::colored("Tile", {1, 1, 1, 1});
       json["pbrMetallicRoughness"]["baseColorTexture"] = {
           {"index", s.textureFile(bytes, files[i].extension() == ".png" ? "image/png" : "image/jpeg")}};
-      const float x = float((i - first) % 6), y = float((i - first) / 6);
-      s.add(gridMesh({x, y, 0}, {1, 0, 0}, {0, 1, 0}), s.material(json));
+      const size_t column = (i - first) % 6, row = (i - first) / 6;
+      s.add(gridMesh({float(column), float(row), 0}, {1, 0, 0}, {0, 1, 0}), s.material(json));
     }
     const std::string text = s.text();
     const Result<Scene> scene = Scene::loadFromMemory(text.data(), text.size(), "tiles.gltf", "");

@@ -68,8 +68,8 @@ struct Sea {
   }
   // Whether triangles at a place lie in the middle tile, which alone has all points.
   bool isFine(const glm::dvec3& at) const {
-    const double cell = double(shape.cell()),
-                 low = (shape.firstPoint() + shape.tiles / 2 * shape.grid) * cell;
+    const int middle = shape.tiles / 2;
+    const double cell = double(shape.cell()), low = (shape.firstPoint() + middle * shape.grid) * cell;
     const double margin =
         double(glm::length(glm::max(glm::abs(field.leastShift), glm::abs(field.greatestShift)))) + 2 * cell;
     const glm::dvec2 place(at.x - double(shape.origin.x), at.z - double(shape.origin.z));
@@ -413,7 +413,7 @@ TEST_P(OceanDrawn, nodesRideTheWaves) {
       const Frame still = drawAt(scene, quietLook(common), time,
                                  viewsOf(scene, {place + glm::vec3(2, 6, 3), place}), {"position", "id"});
       // Every pixel of a box lies on one of its faces, in its own space.
-      const auto expectOnBox = [&](const Frame& drawn, const char* name, size_t v, bool rides) {
+      const auto expectOnBox = [&, time = time](const Frame& drawn, const char* name, size_t v, bool rides) {
         const int id = idOf(name);
         const glm::dmat4 toNode = glm::inverse(glm::dmat4(rest[size_t(id) - 1]));
         Difference faces(1e-4);
@@ -554,7 +554,7 @@ TEST_P(OceanPainted, picturesOfOnesOwn) {
     Image image{4, 4, {"R", "G", "B", "A"}, {}};
     for (int i = 0; i < 16; ++i)
       image.pixels.insert(image.pixels.end(), {color.r, color.g, color.b, color.a});
-    const std::string path = ::testing::TempDir() + "ocean_" + stereoName({GetParam(), 0}) + name;
+    std::string path = ::testing::TempDir() + "ocean_" + stereoName({GetParam(), 0}) + name;
     EXPECT_TRUE(writePng(path, image).ok());
     return path;
   };

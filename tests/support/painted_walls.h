@@ -89,7 +89,8 @@ inline Pattern patternOf(const std::string& mode, bool marks, double zoom) {
 // The vector (x right, y down) and the mark that waves have at a place given in pixels of the framing; half
 // of the vectors' variance is in each channel, and seeds shift the waves by quarters.
 inline glm::dvec3 wavesAt(const glm::dvec2& place, const std::array<Pattern, 2>& patterns, uint32_t seed) {
-  const glm::dvec2 shift(0.5 * kPi * seed, 0.5 * kPi * double(seed / 2));
+  const uint32_t half = seed / 2;
+  const glm::dvec2 shift(0.5 * kPi * seed, 0.5 * kPi * half);
   const auto turns = [&](const Pattern& pattern) { return 2 * kPi * pattern.frequency * place + shift; };
   const glm::dvec2 a = turns(patterns[0]), b = turns(patterns[1]);
   return {patterns[0].height * std::cos(a.x) * std::cos(a.y),
