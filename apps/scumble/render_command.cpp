@@ -33,7 +33,7 @@ struct RenderArguments {
   SceneArguments scene;
   LookArguments look;
   PictureArguments picture;
-  std::string output, frames, background, stats, exr = "float,zip";
+  std::string output, frames, background, stats, graph, exr = "float,zip";
   std::vector<std::string> aovs;
   std::optional<double> time;  // seconds
   double fps = 24;
@@ -72,6 +72,8 @@ nlohmann::json statsJson(const FrameStats& stats) {
           {"triangles", stats.triangles},
           {"drawCalls", stats.drawCalls},
           {"deviceBytes", stats.deviceBytes},
+          {"imageBytes", stats.imageBytes},
+          {"imageBytesUnshared", stats.imageBytesUnshared},
           {"uploadedBytes", stats.uploadedBytes}};
 }
 
@@ -168,8 +170,11 @@ class FrameLoop {
     const auto viewsAt = [&](double time) {
       return moves ? args_.picture.views(scene_, look_, time) : still_;
     };
+    // With two frames under way the device always has work.
+    constexpr size_t kUnderWay = 2;
+    static_assert(kUnderWay <= size_t(Renderer::kMaxBegun));
     for (size_t next = 0, done = 0; done < times.size();) {
-      if (next < times.size() && next - done < size_t(Renderer::kMaxBegun)) {
+      if (next < times.size() && next - done < kUnderWay) {
         const Result<std::vector<View>> views = viewsAt(times[next]);
         if (!views) return views.error();
         RenderOptions options = options_;
@@ -242,6 +247,7 @@ int run(RenderArguments args) {
   for (const std::string& file : output->files(output->path))
     if (const Status status = files.add(file, "the picture"); !status) return fail(status.error());
   if (const Status status = files.add(args.stats, "--stats"); !status) return fail(status.error());
+  if (const Status status = files.add(args.graph, "--graph"); !status) return fail(status.error());
   const bool isFilm = output->kind() == OutputKind::film;
   if (!args.frames.empty()) {
     const auto range = parseFrames(args.frames);
@@ -352,6 +358,9 @@ int run(RenderArguments args) {
                                 {"frames", frameStats}};
     if (const Status written = writeText(args.stats, textOf(report)); !written) return fail(written.error());
   }
+  if (!args.graph.empty())
+    if (const Status written = writeText(args.graph, (*renderer)->graph()); !written)
+      return fail(written.error());
   return kDone;
 }
 
@@ -400,6 +409,10 @@ void addRender(CLI::App& program, int& exitCode) {
                       "a picture (.png, .jpg, .webp) or film; "
                       "before those, the ground shows only the shadows on it");
   command->add_option("--stats", args->stats, "Write JSON with milliseconds of each pass, counts and memory")
+      ->type_name("FILE");
+  command
+      ->add_option("--graph", args->graph,
+                   "Write the steps of a frame, with what each reads and writes, for Graphviz (dot -Tsvg)")
       ->type_name("FILE");
   command->add_flag("--quiet", args->quiet, "No warnings and no progress");
   command->footer("Example: scumble render boat.glb -o boat.png --orbit 30,15 --set shadow.threshold=0.4");

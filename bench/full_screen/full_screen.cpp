@@ -64,8 +64,6 @@ gpu::Pipeline FullScreen::pipeline(gpu::Shader fragment, std::vector<uint32_t> c
 }
 
 double FullScreen::milliseconds(const FullScreenCase& one, const gpu::Image& target, VkQueryPool queries) {
-  Configuration configuration;
-  configuration.width = width_, configuration.height = height_;
   device_->runOnce([&](VkCommandBuffer commands) {
     VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
     barrier.dstStageMask = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
@@ -80,7 +78,7 @@ double FullScreen::milliseconds(const FullScreenCase& one, const gpu::Image& tar
     vkCmdResetQueryPool(commands, queries, 0, 2);
     vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries, 0);
     const gpu::Target to{&target, nullptr, {}, gpu::Target::Before::undefined};
-    gpu::drawViews(commands, configuration.views(), {&to, 1}, nullptr, [&](uint32_t) { one.draw(commands); });
+    gpu::drawViews(commands, gpu::Views{}, {&to, 1}, nullptr, [&](uint32_t) { one.draw(commands); });
     vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries, 1);
   });
   uint64_t stamps[2];

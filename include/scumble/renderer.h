@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,6 +16,10 @@
 #include "scumble/view.h"
 
 namespace scumble {
+
+namespace renderer {
+class PassList;
+}
 
 struct GpuInfo {
   std::string name, driver, apiVersion;
@@ -42,6 +47,9 @@ struct RendererOptions {
   // Bytes of device memory up to which scenes that were drawn stay on the device, ready to be drawn again
   // beside others; the one drawn last always does.
   uint64_t sceneBudget = uint64_t(1) << 29;
+  // Changes which passes draw the picture, for passes that live outside of the library
+  // (src/renderer/pass_list.h, which is not installed); called once.
+  std::function<void(renderer::PassList&)> arrangePasses;
 };
 
 struct RenderOptions {
@@ -61,6 +69,11 @@ struct RenderOptions {
   // The views and the time (seconds) one frame earlier, for the motion AOV; empty: the same as now.
   std::vector<View> previousViews;
   std::optional<double> previousTime;
+  // Late latch: called when the frame is recorded, just before it is sent, with its views, whose poses and
+  // projections may be changed there. What decides where marks lie, what is left out because no view sees it,
+  // and the order of what is transparent stay as the first ones have it, so that it is for the last
+  // milliseconds of a head's way. Views that cannot be drawn from change nothing.
+  std::function<void(std::vector<View>&)> latch;
 };
 
 struct PassTime {
@@ -77,6 +90,9 @@ struct FrameStats {
   double setupMilliseconds = 0;   // images and pipelines; 0 once they are there
   uint64_t triangles = 0, drawCalls = 0;
   uint64_t deviceBytes = 0, uploadedBytes = 0;
+  // Of the frame's own images, those that live at different times in the same memory; and what they would
+  // take without that.
+  uint64_t imageBytes = 0, imageBytesUnshared = 0;
 };
 
 // A finished frame: for each view the picture and the AOVs that were asked for.
@@ -112,21 +128,23 @@ std::vector<std::string> settingsWithoutOcean(const Scene& scene, const Look& lo
 // and nobody destroys a renderer while a call is under way. Renderers of their own are independent.
 class Renderer {
  public:
+  static constexpr int kMaxViews = 6;
+
   static Result<std::unique_ptr<Renderer>> create(const RendererOptions& options = {});
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  // Renders one frame: `time` in seconds (up to a million), one view or two (left, right). Clips play as the
-  // look says. Uploads the scene at its first use. Fails with usage for options out of range, noUsableGpu
-  // when the device is lost or out of memory.
+  // Renders one frame: `time` in seconds (up to a million), one view, two (left, right) or up to kMaxViews,
+  // each of its own size where it has one. Clips play as the look says. Uploads the scene at its first use.
+  // Fails with usage for options out of range, noUsableGpu when the device is lost or out of memory.
   Result<Frame> render(const Scene& scene, const Look& look, double time, const std::vector<View>& views,
                        const RenderOptions& options);
 
   // The same in two halves, for films: begin() returns while the device still draws, finish() waits for the
   // oldest frame that was begun and gives it. With kMaxBegun frames begun the device always has work. After a
   // failure of either with noUsableGpu or internal, no frame is under way any more.
-  static constexpr int kMaxBegun = 2;
+  static constexpr int kMaxBegun = 3;
   Status begin(const Scene& scene, const Look& look, double time, const std::vector<View>& views,
                const RenderOptions& options);
   Result<Frame> finish();
@@ -138,10 +156,15 @@ class Renderer {
   static bool needsFloat(const std::string& aov);
   static bool hasSizeOfItsOwn(const std::string& aov);
 
+  // The steps of the frame that was begun last, with what each reads and writes, for Graphviz (`dot -Tsvg`);
+  // what its passes offer and nobody has asked for is grey. Empty before the first frame.
+  std::string graph() const;
+
   GpuInfo gpu() const;
   int validationMessages() const;  // since the start
 
  private:
+  friend struct RendererAccess;
   Renderer();
   class Turn;
   struct Impl;

@@ -22,6 +22,11 @@ struct View {
   // The scene's node that the view hangs on: where the ocean's waves move that, the view goes with it, and
   // worldToEye is from where it is without them. -1: none.
   int node = -1;
+  // Pixels, 1 to 16384; 0, 0: as RenderOptions says for all.
+  glm::uvec2 size{0, 0};
+  // Whose eye it is: what decides where marks lie, and where shadows are finest, is found once for all views
+  // of a rig, from their middle, so that a spectator with a rig of its own changes nothing for the eyes.
+  int rig = 0;
 };
 
 // Depth-reversed projections of that convention. Angles in radians, distances in metres.

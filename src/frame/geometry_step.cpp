@@ -42,38 +42,39 @@ void addVertexInput(gpu::GraphicsPipelineDesc& pipeline, uint32_t inputs) {
 
 }  // namespace
 
-void GeometryStep::create(gpu::Device& device, const FrameResources& resources, const SceneOnGpu& scene,
-                          const GeometryStepDesc& desc) {
-  device_ = &device;
+void GeometryStep::create(FrameBuilder& frame, const GeometryStepDesc& desc) {
+  device_ = &frame.device();
+  scene_ = &frame.scene();
+  frameSet_ = frame.frameSet();
   desc_ = desc;
   constant_ = desc.constant;
-  setLayouts_ = {resources.frameLayout().handle(), scene.materialLayout().handle()};
+  setLayouts_ = {frame.frameLayout().handle(), scene_->materialLayout().handle()};
   if (desc.passLayout) setLayouts_.push_back(desc.passLayout->handle());
-  makePipelines(scene);
+  makePipelines();
 }
 
-void GeometryStep::specialise(const SceneOnGpu& scene, uint32_t constant,
-                              std::vector<MaterialVariant> materials) {
+void GeometryStep::specialise(uint32_t constant, std::vector<MaterialVariant> materials) {
   if (constant_ == constant && materials_ == materials) return;
   constant_ = constant;
   materials_ = std::move(materials);
-  makePipelines(scene);
+  makePipelines();
 }
 
-bool GeometryStep::includes(const SceneOnGpu& scene, const Draw& draw) const {
+bool GeometryStep::includes(const Draw& draw) const {
   switch (desc_.what) {
     case GeometryStepDesc::What::casters:
       return draw.casts;
     case GeometryStepDesc::What::ocean:
-      return int(draw.material) == scene.oceanMaterial();
+      return int(draw.material) == scene_->oceanMaterial();
     default:
       return true;
   }
 }
 
-void GeometryStep::makePipelines(const SceneOnGpu& scene) {
+void GeometryStep::makePipelines() {
+  const SceneOnGpu& scene = *scene_;
   for (const Draw& draw : scene.draws()) {
-    if (!includes(scene, draw)) continue;
+    if (!includes(draw)) continue;
     const Variant of = variant(draw);
     gpu::Pipeline& made = pipelines_[of];
     if (made) continue;
@@ -121,8 +122,9 @@ void GeometryStep::makePipelines(const SceneOnGpu& scene) {
       chosen_[i] = found->second;
 }
 
-void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resources, const SceneOnGpu& scene,
-                        const gpu::DescriptorSets* passSets, uint32_t firstView) const {
+void GeometryStep::draw(VkCommandBuffer commands, const gpu::DescriptorSets* passSets,
+                        uint32_t firstView) const {
+  const SceneOnGpu& scene = *scene_;
   const VkBuffer buffers[] = {scene.finalCore().handle(), scene.finalFrame().handle(),
                               scene.surface().handle(), scene.previousPositions().handle()};
   const VkDeviceSize offsets[] = {0, 0, 0, 0};
@@ -130,7 +132,7 @@ void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resource
 
   std::vector<const Draw*> order;
   for (const Draw& draw : scene.draws())
-    if (includes(scene, draw) && (draw.visible || desc_.what == GeometryStepDesc::What::casters))
+    if (includes(draw) && (draw.visible || desc_.what == GeometryStepDesc::What::casters))
       order.push_back(&draw);
   const auto chosen = [&](const Draw* draw) { return chosen_[size_t(draw - scene.draws().data())]; };
   std::stable_sort(order.begin(), order.end(), [&](const Draw* a, const Draw* b) {
@@ -153,7 +155,7 @@ void GeometryStep::draw(VkCommandBuffer commands, const FrameResources& resource
     const gpu::Pipeline& pipeline = *chosen(draw).pipeline;
     if (bound != &pipeline) {
       pipeline.bind(commands);
-      pipeline.bindSet(commands, 0, resources.frameSet());
+      pipeline.bindSet(commands, 0, frameSet_);
       if (desc_.viewMask) pipeline.push(commands, firstView);
       bound = &pipeline;
       boundMaterial = ~0u;

@@ -58,15 +58,13 @@ struct MaterialVariant {
 
 class GeometryStep {
  public:
-  void create(gpu::Device& device, const FrameResources& resources, const SceneOnGpu& scene,
-              const GeometryStepDesc& desc);
+  void create(FrameBuilder& frame, const GeometryStepDesc& desc);
   // What of the look goes into the pipelines: specialisation constant 4, the pass's own, and what each
   // material has. Makes the pipelines that are still missing.
-  void specialise(const SceneOnGpu& scene, uint32_t constant, std::vector<MaterialVariant> materials = {});
+  void specialise(uint32_t constant, std::vector<MaterialVariant> materials = {});
   // Draws opaque, then masked, then blended surfaces: by pipeline and material, the nearest first; blended
   // ones from far to near. `passSets`: set 2, one for all or one for each material; null for none.
-  void draw(VkCommandBuffer commands, const FrameResources& resources, const SceneOnGpu& scene,
-            const gpu::DescriptorSets* passSets, uint32_t firstView) const;
+  void draw(VkCommandBuffer commands, const gpu::DescriptorSets* passSets, uint32_t firstView) const;
 
  private:
   // What a pipeline is made for, in the order in which they draw: specialisation constant 0 is the alpha
@@ -84,10 +82,12 @@ class GeometryStep {
             draw.textured};
   }
   // Whether a draw is ever one of the step's.
-  bool includes(const SceneOnGpu& scene, const Draw& draw) const;
-  void makePipelines(const SceneOnGpu& scene);
+  bool includes(const Draw& draw) const;
+  void makePipelines();
 
   gpu::Device* device_ = nullptr;
+  const SceneOnGpu* scene_ = nullptr;
+  VkDescriptorSet frameSet_ = VK_NULL_HANDLE;
   GeometryStepDesc desc_;
   std::vector<VkDescriptorSetLayout> setLayouts_;
   uint32_t constant_ = 0;

@@ -16,14 +16,8 @@ struct ImageShader {
 class ImageStep {
  public:
   struct Input {
-    gpu::ResourceId image;
+    gpu::Handle image;
     bool linear = false;  // sampled between texels; else texelFetch only (of multisampled images: by sample)
-  };
-  // What a step writes: one image, or two of one size, for shaders with SHADES_TWO.
-  struct Outputs {
-    Outputs(gpu::ResourceId one) : images{one} {}
-    Outputs(gpu::ResourceId one, gpu::ResourceId other) : images{one, other} {}
-    std::vector<gpu::ResourceId> images;
   };
   // A texture that is none of the frame's images; bound after the inputs.
   struct Texture {
@@ -36,14 +30,17 @@ class ImageStep {
     std::vector<uint32_t> constants;  // specialisation constants 0 to 2
     std::vector<Texture> textures;    // as many as were declared
   };
+  // `outputs`: one image, or two of one size for shaders with SHADES_TWO; gives what they hold then.
   // `uniformBytes`: size of the step's uniform block (set 1, binding 0) for each job; 0 where the shader has
   // none.
-  void declare(FrameBuilder& frame, const std::string& name, ImageShader shader, std::vector<Input> inputs,
-               const Outputs& outputs, uint64_t uniformBytes, std::vector<uint32_t> constants = {},
-               uint32_t textureCount = 0, uint32_t maxJobs = 1);
+  std::vector<gpu::Handle> declare(FrameBuilder& frame, const std::string& name, ImageShader shader,
+                                   std::vector<Input> inputs, std::vector<gpu::Handle> outputs,
+                                   uint64_t uniformBytes, std::vector<uint32_t> constants = {},
+                                   uint32_t textureCount = 0, uint32_t maxJobs = 1);
   // Steps without textures have their one job from here on; others need setJobs before their first frame.
-  void create(FrameBuilder& frame, const FrameResources& resources);
-  void setJobs(std::vector<Job> jobs);
+  void create(FrameBuilder& frame);
+  void bind(const gpu::GraphResources& resources);
+  void setJobs(const std::vector<Job>& jobs);
   template <class T>
   void update(const T& uniforms, size_t job = 0) {
     std::memcpy(uniforms_.mapped + job * uniformStride_, &uniforms, sizeof(T));
@@ -56,14 +53,14 @@ class ImageStep {
   ImageShader shader_;
   std::vector<Input> inputs_;
   std::vector<uint32_t> constants_;
-  std::vector<gpu::ResourceId> outputs_;
+  std::vector<gpu::Handle> outputs_;
   UniformSlice uniforms_;
   uint64_t uniformStride_ = 0;
   uint32_t textureCount_ = 0, maxJobs_ = 1;
   bool compute_ = false;
   Configuration configuration_;
   FrameBuilder* frame_ = nullptr;
-  const FrameResources* resources_ = nullptr;
+  const gpu::GraphResources* resources_ = nullptr;
   gpu::SetLayout inputLayout_, outputLayout_;
   gpu::DescriptorSets inputSets_, outputSet_;
   std::map<std::vector<uint32_t>, gpu::Pipeline> pipelines_;

@@ -12,7 +12,7 @@ class MaterialBlocks {
   // No device wants dynamic offsets at larger steps than this.
   static constexpr uint32_t kStride = (sizeof(Block) + 255) / 256 * 256;
 
-  void declare(FrameBuilder& frame) { slice_ = frame.uniform(frame.scene().materialCount() * kStride); }
+  void create(FrameBuilder& frame) { slice_ = frame.uniform(frame.scene().materialCount() * kStride); }
   void bind(gpu::DescriptorSets& sets, uint32_t binding, size_t set = 0) const {
     sets.writeBuffer(set, binding, slice_.buffer, slice_.offset, sizeof(Block));
   }

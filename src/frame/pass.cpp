@@ -5,67 +5,96 @@
 
 namespace scumble::frame {
 
+UniformSlice UniformMemory::slice(uint64_t bytes) {
+  constexpr uint64_t kAlignment = 256;  // no device asks for more
+  constexpr uint64_t kBlock = 64 << 10;
+  bytes = std::max<uint64_t>(bytes, 1);
+  if (blocks_.empty() || used_ + bytes > blocks_.back().size()) {
+    blocks_.emplace_back(device_, std::max(bytes, kBlock),
+                         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    used_ = 0;
+  }
+  gpu::PerFrameBuffer& block = blocks_.back();
+  const UniformSlice slice{block.handle(), used_, bytes, block.contents() + used_};
+  used_ += (bytes + kAlignment - 1) / kAlignment * kAlignment;
+  return slice;
+}
+
+void UniformMemory::addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) {
+  for (gpu::PerFrameBuffer& block : blocks_) uploads.push_back(&block);
+}
+
+void UniformMemory::amend(const UniformSlice& slice, uint32_t frame) {
+  for (gpu::PerFrameBuffer& block : blocks_)
+    if (block.handle() == slice.buffer) block.amend(frame, slice.offset, slice.size);
+}
+
 FrameBuilder::FrameBuilder(gpu::Device& device, gpu::Samplers& samplers, ExampleTextures& examples,
                            const Configuration& configuration, const SceneOnGpu& scene,
-                           UniformSlice uniformMemory)
+                           const gpu::SetLayout& frameLayout, VkDescriptorSet frameSet,
+                           UniformMemory& uniforms)
     : device_(device),
       samplers_(samplers),
       examples_(examples),
       configuration_(configuration),
       scene_(scene),
-      uniformMemory_(uniformMemory),
-      slots_(size_t(Slot::count), kNone),
-      multisampled_(size_t(Slot::count), kNone),
-      finalVertices_(graph_.addBuffer("final vertices")) {}
-
-gpu::ResourceId FrameBuilder::slot(Slot slot) {
-  gpu::ResourceId& id = slots_[size_t(slot)];
-  if (id == kNone) {
-    const SlotInfo& info = slotInfo(slot);
-    gpu::ImageDesc desc{info.format, configuration_.width, configuration_.height, 1};
-    if (slot == Slot::shadowMap) desc.width = desc.height = kShadowMapSize;
-    if (slot == Slot::blur) desc.width = (desc.width + 3) / 4, desc.height = (desc.height + 3) / 4;
-    if (info.rate == Rate::perView) desc.layers = configuration_.viewCount;
-    id = graph_.addImage(info.name, desc);
-  }
-  return id;
+      frameLayout_(frameLayout),
+      frameSet_(frameSet),
+      uniforms_(uniforms) {
+  // What has not moved keeps the vertices that an earlier frame wrote.
+  give(kVertices, graph_.importBuffer(kVertices.name));
+  give(kPreviousVertices, graph_.importBuffer(kPreviousVertices.name));
 }
 
-gpu::ResourceId FrameBuilder::multisampled(Slot slot) {
-  assert(slotInfo(slot).multisampled && configuration_.samples > 1);
-  gpu::ResourceId& id = multisampled_[size_t(slot)];
-  if (id == kNone) {
-    const SlotInfo& info = slotInfo(slot);
-    id = graph_.addImage(std::string(info.name) + " samples",
-                         {info.format, configuration_.width, configuration_.height, configuration_.viewCount,
-                          1, configuration_.samples});
-  }
-  return id;
+const FrameBuilder::Given* FrameBuilder::find(const Role& role, Layer layer) const {
+  for (const Given& given : given_)
+    if (given.role == &role && given.layer == layer) return &given;
+  return nullptr;
 }
 
-void FrameBuilder::addStep(const std::string& name, std::vector<gpu::ResourceUse> uses, Record record) {
-  graph_.addStep(name, std::move(uses));
+gpu::Handle FrameBuilder::get(const Role& role, Layer layer) const {
+  const Given* const given = find(role, layer);
+  assert(given && "no pass before has given this role");
+  return given->handle;
+}
+
+bool FrameBuilder::has(const Role& role, Layer layer) const {
+  return find(role, layer) != nullptr;
+}
+
+void FrameBuilder::give(const Role& role, gpu::Handle handle, Layer layer) {
+  if (const Given* const given = find(role, layer))
+    given_[size_t(given - given_.data())].handle = handle;
+  else
+    given_.push_back({&role, layer, handle});
+}
+
+void FrameBuilder::step(const std::string& name, Record record) {
+  graph_.addStep(name);
   records_.push_back(std::move(record));
+  declarers_.push_back(declaring_);
 }
 
-UniformSlice FrameBuilder::uniform(uint64_t bytes) {
-  constexpr uint64_t kAlignment = 256;  // no device asks for more
-  const UniformSlice slice{uniformMemory_.buffer, uniformMemory_.offset + uniformUsed_, bytes,
-                           uniformMemory_.mapped + uniformUsed_};
-  uniformUsed_ += (bytes + kAlignment - 1) / kAlignment * kAlignment;
-  assert(uniformUsed_ <= uniformMemory_.size);
-  return slice;
+void FrameBuilder::offer(const Aov& aov, std::vector<gpu::Handle> images) {
+  offers_.push_back({&aov, std::move(images)});
 }
 
-FrameResources::FrameResources(gpu::Device& device, const FrameBuilder& builder,
-                               const gpu::SetLayout& frameLayout, VkDescriptorSet frameSet)
-    : frameLayout_(frameLayout), frameSet_(frameSet) {
-  for (const gpu::FrameGraph::ResourceInfo& resource : builder.graph().resources()) {
-    if (resource.isImage && resource.usage != 0)
-      images_.emplace_back(device, resource.desc, resource.usage);
-    else
-      images_.emplace_back();
-  }
+void FrameBuilder::declare(Pass& pass, uint32_t variant) {
+  declaring_ = &pass;
+  pass.declare(*this, variant);
+  declaring_ = nullptr;
+}
+
+const FrameBuilder::Offer* FrameBuilder::offered(const std::string& name) const {
+  for (const Offer& offer : offers_)
+    if (name == offer.aov->name) return &offer;
+  return nullptr;
+}
+
+bool FrameBuilder::needs(const Pass& pass, const gpu::FrameGraph::Needs& needs) const {
+  for (size_t s = 0; s < declarers_.size(); ++s)
+    if (declarers_[s] == &pass && needs.steps[s]) return true;
+  return false;
 }
 
 }  // namespace scumble::frame

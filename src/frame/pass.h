@@ -1,20 +1,25 @@
 // The contract of a pass. A pass declares its steps (what each reads and writes, and how it records) once for
-// a configuration of the renderer; then, when the images exist, makes its pipelines and descriptor sets;
-// then, each frame, writes its uniforms. It sees the frame, the scene on the GPU and the look; no file, no
-// window, no other pass.
+// a configuration of the renderer; makes its pipelines and descriptor sets, where what it writes is needed;
+// names the images in those sets whenever they are made anew, for another size; then, each frame, writes its
+// uniforms. It sees the frame, the scene on the GPU and the look; no file, no window, no other pass.
 #pragma once
 
+#include <cstring>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "frame/aov.h"
 #include "frame/backdrop.h"
 #include "frame/example_textures.h"
+#include "frame/formats.h"
+#include "frame/roles.h"
 #include "frame/scene_on_gpu.h"
-#include "frame/slots.h"
-#include "gpu/frame_graph.h"
+#include "gpu/frames_in_flight.h"
+#include "gpu/graph_resources.h"
 #include "gpu/pipeline.h"
 #include "gpu/view_drawing.h"
 #include "look/look_data.h"
@@ -22,7 +27,17 @@
 
 namespace scumble::frame {
 
-// A piece of the renderer's uniform buffer; written by the CPU before the frame, read as uniform or storage
+// What is fixed as long as pipelines live.
+struct Configuration {
+  uint32_t samples = 1, viewCount = 1;
+  bool computeImagePasses = false;
+  gpu::ViewDrawing viewDrawing = gpu::ViewDrawing::together;
+  bool operator==(const Configuration&) const = default;
+
+  gpu::Views views() const { return {viewCount, viewDrawing}; }
+};
+
+// A piece of the frame's uniform memory; written by the CPU before the frame, read as uniform or storage
 // buffer.
 struct UniformSlice {
   VkBuffer buffer = VK_NULL_HANDLE;
@@ -34,31 +49,19 @@ struct UniformSlice {
   }
 };
 
-// What is fixed as long as images and pipelines live.
-struct Configuration {
-  uint32_t width = 0, height = 0, samples = 1, viewCount = 1;
-  bool computeImagePasses = false;
-  bool facts = false;          // whether the facts pass runs
-  bool matte = false;          // whether the matte pass runs
-  std::vector<Slot> readBack;  // what the caller gets
-  bool layered = false;        // whether what lies behind the first surface is drawn as well
-  bool glows = false;          // whether anything may act on the lens
-  bool limit = false;          // whether the limit pass runs
-  uint32_t backdropWidth = 0,
-           backdropHeight = 0;  // texels of the picture behind everything; 0: there is none
-  bool plain = false;
-  bool ocean = false;     // whether the ocean pass runs
-  bool colorize = false;  // whether the colorize pass runs
-  gpu::ViewDrawing viewDrawing = gpu::ViewDrawing::together;
-  bool operator==(const Configuration&) const = default;
+// Uniform memory, as much as is asked for.
+class UniformMemory {
+ public:
+  explicit UniformMemory(gpu::Device& device) : device_(device) {}
+  UniformSlice slice(uint64_t bytes);
+  void addUploads(std::vector<gpu::PerFrameBuffer*>& uploads);
+  // Takes a slice once more into uploads of a frame that were recorded, and not yet sent.
+  void amend(const UniformSlice& slice, uint32_t frame);
 
-  gpu::Views views() const { return {viewCount, viewDrawing}; }
-
-  // Where the colours are that become the picture, and before the limit pass.
-  Slot colors() const { return limit ? Slot::limit : colorsToLimit(); }
-  Slot colorsBehind() const { return limit ? Slot::behindLimit : colorsToLimitBehind(); }
-  Slot colorsToLimit() const { return colorize ? Slot::colorize : Slot::color; }
-  Slot colorsToLimitBehind() const { return colorize ? Slot::behindColorize : Slot::behind; }
+ private:
+  gpu::Device& device_;
+  std::deque<gpu::PerFrameBuffer> blocks_;  // slices point into them
+  uint64_t used_ = 0;                       // of the last one
 };
 
 // What changes from frame to frame.
@@ -74,71 +77,97 @@ struct FrameInput {
 
 using Record = std::function<void(VkCommandBuffer)>;
 
-// Collects the steps of all passes.
+class Pass;
+
+// What passes build a frame from.
 class FrameBuilder {
  public:
   FrameBuilder(gpu::Device& device, gpu::Samplers& samplers, ExampleTextures& examples,
-               const Configuration& configuration, const SceneOnGpu& scene, UniformSlice uniformMemory);
+               const Configuration& configuration, const SceneOnGpu& scene, const gpu::SetLayout& frameLayout,
+               VkDescriptorSet frameSet, UniformMemory& uniforms);
 
   gpu::Device& device() { return device_; }
   gpu::Samplers& samplers() { return samplers_; }
   ExampleTextures& examples() { return examples_; }
   const Configuration& configuration() const { return configuration_; }
   const SceneOnGpu& scene() const { return scene_; }
+  // Set 0 of all pipelines (shading/frame.glsl).
+  const gpu::SetLayout& frameLayout() const { return frameLayout_; }
+  VkDescriptorSet frameSet() const { return frameSet_; }
 
-  // The image of a slot; made when it is first named.
-  gpu::ResourceId slot(Slot slot);
-  // The multisampled image that is resolved into the slot's; only where the configuration has samples.
-  gpu::ResourceId multisampled(Slot slot);
-  // The final vertices that `deform` writes.
-  gpu::ResourceId finalVertices() const { return finalVertices_; }
-  // An image of the pass's own.
-  gpu::ResourceId transient(std::string name, const gpu::ImageDesc& desc) {
-    return graph_.addImage(std::move(name), desc);
+  // -- While a pass declares.
+  // What has a role now. It must have been given.
+  gpu::Handle get(const Role& role, Layer layer = Layer::first) const;
+  bool has(const Role& role, Layer layer = Layer::first) const;
+  // From here on `handle` has the role.
+  void give(const Role& role, gpu::Handle handle, Layer layer = Layer::first);
+  // Images and buffers of the pass's own; what comes back is empty until a step writes it.
+  gpu::Handle image(std::string name, const gpu::ImageShape& shape) {
+    return graph_.addImage(std::move(name), shape);
   }
+  gpu::Handle buffer(std::string name, uint64_t bytes) { return graph_.addBuffer(std::move(name), bytes); }
+  // The next step; `record` is called for each frame, where what it writes is needed.
+  void step(const std::string& name, Record record);
+  // What that step does with a handle (gpu::FrameGraph::use): the version that it has from then on.
+  gpu::Handle use(gpu::Handle handle, gpu::Use use) { return graph_.use(handle, use); }
+  // Lets users save images, of one size and format, as one of the pass's aovs().
+  void offer(const Aov& aov, std::vector<gpu::Handle> images);
+  const gpu::ImageShape& shape(gpu::Handle image) const { return graph_.shape(image); }
 
-  void addStep(const std::string& name, std::vector<gpu::ResourceUse> uses, Record record);
-  UniformSlice uniform(uint64_t bytes);
+  // -- While it creates.
+  UniformSlice uniform(uint64_t bytes) { return uniforms_.slice(bytes); }
 
+  // -- For who calls the passes.
+  void declare(Pass& pass, uint32_t variant);
+  gpu::FrameGraph& graph() { return graph_; }
   const gpu::FrameGraph& graph() const { return graph_; }
   const std::vector<Record>& records() const { return records_; }
+  // What was offered under a name; null: nothing.
+  struct Offer {
+    const Aov* aov;
+    std::vector<gpu::Handle> images;
+  };
+  const Offer* offered(const std::string& name) const;
+  // Whether any step that a pass has declared is needed.
+  bool needs(const Pass& pass, const gpu::FrameGraph::Needs& needs) const;
 
  private:
-  static constexpr gpu::ResourceId kNone = ~0u;
+  struct Given {
+    const Role* role;
+    Layer layer;
+    gpu::Handle handle;
+  };
+  const Given* find(const Role& role, Layer layer) const;
+
   gpu::Device& device_;
   gpu::Samplers& samplers_;
   ExampleTextures& examples_;
   Configuration configuration_;
   const SceneOnGpu& scene_;
-  UniformSlice uniformMemory_;
-  uint64_t uniformUsed_ = 0;
-  gpu::FrameGraph graph_;
-  std::vector<Record> records_;
-  std::vector<gpu::ResourceId> slots_, multisampled_;
-  gpu::ResourceId finalVertices_;
-};
-
-// The images and the frame's own descriptor set, when they exist.
-class FrameResources {
- public:
-  FrameResources(gpu::Device& device, const FrameBuilder& builder, const gpu::SetLayout& frameLayout,
-                 VkDescriptorSet frameSet);
-  const gpu::Image& image(gpu::ResourceId id) const { return images_[id]; }
-  const gpu::SetLayout& frameLayout() const { return frameLayout_; }
-  VkDescriptorSet frameSet() const { return frameSet_; }
-
- private:
-  std::vector<gpu::Image> images_;
   const gpu::SetLayout& frameLayout_;
   VkDescriptorSet frameSet_;
+  UniformMemory& uniforms_;
+  gpu::FrameGraph graph_;
+  std::vector<Record> records_;         // by step
+  std::vector<const Pass*> declarers_;  // by step
+  const Pass* declaring_ = nullptr;
+  std::vector<Given> given_;
+  std::vector<Offer> offers_;
 };
 
 class Pass {
  public:
   virtual ~Pass() = default;
   virtual const char* name() const = 0;
-  virtual void declare(FrameBuilder& frame) = 0;
-  virtual void create(FrameBuilder& frame, const FrameResources& resources) = 0;
+  // What it may offer, by the names that users know.
+  virtual std::span<const Aov> aovs() const { return {}; }
+  // What of scene and look decides which steps it declares: when it changes, a frame is built anew.
+  virtual uint32_t variant(const scene::SceneData&, const look::LookData&) const { return 0; }
+  virtual void declare(FrameBuilder& frame, uint32_t variant) = 0;
+  // From here on only for passes that are needed. `frame` stays as long as the pass.
+  virtual void create(FrameBuilder& frame) = 0;
+  // After create(), and whenever images were made anew; `resources` stay as long as the pass.
+  virtual void bind(const gpu::GraphResources& resources) = 0;
   virtual void update(const FrameInput&) {}
 };
 

@@ -322,22 +322,17 @@ void SceneOnGpu::pose(const look::LookData& look, const look::LookData& now, dou
   }
 }
 
-void SceneOnGpu::look(const shared::FrameUniforms& uniforms, uint32_t viewCount, float marginPixels) {
-  const glm::vec2 margin = 2.0f * marginPixels / uniforms.imageSize;
+void SceneOnGpu::look(const Viewers& viewers) {
   nearestOf_.assign(materialCount(), std::numeric_limits<float>::infinity());
-  // From between the eyes; of a parallel projection, along its axis.
-  const shared::ViewUniforms& view = uniforms.views[0];
-  const glm::vec3 eye = viewCount > 1 ? 0.5f * (view.eye + uniforms.views[1].eye) : view.eye;
-  const glm::vec3 ahead(-view.worldToEye[0].z, -view.worldToEye[1].z, -view.worldToEye[2].z);
   for (Draw& draw : draws_) {
-    draw.visible = false;
-    for (uint32_t v = 0; v < viewCount && !draw.visible; ++v)
-      draw.visible = mayBeSeen(draw.bounds, uniforms.views[v].worldToClip, margin);
-    const glm::vec3 away = draw.bounds.center() - eye;
-    draw.distance = view.orthographic != 0 ? glm::dot(away, ahead) : glm::length(away);
+    draw.visible =
+        std::any_of(viewers.windows.begin(), viewers.windows.end(), [&](const Viewers::Window& window) {
+          return mayBeSeen(draw.bounds, window.worldToClip, window.margin);
+        });
+    draw.distance = viewers.distanceTo(draw.bounds.center());
     if (draw.visible) nearestOf_[draw.material] = std::min(nearestOf_[draw.material], draw.distance);
     if (draw.alpha == AlphaMode::blend && (draw.visible || draw.casts))
-      transparent_.sort(draw.object, *motion_, uniforms, viewCount);
+      transparent_.sort(draw.object, *motion_, viewers);
   }
 }
 

@@ -13,6 +13,7 @@
 #include "frame/geometry.h"
 #include "frame/scene_motion.h"
 #include "frame/transparent_triangles.h"
+#include "frame/viewers.h"
 #include "gpu/frames_in_flight.h"
 #include "gpu/pipeline.h"
 
@@ -86,9 +87,8 @@ class SceneOnGpu {
   // Sets what moves to its place at a time (seconds). The look has its tracks; `now` is the same at that time
   // (LookData::at).
   void pose(const look::LookData& look, const look::LookData& now, double time);
-  // Finds out what can be seen from the frame's views, and up to so many pixels beside them, and sorts what
-  // is transparent; after pose().
-  void look(const shared::FrameUniforms& uniforms, uint32_t viewCount, float marginPixels);
+  // Finds out what can be seen, and sorts what is transparent; after pose().
+  void look(const Viewers& viewers);
   // The largest factor on a material's inflation that vertices of it have (attribute _WARP), at least 1.
   float warpScaleOf(size_t material) const { return warpScaleOf_[material]; }
   // Metres from the first view to the nearest draw of a material.

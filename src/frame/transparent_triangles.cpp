@@ -30,12 +30,8 @@ void TransparentTriangles::create(gpu::Device& device) {
 }
 
 void TransparentTriangles::sort(uint32_t object, const SceneMotion& motion,
-                                const shared::FrameUniforms& uniforms, uint32_t viewCount) {
+                                const Viewers& viewers) {
   const auto& [first, count, isSkinned] = objects_.at(object);
-  const shared::ViewUniforms& view = uniforms.views[0];
-  const glm::vec3 eye = viewCount > 1 ? 0.5f * (view.eye + uniforms.views[1].eye) : view.eye;
-  const glm::mat3 toEye(view.worldToEye);
-  const glm::vec3 ahead(-toEye[0].z, -toEye[1].z, -toEye[2].z);
   const glm::mat4& model = motion.model(object);
   const glm::mat4* joints = isSkinned ? motion.joints(object) : nullptr;
 
@@ -43,8 +39,9 @@ void TransparentTriangles::sort(uint32_t object, const SceneMotion& motion,
   for (uint32_t t = 0; t < count; ++t) {
     const Triangle& triangle = triangles_[first + t];
     const glm::vec3 from =
-        glm::vec3((joints ? joints[triangle.joint] : model) * glm::vec4(triangle.centroid, 1.0f)) - eye;
-    const float distance = view.orthographic != 0 ? glm::dot(from, ahead) : glm::dot(from, from);
+        glm::vec3((joints ? joints[triangle.joint] : model) * glm::vec4(triangle.centroid, 1.0f)) -
+        viewers.middle;
+    const float distance = viewers.isParallel ? glm::dot(from, viewers.ahead) : glm::dot(from, from);
     // What is not finite has no order; it is drawn last.
     order_[t] = {std::isfinite(distance) ? -distance : std::numeric_limits<float>::infinity(), t};
   }

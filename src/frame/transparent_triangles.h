@@ -5,6 +5,7 @@
 #include <map>
 
 #include "frame/scene_motion.h"
+#include "frame/viewers.h"
 
 namespace scumble::frame {
 
@@ -15,11 +16,9 @@ class TransparentTriangles {
   uint32_t add(const scene::Primitive& primitive, uint32_t object, bool isSkinned);
   void create(gpu::Device& device);
 
-  // Sorts the triangles of an object by their centroids, as seen from between the views, or along the first
-  // one where its projection is parallel. Morph targets do not move the centroids, and a skinned one goes
-  // with the joint that pulls it most.
-  void sort(uint32_t object, const SceneMotion& motion, const shared::FrameUniforms& uniforms,
-            uint32_t viewCount);
+  // Sorts the triangles of an object by their centroids. Morph targets do not move the centroids, and a
+  // skinned one goes with the joint that pulls it most.
+  void sort(uint32_t object, const SceneMotion& motion, const Viewers& viewers);
 
   VkBuffer indices() const { return sorted_.handle(); }
   void addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) {

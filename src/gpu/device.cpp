@@ -17,34 +17,6 @@ namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 
-// All feature structures that are queried or asked for, chained.
-struct Features {
-  VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-  VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-  VkPhysicalDeviceVulkan11Features v11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES};
-  VkPhysicalDeviceFeatures2 core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-  Features() {
-    core.pNext = &v11;
-    v11.pNext = &v12;
-    v12.pNext = &v13;
-  }
-  Features(const Features&) = delete;
-};
-
-// Calls visit(feature, name) for every feature that scumble requires.
-template <class Visit>
-void forEachRequired(Features& f, Visit visit) {
-  visit(f.v13.dynamicRendering, "dynamicRendering");
-  visit(f.v13.synchronization2, "synchronization2");
-  visit(f.v13.maintenance4, "maintenance4");
-  visit(f.v12.scalarBlockLayout, "scalarBlockLayout");
-  visit(f.v12.timelineSemaphore, "timelineSemaphore");
-  visit(f.v11.multiview, "multiview");
-  visit(f.core.features.fragmentStoresAndAtomics, "fragmentStoresAndAtomics");
-  visit(f.core.features.independentBlend, "independentBlend");
-  visit(f.core.features.samplerAnisotropy, "samplerAnisotropy");
-}
-
 // What image passes use of subgroups, whichever way they run.
 bool hasSubgroups(VkPhysicalDevice physical) {
   VkPhysicalDeviceSubgroupProperties subgroups{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
@@ -140,8 +112,9 @@ DeviceInfo describe(VkPhysicalDevice physical) {
   return info;
 }
 
-Result<VkInstance> createInstance(bool validation) {
+Result<VkInstance> createInstance(bool validation, const std::vector<std::string>& wanted = {}) {
   std::vector<const char*> layers, extensions;
+  for (const std::string& name : wanted) extensions.push_back(name.c_str());
   const VkValidationFeatureEnableEXT enabled[] = {
       VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
   VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
@@ -238,6 +211,10 @@ std::string VulkanError::message() const {
          std::to_string(int(result)) + ")";
 }
 
+std::string whyUnusable(VkPhysicalDevice physical) {
+  return describe(physical).unusableBecause;
+}
+
 Result<std::vector<DeviceInfo>> listDevices() {
   Result<VkInstance> instance = createInstance(false);
   if (!instance) return instance.error();
@@ -280,8 +257,26 @@ Result<size_t> chooseDevice(const std::vector<DeviceInfo>& devices, const std::s
                              : "no device is called '" + choice + "'");
 }
 
+void Device::describePhysical() {
+  info_ = describe(physical_);
+  VkPhysicalDeviceProperties properties;
+  vkGetPhysicalDeviceProperties(physical_, &properties);
+  limits_ = properties.limits;
+  supports4Samples_ = properties.limits.framebufferColorSampleCounts &
+                      properties.limits.framebufferDepthSampleCounts & VK_SAMPLE_COUNT_4_BIT;
+}
+
+void Device::createParts(const std::string& cacheFolder) {
+  const VkCommandPoolCreateInfo info{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr,
+                                     VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, queueFamily_};
+  SCUMBLE_VK(vkCreateCommandPool(device_, &info, nullptr, &pool_));
+  memory_ = std::make_unique<MemoryPool>(physical_, device_);
+  pipelines_ = std::make_unique<PipelineStore>(device_);
+  openPipelineCache(cacheFolder);
+}
+
 Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
-  Result<VkInstance> instance = createInstance(options.validation);
+  Result<VkInstance> instance = createInstance(options.validation, options.instanceExtensions);
   if (!instance) return instance.error();
   std::unique_ptr<Device> device(new Device);
   device->instance_ = *instance;
@@ -293,12 +288,7 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
   const Result<size_t> choice = chooseDevice(infos, options.choice);
   if (!choice) return choice.error();
   device->physical_ = candidates[*choice];
-  device->info_ = infos[*choice];
-  VkPhysicalDeviceProperties properties;
-  vkGetPhysicalDeviceProperties(device->physical_, &properties);
-  device->limits_ = properties.limits;
-  device->supports4Samples_ = properties.limits.framebufferColorSampleCounts &
-                              properties.limits.framebufferDepthSampleCounts & VK_SAMPLE_COUNT_4_BIT;
+  device->describePhysical();
 
   try {
     if (options.validation) {
@@ -314,7 +304,7 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
       if (create) create(device->instance_, &info, nullptr, &device->messenger_);
     }
 
-    // Create the logical device with exactly the required features.
+    // Create the logical device with the required features, and what else is wanted.
     hasGraphicsQueue(device->physical_, &device->queueFamily_);
     const float priority = 1.0f;
     VkDeviceQueueCreateInfo queueInfo{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
@@ -323,21 +313,43 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
     queueInfo.pQueuePriorities = &priority;
     Features features;
     forEachRequired(features, [](VkBool32& feature, const char*) { feature = VK_TRUE; });
+    std::vector<const char*> extensions;
+    for (const std::string& name : options.deviceExtensions) extensions.push_back(name.c_str());
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
-    info.pNext = &features.core;
+    info.pNext = options.features ? options.features : &features.core;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queueInfo;
+    info.enabledExtensionCount = uint32_t(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
     SCUMBLE_VK(vkCreateDevice(device->physical_, &info, nullptr, &device->device_));
     vkGetDeviceQueue(device->device_, device->queueFamily_, 0, &device->queue_);
-
-    const VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr,
-                                           VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, device->queueFamily_};
-    SCUMBLE_VK(vkCreateCommandPool(device->device_, &poolInfo, nullptr, &device->pool_));
-    device->memory_ = std::make_unique<MemoryPool>(device->physical_, device->device_);
-    device->pipelines_ = std::make_unique<PipelineStore>(device->device_);
-    device->openPipelineCache(options.cacheFolder);
+    device->createParts(options.cacheFolder);
   } catch (const VulkanError& error) {
     return Error{ErrorKind::noUsableGpu, "", 0, "", error.message(), "choose another device with --device"};
+  }
+  return device;
+}
+
+Result<std::unique_ptr<Device>> Device::adopt(const ForeignDevice& foreign, const std::string& cacheFolder) {
+  std::unique_ptr<Device> device(new Device);
+  device->isForeign_ = true;
+  device->instance_ = foreign.instance;
+  device->physical_ = foreign.physical;
+  device->device_ = foreign.device;
+  device->queue_ = foreign.queue;
+  device->queueFamily_ = foreign.queueFamily;
+  device->describePhysical();
+  if (!device->info_.unusableBecause.empty())
+    return Error{ErrorKind::noUsableGpu,
+                 "",
+                 0,
+                 "",
+                 "the device '" + device->info_.name + "' cannot be used: " + device->info_.unusableBecause,
+                 "see `scumble devices`"};
+  try {
+    device->createParts(cacheFolder);
+  } catch (const VulkanError& error) {
+    return Error{ErrorKind::noUsableGpu, "", 0, "", error.message(), ""};
   }
   return device;
 }
@@ -345,19 +357,22 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
 Device::Device() = default;
 Device::~Device() {
   if (device_) {
-    vkDeviceWaitIdle(device_);
+    if (isForeign_)
+      vkQueueWaitIdle(queue_);
+    else
+      vkDeviceWaitIdle(device_);
     if (pipelineCache_) vkDestroyPipelineCache(device_, pipelineCache_, nullptr);
     if (pool_) vkDestroyCommandPool(device_, pool_, nullptr);
     pipelines_.reset();
     memory_.reset();
-    vkDestroyDevice(device_, nullptr);
+    if (!isForeign_) vkDestroyDevice(device_, nullptr);
   }
   if (messenger_) {
     const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
         vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"));
     destroy(instance_, messenger_, nullptr);
   }
-  if (instance_) vkDestroyInstance(instance_, nullptr);
+  if (instance_ && !isForeign_) vkDestroyInstance(instance_, nullptr);
 }
 
 void Device::openPipelineCache(const std::string& folder) {
@@ -407,17 +422,22 @@ void Device::waitForSubmissions() {
 }
 
 void Device::submit(VkCommandBuffer commands, const std::function<void(VkCommandBuffer)>& record,
-                    VkFence done) {
+                    VkFence done, const Around& around) {
   const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr,
                                        VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT, nullptr};
   SCUMBLE_VK(vkBeginCommandBuffer(commands, &begin));
   record(commands);
   SCUMBLE_VK(vkEndCommandBuffer(commands));
+  if (around.last) around.last();
   const VkCommandBufferSubmitInfo submitted{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, nullptr, commands,
                                             0};
   VkSubmitInfo2 info{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
   info.commandBufferInfoCount = 1;
   info.pCommandBufferInfos = &submitted;
+  info.waitSemaphoreInfoCount = uint32_t(around.waits.size());
+  info.pWaitSemaphoreInfos = around.waits.data();
+  info.signalSemaphoreInfoCount = uint32_t(around.signals.size());
+  info.pSignalSemaphoreInfos = around.signals.data();
   SCUMBLE_VK(vkQueueSubmit2(queue_, 1, &info, done));
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,51 @@
 
 namespace scumble::gpu {
 
+// All feature structures that are queried or asked for, chained.
+struct Features {
+  VkPhysicalDeviceFeatures2 core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+  VkPhysicalDeviceVulkan11Features v11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES};
+  VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+  VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+  Features() {
+    core.pNext = &v11;
+    v11.pNext = &v12;
+    v12.pNext = &v13;
+  }
+  Features(const Features&) = delete;
+  Features& operator=(const Features&) = delete;
+};
+
+// Calls visit(feature, name) for every feature that scumble requires, of gpu::Features or what has the same
+// members.
+template <class Structures, class Visit>
+void forEachRequired(Structures& f, Visit visit) {
+  visit(f.v13.dynamicRendering, "dynamicRendering");
+  visit(f.v13.synchronization2, "synchronization2");
+  visit(f.v13.maintenance4, "maintenance4");
+  visit(f.v12.scalarBlockLayout, "scalarBlockLayout");
+  visit(f.v11.multiview, "multiview");
+  visit(f.core.features.fragmentStoresAndAtomics, "fragmentStoresAndAtomics");
+  visit(f.core.features.independentBlend, "independentBlend");
+}
+
+// Somebody else's device, which outlives ours.
+struct ForeignDevice {
+  VkInstance instance = VK_NULL_HANDLE;
+  VkPhysicalDevice physical = VK_NULL_HANDLE;
+  VkDevice device = VK_NULL_HANDLE;
+  VkQueue queue = VK_NULL_HANDLE;
+  uint32_t queueFamily = 0;
+};
+
 struct DeviceOptions {
   std::string choice;  // part of a name, a number in the order of listDevices(), "cpu", or empty: the best
   bool validation = false;  // core and synchronisation validation; noUsableGpu where the layer is absent
   std::string cacheFolder;  // where compiled pipelines and what the probe found are kept; empty: nowhere
+  // What somebody wants of the device besides; a device without the extensions is no usable GPU.
+  std::vector<std::string> instanceExtensions, deviceExtensions;
+  // Instead of Features with what scumble requires: somebody's chain that has it and more.
+  const VkPhysicalDeviceFeatures2* features = nullptr;
 };
 
 struct DeviceInfo {
@@ -30,6 +72,9 @@ struct DeviceInfo {
 
 // Every Vulkan device of the machine, in the loader's order.
 Result<std::vector<DeviceInfo>> listDevices();
+
+// Why a device cannot be used; empty where it can.
+std::string whyUnusable(VkPhysicalDevice physical);
 
 // Index of the device that `choice` means; fails with noUsableGpu.
 Result<size_t> chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& choice);
@@ -52,10 +97,12 @@ struct ViewDrawings {
 class Device {
  public:
   static Result<std::unique_ptr<Device>> create(const DeviceOptions& options);
+  static Result<std::unique_ptr<Device>> adopt(const ForeignDevice& device, const std::string& cacheFolder);
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
 
+  VkInstance instance() const { return instance_; }
   VkDevice handle() const { return device_; }
   VkPhysicalDevice physical() const { return physical_; }
   VkQueue queue() const { return queue_; }
@@ -74,9 +121,15 @@ class Device {
   std::optional<ViewDrawing> viewDrawing(uint32_t samples);
   bool hasTimestamps() const { return limits_.timestampComputeAndGraphics && limits_.timestampPeriod > 0; }
 
+  // What a submission waits for and signals; `last` is called when all is recorded, just before it is sent.
+  struct Around {
+    std::span<const VkSemaphoreSubmitInfo> waits, signals;
+    std::function<void()> last;
+  };
   // Records with `record` into a command buffer that was reset, and submits it; `done`, where it is not null,
   // is signalled at its end.
-  void submit(VkCommandBuffer commands, const std::function<void(VkCommandBuffer)>& record, VkFence done);
+  void submit(VkCommandBuffer commands, const std::function<void(VkCommandBuffer)>& record, VkFence done,
+              const Around& around = {});
   // The same with a command buffer of its own; waits for the end.
   void runOnce(const std::function<void(VkCommandBuffer)>& record);
 
@@ -94,8 +147,11 @@ class Device {
 
  private:
   Device();
+  void describePhysical();
+  void createParts(const std::string& cacheFolder);
   void openPipelineCache(const std::string& folder);
 
+  bool isForeign_ = false;
   VkInstance instance_ = VK_NULL_HANDLE;
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;

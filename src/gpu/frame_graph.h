@@ -1,9 +1,14 @@
-// The frame graph: which step reads and writes what, and from that the barriers. Steps run in the order in
-// which they were added; nothing is reordered. It plans only, and knows no device, so it is tested without
-// one.
+// The frame graph: which step reads and writes what, and from that which steps are needed, how long each
+// image lives, and the barriers. Steps run in the order in which they were added; nothing is reordered. It
+// plans only, and knows no device, so it is tested without one.
+//
+// Images and buffers are handles. A handle is one version of what it names: a step that writes makes the next
+// version, and what nobody has asked for in the end is not drawn (as in Filament's FrameGraph). Sizes are
+// relative to the frame's, so that a plan outlives a change of size (as in Granite's).
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,76 +19,151 @@ namespace scumble::gpu {
 
 // What a step does with a resource.
 enum class Use : uint8_t {
+  // Images.
+  sampledByVertex,
   sampledByFragment,
   sampledByCompute,
   colorTarget,
   depthTarget,
-  resolveTarget,       // of a multisampled colour target
-  depthResolveTarget,  // of a multisampled depth target
-  storageImageWrite,   // by compute
-  storageBufferRead,   // by compute
-  storageBufferWrite,  // by compute
+  resolveTarget,          // of a multisampled colour target
+  depthResolveTarget,     // of a multisampled depth target
+  storageImageWrite,      // by compute
+  storageImageReadWrite,  // by compute
+  // Images and buffers.
+  copySource,
+  copyTarget,
+  // Buffers.
+  storageBufferRead,       // by compute
+  storageBufferWrite,      // by compute
+  storageBufferReadWrite,  // by compute
+  storageBufferReadByVertex,
+  storageBufferReadByFragment,
+  uniformBufferByCompute,
   vertexBuffer,
-  copySource
+  indexBuffer,
+  indirectBuffer,
 };
 
 struct UseInfo {
   VkPipelineStageFlags2 stages;
   VkAccessFlags2 access;
-  VkImageLayout layout;  // undefined for buffers
-  VkImageUsageFlags imageUsage;
+  VkImageLayout layout;            // of images
+  VkImageUsageFlags imageUsage;    // 0: no use of an image
+  VkBufferUsageFlags bufferUsage;  // 0: no use of a buffer
   bool writes;
 };
 UseInfo useInfo(Use use);
 
-using ResourceId = uint32_t;
+// One version of an image or a buffer; version 0 is what is there before any step.
+struct Handle {
+  static constexpr uint32_t kNone = ~0u;
+  uint32_t resource = kNone, version = 0;
+  explicit operator bool() const { return resource != kNone; }
+  bool operator==(const Handle&) const = default;
+};
 
-struct ResourceUse {
-  ResourceId resource;
-  Use use;
+// The size and format of an image of a frame.
+struct ImageShape {
+  VkFormat format = VK_FORMAT_UNDEFINED;
+  uint32_t overX = 1, overY = 1;   // the frame's size over these, rounded up
+  uint32_t width = 0, height = 0;  // texels, where it has a size of its own
+  bool perView = true;             // a layer a view; else one for all
+  uint32_t samples = 1;
+
+  struct Frame {
+    uint32_t width, height, views;
+  };
+  ImageDesc at(const Frame& frame) const;
+  bool operator==(const ImageShape&) const = default;
+};
+
+// How something that is not the graph's is used outside of a frame: `layout` counts for images alone.
+struct Outside {
+  VkPipelineStageFlags2 stages = VK_PIPELINE_STAGE_2_NONE;
+  VkAccessFlags2 access = VK_ACCESS_2_NONE;
+  VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  // before: undefined discards what is there
 };
 
 // A memory dependency and layout transition before a step.
 struct Barrier {
-  ResourceId resource;
+  uint32_t resource;
   VkPipelineStageFlags2 sourceStages, targetStages;
   VkAccessFlags2 sourceAccess, targetAccess;
   VkImageLayout oldLayout, newLayout;
+  bool takesOver = false;  // memory in which something else was before
 };
 
 class FrameGraph {
  public:
-  ResourceId addImage(std::string name, const ImageDesc& desc);
-  ResourceId addBuffer(std::string name);
+  // Images and buffers that live within a frame.
+  Handle addImage(std::string name, const ImageShape& shape);
+  Handle addBuffer(std::string name, uint64_t bytes);
+  // Those that live longer. `before` and `after`: how they are used outside. Without `before` they are as the
+  // last frame has left them. With `after` they are handed on, so that what is written to them is always
+  // wanted; without it they wait for the next frame.
+  Handle importImage(std::string name, const ImageShape& shape, std::optional<Outside> before = {},
+                     std::optional<Outside> after = {});
+  Handle importBuffer(std::string name, std::optional<Outside> before = {},
+                      std::optional<Outside> after = {});
 
-  // Adds a step; returns its index. A resource may occur only once among a step's uses, and must have been
-  // written by an earlier step before it is read.
-  size_t addStep(std::string name, std::vector<ResourceUse> uses);
+  // Starts a step and returns its number; use() belongs to it until the next one starts.
+  size_t addStep(std::string name);
+  // What the step does with a resource, which may occur only once in a step. `handle` must be its newest
+  // version, and have been written where it is read. Returns that version, or the one that is written; where
+  // that is not the first, it continues what the one before holds.
+  Handle use(Handle handle, Use use);
 
-  struct ResourceInfo {
+  struct Resource {
     std::string name;
-    bool isImage;
-    ImageDesc desc;
-    VkImageUsageFlags usage = 0;  // of all its uses
+    bool isImage = true, isImported = false;
+    ImageShape shape;    // of an image
+    uint64_t bytes = 0;  // of a buffer that is the graph's
+    std::optional<Outside> before, after;
+    uint32_t versions = 0;  // that were written
+  };
+  struct StepUse {
+    Handle handle;  // the version that is read, or the new one
+    Use use;
   };
   struct Step {
     std::string name;
-    std::vector<ResourceUse> uses;
+    std::vector<StepUse> uses;
   };
-  const std::vector<ResourceInfo>& resources() const { return resources_; }
+  const std::vector<Resource>& resources() const { return resources_; }
   const std::vector<Step>& steps() const { return steps_; }
+  const ImageShape& shape(Handle image) const { return resources_[image.resource].shape; }
 
-  // Barriers before each step, index by index. The first use in a frame waits for the last use in the frame
-  // before and discards an image's contents: no step sees an earlier frame.
-  std::vector<std::vector<Barrier>> planBarriers() const;
+  // What has to be done for some results.
+  struct Needs {
+    std::vector<bool> steps;  // by number: whether it is needed
+    struct Life {
+      bool isUsed = false;
+      size_t first = 0, last = 0;  // numbers of the steps that use it
+      VkImageUsageFlags imageUsage = 0;
+      VkBufferUsageFlags bufferUsage = 0;
+    };
+    std::vector<Life> lives;  // by resource
+  };
+  // For these handles, and what is handed on.
+  Needs needsOf(std::span<const Handle> wanted) const;
+
+  // Barriers before each needed step (of the others none), and last those after all of them. The first use in
+  // a frame waits for the last use in the frame before, and discards the contents of what lives within a
+  // frame. `sharing`: for each resource those others that lie in the same memory at other times of the frame;
+  // empty: none does.
+  std::vector<std::vector<Barrier>> planBarriers(
+      const Needs& needs, const std::vector<std::vector<uint32_t>>& sharing = {}) const;
+
+  // For Graphviz: steps are boxes, versions of images and buffers are ellipses; what is not needed is grey.
+  std::string toDot(const Needs& needs, const ImageShape::Frame& frame) const;
 
  private:
-  std::vector<ResourceInfo> resources_;
+  std::vector<Resource> resources_;
   std::vector<Step> steps_;
 };
 
 // Records the barriers before a step; `imageOf` gives null for buffers.
 void recordBarriers(VkCommandBuffer commands, std::span<const Barrier> barriers,
-                    const std::function<const Image*(ResourceId)>& imageOf);
+                    const std::function<const Image*(uint32_t resource)>& imageOf);
 
 }  // namespace scumble::gpu

@@ -25,10 +25,10 @@ Submission::~Submission() {
   if (pool_) vkDestroyCommandPool(device_.handle(), pool_, nullptr);
 }
 
-void Submission::submit(const std::function<void(VkCommandBuffer)>& record) {
+void Submission::submit(const std::function<void(VkCommandBuffer)>& record, const Device::Around& around) {
   wait();
   SCUMBLE_VK(vkResetCommandPool(device_.handle(), pool_, 0));
-  device_.submit(commands_, record, done_);
+  device_.submit(commands_, record, done_, around);
   underWay_ = true;
   device_.submissionBegan();
 }
@@ -43,15 +43,21 @@ void Submission::wait() {
 }
 
 PerFrameBuffer::PerFrameBuffer(Device& device, uint64_t size, VkBufferUsageFlags usage)
-    : onDevice_(device, size, usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::device), contents_(size) {
-  for (Buffer& staging : staging_)
-    staging = Buffer(device, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::upload);
-}
+    : device_(&device),
+      onDevice_(device, size, usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::device),
+      contents_(size) {}
 
 void PerFrameBuffer::upload(VkCommandBuffer commands, uint32_t frame) {
+  if (!staging_[frame].handle())
+    staging_[frame] =
+        Buffer(*device_, contents_.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::upload);
   std::memcpy(staging_[frame].mapped(), contents_.data(), contents_.size());
   const VkBufferCopy copy{0, 0, contents_.size()};
   vkCmdCopyBuffer(commands, staging_[frame].handle(), onDevice_.handle(), 1, &copy);
+}
+
+void PerFrameBuffer::amend(uint32_t frame, uint64_t offset, uint64_t bytes) {
+  std::memcpy(staging_[frame].mapped() + offset, contents_.data() + offset, bytes);
 }
 
 void recordUploads(VkCommandBuffer commands, std::span<PerFrameBuffer* const> buffers, uint32_t frame) {

@@ -6,7 +6,7 @@
 
 namespace scumble::gpu {
 
-constexpr uint32_t kFramesInFlight = 2;
+constexpr uint32_t kFramesInFlight = 3;
 
 // Commands that are recorded and sent without waiting for them.
 class Submission {
@@ -17,7 +17,7 @@ class Submission {
   Submission& operator=(const Submission&) = delete;
 
   // Records anew and submits; waits for what was submitted before.
-  void submit(const std::function<void(VkCommandBuffer)>& record);
+  void submit(const std::function<void(VkCommandBuffer)>& record, const Device::Around& around = {});
   // Ends when the device has done it; at once where nothing is under way.
   void wait();
 
@@ -49,10 +49,13 @@ class PerFrameBuffer {
   // Records the copy of contents() as they are now; `frame` is below kFramesInFlight, and its last turn is
   // over. Callers put recordUploads() around all of them.
   void upload(VkCommandBuffer commands, uint32_t frame);
+  // Takes a part of contents() once more into an upload that was recorded, and not yet sent.
+  void amend(uint32_t frame, uint64_t offset, uint64_t bytes);
 
  private:
+  Device* device_ = nullptr;
   Buffer onDevice_;
-  Buffer staging_[kFramesInFlight];
+  Buffer staging_[kFramesInFlight];  // made when they are first needed
   std::vector<std::byte> contents_;
 };
 

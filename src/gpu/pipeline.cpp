@@ -113,9 +113,12 @@ void DescriptorSets::writeBuffer(size_t set, uint32_t binding, VkBuffer buffer, 
 }
 
 void DescriptorSets::writeTexture(size_t set, uint32_t binding, VkImageView view, VkSampler sampler) {
-  std::pair<VkImageView, VkSampler>& last = textures_[set * bindings_.size() + binding];
-  if (last == std::pair(view, sampler)) return;
-  last = {view, sampler};
+  const std::pair<VkImageView, VkSampler>& last = textures_[set * bindings_.size() + binding];
+  if (last != std::pair(view, sampler)) rewriteTexture(set, binding, view, sampler);
+}
+
+void DescriptorSets::rewriteTexture(size_t set, uint32_t binding, VkImageView view, VkSampler sampler) {
+  textures_[set * bindings_.size() + binding] = {view, sampler};
   const VkDescriptorImageInfo info{sampler, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
   write(set, binding, nullptr, &info);
 }

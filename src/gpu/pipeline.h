@@ -55,6 +55,8 @@ class DescriptorSets {
   // Does nothing where this very texture was the last one written there: passes may say it every frame. Views
   // that are written stay as long as the sets.
   void writeTexture(size_t set, uint32_t binding, VkImageView view, VkSampler sampler);
+  // The same for views that come and go: a new one may have an old one's name.
+  void rewriteTexture(size_t set, uint32_t binding, VkImageView view, VkSampler sampler);
   void writeStorageImage(size_t set, uint32_t binding, VkImageView view);
 
  private:

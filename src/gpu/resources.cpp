@@ -81,7 +81,10 @@ void Buffer::swap(Buffer& other) {
   std::swap(size_, other.size_);
 }
 
-Image::Image(Device& device, const ImageDesc& desc, VkImageUsageFlags usage) : device_(&device), desc_(desc) {
+Image Image::unplaced(Device& device, const ImageDesc& desc, VkImageUsageFlags usage) {
+  Image made;
+  made.device_ = &device;
+  made.desc_ = desc;
   VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
   info.imageType = VK_IMAGE_TYPE_2D;
   info.format = desc.format;
@@ -90,17 +93,35 @@ Image::Image(Device& device, const ImageDesc& desc, VkImageUsageFlags usage) : d
   info.arrayLayers = desc.layers;
   info.samples = VkSampleCountFlagBits(desc.samples);
   info.usage = usage;
-  SCUMBLE_VK(vkCreateImage(device.handle(), &info, nullptr, &image_));
+  SCUMBLE_VK(vkCreateImage(device.handle(), &info, nullptr, &made.image_));
+  return made;
+}
+
+VkMemoryRequirements Image::needs() const {
   VkMemoryRequirements needs;
-  vkGetImageMemoryRequirements(device.handle(), image_, &needs);
-  try {
-    allocation_ = device.memory().allocate(needs, MemoryKind::device, false);
-    SCUMBLE_VK(vkBindImageMemory(device.handle(), image_, allocation_.memory, allocation_.offset));
-    view_ = makeView(0);
-  } catch (...) {
-    vkDestroyImage(device.handle(), image_, nullptr);
-    throw;
-  }
+  vkGetImageMemoryRequirements(device_->handle(), image_, &needs);
+  return needs;
+}
+
+void Image::place(VkDeviceMemory memory, uint64_t offset) {
+  SCUMBLE_VK(vkBindImageMemory(device_->handle(), image_, memory, offset));
+  view_ = makeView(0);
+}
+
+Image::Image(Device& device, const ImageDesc& desc, VkImageUsageFlags usage)
+    : Image(unplaced(device, desc, usage)) {
+  allocation_ = device.memory().allocate(needs(), MemoryKind::device, false);
+  place(allocation_.memory, allocation_.offset);
+}
+
+Image Image::foreign(Device& device, VkImage image, const ImageDesc& desc) {
+  Image made;
+  made.device_ = &device;
+  made.desc_ = desc;
+  made.isForeign_ = true;
+  made.image_ = image;
+  made.view_ = made.makeView(0);
+  return made;
 }
 
 VkImageView Image::makeView(uint32_t firstLayer) const {
@@ -108,9 +129,7 @@ VkImageView Image::makeView(uint32_t firstLayer) const {
   info.image = image_;
   info.viewType = desc_.arrayView ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
   info.format = desc_.format;
-  const bool depth = isDepthFormat(desc_.format);
-  info.subresourceRange = {VkImageAspectFlags(depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT),
-                           0, desc_.mipLevels, firstLayer, desc_.layers - firstLayer};
+  info.subresourceRange = {aspectOf(desc_.format), 0, desc_.mipLevels, firstLayer, desc_.layers - firstLayer};
   VkImageView view;
   SCUMBLE_VK(vkCreateImageView(device_->handle(), &info, nullptr, &view));
   return view;
@@ -126,8 +145,8 @@ Image::~Image() {
   if (!image_) return;
   for (VkImageView view : viewsFrom_) vkDestroyImageView(device_->handle(), view, nullptr);
   vkDestroyImageView(device_->handle(), view_, nullptr);
-  vkDestroyImage(device_->handle(), image_, nullptr);
-  device_->memory().release(allocation_);
+  if (!isForeign_) vkDestroyImage(device_->handle(), image_, nullptr);
+  if (allocation_.memory) device_->memory().release(allocation_);
 }
 
 void Image::swap(Image& other) {
@@ -135,6 +154,7 @@ void Image::swap(Image& other) {
   std::swap(image_, other.image_);
   std::swap(view_, other.view_);
   std::swap(viewsFrom_, other.viewsFrom_);
+  std::swap(isForeign_, other.isForeign_);
   std::swap(allocation_, other.allocation_);
   std::swap(desc_, other.desc_);
 }
@@ -150,6 +170,10 @@ void memoryBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 sourceStages,
   dependency.memoryBarrierCount = 1;
   dependency.pMemoryBarriers = &barrier;
   vkCmdPipelineBarrier2(commands, &dependency);
+}
+
+VkImageAspectFlags aspectOf(VkFormat format) {
+  return VkImageAspectFlags(isDepthFormat(format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT);
 }
 
 bool isDepthFormat(VkFormat format) {

@@ -45,7 +45,14 @@ struct ImageDesc {
 class Image {
  public:
   Image() = default;
+  // With memory of its own.
   Image(Device& device, const ImageDesc& desc, VkImageUsageFlags usage);
+  // Without memory: needs() some, and place() before anything else.
+  static Image unplaced(Device& device, const ImageDesc& desc, VkImageUsageFlags usage);
+  VkMemoryRequirements needs() const;
+  void place(VkDeviceMemory memory, uint64_t offset);
+  // Somebody else's, who keeps it alive; views of it are made here.
+  static Image foreign(Device& device, VkImage image, const ImageDesc& desc);
   ~Image();
   Image(Image&& other) noexcept { swap(other); }
   Image& operator=(Image&& other) noexcept {
@@ -65,11 +72,13 @@ class Image {
   VkImageView makeView(uint32_t firstLayer) const;
   VkImageView view_ = VK_NULL_HANDLE;
   mutable std::vector<VkImageView> viewsFrom_;  // by first layer, from 1 on
-  Allocation allocation_;
+  bool isForeign_ = false;
+  Allocation allocation_;  // none where the memory is not its own
   ImageDesc desc_;
 };
 
 bool isDepthFormat(VkFormat format);
+VkImageAspectFlags aspectOf(VkFormat format);
 uint32_t bytesPerPixel(VkFormat format);
 
 // What was written before is there for what comes after.

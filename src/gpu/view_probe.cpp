@@ -6,7 +6,7 @@
 #include <cstring>
 
 #include "gpu/cache_file.h"
-#include "gpu/frame_graph.h"
+#include "gpu/graph_resources.h"
 #include "gpu/pipeline.h"
 #include "shaders/view_probe_frag.h"
 #include "shaders/view_probe_vert.h"
@@ -65,37 +65,35 @@ ProbePicture drawProbe(Device& device, ViewDrawing drawing, uint32_t samples) {
 
   // Images, as frames have them: many samples are drawn and resolved, one is drawn straight away.
   FrameGraph graph;
-  std::vector<ResourceId> drawn, resolved;
+  std::vector<Handle> drawn, resolved;
+  graph.addStep("draw");
   for (const VkFormat format : {VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_D32_SFLOAT}) {
-    resolved.push_back(graph.addImage("resolved", {format, kSize, kSize, kLayers}));
-    drawn.push_back(samples == 1 ? resolved.back()
-                                 : graph.addImage("samples", {format, kSize, kSize, kLayers, 1, samples}));
+    const bool isDepth = isDepthFormat(format);
+    const Use draw = isDepth ? Use::depthTarget : Use::colorTarget;
+    drawn.push_back(graph.use(graph.addImage("drawn", {.format = format, .samples = samples}), draw));
+    resolved.push_back(samples == 1 ? drawn.back()
+                                    : graph.use(graph.addImage("resolved", {.format = format}),
+                                                isDepth ? Use::depthResolveTarget : Use::resolveTarget));
   }
-  std::vector<ResourceUse> uses;
-  for (size_t i = 0; i < 3; ++i) {
-    const bool isDepth = i == 2;
-    uses.push_back({drawn[i], isDepth ? Use::depthTarget : Use::colorTarget});
-    if (samples > 1) uses.push_back({resolved[i], isDepth ? Use::depthResolveTarget : Use::resolveTarget});
-  }
-  graph.addStep("draw", uses);
-  graph.addStep(
-      "read",
-      {{resolved[0], Use::copySource}, {resolved[1], Use::copySource}, {resolved[2], Use::copySource}});
-  std::vector<Image> images;
-  for (const FrameGraph::ResourceInfo& info : graph.resources())
-    images.emplace_back(device, info.desc, info.usage);
-  const auto imageOf = [&](ResourceId id) { return &images[id]; };
+  graph.addStep("read");
+  for (const Handle image : resolved) graph.use(image, Use::copySource);
+  const Handle read = graph.use(graph.importBuffer("read"), Use::copyTarget);
+  const FrameGraph::Needs needs = graph.needsOf({&read, 1});
+  const GraphResources images(device, graph, needs, {kSize, kSize, kLayers});
+  const auto recordBarriersOf = [&](VkCommandBuffer commands, size_t step) {
+    recordBarriers(commands, images.barriers()[step],
+                   [&](uint32_t resource) { return images.imageOf(resource); });
+  };
 
   constexpr size_t kLayerBytes = size_t(kSize) * kSize * 4;
   const Buffer readback(device, 3 * kLayers * kLayerBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                         MemoryKind::readback);
-  const auto plan = graph.planBarriers();
   device.runOnce([&](VkCommandBuffer commands) {
-    recordBarriers(commands, plan[0], imageOf);
+    recordBarriersOf(commands, 0);
     Target targets[3];
     for (size_t i = 0; i < 3; ++i) {
-      targets[i].image = imageOf(drawn[i]);
-      targets[i].resolve = samples > 1 ? imageOf(resolved[i]) : nullptr;
+      targets[i].image = &images.image(drawn[i]);
+      targets[i].resolve = samples > 1 ? &images.image(resolved[i]) : nullptr;
       targets[i].clear = colorOf(kClear);
     }
     targets[2].clear.depthStencil = {kClearDepth, 0};
@@ -104,14 +102,14 @@ ProbePicture drawProbe(Device& device, ViewDrawing drawing, uint32_t samples) {
       pipeline.push(commands, firstView);
       vkCmdDraw(commands, 3, 1, 0, 0);
     });
-    recordBarriers(commands, plan[1], imageOf);
+    recordBarriersOf(commands, 1);
     for (size_t i = 0; i < 3; ++i) {
       VkBufferImageCopy copy{};
       copy.bufferOffset = i * kLayers * kLayerBytes;
-      copy.imageSubresource = {
-          VkImageAspectFlags(i == 2 ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT), 0, 0, kLayers};
+      const Image& image = images.image(resolved[i]);
+      copy.imageSubresource = {aspectOf(image.desc().format), 0, 0, kLayers};
       copy.imageExtent = {kSize, kSize, 1};
-      vkCmdCopyImageToBuffer(commands, imageOf(resolved[i])->handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+      vkCmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                              readback.handle(), 1, &copy);
     }
     memoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,

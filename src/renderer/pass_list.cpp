@@ -50,48 +50,19 @@ const std::vector<const ParamBlock*>& allBlocks() {
 
 namespace renderer {
 
-std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration) {
-  std::vector<std::unique_ptr<Pass>> list;
-  list.push_back(passes::makeDeform());
-  if (configuration.plain) {
-    list.push_back(passes::makePlain());
-    return list;
-  }
-  list.push_back(passes::makeShadowMap());
-  list.push_back(passes::makeWarp());
-  if (configuration.ocean) list.push_back(passes::makeOcean());
-  list.push_back(passes::makeSurface(passes::SurfaceLayer::first));
-  if (configuration.layered) list.push_back(passes::makeSurface(passes::SurfaceLayer::behind));
-  list.push_back(passes::makeBlur());
-  list.push_back(passes::makeFinalShadow([](const look::LookData& look, float pixelScale) {
-    const passes::BlurParams blur = look.get<passes::BlurParams>();
-    return passes::BlurFacts{passes::planBlur(blur.radius * pixelScale).amount,
-                             passes::depthSharpness(blur.depthEdge)};
-  }));
-  list.push_back(passes::makeColor([](const look::LookData& look) {
-    const passes::FinalShadowParams shadow = look.get<passes::FinalShadowParams>();
-    return passes::ShadowMix{shadow.glowColor, shadow.glowColorAmount, shadow.steps > 1};
-  }));
-  if (configuration.colorize) list.push_back(passes::makeColorize());
-  if (configuration.limit) list.push_back(passes::makeLimit());
-  list.push_back(passes::makeFinalColor(largestInflation));
-  if (configuration.facts) list.push_back(passes::makeFacts());
-  if (configuration.matte)
-    list.push_back(passes::makeMatte({
-        .displacement =
-            [](const look::LookData& look, const SceneOnGpu& scene, float imageHeight) {
-              return shared::Displacement{largestInflation(look, scene, imageHeight)};
-            },
-        .ripple = [](const look::LookData& look) -> int {
-          return look.get<passes::FinalColorParams>().ripple;
-        },
-        .simplify =
-            [](const look::LookData& look, const SceneOnGpu& scene, size_t material) {
-              return scene.knobs<passes::SurfaceParams>(look, material).simplify;
-            },
-    }));
-  return list;
+namespace {
+
+// Whether anything may act on the lens at any time.
+bool glows(const look::LookData& look, const scene::SceneData& scene) {
+  const auto sets = [](const look::Assignment& a) {
+    return a.block == &passes::SurfaceParams::block() && std::string_view(a.row->name) == "glow";
+  };
+  return std::any_of(look.assignments.begin(), look.assignments.end(), sets) ||
+         std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const scene::Material& material) { return material.emissive != glm::vec3(0.0f); });
 }
+
+}  // namespace
 
 float largestInflation(const look::LookData& look, const SceneOnGpu& scene, float imageHeight) {
   float most = 0;
@@ -103,25 +74,87 @@ float largestInflation(const look::LookData& look, const SceneOnGpu& scene, floa
   return most;
 }
 
-bool wantsLayers(const look::LookData& look) {
-  return look.get<passes::FinalColorParams>().ripple == shared::kRippleLayered;
+bool PassList::insertBefore(const std::string& name, Make make) {
+  const auto found =
+      std::find_if(makes_.begin(), makes_.end(), [&](const Make& other) { return name == other()->name(); });
+  if (found == makes_.end()) return false;
+  makes_.insert(found, std::move(make));
+  return true;
 }
 
-bool glows(const scene::SceneData& scene, const look::LookData& look) {
-  const auto sets = [](const look::Assignment& a) {
-    return a.block == &passes::SurfaceParams::block() && std::string_view(a.row->name) == "glow";
-  };
-  return std::any_of(look.assignments.begin(), look.assignments.end(), sets) ||
-         std::any_of(scene.materials.begin(), scene.materials.end(),
-                     [](const scene::Material& material) { return material.emissive != glm::vec3(0.0f); });
+bool PassList::insertAfter(const std::string& name, Make make) {
+  const auto found = std::find_if(makes_.rbegin(), makes_.rend(),
+                                  [&](const Make& other) { return name == other()->name(); });
+  if (found == makes_.rend()) return false;
+  makes_.insert(found.base(), std::move(make));
+  return true;
 }
 
-bool wantsLimit(const look::LookData& look) {
-  return !passes::paletteColors(look.get<passes::LimitParams>()).empty();
+std::vector<std::unique_ptr<Pass>> PassList::makeAll() const {
+  std::vector<std::unique_ptr<Pass>> passes;
+  for (const Make& make : makes_) passes.push_back(make());
+  return passes;
 }
 
-bool wantsColorizers(const look::LookData& look) {
-  return !look.declared(look::kColorizers).empty();
+PassList standardPasses() {
+  PassList list;
+  list.append(passes::makeDeform);
+  list.append(passes::makeShadowMap);
+  list.append(passes::makeWarp);
+  list.append(passes::makeOcean);
+  for (const Layer layer : kLayers) list.append([=] { return passes::makeSurface(layer); });
+  list.append(passes::makeBlur);
+  list.append([] {
+    return passes::makeFinalShadow([](const look::LookData& look, float pixelScale) {
+      const passes::BlurParams blur = look.get<passes::BlurParams>();
+      return passes::BlurFacts{passes::planBlur(blur.radius * pixelScale).amount,
+                               passes::depthSharpness(blur.depthEdge)};
+    });
+  });
+  for (const Layer layer : kLayers)
+    list.append([=] {
+      return passes::makeColor(layer, [](const look::LookData& look) {
+        const passes::FinalShadowParams shadow = look.get<passes::FinalShadowParams>();
+        return passes::ShadowMix{shadow.glowColor, shadow.glowColorAmount, shadow.steps > 1};
+      });
+    });
+  for (const Layer layer : kLayers) list.append([=] { return passes::makeColorize(layer); });
+  for (const Layer layer : kLayers) list.append([=] { return passes::makeLimit(layer); });
+  list.append([] { return passes::makeFinalColor({.inflation = largestInflation, .glow = glows}); });
+  list.append(passes::makeFacts);
+  list.append([] {
+    return passes::makeMatte({
+        .displacement =
+            [](const look::LookData& look, const SceneOnGpu& scene, float imageHeight) {
+              return shared::Displacement{largestInflation(look, scene, imageHeight)};
+            },
+        .ripple = [](const look::LookData& look) -> int {
+          return look.get<passes::FinalColorParams>().ripple;
+        },
+        .simplify =
+            [](const look::LookData& look, const SceneOnGpu& scene, size_t material) {
+              return scene.knobs<passes::SurfaceParams>(look, material).simplify;
+            },
+    });
+  });
+  return list;
+}
+
+PassList plainPasses() {
+  PassList list;
+  list.append(passes::makeDeform);
+  list.append(passes::makePlain);
+  return list;
+}
+
+std::vector<const Aov*> aovsOf(const std::vector<std::unique_ptr<Pass>>& passes) {
+  std::vector<const Aov*> aovs;
+  for (const auto& pass : passes)
+    for (const Aov& aov : pass->aovs())
+      if (std::none_of(aovs.begin(), aovs.end(),
+                       [&](const Aov* other) { return std::string_view(other->name) == aov.name; }))
+        aovs.push_back(&aov);
+  return aovs;
 }
 
 std::vector<bool> shadowCasters(const scene::SceneData& scene, const look::LookData& look) {

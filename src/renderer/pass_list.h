@@ -1,7 +1,10 @@
-// The passes of a frame, in order. To add a pass: a folder under src/passes, and one line here.
+// The passes of a frame, in order. To add a pass: a folder under src/passes, and one line in
+// standardPasses().
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "frame/pass.h"
@@ -10,20 +13,31 @@ namespace scumble::renderer {
 
 using namespace frame;
 
-std::vector<std::unique_ptr<Pass>> makePasses(const Configuration& configuration);
+// Which passes a frame has, in their order.
+class PassList {
+ public:
+  using Make = std::function<std::unique_ptr<Pass>()>;
+
+  void append(Make make) { makes_.push_back(std::move(make)); }
+  // Before the first pass, or after the last one, that has this name; false where none has.
+  bool insertBefore(const std::string& name, Make make);
+  bool insertAfter(const std::string& name, Make make);
+
+  std::vector<std::unique_ptr<Pass>> makeAll() const;
+
+ private:
+  std::vector<Make> makes_;
+};
+
+// Of the picture, and of the yardstick's (RenderOptions::plain).
+PassList standardPasses();
+PassList plainPasses();
+
+// What passes may offer to save, in their order, each once.
+std::vector<const Aov*> aovsOf(const std::vector<std::unique_ptr<Pass>>& passes);
 
 // How far outside of its silhouette any surface tears edges under a look, in pixels.
 float largestInflation(const look::LookData& look, const SceneOnGpu& scene, float imageHeight);
-
-// Whether the look needs what lies behind the first surfaces (Configuration::layered).
-bool wantsLayers(const look::LookData& look);
-
-// Whether anything may act on the lens at any time (Configuration::glows).
-bool glows(const scene::SceneData& scene, const look::LookData& look);
-// Whether the look limits the picture to few colours (Configuration::limit).
-bool wantsLimit(const look::LookData& look);
-// Whether the look declares colorizers (Configuration::colorize).
-bool wantsColorizers(const look::LookData& look);
 
 // Which materials cast shadows under a look; the ground, if there is one, is no material of the scene's.
 std::vector<bool> shadowCasters(const scene::SceneData& scene, const look::LookData& look);

@@ -14,7 +14,6 @@
 #include "frame/metatexture.h"
 #include "frame/ocean.h"
 #include "frame/palette.h"
-#include "frame/slots.h"
 #include "passes/blur/blur.h"
 #include "passes/color/color.h"
 #include "passes/colorize/colorize.h"
@@ -127,14 +126,44 @@ TEST(PassList, namesOfAovsAreThePromisedOnes) {
     EXPECT_TRUE(unique.count(name)) << name;
 }
 
-TEST(PassList, slotsSayWhatTheyHold) {
-  for (size_t i = 0; i < size_t(Slot::count); ++i) {
-    const SlotInfo& info = slotInfo(Slot(i));
-    ASSERT_NE(info.name, nullptr) << i;
-    EXPECT_GE(info.channels, 1);
-    EXPECT_LE(info.channels, 4);
-    EXPECT_NE(info.format, VK_FORMAT_UNDEFINED);
+TEST(PassList, aovsSayWhatTheyHold) {
+  const auto passes = standardPasses().makeAll();
+  const std::vector<const Aov*> aovs = aovsOf(passes);
+  ASSERT_GT(aovs.size(), 15u);
+  for (const Aov* const aov : aovs) {
+    ASSERT_NE(aov->name, nullptr);
+    ASSERT_NE(aov->channels[0], nullptr) << aov->name;
+    for (size_t c = 1; c < aov->channels.size(); ++c)
+      EXPECT_TRUE(!aov->channels[c] || aov->channels[c - 1]) << aov->name << ": a gap between channels";
+    if (aov->premultiplied > 0) {
+      EXPECT_NE(aov->channels[3], nullptr) << aov->name << ": without coverage";
+    }
   }
+}
+
+class Nothing : public Pass {
+ public:
+  explicit Nothing(const char* name) : name_(name) {}
+  const char* name() const override { return name_; }
+  void declare(FrameBuilder&, uint32_t) override {}
+  void create(FrameBuilder&) override {}
+  void bind(const gpu::GraphResources&) override {}
+
+ private:
+  const char* name_;
+};
+
+TEST(PassList, passesAreInsertedByTheNamesOfOthers) {
+  PassList list;
+  for (const char* const name : {"a", "b", "b", "c"})
+    list.append([=] { return std::make_unique<Nothing>(name); });
+  EXPECT_TRUE(list.insertBefore("b", [] { return std::make_unique<Nothing>("x"); }));
+  EXPECT_TRUE(list.insertAfter("b", [] { return std::make_unique<Nothing>("y"); }));
+  EXPECT_TRUE(list.insertAfter("c", [] { return std::make_unique<Nothing>("z"); }));
+  EXPECT_FALSE(list.insertBefore("d", [] { return std::make_unique<Nothing>("w"); }));
+  std::string names;
+  for (const auto& pass : list.makeAll()) names += pass->name();
+  EXPECT_EQ(names, "axbbycz");
 }
 
 }  // namespace

@@ -58,33 +58,6 @@ uint64_t bytesOf(const gpu::ImageDesc& desc) {
   return uint64_t(desc.width) * desc.height * desc.layers * gpu::bytesPerPixel(desc.format);
 }
 
-std::vector<std::string> channelNames(Slot slot) {
-  if (slot == Slot::matte)
-    return {"id0", "coverage0", "id1", "coverage1", "id2", "coverage2", "id3", "coverage3"};
-  static const char* const kNames[] = {"R", "G", "B", "A"};
-  return {kNames, kNames + slotInfo(slot).channels};
-}
-
-bool isColor(Slot slot) {
-  switch (slot) {
-    case Slot::lit:
-    case Slot::shadowed:
-    case Slot::color:
-    case Slot::limit:
-    case Slot::colorize:
-    case Slot::finalColor:
-    case Slot::plain:
-      return true;
-    default:
-      return false;
-  }
-}
-
-// What is accumulated under partial coverage comes back premultiplied by it.
-bool isPremultiplied(Slot slot) {
-  return isColor(slot) || slot == Slot::shadow || slot == Slot::blur;
-}
-
 Image enlarge(const Image& small, uint32_t width, uint32_t height) {
   Image large{width, height, small.channels, {}};
   const size_t channels = small.channels.size();
@@ -109,48 +82,53 @@ Image enlarge(const Image& small, uint32_t width, uint32_t height) {
 
 }  // namespace
 
-void Readback::declare(FrameBuilder& frame, Slot slot) {
-  slot_ = slot;
-  images_ = {frame.slot(slot)};
-  if (slot == Slot::matte) images_.push_back(frame.slot(Slot::matteRest));
-  std::vector<gpu::ResourceUse> uses;
-  for (const gpu::ResourceId image : images_) uses.push_back({image, gpu::Use::copySource});
-  frame.addStep("readback", std::move(uses), [this](VkCommandBuffer commands) {
+void Readback::declare(FrameBuilder& frame, const Aov& aov, const std::vector<gpu::Handle>& images) {
+  aov_ = aov;
+  images_ = images;
+  frame.step("readback", [this](VkCommandBuffer commands) {
     for (size_t i = 0; i < images_.size(); ++i) {
       const gpu::Image& image = resources_->image(images_[i]);
       VkBufferImageCopy copy{};
       copy.bufferOffset = i * bytesOf(image.desc());
-      copy.imageSubresource = {
-          VkImageAspectFlags(gpu::isDepthFormat(image.desc().format) ? VK_IMAGE_ASPECT_DEPTH_BIT
-                                                                     : VK_IMAGE_ASPECT_COLOR_BIT),
-          0, 0, image.desc().layers};
+      copy.imageSubresource = {gpu::aspectOf(image.desc().format), 0, 0, image.desc().layers};
       copy.imageExtent = {image.desc().width, image.desc().height, 1};
       vkCmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                              buffers_[frame_].handle(), 1, &copy);
     }
-    gpu::memoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                       VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
   });
+  for (const gpu::Handle image : images) frame.use(image, gpu::Use::copySource);
+  // Each frame in flight has a buffer of its own; the CPU reads it next.
+  const gpu::Outside before, after{VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT};
+  frame.use(frame.graph().importBuffer(std::string(*aov.name ? aov.name : "picture") + " on the CPU", before,
+                                       after),
+            gpu::Use::copyTarget);
 }
 
-void Readback::create(FrameBuilder& frame, const FrameResources& resources) {
+void Readback::bind(const gpu::GraphResources& resources) {
   resources_ = &resources;
-  const uint64_t bytes = images_.size() * bytesOf(resources.image(images_.front()).desc());
-  for (gpu::Buffer& buffer : buffers_)
-    buffer = gpu::Buffer(frame.device(), bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryKind::readback);
+  for (gpu::Buffer& buffer : buffers_) buffer = gpu::Buffer();
+}
+
+void Readback::setFrame(gpu::Device& device, uint32_t frame) {
+  frame_ = frame;
+  const uint64_t bytes = images_.size() * bytesOf(resources_->image(images_.front()).desc());
+  if (!buffers_[frame].handle())
+    buffers_[frame] = gpu::Buffer(device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryKind::readback);
 }
 
 std::vector<Image> Readback::images(uint32_t frame, uint32_t width, uint32_t height) const {
   const gpu::ImageDesc& desc = resources_->image(images_.front()).desc();
-  const std::vector<std::string> names = channelNames(slot_);
+  std::vector<std::string> names;
+  for (const char* const name : aov_.channels)
+    if (name) names.emplace_back(name);
   const size_t channels = names.size();
-  const uint32_t channelsAnImage = slotInfo(slot_).channels;
+  const uint32_t channelsAnImage = uint32_t(channels / images_.size());
   const size_t pixelsALayer = size_t(desc.width) * desc.height;
   std::vector<Image> images;
   halfTable();
   for (uint32_t layer = 0; layer < desc.layers; ++layer) {
     Image image{desc.width, desc.height, names, {}};
-    image.isColor = isColor(slot_);
+    image.isColor = aov_.isColor;
     image.pixels.resize(pixelsALayer * channels);
     constexpr uint32_t kRows = 64;
     scene::parallelFor((desc.height + kRows - 1) / kRows, scene::threadCount(0), [&](size_t band) {
@@ -161,14 +139,13 @@ std::vector<Image> Readback::images(uint32_t frame, uint32_t width, uint32_t hei
         for (size_t part = 0; part < images_.size(); ++part)
           readPixel(desc.format, buffers_[frame].mapped() + part * bytesOf(desc), layer * pixelsALayer + i,
                     channelsAnImage, out + part * channelsAnImage);
-        if (isPremultiplied(slot_) && out[3] > 0.0f && out[3] < 1.0f)
-          for (uint32_t c = 0; c < (slot_ == Slot::blur ? 2u : 3u); ++c)
-            out[c] /= out[3];  // the blur's B is depth
-        if (slot_ == Slot::lit || slot_ == Slot::shadowed)
+        if (aov_.premultiplied > 0 && out[3] > 0.0f && out[3] < 1.0f)
+          for (uint32_t c = 0; c < aov_.premultiplied; ++c) out[c] /= out[3];
+        if (aov_.isSquareRoot)
           for (uint32_t c = 0; c < 3; ++c) out[c] *= out[c];
       }
     });
-    if (slot_ == Slot::blur) image = enlarge(image, width, height);
+    if (!aov_.isOnce && (desc.width != width || desc.height != height)) image = enlarge(image, width, height);
     images.push_back(std::move(image));
   }
   return images;

@@ -8,23 +8,23 @@ namespace scumble::renderer {
 
 using namespace frame;
 
-// One AOV on its way back, in its slot's image, or several: declares the copy, and converts when the frame is
-// done.
+// Images on their way back, one or several of one size and format that are read as one: declares the copy,
+// and converts when the frame is done.
 class Readback {
  public:
-  void declare(FrameBuilder& frame, Slot slot);
-  void create(FrameBuilder& frame, const FrameResources& resources);
+  void declare(FrameBuilder& frame, const Aov& aov, const std::vector<gpu::Handle>& images);
+  void bind(const gpu::GraphResources& resources);
   // Before a frame is recorded: which of those in flight it is.
-  void setFrame(uint32_t frame) { frame_ = frame; }
+  void setFrame(gpu::Device& device, uint32_t frame);
   // One image a view (or one, for what is drawn once), of a frame that the device has ended. Linear, straight
-  // alpha. What is drawn at a fraction of the frame's size (blur) is enlarged by linear interpolation.
+  // alpha. What is drawn at a fraction of the frame's size is enlarged by linear interpolation.
   std::vector<scumble::Image> images(uint32_t frame, uint32_t width, uint32_t height) const;
 
  private:
-  Slot slot_ = Slot::finalColor;
-  std::vector<gpu::ResourceId> images_;  // of one size and format
-  const FrameResources* resources_ = nullptr;
-  gpu::Buffer buffers_[gpu::kFramesInFlight];
+  Aov aov_;
+  std::vector<gpu::Handle> images_;
+  const gpu::GraphResources* resources_ = nullptr;
+  gpu::Buffer buffers_[gpu::kFramesInFlight];  // made when they are first needed
   uint32_t frame_ = 0;
 };
 

@@ -8,6 +8,7 @@
 #include "passes/color/color.h"
 #include "passes/surface/surface.h"
 #include "passes/warp/warp.h"
+#include "renderer/view_groups.h"
 
 namespace scumble::renderer {
 
@@ -19,7 +20,7 @@ shared::ViewUniforms viewUniforms(const View& view, const View& previous) {
   u.previousWorldToClip = previous.eyeToClip * previous.worldToEye;
   u.upInEye = glm::vec3(view.worldToEye[1]);
   u.eye = glm::vec3(glm::inverse(view.worldToEye)[3]);
-  u.orthographic = p[2][3] == 0 ? 1.0f : 0.0f;
+  u.orthographic = isParallel(view) ? 1.0f : 0.0f;
   // Clip x is P00 x + P02 z with z = -w: ndc = P00 (x / -z) - P02, so x / -z = (ndc + P02) / P00; parallel
   // projections have their shift in the last column instead.
   const glm::vec2 shift = u.orthographic != 0 ? glm::vec2(-p[3][0], -p[3][1]) : glm::vec2(p[2][0], p[2][1]);
@@ -30,39 +31,27 @@ shared::ViewUniforms viewUniforms(const View& view, const View& previous) {
   return u;
 }
 
-View cyclopeanView(const std::vector<View>& views) {
-  // Eyes that stand in one place see what one eye sees there, to the bit.
-  if (views.size() == 1 ||
-      (views[0].worldToEye == views[1].worldToEye && views[0].eyeToClip == views[1].eyeToClip))
-    return views[0];
-  const glm::mat4 left = glm::inverse(views[0].worldToEye), right = glm::inverse(views[1].worldToEye);
-  const glm::quat turn = glm::slerp(glm::quat_cast(glm::mat3(left)), glm::quat_cast(glm::mat3(right)), 0.5f);
-  glm::mat4 eyeToWorld = glm::mat4_cast(turn);
-  eyeToWorld[3] = 0.5f * (left[3] + right[3]);
-  return {glm::inverse(eyeToWorld), 0.5f * (views[0].eyeToClip + views[1].eyeToClip)};
-}
-
 shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const look::LookData& look,
                                     const std::vector<View>& views, const std::vector<View>& previousViews,
-                                    double time, const Configuration& configuration) {
+                                    const std::vector<View>& rig, double time, glm::uvec2 size) {
   shared::FrameUniforms u{};
-  glm::vec3 viewer(0.0f);
-  for (size_t i = 0; i < views.size(); ++i) {
+  for (size_t i = 0; i < views.size(); ++i)
     u.views[i] = viewUniforms(views[i], previousViews.empty() ? views[i] : previousViews[i]);
-    viewer += u.views[i].eye / float(views.size());
-  }
+  glm::vec3 viewer(0.0f);
+  for (const View& view : rig) viewer += viewUniforms(view, view).eye / float(rig.size());
   u.time = float(time);
-  u.imageSize = {float(configuration.width), float(configuration.height)};
-  u.pixelScale = float(configuration.height) / 1080.0f;
+  u.imageSize = glm::vec2(size);
+  u.pixelScale = float(size.y) / 1080.0f;
   u.sceneCenter = scene.bounds().center();
   u.sceneRadius = std::max(scene.bounds().radius(), 1e-6f);
-  const View middle = cyclopeanView(views);
+  const View middle = middleOf(rig);
   const shared::ViewUniforms cyclopean = viewUniforms(middle, middle);
   u.worldToCyclopean = cyclopean.worldToClip;
   u.cyclopeanNdcToEyeRay = cyclopean.ndcToEyeRay;
 
   const LightParams light = look.get<LightParams>();
   u.toLight = keyLightDirection(scene.data(), light, scene.motion().world());
+  u.viewer = viewer;
   setLightSpace(u, scene, light, viewer);
   return u;
 }
@@ -138,7 +127,7 @@ shared::Backdrop backdropUniforms(const SceneOnGpu& scene, const look::LookData&
   b.tear = look.get<passes::WarpParams>().amount * frame.pixelScale;
   b.groundHeight = groundHeight(scene.bounds());
   // Long before the disc of the ground ends.
-  const float center = glm::length(frame.sceneCenter - frame.views[0].eye);
+  const float center = glm::length(frame.sceneCenter - frame.viewer);
   b.matteNear = center + 10 * frame.sceneRadius;
   b.matteFar = center + 30 * frame.sceneRadius;
   b.shadowTint = tintUp(palette.skyTint);

@@ -14,9 +14,10 @@ using namespace frame;
 
 shared::ViewUniforms viewUniforms(const View& view, const View& previous);
 
+// Of views that are drawn together, at most shared::kMaxViews of one size, of a rig.
 shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const look::LookData& look,
                                     const std::vector<View>& views, const std::vector<View>& previousViews,
-                                    double time, const Configuration& configuration);
+                                    const std::vector<View>& rig, double time, glm::uvec2 size);
 
 // Fitted colour maps by rule, since a fit costs a tenth of a millisecond or more and most materials share
 // them.

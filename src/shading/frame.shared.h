@@ -5,7 +5,7 @@
 
 SHARED_BEGIN
 
-const int kMaxViews = 2;
+const int kMaxViews = 2;  // that are drawn together
 
 struct ViewUniforms {
   mat4 worldToClip;          // reversed depth: 1 at the near plane, 0 at infinity; y down
@@ -23,6 +23,7 @@ struct FrameUniforms {
   ViewUniforms views[kMaxViews];
   mat4 worldToCyclopean;      // to the clip space of one view between both eyes; in mono that of the view
   vec4 cyclopeanNdcToEyeRay;  // as ViewUniforms has it
+  vec3 viewer;                // the middle of all eyes, world
   mat4 worldToLight;  // x, y in [-1, 1] over everything that casts shadows; z in [0, 1], growing away from
                       // the light
   vec3 toLight;       // unit, world

@@ -184,7 +184,7 @@ class Commands(Program):
         text = self.good("render", "--help")
         for option in ("-o", "--look", "--set", "--camera", "--orbit", "--eye", "--target", "--roll", "--fov", "--size",
                        "--samples", "--time", "--frames", "--fps", "--stereo", "--ipd", "--aov", "--background", "--device",
-                       "--seed", "--stats", "--quiet", "--resume", "--allow-outside", "--clip", "--quality"):
+                       "--seed", "--stats", "--graph", "--quiet", "--resume", "--allow-outside", "--clip", "--quality"):
             self.assertRegex(text, rf"(^|[\s,]){option}\b", option)
         for default in ("1280x720", "0.063", "24"):
             self.assertIn(default, text)
@@ -226,8 +226,20 @@ class Commands(Program):
             with self.subTest(args=args):
                 self.assertIn("scumble: error: " + says, self.bad(USAGE, *args))
 
+    def test_the_graph_of_a_frame(self):
+        self.good("render", "box.gltf", "-o", "a.png", "--graph", "frame.dot", "--aov", "blur", *TINY)
+        text = (self.folder / "frame.dot").read_text()
+        self.assertTrue(text.startswith("digraph ") and text.rstrip().endswith("}"), text)
+        for part in ('"surface"', '"final-color"', '"readback"', '"blur'):
+            self.assertIn(part, text)
+        # What nobody has asked for is grey; what was asked for is not.
+        line = next(line for line in text.splitlines() if '"facts"' in line)
+        self.assertIn("gray", line)
+        line = next(line for line in text.splitlines() if '"blur"' in line)
+        self.assertNotIn("gray", line)
+
     def test_empty_values_are_refused(self):
-        for option in ("-o", "--stats", "--look", "--camera", "--orbit", "--eye", "--clip", "--background", "--device", "--frames",
+        for option in ("-o", "--stats", "--graph", "--look", "--camera", "--orbit", "--eye", "--clip", "--background", "--device", "--frames",
                        "--stereo", "--exr", "--aov", "--set"):
             with self.subTest(option=option):
                 self.bad(USAGE, "render", "box.gltf", option, "", *TINY, says="empty" if option != "-o" else "--output is empty")
@@ -725,6 +737,7 @@ class Errors(Program):
                      [*render, "./x.0002.png", "-o", "x.####.png", "--frames", "0..3"],
                      [*render, "x.1.normal.exr", "-o", "x.#.png", "--frames", "0..1", "--aov", "normal"],
                      [*render, "x.mp4", "-o", "./x.mp4", "--frames", "0..1"],
+                     [*render, "x.json", "-o", "x.png", "--graph", "./x.json"],
                      ["measure", "box.gltf", "--plot", "a.png", "--json=./a.png"]):
             with self.subTest(args=args):
                 self.bad(USAGE, *args, *TINY, says=["two outputs would go there", "different names"])

@@ -53,31 +53,35 @@ std::pair<shared::BlurStep, uint32_t> makeStep(bool vertical, int factor, float 
 class Blur : public Pass {
  public:
   const char* name() const override { return "blur"; }
+  std::span<const Aov> aovs() const override { return kAovs; }
 
-  void declare(FrameBuilder& frame) override {
-    const Configuration& c = frame.configuration();
-    const uint32_t width = (c.width + 3) / 4, height = (c.height + 3) / 4;
-    const auto image = [&](const char* name, uint32_t w, uint32_t h) {
-      return frame.transient(name, {slotInfo(Slot::blur).format, w, h, c.viewCount});
-    };
-    const gpu::ResourceId chain[] = {frame.slot(Slot::shadow), image("blur 1", width, c.height),
-                                     image("blur 2", width, height), image("blur 3", width, height),
-                                     frame.slot(Slot::blur)};
+  void declare(FrameBuilder& frame, uint32_t) override {
     const ImageShader shader{{shaders::blur_image_frag}, {shaders::blur_image_comp}};
-    for (size_t i = 0; i < steps_.size(); ++i)
-      steps_[i].declare(frame, "blur", shader, {{chain[i]}, {frame.slot(Slot::depth)}}, chain[i + 1],
-                        sizeof(shared::BlurStep), {uint32_t(i == 0), 1});
+    gpu::Handle blurred = frame.get(kShadow);
+    for (size_t i = 0; i < steps_.size(); ++i) {
+      const std::string name = i + 1 < steps_.size() ? "blur " + std::to_string(i + 1) : "blur";
+      const gpu::Handle next =
+          frame.image(name, {.format = kHalves, .overX = kFraction, .overY = i == 0 ? 1 : kFraction});
+      blurred = steps_[i].declare(frame, "blur", shader, {{blurred}, {frame.get(kDepth)}}, {next},
+                                  sizeof(shared::BlurStep), {uint32_t(i == 0), 1})[0];
+    }
+    frame.give(kBlur, blurred);
+    frame.offer(kAovs[0], {blurred});
   }
 
-  void create(FrameBuilder& frame, const FrameResources& resources) override {
-    for (ImageStep& step : steps_) step.create(frame, resources);
+  void create(FrameBuilder& frame) override {
+    for (ImageStep& step : steps_) step.create(frame);
+  }
+  void bind(const gpu::GraphResources& resources) override {
+    for (ImageStep& step : steps_) step.bind(resources);
   }
 
   void update(const FrameInput& input) override {
     const BlurParams params = input.look.get<BlurParams>();
     const BlurPlan plan = planBlur(params.radius * input.uniforms.pixelScale);
     for (size_t i = 0; i < steps_.size(); ++i) {
-      auto [step, taps] = makeStep(i % 2 == 1, i < 2 ? 4 : 1, i < 2 ? plan.quarterSigma : plan.fullSigma);
+      auto [step, taps] =
+          makeStep(i % 2 == 1, i < 2 ? int(kFraction) : 1, i < 2 ? plan.quarterSigma : plan.fullSigma);
       step.depthSharpness = depthSharpness(params.depthEdge);
       steps_[i].setJobs({{{uint32_t(i == 0), taps}, {}}});
       steps_[i].update(step);
@@ -85,6 +89,10 @@ class Blur : public Pass {
   }
 
  private:
+  // Two channels under coverage; the third one is depth.
+  static constexpr Aov kAovs[] = {{.name = "blur", .premultiplied = 2}};
+  static constexpr uint32_t kFraction = 4;
+
   // To a quarter along x and along y; then blur along x and y.
   std::array<ImageStep, 4> steps_;
 };

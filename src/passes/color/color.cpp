@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 
 #include "frame/image_step.h"
 #include "frame/palette.h"
@@ -18,26 +17,23 @@ namespace {
 
 class Color : public Pass {
  public:
-  explicit Color(ShadowMixOf shadowMix) : shadowMix_(shadowMix) {}
-  const char* name() const override { return "color"; }
+  Color(Layer layer, ShadowMixOf shadowMix) : layer_(layer), shadowMix_(shadowMix) {}
+  const char* name() const override { return layer_ == Layer::first ? "color" : "behind"; }
+  std::span<const Aov> aovs() const override { return kAovs; }
 
-  void declare(FrameBuilder& frame) override {
-    viewCount_ = frame.configuration().viewCount;
-    const auto mix = [&](const char* step, Slot light, Slot lit, Slot shadowed, Slot depth, Slot color) {
-      steps_.emplace_back().declare(
-          frame, step, {{shaders::color_image_frag}, {shaders::color_image_comp}},
-          {{frame.slot(light)}, {frame.slot(lit)}, {frame.slot(shadowed)}, {frame.slot(depth)}},
-          frame.slot(color), sizeof(shared::ColorUniforms));
-    };
-    mix("color", Slot::finalShadow, Slot::lit, Slot::shadowed, Slot::depth, Slot::color);
-    if (frame.configuration().layered)
-      mix("behind", Slot::behindShadow, Slot::behindLit, Slot::behindShadowed, Slot::behindDepth,
-          Slot::behind);
+  void declare(FrameBuilder& frame, uint32_t) override {
+    const gpu::Handle picture =
+        step_.declare(frame, name(), {{shaders::color_image_frag}, {shaders::color_image_comp}},
+                      {{frame.get(kLight, layer_)},
+                       {frame.get(kLit, layer_)},
+                       {frame.get(kShadowed, layer_)},
+                       {frame.get(kDepth, layer_)}},
+                      {frame.image(name(), {.format = kHalves})}, sizeof(shared::ColorUniforms))[0];
+    frame.give(kPicture, picture, layer_);
+    if (layer_ == Layer::first) frame.offer(kAovs[0], {picture});
   }
-  void create(FrameBuilder& frame, const FrameResources& resources) override {
-    viewCount_ = frame.configuration().viewCount;
-    for (ImageStep& step : steps_) step.create(frame, resources);
-  }
+  void create(FrameBuilder& frame) override { step_.create(frame); }
+  void bind(const gpu::GraphResources& resources) override { step_.bind(resources); }
 
   void update(const FrameInput& input) override {
     const BackgroundParams params = input.look.get<BackgroundParams>();
@@ -53,33 +49,30 @@ class Color : public Pass {
     uniforms.air = params.air;
     const float radius = input.uniforms.sceneRadius;
     // From the middle of all eyes, so that the air is the same in each.
-    glm::vec3 viewer(0.0f);
-    for (uint32_t v = 0; v < viewCount_; ++v) viewer += input.uniforms.views[v].eye / float(viewCount_);
-    const float center = glm::length(input.uniforms.sceneCenter - viewer);
+    const float center = glm::length(input.uniforms.sceneCenter - input.uniforms.viewer);
     uniforms.airStart = center + params.airStart * radius;
     uniforms.airEnd = center + std::max(params.airEnd, params.airStart + 1e-3f) * radius;
     uniforms.transparent = input.transparent;
     const ShadowMix shadowMix = shadowMix_(input.look);
     uniforms.glowColor = shadowMix.glowColor;
-    uniforms.glowColorAmount = shadowMix.glowColorAmount;
+    // What lies behind has light without a blur, and no glow.
+    uniforms.glowColorAmount = layer_ == Layer::first ? shadowMix.glowColorAmount : 0;
     uniforms.mixesValues = shadowMix.mixesValues;
-    for (ImageStep& step : steps_) {
-      step.update(uniforms);
-      // What lies behind has light without a blur, and no glow.
-      uniforms.glowColorAmount = 0;
-    }
+    step_.update(uniforms);
   }
 
  private:
+  static constexpr Aov kAovs[] = {{.name = "color", .isColor = true, .premultiplied = 3}};
+
+  Layer layer_;
   ShadowMixOf shadowMix_;
-  uint32_t viewCount_ = 1;
-  std::deque<ImageStep> steps_;  // they are referred to, and stay where they are
+  ImageStep step_;
 };
 
 }  // namespace
 
-std::unique_ptr<Pass> makeColor(ShadowMixOf shadowMix) {
-  return std::make_unique<Color>(shadowMix);
+std::unique_ptr<Pass> makeColor(Layer layer, ShadowMixOf shadowMix) {
+  return std::make_unique<Color>(layer, shadowMix);
 }
 
 }  // namespace scumble::passes

@@ -18,6 +18,6 @@ struct ShadowMix {
   bool mixesValues = false;  // in equal parts of value, not of light
 };
 using ShadowMixOf = ShadowMix (*)(const look::LookData& look);
-std::unique_ptr<frame::Pass> makeColor(ShadowMixOf shadowMix);
+std::unique_ptr<frame::Pass> makeColor(frame::Layer layer, ShadowMixOf shadowMix);
 
 }  // namespace scumble::passes

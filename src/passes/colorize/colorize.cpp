@@ -1,7 +1,5 @@
 #include "passes/colorize/colorize.h"
 
-#include <deque>
-
 #include "frame/image_step.h"
 #include "passes/colorize/strips.h"
 #include "shaders/colorize_image_comp.h"
@@ -15,43 +13,50 @@ namespace {
 
 class Colorize : public Pass {
  public:
-  const char* name() const override { return "colorize"; }
+  explicit Colorize(Layer layer) : layer_(layer) {}
+  const char* name() const override { return layer_ == Layer::first ? "colorize" : "behind-colorize"; }
+  std::span<const Aov> aovs() const override { return kAovs; }
+  uint32_t variant(const scene::SceneData&, const look::LookData& look) const override {
+    return !look.declared(look::kColorizers).empty();
+  }
 
-  void declare(FrameBuilder& frame) override {
-    const Configuration& configuration = frame.configuration();
-    width_ = configuration.width, height_ = configuration.height, viewCount_ = configuration.viewCount;
-    const auto add = [&](const char* step, Slot color, Slot depth, Slot output) {
-      steps_.emplace_back().declare(
-          frame, step, {{shaders::colorize_image_frag}, {shaders::colorize_image_comp}},
-          {{frame.slot(color)}, {frame.slot(depth)}}, frame.slot(output), sizeof(shared::ColorizeUniforms));
-    };
-    add("colorize", Slot::color, Slot::depth, Slot::colorize);
-    if (configuration.layered) add("behind-colorize", Slot::behind, Slot::behindDepth, Slot::behindColorize);
+  void declare(FrameBuilder& frame, uint32_t hasColorizers) override {
+    viewCount_ = frame.configuration().viewCount;
+    gpu::Handle picture = frame.get(kPicture, layer_);
+    if (hasColorizers)
+      picture =
+          step_.declare(frame, name(), {{shaders::colorize_image_frag}, {shaders::colorize_image_comp}},
+                        {{picture}, {frame.get(kDepth, layer_)}}, {frame.image(name(), {.format = kHalves})},
+                        sizeof(shared::ColorizeUniforms))[0];
+    frame.give(kPicture, picture, layer_);
+    if (layer_ == Layer::first) frame.offer(kAovs[0], {picture});
   }
-  void create(FrameBuilder& frame, const FrameResources& resources) override {
-    for (ImageStep& step : steps_) step.create(frame, resources);
-  }
+  void create(FrameBuilder& frame) override { step_.create(frame); }
+  void bind(const gpu::GraphResources& resources) override { step_.bind(resources); }
 
   void update(const FrameInput& input) override {
     const std::vector<PlacedColorizer> colorizers =
         placeColorizers(input.look, input.scene.data(), input.scene.motion().worldAsDrawn(), input.uniforms);
     shared::ColorizeUniforms uniforms{};
-    const uint32_t features = fillUniforms(colorizers, input.uniforms, viewCount_, width_, height_, uniforms);
-    for (ImageStep& step : steps_) {
-      step.setJobs({{{features}, {}}});
-      step.update(uniforms);
-    }
+    const uint32_t features =
+        fillUniforms(colorizers, input.uniforms, viewCount_, uint32_t(input.uniforms.imageSize.x),
+                     uint32_t(input.uniforms.imageSize.y), uniforms);
+    step_.setJobs({{{features}, {}}});
+    step_.update(uniforms);
   }
 
  private:
-  std::deque<ImageStep> steps_;  // they are referred to, and stay where they are
-  uint32_t width_ = 0, height_ = 0, viewCount_ = 1;
+  static constexpr Aov kAovs[] = {{.name = "colorize", .isColor = true, .premultiplied = 3}};
+
+  Layer layer_;
+  ImageStep step_;
+  uint32_t viewCount_ = 1;
 };
 
 }  // namespace
 
-std::unique_ptr<Pass> makeColorize() {
-  return std::make_unique<Colorize>();
+std::unique_ptr<Pass> makeColorize(Layer layer) {
+  return std::make_unique<Colorize>(layer);
 }
 
 }  // namespace scumble::passes

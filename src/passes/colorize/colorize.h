@@ -28,9 +28,6 @@ enum VolumeShape : int {
   kVolumeScene
 };
 
-// What the pass takes of the frame's uniform memory.
-constexpr uint64_t kColorizeUniformBytes = 512 << 10;
-
-std::unique_ptr<frame::Pass> makeColorize();
+std::unique_ptr<frame::Pass> makeColorize(frame::Layer layer);
 
 }  // namespace scumble::passes

@@ -13,25 +13,29 @@ class Deform : public frame::Pass {
  public:
   const char* name() const override { return "deform"; }
 
-  void declare(frame::FrameBuilder& frame) override {
+  void declare(frame::FrameBuilder& frame, uint32_t) override {
     // What has not moved keeps the vertices that an earlier frame wrote: they would come out the same.
-    frame.addStep("deform", {{frame.finalVertices(), gpu::Use::storageBufferWrite}},
-                  [this](VkCommandBuffer commands) {
-                    now_.record(commands, frameSet_, scene_->motion());
-                    if (keepsPrevious_) previous_.record(commands, frameSet_, *scene_->previousMotion());
-                  });
+    const auto deform = [&](const frame::Role& role, frame::Record record) {
+      frame.step("deform", std::move(record));
+      frame.give(role, frame.use(frame.get(role), gpu::Use::storageBufferWrite));
+    };
+    deform(frame::kVertices,
+           [this](VkCommandBuffer commands) { now_.record(commands, frameSet_, scene_->motion()); });
+    deform(frame::kPreviousVertices, [this](VkCommandBuffer commands) {
+      previous_.record(commands, frameSet_, *scene_->previousMotion());
+    });
   }
 
-  void create(frame::FrameBuilder& frame, const frame::FrameResources& resources) override {
+  void create(frame::FrameBuilder& frame) override {
     scene_ = &frame.scene();
-    frameSet_ = resources.frameSet();
-    keepsPrevious_ = frame.configuration().facts;
+    frameSet_ = frame.frameSet();
     layout_ = gpu::SetLayout(frame.device(), std::vector<gpu::Binding>(15, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                                                             VK_SHADER_STAGE_COMPUTE_BIT}));
-    now_.create(frame, resources, layout_, scene_->motion(), scene_->waves(), false);
-    if (keepsPrevious_)
-      previous_.create(frame, resources, layout_, *scene_->previousMotion(), scene_->previousWaves(), true);
+    now_.create(frame, layout_, scene_->motion(), scene_->waves(), false);
+    if (scene_->previousMotion())
+      previous_.create(frame, layout_, *scene_->previousMotion(), scene_->previousWaves(), true);
   }
+  void bind(const gpu::GraphResources&) override {}
 
  private:
   // Of one of the two poses.
@@ -39,8 +43,7 @@ class Deform : public frame::Pass {
     gpu::DescriptorSets set;
     gpu::Pipeline dry, waves, decorations;
 
-    void create(frame::FrameBuilder& frame, const frame::FrameResources& resources,
-                const gpu::SetLayout& layout, const frame::SceneMotion& motion,
+    void create(frame::FrameBuilder& frame, const gpu::SetLayout& layout, const frame::SceneMotion& motion,
                 const frame::OceanWaves* ocean, bool positionsOnly) {
       const frame::SceneOnGpu& scene = frame.scene();
       const VkBuffer buffers[] = {scene.chunks().handle(),
@@ -62,7 +65,7 @@ class Deform : public frame::Pass {
       for (uint32_t i = 0; i < std::size(buffers); ++i) set.writeBuffer(0, i, buffers[i]);
       gpu::ComputePipelineDesc desc;
       desc.shader = {shaders::deform_comp};
-      desc.sets = {resources.frameLayout().handle(), layout.handle()};
+      desc.sets = {frame.frameLayout().handle(), layout.handle()};
       desc.pushConstantBytes = 8;
       desc.constants = {positionsOnly, 0};
       dry = gpu::Pipeline(frame.device(), desc);
@@ -96,7 +99,6 @@ class Deform : public frame::Pass {
   Work now_, previous_;
   const frame::SceneOnGpu* scene_ = nullptr;
   VkDescriptorSet frameSet_ = VK_NULL_HANDLE;
-  bool keepsPrevious_ = false;
 };
 
 }  // namespace

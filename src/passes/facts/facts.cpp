@@ -2,7 +2,9 @@
 
 #include <array>
 #include <limits>
+#include <string_view>
 
+#include "frame/drawn_image.h"
 #include "frame/geometry_step.h"
 #include "frame/material_params.h"
 #include "frame/metatexture.h"
@@ -15,8 +17,17 @@ using namespace frame;
 
 namespace {
 
-constexpr std::array kFacts{Slot::factDepth,  Slot::position,    Slot::normal, Slot::uv,
-                            Slot::uvGradient, Slot::metatexture, Slot::motion, Slot::id};
+constexpr Aov kFacts[] = {
+    {.name = "depth", .channels = {"R"}, .needsFloat = true},
+    {.name = "position", .channels = {"R", "G", "B"}, .needsFloat = true},
+    {.name = "normal", .channels = {"R", "G", "B"}, .needsFloat = true},
+    {.name = "uv", .channels = {"R", "G"}, .needsFloat = true},
+    {.name = "uv-gradient", .needsFloat = true},
+    {.name = "metatexture", .needsFloat = true},
+    {.name = "motion", .channels = {"R", "G"}, .needsFloat = true},
+    {.name = "id", .channels = {"R"}, .needsFloat = true, .namesObjects = true},
+};
+constexpr size_t kFactCount = std::size(kFacts);
 
 // Mirrors the block of facts.frag.
 struct FactsMaterial {
@@ -26,22 +37,22 @@ struct FactsMaterial {
 class Facts : public Pass {
  public:
   const char* name() const override { return "facts"; }
+  std::span<const Aov> aovs() const override { return kFacts; }
 
-  void declare(FrameBuilder& frame) override {
-    const Configuration& c = frame.configuration();
-    depth_ = frame.transient("facts depth", {VK_FORMAT_D32_SFLOAT, c.width, c.height, c.viewCount});
-    std::vector<gpu::ResourceUse> uses{{frame.finalVertices(), gpu::Use::vertexBuffer},
-                                       {depth_, gpu::Use::depthTarget}};
-    for (const Slot fact : kFacts) uses.push_back({frame.slot(fact), gpu::Use::colorTarget});
-    for (size_t i = 0; i < kFacts.size(); ++i) targets_[i] = frame.slot(kFacts[i]);
-    materials_.declare(frame);
+  void declare(FrameBuilder& frame, uint32_t) override {
     configuration_ = frame.configuration();
-    frame.addStep("facts", std::move(uses), [this](VkCommandBuffer commands) { record(commands); });
+    frame.step("facts", [this](VkCommandBuffer commands) { record(commands); });
+    frame.use(frame.get(kVertices), gpu::Use::vertexBuffer);
+    frame.use(frame.get(kPreviousVertices), gpu::Use::vertexBuffer);
+    depth_.declare(frame, "facts depth", kDepthFormat);
+    for (size_t i = 0; i < kFactCount; ++i) {
+      facts_[i].declare(frame, kFacts[i].name, kFloats);
+      frame.offer(kFacts[i], {facts_[i].image()});
+    }
   }
 
-  void create(FrameBuilder& frame, const FrameResources& resources) override {
-    resources_ = &resources;
-    scene_ = &frame.scene();
+  void create(FrameBuilder& frame) override {
+    materials_.create(frame);
     layout_ = gpu::SetLayout(frame.device(), {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC,
                                                VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT}});
     sets_ = gpu::DescriptorSets(frame.device(), layout_);
@@ -51,13 +62,14 @@ class Facts : public Pass {
     desc.vertex = {shaders::facts_vert};
     desc.fragment = {shaders::facts_frag};
     desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor | kDPdu | kDPdv | kPatternUv | kPreviousPosition;
-    for (const Slot fact : kFacts) desc.colorFormats.push_back(slotInfo(fact).format);
+    desc.colorFormats.assign(kFactCount, kFloats);
     desc.viewMask = configuration_.views().mask();
     desc.viewCount = configuration_.viewCount;
     desc.passLayout = &layout_;
     desc.materialStrides = {materials_.kStride};
-    step_.create(frame.device(), resources, frame.scene(), desc);
+    step_.create(frame, desc);
   }
+  void bind(const gpu::GraphResources& resources) override { resources_ = &resources; }
 
   void update(const FrameInput& input) override {
     std::vector<MaterialVariant> variants;
@@ -69,29 +81,30 @@ class Facts : public Pass {
       materials_.write(m, {use.meta.uniforms()});
       variants.push_back({.options = use.meta.features() | tangentOptions(params, input.uniforms) << 11});
     }
-    step_.specialise(input.scene, 0, std::move(variants));
+    step_.specialise(0, std::move(variants));
   }
 
  private:
   void record(VkCommandBuffer commands) const {
-    std::array<gpu::Target, kFacts.size()> colors;
-    for (size_t i = 0; i < kFacts.size(); ++i) colors[i].image = &resources_->image(targets_[i]);
-    const float infinity = std::numeric_limits<float>::infinity();
-    static_assert(kFacts[0] == Slot::factDepth);
-    colors[0].clear.color = {{infinity, infinity, infinity, infinity}};
-    const gpu::Target depth{&resources_->image(depth_), nullptr, {}};
-    gpu::drawViews(commands, configuration_.views(), colors, &depth, [&](uint32_t firstView) {
-      step_.draw(commands, *resources_, *scene_, &sets_, firstView);
-    });
+    // What is not there is infinitely far.
+    constexpr float kFar = std::numeric_limits<float>::infinity();
+    static_assert(std::string_view(kFacts[0].name) == "depth");
+    std::array<gpu::Target, kFactCount> colors;
+    for (size_t i = 0; i < kFactCount; ++i) {
+      colors[i] = facts_[i].target(*resources_);
+      if (i == 0) colors[i].clear.color = {{kFar, kFar, kFar, kFar}};
+    }
+    const gpu::Target depth = depth_.target(*resources_);
+    gpu::drawViews(commands, configuration_.views(), colors, &depth,
+                   [&](uint32_t firstView) { step_.draw(commands, &sets_, firstView); });
   }
 
-  std::array<gpu::ResourceId, kFacts.size()> targets_{};
-  gpu::ResourceId depth_ = 0;
+  std::array<DrawnImage, kFactCount> facts_;
+  DrawnImage depth_;
   Configuration configuration_;
   MaterialBlocks<FactsMaterial> materials_;
   ExampleTextures* examples_ = nullptr;
-  const FrameResources* resources_ = nullptr;
-  const SceneOnGpu* scene_ = nullptr;
+  const gpu::GraphResources* resources_ = nullptr;
   gpu::SetLayout layout_;
   gpu::DescriptorSets sets_;
   GeometryStep step_;

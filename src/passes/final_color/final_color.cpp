@@ -25,38 +25,45 @@ uint32_t backdropFeatures(const BackdropInput* backdrop) {
 
 class FinalColor : public Pass {
  public:
-  explicit FinalColor(InflationOf inflation) : inflation_(inflation) {}
+  explicit FinalColor(const SurfaceFacts& surfaces) : surfaces_(surfaces) {}
   const char* name() const override { return "final-color"; }
-
-  void declare(FrameBuilder& frame) override {
-    const Configuration& c = frame.configuration();
-    // Where there are no layers, anything stands for them.
-    const auto layer = [&](Slot behind, Slot other) { return frame.slot(c.layered ? behind : other); };
-    glows_ = c.glows;
-    step_.declare(frame, "final-color",
-                  {{shaders::final_color_image_frag}, {shaders::final_color_image_comp}},
-                  {{frame.slot(frame.configuration().colors()), true},
-                   {frame.slot(Slot::warp)},
-                   {frame.slot(Slot::depth)},
-                   {frame.slot(Slot::blur), true},
-                   {layer(c.colorsBehind(), c.colors())},
-                   {layer(Slot::behindDepth, Slot::depth)},
-                   {frame.slot(Slot::finalShadow)},
-                   {frame.slot(Slot::lit)},
-                   {layer(Slot::behindShadow, Slot::finalShadow)},
-                   {layer(Slot::behindLit, Slot::lit)}},
-                  frame.slot(Slot::finalColor), sizeof(shared::FinalColorUniforms), {}, 2);
+  std::span<const Aov> aovs() const override { return kAovs; }
+  uint32_t variant(const scene::SceneData&, const look::LookData& look) const override {
+    return look.get<FinalColorParams>().ripple == shared::kRippleLayered;
   }
-  void create(FrameBuilder& frame, const FrameResources& resources) override {
-    step_.create(frame, resources);
+
+  void declare(FrameBuilder& frame, uint32_t isLayered) override {
+    // Where there are no layers, anything stands for them.
+    const auto behind = [&](const Role& role) {
+      return frame.get(role, isLayered ? Layer::behind : Layer::first);
+    };
+    const gpu::Handle picture = step_.declare(
+        frame, "final-color", {{shaders::final_color_image_frag}, {shaders::final_color_image_comp}},
+        {{frame.get(kPicture), true},
+         {frame.get(kWarp)},
+         {frame.get(kDepth)},
+         {frame.get(kBlur), true},
+         {behind(kPicture)},
+         {behind(kDepth)},
+         {frame.get(kLight)},
+         {frame.get(kLit)},
+         {behind(kLight)},
+         {behind(kLit)}},
+        {frame.image("final-color", {.format = kHalves})}, sizeof(shared::FinalColorUniforms), {}, 2)[0];
+    frame.give(kPicture, picture);
+    frame.offer(kAovs[0], {picture});
+  }
+  void create(FrameBuilder& frame) override {
+    step_.create(frame);
     examples_ = &frame.examples();
   }
+  void bind(const gpu::GraphResources& resources) override { step_.bind(resources); }
 
   void update(const FrameInput& input) override {
     const FinalColorParams params = input.look.get<FinalColorParams>();
     shared::FinalColorUniforms uniforms{};
     uniforms.bloom = params.bloom * glm::vec3(params.bloomTint);
-    uniforms.displacement = {inflation_(input.look, input.scene, input.uniforms.imageSize.y)};
+    uniforms.displacement = {surfaces_.inflation(input.look, input.scene, input.uniforms.imageSize.y)};
     const WarpMetaTextureParams tear = input.look.get<WarpMetaTextureParams>();
     const ExampleTexture& example = examples_->get(input.look, tear.example);
     const gpu::Image* picture = &example.image;
@@ -69,8 +76,9 @@ class FinalColor : public Pass {
       picture = input.backdrop->image;
     }
     const uint32_t ripple = uint32_t(params.ripple);
-    step_.setJobs({{{glows_, ripple, backdropFeatures(input.backdrop)},
-                    {{picture, kPictureSampler}, {&example.image, ExampleTextures::kSampler}}}});
+    step_.setJobs(
+        {{{surfaces_.glow(input.look, input.scene.data()), ripple, backdropFeatures(input.backdrop)},
+          {{picture, kPictureSampler}, {&example.image, ExampleTextures::kSampler}}}});
     step_.update(uniforms);
   }
 
@@ -78,16 +86,17 @@ class FinalColor : public Pass {
   static constexpr gpu::SamplerDesc kPictureSampler{VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                                     VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, true};
 
-  InflationOf inflation_;
+  static constexpr Aov kAovs[] = {{.name = "final-color", .isColor = true, .premultiplied = 3}};
+
+  SurfaceFacts surfaces_;
   ImageStep step_;
-  bool glows_ = false;
   ExampleTextures* examples_ = nullptr;
 };
 
 }  // namespace
 
-std::unique_ptr<Pass> makeFinalColor(InflationOf inflation) {
-  return std::make_unique<FinalColor>(inflation);
+std::unique_ptr<Pass> makeFinalColor(const SurfaceFacts& surfaces) {
+  return std::make_unique<FinalColor>(surfaces);
 }
 
 }  // namespace scumble::passes

@@ -11,9 +11,14 @@ namespace scumble::passes {
 #define PARAMS_TARGETS kScene
 #include "look/define_params.h"
 
-// What the warp pass says: the largest inflation of any of the scene's materials, in pixels.
-using InflationOf = float (*)(const look::LookData& look, const frame::SceneOnGpu& scene, float imageHeight);
+// What the passes of surfaces say.
+struct SurfaceFacts {
+  // The largest inflation of any of the scene's materials, in pixels.
+  float (*inflation)(const look::LookData& look, const frame::SceneOnGpu& scene, float imageHeight);
+  // Whether anything may act on the lens at any time.
+  bool (*glow)(const look::LookData& look, const scene::SceneData& scene);
+};
 
-std::unique_ptr<frame::Pass> makeFinalColor(InflationOf inflation);
+std::unique_ptr<frame::Pass> makeFinalColor(const SurfaceFacts& surfaces);
 
 }  // namespace scumble::passes

@@ -42,19 +42,18 @@ class FinalShadow : public Pass {
  public:
   explicit FinalShadow(BlurFactsOf blurFacts) : blurFacts_(blurFacts) {}
   const char* name() const override { return "final-shadow"; }
+  std::span<const Aov> aovs() const override { return kAovs; }
 
-  void declare(FrameBuilder& frame) override {
-    step_.declare(frame, "final-shadow",
-                  {{shaders::final_shadow_image_frag}, {shaders::final_shadow_image_comp}},
-                  {{frame.slot(Slot::blur)},
-                   {frame.slot(Slot::shadow)},
-                   {frame.slot(Slot::depth)},
-                   {frame.slot(Slot::warp)}},
-                  frame.slot(Slot::finalShadow), sizeof(shared::FinalShadowUniforms));
+  void declare(FrameBuilder& frame, uint32_t) override {
+    const gpu::Handle light = step_.declare(
+        frame, "final-shadow", {{shaders::final_shadow_image_frag}, {shaders::final_shadow_image_comp}},
+        {{frame.get(kBlur)}, {frame.get(kShadow)}, {frame.get(kDepth)}, {frame.get(kWarp)}},
+        {frame.image("final-shadow", {.format = kBytes})}, sizeof(shared::FinalShadowUniforms))[0];
+    frame.give(kLight, light);
+    frame.offer(kAovs[0], {light});
   }
-  void create(FrameBuilder& frame, const FrameResources& resources) override {
-    step_.create(frame, resources);
-  }
+  void create(FrameBuilder& frame) override { step_.create(frame); }
+  void bind(const gpu::GraphResources& resources) override { step_.bind(resources); }
 
   void update(const FrameInput& input) override {
     const FinalShadowParams params = input.look.get<FinalShadowParams>();
@@ -80,6 +79,8 @@ class FinalShadow : public Pass {
   }
 
  private:
+  static constexpr Aov kAovs[] = {{.name = "final-shadow"}};
+
   BlurFactsOf blurFacts_;
   ImageStep step_;
 };

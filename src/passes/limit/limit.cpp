@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "base/oklab.h"
 #include "frame/image_step.h"
@@ -36,30 +35,41 @@ namespace {
 
 class Limit : public Pass {
  public:
+  explicit Limit(Layer layer) : layer_(layer) {}
   const char* name() const override { return "limit"; }
-
-  void declare(FrameBuilder& frame) override {
-    const Configuration& c = frame.configuration();
-    const ImageShader limit{{shaders::limit_image_frag}, {shaders::limit_image_comp}};
-    const gpu::ResourceId limited =
-        frame.transient("limited", {slotInfo(Slot::limit).format, c.width, c.height, c.viewCount});
-    limit_.declare(frame, "limit", limit,
-                   {{frame.slot(c.colorsToLimit())}, {frame.slot(Slot::warp)}, {frame.slot(Slot::depth)}},
-                   limited, sizeof(shared::LimitUniforms), {}, 1);
-    mend_.declare(frame, "limit", {{shaders::limit_mend_image_frag}, {shaders::limit_mend_image_comp}},
-                  {{frame.slot(c.colorsToLimit())}, {limited}}, frame.slot(Slot::limit), 0);
-    if (c.layered)
-      behind_.emplace().declare(
-          frame, "limit", limit,
-          {{frame.slot(c.colorsToLimitBehind())}, {frame.slot(Slot::warp)}, {frame.slot(Slot::depth)}},
-          frame.slot(Slot::behindLimit), sizeof(shared::LimitUniforms), {}, 1);
+  std::span<const Aov> aovs() const override { return kAovs; }
+  uint32_t variant(const scene::SceneData&, const look::LookData& look) const override {
+    return !paletteColors(look.get<LimitParams>()).empty();
   }
 
-  void create(FrameBuilder& frame, const FrameResources& resources) override {
-    limit_.create(frame, resources);
-    mend_.create(frame, resources);
-    if (behind_) behind_->create(frame, resources);
+  void declare(FrameBuilder& frame, uint32_t isLimited) override {
+    gpu::Handle picture = frame.get(kPicture, layer_);
+    if (isLimited) {
+      const std::string of = layer_ == Layer::first ? "" : "behind-";
+      const gpu::Handle limited = limit_.declare(
+          frame, "limit", {{shaders::limit_image_frag}, {shaders::limit_image_comp}},
+          {{picture}, {frame.get(kWarp)}, {frame.get(kDepth)}},
+          {frame.image(of + "limited", {.format = kHalves})}, sizeof(shared::LimitUniforms), {}, 1)[0];
+      // What lies behind is not seen as it is, and needs no mending.
+      picture =
+          layer_ != Layer::first
+              ? limited
+              : mend_.declare(frame, "limit",
+                              {{shaders::limit_mend_image_frag}, {shaders::limit_mend_image_comp}},
+                              {{picture}, {limited}}, {frame.image("limit", {.format = kHalves})}, 0)[0];
+    }
+    frame.give(kPicture, picture, layer_);
+    if (layer_ == Layer::first) frame.offer(kAovs[0], {picture});
+  }
+
+  void create(FrameBuilder& frame) override {
+    limit_.create(frame);
+    if (layer_ == Layer::first) mend_.create(frame);
     examples_ = &frame.examples();
+  }
+  void bind(const gpu::GraphResources& resources) override {
+    limit_.bind(resources);
+    if (layer_ == Layer::first) mend_.bind(resources);
   }
 
   void update(const FrameInput& input) override {
@@ -87,38 +97,34 @@ class Limit : public Pass {
       const float around = std::round(360 / params.skySize);
       uniforms.skyShift = patternShift(input.seed);
       uniforms.skyTiles = glm::vec2(around, 360 / params.skySize) / glm::radians(360.0f);
-      const shared::ViewUniforms& view = input.uniforms.views[0];
-      const float radiansAPixel = 2 * std::abs(view.ndcToEyeRay.y) / input.uniforms.imageSize.y;
+      const float radiansAPixel = 2 * std::abs(input.uniforms.cyclopeanNdcToEyeRay.y) / input.uniforms.imageSize.y;
       const float texelsAPixel = uniforms.skyTiles.y * radiansAPixel * float(strokes.height);
       uniforms.skyLod = std::max(std::log2(texelsAPixel + 1e-6f), 0.0f);
       uniforms.skyDither = kReach * params.skyDither;
       // Strokes go from dark to light over about 12 texels.
       uniforms.skySlope = uniforms.skyDither * std::min(texelsAPixel, 1.0f) / 12;
     }
-    const uint32_t marks = sky ? 2 : params.dither > 0 ? 1 : 0;
+    // The marks at a pixel are those of what stands before it.
+    const uint32_t marks = layer_ != Layer::first ? 0 : sky ? 2 : params.dither > 0 ? 1 : 0;
     const ImageStep::Texture texture{&strokes.image, ExampleTextures::kSampler};
     limit_.update(uniforms);
     limit_.setJobs({{{count, marks}, {texture}}});
-    mend_.setJobs({{{uint32_t(count > 0 && params.softness > 0)}, {}}});
-    if (behind_) {
-      // The marks at a pixel are those of what stands before it.
-      behind_->update(uniforms);
-      behind_->setJobs({{{count, 0}, {texture}}});
-    }
+    if (layer_ == Layer::first) mend_.setJobs({{{uint32_t(count > 0 && params.softness > 0)}, {}}});
   }
 
  private:
+  static constexpr Aov kAovs[] = {{.name = "limit", .isColor = true, .premultiplied = 3}};
   static constexpr double kStrokes = 1;  // of the example textures that are built in
 
+  Layer layer_;
   ImageStep limit_, mend_;
-  std::optional<ImageStep> behind_;
   ExampleTextures* examples_ = nullptr;
 };
 
 }  // namespace
 
-std::unique_ptr<Pass> makeLimit() {
-  return std::make_unique<Limit>();
+std::unique_ptr<Pass> makeLimit(Layer layer) {
+  return std::make_unique<Limit>(layer);
 }
 
 }  // namespace scumble::passes

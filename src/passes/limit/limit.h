@@ -23,6 +23,6 @@ std::vector<glm::vec3> paletteColors(const LimitParams& params);
 // The palettes that are built in, from kFirstBuiltIn on: sRGB, 0xRRGGBB.
 std::span<const uint32_t> builtInPalette(int palette);
 
-std::unique_ptr<frame::Pass> makeLimit();
+std::unique_ptr<frame::Pass> makeLimit(frame::Layer layer);
 
 }  // namespace scumble::passes

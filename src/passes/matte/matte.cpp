@@ -19,7 +19,7 @@ namespace {
 
 // Of the first surfaces, or of those behind them.
 struct ObjectLayer {
-  gpu::ResourceId objects = 0, depth = 0;
+  gpu::Handle objects, depth;
   uint32_t samples = 1;
   gpu::DescriptorSets sets;
   GeometryStep step;
@@ -29,36 +29,52 @@ class Matte : public Pass {
  public:
   explicit Matte(const PictureFacts& picture) : picture_(picture) {}
   const char* name() const override { return "matte"; }
+  std::span<const Aov> aovs() const override { return kAovs; }
+  uint32_t variant(const scene::SceneData&, const look::LookData& look) const override {
+    return picture_.ripple(look) == shared::kRippleLayered;
+  }
 
-  void declare(FrameBuilder& frame) override {
+  void declare(FrameBuilder& frame, uint32_t isLayered) override {
     configuration_ = frame.configuration();
-    const bool layered = configuration_.layered;
-    firstDepth_ = frame.slot(Slot::depth);
-    materials_.declare(frame);
+    isLayered_ = isLayered;
+    firstDepth_ = frame.get(kDepth);
     declareLayer(frame, first_, configuration_.samples, "matte");
-    if (layered) declareLayer(frame, behind_, 1, "matte behind");
+    if (isLayered_) declareLayer(frame, behind_, 1, "matte behind");
 
     const ImageShader one{{shaders::matte_image_frag}, {shaders::matte_image_comp}},
         four{{shaders::matte_samples_image_frag}, {shaders::matte_samples_image_comp}};
     // Without layers the shader looks at none of what lies behind.
-    image_.declare(frame, "matte", configuration_.samples > 1 ? four : one,
-                   {{first_.objects},
-                    {frame.slot(Slot::warp)},
-                    {firstDepth_},
-                    {layered ? behind_.objects : firstDepth_},
-                    {layered ? frame.slot(Slot::behindDepth) : firstDepth_}},
-                   {frame.slot(Slot::matte), frame.slot(Slot::matteRest)}, sizeof(shared::MatteUniforms));
+    const std::vector<gpu::Handle> ranks =
+        image_.declare(frame, "matte", configuration_.samples > 1 ? four : one,
+                       {{first_.objects},
+                        {frame.get(kWarp)},
+                        {firstDepth_},
+                        {isLayered_ ? behind_.objects : firstDepth_},
+                        {isLayered_ ? frame.get(kDepth, Layer::behind) : firstDepth_}},
+                       {frame.image("cryptomatte", {.format = kFloats}),
+                        frame.image("cryptomatte rest", {.format = kFloats})},
+                       sizeof(shared::MatteUniforms));
+    frame.offer(kAovs[0], ranks);
   }
 
-  void create(FrameBuilder& frame, const FrameResources& resources) override {
-    resources_ = &resources;
-    scene_ = &frame.scene();
+  void create(FrameBuilder& frame) override {
+    frame_ = &frame;
+    materials_.create(frame);
     layout_ = gpu::SetLayout(frame.device(),
                              {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, VK_SHADER_STAGE_FRAGMENT_BIT},
                               {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}});
-    createLayer(frame, first_, false);
-    if (configuration_.layered) createLayer(frame, behind_, true);
-    image_.create(frame, resources);
+    createLayer(first_, false);
+    if (isLayered_) createLayer(behind_, true);
+    image_.create(frame);
+  }
+
+  void bind(const gpu::GraphResources& resources) override {
+    resources_ = &resources;
+    for (ObjectLayer* layer : {&first_, &behind_})
+      for (size_t set = 0; set < layer->sets.size(); ++set)
+        layer->sets.rewriteTexture(set, 1, resources.image(firstDepth_).view(),
+                                   frame_->samplers().get({VK_FILTER_NEAREST}));
+    image_.bind(resources);
   }
 
   void update(const FrameInput& input) override {
@@ -71,24 +87,19 @@ class Matte : public Pass {
 
  private:
   void declareLayer(FrameBuilder& frame, ObjectLayer& layer, uint32_t samples, const std::string& name) {
-    const Configuration& c = configuration_;
     layer.samples = samples;
-    layer.objects = frame.transient(name + " objects", {kFormat, c.width, c.height, c.viewCount, 1, samples});
-    layer.depth =
-        frame.transient(name + " depth", {VK_FORMAT_D32_SFLOAT, c.width, c.height, c.viewCount, 1, samples});
-    frame.addStep("matte",
-                  {{frame.finalVertices(), gpu::Use::vertexBuffer},
-                   {firstDepth_, gpu::Use::sampledByFragment},
-                   {layer.objects, gpu::Use::colorTarget},
-                   {layer.depth, gpu::Use::depthTarget}},
-                  [this, &layer](VkCommandBuffer commands) { record(commands, layer); });
+    frame.step("matte", [this, &layer](VkCommandBuffer commands) { record(commands, layer); });
+    frame.use(frame.get(kVertices), gpu::Use::vertexBuffer);
+    frame.use(firstDepth_, gpu::Use::sampledByFragment);
+    layer.objects = frame.use(frame.image(name + " objects", {.format = kFormat, .samples = samples}),
+                              gpu::Use::colorTarget);
+    layer.depth = frame.use(frame.image(name + " depth", {.format = kDepthFormat, .samples = samples}),
+                            gpu::Use::depthTarget);
   }
 
-  void createLayer(FrameBuilder& frame, ObjectLayer& layer, bool isBehind) {
-    layer.sets = gpu::DescriptorSets(frame.device(), layout_);
+  void createLayer(ObjectLayer& layer, bool isBehind) {
+    layer.sets = gpu::DescriptorSets(frame_->device(), layout_);
     materials_.bind(layer.sets, 0);
-    layer.sets.writeTexture(0, 1, resources_->image(firstDepth_).view(),
-                            frame.samplers().get({VK_FILTER_NEAREST}));
     GeometryStepDesc desc;
     desc.vertex = {shaders::matte_surface_vert};
     desc.fragment = {shaders::matte_surface_frag};
@@ -100,27 +111,34 @@ class Matte : public Pass {
     desc.constant = isBehind;
     desc.passLayout = &layout_;
     desc.materialStrides = {materials_.kStride};
-    layer.step.create(frame.device(), *resources_, frame.scene(), desc);
+    layer.step.create(*frame_, desc);
   }
 
   void record(VkCommandBuffer commands, const ObjectLayer& layer) const {
     const gpu::Target objects{&resources_->image(layer.objects), nullptr, {}};
     const gpu::Target depth{&resources_->image(layer.depth), nullptr, {}};
-    gpu::drawViews(commands, configuration_.views(), {&objects, 1}, &depth, [&](uint32_t firstView) {
-      layer.step.draw(commands, *resources_, *scene_, &layer.sets, firstView);
-    });
+    gpu::drawViews(commands, configuration_.views(), {&objects, 1}, &depth,
+                   [&](uint32_t firstView) { layer.step.draw(commands, &layer.sets, firstView); });
   }
 
   // Whole numbers up to 2^24; every device has as many samples of it as of colours, which integers lack.
   static constexpr VkFormat kFormat = VK_FORMAT_R32_SFLOAT;
 
+  // Object's number and coverage of two ranks an image, the greatest coverage first.
+  static constexpr Aov kAovs[] = {
+      {.name = "cryptomatte",
+       .channels = {"id0", "coverage0", "id1", "coverage1", "id2", "coverage2", "id3", "coverage3"},
+       .needsFloat = true,
+       .namesObjects = true}};
+
   PictureFacts picture_;
+  FrameBuilder* frame_ = nullptr;
   Configuration configuration_;
-  gpu::ResourceId firstDepth_ = 0;
+  bool isLayered_ = false;
+  gpu::Handle firstDepth_;
   ObjectLayer first_, behind_;
   MaterialBlocks<shared::MatteMaterial> materials_;
-  const FrameResources* resources_ = nullptr;
-  const SceneOnGpu* scene_ = nullptr;
+  const gpu::GraphResources* resources_ = nullptr;
   gpu::SetLayout layout_;
   ImageStep image_;
 };

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "frame/drawn_image.h"
 #include "frame/geometry_step.h"
 #include "frame/image_step.h"
 #include "frame/metatexture.h"
@@ -30,33 +31,30 @@ class Ocean : public Pass {
  public:
   const char* name() const override { return "ocean"; }
 
-  void declare(FrameBuilder& frame) override {
-    const Configuration& c = frame.configuration();
-    pattern_ = frame.transient("ocean pattern", {kPatternFormat, c.width, c.height, c.viewCount});
-    waves_ = frame.transient("ocean waves", {kWavesFormat, c.width, c.height, c.viewCount});
-    depth_ = frame.transient("ocean depth", {VK_FORMAT_D32_SFLOAT, c.width, c.height, c.viewCount});
-    frame.addStep("ocean",
-                  {{frame.finalVertices(), gpu::Use::vertexBuffer},
-                   {pattern_, gpu::Use::colorTarget},
-                   {waves_, gpu::Use::colorTarget},
-                   {depth_, gpu::Use::depthTarget}},
-                  [this](VkCommandBuffer commands) { record(commands); });
-    image_.declare(frame, "ocean", {{shaders::ocean_image_frag}, {shaders::ocean_image_comp}},
-                   {{pattern_}, {waves_}, {depth_}},
-                   {frame.slot(Slot::oceanLit), frame.slot(Slot::oceanShadowed)}, sizeof(PaintUniforms), {},
-                   7);
+  void declare(FrameBuilder& frame, uint32_t) override {
+    if (frame.scene().oceanMaterial() < 0) return;
+    frame.step("ocean", [this](VkCommandBuffer commands) { record(commands); });
+    frame.use(frame.get(kVertices), gpu::Use::vertexBuffer);
+    pattern_.declare(frame, "ocean pattern", kPatternFormat);
+    waves_.declare(frame, "ocean waves", kWavesFormat);
+    depth_.declare(frame, "ocean depth", kDepthFormat);
+    const std::vector<gpu::Handle> colors = image_.declare(
+        frame, "ocean", {{shaders::ocean_image_frag}, {shaders::ocean_image_comp}},
+        {{pattern_.image()}, {waves_.image()}, {depth_.image()}},
+        {frame.image("ocean-lit", {.format = kHalves}), frame.image("ocean-shadowed", {.format = kHalves})},
+        sizeof(PaintUniforms), {}, 7);
+    frame.give(kOceanLit, colors[0]);
+    frame.give(kOceanShadowed, colors[1]);
   }
 
-  void create(FrameBuilder& frame, const FrameResources& resources) override {
-    resources_ = &resources;
-    scene_ = &frame.scene();
+  void create(FrameBuilder& frame) override {
     configuration_ = frame.configuration();
     examples_ = &frame.examples();
     maps_.emplace(frame.device());
     layout_ =
         gpu::SetLayout(frame.device(), {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT}});
     sets_ = gpu::DescriptorSets(frame.device(), layout_);
-    sets_.writeBuffer(0, 0, scene_->waves()->buffer().handle());
+    sets_.writeBuffer(0, 0, frame.scene().waves()->buffer().handle());
 
     GeometryStepDesc desc;
     desc.what = GeometryStepDesc::What::ocean;
@@ -67,14 +65,18 @@ class Ocean : public Pass {
     desc.viewMask = configuration_.views().mask();
     desc.viewCount = configuration_.viewCount;
     desc.passLayout = &layout_;
-    step_.create(frame.device(), resources, frame.scene(), desc);
-    image_.create(frame, resources);
+    step_.create(frame, desc);
+    image_.create(frame);
+  }
+  void bind(const gpu::GraphResources& resources) override {
+    resources_ = &resources;
+    image_.bind(resources);
   }
 
   void update(const FrameInput& input) override {
     const OceanPaintParams p = input.look.get<OceanPaintParams>();
     const auto metaParams = sameRows(input.look.get<OceanMetaTextureParams>());
-    step_.specialise(input.scene, tangentOptions(metaParams, input.uniforms));
+    step_.specialise(tangentOptions(metaParams, input.uniforms));
     MetaTextureUse use = metaTextureUse(metaParams, 0b0111, input.look, *examples_, input.uniforms.pixelScale,
                                         patternShift(input.seed));
     use.meta.wrapping = 0;
@@ -122,16 +124,14 @@ class Ocean : public Pass {
   static constexpr int kFoamExample = 4;  // among the built-in ones
 
   void record(VkCommandBuffer commands) const {
-    const gpu::Target colors[] = {{&resources_->image(pattern_)}, {&resources_->image(waves_)}};
-    const gpu::Target depth{&resources_->image(depth_), nullptr, {}};
-    gpu::drawViews(commands, configuration_.views(), colors, &depth, [&](uint32_t firstView) {
-      step_.draw(commands, *resources_, *scene_, &sets_, firstView);
-    });
+    const gpu::Target colors[] = {pattern_.target(*resources_), waves_.target(*resources_)};
+    const gpu::Target depth = depth_.target(*resources_);
+    gpu::drawViews(commands, configuration_.views(), colors, &depth,
+                   [&](uint32_t firstView) { step_.draw(commands, &sets_, firstView); });
   }
 
-  gpu::ResourceId pattern_ = 0, waves_ = 0, depth_ = 0;
-  const FrameResources* resources_ = nullptr;
-  const SceneOnGpu* scene_ = nullptr;
+  DrawnImage pattern_, waves_, depth_;
+  const gpu::GraphResources* resources_ = nullptr;
   Configuration configuration_;
   ExampleTextures* examples_ = nullptr;
   std::optional<OceanMaps> maps_;

@@ -1,5 +1,6 @@
 #include "passes/plain/plain.h"
 
+#include "frame/drawn_image.h"
 #include "frame/geometry_step.h"
 #include "shaders/plain_frag.h"
 #include "shaders/plain_vert.h"
@@ -14,51 +15,45 @@ class Plain : public Pass {
  public:
   const char* name() const override { return "plain"; }
 
-  void declare(FrameBuilder& frame) override {
-    const Configuration& c = frame.configuration();
-    samples_ = c.samples;
+  void declare(FrameBuilder& frame, uint32_t) override {
     configuration_ = frame.configuration();
-    resolved_ = frame.slot(Slot::plain);
-    drawn_ = samples_ > 1 ? frame.multisampled(Slot::plain) : resolved_;
+    frame.step("plain", [this](VkCommandBuffer commands) { record(commands); });
+    frame.use(frame.get(kVertices), gpu::Use::vertexBuffer);
+    color_.declare(frame, "plain", kFormat, configuration_.samples);
     depth_ =
-        frame.transient("plain depth", {VK_FORMAT_D32_SFLOAT, c.width, c.height, c.viewCount, 1, samples_});
-    std::vector<gpu::ResourceUse> uses{{frame.finalVertices(), gpu::Use::vertexBuffer},
-                                       {drawn_, gpu::Use::colorTarget},
-                                       {depth_, gpu::Use::depthTarget}};
-    if (samples_ > 1) uses.push_back({resolved_, gpu::Use::resolveTarget});
-    frame.addStep("plain", std::move(uses), [this](VkCommandBuffer commands) { record(commands); });
+        frame.use(frame.image("plain depth", {.format = kDepthFormat, .samples = configuration_.samples}),
+                  gpu::Use::depthTarget);
+    frame.give(kPicture, color_.image());
   }
 
-  void create(FrameBuilder& frame, const FrameResources& resources) override {
-    resources_ = &resources;
-    scene_ = &frame.scene();
+  void create(FrameBuilder& frame) override {
     GeometryStepDesc desc;
     desc.vertex = {shaders::plain_vert};
     desc.fragment = {shaders::plain_frag};
     desc.inputs = kPosition | kUv0 | kUv1 | kColor;
-    desc.colorFormats = {slotInfo(Slot::plain).format};
-    desc.samples = samples_;
+    desc.colorFormats = {kFormat};
+    desc.samples = configuration_.samples;
     desc.viewMask = configuration_.views().mask();
     desc.viewCount = configuration_.viewCount;
     desc.blends = true;
-    step_.create(frame.device(), resources, frame.scene(), desc);
+    step_.create(frame, desc);
   }
+  void bind(const gpu::GraphResources& resources) override { resources_ = &resources; }
 
  private:
   void record(VkCommandBuffer commands) const {
-    const gpu::Target color{
-        &resources_->image(drawn_), samples_ > 1 ? &resources_->image(resolved_) : nullptr, {}};
+    const gpu::Target color = color_.target(*resources_);
     const gpu::Target depth{&resources_->image(depth_), nullptr, {}};
-    gpu::drawViews(commands, configuration_.views(), {&color, 1}, &depth, [&](uint32_t firstView) {
-      step_.draw(commands, *resources_, *scene_, nullptr, firstView);
-    });
+    gpu::drawViews(commands, configuration_.views(), {&color, 1}, &depth,
+                   [&](uint32_t firstView) { step_.draw(commands, nullptr, firstView); });
   }
 
-  gpu::ResourceId drawn_ = 0, resolved_ = 0, depth_ = 0;
-  uint32_t samples_ = 1;
+  static constexpr VkFormat kFormat = VK_FORMAT_R8G8B8A8_SRGB;
+
+  DrawnImage color_;
+  gpu::Handle depth_;
   Configuration configuration_;
-  const FrameResources* resources_ = nullptr;
-  const SceneOnGpu* scene_ = nullptr;
+  const gpu::GraphResources* resources_ = nullptr;
   GeometryStep step_;
 };
 

@@ -14,17 +14,21 @@ namespace {
 class ShadowMap : public Pass {
  public:
   const char* name() const override { return "shadow-map"; }
+  std::span<const Aov> aovs() const override { return kAovs; }
 
-  void declare(FrameBuilder& frame) override {
-    map_ = frame.slot(Slot::shadowMap);
-    frame.addStep("shadow-map",
-                  {{frame.finalVertices(), gpu::Use::vertexBuffer}, {map_, gpu::Use::depthTarget}},
-                  [this](VkCommandBuffer commands) { record(commands); });
+  void declare(FrameBuilder& frame, uint32_t) override {
+    frame.step("shadow-map", [this](VkCommandBuffer commands) { record(commands); });
+    frame.use(frame.get(kVertices), gpu::Use::vertexBuffer);
+    map_ = frame.use(
+        frame.image(
+            "shadow-map",
+            {.format = kDepthFormat, .width = kShadowMapSize, .height = kShadowMapSize, .perView = false}),
+        gpu::Use::depthTarget);
+    frame.give(kShadowMap, map_);
+    frame.offer(kAovs[0], {map_});
   }
 
-  void create(FrameBuilder& frame, const FrameResources& resources) override {
-    resources_ = &resources;
-    scene_ = &frame.scene();
+  void create(FrameBuilder& frame) override {
     GeometryStepDesc desc;
     desc.vertex = {shaders::shadow_map_vert};
     desc.fragment = {shaders::shadow_map_frag};
@@ -32,19 +36,22 @@ class ShadowMap : public Pass {
     desc.inputs = kPosition | kUv0 | kUv1 | kColor;
     desc.depthCompare = VK_COMPARE_OP_LESS;
     desc.what = GeometryStepDesc::What::casters;
-    step_.create(frame.device(), resources, frame.scene(), desc);
+    step_.create(frame, desc);
   }
+  void bind(const gpu::GraphResources& resources) override { resources_ = &resources; }
 
  private:
   void record(VkCommandBuffer commands) const {
     gpu::Target depth{&resources_->image(map_), nullptr, {}};
     depth.clear.depthStencil = {1.0f, 0};
-    gpu::drawOnce(commands, depth, [&] { step_.draw(commands, *resources_, *scene_, nullptr, 0); });
+    gpu::drawOnce(commands, depth, [&] { step_.draw(commands, nullptr, 0); });
   }
 
-  gpu::ResourceId map_ = 0;
-  const FrameResources* resources_ = nullptr;
-  const SceneOnGpu* scene_ = nullptr;
+  static constexpr Aov kAovs[] = {
+      {.name = "shadow-map", .channels = {"R"}, .needsFloat = true, .isOnce = true}};
+
+  gpu::Handle map_;
+  const gpu::GraphResources* resources_ = nullptr;
   GeometryStep step_;
 };
 

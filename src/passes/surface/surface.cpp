@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "frame/drawn_image.h"
 #include "frame/geometry_step.h"
 #include "frame/light.h"
 #include "frame/material_params.h"
@@ -32,40 +33,40 @@ struct PaintedMaterial {
 
 class Surface : public Pass {
  public:
-  explicit Surface(SurfaceLayer layer)
-      : isBehind_(layer == SurfaceLayer::behind), targets_(isBehind_ ? kBehindTargets : kFirstTargets) {}
+  explicit Surface(Layer layer) : layer_(layer), isBehind_(layer == Layer::behind) {}
   const char* name() const override { return isBehind_ ? "behind" : "surface"; }
+  std::span<const Aov> aovs() const override { return kAovs; }
 
-  void declare(FrameBuilder& frame) override {
-    const Configuration& c = frame.configuration();
-    samples_ = isBehind_ ? 1 : c.samples;
+  void declare(FrameBuilder& frame, uint32_t) override {
     configuration_ = frame.configuration();
-    std::vector<gpu::ResourceUse> uses{
-        {frame.finalVertices(), gpu::Use::vertexBuffer},
-        {shadowMap_ = frame.slot(Slot::shadowMap), gpu::Use::sampledByFragment}};
-    if (configuration_.ocean)
-      for (size_t i = 0; i < 2; ++i)
-        uses.push_back({ocean_[i] = frame.slot(i == 0 ? Slot::oceanLit : Slot::oceanShadowed),
-                        gpu::Use::sampledByFragment});
-    if (isBehind_) uses.push_back({firstDepth_ = frame.slot(Slot::depth), gpu::Use::sampledByFragment});
-    for (size_t i = 0; i < targets_.size(); ++i) {
-      const bool isDepth = i == kDepthTarget;
-      resolved_[i] = frame.slot(targets_[i]);
-      drawn_[i] = samples_ > 1 ? frame.multisampled(targets_[i]) : resolved_[i];
-      uses.push_back({drawn_[i], isDepth ? gpu::Use::depthTarget : gpu::Use::colorTarget});
-      if (samples_ > 1)
-        uses.push_back({resolved_[i], isDepth ? gpu::Use::depthResolveTarget : gpu::Use::resolveTarget});
+    samples_ = isBehind_ ? 1 : configuration_.samples;
+    frame.step(name(), [this](VkCommandBuffer commands) { record(commands); });
+    frame.use(frame.get(kVertices), gpu::Use::vertexBuffer);
+    shadowMap_ = frame.use(frame.get(kShadowMap), gpu::Use::sampledByFragment);
+    for (size_t i = 0; i < ocean_.size(); ++i) {
+      const Role& role = i == 0 ? kOceanLit : kOceanShadowed;
+      if (frame.has(role)) ocean_[i] = frame.use(frame.get(role), gpu::Use::sampledByFragment);
     }
-    uniforms_ = frame.uniform(sizeof(SurfaceUniforms));
-    params_.declare(frame);
-    painted_.declare(frame);
-    frame.addStep(name(), std::move(uses), [this](VkCommandBuffer commands) { record(commands); });
+    if (isBehind_) firstDepth_ = frame.use(frame.get(kDepth), gpu::Use::sampledByFragment);
+    const std::string before = isBehind_ ? "behind-" : "";
+    for (size_t i = 0; i < colors_.size(); ++i)
+      colors_[i].declare(frame, before + kAovs[i].name, kBytes, samples_);
+    depth_.declare(frame, before + kDepth.name, kDepthFormat, samples_);
+
+    frame.give(kShadow, colors_[0].image(), layer_);
+    frame.give(kLit, colors_[1].image(), layer_);
+    frame.give(kShadowed, colors_[2].image(), layer_);
+    frame.give(kDepth, depth_.image(), layer_);
+    // It is thresholded as it is.
+    if (isBehind_) frame.give(kLight, colors_[0].image(), layer_);
+    for (size_t i = 0; i < colors_.size() && !isBehind_; ++i) frame.offer(kAovs[i], {colors_[i].image()});
   }
 
-  void create(FrameBuilder& frame, const FrameResources& resources) override {
-    resources_ = &resources;
-    scene_ = &frame.scene();
+  void create(FrameBuilder& frame) override {
     frame_ = &frame;
+    uniforms_ = frame.uniform(sizeof(SurfaceUniforms));
+    params_.create(frame);
+    painted_.create(frame);
     constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
     constexpr VkDescriptorType kTexture = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     layout_ = gpu::SetLayout(frame.device(),
@@ -81,20 +82,10 @@ class Surface : public Pass {
     // One set for each material, since each may have a texture of its own.
     const size_t materials = frame.scene().materialCount();
     sets_ = gpu::DescriptorSets(frame.device(), layout_, uint32_t(materials));
-    gpu::SamplerDesc compare;
-    compare.compareLess = true;
     for (size_t m = 0; m < materials; ++m) {
       params_.bind(sets_, 0, m);
       painted_.bind(sets_, 1, m);
       sets_.writeBuffer(m, 2, uniforms_.buffer, uniforms_.offset, uniforms_.size);
-      sets_.writeTexture(m, 3, resources.image(shadowMap_).view(), frame.samplers().get(compare));
-      // The first layer does not look at it.
-      sets_.writeTexture(m, 6, resources.image(isBehind_ ? firstDepth_ : shadowMap_).view(),
-                         frame.samplers().get({VK_FILTER_NEAREST}));
-      // Nor does anything but the ocean at these.
-      for (uint32_t i = 0; i < 2; ++i)
-        sets_.writeTexture(m, 7 + i, resources.image(configuration_.ocean ? ocean_[i] : shadowMap_).view(),
-                           frame.samplers().get({VK_FILTER_NEAREST}));
     }
 
     GeometryStepDesc desc;
@@ -105,7 +96,7 @@ class Surface : public Pass {
     desc.paintedFragment = {shaders::surface_painted_frag};
     desc.oceanFragment = {shaders::surface_ocean_frag};
     desc.paintedInputs = desc.inputs | kDPdu | kDPdv | kPatternUv;
-    for (size_t i = 0; i < kDepthTarget; ++i) desc.colorFormats.push_back(slotInfo(targets_[i]).format);
+    desc.colorFormats.assign(colors_.size(), kBytes);
     desc.samples = samples_;
     desc.viewMask = configuration_.views().mask();
     desc.viewCount = configuration_.viewCount;
@@ -113,7 +104,21 @@ class Surface : public Pass {
     desc.constant = constant(false);
     desc.passLayout = &layout_;
     desc.materialStrides = {params_.kStride, painted_.kStride};
-    step_.create(frame.device(), resources, frame.scene(), desc);
+    step_.create(frame, desc);
+  }
+
+  void bind(const gpu::GraphResources& resources) override {
+    resources_ = &resources;
+    gpu::SamplerDesc compare;
+    compare.compareLess = true;
+    const VkSampler exact = frame_->samplers().get({VK_FILTER_NEAREST});
+    // The first layer does not look at what is before it, nor does anything but the ocean at its colours.
+    const auto orAny = [&](gpu::Handle image) { return resources.image(image ? image : shadowMap_).view(); };
+    for (size_t m = 0; m < sets_.size(); ++m) {
+      sets_.rewriteTexture(m, 3, resources.image(shadowMap_).view(), frame_->samplers().get(compare));
+      sets_.rewriteTexture(m, 6, orAny(firstDepth_), exact);
+      for (uint32_t i = 0; i < ocean_.size(); ++i) sets_.rewriteTexture(m, 7 + i, orAny(ocean_[i]), exact);
+    }
   }
 
   void update(const FrameInput& input) override {
@@ -145,42 +150,39 @@ class Surface : public Pass {
       sets_.writeTexture(m, 5, use.inverse().view(),
                          frame_->samplers().get(ExampleTextures::kInverseSampler));
     }
-    step_.specialise(input.scene, constant(input.uniforms.lightCount > 0), std::move(variants));
+    step_.specialise(constant(input.uniforms.lightCount > 0), std::move(variants));
   }
 
  private:
-  static constexpr std::array kFirstTargets{Slot::shadow, Slot::lit, Slot::shadowed, Slot::depth};
-  static constexpr std::array kBehindTargets{Slot::behindShadow, Slot::behindLit, Slot::behindShadowed,
-                                             Slot::behindDepth};
-  static constexpr size_t kDepthTarget = 3;
+  static constexpr Aov kAovs[] = {
+      {.name = "shadow", .premultiplied = 3},
+      {.name = "lit", .isColor = true, .premultiplied = 3, .isSquareRoot = true},
+      {.name = "shadowed", .isColor = true, .premultiplied = 3, .isSquareRoot = true}};
 
   // kOptions in the shaders.
   uint32_t constant(bool lights) const { return (isBehind_ ? 1 : 0) | (lights ? 2 : 0); }
 
   void record(VkCommandBuffer commands) const {
-    const auto target = [&](size_t i) {
-      return gpu::Target{
-          &resources_->image(drawn_[i]), samples_ > 1 ? &resources_->image(resolved_[i]) : nullptr, {}};
-    };
-    const gpu::Target colors[] = {target(0), target(1), target(2)}, depth = target(3);
-    gpu::drawViews(commands, configuration_.views(), colors, &depth, [&](uint32_t firstView) {
-      step_.draw(commands, *resources_, *scene_, &sets_, firstView);
-    });
+    std::array<gpu::Target, std::size(kAovs)> colors;
+    for (size_t i = 0; i < colors.size(); ++i) colors[i] = colors_[i].target(*resources_);
+    const gpu::Target depth = depth_.target(*resources_);
+    gpu::drawViews(commands, configuration_.views(), colors, &depth,
+                   [&](uint32_t firstView) { step_.draw(commands, &sets_, firstView); });
   }
 
+  Layer layer_;
   bool isBehind_;
-  std::array<Slot, 4> targets_;
-  gpu::ResourceId shadowMap_ = 0, firstDepth_ = 0;
-  std::array<gpu::ResourceId, 2> ocean_{};
-  std::array<gpu::ResourceId, 4> drawn_{}, resolved_{};
+  gpu::Handle shadowMap_, firstDepth_;
+  std::array<gpu::Handle, 2> ocean_;
+  std::array<DrawnImage, std::size(kAovs)> colors_;
+  DrawnImage depth_;
   uint32_t samples_ = 1;
   Configuration configuration_;
   UniformSlice uniforms_;
   MaterialParams<SurfaceParams> params_;
   MaterialBlocks<PaintedMaterial> painted_;
   FrameBuilder* frame_ = nullptr;
-  const FrameResources* resources_ = nullptr;
-  const SceneOnGpu* scene_ = nullptr;
+  const gpu::GraphResources* resources_ = nullptr;
   gpu::SetLayout layout_;
   gpu::DescriptorSets sets_;
   GeometryStep step_;
@@ -188,7 +190,7 @@ class Surface : public Pass {
 
 }  // namespace
 
-std::unique_ptr<Pass> makeSurface(SurfaceLayer layer) {
+std::unique_ptr<Pass> makeSurface(Layer layer) {
   return std::make_unique<Surface>(layer);
 }
 

@@ -19,9 +19,7 @@ namespace scumble::passes {
 #define PARAMS_TARGETS kScene | kMaterials
 #include "look/define_params.h"
 
-// Which surface of a pixel: the first, or the next one behind it (one sample a pixel, light as it is
-// thresholded without a blur).
-enum class SurfaceLayer { first, behind };
-std::unique_ptr<frame::Pass> makeSurface(SurfaceLayer layer);
+// Behind the first surfaces light is thresholded without a blur.
+std::unique_ptr<frame::Pass> makeSurface(frame::Layer layer);
 
 }  // namespace scumble::passes

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "frame/drawn_image.h"
 #include "frame/geometry_step.h"
 #include "frame/image_step.h"
 #include "frame/material_params.h"
@@ -46,28 +47,25 @@ struct WarpSetup {
 class Warp : public Pass {
  public:
   const char* name() const override { return "warp"; }
+  std::span<const Aov> aovs() const override { return kAovs; }
 
-  void declare(FrameBuilder& frame) override {
-    const Configuration& c = frame.configuration();
-    pattern_ = frame.transient("warp pattern", {kPatternFormat, c.width, c.height, c.viewCount});
-    knobs_ = frame.transient("warp knobs", {kKnobsFormat, c.width, c.height, c.viewCount});
-    depth_ = frame.transient("warp depth", {VK_FORMAT_D32_SFLOAT, c.width, c.height, c.viewCount});
-    materials_.declare(frame);
-    frame.addStep("warp",
-                  {{frame.finalVertices(), gpu::Use::vertexBuffer},
-                   {pattern_, gpu::Use::colorTarget},
-                   {knobs_, gpu::Use::colorTarget},
-                   {depth_, gpu::Use::depthTarget}},
-                  [this](VkCommandBuffer commands) { record(commands); });
+  void declare(FrameBuilder& frame, uint32_t) override {
+    frame.step("warp", [this](VkCommandBuffer commands) { record(commands); });
+    frame.use(frame.get(kVertices), gpu::Use::vertexBuffer);
+    pattern_.declare(frame, "warp pattern", kPatternFormat);
+    knobs_.declare(frame, "warp knobs", kKnobsFormat);
+    depth_.declare(frame, "warp depth", kDepthFormat);
 
-    image_.declare(frame, "warp", {{shaders::warp_image_frag}, {shaders::warp_image_comp}},
-                   {{pattern_}, {knobs_}, {depth_}}, frame.slot(Slot::warp), sizeof(SetupUniforms), {}, 4,
-                   uint32_t(std::max<size_t>(1, frame.scene().materialCount())));
+    const gpu::Handle warp = image_.declare(
+        frame, "warp", {{shaders::warp_image_frag}, {shaders::warp_image_comp}},
+        {{pattern_.image()}, {knobs_.image()}, {depth_.image()}}, {frame.image("warp", {.format = kHalves})},
+        sizeof(SetupUniforms), {}, 4, uint32_t(std::max<size_t>(1, frame.scene().materialCount())))[0];
+    frame.give(kWarp, warp);
+    frame.offer(kAovs[0], {warp});
   }
 
-  void create(FrameBuilder& frame, const FrameResources& resources) override {
-    resources_ = &resources;
-    scene_ = &frame.scene();
+  void create(FrameBuilder& frame) override {
+    materials_.create(frame);
     configuration_ = frame.configuration();
     constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
     layout_ = gpu::SetLayout(frame.device(), {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, kStages}});
@@ -83,11 +81,15 @@ class Warp : public Pass {
     desc.viewCount = configuration_.viewCount;
     desc.passLayout = &layout_;
     desc.materialStrides = {materials_.kStride};
-    step_.create(frame.device(), resources, frame.scene(), desc);
-    image_.create(frame, resources);
+    step_.create(frame, desc);
+    image_.create(frame);
     examples_ = &frame.examples();
     const auto& draws = frame.scene().draws();
     wraps_ = std::any_of(draws.begin(), draws.end(), [](const Draw& draw) { return draw.wraps; });
+  }
+  void bind(const gpu::GraphResources& resources) override {
+    resources_ = &resources;
+    image_.bind(resources);
   }
 
   void update(const FrameInput& input) override {
@@ -112,7 +114,7 @@ class Warp : public Pass {
                                      (distance > 0 ? shared::kWarpDistance : 0)});
       materials_.write(m, {params.amount * pixelScale, inflation, distance, float(index + 1)});
     }
-    step_.specialise(input.scene, 0, std::move(variants));
+    step_.specialise(0, std::move(variants));
 
     std::vector<ImageStep::Job> jobs;
     for (size_t i = 0; i < setups.size(); ++i) {
@@ -129,10 +131,11 @@ class Warp : public Pass {
                        {&setup.marks.image(), setup.marks.sampler()},
                        {&setup.marks.inverse(), ExampleTextures::kInverseSampler}}});
     }
-    image_.setJobs(std::move(jobs));
+    image_.setJobs(jobs);
   }
 
  private:
+  static constexpr Aov kAovs[] = {{.name = "warp"}};
   static constexpr VkFormat kPatternFormat = VK_FORMAT_R32G32B32A32_UINT,
                             kKnobsFormat = VK_FORMAT_R32G32_SFLOAT;
 
@@ -152,16 +155,14 @@ class Warp : public Pass {
   }
 
   void record(VkCommandBuffer commands) const {
-    const gpu::Target colors[] = {{&resources_->image(pattern_)}, {&resources_->image(knobs_)}};
-    const gpu::Target depth{&resources_->image(depth_), nullptr, {}};
-    gpu::drawViews(commands, configuration_.views(), colors, &depth, [&](uint32_t firstView) {
-      step_.draw(commands, *resources_, *scene_, &sets_, firstView);
-    });
+    const gpu::Target colors[] = {pattern_.target(*resources_), knobs_.target(*resources_)};
+    const gpu::Target depth = depth_.target(*resources_);
+    gpu::drawViews(commands, configuration_.views(), colors, &depth,
+                   [&](uint32_t firstView) { step_.draw(commands, &sets_, firstView); });
   }
 
-  gpu::ResourceId pattern_ = 0, knobs_ = 0, depth_ = 0;
-  const FrameResources* resources_ = nullptr;
-  const SceneOnGpu* scene_ = nullptr;
+  DrawnImage pattern_, knobs_, depth_;
+  const gpu::GraphResources* resources_ = nullptr;
   Configuration configuration_;
   MaterialBlocks<WarpMaterial> materials_;
   ExampleTextures* examples_ = nullptr;

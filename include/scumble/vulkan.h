@@ -1,0 +1,96 @@
+// For programs that bring Vulkan themselves: a renderer on their device, or with what they need on its own
+// one, and frames that are drawn into their images. The only public header that names Vulkan.
+//
+// A renderer uses one queue, and submits to it in begin() and render(); where the program submits to that
+// queue as well, it does so from the same thread, or holds a lock around both (Vulkan: queues are externally
+// synchronised).
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scumble/renderer.h"
+
+namespace scumble {
+
+// Somebody's device. It has Vulkan 1.3, a queue for graphics and compute, and what requiredVulkanFeatures()
+// asks for enabled.
+struct VulkanDevice {
+  VkInstance instance = VK_NULL_HANDLE;
+  VkPhysicalDevice physical = VK_NULL_HANDLE;
+  VkDevice device = VK_NULL_HANDLE;
+  VkQueue queue = VK_NULL_HANDLE;
+  uint32_t queueFamily = 0;
+};
+
+// The features that scumble needs, chained, in the structures of Vulkan's own versions, so that a program can
+// set more of its own in them, and chain others behind `v13`: `core` goes into VkDeviceCreateInfo::pNext. It
+// is not copied: the structures point at each other.
+struct VulkanFeatures {
+  VkPhysicalDeviceFeatures2 core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+  VkPhysicalDeviceVulkan11Features v11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES};
+  VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+  VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+  VulkanFeatures();  // chained, all off
+  VulkanFeatures(const VulkanFeatures&) = delete;
+  VulkanFeatures& operator=(const VulkanFeatures&) = delete;
+};
+void requireVulkanFeatures(VulkanFeatures& features);
+
+// Why scumble cannot use a device; empty where it can.
+std::string whyUnusable(VkPhysicalDevice physical);
+
+// What a program wants of the device that a renderer makes for it: names of extensions, and features, which
+// `features` switches on beside those that are there. Fails with noUsableGpu where the chosen device lacks
+// one.
+struct VulkanWishes {
+  std::vector<std::string> instanceExtensions, deviceExtensions;
+  std::function<void(VulkanFeatures&)> features;
+};
+Result<std::unique_ptr<Renderer>> createRenderer(const VulkanWishes& wishes,
+                                                 const RendererOptions& options = {});
+
+// A renderer on the program's device, which outlives it. `options.device` and `options.validation` mean
+// nothing then: validation is the instance's affair.
+Result<std::unique_ptr<Renderer>> createRenderer(const VulkanDevice& device,
+                                                 const RendererOptions& options = {});
+
+// What a renderer draws with, whoever made it; valid as long as the renderer is.
+VulkanDevice vulkanDeviceOf(const Renderer& renderer);
+
+// Where one view's picture, or AOV, goes in an image of the program's. The image has the usage
+// VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT and one sample.
+struct VulkanTarget {
+  VkImage image = VK_NULL_HANDLE;
+  // 8 bit RGBA or BGRA (UNORM is written in sRGB's curve, SRGB by the device's), R16G16B16A16_SFLOAT,
+  // R32G32B32A32_SFLOAT; colours of the latter two are linear, and all are premultiplied by their coverage.
+  // An AOV needs one of the latter two, and holds what it holds in a Frame, but premultiplied where that is
+  // not.
+  VkFormat format = VK_FORMAT_UNDEFINED;
+  VkExtent2D extent{0, 0};  // of the whole image
+  uint32_t layer = 0;
+  VkOffset2D offset{0, 0};  // of the view's rectangle, which has the view's size and lies within the image
+  // Before the frame, for all layers; undefined: what is in the image is lost. And after it.
+  VkImageLayout before = VK_IMAGE_LAYOUT_UNDEFINED, after = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+  size_t view = 0;  // index into the frame's views
+  std::string aov;  // one of Renderer::aovNames(), of the view's own size; empty: the picture
+};
+
+// Everything that one frame is drawn into. Targets in one image have the same format, extent and layouts.
+struct VulkanTargets {
+  std::vector<VulkanTarget> images;
+  // Before anything of the frame runs, and when all of it has.
+  std::vector<VkSemaphoreSubmitInfo> waits, signals;
+};
+
+// Renderer::begin(), but that the frame goes into images instead of back to the CPU; RenderOptions::aovs are
+// still read back, where there are some. Returns when the frame is submitted: with Renderer::kMaxBegun frames
+// begun, finish() the oldest one first, which waits for it and gives its statistics.
+Status begin(Renderer& renderer, const Scene& scene, const Look& look, double time,
+             const std::vector<View>& views, const RenderOptions& options, const VulkanTargets& targets);
+
+}  // namespace scumble

@@ -1,0 +1,42 @@
+// What passes hand on to each other. A pass asks the frame for a role and gives roles of its own; it never
+// names another pass, so that one can be put between two others without a change to either.
+#pragma once
+
+#include <cstdint>
+
+namespace scumble::frame {
+
+// Told apart by where it stands; a pass outside of the library may declare its own.
+struct Role {
+  const char* name;
+};
+
+// Which surfaces of each pixel: the first ones, or the next ones behind them (one sample a pixel), which
+// layered ripple shows. Roles of both have the same meaning.
+enum class Layer : uint8_t { first, behind };
+inline constexpr Layer kLayers[] = {Layer::first, Layer::behind};
+
+// Buffers: the final vertices that `deform` writes, and the positions that they had a frame before.
+inline constexpr Role kVertices{"vertices"}, kPreviousVertices{"previous vertices"};
+
+inline constexpr Role kShadowMap{"shadow map"};  // depth from the light in sigmoid-warped light space
+// R, G: warp vector in pixels (x right, y down); B: breakup marks; A: eye depth of the inflated surface, or
+// 0.
+inline constexpr Role kWarp{"warp"};
+// R: Lambert x cast shadow; G: lens; B: breakup, where it may act; A: coverage.
+inline constexpr Role kShadow{"shadow"};
+// Square root of the linear colour in full light, and in shadow; A: coverage. Square roots need no more than
+// 8 bits, and cost drivers less than sRGB.
+inline constexpr Role kLit{"lit"}, kShadowed{"shadowed"};
+inline constexpr Role kDepth{"depth"};  // depth buffer of the surfaces
+// Square root of the ocean's colour; once a pixel, wherever it is first or not.
+inline constexpr Role kOceanLit{"ocean lit"}, kOceanShadowed{"ocean shadowed"};
+inline constexpr Role kBlur{
+    "blur"};  // R, G, A: the shadow's, blurred, at a quarter of the size; B: eye depth
+// R: light after threshold and inner glow; G: lens; B: the glow's part of it; A: coverage. Behind the first
+// surfaces: the shadow as it is.
+inline constexpr Role kLight{"light"};
+// The picture so far: each pass that works on it takes the present one and gives the next.
+inline constexpr Role kPicture{"picture"};
+
+}  // namespace scumble::frame

@@ -1,0 +1,193 @@
+#include "renderer/setup.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "frame/light.h"
+
+namespace scumble::renderer {
+
+namespace {
+
+constexpr Aov kPictureAov{.name = "", .isColor = true, .premultiplied = 3};
+
+}  // namespace
+
+Setup::Setup(gpu::Device& device, gpu::Samplers& samplers, ExampleTextures& examples, SceneOnGpu& scene,
+             const PassList& passes, const SetupKey& key, glm::uvec2 size)
+    : device_(device), key_(key), size_(size), uniforms_(device) {
+  // What all passes share: set 0.
+  frameSlice_ = uniforms_.slice(sizeof(shared::FrameUniforms));
+  lightSlice_ =
+      uniforms_.slice(std::max<size_t>(1, punctualLightCount(scene.data())) * sizeof(shared::PunctualLight));
+  frameLayout_ = gpu::SetLayout(device, {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_ALL},
+                                         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_ALL},
+                                         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_ALL}});
+  frameSet_ = gpu::DescriptorSets(device, frameLayout_);
+  frameSet_.writeBuffer(0, 0, frameSlice_.buffer, frameSlice_.offset, frameSlice_.size);
+  frameSet_.writeBuffer(0, 1, scene.motion().objects());
+  frameSet_.writeBuffer(0, 2, lightSlice_.buffer, lightSlice_.offset, lightSlice_.size);
+
+  // Passes declare what they read and write.
+  builder_.emplace(device, samplers, examples, key.configuration, scene, frameLayout_, frameSet_[0],
+                   uniforms_);
+  passes_ = passes.makeAll();
+  assert(passes_.size() == key.variants.size());
+  for (size_t i = 0; i < passes_.size(); ++i) builder_->declare(*passes_[i], key.variants[i]);
+  const gpu::Handle picture = builder_->get(kPicture);
+  if (key.readsBack) {
+    reads_.push_back({"", false, std::make_unique<Readback>()});
+    reads_.back().readback->declare(*builder_, kPictureAov, {picture});
+  }
+  for (const std::string& name : key.aovs) {
+    const FrameBuilder::Offer& offer = *builder_->offered(name);
+    reads_.push_back({name, offer.aov->isOnce, nullptr});
+    if (key.readsBack && offer.images.front() == picture) continue;
+    reads_.back().readback = std::make_unique<Readback>();
+    reads_.back().readback->declare(*builder_, *offer.aov, offer.images);
+  }
+  for (const TargetKey& target : key.targets) declareTarget(target, picture);
+
+  // What is needed for that is made.
+  needs_ = builder_->graph().needsOf({});
+  for (size_t s = 0; s < needs_.steps.size(); ++s)
+    if (needs_.steps[s]) steps_.push_back(s);
+  needsPrevious_ = needs_.lives[builder_->get(kPreviousVertices).resource].isUsed;
+  if (needsPrevious_) scene.keepPrevious();
+  for (const auto& pass : passes_)
+    if (builder_->needs(*pass, needs_)) needed_.push_back(pass.get());
+  for (Pass* const pass : needed_) pass->create(*builder_);
+  for (const auto& deliver : delivers_) deliver->create(*builder_);
+  resources_.emplace(device, builder_->graph(), needs_, frameSize());
+  resize(size);
+
+  if (device.hasTimestamps()) {
+    VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
+    info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+    info.queryCount = uint32_t(steps_.size() + 1);
+    for (VkQueryPool& pool : queries_) SCUMBLE_VK(vkCreateQueryPool(device.handle(), &info, nullptr, &pool));
+  }
+}
+
+void Setup::declareTarget(const TargetKey& target, gpu::Handle picture) {
+  // Whatever was done to it before on this queue, or behind the semaphores that are waited for, is over; and
+  // whatever comes after may use it.
+  constexpr VkPipelineStageFlags2 kAll = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+  const bool isFirst = target.image >= targets_.size();
+  if (isFirst) {
+    targets_.resize(target.image + 1);
+    targets_[target.image] = builder_->graph().importImage(
+        "target " + std::to_string(target.image + 1),
+        {.format = target.format, .width = target.width, .height = target.height, .perView = false},
+        gpu::Outside{kAll, VK_ACCESS_2_MEMORY_WRITE_BIT, target.before},
+        gpu::Outside{kAll, VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT, target.after});
+  }
+  const FrameBuilder::Offer* const offer = target.aov.empty() ? nullptr : builder_->offered(target.aov);
+  delivers_.push_back(std::make_unique<Deliver>());
+  delivers_.back()->declare(*builder_, target, offer ? offer->images.front() : picture,
+                            offer && offer->aov->isSquareRoot, targets_[target.image],
+                            !isFirst || target.before != VK_IMAGE_LAYOUT_UNDEFINED);
+}
+
+void Setup::setTargets(uint32_t slot, const std::vector<VkImage>& images) {
+  foreign_[slot].clear();
+  foreign_[slot].reserve(images.size());
+  for (uint32_t i = 0; i < targets_.size(); ++i) {
+    gpu::ImageDesc desc{VK_FORMAT_UNDEFINED};
+    for (const TargetKey& target : key_.targets)
+      if (target.image == i) {
+        desc.format = target.format, desc.width = target.width, desc.height = target.height;
+        desc.layers = std::max(desc.layers, target.layer + 1);
+      }
+    foreign_[slot].push_back(gpu::Image::foreign(device_, images[i], desc));
+    resources_->import(targets_[i], &foreign_[slot].back());
+  }
+}
+
+void Setup::latch(uint32_t slot, std::vector<shared::ViewUniforms> views, bool keepsPrevious) {
+  auto& uniforms = *reinterpret_cast<shared::FrameUniforms*>(frameSlice_.mapped);
+  if (keepsPrevious)
+    for (size_t v = 0; v < views.size(); ++v)
+      views[v].previousWorldToClip = uniforms.views[v].previousWorldToClip;
+  std::copy(views.begin(), views.end(), uniforms.views);
+  uniforms_.amend(frameSlice_, slot);
+}
+
+Setup::~Setup() {
+  for (VkQueryPool pool : queries_)
+    if (pool) vkDestroyQueryPool(device_.handle(), pool, nullptr);
+}
+
+void Setup::resize(glm::uvec2 size) {
+  if (size != size_) {
+    size_ = size;
+    resources_->resize(frameSize());
+  }
+  for (Pass* const pass : needed_) pass->bind(*resources_);
+  for (const Read& read : reads_)
+    if (read.readback) read.readback->bind(*resources_);
+  for (const auto& deliver : delivers_) deliver->bind(*resources_);
+}
+
+void Setup::update(const FrameInput& input, const std::vector<shared::PunctualLight>& lights) {
+  std::copy(lights.begin(), lights.end(), reinterpret_cast<shared::PunctualLight*>(lightSlice_.mapped));
+  frameSlice_.write(input.uniforms);
+  for (Pass* const pass : needed_) pass->update(input);
+}
+
+void Setup::stamp(VkCommandBuffer commands, uint32_t slot, uint32_t query) const {
+  if (queries_[slot])
+    vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_[slot], query);
+}
+
+void Setup::beginTimes(VkCommandBuffer commands, uint32_t slot) const {
+  if (queries_[slot]) vkCmdResetQueryPool(commands, queries_[slot], 0, uint32_t(steps_.size() + 1));
+}
+
+void Setup::record(VkCommandBuffer commands, uint32_t slot) {
+  for (const Read& read : reads_)
+    if (read.readback) read.readback->setFrame(device_, slot);
+  const auto barriers = [&](size_t step) {
+    gpu::recordBarriers(commands, resources_->barriers()[step],
+                        [&](uint32_t resource) { return resources_->imageOf(resource); });
+  };
+  stamp(commands, slot, 0);
+  for (size_t i = 0; i < steps_.size(); ++i) {
+    barriers(steps_[i]);
+    builder_->records()[steps_[i]](commands);
+    stamp(commands, slot, uint32_t(i + 1));
+  }
+  barriers(builder_->records().size());
+}
+
+void Setup::readTimes(uint32_t slot, FrameStats& stats) const {
+  if (!queries_[slot]) return;
+  std::vector<uint64_t> stamps(steps_.size() + 1);
+  SCUMBLE_VK(vkGetQueryPoolResults(device_.handle(), queries_[slot], 0, uint32_t(stamps.size()),
+                                   stamps.size() * 8, stamps.data(), 8,
+                                   VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT));
+  const double unit = double(device_.limits().timestampPeriod) * 1e-6;
+  for (size_t i = 0; i < steps_.size(); ++i) {
+    const std::string& name = builder_->graph().steps()[steps_[i]].name;
+    const double time = double(stamps[i + 1] - stamps[i]) * unit;
+    if (!stats.passes.empty() && stats.passes.back().name == name)
+      stats.passes.back().milliseconds += time;
+    else
+      stats.passes.push_back({name, time});
+  }
+  stats.gpuMilliseconds = double(stamps.back() - stamps.front()) * unit;
+}
+
+std::vector<Setup::Layer> Setup::readLayers(uint32_t slot) const {
+  std::vector<Layer> layers;
+  for (const Read& read : reads_)
+    layers.push_back({read.name, read.isOnce,
+                      read.readback ? read.readback->images(slot, size_.x, size_.y) : layers.front().views});
+  return layers;
+}
+
+std::string Setup::dot() const {
+  return builder_->graph().toDot(needs_, frameSize());
+}
+
+}  // namespace scumble::renderer

@@ -1,0 +1,103 @@
+#include "scumble/vulkan.h"
+
+#include <algorithm>
+
+#include "renderer/impl.h"
+
+namespace scumble {
+
+using namespace renderer;
+
+VulkanFeatures::VulkanFeatures() {
+  core.pNext = &v11;
+  v11.pNext = &v12;
+  v12.pNext = &v13;
+}
+
+void requireVulkanFeatures(VulkanFeatures& features) {
+  gpu::forEachRequired(features, [](VkBool32& feature, const char*) { feature = VK_TRUE; });
+}
+
+std::string whyUnusable(VkPhysicalDevice physical) {
+  return gpu::whyUnusable(physical);
+}
+
+Result<std::unique_ptr<Renderer>> createRenderer(const VulkanWishes& wishes, const RendererOptions& options) {
+  gpu::DeviceOptions deviceOptions;
+  deviceOptions.choice = options.device;
+  deviceOptions.validation = options.validation;
+  deviceOptions.cacheFolder = options.cacheFolder;
+  deviceOptions.instanceExtensions = wishes.instanceExtensions;
+  deviceOptions.deviceExtensions = wishes.deviceExtensions;
+  // The caller's structures are asked for, and go along behind each other.
+  VulkanFeatures features;
+  if (wishes.features) {
+    requireVulkanFeatures(features);
+    wishes.features(features);
+    deviceOptions.features = &features.core;
+  }
+  Result<std::unique_ptr<gpu::Device>> device = gpu::Device::create(deviceOptions);
+  if (!device) return device.error();
+  return RendererAccess::create(std::move(device).value(), options);
+}
+
+Result<std::unique_ptr<Renderer>> createRenderer(const VulkanDevice& device, const RendererOptions& options) {
+  if (!device.instance || !device.physical || !device.device || !device.queue)
+    return usage("a part of the device is null", "give instance, physical device, device and queue");
+  Result<std::unique_ptr<gpu::Device>> adopted =
+      gpu::Device::adopt({device.instance, device.physical, device.device, device.queue, device.queueFamily},
+                         options.cacheFolder);
+  if (!adopted) return adopted.error();
+  return RendererAccess::create(std::move(adopted).value(), options);
+}
+
+VulkanDevice vulkanDeviceOf(const Renderer& renderer) {
+  const gpu::Device& device = RendererAccess::device(renderer);
+  return {device.instance(), device.physical(), device.handle(), device.queue(), device.queueFamily()};
+}
+
+namespace {
+
+Status checkTarget(const VulkanTarget& target, const std::vector<View>& views, const RenderOptions& options) {
+  if (!target.image) return usage("a target has no image", "give each one");
+  if (target.view >= views.size()) return usage("a target is of a view that the frame does not have", "");
+  if (!isTargetFormat(target.format, !target.aov.empty()))
+    return usage("a target has a format that frames do not go into",
+                 target.aov.empty() ? "see VulkanTarget::format" : "AOVs need half or full floats");
+  const View& view = views[target.view];
+  const glm::uvec2 size = view.size == glm::uvec2(0) ? glm::uvec2(options.width, options.height) : view.size;
+  if (target.offset.x < 0 || target.offset.y < 0 ||
+      uint64_t(target.offset.x) + size.x > target.extent.width ||
+      uint64_t(target.offset.y) + size.y > target.extent.height)
+    return usage("a view's rectangle reaches out of its target",
+                 "it has the view's size; see VulkanTarget::offset");
+  if (!target.aov.empty() && (Renderer::hasSizeOfItsOwn(target.aov) || target.aov == "blur"))
+    return usage("the AOV '" + target.aov + "' has a size of its own", "read it back instead");
+  return Done{};
+}
+
+}  // namespace
+
+Status begin(Renderer& renderer, const Scene& scene, const Look& look, double time,
+             const std::vector<View>& views, const RenderOptions& options, const VulkanTargets& targets) {
+  Delivery delivery;
+  delivery.waits = targets.waits, delivery.signals = targets.signals;
+  for (const VulkanTarget& target : targets.images) {
+    if (const Status status = checkTarget(target, views, options); !status) return status;
+    TargetKey key;
+    key.format = target.format;
+    key.width = target.extent.width, key.height = target.extent.height, key.layer = target.layer;
+    key.x = target.offset.x, key.y = target.offset.y;
+    key.before = target.before, key.after = target.after;
+    key.aov = target.aov;
+    for (const Delivery::Target& other : delivery.targets)
+      if (other.image == target.image &&
+          (other.key.format != key.format || other.key.width != key.width || other.key.height != key.height ||
+           other.key.before != key.before || other.key.after != key.after))
+        return usage("targets in one image differ in format, extent or layouts", "give them the same ones");
+    delivery.targets.push_back({target.view, key, target.image});
+  }
+  return RendererAccess::begin(renderer, {scene, look, time, views, options, &delivery});
+}
+
+}  // namespace scumble
