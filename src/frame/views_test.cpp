@@ -48,8 +48,8 @@ TestGltf pondWithCamera() {
 
 const glm::vec3 kCenter(1, 1, -2);
 
-Look lookOf(const std::string& json) {
-  Result<Look> look = Look::fromJson(json, "test.json");
+Look lookOf(const std::string& text) {
+  Result<Look> look = Look::fromJson(text, "test.json");
   EXPECT_TRUE(look.ok()) << look.error().message();
   return look.ok() ? look.value() : Look();
 }
