@@ -232,7 +232,7 @@ int run(RenderArguments args) {
   // Check everything that can be checked before anything is drawn.
   const Result<Background> background = Background::make(args.background);
   if (!background) return fail(background.error());
-  const Result<RenderOptions> options = renderOptions(args, *background);
+  Result<RenderOptions> options = renderOptions(args, *background);
   if (!options) return fail(options.error());
   Result<OutputPlan> output = OutputPlan::make(args.output, args.scene.files[0], args.picture.stereo,
                                                !args.frames.empty() || args.picture.turntable, *options);
@@ -306,6 +306,8 @@ int run(RenderArguments args) {
   Result<std::unique_ptr<Renderer>> renderer = Renderer::create(args.picture.rendererOptions());
   if (!renderer) return fail(renderer.error());
   lap("deviceMilliseconds");
+  // What is put over black is so in floats.
+  if (output->kind() != OutputKind::exr && !options->transparent) options->formats[""] = PixelFormat::srgb8;
 
   // Draw, and write beside it: pictures on several threads, a film in order.
   std::optional<FilmOutput> film;

@@ -9,15 +9,24 @@
 
 namespace scumble {
 
-// A picture of float channels, interleaved, row 0 at the top. Colours are linear; alpha is straight.
+// What a picture's numbers are: 32-bit floats; bits of 16-bit ones, the nearest, infinite beyond 65504; or
+// 8-bit codes, of R, G and B in sRGB's curve (IEC 61966-2-1) and of A in proportion, rounded to the nearest.
+enum class PixelFormat : uint8_t { float32, half, srgb8 };
+
+// A picture of channels, interleaved, row 0 at the top. Colours are linear but for codes; alpha is straight.
 struct Image {
   uint32_t width = 0, height = 0;
   std::vector<std::string> channels;  // names, e.g. {"R", "G", "B", "A"}, in the order of the data
-  std::vector<float> pixels;          // width * height * channels.size()
+  // width * height * channels.size() of them, in one of the three, as `format` says; the others are empty.
+  std::vector<float> pixels;
+  std::vector<uint16_t> halves = {};
+  std::vector<uint8_t> codes = {};
+  PixelFormat format = PixelFormat::float32;
   // Whether R, G and B are a colour of which A is the coverage, as in pictures and in the AOVs of colours. Of
   // others, A is a number like the rest.
   bool isColor = false;
 
+  // Of floats.
   float at(uint32_t x, uint32_t y, uint32_t channel) const {
     return pixels[(size_t(y) * width + x) * channels.size() + channel];
   }
@@ -52,7 +61,8 @@ struct ExrOptions {
   std::vector<Cryptomatte> cryptomattes;
 };
 
-// 8 bit sRGB, straight alpha (kept when `image` has four channels and is not opaque everywhere).
+// 8 bit sRGB, straight alpha (kept when `image` has four channels and is not opaque everywhere). Floats, or
+// codes as they are; the same goes for the other formats of 8 bit, and for films. Halves are refused (usage).
 // The file appears whole or not at all. Fails with ErrorKind::outputNotWritten.
 Status writePng(const std::string& path, const Image& image);
 

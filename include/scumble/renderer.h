@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -56,7 +57,10 @@ struct RenderOptions {
   uint32_t width = 1280, height = 720;  // pixels, 1 to 16384
   uint32_t samples = 4;                 // 1 or 4
   std::vector<std::string> aovs;        // names of Renderer::aovNames()
-  bool transparent = false;             // leave the background out: alpha 0 where nothing is
+  // As what the picture (named "") and AOVs come back; those that are not named, as 32-bit floats. Codes are
+  // for colours only: the picture, and AOVs of which Image::isColor.
+  std::map<std::string, PixelFormat> formats;
+  bool transparent = false;  // leave the background out: alpha 0 where nothing is
   // What is behind everything, instead of the sky: a picture with channels R, G, B or R, G, B, A (put over
   // black), of any size up to 16384 a side, or what the device allows. It is scaled to cover the frame, with
   // its middle in the middle and its aspect kept; two views see the same, as if it were infinitely far. The

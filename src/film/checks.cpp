@@ -7,8 +7,10 @@ std::string problemWith(const Image& image) {
   if (image.channels.empty()) return "the picture has no channels";
   if (image.width > INT32_MAX || image.height > INT32_MAX)
     return "the picture is larger than the format allows";
-  if (image.pixels.size() / image.channels.size() / image.width != image.height ||
-      image.pixels.size() != size_t(image.width) * image.height * image.channels.size())
+  if (image.format == PixelFormat::half) return "the picture is of half floats";
+  const size_t numbers = image.format == PixelFormat::srgb8 ? image.codes.size() : image.pixels.size();
+  if (numbers / image.channels.size() / image.width != image.height ||
+      numbers != size_t(image.width) * image.height * image.channels.size())
     return "the picture's data does not fit its size";
   return "";
 }

@@ -78,6 +78,7 @@ std::string problemWith(const std::vector<ImageLayer>& layers, const ExrOptions&
   for (const ImageLayer& layer : layers) {
     if (!layer.image) return "the layer '" + layer.name + "' has no picture";
     if (std::string problem = film::problemWith(*layer.image); !problem.empty()) return problem;
+    if (layer.image->format != PixelFormat::float32) return "the layer '" + layer.name + "' is not of floats";
     if (layer.image->width != layers[0].image->width || layer.image->height != layers[0].image->height)
       return "the layer '" + layer.name + "' differs in size from the first one";
     if (layer.view.find_first_of(". ") != std::string::npos)

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "base/srgb.h"
 #include "base/test_folder.h"
-#include "film/srgb.h"
 #include "film/test_ffmpeg.h"
 #include "scumble/film.h"
 
@@ -64,8 +64,8 @@ TEST_P(FilmFormats, coloursComeBackAndAlphaIsOverBlack) {
         film::outputOf("ffmpeg -v error -i '" + path_ + "' -vsync passthrough -f rawvideo -pix_fmt rgb24 -");
     ASSERT_EQ(codes.size(), size_t(2 * 32 * 32 * 3));
     for (size_t i = 0; i < codes.size(); i += 3 * 7) {
-      EXPECT_NEAR(uint8_t(codes[i + 1]), 255 * film::srgbFromLinear(0.3 * alpha), 8) << i;
-      EXPECT_NEAR(uint8_t(codes[i + 2]), 255 * film::srgbFromLinear(0.6 * alpha), 8) << i;
+      EXPECT_NEAR(uint8_t(codes[i + 1]), 255 * srgbFromLinear(0.3 * alpha), 8) << i;
+      EXPECT_NEAR(uint8_t(codes[i + 2]), 255 * srgbFromLinear(0.6 * alpha), 8) << i;
     }
   }
 }

@@ -12,9 +12,9 @@
 #include <system_error>
 
 #include "base/file_bytes.h"
+#include "base/srgb.h"
 #include "film/child_process.h"
 #include "film/ffmpeg.h"
-#include "film/srgb.h"
 #include "scumble/film.h"
 
 namespace scumble {
@@ -189,7 +189,7 @@ Result<FilmReader::State::Picture> FilmReader::State::readNext() {
   image->width = width, image->height = height;
   image->channels = {"R", "G", "B"};
   image->pixels.resize(codes.size());
-  const std::array<float, 256>& linear = film::linearFromSrgb8();
+  const std::array<float, 256>& linear = linearFromSrgb8();
   std::transform(codes.begin(), codes.end(), image->pixels.begin(),
                  [&](uint8_t code) { return linear[code]; });
   return Picture(std::move(image));

@@ -9,15 +9,15 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "base/srgb.h"
 #include "base/test_folder.h"
-#include "film/srgb.h"
 #include "film/test_ffmpeg.h"
 #include "scumble/film.h"
 
 namespace scumble {
 namespace {
 
-using film::linearFromSrgb8;
+using linearFromSrgb8;
 using film::outputOf;
 
 std::string facts(const std::string& film, const std::string& entries) {
@@ -116,7 +116,7 @@ TEST(FilmWriter, alphaIsOverBlack) {
   TestFolder folder;
   ASSERT_TRUE(
       writeFilm(folder.file("a.mp4"), options(32, 32), {flatCodes(32, 32, {255, 255, 255}, 0.25f)}).ok());
-  EXPECT_NEAR(uint8_t(decoded(folder.file("a.mp4"))[0]), std::lround(255 * film::srgbFromLinear(0.25)), 2);
+  EXPECT_NEAR(uint8_t(decoded(folder.file("a.mp4"))[0]), std::lround(255 * srgbFromLinear(0.25)), 2);
 }
 
 TEST(FilmWriter, smallAndOddSizesGrowToEvenOnes) {

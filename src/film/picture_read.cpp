@@ -5,8 +5,8 @@
 
 #include "base/file_bytes.h"
 #include "base/image_decode.h"
+#include "base/srgb.h"
 #include "film/picture_limits.h"
-#include "film/srgb.h"
 #include "scumble/image.h"
 
 namespace scumble {
@@ -63,7 +63,7 @@ Image upright(const Pixels& pixels, uint32_t orientation) {
   image.channels = {"R", "G", "B", "A"};
   image.isColor = true;
   image.pixels.resize(size_t(w) * h * 4);
-  const std::array<float, 256>& linear = film::linearFromSrgb8();
+  const std::array<float, 256>& linear = linearFromSrgb8();
   float* out = image.pixels.data();
   for (uint32_t y = 0; y < image.height; ++y)
     for (uint32_t x = 0; x < image.width; ++x, out += 4) {

@@ -9,8 +9,8 @@
 #include <memory>
 #include <system_error>
 
+#include "base/srgb.h"
 #include "film/picture_limits.h"
-#include "film/srgb.h"
 #include "scumble/image.h"
 
 namespace scumble {
@@ -102,14 +102,14 @@ Image toLinear(const Decoded& decoded) {
   if (decoded.wide) {
     std::vector<float> table(65536);
     for (size_t code = 0; code < table.size(); ++code)
-      table[code] = float(film::linearFromSrgb(double(code) / 65535));
+      table[code] = float(linearFromSrgb(double(code) / 65535));
     const uint16_t* in = reinterpret_cast<const uint16_t*>(decoded.bytes.data());
     for (size_t i = 0; i < pixels; ++i, in += 4, out += 4) {
       for (int c = 0; c < 3; ++c) out[c] = table[in[c]];
       out[3] = float(in[3]) / 65535;
     }
   } else {
-    const std::array<float, 256>& table = film::linearFromSrgb8();
+    const std::array<float, 256>& table = linearFromSrgb8();
     const uint8_t* in = decoded.bytes.data();
     for (size_t i = 0; i < pixels; ++i, in += 4, out += 4) {
       for (int c = 0; c < 3; ++c) out[c] = table[in[c]];

@@ -6,14 +6,14 @@
 #include <cstring>
 #include <limits>
 
+#include "base/srgb.h"
 #include "base/test_folder.h"
-#include "film/srgb.h"
 #include "scumble/image.h"
 
 namespace scumble {
 namespace {
 
-using film::linearFromSrgb8;
+using scumble::linearFromSrgb8;
 
 // Every sRGB code in turn, so that what comes back must be exactly what went in.
 Image codes(uint32_t width, uint32_t height, std::vector<std::string> channels, bool opaque) {
@@ -160,7 +160,7 @@ TEST(Png, readsPalettesGreySixteenBitsAndInterlaced) {
   writeWithLibpng(path, 1, 1, 16, PNG_COLOR_TYPE_GRAY_ALPHA, PNG_INTERLACE_NONE, {0x12, 0x34, 0x80, 0x01});
   const Result<Image> wide = readPng(path);
   ASSERT_TRUE(wide.ok());
-  EXPECT_FLOAT_EQ(wide->pixels[1], float(film::linearFromSrgb(0x1234 / 65535.0)));
+  EXPECT_FLOAT_EQ(wide->pixels[1], float(linearFromSrgb(0x1234 / 65535.0)));
   EXPECT_FLOAT_EQ(wide->pixels[3], 0x8001 / 65535.0f);
 
   std::vector<uint8_t> rows;

@@ -10,12 +10,19 @@ namespace {
 // one renderer; where one has fewer, the rest stays 0.
 void paste(const Image& from, uint32_t x, uint32_t y, Image* to) {
   const size_t have = from.channels.size(), want = to->channels.size(), both = std::min(have, want);
-  for (uint32_t row = 0; row < from.height; ++row) {
-    const float* in = from.pixels.data() + size_t(row) * from.width * have;
-    float* out = to->pixels.data() + (size_t(row + y) * to->width + x) * want;
-    for (uint32_t column = 0; column < from.width; ++column, in += have, out += want)
-      std::copy_n(in, both, out);
-  }
+  const auto copy = [&](const auto& source, auto& target) {
+    for (uint32_t row = 0; row < from.height; ++row) {
+      const auto* in = source.data() + size_t(row) * from.width * have;
+      auto* out = target.data() + (size_t(row + y) * to->width + x) * want;
+      for (uint32_t column = 0; column < from.width; ++column, in += have, out += want)
+        std::copy_n(in, both, out);
+    }
+  };
+  // Of one format, as they come from one renderer; what has another stays empty.
+  if (from.format != to->format) return;
+  if (from.format == PixelFormat::float32) copy(from.pixels, to->pixels);
+  if (from.format == PixelFormat::half) copy(from.halves, to->halves);
+  if (from.format == PixelFormat::srgb8) copy(from.codes, to->codes);
 }
 
 // A picture of nothing, of the same kind as another.
@@ -25,7 +32,11 @@ Image blank(uint32_t width, uint32_t height, const Image& like) {
   image.height = height;
   image.channels = like.channels;
   image.isColor = like.isColor;
-  image.pixels.assign(size_t(width) * height * image.channels.size(), 0.0f);
+  image.format = like.format;
+  const size_t numbers = size_t(width) * height * image.channels.size();
+  if (like.format == PixelFormat::float32) image.pixels.assign(numbers, 0.0f);
+  if (like.format == PixelFormat::half) image.halves.assign(numbers, 0);
+  if (like.format == PixelFormat::srgb8) image.codes.assign(numbers, 0);
   return image;
 }
 

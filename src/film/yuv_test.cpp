@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "film/srgb.h"
+#include "base/srgb.h"
 
 namespace scumble::film {
 namespace {

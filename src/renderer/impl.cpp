@@ -210,6 +210,14 @@ Status Renderer::Impl::check(const Request& request) const {
                                                          ? "`scumble render --help` lists them"
                                                          : "did you mean '" + suggestion + "'?");
     }
+  for (const auto& [name, format] : options.formats) {
+    if (!name.empty() && std::find(options.aovs.begin(), options.aovs.end(), name) == options.aovs.end())
+      return usage("there is a format for '" + name + "', which is not asked for", "name it in aovs as well");
+    const auto found =
+        std::find_if(aovs.begin(), aovs.end(), [&, &of = name](const Aov* aov) { return of == aov->name; });
+    if (format == PixelFormat::srgb8 && !name.empty() && !(*found)->isColor)
+      return usage("the AOV '" + name + "' is no colour", "8-bit codes are for colours only");
+  }
   return Done{};
 }
 
@@ -287,6 +295,7 @@ Status Renderer::Impl::begin(const Request& request) {
     Begun next;
     next.slot = freeSlot();
     next.viewCount = views.size();
+    next.formats = options.formats;
     for (const ViewGroup& group : groups) next.parts.push_back({group});
     FrameStats& stats = next.frame.stats;
     auto start = Clock::now();
@@ -436,7 +445,7 @@ void Renderer::Impl::fetch(Begun& frame) {
   for (const Begun::Part& part : frame.parts) {
     part.setup->readTimes(frame.slot, frame.frame.stats);
     const bool isFirst = &part == &frame.parts.front();
-    std::vector<Setup::Layer> layers = part.setup->readLayers(frame.slot);
+    std::vector<Setup::Layer> layers = part.setup->readLayers(frame.slot, frame.formats);
     for (size_t i = 0; i < layers.size(); ++i) {
       if (isFirst)
         frame.frame.layers.push_back(

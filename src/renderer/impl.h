@@ -58,6 +58,7 @@ struct Begun {
   uint32_t slot = 0;  // of those in flight
   std::vector<Part> parts;
   size_t viewCount = 0;
+  std::map<std::string, PixelFormat> formats;
   Frame frame;  // statistics so far; the pictures, where they had to be fetched early
   bool fetched = false;
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/gtc/packing.hpp>
 
+#include "base/srgb.h"
 #include "look/param.h"
 #include "scene/parallel.h"
 
@@ -56,6 +57,17 @@ void readPixel(VkFormat format, const std::byte* data, size_t pixel, uint32_t ch
 
 uint64_t bytesOf(const gpu::ImageDesc& desc) {
   return uint64_t(desc.width) * desc.height * desc.layers * gpu::bytesPerPixel(desc.format);
+}
+
+// A picture of nothing, in a format.
+Image blank(uint32_t width, uint32_t height, const std::vector<std::string>& channels, PixelFormat format) {
+  Image image{width, height, channels, {}};
+  const size_t numbers = size_t(width) * height * channels.size();
+  image.format = format;
+  if (format == PixelFormat::float32) image.pixels.resize(numbers);
+  if (format == PixelFormat::half) image.halves.resize(numbers);
+  if (format == PixelFormat::srgb8) image.codes.resize(numbers);
+  return image;
 }
 
 Image enlarge(const Image& small, uint32_t width, uint32_t height) {
@@ -116,7 +128,8 @@ void Readback::setFrame(gpu::Device& device, uint32_t frame) {
     buffers_[frame] = gpu::Buffer(device, bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryKind::readback);
 }
 
-std::vector<Image> Readback::images(uint32_t frame, uint32_t width, uint32_t height) const {
+std::vector<Image> Readback::images(uint32_t frame, uint32_t width, uint32_t height,
+                                    PixelFormat format) const {
   const gpu::ImageDesc& desc = resources_->image(images_.front()).desc();
   std::vector<std::string> names;
   for (const char* const name : aov_.channels)
@@ -124,28 +137,45 @@ std::vector<Image> Readback::images(uint32_t frame, uint32_t width, uint32_t hei
   const size_t channels = names.size();
   const uint32_t channelsAnImage = uint32_t(channels / images_.size());
   const size_t pixelsALayer = size_t(desc.width) * desc.height;
+  // Linear, straight.
+  const auto readStraight = [&](size_t pixel, float* out) {
+    for (size_t part = 0; part < images_.size(); ++part)
+      readPixel(desc.format, buffers_[frame].mapped() + part * bytesOf(desc), pixel, channelsAnImage,
+                out + part * channelsAnImage);
+    if (aov_.premultiplied > 0 && out[3] > 0.0f && out[3] < 1.0f)
+      for (uint32_t c = 0; c < aov_.premultiplied; ++c) out[c] /= out[3];
+    if (aov_.isSquareRoot)
+      for (uint32_t c = 0; c < 3; ++c) out[c] *= out[c];
+  };
+
   std::vector<Image> images;
   halfTable();
+  const SrgbEncoder& encode = SrgbEncoder::instance();
+  // Enlarging is done in floats.
+  const bool isSmall = !aov_.isOnce && (desc.width != width || desc.height != height);
+  const PixelFormat first = isSmall ? PixelFormat::float32 : format;
   for (uint32_t layer = 0; layer < desc.layers; ++layer) {
-    Image image{desc.width, desc.height, names, {}};
-    image.isColor = aov_.isColor;
-    image.pixels.resize(pixelsALayer * channels);
+    Image image = blank(desc.width, desc.height, names, first);
     constexpr uint32_t kRows = 64;
     scene::parallelFor((desc.height + kRows - 1) / kRows, scene::threadCount(0), [&](size_t band) {
-      const size_t first = band * kRows * desc.width;
-      const size_t last = std::min(first + size_t(kRows) * desc.width, pixelsALayer);
-      for (size_t i = first; i < last; ++i) {
-        float* out = &image.pixels[i * channels];
-        for (size_t part = 0; part < images_.size(); ++part)
-          readPixel(desc.format, buffers_[frame].mapped() + part * bytesOf(desc), layer * pixelsALayer + i,
-                    channelsAnImage, out + part * channelsAnImage);
-        if (aov_.premultiplied > 0 && out[3] > 0.0f && out[3] < 1.0f)
-          for (uint32_t c = 0; c < aov_.premultiplied; ++c) out[c] /= out[3];
-        if (aov_.isSquareRoot)
-          for (uint32_t c = 0; c < 3; ++c) out[c] *= out[c];
+      const size_t begin = band * kRows * desc.width;
+      const size_t end = std::min(begin + size_t(kRows) * desc.width, pixelsALayer);
+      std::array<float, std::tuple_size_v<decltype(Aov::channels)>> straight;
+      for (size_t i = begin; i < end; ++i) {
+        if (first == PixelFormat::float32) {
+          readStraight(layer * pixelsALayer + i, &image.pixels[i * channels]);
+          continue;
+        }
+        readStraight(layer * pixelsALayer + i, straight.data());
+        for (size_t c = 0; c < channels; ++c)
+          if (first == PixelFormat::half)
+            image.halves[i * channels + c] = glm::packHalf1x16(straight[c]);
+          else
+            image.codes[i * channels + c] = c == 3 ? alphaCode(straight[c]) : encode(straight[c]);
       }
     });
-    if (!aov_.isOnce && (desc.width != width || desc.height != height)) image = enlarge(image, width, height);
+    if (isSmall) image = enlarge(image, width, height);
+    image.isColor = aov_.isColor;
     images.push_back(std::move(image));
   }
   return images;

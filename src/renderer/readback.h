@@ -16,9 +16,10 @@ class Readback {
   void bind(const gpu::GraphResources& resources);
   // Before a frame is recorded: which of those in flight it is.
   void setFrame(gpu::Device& device, uint32_t frame);
-  // One image a view (or one, for what is drawn once), of a frame that the device has ended. Linear, straight
-  // alpha. What is drawn at a fraction of the frame's size is enlarged by linear interpolation.
-  std::vector<scumble::Image> images(uint32_t frame, uint32_t width, uint32_t height) const;
+  // One image a view (or one, for what is drawn once), of a frame that the device has ended. Straight alpha.
+  // What is drawn at a fraction of the frame's size is enlarged by linear interpolation.
+  std::vector<scumble::Image> images(uint32_t frame, uint32_t width, uint32_t height,
+                                     PixelFormat format) const;
 
  private:
   Aov aov_;

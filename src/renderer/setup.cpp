@@ -178,11 +178,16 @@ void Setup::readTimes(uint32_t slot, FrameStats& stats) const {
   stats.gpuMilliseconds = double(stamps.back() - stamps.front()) * unit;
 }
 
-std::vector<Setup::Layer> Setup::readLayers(uint32_t slot) const {
+std::vector<Setup::Layer> Setup::readLayers(uint32_t slot,
+                                            const std::map<std::string, PixelFormat>& formats) const {
   std::vector<Layer> layers;
-  for (const Read& read : reads_)
+  for (const Read& read : reads_) {
+    const auto format = formats.find(read.name);
+    const Readback& from = read.readback ? *read.readback : *reads_.front().readback;
     layers.push_back({read.name, read.isOnce,
-                      read.readback ? read.readback->images(slot, size_.x, size_.y) : layers.front().views});
+                      from.images(slot, size_.x, size_.y,
+                                  format == formats.end() ? PixelFormat::float32 : format->second)});
+  }
   return layers;
 }
 

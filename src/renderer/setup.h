@@ -55,7 +55,7 @@ class Setup {
     bool isOnce;  // one image for all views
     std::vector<Image> views;
   };
-  std::vector<Layer> readLayers(uint32_t slot) const;
+  std::vector<Layer> readLayers(uint32_t slot, const std::map<std::string, PixelFormat>& formats) const;
   // For Graphviz.
   std::string dot() const;
   const gpu::GraphResources& resources() const { return *resources_; }

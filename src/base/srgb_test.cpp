@@ -1,11 +1,11 @@
-#include "film/srgb.h"
+#include "base/srgb.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-namespace scumble::film {
+namespace scumble {
 namespace {
 
 int exactCode(float linear) {
@@ -54,4 +54,4 @@ TEST(Srgb, everyCodeSurvivesTheWayThroughLinear) {
 }
 
 }  // namespace
-}  // namespace scumble::film
+}  // namespace scumble

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace scumble::film {
+namespace scumble {
 
 // The curve itself, in double precision: what the tables are made from and tested against.
 double srgbFromLinear(double linear);
@@ -38,7 +38,10 @@ class SrgbEncoder {
   std::array<float, 256> threshold_;  // [c]: the least float that rounds to a code above c
 };
 
+// Of what is no light: in proportion. NaN gives 0.
+uint8_t alphaCode(float alpha);
+
 // 8 bit to linear.
 const std::array<float, 256>& linearFromSrgb8();
 
-}  // namespace scumble::film
+}  // namespace scumble

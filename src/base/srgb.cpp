@@ -1,9 +1,9 @@
-#include "film/srgb.h"
+#include "base/srgb.h"
 
 #include <cmath>
 #include <limits>
 
-namespace scumble::film {
+namespace scumble {
 
 double srgbFromLinear(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
@@ -34,6 +34,11 @@ SrgbEncoder::SrgbEncoder() {
   }
 }
 
+uint8_t alphaCode(float alpha) {
+  if (!(alpha > 0)) return 0;
+  return alpha >= 1 ? 255 : uint8_t(std::lround(alpha * 255.0));
+}
+
 const std::array<float, 256>& linearFromSrgb8() {
   static const std::array<float, 256> table = [] {
     std::array<float, 256> values;
@@ -43,4 +48,4 @@ const std::array<float, 256>& linearFromSrgb8() {
   return table;
 }
 
-}  // namespace scumble::film
+}  // namespace scumble
