@@ -69,6 +69,7 @@ nlohmann::json statsJson(const FrameStats& stats) {
           {"readbackMilliseconds", stats.readbackMilliseconds},
           {"uploadMilliseconds", stats.uploadMilliseconds},
           {"setupMilliseconds", stats.setupMilliseconds},
+          {"pipelines", stats.pipelines},
           {"triangles", stats.triangles},
           {"drawCalls", stats.drawCalls},
           {"deviceBytes", stats.deviceBytes},

@@ -17,14 +17,14 @@ enum class PixelFormat : uint8_t { float32, half, srgb8 };
 struct Image {
   uint32_t width = 0, height = 0;
   std::vector<std::string> channels;  // names, e.g. {"R", "G", "B", "A"}, in the order of the data
-  // width * height * channels.size() of them, in one of the three, as `format` says; the others are empty.
+  // width * height * channels.size() of them; or, as `format` says, instead `halves` or `codes` are.
   std::vector<float> pixels;
-  std::vector<uint16_t> halves = {};
-  std::vector<uint8_t> codes = {};
-  PixelFormat format = PixelFormat::float32;
   // Whether R, G and B are a colour of which A is the coverage, as in pictures and in the AOVs of colours. Of
   // others, A is a number like the rest.
   bool isColor = false;
+  std::vector<uint16_t> halves = {};
+  std::vector<uint8_t> codes = {};
+  PixelFormat format = PixelFormat::float32;
 
   // Of floats.
   float at(uint32_t x, uint32_t y, uint32_t channel) const {

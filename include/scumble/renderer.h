@@ -92,6 +92,8 @@ struct FrameStats {
   double readbackMilliseconds = 0;
   double uploadMilliseconds = 0;  // building the scene's GPU data; 0 once it is there
   double setupMilliseconds = 0;   // images and pipelines; 0 once they are there
+  // That were compiled for this frame: 0 once they are there, see Renderer::prepare().
+  uint32_t pipelines = 0;
   uint64_t triangles = 0, drawCalls = 0;
   uint64_t deviceBytes = 0, uploadedBytes = 0;
   // Of the frame's own images, those that live at different times in the same memory; and what they would
@@ -144,6 +146,14 @@ class Renderer {
   // Fails with usage for options out of range, noUsableGpu when the device is lost or out of memory.
   Result<Frame> render(const Scene& scene, const Look& look, double time, const std::vector<View>& views,
                        const RenderOptions& options);
+
+  // Uploads a scene, makes images, and compiles all pipelines that frames with these views and options need,
+  // so that none is compiled while they run: whatever time it is (tracks are followed along their keys), and
+  // with `everyKnob`, which takes seconds more, whichever one knob of the whole scene is changed as well. For
+  // other sizes, numbers of views, samples and AOVs call it for each; images of the last call's size stay.
+  // Fails as render() does.
+  Status prepare(const Scene& scene, const Look& look, const std::vector<View>& views,
+                 const RenderOptions& options, bool everyKnob = false);
 
   // The same in two halves, for films: begin() returns while the device still draws, finish() waits for the
   // oldest frame that was begun and gives it. With kMaxBegun frames begun the device always has work. After a

@@ -17,7 +17,7 @@
 namespace scumble {
 namespace {
 
-using linearFromSrgb8;
+using scumble::linearFromSrgb8;
 using film::outputOf;
 
 std::string facts(const std::string& film, const std::string& entries) {

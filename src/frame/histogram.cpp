@@ -39,7 +39,8 @@ uint8_t toByte(double v) {
 
 Statistics measure(const Pixels& pixels) {
   Statistics result;
-  const double total = double(pixels.rgba.size() / 4);
+  const size_t count = pixels.rgba.size() / 4;
+  const double total = double(count);
   if (total == 0) return result;
   for (int c = 0; c < 4; ++c) {
     const Counts counts = countsOf(pixels, c);
@@ -61,7 +62,8 @@ Statistics measure(const Pixels& pixels) {
 
 GaussianTwin gaussianTwin(const Pixels& pixels) {
   GaussianTwin twin{pixels, {}};
-  const double total = double(pixels.rgba.size() / 4);
+  const size_t count = pixels.rgba.size() / 4;
+  const double total = double(count);
   for (int c = 0; c < 4; ++c) {
     const Counts counts = countsOf(pixels, c);
     std::array<uint8_t, 256> byValue{};

@@ -72,7 +72,7 @@ std::vector<std::vector<uint8_t>> makeMipmaps(std::span<const uint8_t> rgba, uin
       for (int c = 0; c < 3; ++c) sum[c] += weight * linear[t[c]];
       alpha += weight;
     }
-    for (int c = 0; c < 3; ++c) out[c] = srgb[size_t(sum[c] / alpha * 4095.0f + 0.5f)];
+    for (int c = 0; c < 3; ++c) out[c] = srgb[size_t(std::lround(sum[c] / alpha * 4095.0f))];
     out[3] = uint8_t(alpha / 4.0f + 0.4f);
   });
 }

@@ -27,8 +27,10 @@ TEST(Playing, aHeldPoseBeginsOnItsGrid) {
       ASSERT_DOUBLE_EQ(heldTime((frame + 0.99) / 24, hold), first / 24.0);
     }
   // Far from the beginning, in whole frames.
-  for (int64_t frame = 23'000'000; frame < 23'000'100; ++frame)
-    EXPECT_DOUBLE_EQ(heldTime(double(frame) / 24, 2), double(frame / 2 * 2) / 24);
+  for (int64_t frame = 23'000'000; frame < 23'000'100; ++frame) {
+    const int64_t held = frame / 2 * 2;
+    EXPECT_DOUBLE_EQ(heldTime(double(frame) / 24, 2), double(held) / 24);
+  }
 }
 
 TEST(Playing, noHoldIsTheTimeItself) {

@@ -29,8 +29,7 @@ void TransparentTriangles::create(gpu::Device& device) {
                                 VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
 }
 
-void TransparentTriangles::sort(uint32_t object, const SceneMotion& motion,
-                                const Viewers& viewers) {
+void TransparentTriangles::sort(uint32_t object, const SceneMotion& motion, const Viewers& viewers) {
   const auto& [first, count, isSkinned] = objects_.at(object);
   const glm::mat4& model = motion.model(object);
   const glm::mat4* joints = isSkinned ? motion.joints(object) : nullptr;

@@ -2,6 +2,8 @@
 // after the other, so that only what the CPU writes or reads needs copies.
 #pragma once
 
+#include <array>
+
 #include "gpu/resources.h"
 
 namespace scumble::gpu {
@@ -55,7 +57,7 @@ class PerFrameBuffer {
  private:
   Device* device_ = nullptr;
   Buffer onDevice_;
-  Buffer staging_[kFramesInFlight];  // made when they are first needed
+  std::array<Buffer, kFramesInFlight> staging_;  // made when they are first needed
   std::vector<std::byte> contents_;
 };
 

@@ -139,6 +139,8 @@ class PipelineStore {
   };
   VkDescriptorSetLayout& setLayout(const std::vector<Binding>& bindings) { return setLayouts_[bindings]; }
   Made& pipeline(Key key) { return pipelines_[std::move(key)]; }
+  // How many pipelines have been compiled since the start.
+  uint32_t made() const { return uint32_t(pipelines_.size()); }
 
  private:
   VkDevice device_;

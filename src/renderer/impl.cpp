@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <set>
 
 #include "frame/framing.h"
 #include "frame/light.h"
@@ -156,7 +157,11 @@ void Renderer::Impl::useSetups(Resident& resident, const std::vector<SetupKey>& 
 // -- What is to be drawn
 
 Status Renderer::Impl::check(const Request& request) const {
-  const auto& [scene, look, time, views, options, delivery] = request;
+  const Scene& scene = request.scene;
+  const double time = request.time;
+  const std::vector<View>& views = request.views;
+  const RenderOptions& options = request.options;
+  const Delivery* const delivery = request.delivery;
   if (scene.empty()) return usage("the scene is empty", "load one with Scene::load");
   const uint32_t largest = std::min(kMaxSize, device->limits().maxImageDimension2D);
   const auto isSize = [&](glm::uvec2 size) {
@@ -210,12 +215,14 @@ Status Renderer::Impl::check(const Request& request) const {
                                                          ? "`scumble render --help` lists them"
                                                          : "did you mean '" + suggestion + "'?");
     }
-  for (const auto& [name, format] : options.formats) {
-    if (!name.empty() && std::find(options.aovs.begin(), options.aovs.end(), name) == options.aovs.end())
+  for (const std::pair<const std::string, PixelFormat>& wanted : options.formats) {
+    const std::string& name = wanted.first;
+    if (name.empty()) continue;
+    if (std::find(options.aovs.begin(), options.aovs.end(), name) == options.aovs.end())
       return usage("there is a format for '" + name + "', which is not asked for", "name it in aovs as well");
-    const auto found =
-        std::find_if(aovs.begin(), aovs.end(), [&, &of = name](const Aov* aov) { return of == aov->name; });
-    if (format == PixelFormat::srgb8 && !name.empty() && !(*found)->isColor)
+    const bool isColor = std::any_of(aovs.begin(), aovs.end(),
+                                     [&](const Aov* aov) { return name == aov->name && aov->isColor; });
+    if (wanted.second == PixelFormat::srgb8 && !isColor)
       return usage("the AOV '" + name + "' is no colour", "8-bit codes are for colours only");
   }
   return Done{};
@@ -280,8 +287,13 @@ uint32_t Renderer::Impl::freeSlot() const {
 
 Status Renderer::Impl::begin(const Request& request) {
   if (const Status status = check(request); !status) return status;
-  const auto& [scene, look, time, views, options, delivery] = request;
-  const look::LookData now = look.data().at(time);
+  const Scene& scene = request.scene;
+  const look::LookData& look = request.look;
+  const double time = request.time;
+  const std::vector<View>& views = request.views;
+  const RenderOptions& options = request.options;
+  const Delivery* const delivery = request.delivery;
+  const look::LookData now = look.at(time);
   const std::vector<ViewGroup> groups = groupViews(views, {options.width, options.height});
   const Image* const background = backgroundOf(options);
 
@@ -298,6 +310,7 @@ Status Renderer::Impl::begin(const Request& request) {
     next.formats = options.formats;
     for (const ViewGroup& group : groups) next.parts.push_back({group});
     FrameStats& stats = next.frame.stats;
+    const uint32_t pipelinesBefore = device->pipelines().made();
     auto start = Clock::now();
     const auto lap = [&] {
       const double elapsed = millisecondsSince(start);
@@ -312,7 +325,7 @@ Status Renderer::Impl::begin(const Request& request) {
     geometry.ground &= !geometry.ocean.isThere || now.get<GroundParams>().mode == 1;
     geometry.shadowWarp = now.get<LightParams>().shadowWarp;
     geometry.casts = shadowCasters(scene.data(), now);
-    geometry.clips = everPlayed(scene.data(), look.data());
+    geometry.clips = everPlayed(scene.data(), look);
     geometry.nodes = nodeSettings(scene.data(), now);
     for (const Aov* const aov : aovsOf(asked))
       if (aov->namesObjects &&
@@ -330,12 +343,12 @@ Status Renderer::Impl::begin(const Request& request) {
 
     // Everything to its place.
     SceneOnGpu& sceneOnGpu = resident.onGpu;
-    sceneOnGpu.pose(look.data(), now, time);
+    sceneOnGpu.pose(look, now, time);
     const bool needsPrevious = std::any_of(next.parts.begin(), next.parts.end(), [](const Begun::Part& part) {
       return part.setup->needsPrevious();
     });
     const double previousTime = options.previousTime.value_or(time);
-    if (needsPrevious) sceneOnGpu.posePrevious(look.data(), look.data().at(previousTime), previousTime);
+    if (needsPrevious) sceneOnGpu.posePrevious(look, look.at(previousTime), previousTime);
     const std::vector<View> seenFrom = ridden(views, sceneOnGpu.motion());
     std::vector<View> seenBefore;
     if (needsPrevious)
@@ -370,6 +383,12 @@ Status Renderer::Impl::begin(const Request& request) {
       if (delivery) setTargets(part, next.slot, *delivery);
     }
 
+    if (request.isRehearsal) {
+      // What has been posed was not drawn.
+      sceneOnGpu.forgetPoses();
+      return Done{};
+    }
+
     // Off it goes.
     std::optional<gpu::Submission>& submission = submissions[next.slot];
     if (!submission) submission.emplace(*device);
@@ -380,6 +399,7 @@ Status Renderer::Impl::begin(const Request& request) {
                        around);
     stats.cpuMilliseconds = lap();
     device->savePipelineCache();
+    stats.pipelines = device->pipelines().made() - pipelinesBefore;
     stats.triangles = sceneOnGpu.triangleCount();
     stats.drawCalls = sceneOnGpu.draws().size();
     stats.deviceBytes = device->memory().bytesInUse();
@@ -395,6 +415,89 @@ Status Renderer::Impl::begin(const Request& request) {
   } catch (const std::bad_alloc&) {
     return outOfMemory();
   }
+}
+
+namespace {
+
+// Times between which tracks do not pass a key, and some in between.
+std::vector<double> timesOf(const look::LookData& look, double start) {
+  constexpr int kBetween = 8;
+  std::set<double> keys;
+  for (const look::Assignment& assignment : look.assignments)
+    if (assignment.track)
+      for (const look::Key& key : assignment.track->keys) keys.insert(key.time);
+  std::vector<double> times{start};
+  for (auto key = keys.begin(); key != keys.end(); ++key) {
+    times.push_back(*key);
+    const auto next = std::next(key);
+    for (int i = 1; next != keys.end() && i < kBetween; ++i)
+      times.push_back(*key + (*next - *key) * i / kBetween);
+  }
+  return times;
+}
+
+// Looks that differ from one in one knob of the whole scene: at its ends, off, and at all choices.
+std::vector<look::LookData> withEachKnob(const look::LookData& look) {
+  std::vector<look::LookData> looks;
+  for (const look::ParamBlock* const block : look::allBlocks()) {
+    if (!(block->targets & look::kScene)) continue;
+    for (const look::ParamRow& row : block->rows) {
+      std::set<double> values;
+      switch (row.kind) {
+        case look::ParamKind::toggle:
+          values = {0, 1};
+          break;
+        case look::ParamKind::choice:
+          for (size_t i = 0; i < look::choiceNames(row).size(); ++i) values.insert(double(i));
+          break;
+        case look::ParamKind::integer:
+          if (row.max - row.min <= 64)
+            for (double value = row.min; value <= row.max; ++value) values.insert(value);
+          else
+            values = {row.min, row.defaultValue, row.max};
+          break;
+        case look::ParamKind::number:
+          values = {row.min, std::clamp(0.0, row.min, row.max), row.defaultValue, 0.5 * (row.min + row.max),
+                    row.max};
+          break;
+        default:
+          break;
+      }
+      for (const double value : values) {
+        look::LookData& changed = looks.emplace_back(look);
+        look::Assignment assignment{};
+        assignment.block = block, assignment.row = &row;
+        assignment.value.number = value;
+        assignment.byHand = true;
+        changed.assignments.push_back(assignment);
+      }
+    }
+  }
+  return looks;
+}
+
+}  // namespace
+
+Status Renderer::Impl::prepare(const Request& request, bool everyKnob) {
+  Request rehearsal = request;
+  rehearsal.isRehearsal = true;
+  for (const double time : timesOf(request.look, request.time)) {
+    if (std::abs(time) >= kMaxTime) continue;
+    rehearsal.time = time;
+    if (const Status status = begin(rehearsal); !status) return status;
+  }
+  if (!everyKnob) return Done{};
+  const OceanShape ocean = oceanShape(request.scene.data(), request.look.at(request.time));
+  for (const look::LookData& look : withEachKnob(request.look)) {
+    // Where there is another sea, or none any more, it is another scene.
+    if (oceanShape(request.scene.data(), look.at(request.time)).isThere != ocean.isThere) continue;
+    if (const Status status =
+            begin({request.scene, look, request.time, request.views, request.options, nullptr, true});
+        !status)
+      return status;
+  }
+  rehearsal.time = request.time;
+  return begin(rehearsal);
 }
 
 void Renderer::Impl::setTargets(const Begun::Part& part, uint32_t slot, const Delivery& delivery) {

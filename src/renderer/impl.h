@@ -42,11 +42,12 @@ struct Delivery {
 // What a call of begin() is about.
 struct Request {
   const Scene& scene;
-  const Look& look;
+  const look::LookData& look;
   double time;
   const std::vector<View>& views;
   const RenderOptions& options;
   const Delivery* delivery = nullptr;
+  bool isRehearsal = false;  // all but the drawing
 };
 
 // A frame between begin() and finish().
@@ -88,6 +89,7 @@ struct Renderer::Impl {
   // Nothing where a request can be drawn.
   Status check(const renderer::Request& request) const;
   Status begin(const renderer::Request& request);
+  Status prepare(const renderer::Request& request, bool everyKnob);
   // Waits for a frame and fetches its pictures, unless that has been done.
   void fetch(renderer::Begun& frame);
   // Before anything goes that frames under way use.

@@ -175,6 +175,11 @@ std::vector<Image> Readback::images(uint32_t frame, uint32_t width, uint32_t hei
       }
     });
     if (isSmall) image = enlarge(image, width, height);
+    if (isSmall && format == PixelFormat::half) {
+      for (const float value : image.pixels) image.halves.push_back(glm::packHalf1x16(value));
+      image.pixels.clear();
+      image.format = format;
+    }
     image.isColor = aov_.isColor;
     images.push_back(std::move(image));
   }

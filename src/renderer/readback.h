@@ -25,7 +25,7 @@ class Readback {
   Aov aov_;
   std::vector<gpu::Handle> images_;
   const gpu::GraphResources* resources_ = nullptr;
-  gpu::Buffer buffers_[gpu::kFramesInFlight];  // made when they are first needed
+  std::array<gpu::Buffer, gpu::kFramesInFlight> buffers_;  // made when they are first needed
   uint32_t frame_ = 0;
 };
 

@@ -49,7 +49,16 @@ Status RendererAccess::begin(Renderer& renderer, const Request& request) {
 
 Status Renderer::begin(const Scene& scene, const Look& look, double time, const std::vector<View>& views,
                        const RenderOptions& options) {
-  return RendererAccess::begin(*this, {scene, look, time, views, options});
+  return RendererAccess::begin(*this, {scene, look.data(), time, views, options});
+}
+
+Status Renderer::prepare(const Scene& scene, const Look& look, const std::vector<View>& views,
+                         const RenderOptions& options, bool everyKnob) {
+  const Turn turn(*impl_);
+  if (!turn) return turn.refusal();
+  if (!impl_->begun.empty())
+    return usage("other frames have been begun", "call finish() until all are finished");
+  return impl_->prepare({scene, look.data(), 0, views, options}, everyKnob);
 }
 
 Result<Frame> Renderer::finish() {

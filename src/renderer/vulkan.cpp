@@ -97,7 +97,7 @@ Status begin(Renderer& renderer, const Scene& scene, const Look& look, double ti
         return usage("targets in one image differ in format, extent or layouts", "give them the same ones");
     delivery.targets.push_back({target.view, key, target.image});
   }
-  return RendererAccess::begin(renderer, {scene, look, time, views, options, &delivery});
+  return RendererAccess::begin(renderer, {scene, look.data(), time, views, options, &delivery});
 }
 
 }  // namespace scumble
