@@ -29,6 +29,7 @@ TABLE = {
     "src/ink": PASS,
     "src/painting": PASS,
     "src/film": [PUBLIC, "src/base"],
+    "src/c": [PUBLIC],
     "src/measure": [PUBLIC, "src/base", "src/ocean"],
     "src/xr": [PUBLIC, "src/base", "src/gpu", "src/frame"],
     "apps/scumble": [PUBLIC],
@@ -48,9 +49,10 @@ LIBRARIES = {
     "apps/scumble": ["std", "system", "CLI", "fmt", "nlohmann", "cairo"],
     "examples": ["std", "glm", "nlohmann"],
 }
-# The one public header for engines that bring their own device.
-LIBRARIES_OF_FILE = {"include/scumble/vulkan.h": ["std", "glm", "vulkan"]}
-SYSTEM = {"unistd.h", "fcntl.h", "signal.h", "termios.h", "stdlib.h", "string.h", "stdio.h", "errno.h", "time.h", "poll.h"}
+# The public headers for engines that bring their own device, and for C.
+LIBRARIES_OF_FILE = {"include/scumble/vulkan.h": ["std", "glm", "vulkan"], "include/scumble/scumble.h": ["system"]}
+SYSTEM = {"unistd.h", "fcntl.h", "signal.h", "termios.h", "stdlib.h", "string.h", "stdio.h", "errno.h", "time.h", "poll.h", "stddef.h",
+          "stdint.h"}
 
 SOURCES = {".h", ".hpp", ".cpp", ".cc", ".inl", ".params", ".glsl", ".vert", ".frag", ".comp", ".geom", ".tesc", ".tese"}
 FOLDERS = ["include", "src", "apps", "examples", "bench", "tests"]

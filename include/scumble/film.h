@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "scumble/export.h"
 #include "scumble/image.h"
 #include "scumble/result.h"
 
@@ -55,7 +56,7 @@ struct FilmOptions {
 // ffmpeg is looked for on the PATH and runs as a child process until finish(), or until the writer is
 // destroyed. No signal state of this process is changed. One writer is used by one thread at a time; several
 // writers are independent.
-class FilmWriter {
+class SCUMBLE_API FilmWriter {
  public:
   // Fails with ErrorKind::usage for options that make no sense, and with ErrorKind::outputNotWritten where
   // the file cannot be written or ffmpeg cannot be started.
@@ -90,7 +91,7 @@ class FilmWriter {
 // The programs ffmpeg and ffprobe are looked for on the PATH and run as child processes. While one picture is
 // used, the next one is decoded. Times that grow are fast; for one that lies before the last, the film is
 // decoded anew from its beginning. One reader is used by one thread at a time.
-class FilmReader {
+class SCUMBLE_API FilmReader {
  public:
   // Fails with ErrorKind::unusableFile where the file is no film or ffmpeg is not there.
   static Result<std::unique_ptr<FilmReader>> open(const std::string& path);

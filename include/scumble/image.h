@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "scumble/export.h"
 #include "scumble/result.h"
 
 namespace scumble {
@@ -64,23 +65,23 @@ struct ExrOptions {
 // 8 bit sRGB, straight alpha (kept when `image` has four channels and is not opaque everywhere). Floats, or
 // codes as they are; the same goes for the other formats of 8 bit, and for films. Halves are refused (usage).
 // The file appears whole or not at all. Fails with ErrorKind::outputNotWritten.
-Status writePng(const std::string& path, const Image& image);
+SCUMBLE_API Status writePng(const std::string& path, const Image& image);
 
 // The same as a JPEG: quality 1 ... 100, higher is better and larger; chroma at full resolution from 90 on.
 // There is no alpha: it is put over black. EXIF says that values are sRGB. At most 65500 pixels a side.
-Status writeJpeg(const std::string& path, const Image& image, int quality = 92);
+SCUMBLE_API Status writeJpeg(const std::string& path, const Image& image, int quality = 92);
 
 // The same as a WebP: quality 0 ... 100, where 100 is lossless; alpha is kept as writePng does. At most 16383
 // pixels a side.
-Status writeWebp(const std::string& path, const Image& image, int quality = 90);
+SCUMBLE_API Status writeWebp(const std::string& path, const Image& image, int quality = 90);
 
 // Reads what writePng writes, and any other PNG, as linear floats (R, G, B, A); a colour.
-Result<Image> readPng(const std::string& path);
+SCUMBLE_API Result<Image> readPng(const std::string& path);
 
 // Reads a PNG, JPEG or WebP, whatever its name says, as linear floats (R, G, B, A); a colour. Photographs
 // come upright, as their EXIF says. Colour profiles are not looked at: values are sRGB. Fails with
 // ErrorKind::unusableFile.
-Result<Image> readPicture(const std::string& path);
+SCUMBLE_API Result<Image> readPicture(const std::string& path);
 
 // Float, compressed without loss. Colours (Image::isColor) are multiplied by their alpha, as OpenEXR and
 // compositors have it; a colour of which nothing is there is black. Everything else is as given. Channels are
@@ -89,19 +90,19 @@ Result<Image> readPicture(const std::string& path);
 // layers LAYER.left.CHANNEL and LAYER.right.CHANNEL, since OpenEXR gives only names without a period to the
 // default view. All layers have one size. Fails with ErrorKind::usage for layers that do not fit together,
 // and with ErrorKind::outputNotWritten.
-Status writeExr(const std::string& path, const std::vector<ImageLayer>& layers,
-                const ExrOptions& options = {});
+SCUMBLE_API Status writeExr(const std::string& path, const std::vector<ImageLayer>& layers,
+                            const ExrOptions& options = {});
 
 // Whether a file is a PNG, JPEG, WebP or EXR with all its pixels, of this size unless it is 0; false where it
 // cannot be read. Pixels themselves are not checked.
-bool isWholePicture(const std::string& path, uint32_t width = 0, uint32_t height = 0);
+SCUMBLE_API bool isWholePicture(const std::string& path, uint32_t width = 0, uint32_t height = 0);
 
 // A report beside pictures, e.g. JSON. The file appears whole or not at all. Fails with
 // ErrorKind::outputNotWritten.
-Status writeText(const std::string& path, const std::string& text);
+SCUMBLE_API Status writeText(const std::string& path, const std::string& text);
 
 // Two pictures in one: left | right, or left over right.
-Image sideBySide(const Image& left, const Image& right);
-Image overUnder(const Image& left, const Image& right);
+SCUMBLE_API Image sideBySide(const Image& left, const Image& right);
+SCUMBLE_API Image overUnder(const Image& left, const Image& right);
 
 }  // namespace scumble

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "scumble/export.h"
 #include "scumble/result.h"
 
 namespace scumble {
@@ -32,10 +33,10 @@ struct Knob {
 };
 
 // Whether a text is a colour as knobs take them: "#RRGGBB", "#RGB", or one of CSS's names in small letters.
-bool isColor(const std::string& text);
+SCUMBLE_API bool isColor(const std::string& text);
 
 // Values for knobs; what is not set has its default. Copies are cheap.
-class Look {
+class SCUMBLE_API Look {
  public:
   Look();  // all defaults
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "scumble/export.h"
 #include "scumble/renderer.h"
 
 namespace scumble {
@@ -82,7 +83,7 @@ struct Measurements {
 //
 // Fails with usage for options out of range and where too little of the scene can be followed, and as
 // Renderer::render.
-Result<Measurements> measure(Renderer& renderer, const Scene& scene, const Look& look,
-                             const MeasureOptions& options = {});
+SCUMBLE_API Result<Measurements> measure(Renderer& renderer, const Scene& scene, const Look& look,
+                                         const MeasureOptions& options = {});
 
 }  // namespace scumble

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "scumble/export.h"
 #include "scumble/image.h"
 #include "scumble/look.h"
 #include "scumble/result.h"
@@ -35,7 +36,8 @@ struct GpuInfo {
 // Every Vulkan device found, and which one the given choice (as in RendererOptions::device) means. Tries out
 // each usable one, which takes up to a second where `cacheFolder` (as in RendererOptions) holds no answers
 // yet.
-Result<std::vector<GpuInfo>> listGpus(const std::string& choice = "", const std::string& cacheFolder = "");
+SCUMBLE_API Result<std::vector<GpuInfo>> listGpus(const std::string& choice = "",
+                                                  const std::string& cacheFolder = "");
 
 enum class ImagePassKind { automatic, fragment, compute };
 
@@ -116,23 +118,24 @@ struct Frame {
 };
 
 // Seconds after which every clip that a look plays has played once; 0 where none does.
-double playedSeconds(const Scene& scene, const Look& look);
+SCUMBLE_API double playedSeconds(const Scene& scene, const Look& look);
 
 // Names and patterns of materials, nodes and clips that the look sets something for and that the scene does
 // not have, e.g. "materials.Sial": slips, most of them. Of what Look::set has set all of them; of the look's
 // file none, for it may know other scenes, but where it is meant for this one (`fileToo`) its names: patterns
 // ('*' and '?') may still be meant for many.
-std::vector<std::string> settingsWithoutEffect(const Scene& scene, const Look& look, bool fileToo = false);
+SCUMBLE_API std::vector<std::string> settingsWithoutEffect(const Scene& scene, const Look& look,
+                                                           bool fileToo = false);
 // Settings of the look by which something hangs, at any time, on a node which the scene does not have, e.g.
 // "colorizers.Glow.volume.node": it is left out then.
-std::vector<std::string> settingsWithoutNode(const Scene& scene, const Look& look);
+SCUMBLE_API std::vector<std::string> settingsWithoutNode(const Scene& scene, const Look& look);
 // What a look says of an ocean to no effect, since the scene has none and the look puts none: "decorations",
 // where it declares any, and groups of knobs that Look::set set, e.g. "ocean.paint".
-std::vector<std::string> settingsWithoutOcean(const Scene& scene, const Look& look);
+SCUMBLE_API std::vector<std::string> settingsWithoutOcean(const Scene& scene, const Look& look);
 
 // One thread at a time uses a renderer: a call of another one meanwhile fails with usage and changes nothing,
 // and nobody destroys a renderer while a call is under way. Renderers of their own are independent.
-class Renderer {
+class SCUMBLE_API Renderer {
  public:
   static constexpr int kMaxViews = 6;
 

@@ -6,6 +6,8 @@
 #include <utility>
 #include <variant>
 
+#include "scumble/export.h"
+
 namespace scumble {
 
 // Whose fault an error is. The program turns each kind into its own exit code.
@@ -17,7 +19,7 @@ enum class ErrorKind {
   outputNotWritten  // the output cannot be written
 };
 
-struct Error {
+struct SCUMBLE_API Error {
   ErrorKind kind = ErrorKind::internal;
   std::string file;      // the file concerned, as the user named it; empty when there is none
   int line = 0;          // 1-based line in `file`; 0 when unknown

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scumble/export.h"
 #include "scumble/result.h"
 
 namespace scumble {
@@ -43,7 +44,7 @@ struct SceneSummary {
 struct PlacedScene;
 
 // An immutable scene; copies are cheap and share the data. May be used from several threads.
-class Scene {
+class SCUMBLE_API Scene {
  public:
   // Reads .gltf or .glb, or a world: a .json that lists such files with their places (docs/scene.md). Fails
   // with ErrorKind::unusableFile, and with usage for options out of range.

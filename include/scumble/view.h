@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "scumble/export.h"
 #include "scumble/look.h"
 #include "scumble/scene.h"
 
@@ -30,8 +31,9 @@ struct View {
 };
 
 // Depth-reversed projections of that convention. Angles in radians, distances in metres.
-glm::mat4 perspectiveProjection(float verticalFov, float aspect, float near);  // infinite far plane
-glm::mat4 orthographicProjection(float halfHeight, float aspect, float near, float far);
+SCUMBLE_API glm::mat4 perspectiveProjection(float verticalFov, float aspect,
+                                            float near);  // infinite far plane
+SCUMBLE_API glm::mat4 orthographicProjection(float halfHeight, float aspect, float near, float far);
 
 // Where the camera stands, as the caller says it. The first that is given counts: eye and target, turntable,
 // orbit, camera; then the look's camera (its knobs `camera`, of which any may have a track); then the scene's
@@ -62,11 +64,11 @@ enum class Stereo { mono, stereo };
 // framings see what the scene takes up while the clips play. `ipd` is 0 to a million. Fails with
 // ErrorKind::usage for an unknown camera, numbers out of range, and a viewpoint that sees nothing (eye on the
 // target).
-Result<std::vector<View>> makeViews(const Scene& scene, const Viewpoint& viewpoint, float aspect,
-                                    Stereo stereo = Stereo::mono, float ipd = 0.063f,
-                                    const Look& look = Look(), double time = 0);
+SCUMBLE_API Result<std::vector<View>> makeViews(const Scene& scene, const Viewpoint& viewpoint, float aspect,
+                                                Stereo stereo = Stereo::mono, float ipd = 0.063f,
+                                                const Look& look = Look(), double time = 0);
 
 // Whether views may be others at other times. Where not, one call of makeViews serves a whole film.
-bool viewsMove(const Scene& scene, const Viewpoint& viewpoint, const Look& look);
+SCUMBLE_API bool viewsMove(const Scene& scene, const Viewpoint& viewpoint, const Look& look);
 
 }  // namespace scumble

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "scumble/export.h"
 #include "scumble/renderer.h"
 
 namespace scumble {
@@ -30,7 +31,7 @@ struct VulkanDevice {
 // The features that scumble needs, chained, in the structures of Vulkan's own versions, so that a program can
 // set more of its own in them, and chain others behind `v13`: `core` goes into VkDeviceCreateInfo::pNext. It
 // is not copied: the structures point at each other.
-struct VulkanFeatures {
+struct SCUMBLE_API VulkanFeatures {
   VkPhysicalDeviceFeatures2 core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
   VkPhysicalDeviceVulkan11Features v11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES};
   VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
@@ -39,10 +40,10 @@ struct VulkanFeatures {
   VulkanFeatures(const VulkanFeatures&) = delete;
   VulkanFeatures& operator=(const VulkanFeatures&) = delete;
 };
-void requireVulkanFeatures(VulkanFeatures& features);
+SCUMBLE_API void requireVulkanFeatures(VulkanFeatures& features);
 
 // Why scumble cannot use a device; empty where it can.
-std::string whyUnusable(VkPhysicalDevice physical);
+SCUMBLE_API std::string whyUnusable(VkPhysicalDevice physical);
 
 // What a program wants of the device that a renderer makes for it: names of extensions, and features, which
 // `features` switches on beside those that are there. Fails with noUsableGpu where the chosen device lacks
@@ -51,16 +52,16 @@ struct VulkanWishes {
   std::vector<std::string> instanceExtensions, deviceExtensions;
   std::function<void(VulkanFeatures&)> features;
 };
-Result<std::unique_ptr<Renderer>> createRenderer(const VulkanWishes& wishes,
-                                                 const RendererOptions& options = {});
+SCUMBLE_API Result<std::unique_ptr<Renderer>> createRenderer(const VulkanWishes& wishes,
+                                                             const RendererOptions& options = {});
 
 // A renderer on the program's device, which outlives it. `options.device` and `options.validation` mean
 // nothing then: validation is the instance's affair.
-Result<std::unique_ptr<Renderer>> createRenderer(const VulkanDevice& device,
-                                                 const RendererOptions& options = {});
+SCUMBLE_API Result<std::unique_ptr<Renderer>> createRenderer(const VulkanDevice& device,
+                                                             const RendererOptions& options = {});
 
 // What a renderer draws with, whoever made it; valid as long as the renderer is.
-VulkanDevice vulkanDeviceOf(const Renderer& renderer);
+SCUMBLE_API VulkanDevice vulkanDeviceOf(const Renderer& renderer);
 
 // Where one view's picture, or AOV, goes in an image of the program's. The image has the usage
 // VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT and one sample.
@@ -90,7 +91,8 @@ struct VulkanTargets {
 // Renderer::begin(), but that the frame goes into images instead of back to the CPU; RenderOptions::aovs are
 // still read back, where there are some. Returns when the frame is submitted: with Renderer::kMaxBegun frames
 // begun, finish() the oldest one first, which waits for it and gives its statistics.
-Status begin(Renderer& renderer, const Scene& scene, const Look& look, double time,
-             const std::vector<View>& views, const RenderOptions& options, const VulkanTargets& targets);
+SCUMBLE_API Status begin(Renderer& renderer, const Scene& scene, const Look& look, double time,
+                         const std::vector<View>& views, const RenderOptions& options,
+                         const VulkanTargets& targets);
 
 }  // namespace scumble

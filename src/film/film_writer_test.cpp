@@ -17,8 +17,8 @@
 namespace scumble {
 namespace {
 
-using scumble::linearFromSrgb8;
 using film::outputOf;
+using scumble::linearFromSrgb8;
 
 std::string facts(const std::string& film, const std::string& entries) {
   return outputOf("ffprobe -v error -select_streams v -of default=nw=1 -show_entries " + entries + " '" +

@@ -31,8 +31,7 @@ double difference(const Image& read, const Image& image, bool overBlack) {
     for (uint32_t x = 0; x < image.width; ++x)
       for (uint32_t c = 0; c < 3; ++c) {
         const float alpha = image.channels.size() == 4 && overBlack ? image.at(x, y, 3) : 1.0f;
-        sum += std::abs(srgbFromLinear(read.at(x, y, c)) -
-                        srgbFromLinear(image.at(x, y, c) * alpha));
+        sum += std::abs(srgbFromLinear(read.at(x, y, c)) - srgbFromLinear(image.at(x, y, c) * alpha));
       }
   return sum / (3.0 * image.width * image.height);
 }

@@ -19,10 +19,10 @@ constexpr ViewDrawing kWays[] = {ViewDrawing::together, ViewDrawing::separately,
                                  ViewDrawing::resolvedTogether};
 constexpr const char* kWayNames[] = {"together", "separately", "resolved-together"};
 
-constexpr uint32_t kSize = ProbePicture::kSize, kLayers = 2;
+constexpr uint32_t kSize = ProbePicture::kSize, kProbeLayers = 2;
 // What view_probe.vert and view_probe.frag draw, and what is there before.
-constexpr uint8_t kDrawn[kLayers] = {51, 204}, kClear = 102;
-constexpr float kDepth[kLayers] = {0.25f, 0.75f}, kClearDepth = 0.0625f;
+constexpr uint8_t kDrawn[kProbeLayers] = {51, 204}, kClear = 102;
+constexpr float kDrawnDepth[kProbeLayers] = {0.25f, 0.75f}, kClearDepth = 0.0625f;
 constexpr int kLongSide = 160;  // pixels: x + y along the shape's long side
 
 VkClearValue colorOf(uint8_t value) {
@@ -35,7 +35,7 @@ VkClearValue colorOf(uint8_t value) {
 }  // namespace
 
 bool isRight(const ProbePicture& picture) {
-  for (uint32_t layer = 0; layer < kLayers; ++layer) {
+  for (uint32_t layer = 0; layer < kProbeLayers; ++layer) {
     const ProbePicture::Layer& l = picture.layers[layer];
     for (uint32_t y = 0; y < kSize; ++y)
       for (uint32_t x = 0; x < kSize; ++x) {
@@ -46,14 +46,14 @@ bool isRight(const ProbePicture& picture) {
         const size_t at = size_t(y) * kSize + x;
         if (l.byVertexShader[at] != (drawn ? kDrawn[layer] : kClear)) return false;
         if (l.byFragmentShader[at] != (drawn ? kDrawn[1 - layer] : kClear)) return false;
-        if (std::abs(l.depth[at] - (drawn ? kDepth[layer] : kClearDepth)) > 1e-5f) return false;
+        if (std::abs(l.depth[at] - (drawn ? kDrawnDepth[layer] : kClearDepth)) > 1e-5f) return false;
       }
   }
   return true;
 }
 
 ProbePicture drawProbe(Device& device, ViewDrawing drawing, uint32_t samples) {
-  const Views views{kLayers, drawing};
+  const Views views{kProbeLayers, drawing};
   GraphicsPipelineDesc desc;
   desc.vertex = {shaders::view_probe_vert}, desc.fragment = {shaders::view_probe_frag};
   desc.colorFormats.assign(2, VK_FORMAT_R8G8B8A8_UNORM);
@@ -79,14 +79,14 @@ ProbePicture drawProbe(Device& device, ViewDrawing drawing, uint32_t samples) {
   for (const Handle image : resolved) graph.use(image, Use::copySource);
   const Handle read = graph.use(graph.importBuffer("read"), Use::copyTarget);
   const FrameGraph::Needs needs = graph.needsOf({&read, 1});
-  const GraphResources images(device, graph, needs, {kSize, kSize, kLayers});
+  const GraphResources images(device, graph, needs, {kSize, kSize, kProbeLayers});
   const auto recordBarriersOf = [&](VkCommandBuffer commands, size_t step) {
     recordBarriers(commands, images.barriers()[step],
                    [&](uint32_t resource) { return images.imageOf(resource); });
   };
 
   constexpr size_t kLayerBytes = size_t(kSize) * kSize * 4;
-  const Buffer readback(device, 3 * kLayers * kLayerBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+  const Buffer readback(device, 3 * kProbeLayers * kLayerBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                         MemoryKind::readback);
   device.runOnce([&](VkCommandBuffer commands) {
     recordBarriersOf(commands, 0);
@@ -105,9 +105,9 @@ ProbePicture drawProbe(Device& device, ViewDrawing drawing, uint32_t samples) {
     recordBarriersOf(commands, 1);
     for (size_t i = 0; i < 3; ++i) {
       VkBufferImageCopy copy{};
-      copy.bufferOffset = i * kLayers * kLayerBytes;
+      copy.bufferOffset = i * kProbeLayers * kLayerBytes;
       const Image& image = images.image(resolved[i]);
-      copy.imageSubresource = {aspectOf(image.desc().format), 0, 0, kLayers};
+      copy.imageSubresource = {aspectOf(image.desc().format), 0, 0, kProbeLayers};
       copy.imageExtent = {kSize, kSize, 1};
       vkCmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                              readback.handle(), 1, &copy);

@@ -40,7 +40,7 @@ glm::vec3 morphedPosition(const Primitive& primitive, size_t v, const std::vecto
 }
 
 // Of so many vertices, spread over the primitive: boxes of more differ by little.
-constexpr size_t kVertices = 1024;
+constexpr size_t kSampledVertices = 1024;
 
 void addPrimitive(Bounds& bounds, const Primitive& primitive, const Bounds& box, const Node& node,
                   const glm::mat4& world, const std::vector<float>& weights,
@@ -52,7 +52,7 @@ void addPrimitive(Bounds& bounds, const Primitive& primitive, const Bounds& box,
     for (const glm::mat4& instance : node.instances) addBox(bounds, box, world * instance);
     return;
   }
-  const size_t step = std::max<size_t>(1, primitive.vertexCount() / kVertices);
+  const size_t step = std::max<size_t>(1, primitive.vertexCount() / kSampledVertices);
   for (size_t v = 0; v < primitive.vertexCount(); v += step) {
     const glm::vec3 own = morphedPosition(primitive, v, weights);
     const auto addPoint = [&](const glm::vec3& p) {

@@ -4,7 +4,8 @@ include(CMakePackageConfigHelpers)
 add_library(scumble::scumble ALIAS scumble)  # so that add_subdirectory and find_package give the same name
 set(SCUMBLE_PACKAGE_FOLDER ${CMAKE_INSTALL_LIBDIR}/cmake/scumble)
 
-install(TARGETS scumble EXPORT scumbleTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS scumble scumble_shared EXPORT scumbleTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT scumbleTargets NAMESPACE scumble:: DESTINATION ${SCUMBLE_PACKAGE_FOLDER})
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/include/scumble DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN "*.h")

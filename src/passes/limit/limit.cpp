@@ -97,7 +97,8 @@ class Limit : public Pass {
       const float around = std::round(360 / params.skySize);
       uniforms.skyShift = patternShift(input.seed);
       uniforms.skyTiles = glm::vec2(around, 360 / params.skySize) / glm::radians(360.0f);
-      const float radiansAPixel = 2 * std::abs(input.uniforms.cyclopeanNdcToEyeRay.y) / input.uniforms.imageSize.y;
+      const float radiansAPixel =
+          2 * std::abs(input.uniforms.cyclopeanNdcToEyeRay.y) / input.uniforms.imageSize.y;
       const float texelsAPixel = uniforms.skyTiles.y * radiansAPixel * float(strokes.height);
       uniforms.skyLod = std::max(std::log2(texelsAPixel + 1e-6f), 0.0f);
       uniforms.skyDither = kReach * params.skyDither;

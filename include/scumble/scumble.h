@@ -1,0 +1,162 @@
+/* scumble for C, and for every language that can call C: opaque handles, numbers and text. It does what the
+   C++ headers beside it do, which say more about each part.
+
+   A function that can fail gives null or a status that is not SCUMBLE_OK; scumble_error() then says why, in
+   one line. Text is UTF-8. Nothing throws, and nothing here keeps a pointer that it was given beyond the
+   call.
+
+   Threads: scenes and looks may be used from several threads at once as long as nobody changes them; a
+   renderer from one thread at a time (another one meanwhile is refused with SCUMBLE_USAGE). Each handle is
+   freed once, by its own function, which takes null and does nothing then. */
+#ifndef SCUMBLE_H
+#define SCUMBLE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "scumble/export.h"
+#include "scumble/version.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* As ErrorKind of result.h. */
+typedef enum scumble_status {
+  SCUMBLE_OK = 0,
+  SCUMBLE_INTERNAL = 1,
+  SCUMBLE_USAGE = 2,
+  SCUMBLE_UNUSABLE_FILE = 3,
+  SCUMBLE_NO_USABLE_GPU = 4,
+  SCUMBLE_OUTPUT_NOT_WRITTEN = 5
+} scumble_status;
+
+/* Why the last call of this thread that failed did so: "FILE:LINE (JSON path): what is wrong; what to do".
+   Empty before the first one. Valid until the next call that fails on this thread. */
+SCUMBLE_API const char* scumble_error(void);
+/* The library's own version, which may differ from SCUMBLE_VERSION_STRING: "0.1.0". */
+SCUMBLE_API const char* scumble_version(void);
+
+/* -- Scenes (scene.h) */
+
+typedef struct scumble_scene scumble_scene;
+
+/* Reads .gltf, .glb, or a world (.json). */
+SCUMBLE_API scumble_scene* scumble_scene_load(const char* path);
+/* The same from memory; with `folder` null or empty no file is opened. `name`: what messages call it. */
+SCUMBLE_API scumble_scene* scumble_scene_from_memory(const void* bytes, size_t size, const char* name,
+                                                     const char* folder);
+SCUMBLE_API void scumble_scene_free(scumble_scene* scene);
+
+/* -- Looks (look.h) */
+
+typedef struct scumble_look scumble_look;
+
+/* All defaults. */
+SCUMBLE_API scumble_look* scumble_look_create(void);
+/* A look that ships, by its name, or a JSON file. */
+SCUMBLE_API scumble_look* scumble_look_load(const char* name_or_file);
+/* `name`: what messages call it; pictures that it names are looked for beside it. */
+SCUMBLE_API scumble_look* scumble_look_from_json(const char* text, const char* name);
+/* Sets one knob, e.g. "shadow.threshold" to "0.4"; wins over what the look says. */
+SCUMBLE_API scumble_status scumble_look_set(scumble_look* look, const char* path, const char* value);
+SCUMBLE_API void scumble_look_free(scumble_look* look);
+
+/* -- Views (view.h) */
+
+/* One eye. Matrices are column-major, for column vectors; eye to clip space in Vulkan's convention with
+   reversed depth. */
+typedef struct scumble_view {
+  float world_to_eye[16], eye_to_clip[16];
+  int32_t node;           /* of the scene, that it rides on; -1: none */
+  uint32_t width, height; /* pixels; 0, 0: as the options say */
+  int32_t rig;            /* whose eye it is */
+} scumble_view;
+
+/* Where the camera stands. Start from scumble_viewpoint_default. */
+typedef struct scumble_viewpoint {
+  const char* camera;       /* of the scene, by name or number; null: as look and scene say */
+  int32_t has_orbit;        /* else azimuth and elevation mean nothing */
+  float azimuth, elevation; /* degrees */
+  float distance;           /* in scene radii; 0: everything is in the frame */
+  int32_t has_eye;          /* else eye and target mean nothing */
+  float eye[3], target[3];  /* metres */
+  float vertical_fov;       /* degrees; 0: as look and scene say */
+} scumble_viewpoint;
+SCUMBLE_API void scumble_viewpoint_default(scumble_viewpoint* viewpoint);
+
+/* One view (stereo 0), or the left and the right one (stereo 1), `ipd` metres apart, at a time in seconds.
+   `views` has room for two; `count` gets how many there are. */
+SCUMBLE_API scumble_status scumble_make_views(const scumble_scene* scene, const scumble_look* look,
+                                              const scumble_viewpoint* viewpoint, float aspect,
+                                              int32_t stereo, float ipd, double time, scumble_view* views,
+                                              size_t* count);
+
+/* -- Rendering (renderer.h) */
+
+typedef struct scumble_renderer scumble_renderer;
+typedef struct scumble_frame scumble_frame;
+
+/* `device`: part of a name, a number, "cpu", or null: the best one. `cache_folder`: where compiled pipelines
+   are kept; null: nowhere. With `validation` Vulkan's validation layers watch. */
+SCUMBLE_API scumble_renderer* scumble_renderer_create(const char* device, const char* cache_folder,
+                                                      int32_t validation);
+SCUMBLE_API void scumble_renderer_free(scumble_renderer* renderer);
+/* The device's name; valid as long as the renderer. */
+SCUMBLE_API const char* scumble_renderer_device(const scumble_renderer* renderer);
+/* Of the validation layers, since the start. */
+SCUMBLE_API int32_t scumble_renderer_messages(const scumble_renderer* renderer);
+
+/* As PixelFormat of image.h. */
+typedef enum scumble_format { SCUMBLE_FLOAT32 = 0, SCUMBLE_HALF = 1, SCUMBLE_SRGB8 = 2 } scumble_format;
+
+/* Start from scumble_options_default. */
+typedef struct scumble_options {
+  uint32_t width, height; /* pixels, 1 to 16384 */
+  uint32_t samples;       /* 1 or 4 */
+  uint32_t seed;
+  int32_t transparent;     /* leave the background out */
+  scumble_format format;   /* of the picture; AOVs are 32-bit floats */
+  const char* const* aovs; /* so many names of passes' outputs, beside the picture */
+  size_t aov_count;
+} scumble_options;
+SCUMBLE_API void scumble_options_default(scumble_options* options);
+
+/* Renders one frame of up to six views at a time in seconds. The same call gives the same bytes. */
+SCUMBLE_API scumble_frame* scumble_render(scumble_renderer* renderer, const scumble_scene* scene,
+                                          const scumble_look* look, double time, const scumble_view* views,
+                                          size_t view_count, const scumble_options* options);
+/* Compiles what frames of these views and options need, so that none compiles anything while they run. */
+SCUMBLE_API scumble_status scumble_prepare(scumble_renderer* renderer, const scumble_scene* scene,
+                                           const scumble_look* look, const scumble_view* views,
+                                           size_t view_count, const scumble_options* options);
+
+/* Pixels in memory: rows from top to bottom without gaps, channels interleaved: height x width x channels
+   numbers, as numpy has them. Colours are linear (sRGB codes in 8 bit), alpha is straight. */
+typedef struct scumble_image {
+  uint32_t width, height, channels;
+  scumble_format format;
+  const void* data;
+  size_t bytes;
+} scumble_image;
+
+/* Layers: the picture, with an empty name, then the AOVs as they were asked for. */
+SCUMBLE_API size_t scumble_frame_layers(const scumble_frame* frame);
+/* Null where there is no such layer. */
+SCUMBLE_API const char* scumble_frame_layer_name(const scumble_frame* frame, size_t layer);
+/* How many views a layer has: one for all where it is drawn once. */
+SCUMBLE_API size_t scumble_frame_views(const scumble_frame* frame, size_t layer);
+/* The pixels belong to the frame, and are there as long as it is. */
+SCUMBLE_API scumble_status scumble_frame_image(const scumble_frame* frame, size_t layer, size_t view,
+                                               scumble_image* image);
+SCUMBLE_API void scumble_frame_free(scumble_frame* frame);
+
+/* Writes one image of a frame as PNG, JPEG, WebP or EXR, by the name's end. */
+SCUMBLE_API scumble_status scumble_frame_write(const scumble_frame* frame, size_t layer, size_t view,
+                                               const char* path);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
