@@ -183,8 +183,8 @@ class SCUMBLE_API Renderer {
  private:
   friend struct RendererAccess;
   Renderer();
-  class Turn;
-  struct Impl;
+  class SCUMBLE_HIDDEN Turn;
+  struct SCUMBLE_HIDDEN Impl;
   std::unique_ptr<Impl> impl_;
 };
 

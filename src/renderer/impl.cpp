@@ -286,7 +286,7 @@ uint32_t Renderer::Impl::freeSlot() const {
 // -- A frame
 
 Status Renderer::Impl::begin(const Request& request) {
-  if (const Status status = check(request); !status) return status;
+  if (Status status = check(request); !status) return status;
   const Scene& scene = request.scene;
   const look::LookData& look = request.look;
   const double time = request.time;
@@ -484,14 +484,14 @@ Status Renderer::Impl::prepare(const Request& request, bool everyKnob) {
   for (const double time : timesOf(request.look, request.time)) {
     if (std::abs(time) >= kMaxTime) continue;
     rehearsal.time = time;
-    if (const Status status = begin(rehearsal); !status) return status;
+    if (Status status = begin(rehearsal); !status) return status;
   }
   if (!everyKnob) return Done{};
   const OceanShape ocean = oceanShape(request.scene.data(), request.look.at(request.time));
   for (const look::LookData& look : withEachKnob(request.look)) {
     // Where there is another sea, or none any more, it is another scene.
     if (oceanShape(request.scene.data(), look.at(request.time)).isThere != ocean.isThere) continue;
-    if (const Status status =
+    if (Status status =
             begin({request.scene, look, request.time, request.views, request.options, nullptr, true});
         !status)
       return status;

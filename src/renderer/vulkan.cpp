@@ -83,7 +83,7 @@ Status begin(Renderer& renderer, const Scene& scene, const Look& look, double ti
   Delivery delivery;
   delivery.waits = targets.waits, delivery.signals = targets.signals;
   for (const VulkanTarget& target : targets.images) {
-    if (const Status status = checkTarget(target, views, options); !status) return status;
+    if (Status status = checkTarget(target, views, options); !status) return status;
     TargetKey key;
     key.format = target.format;
     key.width = target.extent.width, key.height = target.extent.height, key.layer = target.layer;

@@ -51,8 +51,8 @@ struct Reference {
     along /= scale, way *= scale;
     if (!fog) {
       if (shape == kVolumeScene) return 1;
-      const double density_ = densityAt(eye + std::min(way, 1e9) * along);
-      return isOpen ? 1 - std::exp(-density_) : density_;
+      const double densityThere = densityAt(eye + std::min(way, 1e9) * along);
+      return isOpen ? 1 - std::exp(-densityThere) : densityThere;
     }
     // An endless way down.
     if (shape == kVolumeHalfSpace && way > 1e20 && along.y < 0) return 1;
@@ -146,8 +146,8 @@ TEST_P(ColorizeTest, everyShapeEqualsItsReference) {
           about[axis] = 1;
           placed = glm::rotate(placed, glm::radians(degrees), about);
         }
-      const bool sized_ = shape == kVolumeEllipsoid || shape == kVolumeBox;
-      r.toUnit = glm::inverse(glm::scale(placed, sized_ ? size : glm::dvec3(radius)));
+      const bool hasSize = shape == kVolumeEllipsoid || shape == kVolumeBox;
+      r.toUnit = glm::inverse(glm::scale(placed, hasSize ? size : glm::dvec3(radius)));
       r.axis = shape == kVolumeCapsule ? length / radius : 0;
       const Look look = quietLook({{"colorizers.A.volume.shape", names[shape]},
                                    {"colorizers.A.volume.kind", fog ? "atmospheric" : "surface"},

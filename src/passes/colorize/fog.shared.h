@@ -59,12 +59,12 @@ SHARED_FUNCTION float boxFog(vec3 eye, vec3 ray, float way) {
   vec3 enter = min(a, b), leave = max(a, b);
   float from = max(max(max(enter.x, enter.y), enter.z), 0.0f);
   float to = min(min(min(leave.x, leave.y), leave.z), way);
-  float half_ = 0.5f * max(to - from, 0.0f);
-  vec3 middle = clamp(eye + (from + half_) * ray, vec3(-1.0f), vec3(1.0f));
-  vec3 inner = (0.3399810436f * half_) * ray, outer = (0.8611363116f * half_) * ray;
+  float halfWay = 0.5f * max(to - from, 0.0f);
+  vec3 middle = clamp(eye + (from + halfWay) * ray, vec3(-1.0f), vec3(1.0f));
+  vec3 inner = (0.3399810436f * halfWay) * ray, outer = (0.8611363116f * halfWay) * ray;
   float sum = 0.6521451549f * (boxDensityAt(middle - inner) + boxDensityAt(middle + inner)) +
               0.3478548451f * (boxDensityAt(middle - outer) + boxDensityAt(middle + outer));
-  return 0.75f * half_ * max(sum, 0.0f);
+  return 0.75f * halfWay * max(sum, 0.0f);
 }
 SHARED_FUNCTION float boxDensity(vec3 at) {
   vec3 d = max(vec3(1.0f) - at * at, vec3(0.0f));

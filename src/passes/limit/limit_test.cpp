@@ -217,9 +217,11 @@ TEST_P(LimitTest, thePalettesOwnColorsStay) {
     const std::string name = look::choiceNames(LimitParams::block().rows[0])[size_t(int(k.palette))];
     TestScene s;
     const std::vector<glm::dvec3> palette = linearPalette(k);
-    for (size_t i = 0; i < palette.size(); ++i)
-      s.add(gridMesh({-2 + float(i % 4), -1.5f + float(i / 4), 0}, {0.9f, 0, 0}, {0.1f, 0.9f, 0}),
+    for (size_t i = 0; i < palette.size(); ++i) {
+      const size_t column = i % 4, row = i / 4;
+      s.add(gridMesh({-2 + float(column), -1.5f + float(row), 0}, {0.9f, 0, 0}, {0.1f, 0.9f, 0}),
             s.material(TestScene::unlit("Patch", glm::vec4(glm::vec3(palette[i]), 1))));
+    }
     const Scene scene = s.load();
     const auto views = viewsFrom(scene, {{0, 0, 5}}, kWidth, kHeight, GetParam());
     Look look = lookOf(k, name);
@@ -248,10 +250,12 @@ TEST_P(LimitTest, thePalettesOwnColorsStay) {
 // decide.
 TEST_P(LimitTest, onlyThePalettesColorsAreLeft) {
   TestScene s;
-  for (int i = 0; i < 12; ++i)
-    s.add(gridMesh({-2 + float(i % 4), -1.5f + float(i / 4), 0}, {1, 0, 0}, {0, 1, 0}),
+  for (int i = 0; i < 12; ++i) {
+    const int column = i % 4, row = i / 4;
+    s.add(gridMesh({-2 + float(column), -1.5f + float(row), 0}, {1, 0, 0}, {0, 1, 0}),
           s.material(TestScene::unlit("Patch",
                                       {0.08f * float(i), 0.9f - 0.07f * float(i), 0.1f * float(i % 5), 1})));
+  }
   const Scene scene = s.load();
   const auto views = viewsFrom(scene, {{0, 0, 5}}, kWidth, kHeight, GetParam());
   for (const double dither : {0.0, 1.0}) {

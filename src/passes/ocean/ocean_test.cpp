@@ -65,7 +65,7 @@ class OceanPaintTest : public BothEyes {
         const double u = (x + 0.5) * kRamp, v = (y + 0.5) * kRamp;
         for (const double value : {u * u, v * v, blue * blue, alpha}) image.pixels.push_back(float(value));
       }
-    const std::string path = (folder_ / (name + ".png")).string();
+    std::string path = (folder_ / (name + ".png")).string();
     EXPECT_TRUE(writePng(path, image).ok());
     return path;
   }
