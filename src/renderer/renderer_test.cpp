@@ -76,7 +76,7 @@ TEST_F(Refusals, aCountOfPreviousViewsIsNamedAsThat) {
                           two = viewsFrom(scene_, {}, kWidth, kHeight, Stereo::stereo);
   EXPECT_EQ(refusalOf(one, two), "there are not as many previous views as views");
   EXPECT_EQ(refusalOf(two, one), "there are not as many previous views as views");
-  EXPECT_EQ(refusalOf(std::vector<View>{}), "the number of views is neither one nor two");
+  EXPECT_EQ(refusalOf(std::vector<View>{}), "there are 0 views");
 }
 
 TEST(WithoutEffect, namesThatTheSceneDoesNotHave) {

@@ -229,7 +229,7 @@ TEST_F(Sameness, callsThatMakeNoSenseAreRefused) {
   EXPECT_EQ(kind(sized(8, 8, {}, 3), views), "usage");
   EXPECT_EQ(kind(sized(8, 8, {"colour"}), views), "usage");
   EXPECT_EQ(kind(sized(8, 8), {}), "usage");
-  EXPECT_EQ(kind(sized(8, 8), {views[0], views[0], views[0]}), "usage");
+  EXPECT_EQ(kind(sized(8, 8), std::vector<View>(size_t(Renderer::kMaxViews) + 1, views[0])), "usage");
   EXPECT_EQ(kind(sized(8, 8), views, std::nan("")), "usage");
   View broken = views[0];
   broken.worldToEye[3][0] = INFINITY;
