@@ -1,7 +1,7 @@
 // compare_pictures A.png B.png: prints how different two pictures look, in FLIP: the mean, that of the worst
-// tile, the worst pixel. compare_pictures A.exr B.exr: for numbers that nobody looks at. Prints the share of
-// pixels that differ in the channel where most do, and that channel's name; two numbers differ when they are
-// more than a hundredth of 1 + their size apart. Other channels or sizes differ everywhere.
+// tile, the worst pixel. compare_pictures A.exr B.exr [FAR]: for numbers that nobody looks at. Prints the
+// share of pixels that differ in the channel where most do, and that channel's name; two numbers differ when
+// they are more than FAR (a hundredth) of 1 + their size apart. Other channels or sizes differ everywhere.
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
@@ -38,12 +38,12 @@ std::map<std::string, std::vector<float>> channelsOf(const char* path) {
   return channels;
 }
 
-bool differ(float a, float b) {
+bool differ(float a, float b, float far) {
   if (a == b || (std::isnan(a) && std::isnan(b))) return false;
-  return !(std::abs(a - b) <= 0.01f * (1 + std::abs(a)));
+  return !(std::abs(a - b) <= far * (1 + std::abs(a)));
 }
 
-int compareNumbers(const char* fileA, const char* fileB) {
+int compareNumbers(const char* fileA, const char* fileB, float far) {
   const auto a = channelsOf(fileA), b = channelsOf(fileB);
   double most = 0;
   std::string worst = "-";
@@ -59,7 +59,7 @@ int compareNumbers(const char* fileA, const char* fileB) {
       continue;
     }
     size_t count = 0;
-    for (size_t i = 0; i < values.size(); ++i) count += differ(values[i], other->second[i]);
+    for (size_t i = 0; i < values.size(); ++i) count += differ(values[i], other->second[i], far);
     found(double(count) / double(values.size()), name);
   }
   std::printf("%.6f %s\n", most, worst.c_str());
@@ -81,13 +81,13 @@ int compareLooks(const char* fileA, const char* fileB) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fprintf(stderr, "usage: compare_pictures A B\n");
+  if (argc != 3 && argc != 4) {
+    std::fprintf(stderr, "usage: compare_pictures A B [FAR]\n");
     return 2;
   }
   try {
-    return std::string(argv[1]).ends_with(".exr") ? compareNumbers(argv[1], argv[2])
-                                                  : compareLooks(argv[1], argv[2]);
+    if (!std::string(argv[1]).ends_with(".exr")) return compareLooks(argv[1], argv[2]);
+    return compareNumbers(argv[1], argv[2], argc > 3 ? std::stof(argv[3]) : 0.01f);
   } catch (const std::exception& error) {  // OpenEXR throws
     std::fprintf(stderr, "%s\n", error.what());
     return 3;

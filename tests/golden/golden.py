@@ -26,10 +26,11 @@ import scenes  # noqa: E402
 OPTIONS = ["--size", "320x180", "--samples", "4", "--validate", "--quiet"]
 if "SCUMBLE_TEST_DEVICE" in os.environ:  # as in the unit tests
     OPTIONS += ["--device", os.environ["SCUMBLE_TEST_DEVICE"]]
-# FLIP in the mean and in the worst tile, and the share of pixels in any channel of an EXR: on the driver that the pictures
-# were drawn with, and on others. There, torn edges move: SwiftShader differs by up to 0.021 and 0.11.
+# FLIP in the mean and in the worst tile; of an EXR the share of pixels in any channel, and from when on they differ: on the
+# driver that the pictures were drawn with, and on others. There, torn edges move: SwiftShader differs by up to 0.021 and 0.11;
+# and vertices lie on a coarser grid, by which alone things move by 1/32 of a pixel.
 DRAWN_WITH = "llvmpipe"
-TOLERANCES, ELSEWHERE = (0.006, 0.06, 0.01), (0.03, 0.2, 0.15)
+TOLERANCES, ELSEWHERE = (0.006, 0.06, 0.01, 0.01), (0.03, 0.2, 0.15, 0.05)
 GENERATORS = {"demo": "demo_scene", "room": "henry_room"}
 
 
@@ -71,9 +72,9 @@ def file_name(name, options):
     return f"{name}.exr" if "--aov" in options else f"{name}.png"
 
 
-def difference(build, golden, picture):
+def difference(build, golden, picture, limits=TOLERANCES):
     """FLIP in the mean, in the worst tile, in the worst pixel; of an EXR, the share of pixels that differ and in which channel."""
-    done = subprocess.run([build / "compare_pictures", golden, picture], capture_output=True, text=True)
+    done = subprocess.run([build / "compare_pictures", golden, picture, str(limits[3])], capture_output=True, text=True)
     if done.returncode != 0:
         sys.exit(f"{golden}, {picture}: {done.stderr.strip()}")
     words = done.stdout.split()
@@ -95,7 +96,7 @@ def tolerances(build):
 
 def verdict(values, limits=TOLERANCES):
     """What is wrong with pictures that differ so much; None where nothing is."""
-    mean, tile, pixels = limits
+    mean, tile, pixels, _ = limits
     if len(values) == 2:
         return f"more than {pixels}" if values[0] > pixels else None
     if values[0] > mean:
@@ -139,7 +140,7 @@ def main():
             os.replace(picture, golden)
             print(f"made    {golden} ({golden.stat().st_size // 1024} KB): look at it before you commit it")
             continue
-        values = difference(build, golden, picture)
+        values = difference(build, golden, picture, limits)
         if problem := verdict(values, limits):
             failed(f"{name}: {told(values)}: {problem}: compare {golden} and {picture}; if the new one is right: "
                    f"tests/golden/update {name}")
