@@ -1,5 +1,5 @@
-/* SCUMBLE_API: what the shared library shows to others; SCUMBLE_HIDDEN: a part of that which it does not. C and
-   C++. */
+/* SCUMBLE_API: what the shared library shows to others; SCUMBLE_HIDDEN: a part of that which it does not. C
+   and C++. */
 #ifndef SCUMBLE_EXPORT_H
 #define SCUMBLE_EXPORT_H
 

@@ -121,7 +121,7 @@ class InsertedPass : public BothEyes {
 
   // Layers of a frame by a renderer whose passes were arranged.
   static Frame drawWith(const std::function<void(renderer::PassList&)>& arrange,
-                        std::vector<std::string> aovs = {}, std::string* graph = nullptr) {
+                        const std::vector<std::string>& aovs = {}, std::string* graph = nullptr) {
     RendererOptions options;
     options.device = testDevice();
     options.validation = true;
