@@ -544,9 +544,9 @@ void Renderer::Impl::record(VkCommandBuffer commands, Resident& resident, const 
 void Renderer::Impl::fetch(Begun& frame) {
   if (frame.fetched) return;
   submissions[frame.slot]->wait();
+  for (const Begun::Part& part : frame.parts) part.setup->readTimes(frame.slot, frame.frame.stats);
   const Clock::time_point start = Clock::now();
   for (const Begun::Part& part : frame.parts) {
-    part.setup->readTimes(frame.slot, frame.frame.stats);
     const bool isFirst = &part == &frame.parts.front();
     std::vector<Setup::Layer> layers = part.setup->readLayers(frame.slot, frame.formats);
     for (size_t i = 0; i < layers.size(); ++i) {
