@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "frame/light.h"
 #include "frame/palette.h"
@@ -58,8 +59,10 @@ shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const look::LookDat
 
 shared::ColorMap ColorMaps::get(const ColorRule& rule) {
   if (rule.side == ColorRule::painted && rule.grade == Grade()) return identityColorMap();
+  // To the bit.
+  const auto bytes = [](const ColorRule& of) { return std::as_bytes(std::span(&of, 1)); };
   for (const auto& [known, map] : known_)
-    if (std::memcmp(&known, &rule, sizeof(rule)) == 0) return map;
+    if (std::ranges::equal(bytes(known), bytes(rule))) return map;
   // An animated palette must not fill the memory.
   if (known_.size() >= 256) known_.clear();
   return known_.emplace_back(rule, fitColorMap(rule)).second;
