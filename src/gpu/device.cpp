@@ -10,12 +10,25 @@
 #include "gpu/cache_file.h"
 #include "gpu/pipeline.h"
 #include "gpu/view_probe.h"
+#include "scumble/vulkan.h"
 
 namespace scumble::gpu {
 
 namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
+// Calls visit(feature, name) for every feature that scumble requires.
+template <class Visit>
+void forEachRequired(VulkanFeatures& f, Visit visit) {
+  visit(f.v13.dynamicRendering, "dynamicRendering");
+  visit(f.v13.synchronization2, "synchronization2");
+  visit(f.v13.maintenance4, "maintenance4");
+  visit(f.v12.scalarBlockLayout, "scalarBlockLayout");
+  visit(f.v11.multiview, "multiview");
+  visit(f.core.features.fragmentStoresAndAtomics, "fragmentStoresAndAtomics");
+  visit(f.core.features.independentBlend, "independentBlend");
+}
 
 // What image passes use of subgroups, whichever way they run.
 bool hasSubgroups(VkPhysicalDevice physical) {
@@ -94,7 +107,7 @@ DeviceInfo describe(VkPhysicalDevice physical) {
   } else if (!hasGraphicsQueue(physical, &family)) {
     info.unusableBecause = "it has no queue for graphics and compute";
   } else {
-    Features features;
+    VulkanFeatures features;
     vkGetPhysicalDeviceFeatures2(physical, &features.core);
     forEachRequired(features, [&](VkBool32 present, const char* name) {
       if (!present && info.unusableBecause.empty()) info.unusableBecause = std::string("it lacks ") + name;
@@ -211,10 +224,6 @@ std::string VulkanError::message() const {
          std::to_string(int(result)) + ")";
 }
 
-std::string whyUnusable(VkPhysicalDevice physical) {
-  return describe(physical).unusableBecause;
-}
-
 Result<std::vector<DeviceInfo>> listDevices() {
   Result<VkInstance> instance = createInstance(false);
   if (!instance) return instance.error();
@@ -311,12 +320,13 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
     queueInfo.queueFamilyIndex = device->queueFamily_;
     queueInfo.queueCount = 1;
     queueInfo.pQueuePriorities = &priority;
-    Features features;
-    forEachRequired(features, [](VkBool32& feature, const char*) { feature = VK_TRUE; });
+    VulkanFeatures features;
+    requireVulkanFeatures(features);
+    if (options.features) options.features(features);
     std::vector<const char*> extensions;
     for (const std::string& name : options.deviceExtensions) extensions.push_back(name.c_str());
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
-    info.pNext = options.features ? options.features : &features.core;
+    info.pNext = &features.core;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queueInfo;
     info.enabledExtensionCount = uint32_t(extensions.size());
@@ -330,7 +340,7 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
   return device;
 }
 
-Result<std::unique_ptr<Device>> Device::adopt(const ForeignDevice& foreign, const std::string& cacheFolder) {
+Result<std::unique_ptr<Device>> Device::adopt(const VulkanDevice& foreign, const std::string& cacheFolder) {
   std::unique_ptr<Device> device(new Device);
   device->isForeign_ = true;
   device->instance_ = foreign.instance;
@@ -452,3 +462,21 @@ void Device::runOnce(const std::function<void(VkCommandBuffer)>& record) {
 }
 
 }  // namespace scumble::gpu
+
+namespace scumble {
+
+VulkanFeatures::VulkanFeatures() {
+  core.pNext = &v11;
+  v11.pNext = &v12;
+  v12.pNext = &v13;
+}
+
+void requireVulkanFeatures(VulkanFeatures& features) {
+  gpu::forEachRequired(features, [](VkBool32& feature, const char*) { feature = VK_TRUE; });
+}
+
+std::string whyUnusable(VkPhysicalDevice physical) {
+  return gpu::describe(physical).unusableBecause;
+}
+
+}  // namespace scumble

@@ -14,44 +14,13 @@
 #include "gpu/vulkan.h"
 #include "scumble/result.h"
 
-namespace scumble::gpu {
+namespace scumble {
 
-// All feature structures that are queried or asked for, chained.
-struct Features {
-  VkPhysicalDeviceFeatures2 core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-  VkPhysicalDeviceVulkan11Features v11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES};
-  VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-  VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-  Features() {
-    core.pNext = &v11;
-    v11.pNext = &v12;
-    v12.pNext = &v13;
-  }
-  Features(const Features&) = delete;
-  Features& operator=(const Features&) = delete;
-};
+// Of scumble/vulkan.h.
+struct VulkanDevice;
+struct VulkanFeatures;
 
-// Calls visit(feature, name) for every feature that scumble requires, of gpu::Features or what has the same
-// members.
-template <class Structures, class Visit>
-void forEachRequired(Structures& f, Visit visit) {
-  visit(f.v13.dynamicRendering, "dynamicRendering");
-  visit(f.v13.synchronization2, "synchronization2");
-  visit(f.v13.maintenance4, "maintenance4");
-  visit(f.v12.scalarBlockLayout, "scalarBlockLayout");
-  visit(f.v11.multiview, "multiview");
-  visit(f.core.features.fragmentStoresAndAtomics, "fragmentStoresAndAtomics");
-  visit(f.core.features.independentBlend, "independentBlend");
-}
-
-// Somebody else's device, which outlives ours.
-struct ForeignDevice {
-  VkInstance instance = VK_NULL_HANDLE;
-  VkPhysicalDevice physical = VK_NULL_HANDLE;
-  VkDevice device = VK_NULL_HANDLE;
-  VkQueue queue = VK_NULL_HANDLE;
-  uint32_t queueFamily = 0;
-};
+namespace gpu {
 
 struct DeviceOptions {
   std::string choice;  // part of a name, a number in the order of listDevices(), "cpu", or empty: the best
@@ -59,8 +28,7 @@ struct DeviceOptions {
   std::string cacheFolder;  // where compiled pipelines and what the probe found are kept; empty: nowhere
   // What somebody wants of the device besides; a device without the extensions is no usable GPU.
   std::vector<std::string> instanceExtensions, deviceExtensions;
-  // Instead of Features with what scumble requires: somebody's chain that has it and more.
-  const VkPhysicalDeviceFeatures2* features = nullptr;
+  std::function<void(VulkanFeatures&)> features;  // switches on more than scumble requires; may be empty
 };
 
 struct DeviceInfo {
@@ -72,9 +40,6 @@ struct DeviceInfo {
 
 // Every Vulkan device of the machine, in the loader's order.
 Result<std::vector<DeviceInfo>> listDevices();
-
-// Why a device cannot be used; empty where it can.
-std::string whyUnusable(VkPhysicalDevice physical);
 
 // Index of the device that `choice` means; fails with noUsableGpu.
 Result<size_t> chooseDevice(const std::vector<DeviceInfo>& devices, const std::string& choice);
@@ -97,7 +62,8 @@ struct ViewDrawings {
 class Device {
  public:
   static Result<std::unique_ptr<Device>> create(const DeviceOptions& options);
-  static Result<std::unique_ptr<Device>> adopt(const ForeignDevice& device, const std::string& cacheFolder);
+  // Somebody else's, which outlives ours.
+  static Result<std::unique_ptr<Device>> adopt(const VulkanDevice& device, const std::string& cacheFolder);
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
@@ -172,4 +138,5 @@ class Device {
   std::atomic<int> validationMessages_ = 0;
 };
 
-}  // namespace scumble::gpu
+}  // namespace gpu
+}  // namespace scumble

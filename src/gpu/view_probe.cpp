@@ -77,8 +77,10 @@ ProbePicture drawProbe(Device& device, ViewDrawing drawing, uint32_t samples) {
   }
   graph.addStep("read");
   for (const Handle image : resolved) graph.use(image, Use::copySource);
-  const Handle read = graph.use(graph.importBuffer("read"), Use::copyTarget);
-  const FrameGraph::Needs needs = graph.needsOf({&read, 1});
+  graph.use(
+      graph.importBuffer("read", Outside{}, Outside{VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT}),
+      Use::copyTarget);
+  const FrameGraph::Needs needs = graph.needsOf({});
   const GraphResources images(device, graph, needs, {kSize, kSize, kProbeLayers});
   const auto recordBarriersOf = [&](VkCommandBuffer commands, size_t step) {
     recordBarriers(commands, images.barriers()[step],
@@ -112,8 +114,7 @@ ProbePicture drawProbe(Device& device, ViewDrawing drawing, uint32_t samples) {
       vkCmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                              readback.handle(), 1, &copy);
     }
-    memoryBarrier(commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+    recordBarriersOf(commands, 2);
   });
 
   ProbePicture picture;

@@ -53,7 +53,7 @@ std::vector<View> ridden(std::vector<View> views, const SceneMotion& motion) {
   return views;
 }
 
-// From the first group's size, as the picture behind everything covers it; of others it has what it needs.
+// The picture behind everything has texels for the largest of all views.
 glm::uvec2 largestOf(const std::vector<ViewGroup>& groups) {
   glm::uvec2 largest(0);
   for (const ViewGroup& group : groups) largest = glm::max(largest, group.size);
@@ -82,6 +82,7 @@ Renderer::Impl::Impl(std::unique_ptr<gpu::Device> made, const RendererOptions& o
   passes = standardPasses();
   if (options.arrangePasses) options.arrangePasses(passes);
   asked = passes.makeAll();
+  aovs = aovsOf(asked);
 }
 
 Renderer::Impl::~Impl() {
@@ -134,8 +135,7 @@ void Renderer::Impl::useSetups(Resident& resident, const std::vector<SetupKey>& 
         if (!now[i] && setup && setup->key() == keys[i] &&
             (!sizeToo || setup->size() == frame.parts[i].group.size))
           now[i] = std::move(setup);
-  const bool isWhole = std::none_of(had.begin(), had.end(), [](const auto& setup) { return bool(setup); });
-  bool fits = isWhole;
+  bool fits = std::none_of(had.begin(), had.end(), [](const auto& setup) { return bool(setup); });
   for (size_t i = 0; i < keys.size(); ++i) fits &= now[i] && now[i]->size() == frame.parts[i].group.size;
   if (!fits) {
     // Frames under way may use what changes or goes.
@@ -203,13 +203,13 @@ Status Renderer::Impl::check(const Request& request) const {
     return usage("too many frames have been begun", "call finish() first");
 
   // Only what a pass offers can be saved.
-  const std::vector<const Aov*> aovs = options.plain ? std::vector<const Aov*>() : aovsOf(asked);
+  const std::vector<const Aov*> offered = options.plain ? std::vector<const Aov*>() : aovs;
   std::vector<std::string> names = options.aovs;
   if (delivery)
     for (const Delivery::Target& target : delivery->targets)
       if (!target.key.aov.empty()) names.push_back(target.key.aov);
   for (const std::string& name : names)
-    if (std::none_of(aovs.begin(), aovs.end(), [&](const Aov* aov) { return name == aov->name; })) {
+    if (std::none_of(offered.begin(), offered.end(), [&](const Aov* aov) { return name == aov->name; })) {
       const std::string suggestion = nearest(name, aovNames());
       return usage("there is no AOV '" + name + "'", suggestion.empty()
                                                          ? "`scumble render --help` lists them"
@@ -220,7 +220,7 @@ Status Renderer::Impl::check(const Request& request) const {
     if (name.empty()) continue;
     if (std::find(options.aovs.begin(), options.aovs.end(), name) == options.aovs.end())
       return usage("there is a format for '" + name + "', which is not asked for", "name it in aovs as well");
-    const bool isColor = std::any_of(aovs.begin(), aovs.end(),
+    const bool isColor = std::any_of(offered.begin(), offered.end(),
                                      [&](const Aov* aov) { return name == aov->name && aov->isColor; });
     if (wanted.second == PixelFormat::srgb8 && !isColor)
       return usage("the AOV '" + name + "' is no colour", "8-bit codes are for colours only");
@@ -245,33 +245,31 @@ SetupKey Renderer::Impl::keyOf(const Request& request, const look::LookData& now
 }
 
 std::vector<SetupKey> Renderer::Impl::keysOf(const Request& request, const look::LookData& now,
-                                             const std::vector<ViewGroup>& groups) const {
+                                             std::vector<Begun::Part>& parts) const {
   std::vector<SetupKey> keys;
-  std::vector<VkImage> delivered;  // by an earlier group
+  std::vector<VkImage> delivered;  // by an earlier part
   const SetupKey common = keyOf(request, now);
-  for (const ViewGroup& group : groups) {
-    SetupKey key = common;
-    key.configuration.viewCount = uint32_t(group.members.size());
-    if (group.members.size() > 1)
+  for (Begun::Part& part : parts) {
+    const std::vector<size_t>& members = part.group.members;
+    SetupKey& key = keys.emplace_back(common);
+    key.configuration.viewCount = uint32_t(members.size());
+    if (members.size() > 1)
       key.configuration.viewDrawing =
           device->viewDrawing(request.options.samples).value_or(gpu::ViewDrawing::together);
-    if (request.delivery) {
-      std::vector<VkImage> images;
-      for (const Delivery::Target& target : request.delivery->targets) {
-        const auto member = std::find(group.members.begin(), group.members.end(), target.view);
-        if (member == group.members.end()) continue;
-        const auto image = std::find(images.begin(), images.end(), target.image);
-        TargetKey& own = key.targets.emplace_back(target.key);
-        own.image = uint32_t(image - images.begin());
-        own.view = uint32_t(member - group.members.begin());
-        if (image == images.end()) images.push_back(target.image);
-        // What a group before has drawn into it stays.
-        if (std::find(delivered.begin(), delivered.end(), target.image) != delivered.end())
-          own.before = own.after;
-      }
-      delivered.insert(delivered.end(), images.begin(), images.end());
+    if (!request.delivery) continue;
+    for (const Delivery::Target& target : request.delivery->targets) {
+      const auto member = std::find(members.begin(), members.end(), target.view);
+      if (member == members.end()) continue;
+      const auto image = std::find(part.images.begin(), part.images.end(), target.image);
+      TargetKey& own = key.targets.emplace_back(target.key);
+      own.image = uint32_t(image - part.images.begin());
+      own.view = uint32_t(member - members.begin());
+      if (image == part.images.end()) part.images.push_back(target.image);
+      // What a part before has drawn into it stays.
+      if (std::find(delivered.begin(), delivered.end(), target.image) != delivered.end())
+        own.before = own.after;
     }
-    keys.push_back(std::move(key));
+    delivered.insert(delivered.end(), part.images.begin(), part.images.end());
   }
   return keys;
 }
@@ -327,7 +325,7 @@ Status Renderer::Impl::begin(const Request& request) {
     geometry.casts = shadowCasters(scene.data(), now);
     geometry.clips = everPlayed(scene.data(), look);
     geometry.nodes = nodeSettings(scene.data(), now);
-    for (const Aov* const aov : aovsOf(asked))
+    for (const Aov* const aov : aovs)
       if (aov->namesObjects &&
           std::find(options.aovs.begin(), options.aovs.end(), aov->name) != options.aovs.end())
         next.frame.objects = objectNames(scene.data(), geometry);
@@ -337,7 +335,7 @@ Status Renderer::Impl::begin(const Request& request) {
         background ? Backdrop::sizeFor(*background, frameSize.x, frameSize.y) : glm::uvec2(0);
     useBackdrop(texels);
     stats.uploadMilliseconds = lap();
-    useSetups(resident, keysOf(request, now, groups), next);
+    useSetups(resident, keysOf(request, now, next.parts), next);
     keepBudget(1);
     stats.setupMilliseconds = lap();
 
@@ -380,7 +378,7 @@ Status Renderer::Impl::begin(const Request& request) {
       part.setup->update({now, time, uniforms, sceneOnGpu, options.transparent || background, options.seed,
                           behind ? &*behind : nullptr},
                          lights);
-      if (delivery) setTargets(part, next.slot, *delivery);
+      part.setup->setTargets(next.slot, part.images);
     }
 
     if (request.isRehearsal) {
@@ -498,16 +496,6 @@ Status Renderer::Impl::prepare(const Request& request, bool everyKnob) {
   }
   rehearsal.time = request.time;
   return begin(rehearsal);
-}
-
-void Renderer::Impl::setTargets(const Begun::Part& part, uint32_t slot, const Delivery& delivery) {
-  std::vector<VkImage> images;
-  for (const Delivery::Target& target : delivery.targets) {
-    const std::vector<size_t>& members = part.group.members;
-    if (std::find(members.begin(), members.end(), target.view) == members.end()) continue;
-    if (std::find(images.begin(), images.end(), target.image) == images.end()) images.push_back(target.image);
-  }
-  part.setup->setTargets(slot, images);
 }
 
 void Renderer::Impl::latch(const Request& request, const SceneMotion& motion, const Begun& frame) {

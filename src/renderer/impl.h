@@ -55,6 +55,7 @@ struct Begun {
   struct Part {
     ViewGroup group;
     Setup* setup = nullptr;
+    std::vector<VkImage> images;  // of others, by TargetKey::image
   };
   uint32_t slot = 0;  // of those in flight
   std::vector<Part> parts;
@@ -76,6 +77,7 @@ struct Renderer::Impl {
   renderer::PassList passes, plain = renderer::plainPasses();
   // One of each of `passes`, for what they say of themselves.
   std::vector<std::unique_ptr<frame::Pass>> asked;
+  std::vector<const frame::Aov*> aovs;  // that they may offer
   uint64_t sceneBudget = 0;
   std::list<renderer::Resident> residents;  // the one that was drawn last first
   std::optional<frame::Backdrop> backdrop;
@@ -108,9 +110,9 @@ struct Renderer::Impl {
   void useSetups(renderer::Resident& resident, const std::vector<renderer::SetupKey>& keys,
                  renderer::Begun& frame);
   renderer::SetupKey keyOf(const renderer::Request& request, const look::LookData& now) const;
+  // For each part of a frame, which gets its images.
   std::vector<renderer::SetupKey> keysOf(const renderer::Request& request, const look::LookData& now,
-                                         const std::vector<renderer::ViewGroup>& groups) const;
-  void setTargets(const renderer::Begun::Part& part, uint32_t slot, const renderer::Delivery& delivery);
+                                         std::vector<renderer::Begun::Part>& parts) const;
   // Asks the caller for the newest views, and writes them where the frame will find them.
   void latch(const renderer::Request& request, const frame::SceneMotion& motion,
              const renderer::Begun& frame);

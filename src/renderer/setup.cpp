@@ -59,7 +59,7 @@ Setup::Setup(gpu::Device& device, gpu::Samplers& samplers, ExampleTextures& exam
   for (Pass* const pass : needed_) pass->create(*builder_);
   for (const auto& deliver : delivers_) deliver->create(*builder_);
   resources_.emplace(device, builder_->graph(), needs_, frameSize());
-  resize(size);
+  bind();
 
   if (device.hasTimestamps()) {
     VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
@@ -119,10 +119,13 @@ Setup::~Setup() {
 }
 
 void Setup::resize(glm::uvec2 size) {
-  if (size != size_) {
-    size_ = size;
-    resources_->resize(frameSize());
-  }
+  if (size == size_) return;
+  size_ = size;
+  resources_->resize(frameSize());
+  bind();
+}
+
+void Setup::bind() {
   for (Pass* const pass : needed_) pass->bind(*resources_);
   for (const Read& read : reads_)
     if (read.readback) read.readback->bind(*resources_);
@@ -175,7 +178,7 @@ void Setup::readTimes(uint32_t slot, FrameStats& stats) const {
     else
       stats.passes.push_back({name, time});
   }
-  stats.gpuMilliseconds = double(stamps.back() - stamps.front()) * unit;
+  stats.gpuMilliseconds += double(stamps.back() - stamps.front()) * unit;
 }
 
 std::vector<Setup::Layer> Setup::readLayers(uint32_t slot,

@@ -32,7 +32,7 @@ class Setup {
 
   const SetupKey& key() const { return key_; }
   glm::uvec2 size() const { return size_; }
-  // Makes images anew, and nothing else; no frame may be under way.
+  // Makes images anew where they have another size, and nothing else; no frame may be under way.
   void resize(glm::uvec2 size);
 
   // Whether a pass needs to know where everything was a frame before.
@@ -62,6 +62,8 @@ class Setup {
 
  private:
   void declareTarget(const TargetKey& target, gpu::Handle picture);
+  // Names the images in everything that uses them.
+  void bind();
   gpu::ImageShape::Frame frameSize() const { return {size_.x, size_.y, key_.configuration.viewCount}; }
   void stamp(VkCommandBuffer commands, uint32_t slot, uint32_t query) const;
 

@@ -8,20 +8,6 @@ namespace scumble {
 
 using namespace renderer;
 
-VulkanFeatures::VulkanFeatures() {
-  core.pNext = &v11;
-  v11.pNext = &v12;
-  v12.pNext = &v13;
-}
-
-void requireVulkanFeatures(VulkanFeatures& features) {
-  gpu::forEachRequired(features, [](VkBool32& feature, const char*) { feature = VK_TRUE; });
-}
-
-std::string whyUnusable(VkPhysicalDevice physical) {
-  return gpu::whyUnusable(physical);
-}
-
 Result<std::unique_ptr<Renderer>> createRenderer(const VulkanWishes& wishes, const RendererOptions& options) {
   gpu::DeviceOptions deviceOptions;
   deviceOptions.choice = options.device;
@@ -29,13 +15,7 @@ Result<std::unique_ptr<Renderer>> createRenderer(const VulkanWishes& wishes, con
   deviceOptions.cacheFolder = options.cacheFolder;
   deviceOptions.instanceExtensions = wishes.instanceExtensions;
   deviceOptions.deviceExtensions = wishes.deviceExtensions;
-  // The caller's structures are asked for, and go along behind each other.
-  VulkanFeatures features;
-  if (wishes.features) {
-    requireVulkanFeatures(features);
-    wishes.features(features);
-    deviceOptions.features = &features.core;
-  }
+  deviceOptions.features = wishes.features;
   Result<std::unique_ptr<gpu::Device>> device = gpu::Device::create(deviceOptions);
   if (!device) return device.error();
   return RendererAccess::create(std::move(device).value(), options);
@@ -44,9 +24,7 @@ Result<std::unique_ptr<Renderer>> createRenderer(const VulkanWishes& wishes, con
 Result<std::unique_ptr<Renderer>> createRenderer(const VulkanDevice& device, const RendererOptions& options) {
   if (!device.instance || !device.physical || !device.device || !device.queue)
     return usage("a part of the device is null", "give instance, physical device, device and queue");
-  Result<std::unique_ptr<gpu::Device>> adopted =
-      gpu::Device::adopt({device.instance, device.physical, device.device, device.queue, device.queueFamily},
-                         options.cacheFolder);
+  Result<std::unique_ptr<gpu::Device>> adopted = gpu::Device::adopt(device, options.cacheFolder);
   if (!adopted) return adopted.error();
   return RendererAccess::create(std::move(adopted).value(), options);
 }

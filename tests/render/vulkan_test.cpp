@@ -319,6 +319,10 @@ TEST_F(Vulkan, threeViewsAtOnce) {
     EXPECT_TRUE(sameBytes(three.layers[layer].views[2], one.layers[layer].views[0])) << layer;
   }
   EXPECT_EQ(three.layers[2].views.size(), 1u) << "one shadow map for all";
+  // Times are those of all of them.
+  double passes = 0;
+  for (const PassTime& pass : three.stats.passes) passes += pass.milliseconds;
+  EXPECT_NEAR(three.stats.gpuMilliseconds, passes, 1e-6 * passes);
 }
 
 // The same six faces, whether they come together or in another order; more are refused.
