@@ -12,6 +12,7 @@
 #include "options.h"
 #include "output_files.h"
 #include "report.h"
+#include "scumble/yardstick.h"
 
 namespace scumble::app {
 
@@ -72,9 +73,6 @@ int run(const BenchArguments& args) {
   Result<std::unique_ptr<Renderer>> yardstick = Renderer::create(args.picture.rendererOptions());
   if (!yardstick) return fail(yardstick.error());
 
-  RenderOptions plain = *options;
-  plain.plain = true;
-
   std::vector<double> frame, plainFrame, ratios;
   std::map<std::string, std::vector<double>> passes;
   std::vector<std::string> order;
@@ -86,7 +84,7 @@ int run(const BenchArguments& args) {
     if (!views) return fail(views.error());
     const Result<Frame> painted = (*painter)->render(*scene, *look, time, *views, *options);
     if (!painted) return fail(painted.error());
-    const Result<Frame> drawn = (*yardstick)->render(*scene, *look, time, *views, plain);
+    const Result<Frame> drawn = renderYardstick(**yardstick, *scene, *look, time, *views, *options);
     if (!drawn) return fail(drawn.error());
     if ((*painter)->validationMessages() + (*yardstick)->validationMessages() > 0)
       return fail(Error{ErrorKind::internal, "", 0, "", "the validation layers found mistakes",

@@ -168,6 +168,7 @@ int run(const MeasureArguments& args) {
   options.progress = [&](int, int total) {
     if (!progress) progress.emplace(total, args.quiet);
     progress->done("measuring");
+    return true;
   };
   const Result<Measurements> measured = measure(**renderer, *scene, *look, options);
   progress.reset();

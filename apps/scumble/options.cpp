@@ -5,10 +5,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <set>
 
 #include "placements.h"
 #include "report.h"
+#include "scumble/check.h"
 
 namespace scumble::app {
 
@@ -162,25 +162,23 @@ Result<Look> LookArguments::withClip(const Look& from, const Scene& scene) const
 }
 
 void LookArguments::warnOfIdle(const Look& from, const Scene& scene, const std::string& sceneFile) const {
-  const auto warnOf = [](const std::vector<std::string>& idle, const std::string& why) {
-    if (idle.empty()) return;
-    std::string names = idle.front();
-    if (idle.size() == 2) names += " and " + idle.back();
-    if (idle.size() > 2) names += " and " + std::to_string(idle.size() - 1) + " more";
-    warn({names + ": " + why});
-  };
   // A look that ships is for many scenes; a file that was named, or that lies beside the scene, is for this
   // one.
   const std::string name = lookFor(sceneFile);
   const bool isFile = name.find('/') != std::string::npos || endingOf(name) == ".json";
-  const std::vector<std::string> idleByHand = settingsWithoutEffect(scene, from);
-  const std::set<std::string> byHand(idleByHand.begin(), idleByHand.end());
-  for (const std::string& setting : settingsWithoutEffect(scene, from, isFile)) {
-    warnOf({(byHand.contains(setting) ? "--set " : "") + setting},
-           "nothing in the scene has such a name (`scumble info` lists names)");
+  // A line for each name; for each of the other kinds one.
+  const std::vector<Finding> findings = check(scene, from, isFile);
+  for (auto one = findings.begin(); one != findings.end();) {
+    const auto isOther = [&](const Finding& other) {
+      return other.kind != one->kind || other.kind == Finding::Kind::noSuchName;
+    };
+    const auto end = std::find_if(one + 1, findings.end(), isOther);
+    std::string names = (one->kind == Finding::Kind::noSuchName && one->bySet ? "--set " : "") + one->setting;
+    if (end - one == 2) names += " and " + (one + 1)->setting;
+    if (end - one > 2) names += " and " + std::to_string(end - one - 1) + " more";
+    warn({names + ": " + one->problem});
+    one = end;
   }
-  warnOf(settingsWithoutNode(scene, from), "the scene has no node of that name (`scumble info` lists names)");
-  warnOf(settingsWithoutOcean(scene, from), "there is no ocean; --set ocean.mode=on puts one");
 }
 
 void PictureArguments::addTo(CLI::App& command) {

@@ -20,6 +20,7 @@ int fail(const Error& error) {
     case ErrorKind::outputNotWritten:
       return kNotWritten;
     case ErrorKind::internal:
+    case ErrorKind::cancelled:  // the program cancels nothing
       break;
   }
   return kOurFault;

@@ -6,8 +6,10 @@
 //     "materials": { "Sail*": { "warp": { "amount": 2 } } } }
 #pragma once
 
+#include <glm/glm.hpp>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "scumble/export.h"
@@ -32,10 +34,15 @@ struct Knob {
   std::vector<std::string> targets;
 };
 
+// A knob's value: a toggle's is bool, an integer's int, a number's double, a colour's linear RGB from 0 to 1,
+// a vector's itself, and a word for choices, pictures (built in, or a file's path) and names.
+using KnobValue = std::variant<bool, int, double, glm::vec3, std::string>;
+
 // Whether a text is a colour as knobs take them: "#RRGGBB", "#RGB", or one of CSS's names in small letters.
 SCUMBLE_API bool isColor(const std::string& text);
 
-// Values for knobs; what is not set has its default. Copies are cheap.
+// Values for knobs; what is not set has its default. Copies are cheap. Several threads may read a look at
+// once; who changes one (set, unset, assignment) is alone with that copy.
 class SCUMBLE_API Look {
  public:
   Look();  // all defaults
@@ -46,11 +53,19 @@ class SCUMBLE_API Look {
   static Result<Look> load(const std::string& nameOrFile);
   static Result<Look> fromJson(const std::string& text, const std::string& file);
 
-  // Sets one knob, e.g. ("shadow.threshold", "0.4") or ("materials.Sail*.warp.amount", "2"), likewise
-  // below "nodes" and "clips"; below "colorizers" and "decorations" a new name declares one. It wins over the
-  // file's values and tracks; a setting for some names wins over one for the whole scene; of two alike the
-  // later one wins. Fails with ErrorKind::usage.
-  Status set(const std::string& path, const std::string& value);
+  // Sets one knob, e.g. ("shadow.threshold", 0.4) or ("materials.Sail*.warp.amount", 2), likewise below
+  // "nodes" and "clips"; below "colorizers" and "decorations" a new name declares one. Any knob takes its
+  // value as text, too: "0.4", "true", "#EADFC8", "1,2,3". It wins over the file's values and tracks; a
+  // setting for some names wins over one for the whole scene; of two alike the later one wins. Fails with
+  // ErrorKind::usage, and with unusableFile for pictures.
+  Status set(const std::string& path, const KnobValue& value);
+  // Takes back what set() has set by this very path: what the file says holds again. Fails with
+  // ErrorKind::usage where there is no such knob.
+  Status unset(const std::string& path);
+  // What holds at a time (seconds) for the whole scene, or for one name of a section
+  // ("materials.Sail.warp.amount"; of a node what the look says for the scene and for nodes of its name).
+  // Fails with ErrorKind::usage where there is no such knob, and for patterns, which have no one value.
+  Result<KnobValue> get(const std::string& path, double time = 0) const;
 
   const std::string& description() const;
   // Files that it was read from: looks, those that it extends too, and pictures.

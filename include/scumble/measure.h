@@ -18,8 +18,9 @@ struct MeasureOptions {
   uint32_t seed = 0;                   // the first of those that are used
   Viewpoint viewpoint;                 // the framing that everything starts from
   std::optional<float> ipd;            // metres; default: 1/40 of the distance to the scene's centre
-  // Called after each of `total` steps.
-  std::function<void(int done, int total)> progress;
+  // Called after each of `total` steps, on the calling thread; where it returns false, measure() fails with
+  // ErrorKind::cancelled.
+  std::function<bool(int done, int total)> progress;
 };
 
 // A number for each of the two fields on the surface: the vectors that tear edges, and the breakup marks.

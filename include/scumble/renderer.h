@@ -11,8 +11,11 @@
 #include <vector>
 
 #include "scumble/export.h"
+#include "scumble/frame_stats.h"
 #include "scumble/image.h"
+#include "scumble/log.h"
 #include "scumble/look.h"
+#include "scumble/progress.h"
 #include "scumble/result.h"
 #include "scumble/scene.h"
 #include "scumble/view.h"
@@ -43,13 +46,15 @@ enum class ImagePassKind { automatic, fragment, compute };
 
 struct RendererOptions {
   std::string device;       // part of a name, a number of listGpus(), "cpu", or empty: the best one
-  bool validation = false;  // Vulkan validation layers; messages go to stderr and are counted
+  bool validation = false;  // Vulkan validation layers; messages go to `log` and are counted
   std::string cacheFolder;  // compiled pipelines are kept here between runs; empty: nowhere
   ImagePassKind imagePasses = ImagePassKind::automatic;  // how image passes run; automatic measures nothing,
                                                          // it chooses by the kind of device (docs/gpu.md)
   // Bytes of device memory up to which scenes that were drawn stay on the device, ready to be drawn again
   // beside others; the one drawn last always does.
   uint64_t sceneBudget = uint64_t(1) << 29;
+  // Empty: messages of the validation layers go to stderr, and others nowhere.
+  Log log;
   // Changes which passes draw the picture, for passes that live outside of the library
   // (src/renderer/pass_list.h, which is not installed); called once.
   std::function<void(renderer::PassList&)> arrangePasses;
@@ -71,36 +76,20 @@ struct RenderOptions {
   // `transparent`.
   std::shared_ptr<const Image> background;
   uint32_t seed = 0;
-  bool plain = false;  // the yardstick: the scene once, unlit, one pass, nothing else
-  // The views and the time (seconds) one frame earlier, for the motion AOV; empty: the same as now.
+  // The views, the time (seconds) and the scene one frame earlier, for the motion AOV; empty: the same as
+  // now. The scene is an earlier one of the same SceneEditor, with as many nodes; vertices at rest are taken
+  // from the present one.
   std::vector<View> previousViews;
   std::optional<double> previousTime;
+  Scene previousScene;
+  // While the scene goes to the device and pipelines are compiled, which is most of a first frame, and until
+  // the frame is sent; prepare() tells of all its frames. Cancelled, the frame is not drawn.
+  Progress progress;
   // Late latch: called when the frame is recorded, just before it is sent, with its views, whose poses and
   // projections may be changed there. What decides where marks lie, what is left out because no view sees it,
   // and the order of what is transparent stay as the first ones have it, so that it is for the last
   // milliseconds of a head's way. Views that cannot be drawn from change nothing.
   std::function<void(std::vector<View>&)> latch;
-};
-
-struct PassTime {
-  std::string name;
-  double milliseconds = 0;  // on the GPU
-};
-
-struct FrameStats {
-  std::vector<PassTime> passes;  // in order; empty where the device has no timestamps
-  double gpuMilliseconds = 0;    // first to last timestamp
-  double cpuMilliseconds = 0;    // poses, uniforms, passes' updates, recording; beside the GPU's work
-  double readbackMilliseconds = 0;
-  double uploadMilliseconds = 0;  // building the scene's GPU data; 0 once it is there
-  double setupMilliseconds = 0;   // images and pipelines; 0 once they are there
-  // That were compiled for this frame: 0 once they are there, see Renderer::prepare().
-  uint32_t pipelines = 0;
-  uint64_t triangles = 0, drawCalls = 0;
-  uint64_t deviceBytes = 0, uploadedBytes = 0;
-  // Of the frame's own images, those that live at different times in the same memory; and what they would
-  // take without that.
-  uint64_t imageBytes = 0, imageBytesUnshared = 0;
 };
 
 // A finished frame: for each view the picture and the AOVs that were asked for.
@@ -119,19 +108,6 @@ struct Frame {
 
 // Seconds after which every clip that a look plays has played once; 0 where none does.
 SCUMBLE_API double playedSeconds(const Scene& scene, const Look& look);
-
-// Names and patterns of materials, nodes and clips that the look sets something for and that the scene does
-// not have, e.g. "materials.Sial": slips, most of them. Of what Look::set has set all of them; of the look's
-// file none, for it may know other scenes, but where it is meant for this one (`fileToo`) its names: patterns
-// ('*' and '?') may still be meant for many.
-SCUMBLE_API std::vector<std::string> settingsWithoutEffect(const Scene& scene, const Look& look,
-                                                           bool fileToo = false);
-// Settings of the look by which something hangs, at any time, on a node which the scene does not have, e.g.
-// "colorizers.Glow.volume.node": it is left out then.
-SCUMBLE_API std::vector<std::string> settingsWithoutNode(const Scene& scene, const Look& look);
-// What a look says of an ocean to no effect, since the scene has none and the look puts none: "decorations",
-// where it declares any, and groups of knobs that Look::set set, e.g. "ocean.paint".
-SCUMBLE_API std::vector<std::string> settingsWithoutOcean(const Scene& scene, const Look& look);
 
 // One thread at a time uses a renderer: a call of another one meanwhile fails with usage and changes nothing,
 // and nobody destroys a renderer while a call is under way. Renderers of their own are independent.

@@ -12,11 +12,12 @@ namespace scumble {
 
 // Whose fault an error is. The program turns each kind into its own exit code.
 enum class ErrorKind {
-  internal,         // our own fault
-  usage,            // a call or command line that makes no sense
-  unusableFile,     // a file that was given cannot be used
-  noUsableGpu,      // no device fulfils the requirements, or it was lost
-  outputNotWritten  // the output cannot be written
+  internal,          // our own fault
+  usage,             // a call or command line that makes no sense
+  unusableFile,      // a file that was given cannot be used
+  noUsableGpu,       // no device fulfils the requirements, or it was lost
+  outputNotWritten,  // the output cannot be written
+  cancelled          // the caller wanted it to stop
 };
 
 struct SCUMBLE_API Error {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scumble/export.h"
+#include "scumble/progress.h"
 #include "scumble/result.h"
 
 namespace scumble {
@@ -19,6 +20,7 @@ struct SceneOptions {
   int scene = -1;             // which of the file's scenes; -1: its default one
   bool allowOutside = false;  // whether URIs may lead out of the scene's folder upwards
   int threads = 0;            // for decoding; 0: as many as the machine has
+  Progress progress = {};     // of load() and loadFromMemory(); of a world, file by file
 };
 
 // What loading took, in milliseconds of wall clock.
@@ -77,6 +79,7 @@ class SCUMBLE_API Scene {
   const scene::SceneData& data() const { return *data_; }
 
  private:
+  friend class SceneEditor;
   std::shared_ptr<const scene::SceneData> data_;
   SceneTimings timings_;
 };

@@ -28,7 +28,8 @@ typedef enum scumble_status {
   SCUMBLE_USAGE = 2,
   SCUMBLE_UNUSABLE_FILE = 3,
   SCUMBLE_NO_USABLE_GPU = 4,
-  SCUMBLE_OUTPUT_NOT_WRITTEN = 5
+  SCUMBLE_OUTPUT_NOT_WRITTEN = 5,
+  SCUMBLE_CANCELLED = 6
 } scumble_status;
 
 /* Why the last call of this thread that failed did so: "FILE:LINE (JSON path): what is wrong; what to do".
@@ -37,16 +38,82 @@ SCUMBLE_API const char* scumble_error(void);
 /* The library's own version, which may differ from SCUMBLE_VERSION_STRING: "0.1.0". */
 SCUMBLE_API const char* scumble_version(void);
 
+/* Called now and then with the part that is done, 0 to 1; returns 0 to stop, and the call gives
+   SCUMBLE_CANCELLED. From one thread at a time, not always the caller's (progress.h). */
+typedef int32_t (*scumble_progress)(void* user, double part);
+
 /* -- Scenes (scene.h) */
 
 typedef struct scumble_scene scumble_scene;
 
-/* Reads .gltf, .glb, or a world (.json). */
-SCUMBLE_API scumble_scene* scumble_scene_load(const char* path);
+/* Reads .gltf, .glb, or a world (.json). `progress` may be null. */
+SCUMBLE_API scumble_scene* scumble_scene_load(const char* path, scumble_progress progress, void* user);
 /* The same from memory; with `folder` null or empty no file is opened. `name`: what messages call it. */
 SCUMBLE_API scumble_scene* scumble_scene_from_memory(const void* bytes, size_t size, const char* name,
                                                      const char* folder);
 SCUMBLE_API void scumble_scene_free(scumble_scene* scene);
+
+/* -- Scenes from arrays, and scenes that change (scene_editor.h) */
+
+typedef struct scumble_editor scumble_editor;
+
+/* Of a scene that is to be changed; null: of nothing. One thread at a time uses an editor. */
+SCUMBLE_API scumble_editor* scumble_editor_create(const scumble_scene* scene);
+SCUMBLE_API void scumble_editor_free(scumble_editor* editor);
+/* The scene as it is now, to be freed by scumble_scene_free(); it stays as it is. */
+SCUMBLE_API scumble_scene* scumble_editor_scene(scumble_editor* editor);
+
+/* What is added gets a number from 0 on, its id; -1: it failed. Instead of adding, `id` sets what has that
+   number; -1 adds. Material 0 is always there. */
+
+/* Four bytes a pixel, sRGB, straight alpha, row 0 at the top. */
+SCUMBLE_API int32_t scumble_editor_texture(scumble_editor* editor, int32_t id, const char* name,
+                                           uint32_t width, uint32_t height, const uint8_t* rgba);
+
+/* Start from scumble_material_default; the C++ header has more. */
+typedef struct scumble_material {
+  const char* name;                                /* by which looks know it */
+  float base_color[4];                             /* linear; a factor on the texture */
+  int32_t base_color_texture;                      /* -1: none */
+  float emissive[3];                               /* linear; a factor on the texture */
+  int32_t emissive_texture;                        /* -1: none */
+  int32_t alpha;                                   /* 0 opaque, 1 masked, 2 blended */
+  float alpha_cutoff;                              /* of masked ones */
+  int32_t double_sided, unlit, has_shadowed_color; /* 0 or 1 */
+  float shadowed_color[3];                         /* linear */
+} scumble_material;
+SCUMBLE_API void scumble_material_default(scumble_material* material);
+SCUMBLE_API int32_t scumble_editor_material(scumble_editor* editor, int32_t id,
+                                            const scumble_material* material);
+/* The first of this name; -1: there is none. */
+SCUMBLE_API int32_t scumble_editor_find_material(const scumble_editor* editor, const char* name);
+
+/* Triangles with one material. Arrays have an entry a vertex, or are null but for the positions; indices are
+   three a triangle, or null: vertices as they come. */
+typedef struct scumble_mesh_part {
+  size_t vertex_count, index_count;
+  const float* positions; /* 3 each, metres */
+  const uint32_t* indices;
+  const float* normals;   /* 3 each */
+  const float *uv0, *uv1; /* 2 each */
+  const uint8_t* colors;  /* 4 each, linear */
+  int32_t material;
+} scumble_mesh_part;
+SCUMBLE_API int32_t scumble_editor_mesh(scumble_editor* editor, int32_t id, const scumble_mesh_part* parts,
+                                        size_t part_count);
+
+/* `parent` and `mesh`: -1, none; `transform`: column-major, to the parent's space. */
+SCUMBLE_API int32_t scumble_editor_add_node(scumble_editor* editor, const char* name, int32_t parent,
+                                            const float transform[16], int32_t mesh);
+/* The first of this name, "boat/Deck" for one below another; -1: there is none. */
+SCUMBLE_API int32_t scumble_editor_find_node(const scumble_editor* editor, const char* name);
+SCUMBLE_API scumble_status scumble_editor_set_transform(scumble_editor* editor, int32_t node,
+                                                        const float transform[16]);
+/* 0: neither it nor what is below it is drawn. */
+SCUMBLE_API scumble_status scumble_editor_set_visible(scumble_editor* editor, int32_t node, int32_t visible);
+/* So many matrices; none: its mesh is drawn once. */
+SCUMBLE_API scumble_status scumble_editor_set_instances(scumble_editor* editor, int32_t node,
+                                                        const float* transforms, size_t count);
 
 /* -- Looks (look.h) */
 
@@ -60,6 +127,25 @@ SCUMBLE_API scumble_look* scumble_look_load(const char* name_or_file);
 SCUMBLE_API scumble_look* scumble_look_from_json(const char* text, const char* name);
 /* Sets one knob, e.g. "shadow.threshold" to "0.4"; wins over what the look says. */
 SCUMBLE_API scumble_status scumble_look_set(scumble_look* look, const char* path, const char* value);
+/* The same with one number (numbers, integers; toggles as 0 or 1) or three (colours, linear; vectors). */
+SCUMBLE_API scumble_status scumble_look_set_numbers(scumble_look* look, const char* path,
+                                                    const double* numbers, size_t count);
+/* Takes back what was set by this path. */
+SCUMBLE_API scumble_status scumble_look_unset(scumble_look* look, const char* path);
+/* What holds at a time: one number or three, or a word (count 0), whose text is valid until this thread asks
+   again. */
+typedef struct scumble_value {
+  size_t count;
+  double numbers[3];
+  const char* text; /* null where there are numbers */
+} scumble_value;
+SCUMBLE_API scumble_status scumble_look_get(const scumble_look* look, const char* path, double time,
+                                            scumble_value* value);
+/* What the look says to no effect in a scene (check.h), one call each: the setting, and what is wrong.
+   `is_for_scene`: the look's file is meant for this scene alone. */
+typedef void (*scumble_finding)(void* user, const char* setting, const char* problem);
+SCUMBLE_API scumble_status scumble_check(const scumble_scene* scene, const scumble_look* look,
+                                         int32_t is_for_scene, scumble_finding finding, void* user);
 SCUMBLE_API void scumble_look_free(scumble_look* look);
 
 /* -- Views (view.h) */
@@ -97,10 +183,20 @@ SCUMBLE_API scumble_status scumble_make_views(const scumble_scene* scene, const 
 typedef struct scumble_renderer scumble_renderer;
 typedef struct scumble_frame scumble_frame;
 
-/* `device`: part of a name, a number, "cpu", or null: the best one. `cache_folder`: where compiled pipelines
-   are kept; null: nowhere. With `validation` Vulkan's validation layers watch. */
-SCUMBLE_API scumble_renderer* scumble_renderer_create(const char* device, const char* cache_folder,
-                                                      int32_t validation);
+/* `level`: 0 information, 1 warning, 2 error (log.h). From any thread; several may call at once. */
+typedef void (*scumble_log)(void* user, int32_t level, const char* text);
+
+/* Start from scumble_renderer_options_default. */
+typedef struct scumble_renderer_options {
+  const char* device;       /* part of a name, a number, "cpu", or null: the best one */
+  const char* cache_folder; /* where compiled pipelines are kept; null: nowhere */
+  int32_t validation;       /* Vulkan's validation layers watch */
+  scumble_log log;          /* null: their messages go to stderr, and others nowhere */
+  void* log_user;
+} scumble_renderer_options;
+SCUMBLE_API void scumble_renderer_options_default(scumble_renderer_options* options);
+/* `options` null: the defaults. */
+SCUMBLE_API scumble_renderer* scumble_renderer_create(const scumble_renderer_options* options);
 SCUMBLE_API void scumble_renderer_free(scumble_renderer* renderer);
 /* The device's name; valid as long as the renderer. */
 SCUMBLE_API const char* scumble_renderer_device(const scumble_renderer* renderer);
@@ -119,6 +215,8 @@ typedef struct scumble_options {
   scumble_format format;   /* of the picture; AOVs are 32-bit floats */
   const char* const* aovs; /* so many names of passes' outputs, beside the picture */
   size_t aov_count;
+  scumble_progress progress; /* may be null */
+  void* progress_user;
 } scumble_options;
 SCUMBLE_API void scumble_options_default(scumble_options* options);
 

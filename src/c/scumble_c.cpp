@@ -2,16 +2,22 @@
 #include <algorithm>
 #include <cstring>
 #include <exception>
+#include <glm/gtc/type_ptr.hpp>
 #include <new>
 
+#include "scumble/check.h"
 #include "scumble/image.h"
 #include "scumble/renderer.h"
+#include "scumble/scene_editor.h"
 #include "scumble/scumble.h"
 
 using namespace scumble;
 
 struct scumble_scene {
   Scene scene;
+};
+struct scumble_editor {
+  SceneEditor editor;
 };
 struct scumble_look {
   Look look;
@@ -62,6 +68,45 @@ std::string textOf(const char* text) {
   return text ? text : "";
 }
 
+Progress toProgress(scumble_progress progress, void* user) {
+  if (!progress) return {};
+  return [=](double part) { return progress(user, part) != 0; };
+}
+
+scumble_status statusOf(const Status& status) {
+  return status ? SCUMBLE_OK : fail(status.error());
+}
+
+template <class Id>
+int32_t idOf(const Result<Id>& result) {
+  if (result) return int32_t(*result);
+  fail(result.error());
+  return -1;
+}
+
+// What is added, or set where there is an id.
+template <class Id>
+int32_t idOf(Id id, const Status& status) {
+  if (status) return int32_t(id);
+  fail(status.error());
+  return -1;
+}
+
+// As guarded(), for calls that give ids.
+template <class Call>
+int32_t guardedId(Call call) {
+  int32_t id = -1;
+  guarded([&] {
+    id = call();
+    return SCUMBLE_OK;
+  });
+  return id;
+}
+
+glm::mat4 toMatrix(const float* numbers) {
+  return glm::make_mat4(numbers);
+}
+
 View toView(const scumble_view& view) {
   View result;
   std::memcpy(&result.worldToEye, view.world_to_eye, sizeof(view.world_to_eye));
@@ -107,6 +152,7 @@ Result<Call> callOf(const scumble_renderer* renderer, const scumble_scene* scene
   if (options->format < SCUMBLE_FLOAT32 || options->format > SCUMBLE_SRGB8)
     return Error{ErrorKind::usage, "", 0, "", "the format is none", "see scumble_format"};
   call.options.formats[""] = PixelFormat(options->format);
+  call.options.progress = toProgress(options->progress, options->progress_user);
   return call;
 }
 
@@ -130,9 +176,11 @@ const char* scumble_version(void) {
   return SCUMBLE_VERSION_STRING;
 }
 
-scumble_scene* scumble_scene_load(const char* path) {
+scumble_scene* scumble_scene_load(const char* path, scumble_progress progress, void* user) {
   return guarded([&]() -> scumble_scene* {
-    Result<Scene> scene = Scene::load(textOf(path));
+    SceneOptions options;
+    options.progress = toProgress(progress, user);
+    Result<Scene> scene = Scene::load(textOf(path), options);
     if (!scene) return nothing(scene.error());
     return new scumble_scene{std::move(scene).value()};
   });
@@ -151,6 +199,143 @@ scumble_scene* scumble_scene_from_memory(const void* bytes, size_t size, const c
 void scumble_scene_free(scumble_scene* scene) {
   delete scene;
 }
+
+// -- Editors
+
+scumble_editor* scumble_editor_create(const scumble_scene* scene) {
+  return guarded([&]() -> scumble_editor* {
+    return new scumble_editor{scene ? SceneEditor(scene->scene) : SceneEditor()};
+  });
+}
+
+void scumble_editor_free(scumble_editor* editor) {
+  delete editor;
+}
+
+scumble_scene* scumble_editor_scene(scumble_editor* editor) {
+  return guarded([&]() -> scumble_scene* {
+    if (!editor) return misuse("the editor is null"), nullptr;
+    Result<Scene> scene = editor->editor.scene();
+    if (!scene) return nothing(scene.error());
+    return new scumble_scene{std::move(scene).value()};
+  });
+}
+
+int32_t scumble_editor_texture(scumble_editor* editor, int32_t id, const char* name, uint32_t width,
+                               uint32_t height, const uint8_t* rgba) {
+  return guardedId([&]() -> int32_t {
+    if (!editor || !rgba) return misuse("editor or pixels are null"), -1;
+    // Sizes out of range are refused before a byte is read.
+    const TextureDesc texture{textOf(name), width, height, {rgba, size_t(4) * width * height}};
+    if (id < 0) return idOf(editor->editor.addTexture(texture));
+    return idOf(TextureId(id), editor->editor.setTexture(TextureId(id), texture));
+  });
+}
+
+void scumble_material_default(scumble_material* material) {
+  if (!material) return;
+  *material = {};
+  for (float& channel : material->base_color) channel = 1;
+  material->base_color_texture = material->emissive_texture = -1;
+  material->alpha_cutoff = MaterialDesc().alphaCutoff;
+}
+
+int32_t scumble_editor_material(scumble_editor* editor, int32_t id, const scumble_material* material) {
+  return guardedId([&]() -> int32_t {
+    if (!editor || !material) return misuse("editor or material are null"), -1;
+    if (material->alpha < 0 || material->alpha > 2) return misuse("the alpha mode is none of 0, 1 and 2"), -1;
+    const auto three = [](const float* numbers) { return glm::vec3(numbers[0], numbers[1], numbers[2]); };
+    MaterialDesc desc;
+    desc.name = textOf(material->name);
+    desc.baseColor = glm::vec4(three(material->base_color), material->base_color[3]);
+    desc.baseColorTexture.texture = TextureId(material->base_color_texture);
+    desc.emissive = three(material->emissive);
+    desc.emissiveTexture.texture = TextureId(material->emissive_texture);
+    desc.alpha = MaterialDesc::Alpha(material->alpha);
+    desc.alphaCutoff = material->alpha_cutoff;
+    desc.doubleSided = material->double_sided != 0;
+    desc.unlit = material->unlit != 0;
+    if (material->has_shadowed_color) desc.shadowedColor = three(material->shadowed_color);
+    if (id < 0) return idOf(editor->editor.addMaterial(desc));
+    return idOf(MaterialId(id), editor->editor.setMaterial(MaterialId(id), desc));
+  });
+}
+
+int32_t scumble_editor_find_material(const scumble_editor* editor, const char* name) {
+  return guardedId([&]() -> int32_t {
+    if (!editor) return -1;
+    const std::optional<MaterialId> found = editor->editor.findMaterial(textOf(name));
+    return found ? int32_t(*found) : -1;
+  });
+}
+
+int32_t scumble_editor_mesh(scumble_editor* editor, int32_t id, const scumble_mesh_part* parts,
+                            size_t part_count) {
+  return guardedId([&]() -> int32_t {
+    if (!editor || (!parts && part_count > 0)) return misuse("editor or parts are null"), -1;
+    std::vector<MeshPart> mesh;
+    for (size_t i = 0; i < part_count; ++i) {
+      const scumble_mesh_part& given = parts[i];
+      if ((!given.positions && given.vertex_count > 0) || (!given.indices && given.index_count > 0))
+        return misuse("positions or indices are null"), -1;
+      const auto list = [&]<class T>(const T*, const void* data, size_t count) {
+        return std::span<const T>(static_cast<const T*>(data), data ? count : 0);
+      };
+      const size_t count = given.vertex_count;
+      constexpr const glm::vec3* kVec3 = nullptr;
+      constexpr const glm::vec2* kVec2 = nullptr;
+      MeshPart part;
+      part.positions = list(kVec3, given.positions, count);
+      part.indices = {given.indices, given.index_count};
+      part.normals = list(kVec3, given.normals, count);
+      part.uv0 = list(kVec2, given.uv0, count);
+      part.uv1 = list(kVec2, given.uv1, count);
+      part.colors = list(static_cast<const glm::u8vec4*>(nullptr), given.colors, count);
+      part.material = MaterialId(given.material);
+      mesh.push_back(part);
+    }
+    if (id < 0) return idOf(editor->editor.addMesh(mesh));
+    return idOf(MeshId(id), editor->editor.setMesh(MeshId(id), mesh));
+  });
+}
+
+int32_t scumble_editor_add_node(scumble_editor* editor, const char* name, int32_t parent,
+                                const float transform[16], int32_t mesh) {
+  return guardedId([&]() -> int32_t {
+    if (!editor || !transform) return misuse("editor or transform are null"), -1;
+    return idOf(editor->editor.addNode({textOf(name), NodeId(parent), toMatrix(transform), MeshId(mesh)}));
+  });
+}
+
+int32_t scumble_editor_find_node(const scumble_editor* editor, const char* name) {
+  return guardedId([&]() -> int32_t { return editor ? int32_t(editor->editor.findNode(textOf(name))) : -1; });
+}
+
+scumble_status scumble_editor_set_transform(scumble_editor* editor, int32_t node, const float transform[16]) {
+  return guarded([&] {
+    if (!editor || !transform) return misuse("editor or transform are null");
+    return statusOf(editor->editor.setTransform(NodeId(node), toMatrix(transform)));
+  });
+}
+
+scumble_status scumble_editor_set_visible(scumble_editor* editor, int32_t node, int32_t visible) {
+  return guarded([&] {
+    if (!editor) return misuse("the editor is null");
+    return statusOf(editor->editor.setVisible(NodeId(node), visible != 0));
+  });
+}
+
+scumble_status scumble_editor_set_instances(scumble_editor* editor, int32_t node, const float* transforms,
+                                            size_t count) {
+  return guarded([&] {
+    if (!editor || (!transforms && count > 0)) return misuse("editor or transforms are null");
+    std::vector<glm::mat4> matrices;
+    for (size_t i = 0; i < count; ++i) matrices.push_back(toMatrix(transforms + 16 * i));
+    return statusOf(editor->editor.setInstances(NodeId(node), matrices));
+  });
+}
+
+// -- Looks
 
 scumble_look* scumble_look_create(void) {
   return guarded([]() -> scumble_look* { return new scumble_look; });
@@ -175,8 +360,61 @@ scumble_look* scumble_look_from_json(const char* text, const char* name) {
 scumble_status scumble_look_set(scumble_look* look, const char* path, const char* value) {
   return guarded([&] {
     if (!look || !path || !value) return misuse("look, path or value are null");
-    const Status status = look->look.set(path, value);
-    return status ? SCUMBLE_OK : fail(status.error());
+    return statusOf(look->look.set(path, std::string(value)));
+  });
+}
+
+scumble_status scumble_look_set_numbers(scumble_look* look, const char* path, const double* numbers,
+                                        size_t count) {
+  return guarded([&] {
+    if (!look || !path || !numbers) return misuse("look, path or numbers are null");
+    if (count != 1 && count != 3) return misuse("there are neither one number nor three");
+    if (count == 3) return statusOf(look->look.set(path, glm::vec3(numbers[0], numbers[1], numbers[2])));
+    const Result<KnobValue> present = look->look.get(path);
+    const bool isToggle = present && std::holds_alternative<bool>(*present);
+    if (isToggle && numbers[0] != 0 && numbers[0] != 1) return misuse("a toggle is neither 0 nor 1");
+    return statusOf(look->look.set(path, isToggle ? KnobValue(numbers[0] != 0) : KnobValue(numbers[0])));
+  });
+}
+
+scumble_status scumble_look_unset(scumble_look* look, const char* path) {
+  return guarded([&] {
+    if (!look || !path) return misuse("look or path are null");
+    return statusOf(look->look.unset(path));
+  });
+}
+
+scumble_status scumble_look_get(const scumble_look* look, const char* path, double time,
+                                scumble_value* value) {
+  return guarded([&] {
+    if (!look || !path || !value) return misuse("look, path or value are null");
+    static thread_local std::string text;
+    const Result<KnobValue> got = look->look.get(path, time);
+    if (!got) return fail(got.error());
+    *value = {};
+    if (const auto* const three = std::get_if<glm::vec3>(&*got)) {
+      value->count = 3;
+      for (int c = 0; c < 3; ++c) value->numbers[c] = double((*three)[c]);
+    } else if (const auto* const word = std::get_if<std::string>(&*got)) {
+      text = *word;
+      value->text = text.c_str();
+    } else {
+      value->count = 1;
+      value->numbers[0] = std::holds_alternative<bool>(*got)  ? double(std::get<bool>(*got))
+                          : std::holds_alternative<int>(*got) ? double(std::get<int>(*got))
+                                                              : std::get<double>(*got);
+    }
+    return SCUMBLE_OK;
+  });
+}
+
+scumble_status scumble_check(const scumble_scene* scene, const scumble_look* look, int32_t is_for_scene,
+                             scumble_finding finding, void* user) {
+  return guarded([&] {
+    if (!scene || !look || !finding) return misuse("scene, look or finding are null");
+    for (const Finding& one : check(scene->scene, look->look, is_for_scene != 0))
+      finding(user, one.setting.c_str(), one.problem.c_str());
+    return SCUMBLE_OK;
   });
 }
 
@@ -214,12 +452,22 @@ scumble_status scumble_make_views(const scumble_scene* scene, const scumble_look
   });
 }
 
-scumble_renderer* scumble_renderer_create(const char* device, const char* cache_folder, int32_t validation) {
+void scumble_renderer_options_default(scumble_renderer_options* options) {
+  if (options) *options = {};
+}
+
+scumble_renderer* scumble_renderer_create(const scumble_renderer_options* given) {
   return guarded([&]() -> scumble_renderer* {
     RendererOptions options;
-    options.device = textOf(device);
-    options.cacheFolder = textOf(cache_folder);
-    options.validation = validation != 0;
+    if (given) {
+      options.device = textOf(given->device);
+      options.cacheFolder = textOf(given->cache_folder);
+      options.validation = given->validation != 0;
+      if (given->log)
+        options.log = [log = given->log, user = given->log_user](LogLevel level, const std::string& text) {
+          log(user, int32_t(level), text.c_str());
+        };
+    }
     Result<std::unique_ptr<Renderer>> made = Renderer::create(options);
     if (!made) return nothing(made.error());
     auto handle = std::make_unique<scumble_renderer>();
@@ -268,8 +516,7 @@ scumble_status scumble_prepare(scumble_renderer* renderer, const scumble_scene* 
   return guarded([&] {
     const Result<Call> call = callOf(renderer, scene, look, views, view_count, options);
     if (!call) return fail(call.error());
-    const Status status = renderer->renderer->prepare(scene->scene, look->look, call->views, call->options);
-    return status ? SCUMBLE_OK : fail(status.error());
+    return statusOf(renderer->renderer->prepare(scene->scene, look->look, call->views, call->options));
   });
 }
 
@@ -316,11 +563,10 @@ scumble_status scumble_frame_write(const scumble_frame* frame, size_t layer, siz
     const Image* const image = imageOf(frame, layer, view);
     if (!image || !path) return misuse("the frame has no such layer or view, or the path is null");
     const std::string file = path;
-    const auto outcome = [&](const Status& status) { return status ? SCUMBLE_OK : fail(status.error()); };
-    if (endsWith(file, ".png")) return outcome(writePng(file, *image));
-    if (endsWith(file, ".jpg")) return outcome(writeJpeg(file, *image));
-    if (endsWith(file, ".webp")) return outcome(writeWebp(file, *image));
-    if (endsWith(file, ".exr")) return outcome(writeExr(file, {{"", "", image}}));
+    if (endsWith(file, ".png")) return statusOf(writePng(file, *image));
+    if (endsWith(file, ".jpg")) return statusOf(writeJpeg(file, *image));
+    if (endsWith(file, ".webp")) return statusOf(writeWebp(file, *image));
+    if (endsWith(file, ".exr")) return statusOf(writeExr(file, {{"", "", image}}));
     return misuse("'" + file + "' ends in none of .png, .jpg, .webp and .exr");
   });
 }

@@ -71,34 +71,67 @@ float longestEdge(float shadowWarp) {
   return std::sqrt(8 * tolerance / curvature);
 }
 
+const scene::Primitive& MadePrimitives::get(const std::vector<double>& key,
+                                            const std::function<scene::Primitive()>& make) {
+  Entry& entry = made_[key];
+  if (!entry.primitive) {
+    entry.primitive = std::make_unique<scene::Primitive>(make());
+    entry.primitive->extent = scene::extentOf(*entry.primitive);
+  }
+  entry.isUsed = true;
+  return *entry.primitive;
+}
+
+const scene::Primitive& MadePrimitives::splitOf(const scene::Primitive& source, scene::Primitive&& result) {
+  Entry& entry = split_[&source];
+  // The same edges are split over a range of lengths. Nothing else of a source changes.
+  if (!entry.primitive || entry.primitive->positions != result.positions ||
+      entry.primitive->indices != result.indices) {
+    if (entry.primitive) replaced_.push_back(std::move(entry.primitive));
+    entry.primitive = std::make_unique<scene::Primitive>(std::move(result));
+  }
+  entry.isUsed = true;
+  return *entry.primitive;
+}
+
+void MadePrimitives::sweep() {
+  replaced_.clear();
+  const auto sweep = [](auto& entries) {
+    std::erase_if(entries, [](const auto& entry) { return !entry.second.isUsed; });
+    for (auto& [key, entry] : entries) entry.isUsed = false;
+  };
+  sweep(made_), sweep(split_);
+}
+
 Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& options, int groundMaterial,
-                         int oceanMaterial) {
+                         int oceanMaterial, MadePrimitives& made) {
+  enum Kind { ground, oceanTile, oceanRing, oceanDecoration };
   Geometry geometry;
   geometry.bounds = scene::playedBounds(scene, options.clips);
   const std::vector<glm::mat4> world = scene::worldMatrices(scene);
 
   // One item for each primitive of each node, and for each of its instances.
-  std::map<const scene::Primitive*, const scene::PrimitiveExtent*> extents;
+  const std::vector<bool> shown = scene::shownNodes(scene);
   for (size_t n = 0; n < scene.nodes.size(); ++n) {
     const scene::Node& node = scene.nodes[n];
     if (node.mesh < 0 || int(n) == options.ocean.node) continue;
-    for (const scene::Primitive& primitive : scene.meshes[size_t(node.mesh)].primitives) {
+    for (const scene::Primitive& primitive : scene.meshes[size_t(node.mesh)]->primitives) {
       if (primitive.indices.empty()) continue;
-      const scene::PrimitiveExtent*& extent = extents[&primitive];
-      if (!extent) extent = &geometry.extents.emplace_back(scene::extentOf(primitive));
       GeometryItem item;
       item.primitive = &primitive;
       item.node = n;
       item.material = uint32_t(primitive.material);
       item.id = uint32_t(n + 1);
       item.casts = options.casts[item.material];
-      item.extent = extent;
+      item.extent = &primitive.extent;
+      item.shown = shown[n];
       if (node.skin >= 0 && primitive.influences > 0) item.skin = node.skin;
       const std::vector<glm::mat4> one{glm::mat4(1.0f)};
       for (const glm::mat4& instance : node.instances.empty() || item.skin >= 0 ? one : node.instances) {
         item.instance = instance;
         item.model = world[n] * instance;
         geometry.items.push_back(item);
+        ++item.instanceOfNode;
       }
     }
   }
@@ -118,7 +151,7 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
   std::map<const scene::Primitive*, float> scales;
   scene::Bounds casters;
   for (const GeometryItem& item : geometry.items) {
-    if (!item.casts) continue;
+    if (!item.casts || !item.shown) continue;
     casters.add(item.reach);
     float& scale = scales[item.primitive];
     scale = std::max(scale, largestScale(item.model));
@@ -128,7 +161,7 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
   for (const auto& [primitive, scale] : scales)
     if (scale > 0)
       if (auto result = tessellate(*primitive, maxEdge / scale, kMaxNewTriangles))
-        split[primitive] = &geometry.made.emplace_back(std::move(*result));
+        split[primitive] = &made.splitOf(*primitive, std::move(*result));
   for (GeometryItem& item : geometry.items)
     if (const auto it = split.find(item.primitive); it != split.end()) item.primitive = it->second;
 
@@ -139,22 +172,17 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
     item.material = uint32_t(oceanMaterial);
     item.id = uint32_t(scene.nodes.size() + 2);  // as Frame::objects has them
     item.casts = false;
-    struct Part {
-      const scene::Primitive* primitive;
-      const scene::PrimitiveExtent* extent;
+    const auto use = [&](const scene::Primitive& primitive) {
+      item.primitive = &primitive, item.extent = &primitive.extent;
     };
-    const auto add = [&](scene::Primitive&& made) {
-      const scene::Primitive& primitive = geometry.made.emplace_back(std::move(made));
-      return Part{&primitive, &geometry.extents.emplace_back(scene::extentOf(primitive))};
-    };
-    const auto use = [&](const Part& part) { item.primitive = part.primitive, item.extent = part.extent; };
     item.water = Water::waves;
-    std::map<OceanTile, Part> tiles;
     for (int z = 0; z < shape.tiles; ++z)
       for (int x = 0; x < shape.tiles; ++x) {
         const OceanTile tile = oceanTileAt(shape, x, z);
-        if (!tiles.contains(tile)) tiles[tile] = add(makeOceanTile(shape, tile));
-        use(tiles[tile]);
+        const auto& [negativeX, positiveX, negativeZ, positiveZ] = tile.beside;
+        use(made.get({oceanTile, double(shape.grid), double(shape.tile), double(tile.stride),
+                      double(negativeX), double(positiveX), double(negativeZ), double(positiveZ)},
+                     [&] { return makeOceanTile(shape, tile); }));
         const glm::vec2 corner = glm::vec2(shape.firstPoint() + glm::ivec2(x, z) * shape.grid) * shape.cell();
         item.instance = glm::translate(glm::mat4(1.0f), shape.origin + glm::vec3(corner.x, 0, corner.y));
         item.model = item.instance;
@@ -162,15 +190,18 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
         item.reach = scene::posedBounds(*item.extent, item.model, {}, {});
         geometry.items.push_back(item);
       }
-    use(add(makeOceanRing(shape)));
+    use(made.get({oceanRing, double(shape.falseHorizon), double(shape.horizon)},
+                 [&] { return makeOceanRing(shape); }));
     item.water = Water::flat;
-    item.instance = item.model = glm::mat4(1.0f);
-    item.patternShift = -glm::vec2(shape.origin.x, shape.origin.z) / kWaterPerPattern;
-    item.reach = item.extent->box;
+    item.instance = item.model = glm::translate(glm::mat4(1.0f), shape.origin);
+    item.patternShift = glm::vec2(0.0f);
+    item.reach = scene::posedBounds(*item.extent, item.model, {}, {});
     geometry.items.push_back(item);
     item.water = Water::decoration;
+    item.instance = item.model = glm::mat4(1.0f);
+    item.patternShift = -glm::vec2(shape.origin.x, shape.origin.z) / kWaterPerPattern;
     for (const int kind : shape.decorations) {
-      use(add(makeOceanDecoration(kind)));
+      use(made.get({oceanDecoration, double(kind)}, [&] { return makeOceanDecoration(kind); }));
       geometry.items.push_back(item);
       ++item.decoration;
     }
@@ -178,10 +209,13 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
 
   if (groundMaterial >= 0) {
     GeometryItem item;
-    item.primitive = &geometry.made.emplace_back(makeGround(geometry.bounds));
+    const scene::Bounds& bounds = geometry.bounds;
+    item.primitive = &made.get({ground, double(bounds.empty), bounds.min.x, bounds.min.y, bounds.min.z,
+                                bounds.max.x, bounds.max.y, bounds.max.z},
+                               [&] { return makeGround(bounds); });
     item.node = GeometryItem::kNoNode;
     item.material = uint32_t(groundMaterial);
-    item.extent = &geometry.extents.emplace_back(scene::extentOf(*item.primitive));
+    item.extent = &item.primitive->extent;
     item.id = uint32_t(scene.nodes.size() + 1);
     item.casts = false;
     item.reach = item.extent->box;

@@ -54,7 +54,7 @@ void GeometryStep::create(FrameBuilder& frame, const GeometryStepDesc& desc) {
 }
 
 void GeometryStep::specialise(uint32_t constant, std::vector<MaterialVariant> materials) {
-  if (constant_ == constant && materials_ == materials) return;
+  if (constant_ == constant && materials_ == materials && drawsVersion_ == scene_->drawsVersion()) return;
   constant_ = constant;
   materials_ = std::move(materials);
   makePipelines();
@@ -73,6 +73,7 @@ bool GeometryStep::includes(const Draw& draw) const {
 
 void GeometryStep::makePipelines() {
   const SceneOnGpu& scene = *scene_;
+  drawsVersion_ = scene.drawsVersion();
   for (const Draw& draw : scene.draws()) {
     if (!includes(draw)) continue;
     const Variant of = variant(draw);
@@ -125,8 +126,8 @@ void GeometryStep::makePipelines() {
 void GeometryStep::draw(VkCommandBuffer commands, const gpu::DescriptorSets* passSets,
                         uint32_t firstView) const {
   const SceneOnGpu& scene = *scene_;
-  const VkBuffer buffers[] = {scene.finalCore().handle(), scene.finalFrame().handle(),
-                              scene.surface().handle(), scene.previousPositions().handle()};
+  const VkBuffer buffers[] = {scene.geometry().finalCore().handle(), scene.geometry().finalFrame().handle(),
+                              scene.geometry().surface().handle(), scene.previousPositions().handle()};
   const VkDeviceSize offsets[] = {0, 0, 0, 0};
   vkCmdBindVertexBuffers(commands, 0, uint32_t(std::size(buffers)), buffers, offsets);
 
@@ -170,7 +171,7 @@ void GeometryStep::draw(VkCommandBuffer commands, const gpu::DescriptorSets* pas
       boundMaterial = draw->material;
     }
     const VkBuffer indices =
-        draw->alpha == AlphaMode::blend ? scene.transparentIndices() : scene.indices().handle();
+        draw->alpha == AlphaMode::blend ? scene.transparentIndices() : scene.geometry().indices().handle();
     if (boundIndices != indices)
       vkCmdBindIndexBuffer(commands, indices, 0, VK_INDEX_TYPE_UINT32), boundIndices = indices;
     if (cull != int(draw->cullsBack))

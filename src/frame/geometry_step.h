@@ -60,8 +60,11 @@ class GeometryStep {
  public:
   void create(FrameBuilder& frame, const GeometryStepDesc& desc);
   // What of the look goes into the pipelines: specialisation constant 4, the pass's own, and what each
-  // material has. Makes the pipelines that are still missing.
+  // material has. Makes the pipelines that are still missing, also for what the scene has
+  // become.
   void specialise(uint32_t constant, std::vector<MaterialVariant> materials = {});
+  // The same as it is, for what the scene has become.
+  void refresh() { specialise(constant_, materials_); }
   // Draws opaque, then masked, then blended surfaces: by pipeline and material, the nearest first; blended
   // ones from far to near. `passSets`: set 2, one for all or one for each material; null for none.
   void draw(VkCommandBuffer commands, const gpu::DescriptorSets* passSets, uint32_t firstView) const;
@@ -99,6 +102,7 @@ class GeometryStep {
     uint32_t rank = 0;
   };
   std::vector<Chosen> chosen_;
+  uint32_t drawsVersion_ = 0;  // of the scene, that they were chosen for
 };
 
 }  // namespace scumble::frame

@@ -106,7 +106,7 @@ scene::Primitive makeOceanRing(const OceanShape& shape) {
     const float radius = inner * std::pow(shape.horizon / inner, float(r) / kRings);
     for (uint32_t s = 0; s < kSectors; ++s) {
       const float angle = 6.2831853f * float(s) / kSectors;
-      ring.positions.push_back(shape.origin + radius * glm::vec3(std::cos(angle), 0, std::sin(angle)));
+      ring.positions.push_back(radius * glm::vec3(std::cos(angle), 0, std::sin(angle)));
     }
   }
   for (uint32_t r = 0; r < kRings; ++r)
@@ -125,7 +125,7 @@ scene::Primitive makeOceanDecoration(int kind) {
 }
 
 OceanWaves::OceanWaves(gpu::Device& device, const scene::SceneData& scene, const OceanShape& shape)
-    : scene_(scene),
+    : scene_(&scene),
       shape_(shape),
       buffer_(
           device,
@@ -147,7 +147,7 @@ void OceanWaves::pose(const look::LookData& look, double time, const Travelled& 
   waves_->at(time, field_);
   const float deviation = float(std::sqrt(waves_->variance()));
 
-  floating_ = floatingNodes(scene_, look, shape_.node);
+  floating_ = floatingNodes(*scene_, look, shape_.node);
   travelled_ = travelled(time);
   const double cell = double(shape_.cell());
   cells_ = now ? now->cells_ : glm::floor(travelled_ / cell);
@@ -177,8 +177,8 @@ void OceanWaves::pose(const look::LookData& look, double time, const Travelled& 
       for (glm::vec4& point : one.points) point += glm::vec4(slid_, 0.0f, 0.0f);
     }
   } else {
-    decorations_ = placeDecorations(decorationsOf(scene_, look, floating_), scene_, playedClips(scene_, look),
-                                    time, shape_.origin, travelled);
+    decorations_ = placeDecorations(decorationsOf(*scene_, look, floating_), *scene_,
+                                    playedClips(*scene_, look), time, shape_.origin, travelled);
   }
   header->decorationCount = int(decorations_.size());
   std::copy(decorations_.begin(), decorations_.end(), header->decorations);

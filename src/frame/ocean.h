@@ -60,8 +60,14 @@ scene::Primitive makeOceanDecoration(int kind);
 // through it: nothing wraps and nothing pops.
 class OceanWaves {
  public:
-  // `scene` stays.
+  // `scene` stays until another one is followed.
   OceanWaves(gpu::Device& device, const scene::SceneData& scene, const OceanShape& shape);
+  // Whether follow() can be called for it.
+  bool fits(const OceanShape& shape) const { return shape.grid == shape_.grid; }
+  void follow(const scene::SceneData& scene, const OceanShape& shape) {
+    scene_ = &scene;
+    shape_ = shape;
+  }
 
   // The waves at a time, in seconds; the look is one at that time. `travelled`: how far over the water the
   // scene is at any time.
@@ -101,7 +107,7 @@ class OceanWaves {
     return glm::mod(metres / double(kWaterPerPattern), glm::dvec2(8192.0));
   }
 
-  const scene::SceneData& scene_;
+  const scene::SceneData* scene_;
   OceanShape shape_;
   std::optional<ocean::Waves> waves_;
   ocean::WaveField field_;

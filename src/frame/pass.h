@@ -166,7 +166,8 @@ class Pass {
   virtual void declare(FrameBuilder& frame, uint32_t variant) = 0;
   // From here on only for passes that are needed. `frame` stays as long as the pass.
   virtual void create(FrameBuilder& frame) = 0;
-  // After create(), and whenever images were made anew; `resources` stay as long as the pass.
+  // After create(), and whenever images or the scene's buffers were made anew; `resources` stay as long as
+  // the pass.
   virtual void bind(const gpu::GraphResources& resources) = 0;
   virtual void update(const FrameInput&) {}
 };

@@ -82,7 +82,7 @@ std::vector<int> namedHolds(const scene::SceneData& scene, const LookData& look)
       inherited[n] = inherited[size_t(node.parent)];
     holds[n] = inherited[n];
     if (holds[n] >= 0 || !byMaterial || node.mesh < 0) continue;
-    for (const scene::Primitive& primitive : scene.meshes[size_t(node.mesh)].primitives) {
+    for (const scene::Primitive& primitive : scene.meshes[size_t(node.mesh)]->primitives) {
       const std::string& material = scene.materials[size_t(primitive.material)].name;
       if (!look.names(block, "hold", look::kMaterials, material)) continue;
       holds[n] = look.getFor<AnimationParams>(look::kMaterials, material).hold;

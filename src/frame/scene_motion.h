@@ -14,7 +14,8 @@ namespace scumble::frame {
 struct MovingObject {
   size_t node = 0;  // kNoNode: it stands still, as the ground does
   glm::mat4 instance{1.0f};
-  int skin = -1;  // -1: rigid
+  size_t instanceOfNode = 0;  // which one it is
+  int skin = -1;              // -1: rigid
   int mesh = -1;
   uint32_t material = 0;
   uint32_t firstChunk = 0, chunkCount = 0;  // of its vertices
@@ -28,14 +29,23 @@ struct MovingObject {
 class SceneMotion {
  public:
   // `objects` with all that does not move (material, id ...); matrices, joints and weights are filled in
-  // here. All references stay alive as long as this does.
+  // here. `materialNames` and `moving` stay alive as long as this does.
   SceneMotion(gpu::Device& device, const scene::SceneData& scene,
               const std::vector<std::string>& materialNames, const std::vector<MovingObject>& moving,
-              std::vector<shared::ObjectData> objects, uint32_t chunkCount);
+              const std::vector<shared::ObjectData>& objects, uint32_t chunkCount);
+
+  // Whether its buffers have the right sizes for so much, where `moving` is as it will be.
+  bool fits(const scene::SceneData& scene, size_t objectCount, uint32_t chunkCount) const;
+  // What it was made for has become another that fits. What does not move because of that is not written
+  // anew.
+  void follow(const scene::SceneData& scene, const std::vector<shared::ObjectData>& objects);
+  // An object's vertices at rest are others.
+  void touch(size_t object) { touched_[object] = 1; }
 
   // The pose at a time, in seconds; the look is one at that time (LookData::at). `waves`: those of that time,
-  // where there is an ocean.
-  void pose(const look::LookData& look, double time, const OceanWaves* waves);
+  // where there is an ocean. `scene`: the one that it follows, or as it was at that time, with the same
+  // nodes.
+  void pose(const scene::SceneData& scene, const look::LookData& look, double time, const OceanWaves* waves);
 
   // World bounds of each object in the pose.
   const std::vector<scene::Bounds>& bounds() const { return bounds_; }
@@ -63,7 +73,7 @@ class SceneMotion {
   // How many of these come first that are no water; after them there may be anything.
   uint32_t movedBeforeWater() const { return movedBeforeWater_; }
   // Forgets what was written before: everything has moved.
-  void touchAll() { written_ = false; }
+  void touchAll() { written_ = isAtRest_ = false; }
 
   VkBuffer objects() const { return objects_.handle(); }
   VkBuffer joints() const { return joints_.handle(); }
@@ -76,18 +86,26 @@ class SceneMotion {
     int skin;
     uint32_t material, firstJoint;
   };
-  const scene::SceneData& scene_;
+  // Who uses which part of the buffers; also in `objects`.
+  struct Layout {
+    std::vector<bool> isJoint;        // by node
+    std::vector<SkinUse> skinUses;    // a skin is posed once for each material that is drawn with it
+    std::vector<uint32_t> skinUseOf;  // by object
+    size_t joints = 0, weights = 0;
+  };
+  Layout layOut(const scene::SceneData& scene, std::vector<shared::ObjectData>* objects) const;
+
   const std::vector<std::string>& materialNames_;
   const std::vector<MovingObject>& moving_;
-  std::vector<bool> isJoint_;        // by node
-  std::vector<SkinUse> skinUses_;    // a skin is posed once for each material that is drawn with it
-  std::vector<uint32_t> skinUseOf_;  // by object
+  Layout layout_;
+  uint32_t chunkCount_;
   gpu::PerFrameBuffer objects_, joints_, morphWeights_, moved_;
   std::vector<scene::Bounds> bounds_;
-  std::vector<uint8_t> mirrored_;
+  std::vector<uint8_t> mirrored_, touched_;
   std::vector<glm::mat4> world_, worldAsDrawn_;
   std::vector<std::optional<glm::mat4>> riding_;  // by node; empty: nothing rides
   uint32_t movedCount_ = 0, movedBeforeWater_ = 0;
+  const scene::SceneData* followed_;
   bool written_ = false, isAtRest_ = false;
 };
 

@@ -4,27 +4,15 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <tuple>
 
 #include "frame/geometry.h"
-#include "frame/mipmaps.h"
 #include "frame/ocean_travel.h"
 #include "frame/visibility.h"
-#include "scene/parallel.h"
 
 namespace scumble::frame {
 
 namespace {
-
-uint32_t encodeNormal(glm::vec3 n) {
-  n /= std::max(std::abs(n.x) + std::abs(n.y) + std::abs(n.z), 1e-20f);
-  glm::vec2 oct(n.x, n.y);
-  if (n.z < 0)
-    oct = {(1 - std::abs(n.y)) * (n.x >= 0 ? 1.0f : -1.0f), (1 - std::abs(n.x)) * (n.y >= 0 ? 1.0f : -1.0f)};
-  const auto snorm = [](float v) {
-    return uint32_t(uint16_t(int16_t(std::lround(std::clamp(v, -1.0f, 1.0f) * 32767))));
-  };
-  return snorm(oct.x) | snorm(oct.y) << 16;
-}
 
 AlphaMode alphaMode(const scene::Material& material) {
   switch (material.alphaMode) {
@@ -54,52 +42,6 @@ constexpr uint32_t kLitBinding = 3, kShadowedBinding = 4;
 // From one material's data to the next: no device wants uniforms at larger steps than 256.
 constexpr uint64_t kMaterialStride = (sizeof(shared::MaterialData) + 255) / 256 * 256;
 
-// Where a primitive's data lies in the rest buffers.
-struct RestRange {
-  uint32_t vertex = 0, index = 0, skin = 0;
-  uint32_t morph = shared::kNoMorph;  // first entry in the list of where displacements begin
-};
-
-// The displacements of all targets, vertex by vertex; `starts` has one more entry than vertices.
-void listDisplacements(const scene::Primitive& primitive, std::vector<uint32_t>& starts,
-                       std::vector<shared::MorphDisplacement>& list) {
-  const auto at = [](const std::vector<glm::vec3>& values, size_t v) {
-    return values.empty() ? glm::vec3(0.0f) : values[v];
-  };
-  for (size_t v = 0; v < primitive.vertexCount(); ++v) {
-    starts.push_back(uint32_t(list.size()));
-    for (size_t t = 0; t < primitive.morphTargets.size(); ++t) {
-      const scene::MorphTarget& target = primitive.morphTargets[t];
-      const shared::MorphDisplacement d{uint32_t(t),           at(target.positions, v),
-                                        at(target.normals, v), at(target.smoothNormals, v),
-                                        at(target.dPdu, v),    at(target.dPdv, v)};
-      const glm::vec3 zero(0.0f);
-      if (d.position != zero || d.normal != zero || d.smoothNormal != zero || d.dPdu != zero ||
-          d.dPdv != zero)
-        list.push_back(d);
-    }
-  }
-  starts.push_back(uint32_t(list.size()));
-}
-
-// A buffer that is filled in place: in device memory where the CPU sees it, else by way of staging.
-template <class T>
-struct Stream {
-  gpu::Buffer buffer;
-  T* data = nullptr;
-};
-
-template <class T>
-Stream<T> reserve(gpu::Uploader& uploader, uint64_t count, VkBufferUsageFlags usage, uint64_t& bytes) {
-  Stream<T> stream;
-  const uint64_t size = std::max<uint64_t>(1, count) * sizeof(T);
-  std::byte* target = nullptr;
-  stream.buffer = uploader.reserve(size, usage, &target);
-  stream.data = reinterpret_cast<T*>(target);
-  bytes += size;
-  return stream;
-}
-
 gpu::Buffer positionBuffer(gpu::Device& device, uint64_t count) {
   return gpu::Buffer(device, count * sizeof(glm::vec3),
                      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
@@ -108,33 +50,84 @@ gpu::Buffer positionBuffer(gpu::Device& device, uint64_t count) {
 
 }  // namespace
 
-SceneOnGpu::SceneOnGpu(gpu::Device& device, gpu::Samplers& samplers, const scene::SceneData& scene,
-                       const GeometryOptions& options)
-    : device_(&device), samplers_(&samplers), data_(&scene), options_(options) {
-  for (const scene::Material& material : scene.materials) {
+SceneOnGpu::Changes SceneOnGpu::update(const scene::SceneData& scene, const GeometryOptions& options,
+                                       const std::function<void()>& settle) {
+  Changes changes;
+  const auto kindsOfMaterials = [&] {
+    return std::tuple(materialNames_.size(), groundMaterial_, oceanMaterial_);
+  };
+  const auto materialsBefore = kindsOfMaterials();
+  const bool isFirst = !data_;
+  data_ = &scene;
+  options_ = options;
+  bool isSettled = isFirst;
+  const std::function<void()> settleOnce = [&] {
+    if (!isSettled) settle();
+    isSettled = true;
+  };
+
+  // What is drawn, and with which materials.
+  listMaterials();
+  Geometry geometry = collectGeometry(scene, options, groundMaterial_, oceanMaterial_, made_);
+  bounds_ = geometry.bounds;
+  separateMaterials(geometry);
+
+  // Vertices, where they are others; then images.
+  gpu::Uploader uploader(device_);
+  const GeometryOnGpu::Update vertices = geometry_.update(device_, uploader, geometry.items, settleOnce);
+  const bool keepsPlaces = vertices != GeometryOnGpu::Update::everything;
+  const bool otherTextures = textures_.update(uploader, scene.images, settleOnce);
+  uploader.flush();
+
+  // What moves, and the water.
+  const bool hadPrevious = previousMotion_.has_value();
+  if (options.ocean.isThere) {
+    const bool fits = waves_ && waves_->fits(options.ocean);
+    if (!fits) {
+      settleOnce();
+      previousWaves_.reset();
+      waves_.emplace(device_, scene, options.ocean);
+      changes.buffers = true;
+    }
+    waves_->follow(scene, options.ocean);
+    if (previousWaves_) previousWaves_->follow(scene, options.ocean);
+  } else if (waves_) {
+    settleOnce();
+    waves_.reset(), previousWaves_.reset();
+    changes.buffers = true;
+  }
+  if (!keepsPlaces) {
+    settleOnce();
+    previousPositions_ = positionBuffer(device_, hadPrevious ? geometry_.vertexCount() : 1);
+    changes.buffers = true;
+  }
+  listDraws(geometry, settleOnce);
+  if (!motion_ || !motion_->fits(scene, objects_.size(), geometry_.chunkCount())) settleOnce();
+  changes.buffers |= followMotion(keepsPlaces);
+  if (hadPrevious && waves_ && !previousWaves_) previousWaves_.emplace(device_, scene, options.ocean);
+
+  measureColors(geometry);
+  changes.materials = kindsOfMaterials() != materialsBefore;
+  writeMaterials(otherTextures, settleOnce);
+  made_.sweep();
+  return changes;
+}
+
+void SceneOnGpu::listMaterials() {
+  materialNames_.clear();
+  materialUses_.clear();
+  groundMaterial_ = oceanMaterial_ = -1;
+  for (const scene::Material& material : data_->materials) {
     materialUses_.push_back({int(materialNames_.size())});
     materialNames_.push_back(material.name);
   }
-  if (options.ground) {
-    groundMaterial_ = int(materialNames_.size());
-    materialNames_.push_back("Ground");
+  const auto add = [&](const char* name) {
     materialUses_.push_back({-1});
-  }
-  if (options.ocean.isThere) {
-    oceanMaterial_ = int(materialNames_.size());
-    materialNames_.push_back("Ocean");
-    materialUses_.push_back({-1});
-    waves_.emplace(device, scene, options.ocean);
-  }
-  gpu::Uploader uploader(device);
-  Geometry geometry = collectGeometry(scene, options, groundMaterial_, oceanMaterial_);
-  bounds_ = geometry.bounds;
-  separateMaterials(geometry);
-  buildGeometry(device, uploader, geometry);
-  measureColors(geometry);
-  extents_ = std::move(geometry.extents);
-  buildMaterials(device, samplers, uploader);
-  uploader.flush();
+    materialNames_.push_back(name);
+    return int(materialNames_.size()) - 1;
+  };
+  if (options_.ground) groundMaterial_ = add("Ground");
+  if (options_.ocean.isThere) oceanMaterial_ = add("Ocean");
 }
 
 void SceneOnGpu::separateMaterials(Geometry& geometry) {
@@ -158,86 +151,20 @@ const scene::Material& SceneOnGpu::material(size_t material) const {
   return base >= 0 ? data_->materials[size_t(base)] : kGround;
 }
 
-void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, const Geometry& geometry) {
-  // Lay out: rest data once for each primitive, final and static vertices once for each item.
-  std::map<const scene::Primitive*, RestRange> ranges;
-  std::vector<const scene::Primitive*> primitives;
-  uint64_t restVertices = 0, indexCount = 0, skinEntries = 0, finalVertices = 0;
-  std::vector<uint32_t> morphStarts;
-  std::vector<shared::MorphDisplacement> morphs;
-  for (const GeometryItem& item : geometry.items) {
+void SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>& settle) {
+  std::vector<Draw> draws;
+  objects_.clear();
+  moving_.clear();
+  triangleCount_ = 0;
+  wraps_ = false;
+  std::vector<TransparentTriangles::Part> blended;
+  warpScaleOf_.assign(materialCount(), 1.0f);
+  isVaried_.assign(materialCount(), false);
+  for (size_t i = 0; i < geometry.items.size(); ++i) {
+    const GeometryItem& item = geometry.items[i];
+    const GeometryOnGpu::Place& place = geometry_.places()[i];
     const scene::Primitive& primitive = *item.primitive;
-    const auto [range, isNew] = ranges.try_emplace(
-        &primitive, RestRange{uint32_t(restVertices), uint32_t(indexCount), uint32_t(skinEntries)});
-    if (isNew) {
-      primitives.push_back(&primitive);
-      if (!primitive.morphTargets.empty()) {
-        range->second.morph = uint32_t(morphStarts.size());
-        listDisplacements(primitive, morphStarts, morphs);
-      }
-      restVertices += primitive.vertexCount();
-      indexCount += primitive.indices.size();
-      skinEntries += primitive.vertexCount() * size_t(primitive.influences / 4);
-    }
-    finalVertices += primitive.vertexCount();
-  }
-  const uint64_t largest = std::max(std::max(restVertices, finalVertices) * sizeof(shared::VertexFrame),
-                                    morphs.size() * sizeof(shared::MorphDisplacement));
-  if (largest > device.limits().maxStorageBufferRange || indexCount > (1ull << 31))
-    throw gpu::VulkanError{"the scene's vertices", VK_ERROR_OUT_OF_DEVICE_MEMORY};
-
-  constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
-  constexpr VkBufferUsageFlags kVertex = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
-  auto core = reserve<shared::VertexCore>(uploader, restVertices, kStorage, uploadedBytes_);
-  auto around = reserve<shared::VertexFrame>(uploader, restVertices, kStorage, uploadedBytes_);
-  auto skins = reserve<shared::VertexSkin>(uploader, skinEntries, kStorage, uploadedBytes_);
-  auto surface = reserve<shared::VertexSurface>(uploader, finalVertices, kStorage | kVertex, uploadedBytes_);
-  auto indices = reserve<uint32_t>(uploader, indexCount, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, uploadedBytes_);
-
-  scene::parallelFor(primitives.size(), scene::threadCount(0), [&](size_t p) {
-    const scene::Primitive& primitive = *primitives[p];
-    const RestRange range = ranges.at(&primitive);
-    for (size_t v = 0; v < primitive.vertexCount(); ++v) {
-      core.data[range.vertex + v] = {primitive.positions[v], encodeNormal(primitive.normals[v])};
-      around.data[range.vertex + v] = {primitive.dPdu[v], encodeNormal(primitive.smoothNormals[v]),
-                                       primitive.dPdv[v]};
-    }
-    std::copy(primitive.indices.begin(), primitive.indices.end(), indices.data + range.index);
-    const size_t groups = size_t(primitive.influences / 4);
-    for (size_t g = 0; g < primitive.vertexCount() * groups; ++g) {
-      const uint16_t* j = &primitive.joints[4 * g];
-      const float* w = &primitive.weights[4 * g];
-      skins.data[range.skin + g] = {
-          {uint32_t(j[0]) | uint32_t(j[1]) << 16, uint32_t(j[2]) | uint32_t(j[3]) << 16},
-          {w[0], w[1], w[2], w[3]}};
-    }
-  });
-
-  // Objects, draws and deform's work.
-  std::vector<shared::DeformChunk> chunks;
-  uint32_t finalVertex = 0;
-  for (const GeometryItem& item : geometry.items) {
-    const scene::Primitive& primitive = *item.primitive;
-    const RestRange range = ranges.at(&primitive);
     const scene::Material& material = this->material(item.material);
-
-    Draw draw;
-    draw.firstIndex = range.index;
-    draw.indexCount = uint32_t(primitive.indices.size());
-    draw.vertexOffset = int32_t(finalVertex);
-    draw.object = uint32_t(objects_.size());
-    draw.material = item.material;
-    draw.alpha = alphaMode(material);
-    draw.cullsBack = !material.doubleSided;
-    draw.textured = material.baseColorTexture.image >= 0 || material.emissiveTexture.image >= 0;
-    draw.varied = draw.textured || !primitive.colors.empty();
-    draw.wraps = primitive.wrapsU || primitive.wrapsV;
-    draw.casts = item.casts;
-    draw.reach = item.reach;
-    if (draw.alpha == AlphaMode::blend)
-      draw.firstIndex = transparent_.add(primitive, draw.object, item.skin >= 0);
-    draws_.push_back(draw);
-    triangleCount_ += draw.indexCount / 3;
 
     shared::ObjectData object{};
     object.material = item.material;
@@ -250,6 +177,7 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
 
     MovingObject moving;
     moving.node = item.node;
+    moving.instanceOfNode = item.instanceOfNode;
     moving.instance = item.instance;
     moving.skin = item.skin;
     moving.mesh = item.node == GeometryItem::kNoNode ? -1 : data_->nodes[item.node].mesh;
@@ -257,68 +185,67 @@ void SceneOnGpu::buildGeometry(gpu::Device& device, gpu::Uploader& uploader, con
     moving.decoration = item.decoration;
     moving.material = item.material;
     moving.extent = item.extent;
-    moving.morphs = range.morph != shared::kNoMorph;
-    moving.firstChunk = uint32_t(chunks.size());
-
-    const uint32_t count = uint32_t(primitive.vertexCount());
-    for (uint32_t v = 0; v < count; v += shared::kDeformChunk)
-      chunks.push_back({draw.object, range.vertex + v, finalVertex + v,
-                        std::min(count - v, uint32_t(shared::kDeformChunk)),
-                        range.skin + v * uint32_t(primitive.influences / 4),
-                        moving.morphs ? range.morph + v : shared::kNoMorph});
-    finalVertex += count;
-    moving.chunkCount = uint32_t(chunks.size()) - moving.firstChunk;
+    moving.morphs = place.morphs;
+    moving.firstChunk = place.firstChunk;
+    moving.chunkCount = place.chunkCount;
     moving_.push_back(moving);
+
+    for (const float scale : primitive.warpScales)
+      warpScaleOf_[item.material] = std::max(warpScaleOf_[item.material], scale);
+    if (!item.shown) continue;
+    Draw draw;
+    draw.firstIndex = place.firstIndex;
+    draw.indexCount = uint32_t(primitive.indices.size());
+    draw.vertexOffset = int32_t(place.firstVertex);
+    draw.object = uint32_t(i);
+    draw.material = item.material;
+    draw.alpha = alphaMode(material);
+    draw.cullsBack = !material.doubleSided;
+    draw.textured = material.baseColorTexture.image >= 0 || material.emissiveTexture.image >= 0;
+    draw.varied = draw.textured || !primitive.colors.empty();
+    draw.casts = item.casts;
+    draw.reach = item.reach;
+    wraps_ |= primitive.wrapsU || primitive.wrapsV;
+    if (draw.varied) isVaried_[item.material] = true;
+    if (draw.alpha == AlphaMode::blend) blended.push_back({&primitive, draw.object, item.skin >= 0});
+    draws.push_back(draw);
+    triangleCount_ += draw.indexCount / 3;
   }
-  scene::parallelFor(geometry.items.size(), scene::threadCount(0), [&](size_t i) {
-    const scene::Primitive& primitive = *geometry.items[i].primitive;
-    shared::VertexSurface* out = surface.data + draws_[i].vertexOffset;
-    for (size_t v = 0; v < primitive.vertexCount(); ++v) {
-      uint32_t color = 0xFFFFFFFFu;
-      if (!primitive.colors.empty()) std::memcpy(&color, &primitive.colors[v], 4);
-      out[v] = {primitive.uv0[v], primitive.uv1.empty() ? primitive.uv0[v] : primitive.uv1[v],
-                primitive.patternCoordinates()[v] + geometry.items[i].patternShift, color,
-                primitive.warpScales.empty() ? 1.0f : primitive.warpScales[v]};
-    }
-  });
+  transparent_.update(device_, std::move(blended), settle);
+  for (Draw& draw : draws)
+    if (draw.alpha == AlphaMode::blend) draw.firstIndex = transparent_.firstIndex(draw.object);
 
-  warpScaleOf_.assign(materialCount(), 1.0f);
-  for (size_t i = 0; i < geometry.items.size(); ++i)
-    for (const float scale : geometry.items[i].primitive->warpScales)
-      warpScaleOf_[draws_[i].material] = std::max(warpScaleOf_[draws_[i].material], scale);
-
-  restCore_ = std::move(core.buffer);
-  restFrame_ = std::move(around.buffer);
-  restSkin_ = std::move(skins.buffer);
-  surface_ = std::move(surface.buffer);
-  indices_ = std::move(indices.buffer);
-  chunkCount_ = uint32_t(chunks.size());
-  finalVertexCount_ = std::max(1u, finalVertex);
-  const auto upload = [&](const auto& array) {
-    auto stream =
-        reserve<std::remove_cvref_t<decltype(array[0])>>(uploader, array.size(), kStorage, uploadedBytes_);
-    std::copy(array.begin(), array.end(), stream.data);
-    return std::move(stream.buffer);
+  const auto wantSamePipelines = [](const Draw& a, const Draw& b) {
+    return a.alpha == b.alpha && a.material == b.material && a.varied == b.varied &&
+           a.textured == b.textured && a.casts == b.casts;
   };
-  chunks_ = upload(chunks);
-  morphStarts_ = upload(morphStarts);
-  morphs_ = upload(morphs);
-  const uint64_t finals = finalVertexCount_;
-  finalCore_ =
-      gpu::Buffer(device, finals * sizeof(shared::VertexCore), kStorage | kVertex, gpu::MemoryKind::device);
-  finalFrame_ =
-      gpu::Buffer(device, finals * sizeof(shared::VertexFrame), kStorage | kVertex, gpu::MemoryKind::device);
-  previousPositions_ = positionBuffer(device, 1);
-  transparent_.create(device);
-  motion_.emplace(device, *data_, materialNames_, moving_, objects_, chunkCount_);
+  if (!std::equal(draws.begin(), draws.end(), draws_.begin(), draws_.end(), wantSamePipelines))
+    ++drawsVersion_;
+  draws_ = std::move(draws);
+}
+
+bool SceneOnGpu::followMotion(bool keepsPlaces) {
+  bool renamed = false;
+  for (std::optional<SceneMotion>* motion : {&motion_, &previousMotion_}) {
+    if (!*motion && motion == &previousMotion_) continue;
+    if (!*motion || !(*motion)->fits(*data_, objects_.size(), geometry_.chunkCount())) {
+      motion->emplace(device_, *data_, materialNames_, moving_, objects_, geometry_.chunkCount());
+      renamed = true;
+    } else {
+      (*motion)->follow(*data_, objects_);
+      if (!keepsPlaces) (*motion)->touchAll();
+    }
+    for (const uint32_t item : geometry_.rewritten()) (*motion)->touch(item);
+  }
+  return renamed;
 }
 
 void SceneOnGpu::pose(const look::LookData& look, const look::LookData& now, double time) {
   if (waves_) waves_->pose(now, time, travelledBy(look));
-  motion_->pose(now, time, waves());
-  for (size_t i = 0; i < draws_.size(); ++i) {
-    draws_[i].bounds = motion_->bounds()[i];
-    draws_[i].mirrored = motion_->mirrored()[i];
+  motion_->pose(*data_, now, time, waves());
+  for (Draw& draw : draws_) {
+    draw.bounds = motion_->bounds()[draw.object];
+    draw.mirrored = motion_->mirrored()[draw.object];
   }
 }
 
@@ -336,9 +263,10 @@ void SceneOnGpu::look(const Viewers& viewers) {
   }
 }
 
-void SceneOnGpu::posePrevious(const look::LookData& look, const look::LookData& then, double time) {
+void SceneOnGpu::posePrevious(const scene::SceneData& scene, const look::LookData& look,
+                              const look::LookData& then, double time) {
   if (previousWaves_) previousWaves_->pose(then, time, travelledBy(look), waves());
-  previousMotion_->pose(then, time, previousWaves());
+  previousMotion_->pose(scene, then, time, previousWaves());
 }
 
 void SceneOnGpu::forgetPoses() {
@@ -348,9 +276,9 @@ void SceneOnGpu::forgetPoses() {
 
 void SceneOnGpu::keepPrevious() {
   if (previousMotion_) return;
-  previousPositions_ = positionBuffer(*device_, finalVertexCount_);
-  if (waves_) previousWaves_.emplace(*device_, *data_, options_.ocean);
-  previousMotion_.emplace(*device_, *data_, materialNames_, moving_, objects_, chunkCount_);
+  previousPositions_ = positionBuffer(device_, geometry_.vertexCount());
+  if (waves_) previousWaves_.emplace(device_, *data_, options_.ocean);
+  previousMotion_.emplace(device_, *data_, materialNames_, moving_, objects_, geometry_.chunkCount());
 }
 
 void SceneOnGpu::addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) {
@@ -362,47 +290,42 @@ void SceneOnGpu::addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) {
   uploads.push_back(&materialData_);
 }
 
-void SceneOnGpu::buildMaterials(gpu::Device& device, gpu::Samplers& samplers, gpu::Uploader& uploader) {
-  const std::byte white[4] = {std::byte(255), std::byte(255), std::byte(255), std::byte(255)};
-  const std::span<const std::byte> whiteLevel(white);
-  images_.push_back(uploader.texture({&whiteLevel, 1}, VK_FORMAT_R8G8B8A8_SRGB, 1, 1));
-  std::vector<std::vector<std::vector<uint8_t>>> mipmaps(data_->images.size());
-  scene::parallelFor(mipmaps.size(), scene::threadCount(0), [&](size_t i) {
-    mipmaps[i] = makeMipmaps(data_->images[i].rgba, data_->images[i].width, data_->images[i].height);
-  });
-  for (size_t i = 0; i < mipmaps.size(); ++i) {
-    const scene::Image& image = data_->images[i];
-    if (image.width > device.limits().maxImageDimension2D ||
-        image.height > device.limits().maxImageDimension2D)
-      throw gpu::VulkanError{"a texture's size", VK_ERROR_OUT_OF_DEVICE_MEMORY};
-    std::vector<std::span<const std::byte>> levels{std::as_bytes(std::span(image.rgba))};
-    for (const auto& level : mipmaps[i]) levels.push_back(std::as_bytes(std::span(level)));
-    images_.push_back(uploader.texture(levels, VK_FORMAT_R8G8B8A8_SRGB, image.width, image.height));
-    for (const auto& level : levels) uploadedBytes_ += level.size();
-    mipmaps[i].clear();
+void SceneOnGpu::writeMaterials(bool otherTextures, const std::function<void()>& settle) {
+  const bool isNew = materialTextures_.size() != materialNames_.size();
+  if (isNew) {
+    settle();
+    constexpr VkDescriptorType kTexture = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+    if (!materialLayout_.handle())
+      materialLayout_ = gpu::SetLayout(device_, {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kStages},
+                                                 {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
+                                                 {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
+                                                 {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
+                                                 {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT}});
+    materialSets_ = gpu::DescriptorSets(device_, materialLayout_, uint32_t(materialNames_.size()));
+    materialData_ = gpu::PerFrameBuffer(device_, materialNames_.size() * kMaterialStride,
+                                        VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+    materialTextures_.assign(materialNames_.size(), {});
+    for (size_t m = 0; m < materialNames_.size(); ++m)
+      materialSets_.writeBuffer(m, 0, materialData_.handle(), m * kMaterialStride,
+                                sizeof(shared::MaterialData));
   }
-
-  constexpr VkDescriptorType kTexture = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-  constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
-  materialLayout_ = gpu::SetLayout(device, {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kStages},
-                                            {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
-                                            {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
-                                            {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
-                                            {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT}});
-  materialSets_ = gpu::DescriptorSets(device, materialLayout_, uint32_t(materialNames_.size()));
-  materialData_ = gpu::PerFrameBuffer(device, materialNames_.size() * kMaterialStride,
-                                      VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
-  const auto write = [&](size_t set, uint32_t binding, const scene::TextureUse& use) {
-    const SetTexture texture = textureOf(use);
-    materialSets_.writeTexture(set, binding, texture.view, samplers.get(texture.sampler));
-  };
   for (size_t m = 0; m < materialNames_.size(); ++m) {
-    materialSets_.writeBuffer(m, 0, materialData_.handle(), m * kMaterialStride,
-                              sizeof(shared::MaterialData));
-    write(m, 1, material(m).baseColorTexture);
-    write(m, 2, material(m).emissiveTexture);
-    write(m, kLitBinding, {});
-    write(m, kShadowedBinding, {});
+    TextureBindings bindings;
+    const scene::TextureUse* const uses[] = {&material(m).baseColorTexture, &material(m).emissiveTexture};
+    for (size_t i = 0; i < bindings.size(); ++i) bindings[i] = {uses[i]->image, textureOf(*uses[i]).sampler};
+    if (!isNew && !otherTextures && bindings == materialTextures_[m]) continue;
+    settle();
+    materialTextures_[m] = bindings;
+    ++writtenMaterials_;
+    // A new image may have an old one's name.
+    const auto write = [&](uint32_t binding, const scene::TextureUse& use) {
+      const SetTexture texture = textureOf(use);
+      materialSets_.rewriteTexture(m, binding, texture.view, samplers_.get(texture.sampler));
+    };
+    for (uint32_t i = 0; i < bindings.size(); ++i) write(1 + i, *uses[i]);
+    write(kLitBinding, {});
+    write(kShadowedBinding, {});
   }
 }
 
@@ -412,19 +335,14 @@ SetTexture SceneOnGpu::textureOf(const scene::TextureUse& use) const {
   desc.wrapV = addressMode(use.sampler.wrapV);
   desc.mipmaps = use.sampler.mipmaps;
   if (use.sampler.nearest) desc.filter = VK_FILTER_NEAREST;
-  return {images_[size_t(use.image + 1)].view(), desc};
+  return {textures_.view(use.image), desc};
 }
 
 void SceneOnGpu::setColorSets(size_t material, const SetTexture* lit, const SetTexture* shadowed) {
   materialUses_[material].colorSets = uint8_t((lit ? kLitSet : 0) | (shadowed ? kShadowedSet : 0));
-  if (lit) materialSets_.writeTexture(material, kLitBinding, lit->view, samplers_->get(lit->sampler));
+  if (lit) materialSets_.writeTexture(material, kLitBinding, lit->view, samplers_.get(lit->sampler));
   if (shadowed)
-    materialSets_.writeTexture(material, kShadowedBinding, shadowed->view, samplers_->get(shadowed->sampler));
-}
-
-bool SceneOnGpu::isVaried(size_t material) const {
-  return std::any_of(draws_.begin(), draws_.end(),
-                     [&](const Draw& draw) { return draw.material == material && draw.varied; });
+    materialSets_.writeTexture(material, kShadowedBinding, shadowed->view, samplers_.get(shadowed->sampler));
 }
 
 void SceneOnGpu::setMaterial(size_t material, const shared::MaterialData& data) {
@@ -432,47 +350,44 @@ void SceneOnGpu::setMaterial(size_t material, const shared::MaterialData& data) 
 }
 
 void SceneOnGpu::measureColors(const Geometry& geometry) {
-  // Mean of each image, from a grid of its pixels.
-  constexpr uint32_t kGrid = 16;
-  std::vector<glm::vec3> imageMeans;
-  for (const scene::Image& image : data_->images) {
-    glm::vec3 sum(0.0f);
-    float weight = 1e-6f;
-    for (uint32_t i = 0; i < kGrid * kGrid; ++i) {
-      const uint32_t x = (2 * (i % kGrid) + 1) * image.width / (2 * kGrid);
-      const uint32_t y = (2 * (i / kGrid) + 1) * image.height / (2 * kGrid);
-      const uint8_t* p = &image.rgba[4 * (size_t(y) * image.width + x)];
-      sum += glm::vec3(p[0], p[1], p[2]) / 255.0f * float(p[3]);  // sRGB is close to a square root
-      weight += float(p[3]);
-    }
-    imageMeans.push_back(sum / weight);
-  }
-
   // Mean over the scene's surface, by the area of up to so many triangles of each item.
   constexpr size_t kTriangles = 64;
   glm::dvec3 sum(0.0);
   double total = 0;
-  for (const GeometryItem& item : geometry.items) {
-    if (item.node == GeometryItem::kNoNode) continue;
+  colorParts_.resize(geometry.items.size());
+  for (size_t i = 0; i < geometry.items.size(); ++i) {
+    const GeometryItem& item = geometry.items[i];
+    ColorPart& part = colorParts_[i];
+    if (item.node == GeometryItem::kNoNode || !item.shown) {
+      part = {};
+      continue;
+    }
     const scene::Primitive& primitive = *item.primitive;
     const scene::Material& material = this->material(item.material);
+    const glm::mat3 linear(item.model);
     glm::vec3 root = glm::sqrt(glm::clamp(glm::vec3(material.baseColor), 0.0f, 1.0f));
-    if (material.baseColorTexture.image >= 0) root *= imageMeans[size_t(material.baseColorTexture.image)];
-    const size_t triangles = primitive.indices.size() / 3, step = std::max<size_t>(1, triangles / kTriangles);
-    for (size_t t = 0; t < triangles; t += step) {
-      const uint32_t* v = &primitive.indices[3 * t];
-      const glm::mat3 m(item.model);
-      const glm::dvec3 normal =
-          glm::cross(glm::dvec3(m * (primitive.positions[v[1]] - primitive.positions[v[0]])),
-                     glm::dvec3(m * (primitive.positions[v[2]] - primitive.positions[v[0]])));
-      const double area = glm::length(normal) * double(step);
-      if (!std::isfinite(area)) continue;
-      glm::vec3 c = root;
-      if (!primitive.colors.empty()) c *= glm::sqrt(glm::vec3(primitive.colors[v[0]]) / 255.0f);
-      sum += area * glm::dvec3(c);
-      total += area;
+    if (material.baseColorTexture.image >= 0) root *= textures_.meanRootRgb(material.baseColorTexture.image);
+    if (part.primitive != &primitive || part.linear != linear || part.root != root) {
+      part = {&primitive, linear, root};
+      const size_t triangles = primitive.indices.size() / 3,
+                   step = std::max<size_t>(1, triangles / kTriangles);
+      for (size_t t = 0; t < triangles; t += step) {
+        const uint32_t* v = &primitive.indices[3 * t];
+        const glm::dvec3 normal =
+            glm::cross(glm::dvec3(linear * (primitive.positions[v[1]] - primitive.positions[v[0]])),
+                       glm::dvec3(linear * (primitive.positions[v[2]] - primitive.positions[v[0]])));
+        const double area = glm::length(normal) * double(step);
+        if (!std::isfinite(area)) continue;
+        glm::vec3 c = root;
+        if (!primitive.colors.empty()) c *= glm::sqrt(glm::vec3(primitive.colors[v[0]]) / 255.0f);
+        part.sum += area * glm::dvec3(c);
+        part.area += area;
+      }
     }
+    sum += part.sum;
+    total += part.area;
   }
+  colors_ = {};
   if (total > 0) colors_.meanRootRgb = glm::vec3(sum / total);
 }
 

@@ -1,17 +1,17 @@
-// A scene in device memory: rest vertices, the final vertices that `deform` writes, indices, textures, and
-// the list of draws. Built once per scene and GeometryOptions, the little of the look that goes into it.
+// A scene in device memory, and the list of draws. It follows a scene that changes, and what of the look goes
+// into it, part by part: what did not change stays.
 #pragma once
 
 #include <array>
 #include <cstring>
-#include <deque>
+#include <functional>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
-#include "frame/geometry.h"
+#include "frame/geometry_on_gpu.h"
 #include "frame/scene_motion.h"
+#include "frame/textures_on_gpu.h"
 #include "frame/transparent_triangles.h"
 #include "frame/viewers.h"
 #include "gpu/frames_in_flight.h"
@@ -31,7 +31,6 @@ struct Draw {
   bool mirrored = false;  // the object's matrix turns triangles inside out, in the frame's pose
   bool varied = false;    // vertex colours or textures vary the material's colour
   bool textured = false;
-  bool wraps = false;    // its mapping closes on itself
   bool casts = true;     // shadows
   scene::Bounds bounds;  // world, in the frame's pose
   scene::Bounds reach;   // world, at any time as far as is known before
@@ -55,9 +54,23 @@ enum ColorSets : uint8_t { kLitSet = 1, kShadowedSet = 2 };
 
 class SceneOnGpu {
  public:
-  // Throws gpu::VulkanError when it does not fit. `scene` and `options` stay.
-  SceneOnGpu(gpu::Device& device, gpu::Samplers& samplers, const scene::SceneData& scene,
-             const GeometryOptions& options);
+  // Empty until the first update().
+  SceneOnGpu(gpu::Device& device, gpu::Samplers& samplers)
+      : device_(device), samplers_(samplers), textures_(device) {}
+
+  // What has become another, of all that others keep.
+  struct Changes {
+    bool buffers = false;    // names that passes have bound
+    bool materials = false;  // how many there are, and which are the ground's and the ocean's
+  };
+  // Brings it up to date; `scene` stays until the next update is over. Calls `settle` before it changes
+  // anything that frames under way read. Throws gpu::VulkanError when it does not fit, and is good for
+  // nothing then.
+  Changes update(const scene::SceneData& scene, const GeometryOptions& options,
+                 const std::function<void()>& settle);
+  bool isOf(const scene::SceneData& scene, const GeometryOptions& options) const {
+    return data_ == &scene && options_ == options;
+  }
 
   const GeometryOptions& options() const { return options_; }
 
@@ -76,7 +89,7 @@ class SceneOnGpu {
                                        options_.nodes.lists[materialUses_[material].settings]);
   }
   // Whether vertex colours or textures vary this material's colour anywhere.
-  bool isVaried(size_t material) const;
+  bool isVaried(size_t material) const { return isVaried_[material]; }
   int groundMaterial() const { return groundMaterial_; }
   int oceanMaterial() const { return oceanMaterial_; }
   // The ocean's waves; null where there is none.
@@ -93,8 +106,9 @@ class SceneOnGpu {
   float warpScaleOf(size_t material) const { return warpScaleOf_[material]; }
   // Metres from the first view to the nearest draw of a material.
   float nearestOf(uint32_t material) const { return nearestOf_[material]; }
-  // Where it was a frame ago; after keepPrevious() only.
-  void posePrevious(const look::LookData& look, const look::LookData& then, double time);
+  // Where it was a frame ago; after keepPrevious() only. `scene`: what it was then, of the same nodes.
+  void posePrevious(const scene::SceneData& scene, const look::LookData& look, const look::LookData& then,
+                    double time);
   // The last poses are not on their way to the device after all.
   void forgetPoses();
   // Makes room for the positions of a frame ago, unless there is.
@@ -104,18 +118,9 @@ class SceneOnGpu {
   // What the CPU writes for each frame.
   void addUploads(std::vector<gpu::PerFrameBuffer*>& uploads);
 
-  const gpu::Buffer& chunks() const { return chunks_; }
-  const gpu::Buffer& restCore() const { return restCore_; }
-  const gpu::Buffer& restFrame() const { return restFrame_; }
-  const gpu::Buffer& restSkin() const { return restSkin_; }
-  const gpu::Buffer& morphStarts() const { return morphStarts_; }
-  const gpu::Buffer& morphs() const { return morphs_; }
-  const gpu::Buffer& finalCore() const { return finalCore_; }
-  const gpu::Buffer& finalFrame() const { return finalFrame_; }
+  const GeometryOnGpu& geometry() const { return geometry_; }
   // One vec3 a final vertex; of one vertex only before keepPrevious().
   const gpu::Buffer& previousPositions() const { return previousPositions_; }
-  const gpu::Buffer& surface() const { return surface_; }
-  const gpu::Buffer& indices() const { return indices_; }
   // Each blended draw's triangles, sorted by look().
   VkBuffer transparentIndices() const { return transparent_.indices(); }
   // What the scene takes up, whatever its clips do.
@@ -131,16 +136,28 @@ class SceneOnGpu {
   // A set of colours that comes with the scene.
   SetTexture textureOf(const scene::TextureUse& use) const;
 
+  // Whether a mapping closes on itself, of any that is drawn.
+  bool wraps() const { return wraps_; }
+  // Counts up whenever draws() may want other pipelines.
+  uint32_t drawsVersion() const { return drawsVersion_; }
+
   uint64_t triangleCount() const { return triangleCount_; }
-  uint64_t uploadedBytes() const { return uploadedBytes_; }
+  uint64_t uploadedBytes() const { return geometry_.bytes() + textures_.bytes(); }
+  // What was written to the device since it was made.
+  struct Written {
+    uint32_t primitives, textures, materials;
+  };
+  Written written() const { return {geometry_.writtenPrimitives(), textures_.uploaded(), writtenMaterials_}; }
 
  private:
-  void buildGeometry(gpu::Device& device, gpu::Uploader& uploader, const Geometry& geometry);
-  void buildMaterials(gpu::Device& device, gpu::Samplers& samplers, gpu::Uploader& uploader);
-  void measureColors(const Geometry& geometry);
-
+  void listMaterials();
   // Gives draws on nodes with settings materials of their own.
   void separateMaterials(Geometry& geometry);
+  void listDraws(const Geometry& geometry, const std::function<void()>& settle);
+  // True where the buffers have other names.
+  bool followMotion(bool keepsPlaces);
+  void writeMaterials(bool otherTextures, const std::function<void()>& settle);
+  void measureColors(const Geometry& geometry);
 
   struct MaterialUse {
     int base;               // in the scene; -1 for the ground
@@ -148,32 +165,47 @@ class SceneOnGpu {
     uint8_t colorSets = 0;
   };
 
-  gpu::Device* device_;
-  gpu::Samplers* samplers_;
-  const scene::SceneData* data_;
+  // Of a material's textures: which image, and how it is read.
+  using TextureBindings = std::array<std::pair<int, gpu::SamplerDesc>, 2>;
+  // What an item adds to the scene's mean colour.
+  struct ColorPart {
+    const scene::Primitive* primitive = nullptr;
+    glm::mat3 linear{0.0f};
+    glm::vec3 root{0.0f};
+    glm::dvec3 sum{0.0};
+    double area = 0;
+  };
+
+  gpu::Device& device_;
+  gpu::Samplers& samplers_;
+  const scene::SceneData* data_ = nullptr;
   GeometryOptions options_;
+  MadePrimitives made_;
   std::vector<std::string> materialNames_;
   std::vector<MaterialUse> materialUses_;
   int groundMaterial_ = -1, oceanMaterial_ = -1;
   std::vector<Draw> draws_;
-  std::vector<float> nearestOf_;
-  std::vector<float> warpScaleOf_;  // by material  // by material
+  uint32_t drawsVersion_ = 0;
+  bool wraps_ = false;
+  std::vector<float> nearestOf_, warpScaleOf_;  // by material
+  std::vector<bool> isVaried_;                  // by material
   SceneColors colors_;
+  std::vector<ColorPart> colorParts_;  // by item
   scene::Bounds bounds_;
-  std::deque<scene::PrimitiveExtent> extents_;  // moving_ refers to them
-  gpu::Buffer chunks_, restCore_, restFrame_, restSkin_, morphStarts_, morphs_, finalCore_, finalFrame_,
-      previousPositions_, surface_, indices_;
-  uint32_t chunkCount_ = 0, finalVertexCount_ = 0;
+  GeometryOnGpu geometry_;
+  TexturesOnGpu textures_;
+  gpu::Buffer previousPositions_;
   std::vector<shared::ObjectData> objects_;  // without what moves
   std::vector<MovingObject> moving_;
   TransparentTriangles transparent_;
   std::optional<OceanWaves> waves_, previousWaves_;
   std::optional<SceneMotion> motion_, previousMotion_;
-  std::vector<gpu::Image> images_;
   gpu::PerFrameBuffer materialData_;
   gpu::SetLayout materialLayout_;
   gpu::DescriptorSets materialSets_;
-  uint64_t triangleCount_ = 0, uploadedBytes_ = 0;
+  std::vector<TextureBindings> materialTextures_;  // as they were written last
+  uint32_t writtenMaterials_ = 0;
+  uint64_t triangleCount_ = 0;
 };
 
 }  // namespace scumble::frame

@@ -84,16 +84,7 @@ class Splitter {
 std::optional<scene::Primitive> tessellate(const scene::Primitive& primitive, float maxEdge,
                                            size_t maxNewTriangles) {
   if (primitive.influences > 0 || !primitive.morphTargets.empty()) return std::nullopt;
-  const float maxEdge2 = maxEdge * maxEdge;
-  const auto isLong = [&](size_t i) {
-    const glm::vec3 &a = primitive.positions[primitive.indices[i]],
-                    &b = primitive.positions[primitive.indices[i + 1]],
-                    &c = primitive.positions[primitive.indices[i + 2]];
-    return std::max({glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)}) > maxEdge2;
-  };
-  bool any = false;
-  for (size_t i = 0; i < primitive.indices.size() && !any; i += 3) any = isLong(i);
-  if (!any) return std::nullopt;
+  if (!(primitive.extent.longestEdge2 > maxEdge * maxEdge)) return std::nullopt;
 
   Splitter splitter(primitive, maxEdge);
   const size_t most = primitive.indices.size() / 3 + maxNewTriangles;

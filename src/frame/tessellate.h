@@ -8,8 +8,8 @@
 
 namespace scumble::frame {
 
-// Nothing if no edge is longer than `maxEdge` (object space), or if the primitive deforms (skin, morph
-// targets). Stops early rather than add more than `maxNewTriangles`.
+// Nothing if no edge is longer than `maxEdge` (object space), as its extent says, or if the primitive deforms
+// (skin, morph targets). Stops early rather than add more than `maxNewTriangles`.
 std::optional<scene::Primitive> tessellate(const scene::Primitive& primitive, float maxEdge,
                                            size_t maxNewTriangles);
 

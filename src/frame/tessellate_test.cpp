@@ -8,6 +8,8 @@
 #include <map>
 #include <random>
 
+#include "scene/posed_bounds.h"
+
 namespace scumble::frame {
 namespace {
 
@@ -28,6 +30,7 @@ void addTriangle(Primitive& p, const glm::vec3& a, const glm::vec3& b, const glm
     p.dPdv.push_back({0, 1, v.z});
     p.colors.push_back(glm::u8vec4(glm::clamp(v * 10.0f + 100.0f, 0.0f, 255.0f), 255));
   }
+  p.extent = scene::extentOf(p);
 }
 
 // A closed box whose faces share no vertices, as flat shading makes them.
@@ -63,6 +66,7 @@ Primitive sheet(uint32_t seed) {
       const uint32_t a = r * kSide + c, b = a + 1, d = a + kSide, e = d + 1;
       p.indices.insert(p.indices.end(), {a, d, b, b, d, e});
     }
+  p.extent = scene::extentOf(p);
   return p;
 }
 

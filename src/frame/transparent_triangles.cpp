@@ -5,7 +5,22 @@
 
 namespace scumble::frame {
 
-uint32_t TransparentTriangles::add(const scene::Primitive& primitive, uint32_t object, bool isSkinned) {
+void TransparentTriangles::update(gpu::Device& device, std::vector<Part> parts,
+                                  const std::function<void()>& settle) {
+  if (parts == parts_ && sorted_.handle()) return;
+  settle();
+  parts_ = std::move(parts);
+  triangles_.clear();
+  indices_.clear();
+  objects_.clear();
+  for (const Part& part : parts_) add(part);
+  sorted_ = gpu::PerFrameBuffer(device, std::max<size_t>(1, indices_.size()) * sizeof(uint32_t),
+                                VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+}
+
+void TransparentTriangles::add(const Part& part) {
+  const auto& [source, object, isSkinned] = part;
+  const scene::Primitive& primitive = *source;
   const uint32_t first = uint32_t(triangles_.size()), count = uint32_t(primitive.indices.size() / 3);
   indices_.insert(indices_.end(), primitive.indices.begin(), primitive.indices.begin() + count * 3);
   for (uint32_t t = 0; t < count; ++t) {
@@ -21,12 +36,6 @@ uint32_t TransparentTriangles::add(const scene::Primitive& primitive, uint32_t o
     triangles_.push_back(triangle);
   }
   objects_[object] = {first, count, isSkinned};
-  return 3 * first;
-}
-
-void TransparentTriangles::create(gpu::Device& device) {
-  sorted_ = gpu::PerFrameBuffer(device, std::max<size_t>(1, indices_.size()) * sizeof(uint32_t),
-                                VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
 }
 
 void TransparentTriangles::sort(uint32_t object, const SceneMotion& motion, const Viewers& viewers) {

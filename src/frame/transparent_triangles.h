@@ -2,6 +2,7 @@
 // order serves both eyes.
 #pragma once
 
+#include <functional>
 #include <map>
 
 #include "frame/scene_motion.h"
@@ -11,10 +12,19 @@ namespace scumble::frame {
 
 class TransparentTriangles {
  public:
-  // Before create(). `object`: whose matrix, or whose joints, place the primitive. Returns the index at which
-  // its triangles begin in indices().
-  uint32_t add(const scene::Primitive& primitive, uint32_t object, bool isSkinned);
-  void create(gpu::Device& device);
+  // `object`: whose matrix, or whose joints, place the primitive.
+  struct Part {
+    const scene::Primitive* primitive;
+    uint32_t object;
+    bool isSkinned;
+    bool operator==(const Part&) const = default;
+  };
+  // All that there is. Primitives that are the same objects as before have the same triangles; where there
+  // are others, `settle` is called before indices() go that frames under way may read.
+  void update(gpu::Device& device, std::vector<Part> parts, const std::function<void()>& settle);
+
+  // At which an object's triangles begin in indices().
+  uint32_t firstIndex(uint32_t object) const { return 3 * objects_.at(object).first; }
 
   // Sorts the triangles of an object by their centroids. Morph targets do not move the centroids, and a
   // skinned one goes with the joint that pulls it most.
@@ -34,6 +44,9 @@ class TransparentTriangles {
     uint32_t first, count;  // triangles
     bool isSkinned;
   };
+  void add(const Part& part);
+
+  std::vector<Part> parts_;
   std::vector<Triangle> triangles_;
   std::vector<uint32_t> indices_;  // as the primitives have them
   std::map<uint32_t, Range> objects_;

@@ -58,18 +58,18 @@ std::vector<char> readCache(const std::string& file) {
   return std::memcmp(bytes, &wanted, sizeof wanted) == 0 ? data : std::vector<char>();
 }
 
-void writeCache(const std::string& file, const std::vector<char>& data) {
+bool writeCache(const std::string& file, const std::vector<char>& data) {
   namespace fs = std::filesystem;
-  if (data.size() > kMaxBytes) return;
+  if (data.size() > kMaxBytes) return false;
   std::error_code ignored;
   fs::create_directories(fs::path(file).parent_path(), ignored);
   const fs::file_type there = fs::symlink_status(file, ignored).type();
-  if (there != fs::file_type::regular && there != fs::file_type::not_found) return;
+  if (there != fs::file_type::regular && there != fs::file_type::not_found) return false;
   const Header header = headerFor(data.data(), data.size());
   WholeFile whole(file);
   whole.write(&header, sizeof header);
   whole.write(data.data(), data.size());
-  (void)whole.commit();
+  return whole.commit().ok();
 }
 
 }  // namespace scumble::gpu

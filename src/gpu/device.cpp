@@ -189,9 +189,8 @@ bool containsIgnoringCase(const std::string& text, const std::string& part) {
 
 VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                          VkDebugUtilsMessageTypeFlagsEXT,
-                                         const VkDebugUtilsMessengerCallbackDataEXT* data, void* counter) {
-  ++*static_cast<std::atomic<int>*>(counter);
-  std::fprintf(stderr, "scumble: validation: %s\n", data->pMessage);
+                                         const VkDebugUtilsMessengerCallbackDataEXT* data, void* device) {
+  static_cast<Device*>(device)->addValidationMessage(data->pMessage);
   return VK_FALSE;
 }
 
@@ -288,6 +287,7 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
   Result<VkInstance> instance = createInstance(options.validation, options.instanceExtensions);
   if (!instance) return instance.error();
   std::unique_ptr<Device> device(new Device);
+  device->log_ = options.log;
   device->instance_ = *instance;
 
   // Choose the GPU.
@@ -307,7 +307,7 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
       info.messageType =
           VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
       info.pfnUserCallback = onMessage;
-      info.pUserData = &device->validationMessages_;
+      info.pUserData = device.get();
       const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
           vkGetInstanceProcAddr(device->instance_, "vkCreateDebugUtilsMessengerEXT"));
       if (create) create(device->instance_, &info, nullptr, &device->messenger_);
@@ -340,8 +340,10 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
   return device;
 }
 
-Result<std::unique_ptr<Device>> Device::adopt(const VulkanDevice& foreign, const std::string& cacheFolder) {
+Result<std::unique_ptr<Device>> Device::adopt(const VulkanDevice& foreign, const std::string& cacheFolder,
+                                              const Log& log) {
   std::unique_ptr<Device> device(new Device);
+  device->log_ = log;
   device->isForeign_ = true;
   device->instance_ = foreign.instance;
   device->physical_ = foreign.physical;
@@ -400,6 +402,28 @@ void Device::openPipelineCache(const std::string& folder) {
   SCUMBLE_VK(vkCreatePipelineCache(device_, &info, nullptr, &pipelineCache_));
 }
 
+std::string aboutViewDrawing(uint32_t samples, std::optional<ViewDrawing> way) {
+  const std::string at = " at " + std::to_string(samples) + (samples == 1 ? " sample" : " samples");
+  if (!way) return "it draws two views wrongly" + at + ", whichever way: stereo is refused there";
+  if (*way == ViewDrawing::separately)
+    return "its multiview is wrong" + at + ": views are drawn one after the other";
+  if (*way == ViewDrawing::resolvedTogether)
+    return "its multiview is wrong" + at + ": views are drawn one after the other and resolved together";
+  return "";
+}
+
+void Device::log(LogLevel level, const std::string& text) const {
+  if (log_) log_(level, text);
+}
+
+void Device::addValidationMessage(const char* text) {
+  ++validationMessages_;
+  if (log_)
+    log_(LogLevel::error, std::string("validation: ") + text);
+  else
+    std::fprintf(stderr, "scumble: validation: %s\n", text);
+}
+
 void Device::savePipelineCache() {
   if (cacheFile_.empty()) return;
   size_t size = 0;
@@ -409,7 +433,8 @@ void Device::savePipelineCache() {
   if (size <= sizeof(VkPipelineCacheHeaderVersionOne)) return;
   std::vector<char> data(size);
   if (vkGetPipelineCacheData(device_, pipelineCache_, &size, data.data()) != VK_SUCCESS) return;
-  writeCache(cacheFile_, data);
+  if (!writeCache(cacheFile_, data))
+    log(LogLevel::warning, "compiled pipelines cannot be kept in " + cacheFile_);
   cachedBytes_ = size;
 }
 
@@ -422,6 +447,12 @@ std::optional<ViewDrawing> Device::viewDrawing(uint32_t samples) {
       viewDrawings_->of1Sample = findViewDrawing(*this, 1);
       if (supports4Samples_) viewDrawings_->of4Samples = findViewDrawing(*this, 4);
       if (!viewsFile_.empty()) writeViewDrawings(viewsFile_, driver, *viewDrawings_);
+    }
+    for (const uint32_t count : {1u, 4u}) {
+      if (count == 4 && !supports4Samples_) continue;
+      const std::string text =
+          aboutViewDrawing(count, count == 1 ? viewDrawings_->of1Sample : viewDrawings_->of4Samples);
+      if (!text.empty()) log(LogLevel::warning, info_.name + ": " + text);
     }
   }
   return samples == 1 ? viewDrawings_->of1Sample : viewDrawings_->of4Samples;

@@ -12,6 +12,7 @@
 
 #include "gpu/memory.h"
 #include "gpu/vulkan.h"
+#include "scumble/log.h"
 #include "scumble/result.h"
 
 namespace scumble {
@@ -29,6 +30,7 @@ struct DeviceOptions {
   // What somebody wants of the device besides; a device without the extensions is no usable GPU.
   std::vector<std::string> instanceExtensions, deviceExtensions;
   std::function<void(VulkanFeatures&)> features;  // switches on more than scumble requires; may be empty
+  Log log;  // empty: messages of the validation layers go to stderr, and others nowhere
 };
 
 struct DeviceInfo {
@@ -53,6 +55,9 @@ enum class ViewDrawing : uint8_t {
   resolvedTogether,  // one view after the other; their samples are kept, and all layers resolved at once
 };
 
+// What is wrong where a device is not drawn on in the fastest way, or not at all (nothing); else empty.
+std::string aboutViewDrawing(uint32_t samples, std::optional<ViewDrawing> way);
+
 // By the number of samples; nothing where no way is right.
 struct ViewDrawings {
   std::optional<ViewDrawing> of1Sample, of4Samples;
@@ -63,7 +68,8 @@ class Device {
  public:
   static Result<std::unique_ptr<Device>> create(const DeviceOptions& options);
   // Somebody else's, which outlives ours.
-  static Result<std::unique_ptr<Device>> adopt(const VulkanDevice& device, const std::string& cacheFolder);
+  static Result<std::unique_ptr<Device>> adopt(const VulkanDevice& device, const std::string& cacheFolder,
+                                               const Log& log);
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
@@ -110,6 +116,9 @@ class Device {
 
   // Warnings and errors of the validation layers since the start.
   int validationMessages() const { return validationMessages_; }
+  // To whoever listens.
+  void log(LogLevel level, const std::string& text) const;
+  void addValidationMessage(const char* text);
 
  private:
   Device();
@@ -136,6 +145,7 @@ class Device {
   bool supports4Samples_ = false;
   std::optional<ViewDrawings> viewDrawings_;
   std::atomic<int> validationMessages_ = 0;
+  Log log_;
 };
 
 }  // namespace gpu

@@ -209,12 +209,15 @@ size_t Uploader::stage(uint64_t size) {
 
 Buffer Uploader::reserve(uint64_t size, VkBufferUsageFlags usage, std::byte** target) {
   Buffer buffer(device_, size, usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::device);
-  *target = buffer.mapped();
-  if (!*target) {
-    buffers_.push_back({stage(size), buffer.handle(), size});
-    *target = staging_.back().mapped();
-  }
+  *target = rewrite(buffer, 0, size);
   return buffer;
+}
+
+std::byte* Uploader::rewrite(Buffer& buffer, uint64_t offset, uint64_t size) {
+  if (buffer.mapped()) return buffer.mapped() + offset;
+  const size_t staged = stage(size);
+  buffers_.push_back({staged, buffer.handle(), offset, size});
+  return staging_[staged].mapped();
 }
 
 Image Uploader::texture(std::span<const std::span<const std::byte>> levels, VkFormat format, uint32_t width,
@@ -243,7 +246,7 @@ void Uploader::flush() {
   const auto textures = std::exchange(textures_, {});
   device_.runOnce([&](VkCommandBuffer commands) {
     for (const BufferCopy& copy : buffers) {
-      const VkBufferCopy region{0, 0, copy.size};
+      const VkBufferCopy region{0, copy.offset, copy.size};
       vkCmdCopyBuffer(commands, staging_[copy.staging].handle(), copy.target, 1, &region);
     }
     for (const TextureCopy& copy : textures)

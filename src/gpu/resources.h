@@ -92,6 +92,9 @@ class Uploader {
   ~Uploader();
   // A new buffer on the device; the caller writes its contents to *target before the next flush().
   Buffer reserve(uint64_t size, VkBufferUsageFlags usage, std::byte** target);
+  // Where the caller writes, before the next flush(), what is to be at an offset of a buffer that reserve()
+  // has made; no frame under way may read that.
+  std::byte* rewrite(Buffer& buffer, uint64_t offset, uint64_t size);
   // A sampled image; `levels` are its mip levels from the largest to the smallest, tightly packed, each half
   // the size of the one before (at least 1). Flushes by itself when much is staged.
   Image texture(std::span<const std::span<const std::byte>> levels, VkFormat format, uint32_t width,
@@ -103,7 +106,7 @@ class Uploader {
   struct BufferCopy {
     size_t staging;
     VkBuffer target;
-    uint64_t size;
+    uint64_t offset, size;
   };
   struct TextureCopy {
     size_t staging;  // all levels, one after the other

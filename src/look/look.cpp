@@ -1,6 +1,11 @@
 // The public face of looks: loading them, setting knobs, listing the knobs and the looks that ship.
 #include "scumble/look.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
 #include "base/color_text.h"
 #include "look/look_source.h"
 #include "look/read_value.h"
@@ -43,13 +48,56 @@ Result<Look> Look::fromJson(const std::string& text, const std::string& file) {
   return look;
 }
 
-Status Look::set(const std::string& path, const std::string& value) {
-  if ((path + value).find('\0') != std::string::npos)
+namespace {
+
+// The number or numbers of a value that is no text, as rows have them.
+Result<look::Value> typedValue(const look::ParamRow& row, const KnobValue& value) {
+  using look::ParamKind;
+  const auto refuse = [](std::string problem, std::string advice) {
+    return Error{ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
+  };
+  if (const bool* const on = std::get_if<bool>(&value)) {
+    if (row.kind == ParamKind::toggle) return look::Value{double(*on), {}};
+    return refuse("it is no toggle", "give it a value of its own type");
+  }
+  if (const glm::vec3* const three = std::get_if<glm::vec3>(&value)) {
+    if (row.kind != ParamKind::color && row.kind != ParamKind::triple)
+      return refuse("it is neither a colour nor a vector", "give it a value of its own type");
+    const double least = row.kind == ParamKind::color ? 0 : row.min,
+                 most = row.kind == ParamKind::color ? 1 : row.max;
+    for (int c = 0; c < 3; ++c)
+      if (!((*three)[c] >= least && (*three)[c] <= most))
+        return refuse(fmt::format("{:g} is out of range", (*three)[c]),
+                      fmt::format("it may be {:g} to {:g}", least, most));
+    return look::Value{0, *three};
+  }
+  if (row.kind != ParamKind::number && row.kind != ParamKind::integer)
+    return refuse("it is no number", "give it a value of its own type");
+  const double number = value.index() == 1 ? double(std::get<int>(value)) : std::get<double>(value);
+  if (!(number >= row.min && number <= row.max))
+    return refuse(fmt::format("{:g} is out of range", number),
+                  fmt::format("it may be {:g} to {:g}", row.min, row.max));
+  if (row.kind == ParamKind::integer && number != std::floor(number))
+    return refuse(fmt::format("{:g} is no whole number", number), "give a whole number");
+  return look::Value{number, {}};
+}
+
+bool isAlike(const look::Assignment& a, const look::Assignment& b) {
+  return a.row == b.row && a.block == b.block && a.target == b.target && a.pattern == b.pattern &&
+         a.byHand == b.byHand;
+}
+
+}  // namespace
+
+Status Look::set(const std::string& path, const KnobValue& value) {
+  const std::string* const text = std::get_if<std::string>(&value);
+  if ((path + (text ? *text : "")).find('\0') != std::string::npos)
     return Error{ErrorKind::usage, "", 0, "", "a setting holds the character NUL", "leave it out"};
   Result<look::Assignment> assignment = look::parseSettingPath(path);
   if (!assignment) return assignment.error();
   auto changed = std::make_shared<look::LookData>(*data_);
-  const Result<look::Value> parsed = look::readValue(*assignment->row, value, "", *changed);
+  const Result<look::Value> parsed =
+      text ? look::readValue(*assignment->row, *text, "", *changed) : typedValue(*assignment->row, value);
   if (!parsed) {
     Error error = parsed.error();
     if (error.file.empty()) error.problem = path + ": " + error.problem;
@@ -57,6 +105,7 @@ Status Look::set(const std::string& path, const std::string& value) {
   }
   assignment->value = *parsed;
   assignment->byHand = true;
+  std::erase_if(changed->assignments, [&](const look::Assignment& a) { return isAlike(a, *assignment); });
   changed->assignments.push_back(*assignment);
   for (const look::Section& section : look::kSections)
     if (section.most > 0 && section.target == assignment->target &&
@@ -69,6 +118,46 @@ Status Look::set(const std::string& path, const std::string& value) {
                    "a look declares " + std::to_string(section.most) + " at most"};
   data_ = std::move(changed);
   return Done{};
+}
+
+Status Look::unset(const std::string& path) {
+  Result<look::Assignment> assignment = look::parseSettingPath(path);
+  if (!assignment) return assignment.error();
+  assignment->byHand = true;
+  auto changed = std::make_shared<look::LookData>(*data_);
+  std::erase_if(changed->assignments, [&](const look::Assignment& a) { return isAlike(a, *assignment); });
+  data_ = std::move(changed);
+  return Done{};
+}
+
+Result<KnobValue> Look::get(const std::string& path, double time) const {
+  const Result<look::Assignment> knob = look::parseSettingPath(path);
+  if (!knob) return knob.error();
+  if (look::isPattern(knob->pattern))
+    return Error{
+        ErrorKind::usage,  "", 0, "", path + ": what '" + knob->pattern + "' matches has no one value",
+        "ask for one name"};
+  const look::ParamRow& row = *knob->row;
+  const look::LookData now = data_->at(time);
+  const look::Value value = now.valueOf(row, *knob->block, knob->target, knob->pattern);
+  switch (row.kind) {
+    case look::ParamKind::toggle:
+      return KnobValue(value.number != 0);
+    case look::ParamKind::integer:
+      return KnobValue(int(value.number));
+    case look::ParamKind::number:
+      return KnobValue(value.number);
+    case look::ParamKind::color:
+    case look::ParamKind::triple:
+      return KnobValue(value.linear);
+    case look::ParamKind::name:
+      return KnobValue(now.text(look::Name(value.number)));
+    case look::ParamKind::picture:
+      if (value.number < 0) return KnobValue(now.pictures[size_t(-value.number) - 1]->file);
+      [[fallthrough]];
+    default:
+      return KnobValue(look::formatValue(row, value.number));
+  }
 }
 
 std::vector<ShippedLook> Look::shipped() {

@@ -126,6 +126,18 @@ void LookData::fillFor(const ParamBlock& block, const std::string& material, std
   }
 }
 
+Value LookData::valueOf(const ParamRow& row, const ParamBlock& block, Target target,
+                        const std::string& name) const {
+  Value value = defaultOf(row);
+  for (const bool byHand : {false, true})
+    for (const Target wanted : {kScene, target})
+      for (const Assignment& a : assignments)
+        if (a.byHand == byHand && sets(a, block, row.name, wanted) &&
+            (wanted == kScene || matches(a.pattern, name)))
+          value = a.value;
+  return value;
+}
+
 const Assignment* LookData::settingOf(const ParamBlock& block, const char* row) const {
   const Assignment* found = nullptr;
   for (const bool byHand : {false, true})
@@ -271,6 +283,12 @@ Result<Value> parseValue(const ParamRow& row, const std::string& text) {
   if (row.kind == ParamKind::integer && *number != std::floor(*number))
     return badValue("'" + text + "' is no whole number", "write a whole number");
   return Value{*number, {}};
+}
+
+Value defaultOf(const ParamRow& row) {
+  if (row.kind == ParamKind::color) return {0, linearFromSrgb(uint32_t(row.defaultValue))};
+  if (row.kind == ParamKind::triple) return {0, glm::vec3(float(row.defaultValue))};
+  return {row.defaultValue, {}};
 }
 
 std::string formatValue(const ParamRow& row, double number) {

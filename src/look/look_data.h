@@ -56,6 +56,9 @@ struct LookData {
   void fillFor(const ParamBlock& block, const std::string& material, std::span<const uint32_t> over,
                void* out) const;
 
+  // One row, for the whole scene or for what is called `name`.
+  Value valueOf(const ParamRow& row, const ParamBlock& block, Target target, const std::string& name) const;
+
   // The setting of a row that counts for the whole scene; null: none does.
   const Assignment* settingOf(const ParamBlock& block, const char* row) const;
 
@@ -111,5 +114,7 @@ bool isKnob(const std::string& path);
 // problem is in Error::problem.
 Result<Value> parseValue(const ParamRow& row, const std::string& text);
 std::string formatValue(const ParamRow& row, double number);
+// What a row has where nobody sets it.
+Value defaultOf(const ParamRow& row);
 
 }  // namespace scumble::look

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -126,6 +127,105 @@ TEST(Look, setAndFileGiveTheSameAndChangeOnlyThatKnob) {
       if (other != row.block) {
         ASSERT_EQ(bytesOf(*other, bySet), bytesOf(*other, defaults));
       }
+  }
+}
+
+// What set() takes, get() gives; what it took back is the default again; and typed values are the same ones
+// as their text.
+TEST(Look, knobsAreReadSetAndUnset) {
+  for (const Row& row : allRows()) {
+    const Sample sample = sampleOf(*row.row);
+    const std::string path = row.settingPath();
+    const bool isOfASection = !(row.block->targets & look::kScene);
+    Look look;
+    const KnobValue before = *look.get(path);
+    ASSERT_TRUE(look.set(path, sample.text).ok());
+    const KnobValue after = *look.get(path);
+    EXPECT_NE(before, after) << path;
+    Look typed;
+    const Status set = typed.set(path, after);
+    ASSERT_TRUE(set.ok()) << set.error().message();
+    EXPECT_EQ(*typed.get(path), after) << path;
+    EXPECT_EQ(bytesOf(*row.block, typed), bytesOf(*row.block, look)) << path;
+    EXPECT_EQ(before.index(), after.index()) << path;
+    switch (row.row->kind) {
+      case ParamKind::number:
+        EXPECT_EQ(float(std::get<double>(after)), float(sample.value.get<double>())) << path;
+        break;
+      case ParamKind::integer:
+        EXPECT_EQ(std::get<int>(after), sample.value.get<int>()) << path;
+        break;
+      case ParamKind::toggle:
+        EXPECT_EQ(std::get<bool>(after), sample.value.get<bool>()) << path;
+        break;
+      case ParamKind::color:
+      case ParamKind::triple:
+        EXPECT_TRUE(std::holds_alternative<glm::vec3>(after)) << path;
+        break;
+      default:
+        EXPECT_EQ(std::get<std::string>(after), sample.text) << path;
+    }
+    // The same one again takes the place of the first.
+    ASSERT_TRUE(typed.set(path, before).ok() && typed.set(path, after).ok());
+    EXPECT_EQ(typed.data().assignments.size(), 1u) << path;
+    ASSERT_TRUE(typed.unset(path).ok());
+    EXPECT_TRUE(typed.data().assignments.empty()) << path;
+    EXPECT_EQ(*typed.get(path), before) << path;
+    EXPECT_EQ(isOfASection, path != row.path());
+  }
+}
+
+TEST(Look, typedValuesOfAWrongKindAreRefused) {
+  const KnobValue values[] = {true, 1, 0.5, glm::vec3(0.5f)};
+  for (const Row& row : allRows())
+    for (const KnobValue& value : values) {
+      const ParamKind kind = row.row->kind;
+      const bool fits = std::holds_alternative<bool>(value) ? kind == ParamKind::toggle
+                        : std::holds_alternative<glm::vec3>(value)
+                            ? kind == ParamKind::color || kind == ParamKind::triple
+                            : row.isNumber();
+      Look look;
+      const Status status = look.set(row.settingPath(), value);
+      if (!fits) {
+        ASSERT_FALSE(status.ok()) << row.path() << ", " << value.index();
+        EXPECT_EQ(status.error().kind, ErrorKind::usage);
+        EXPECT_NE(status.error().message().find(row.path()), std::string::npos) << status.error().message();
+        EXPECT_TRUE(look.data().assignments.empty());
+      }
+      const double beyond =
+          row.row->max + (kind == ParamKind::integer ? 1 : 1e-3 * (row.row->max - row.row->min));
+      if (row.isNumber()) {
+        EXPECT_FALSE(look.set(row.settingPath(), beyond).ok()) << row.path();
+        EXPECT_FALSE(look.set(row.settingPath(), std::nan("")).ok()) << row.path();
+      }
+      if (kind == ParamKind::integer) {
+        EXPECT_FALSE(look.set(row.settingPath(), row.row->min + 0.5).ok()) << row.path();
+      }
+      if (kind == ParamKind::color) {
+        EXPECT_FALSE(look.set(row.settingPath(), glm::vec3(0, 1.01f, 0)).ok()) << row.path();
+      }
+    }
+}
+
+TEST(Look, whatHoldsIsOfANameAndATime) {
+  Look look = mustRead(R"({
+    "shadow": {"threshold": {"keys": [[0, 0.2], [2, 0.6]]}},
+    "materials": {"Sail*": {"warp": {"amount": 3}}}
+  })");
+  EXPECT_NEAR(std::get<double>(*look.get("shadow.threshold", 1)), 0.4, 1e-6);
+  EXPECT_EQ(std::get<double>(*look.get("materials.Sails.warp.amount")), 3);
+  EXPECT_NE(std::get<double>(*look.get("materials.Hull.warp.amount")), 3);
+  ASSERT_TRUE(look.set("shadow.threshold", 0.9).ok());
+  ASSERT_TRUE(look.set("warp.amount", 5).ok());
+  EXPECT_EQ(std::get<double>(*look.get("shadow.threshold", 1)), 0.9);
+  EXPECT_EQ(std::get<double>(*look.get("materials.Sails.warp.amount")), 5) << "by hand over the file's names";
+  ASSERT_TRUE(look.unset("shadow.threshold").ok() && look.unset("warp.amount").ok());
+  EXPECT_NEAR(std::get<double>(*look.get("shadow.threshold", 2)), 0.6, 1e-6);
+  EXPECT_EQ(std::get<double>(*look.get("materials.Sails.warp.amount")), 3);
+  EXPECT_FALSE(look.get("materials.Sail*.warp.amount").ok());
+  for (const char* path : {"shadow.treshold", "shadow", "", "materials.Sail"}) {
+    EXPECT_FALSE(look.get(path).ok()) << path;
+    EXPECT_FALSE(look.unset(path).ok()) << path;
   }
 }
 

@@ -164,7 +164,8 @@ class Measurer {
     frame.seed = options_.seed + uint32_t(seed);
     frame.previousViews = previous;
     Result<Frame> rendered = draw_(scene, look, views, frame);
-    if (rendered && options_.progress) options_.progress(++done_, total());
+    if (rendered && options_.progress && !options_.progress(++done_, total()))
+      return Error{ErrorKind::cancelled, "", 0, "", "measuring was cancelled", ""};
     return rendered;
   }
 

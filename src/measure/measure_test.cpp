@@ -24,7 +24,10 @@ class MeasuredWalls : public ::testing::Test {
     options.viewpoint.eye = glm::vec3(0, 0, float(kEyeDistance));
     options.viewpoint.target = glm::vec3(0);
     options.viewpoint.verticalFov = 40.0f;
-    options.progress = [](int done, int total) { progress = {done, total}; };
+    options.progress = [](int done, int total) {
+      progress = {done, total};
+      return true;
+    };
     Look look;
     for (const auto& [knob, value] : {std::pair("warp.amount", "5"),
                                       {"warp.inflation", "3"},

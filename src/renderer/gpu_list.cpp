@@ -26,19 +26,12 @@ namespace {
 std::vector<std::string> workaroundsFor(gpu::Device& device) {
   std::vector<std::string> sentences;
   for (const uint32_t samples : {1u, 4u}) {
-    const std::string at = " at " + std::to_string(samples) + (samples == 1 ? " sample" : " samples");
     if (samples == 4 && !device.supports4Samples()) {
       sentences.push_back("it has no 4 samples a pixel: use --samples 1");
       continue;
     }
-    const std::optional<gpu::ViewDrawing> way = device.viewDrawing(samples);
-    if (!way)
-      sentences.push_back("it draws two views wrongly" + at + ", whichever way: stereo is refused there");
-    else if (*way == gpu::ViewDrawing::separately)
-      sentences.push_back("its multiview is wrong" + at + ": views are drawn one after the other");
-    else if (*way == gpu::ViewDrawing::resolvedTogether)
-      sentences.push_back("its multiview is wrong" + at +
-                          ": views are drawn one after the other and resolved together");
+    const std::string text = gpu::aboutViewDrawing(samples, device.viewDrawing(samples));
+    if (!text.empty()) sentences.push_back(text);
   }
   return sentences;
 }

@@ -60,8 +60,9 @@ glm::uvec2 largestOf(const std::vector<ViewGroup>& groups) {
   return largest;
 }
 
-const Image* backgroundOf(const RenderOptions& options) {
-  return options.transparent || options.plain ? nullptr : options.background.get();
+const Image* backgroundOf(const Request& request) {
+  const RenderOptions& options = request.options;
+  return options.transparent || request.isYardstick ? nullptr : options.background.get();
 }
 
 }  // namespace
@@ -96,18 +97,37 @@ Renderer::Impl::~Impl() {
 
 // -- What is on the device
 
-Resident& Renderer::Impl::useScene(const Scene& wanted, const GeometryOptions& options) {
+Resident& Renderer::Impl::useScene(const Scene& wanted, const GeometryOptions& options, FrameStats& stats) {
   const auto found = std::find_if(residents.begin(), residents.end(), [&](const Resident& resident) {
-    return &resident.scene.data() == &wanted.data();
+    const scene::SceneData &is = resident.scene.data(), &becomes = wanted.data();
+    return &is == &becomes || (is.family != 0 && is.family == becomes.family);
   });
-  if (found != residents.end() && found->onGpu.options() == options) {
+  if (found != residents.end()) {
     residents.splice(residents.begin(), residents, found);
-    return residents.front();
+  } else {
+    fetchAll();
+    keepBudget(0);
+    residents.emplace_front(*device, *samplers, wanted);
   }
-  fetchAll();
-  if (found != residents.end()) residents.erase(found);
-  keepBudget(0);
-  return residents.emplace_front(*device, *samplers, wanted, options);
+  Resident& resident = residents.front();
+  if (resident.onGpu.isOf(wanted.data(), options)) return resident;
+  try {
+    const SceneOnGpu::Written before = resident.onGpu.written();
+    const SceneOnGpu::Changes changes = resident.onGpu.update(wanted.data(), options, [&] { fetchAll(); });
+    resident.scene = wanted;
+    const SceneOnGpu::Written now = resident.onGpu.written();
+    stats.writtenPrimitives = now.primitives - before.primitives;
+    stats.writtenTextures = now.textures - before.textures;
+    stats.writtenMaterials = now.materials - before.materials;
+    if (changes.materials)
+      resident.setups.clear();
+    else if (changes.buffers)
+      for (const std::unique_ptr<Setup>& setup : resident.setups) setup->bindScene();
+  } catch (...) {
+    residents.pop_front();
+    throw;
+  }
+  return resident;
 }
 
 void Renderer::Impl::keepBudget(size_t least) {
@@ -125,7 +145,8 @@ void Renderer::Impl::useBackdrop(const glm::uvec2& texels) {
   if (texels.x > 0) backdrop.emplace(*device, texels);
 }
 
-void Renderer::Impl::useSetups(Resident& resident, const std::vector<SetupKey>& keys, Begun& frame) {
+void Renderer::Impl::useSetups(Resident& resident, const std::vector<SetupKey>& keys, Begun& frame,
+                               const std::function<void(double)>& progress) {
   std::vector<std::unique_ptr<Setup>>& had = resident.setups;
   std::vector<std::unique_ptr<Setup>> now(keys.size());
   // Those that fit as they are; then those that fit but for their size.
@@ -147,8 +168,10 @@ void Renderer::Impl::useSetups(Resident& resident, const std::vector<SetupKey>& 
       if (now[i]) now[i]->resize(frame.parts[i].group.size);
     for (size_t i = 0; i < keys.size(); ++i)
       if (!now[i])
-        now[i] = std::make_unique<Setup>(*device, *samplers, *examples, resident.onGpu,
-                                         keys[i].plain ? plain : passes, keys[i], frame.parts[i].group.size);
+        now[i] =
+            std::make_unique<Setup>(*device, *samplers, *examples, resident.onGpu,
+                                    keys[i].plain ? plain : passes, keys[i], frame.parts[i].group.size,
+                                    [&](double part) { progress((double(i) + part) / double(keys.size())); });
   }
   had = std::move(now);
   for (size_t i = 0; i < keys.size(); ++i) frame.parts[i].setup = had[i].get();
@@ -189,10 +212,17 @@ Status Renderer::Impl::check(const Request& request) const {
         return usage("a view hangs on a node that the scene does not have", "make views of this scene");
       if (view.size != glm::uvec2(0) && !isSize(view.size)) return badSize(view.size);
     }
+  if (!options.previousScene.empty()) {
+    const scene::SceneData &now = scene.data(), &then = options.previousScene.data();
+    if (&now != &then &&
+        (now.family == 0 || now.family != then.family || now.nodes.size() != then.nodes.size()))
+      return usage("the previous scene is another one",
+                   "give an earlier one of the same SceneEditor, with as many nodes");
+  }
   const double previousTime = options.previousTime.value_or(time);
   if (!(std::abs(time) < kMaxTime && std::abs(previousTime) < kMaxTime))
     return usage("the time is out of range", "give it in seconds, up to a million");
-  const Image* const background = backgroundOf(options);
+  const Image* const background = backgroundOf(request);
   if (background && !isPicture(*background))
     return usage("the background is no picture", "give it channels R, G, B, and as many pixels as it says");
   if (background && std::max(background->width, background->height) > largest)
@@ -203,7 +233,7 @@ Status Renderer::Impl::check(const Request& request) const {
     return usage("too many frames have been begun", "call finish() first");
 
   // Only what a pass offers can be saved.
-  const std::vector<const Aov*> offered = options.plain ? std::vector<const Aov*>() : aovs;
+  const std::vector<const Aov*> offered = request.isYardstick ? std::vector<const Aov*>() : aovs;
   std::vector<std::string> names = options.aovs;
   if (delivery)
     for (const Delivery::Target& target : delivery->targets)
@@ -234,13 +264,14 @@ SetupKey Renderer::Impl::keyOf(const Request& request, const look::LookData& now
   key.configuration.computeImagePasses =
       imagePasses == ImagePassKind::compute ||
       (imagePasses == ImagePassKind::automatic && device->prefersCompute());
-  key.plain = request.options.plain;
+  key.plain = request.isYardstick;
   key.readsBack = !request.delivery;
   key.aovs = request.options.aovs;
   if (key.plain)
     key.variants.assign(2, 0);
   else
     for (const auto& pass : asked) key.variants.push_back(pass->variant(request.scene.data(), now));
+  key.lights = std::max<size_t>(1, punctualLightCount(request.scene.data()));
   return key;
 }
 
@@ -293,9 +324,15 @@ Status Renderer::Impl::begin(const Request& request) {
   const Delivery* const delivery = request.delivery;
   const look::LookData now = look.at(time);
   const std::vector<ViewGroup> groups = groupViews(views, {options.width, options.height});
-  const Image* const background = backgroundOf(options);
+  const Image* const background = backgroundOf(request);
 
+  // Scene, pipelines, and all of the frame that is left.
+  const auto progress = [&](double part) {
+    const double whole = request.progressFrom + part * (request.progressTo - request.progressFrom);
+    if (options.progress && !options.progress(whole)) throw Cancelled();
+  };
   try {
+    progress(0);
     const bool isTogether = std::any_of(groups.begin(), groups.end(),
                                         [](const ViewGroup& group) { return group.members.size() > 1; });
     if (isTogether && !device->viewDrawing(options.samples))
@@ -329,13 +366,15 @@ Status Renderer::Impl::begin(const Request& request) {
       if (aov->namesObjects &&
           std::find(options.aovs.begin(), options.aovs.end(), aov->name) != options.aovs.end())
         next.frame.objects = objectNames(scene.data(), geometry);
-    Resident& resident = useScene(scene, geometry);
+    Resident& resident = useScene(scene, geometry, stats);
     const glm::uvec2 frameSize = largestOf(groups);
     const glm::uvec2 texels =
         background ? Backdrop::sizeFor(*background, frameSize.x, frameSize.y) : glm::uvec2(0);
     useBackdrop(texels);
     stats.uploadMilliseconds = lap();
-    useSetups(resident, keysOf(request, now, next.parts), next);
+    progress(0.3);
+    useSetups(resident, keysOf(request, now, next.parts), next,
+              [&](double part) { progress(0.3 + 0.6 * part); });
     keepBudget(1);
     stats.setupMilliseconds = lap();
 
@@ -346,7 +385,9 @@ Status Renderer::Impl::begin(const Request& request) {
       return part.setup->needsPrevious();
     });
     const double previousTime = options.previousTime.value_or(time);
-    if (needsPrevious) sceneOnGpu.posePrevious(look, look.at(previousTime), previousTime);
+    if (needsPrevious)
+      sceneOnGpu.posePrevious(options.previousScene.empty() ? scene.data() : options.previousScene.data(),
+                              look, look.at(previousTime), previousTime);
     const std::vector<View> seenFrom = ridden(views, sceneOnGpu.motion());
     std::vector<View> seenBefore;
     if (needsPrevious)
@@ -381,6 +422,7 @@ Status Renderer::Impl::begin(const Request& request) {
       part.setup->setTargets(next.slot, part.images);
     }
 
+    progress(1);
     if (request.isRehearsal) {
       // What has been posed was not drawn.
       sceneOnGpu.forgetPoses();
@@ -408,6 +450,8 @@ Status Renderer::Impl::begin(const Request& request) {
     }
     begun.push_back(std::move(next));
     return Done{};
+  } catch (const Cancelled&) {
+    return cancelled();
   } catch (const gpu::VulkanError& error) {
     return failure(error);
   } catch (const std::bad_alloc&) {
@@ -479,22 +523,31 @@ std::vector<look::LookData> withEachKnob(const look::LookData& look) {
 Status Renderer::Impl::prepare(const Request& request, bool everyKnob) {
   Request rehearsal = request;
   rehearsal.isRehearsal = true;
-  for (const double time : timesOf(request.look, request.time)) {
+  const std::vector<double> times = timesOf(request.look, request.time);
+  std::vector<look::LookData> looks;
+  if (everyKnob) looks = withEachKnob(request.look);
+  double done = 0;
+  const auto next = [&](Request& frame) {
+    const double all = double(times.size() + looks.size() + 1);
+    frame.progressFrom = done / all;
+    frame.progressTo = ++done / all;
+  };
+  for (const double time : times) {
+    next(rehearsal);
     if (std::abs(time) >= kMaxTime) continue;
     rehearsal.time = time;
     if (Status status = begin(rehearsal); !status) return status;
   }
-  if (!everyKnob) return Done{};
   const OceanShape ocean = oceanShape(request.scene.data(), request.look.at(request.time));
-  for (const look::LookData& look : withEachKnob(request.look)) {
+  for (const look::LookData& look : looks) {
+    Request changed{request.scene, look, request.time, request.views, request.options, nullptr, true};
+    next(changed);
     // Where there is another sea, or none any more, it is another scene.
     if (oceanShape(request.scene.data(), look.at(request.time)).isThere != ocean.isThere) continue;
-    if (Status status =
-            begin({request.scene, look, request.time, request.views, request.options, nullptr, true});
-        !status)
-      return status;
+    if (Status status = begin(changed); !status) return status;
   }
   rehearsal.time = request.time;
+  next(rehearsal);
   return begin(rehearsal);
 }
 
@@ -502,10 +555,15 @@ void Renderer::Impl::latch(const Request& request, const SceneMotion& motion, co
   std::vector<View> views = request.views;
   request.options.latch(views);
   // What cannot be drawn from changes nothing.
-  if (views.size() != request.views.size()) return;
-  for (size_t i = 0; i < views.size(); ++i) {
+  std::string problem;
+  if (views.size() != request.views.size()) problem = "there are more or fewer views than before";
+  for (size_t i = 0; i < views.size() && problem.empty(); ++i) {
     views[i].node = request.views[i].node;
-    if (!problemWith(views[i]).empty()) return;
+    problem = problemWith(views[i]);
+  }
+  if (!problem.empty()) {
+    device->log(LogLevel::warning, "the newest views are not used: " + problem);
+    return;
   }
   const std::vector<View> now = ridden(views, motion);
   for (const Begun::Part& part : frame.parts) {
@@ -556,6 +614,20 @@ void Renderer::Impl::fetchAll() {
 }
 
 // -- When something goes wrong
+
+Error Renderer::Impl::cancelled() {
+  try {
+    fetchAll();
+  } catch (const gpu::VulkanError& error) {
+    return failure(error);
+  }
+  // What was half made goes, and what has been posed was not drawn.
+  for (Resident& resident : residents) {
+    resident.setups.clear();
+    resident.onGpu.forgetPoses();
+  }
+  return {ErrorKind::cancelled, "", 0, "", "rendering was cancelled", ""};
+}
 
 void Renderer::Impl::abandon() {
   for (auto& submission : submissions) submission.reset();

@@ -20,8 +20,8 @@ Error usage(std::string problem, std::string advice);
 
 // A scene that is on the device, and what its frames are drawn with.
 struct Resident {
-  Resident(gpu::Device& device, gpu::Samplers& samplers, const Scene& kept, const GeometryOptions& options)
-      : scene(kept), onGpu(device, samplers, scene.data(), options) {}
+  Resident(gpu::Device& device, gpu::Samplers& samplers, const Scene& kept)
+      : scene(kept), onGpu(device, samplers) {}
   Scene scene;  // keeps the data alive that onGpu refers to
   SceneOnGpu onGpu;
   // One for each group of views that was drawn last.
@@ -39,6 +39,9 @@ struct Delivery {
   std::span<const VkSemaphoreSubmitInfo> waits, signals;
 };
 
+// Thrown where the caller wants to stop.
+struct Cancelled {};
+
 // What a call of begin() is about.
 struct Request {
   const Scene& scene;
@@ -48,6 +51,9 @@ struct Request {
   const RenderOptions& options;
   const Delivery* delivery = nullptr;
   bool isRehearsal = false;  // all but the drawing
+  bool isYardstick = false;  // the plain passes
+  // Parts of the progress that the caller wants to hear of: from, to.
+  double progressFrom = 0, progressTo = 1;
 };
 
 // A frame between begin() and finish().
@@ -98,17 +104,19 @@ struct Renderer::Impl {
   void fetchAll();
   Error failure(const gpu::VulkanError& error);
   Error outOfMemory();
+  // After the caller wanted it to stop, before anything was sent.
+  Error cancelled();
 
  private:
-  // The scene to draw, first of the residents.
-  renderer::Resident& useScene(const Scene& wanted, const frame::GeometryOptions& options);
+  // The scene to draw, first of the residents, as it is now.
+  renderer::Resident& useScene(const Scene& wanted, const frame::GeometryOptions& options, FrameStats& stats);
   // Takes off the device what was drawn longest ago, but for so many scenes, while there is too much.
   void keepBudget(size_t least);
   // Texels of pictures behind everything; none: there is no such picture.
   void useBackdrop(const glm::uvec2& texels);
   // What each group of views is drawn with; what none of them needs goes.
   void useSetups(renderer::Resident& resident, const std::vector<renderer::SetupKey>& keys,
-                 renderer::Begun& frame);
+                 renderer::Begun& frame, const std::function<void(double)>& progress);
   renderer::SetupKey keyOf(const renderer::Request& request, const look::LookData& now) const;
   // For each part of a frame, which gets its images.
   std::vector<renderer::SetupKey> keysOf(const renderer::Request& request, const look::LookData& now,
@@ -153,6 +161,7 @@ class Renderer::Turn {
 struct RendererAccess {
   static gpu::Device& device(const Renderer& renderer) { return *renderer.impl_->device; }
   static Status begin(Renderer& renderer, const renderer::Request& request);
+  static Result<Frame> render(Renderer& renderer, const renderer::Request& request);
   static std::unique_ptr<Renderer> create(std::unique_ptr<gpu::Device> device,
                                           const RendererOptions& options);
 };

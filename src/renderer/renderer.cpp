@@ -16,6 +16,7 @@ Renderer::~Renderer() = default;
 
 std::unique_ptr<Renderer> RendererAccess::create(std::unique_ptr<gpu::Device> device,
                                                  const RendererOptions& options) {
+  device->log(LogLevel::information, "drawing on " + device->info().name + ", " + device->info().driver);
   std::unique_ptr<Renderer> created(new Renderer);
   created->impl_ = std::make_unique<Renderer::Impl>(std::move(device), options);
   return created;
@@ -26,6 +27,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
   deviceOptions.choice = options.device;
   deviceOptions.validation = options.validation;
   deviceOptions.cacheFolder = options.cacheFolder;
+  deviceOptions.log = options.log;
   Result<std::unique_ptr<gpu::Device>> device = gpu::Device::create(deviceOptions);
   if (!device) return device.error();
   return RendererAccess::create(std::move(device).value(), options);
@@ -33,12 +35,16 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& option
 
 Result<Frame> Renderer::render(const Scene& scene, const Look& look, double time,
                                const std::vector<View>& views, const RenderOptions& options) {
-  const Turn turn(*impl_);
+  return RendererAccess::render(*this, {scene, look.data(), time, views, options});
+}
+
+Result<Frame> RendererAccess::render(Renderer& renderer, const Request& request) {
+  const Renderer::Turn turn(*renderer.impl_);
   if (!turn) return turn.refusal();
-  if (!impl_->begun.empty())
+  if (!renderer.impl_->begun.empty())
     return usage("other frames have been begun", "call finish() until all are finished");
-  if (const Status status = begin(scene, look, time, views, options); !status) return status.error();
-  return finish();
+  if (const Status status = renderer.impl_->begin(request); !status) return status.error();
+  return renderer.finish();
 }
 
 Status RendererAccess::begin(Renderer& renderer, const Request& request) {

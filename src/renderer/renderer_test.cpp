@@ -4,8 +4,10 @@
 #include <atomic>
 #include <thread>
 
+#include "scumble/check.h"
 #include "tests/support/aov.h"
 #include "tests/support/render_test.h"
+#include "tests/support/test_device.h"
 
 namespace scumble {
 namespace {
@@ -79,6 +81,61 @@ TEST_F(Refusals, aCountOfPreviousViewsIsNamedAsThat) {
   EXPECT_EQ(refusalOf(std::vector<View>{}), "there are 0 views");
 }
 
+// A caller that stops is obeyed, wherever it does so, and nothing is left of the frame.
+TEST_F(Refusals, whoCancelsGetsNoFrame) {
+  const std::vector<View> views = viewsFrom(scene_, {}, kWidth, kHeight, Stereo::stereo);
+  RendererOptions options;
+  options.device = testDevice();
+  options.validation = true;
+  std::vector<std::pair<LogLevel, std::string>> log;
+  options.log = [&](LogLevel level, const std::string& text) { log.emplace_back(level, text); };
+  const auto fresh = std::move(Renderer::create(options)).value();
+  ASSERT_EQ(log.size(), 1u);
+  EXPECT_EQ(log[0].first, LogLevel::information);
+  EXPECT_NE(log[0].second.find(fresh->gpu().name), std::string::npos);
+
+  RenderOptions frame = sized(kWidth, kHeight);
+  const Frame expected = draw(scene_, Look(), views, frame);
+  size_t calls = 0;
+  for (size_t stopAt = 0;; ++stopAt) {
+    double before = 0;
+    calls = 0;
+    frame.progress = [&](double part) {
+      EXPECT_GE(part, before);
+      EXPECT_LE(part, 1);
+      before = part;
+      return ++calls <= stopAt;
+    };
+    const Result<Frame> drawn = fresh->render(scene_, Look(), 0, views, frame);
+    if (drawn) {
+      EXPECT_EQ(before, 1);
+      EXPECT_TRUE(sameBytes(drawn->layers[0].views[1], expected.layers[0].views[1]));
+      break;
+    }
+    ASSERT_EQ(drawn.error().kind, ErrorKind::cancelled) << drawn.error().message();
+    EXPECT_EQ(calls, stopAt + 1);
+  }
+  EXPECT_GT(calls, 8u);
+  frame.progress = {};
+  for (size_t i = 0; i < log.size(); ++i) EXPECT_NE(log[i].first, LogLevel::error) << log[i].second;
+  EXPECT_EQ(fresh->validationMessages(), 0);
+
+  // All of a rehearsal is one way from 0 to 1.
+  double last = 0;
+  frame.progress = [&](double part) {
+    EXPECT_GE(part, last);
+    last = part;
+    return true;
+  };
+  ASSERT_TRUE(fresh->prepare(scene_, Look(), views, frame).ok());
+  EXPECT_EQ(last, 1);
+  frame.progress = [](double part) { return part < 0.5; };
+  EXPECT_EQ(fresh->prepare(scene_, Look(), views, frame).error().kind, ErrorKind::cancelled);
+  frame.progress = {};
+  EXPECT_TRUE(sameBytes(fresh->render(scene_, Look(), 0, views, frame)->layers[0].views[0],
+                        expected.layers[0].views[0]));
+}
+
 TEST(WithoutEffect, namesThatTheSceneDoesNotHave) {
   const Scene scene = stillLife().load();
   const std::string material = scene.summary().materialNames.at(0);
@@ -90,12 +147,23 @@ TEST(WithoutEffect, namesThatTheSceneDoesNotHave) {
                                   "}, \"nodes\": {\"Nobody\": {\"animation\": {\"hold\": 2}}}}",
                               "a.json");
   using Names = std::vector<std::string>;
-  EXPECT_EQ(settingsWithoutEffect(scene, look), Names()) << "it may be for many scenes";
-  EXPECT_EQ(settingsWithoutEffect(scene, look, true), (Names{"materials.Mian", "nodes.Nobody"}));
+  const auto found = [&](bool isForScene, bool bySet) {
+    Names names;
+    for (const Finding& one : check(scene, look, isForScene)) {
+      EXPECT_EQ(one.kind, Finding::Kind::noSuchName);
+      EXPECT_FALSE(one.problem.empty());
+      if (one.bySet == bySet) names.push_back(one.setting);
+    }
+    return names;
+  };
+  EXPECT_EQ(found(false, false), Names()) << "it may be for many scenes";
+  EXPECT_EQ(found(true, false), (Names{"materials.Mian", "nodes.Nobody"}));
   for (const std::string name : {"Nope*", "Nope", "*"})
     ASSERT_TRUE(look.set("materials." + name + ".warp.amount", "2").ok());
-  EXPECT_EQ(settingsWithoutEffect(scene, look), (Names{"materials.Nope*", "materials.Nope"}));
-  EXPECT_EQ(settingsWithoutEffect(scene, look, true).size(), 4u);
+  EXPECT_EQ(found(false, true), (Names{"materials.Nope*", "materials.Nope"}));
+  EXPECT_EQ(found(true, true), (Names{"materials.Nope*", "materials.Nope"}));
+  EXPECT_EQ(found(true, false).size(), 2u);
+  EXPECT_TRUE(check(Scene(), look, true).empty());
 }
 
 }  // namespace

@@ -14,18 +14,17 @@ constexpr Aov kPictureAov{.name = "", .isColor = true, .premultiplied = 3};
 }  // namespace
 
 Setup::Setup(gpu::Device& device, gpu::Samplers& samplers, ExampleTextures& examples, SceneOnGpu& scene,
-             const PassList& passes, const SetupKey& key, glm::uvec2 size)
-    : device_(device), key_(key), size_(size), uniforms_(device) {
+             const PassList& passes, const SetupKey& key, glm::uvec2 size,
+             const std::function<void(double)>& progress)
+    : device_(device), scene_(scene), key_(key), size_(size), uniforms_(device) {
   // What all passes share: set 0.
   frameSlice_ = uniforms_.slice(sizeof(shared::FrameUniforms));
-  lightSlice_ =
-      uniforms_.slice(std::max<size_t>(1, punctualLightCount(scene.data())) * sizeof(shared::PunctualLight));
+  lightSlice_ = uniforms_.slice(key.lights * sizeof(shared::PunctualLight));
   frameLayout_ = gpu::SetLayout(device, {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_ALL},
                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_ALL},
                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_ALL}});
   frameSet_ = gpu::DescriptorSets(device, frameLayout_);
   frameSet_.writeBuffer(0, 0, frameSlice_.buffer, frameSlice_.offset, frameSlice_.size);
-  frameSet_.writeBuffer(0, 1, scene.motion().objects());
   frameSet_.writeBuffer(0, 2, lightSlice_.buffer, lightSlice_.offset, lightSlice_.size);
 
   // Passes declare what they read and write.
@@ -56,10 +55,13 @@ Setup::Setup(gpu::Device& device, gpu::Samplers& samplers, ExampleTextures& exam
   if (needsPrevious_) scene.keepPrevious();
   for (const auto& pass : passes_)
     if (builder_->needs(*pass, needs_)) needed_.push_back(pass.get());
-  for (Pass* const pass : needed_) pass->create(*builder_);
+  for (size_t i = 0; i < needed_.size(); ++i) {
+    progress(double(i) / double(needed_.size()));
+    needed_[i]->create(*builder_);
+  }
   for (const auto& deliver : delivers_) deliver->create(*builder_);
   resources_.emplace(device, builder_->graph(), needs_, frameSize());
-  bind();
+  bindScene();
 
   if (device.hasTimestamps()) {
     VkQueryPoolCreateInfo info{VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
@@ -122,6 +124,11 @@ void Setup::resize(glm::uvec2 size) {
   if (size == size_) return;
   size_ = size;
   resources_->resize(frameSize());
+  bind();
+}
+
+void Setup::bindScene() {
+  frameSet_.writeBuffer(0, 1, scene_.motion().objects());
   bind();
 }
 

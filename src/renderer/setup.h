@@ -19,13 +19,15 @@ struct SetupKey {
   std::vector<std::string> aovs;
   std::vector<TargetKey> targets;  // images of others that it is drawn into
   std::vector<uint32_t> variants;  // Pass::variant, by pass
+  size_t lights = 1;               // most of them that there may be
   bool operator==(const SetupKey&) const = default;
 };
 
 class Setup {
  public:
   Setup(gpu::Device& device, gpu::Samplers& samplers, ExampleTextures& examples, SceneOnGpu& scene,
-        const PassList& passes, const SetupKey& key, glm::uvec2 size);
+        const PassList& passes, const SetupKey& key, glm::uvec2 size,
+        const std::function<void(double)>& progress);
   ~Setup();
   Setup(const Setup&) = delete;
   Setup& operator=(const Setup&) = delete;
@@ -34,6 +36,8 @@ class Setup {
   glm::uvec2 size() const { return size_; }
   // Makes images anew where they have another size, and nothing else; no frame may be under way.
   void resize(glm::uvec2 size);
+  // The scene's buffers have other names; no frame may be under way.
+  void bindScene();
 
   // Whether a pass needs to know where everything was a frame before.
   bool needsPrevious() const { return needsPrevious_; }
@@ -68,6 +72,7 @@ class Setup {
   void stamp(VkCommandBuffer commands, uint32_t slot, uint32_t query) const;
 
   gpu::Device& device_;
+  const SceneOnGpu& scene_;
   SetupKey key_;
   glm::uvec2 size_;
   UniformMemory uniforms_;

@@ -13,6 +13,7 @@ Result<std::unique_ptr<Renderer>> createRenderer(const VulkanWishes& wishes, con
   deviceOptions.choice = options.device;
   deviceOptions.validation = options.validation;
   deviceOptions.cacheFolder = options.cacheFolder;
+  deviceOptions.log = options.log;
   deviceOptions.instanceExtensions = wishes.instanceExtensions;
   deviceOptions.deviceExtensions = wishes.deviceExtensions;
   deviceOptions.features = wishes.features;
@@ -24,7 +25,7 @@ Result<std::unique_ptr<Renderer>> createRenderer(const VulkanWishes& wishes, con
 Result<std::unique_ptr<Renderer>> createRenderer(const VulkanDevice& device, const RendererOptions& options) {
   if (!device.instance || !device.physical || !device.device || !device.queue)
     return usage("a part of the device is null", "give instance, physical device, device and queue");
-  Result<std::unique_ptr<gpu::Device>> adopted = gpu::Device::adopt(device, options.cacheFolder);
+  Result<std::unique_ptr<gpu::Device>> adopted = gpu::Device::adopt(device, options.cacheFolder, options.log);
   if (!adopted) return adopted.error();
   return RendererAccess::create(std::move(adopted).value(), options);
 }

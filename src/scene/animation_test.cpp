@@ -220,7 +220,8 @@ SceneData family() {
   triangle.indices = {0, 1, 2};
   triangle.morphTargets.resize(2);
   scene.materials.resize(1);
-  scene.meshes.push_back({"", {triangle}, {0.25f, 0.5f}});
+  triangle.extent = extentOf(triangle);
+  scene.meshes.push_back(Mesh{"", {triangle}, {0.25f, 0.5f}});
   for (int n = 0; n < 4; ++n) {
     Node node;
     node.parent = n - 1;
@@ -429,16 +430,19 @@ TEST(Animation, boundsStayFinite) {
   addClip(scene);
   addChannel(scene, 0, 2, constant(AnimatedProperty::scale, {1e14f, 1e14f, 1e14f}));
   scene.nodes[2].instances = {glm::scale(glm::mat4(1.0f), glm::vec3(1e14f))};
-  Primitive& p = scene.meshes[0].primitives[0];
+  Mesh& mesh = scene.meshes[0].own();
+  Primitive& p = mesh.primitives[0];
   for (glm::vec3& position : p.positions) position *= 1e14f;
+  p.extent = extentOf(p);
   const int clips[] = {0};
   EXPECT_TRUE(isFinite(playedBounds(scene, clips))) << "morphed instances";
-  p.morphTargets.clear(), scene.meshes[0].morphWeights.clear();
+  p.morphTargets.clear(), mesh.morphWeights.clear();
+  p.extent = extentOf(p);
   EXPECT_TRUE(isFinite(playedBounds(scene, clips))) << "instances";
   const PlayedClip played{0};
   const Pose pose = poseAt(scene, {&played, 1}, 0);
-  EXPECT_TRUE(isFinite(
-      posedBounds(extentOf(p), pose.world[2] * scene.nodes[2].instances[0], {}, pose.morphWeights[2])));
+  EXPECT_TRUE(
+      isFinite(posedBounds(p.extent, pose.world[2] * scene.nodes[2].instances[0], {}, pose.morphWeights[2])));
 }
 
 // Boxes hold every vertex of what they are around, at every time, and are not far too large.
@@ -446,7 +450,7 @@ TEST(Animation, boundsHoldWhatMoves) {
   std::mt19937 random(5);
   std::uniform_real_distribution<float> number(-1, 1);
   SceneData scene = family();
-  Primitive& p = scene.meshes[0].primitives[0];
+  Primitive& p = scene.meshes[0].own().primitives[0];
   p.positions.clear();
   p.indices.clear();
   for (uint32_t v = 0; v < 60; ++v) {
@@ -471,7 +475,7 @@ TEST(Animation, boundsHoldWhatMoves) {
       p.weights.assign(240, 0.25f);
     }
     scene.nodes[2].skin = skinned ? 0 : -1;
-    const PrimitiveExtent extent = extentOf(p);
+    p.extent = extentOf(p);
     const int clips[] = {0};
     const Bounds whole = playedBounds(scene, clips);
     const glm::vec3 slack = 0.1f * (whole.max - whole.min);
@@ -480,7 +484,7 @@ TEST(Animation, boundsHoldWhatMoves) {
       const Pose pose = poseAt(scene, {&played, 1}, time);
       std::vector<glm::mat4> joints;
       if (skinned) joints = jointMatrices(scene.skins[0], pose.world);
-      const Bounds box = posedBounds(extent, pose.world[2], joints, pose.morphWeights[2]);
+      const Bounds box = posedBounds(p.extent, pose.world[2], joints, pose.morphWeights[2]);
       for (const test::WorldTriangle& t : test::posedTriangles(scene, {{0, time}}))
         for (const glm::dvec3& vertex : t.positions)
           for (int axis = 0; axis < 3; ++axis) {

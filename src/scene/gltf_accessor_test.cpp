@@ -12,7 +12,7 @@ namespace {
 
 const Primitive& first(const Scene& scene) {
   static const Primitive none;
-  return scene.data().meshes.empty() ? none : scene.data().meshes[0].primitives[0];
+  return scene.data().meshes.empty() ? none : scene.data().meshes[0]->primitives[0];
 }
 
 const std::vector<float> kTriangle = {0, 0, 0, 1, 0, 0, 0, 1, 0};

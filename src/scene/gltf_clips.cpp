@@ -9,7 +9,7 @@ namespace scumble::scene {
 namespace {
 
 size_t morphTargetsOf(const SceneData& scene, const Node& node) {
-  return node.mesh < 0 ? 0 : scene.meshes[node.mesh].morphWeights.size();
+  return node.mesh < 0 ? 0 : scene.meshes[node.mesh]->morphWeights.size();
 }
 
 std::vector<float> readTimes(const GltfImport& import, const Accessor& accessor) {

@@ -232,7 +232,7 @@ TEST(GltfErrors, whatIsOptionalIsOnlyAWarning) {
   EXPECT_EQ(scene->data().nodes[0].camera, -1);
   const TextureUse& texture = scene->data().materials[1].baseColorTexture;
   ASSERT_EQ(texture.image, 0);
-  EXPECT_TRUE(scene->data().images[0].standIn);
+  EXPECT_TRUE(scene->data().images[0]->standIn);
 }
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN(),
@@ -374,7 +374,7 @@ TEST(GltfErrors, skins) {
                                 const char* what) {
     const SceneData scene = warned(skinned(rows(row), first, oneJoint), warnings, what);
     ASSERT_EQ(scene.meshes.size(), 1u);
-    const Primitive& p = scene.meshes[0].primitives[0];
+    const Primitive& p = scene.meshes[0]->primitives[0];
     for (size_t v = 0; v < 4; ++v) {
       float sum = 0;
       for (size_t k = 0; k < 4; ++k) sum += p.weights[4 * v + k];

@@ -67,7 +67,7 @@ void readImages(const GltfImport& import, SceneData& scene) {
   uint64_t freePixels = kFreePixels;
   for (size_t i = 0; i < tasks.size(); ++i) {
     Task& task = tasks[i];
-    task.image = &scene.images[i];
+    task.image = &scene.images[i].own();
     try {
       findBytes(import, task);
     } catch (const ImportFailure& failure) {
@@ -89,10 +89,12 @@ void readImages(const GltfImport& import, SceneData& scene) {
     }
   }
 
+  import.progress.expect(tasks.size(), 0.95);
   parallelFor(tasks.size(), import.threads, [&](size_t i) {
     Task& task = tasks[i];
     if (!task.usable || !decodeImage(task.bytes, *task.image, task.problem)) makeStandIn(*task.image);
     task.holder = {};
+    import.progress.step();
   });
 
   for (const Task& task : tasks) {

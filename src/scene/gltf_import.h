@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <mutex>
 #include <vector>
 
 #include "scene/gltf_accessor.h"
@@ -10,12 +11,29 @@
 
 namespace scumble::scene {
 
+// Tells whoever waits; several threads may. Fails with ErrorKind::cancelled where that one wants to stop.
+class ImportProgress {
+ public:
+  explicit ImportProgress(const Progress& callback) : callback_(callback) {}
+  // From here on `count` steps lead to this part of all.
+  void expect(size_t count, double part);
+  void step();
+
+ private:
+  const Progress& callback_;
+  std::mutex mutex_;
+  double from_ = 0, to_ = 0;
+  size_t count_ = 0, done_ = 0;
+  bool isStopped_ = false;
+};
+
 struct GltfImport {
   const GltfDocument& document;
   GltfBuffers& buffers;
   GltfAccessors& accessors;
   ImportBudget& budget;
   ImportWarnings& warnings;
+  ImportProgress& progress;
   int threads = 1;
 };
 

@@ -140,7 +140,7 @@ class MaterialReader {
   // until readImages fills it in.
   int imageNumber(int64_t fileImage) {
     const auto [entry, isNew] = imageMap_.emplace(fileImage, static_cast<int>(scene_.images.size()));
-    if (isNew) scene_.images.emplace_back().name = std::to_string(fileImage);
+    if (isNew) scene_.images.emplace_back().own().name = std::to_string(fileImage);
     return entry->second;
   }
 

@@ -44,24 +44,26 @@ void readMeshes(const GltfImport& import, const GltfMaps& maps, SceneData& scene
     if (maps.meshes[i] < 0) continue;
     const JsonView json = list.at(i), primitives = json.list("primitives");
     const size_t index = static_cast<size_t>(maps.meshes[i]);
-    Mesh& mesh = scene.meshes[index];
+    Mesh& mesh = scene.meshes[index].own();
     mesh.name = json.text("name");
     mesh.primitives.resize(primitives.size());
     readMorphWeights(json, mesh, import.warnings);
     for (size_t k = 0; k < primitives.size(); ++k) tasks.push_back({index, k, primitives.at(k), {}});
   }
 
+  import.progress.expect(tasks.size(), 0.4);
   parallelFor(tasks.size(), import.threads, [&](size_t i) {
     Task& task = tasks[i];
-    Primitive& primitive = scene.meshes[task.mesh].primitives[task.primitive];
+    Primitive& primitive = scene.meshes[task.mesh].own().primitives[task.primitive];
     primitive = readPrimitive(import, task.json, task.warnings);
     if (!primitive.indices.empty()) cleanPrimitive(primitive, task.json.path(), task.warnings);
+    import.progress.step();
   });
   for (const Task& task : tasks) import.warnings.merge(task.warnings);
 
   std::vector<float> radii(scene.meshes.size());
   parallelFor(scene.meshes.size(), import.threads, [&](size_t i) {
-    Mesh& mesh = scene.meshes[i];
+    Mesh& mesh = scene.meshes[i].own();
     std::erase_if(mesh.primitives, [](const Primitive& p) { return p.indices.empty(); });
     alignMorphTargets(mesh);
     weldSmoothNormals(mesh);
@@ -70,14 +72,16 @@ void readMeshes(const GltfImport& import, const GltfMaps& maps, SceneData& scene
 
   for (Node& node : scene.nodes)
     if (!node.morphWeights.empty())
-      node.morphWeights.resize(scene.meshes[node.mesh].morphWeights.size(), 0.0f);
+      node.morphWeights.resize(scene.meshes[node.mesh]->morphWeights.size(), 0.0f);
 
   std::vector<std::pair<size_t, size_t>> finishing;
   for (size_t i = 0; i < scene.meshes.size(); ++i)
-    for (size_t k = 0; k < scene.meshes[i].primitives.size(); ++k) finishing.emplace_back(i, k);
+    for (size_t k = 0; k < scene.meshes[i]->primitives.size(); ++k) finishing.emplace_back(i, k);
+  import.progress.expect(finishing.size(), 0.6);
   parallelFor(finishing.size(), import.threads, [&](size_t i) {
     const auto [mesh, primitive] = finishing[i];
-    finishPrimitive(scene.meshes[mesh].primitives[primitive], radii[mesh]);
+    finishPrimitive(scene.meshes[mesh].own().primitives[primitive], radii[mesh]);
+    import.progress.step();
   });
 }
 

@@ -42,9 +42,9 @@ glm::vec3 morphedPosition(const Primitive& primitive, size_t v, const std::vecto
 // Of so many vertices, spread over the primitive: boxes of more differ by little.
 constexpr size_t kSampledVertices = 1024;
 
-void addPrimitive(Bounds& bounds, const Primitive& primitive, const Bounds& box, const Node& node,
-                  const glm::mat4& world, const std::vector<float>& weights,
-                  const std::vector<glm::mat4>& joints) {
+void addPrimitive(Bounds& bounds, const Primitive& primitive, const Node& node, const glm::mat4& world,
+                  const std::vector<float>& weights, const std::vector<glm::mat4>& joints) {
+  const Bounds& box = primitive.extent.box;
   const bool skinned = node.skin >= 0 && primitive.influences > 0;
   const bool morphs = !primitive.morphTargets.empty();
   if (!skinned && !morphs) {
@@ -100,6 +100,13 @@ PrimitiveExtent extentOf(const Primitive& primitive) {
   // A target moves some vertices and leaves others.
   for (Bounds& target : extent.targets)
     if (!target.empty) target.add(glm::vec3(0.0f));
+  for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+    const glm::vec3 &a = primitive.positions[primitive.indices[i]],
+                    &b = primitive.positions[primitive.indices[i + 1]],
+                    &c = primitive.positions[primitive.indices[i + 2]];
+    extent.longestEdge2 = std::max(
+        {extent.longestEdge2, glm::dot(b - a, b - a), glm::dot(c - b, c - b), glm::dot(a - c, a - c)});
+  }
   return extent;
 }
 
@@ -136,22 +143,17 @@ void forEachPose(const SceneData& scene, std::span<const int> clips,
 
 Bounds playedBounds(const SceneData& scene, std::span<const int> clips) {
   if (clips.empty()) return scene.bounds;
-  std::vector<std::vector<Bounds>> boxes;
-  for (const Mesh& mesh : scene.meshes) {
-    auto& ofMesh = boxes.emplace_back();
-    for (const Primitive& primitive : mesh.primitives) ofMesh.push_back(boxOf(primitive.positions));
-  }
+  const std::vector<bool> shown = shownNodes(scene);
   Bounds bounds;
   forEachPose(scene, clips, [&](const Pose& pose) {
     std::vector<std::vector<glm::mat4>> joints;
     for (const Skin& skin : scene.skins) joints.push_back(jointMatrices(skin, pose.world));
     for (size_t n = 0; n < scene.nodes.size(); ++n) {
       const Node& node = scene.nodes[n];
-      if (node.mesh < 0) continue;
+      if (node.mesh < 0 || !shown[n]) continue;
       const Mesh& mesh = scene.meshes[size_t(node.mesh)];
-      for (size_t p = 0; p < mesh.primitives.size(); ++p)
-        addPrimitive(bounds, mesh.primitives[p], boxes[size_t(node.mesh)][p], node, pose.world[n],
-                     pose.morphWeights[n],
+      for (const Primitive& primitive : mesh.primitives)
+        addPrimitive(bounds, primitive, node, pose.world[n], pose.morphWeights[n],
                      node.skin >= 0 ? joints[size_t(node.skin)] : std::vector<glm::mat4>());
     }
   });

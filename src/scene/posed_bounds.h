@@ -16,16 +16,6 @@ std::vector<glm::mat4> jointMatrices(const Skin& skin, const std::vector<glm::ma
 glm::vec3 skinnedPosition(const Primitive& primitive, size_t v, const glm::vec3& position,
                           std::span<const glm::mat4> joints);
 
-// What the box of a primitive in any pose is found from, without its vertices.
-struct PrimitiveExtent {
-  Bounds box;  // all vertices, at rest, in mesh space
-  struct Joint {
-    uint16_t joint;
-    Bounds box;  // those that it moves
-  };
-  std::vector<Joint> joints;    // of skinned primitives
-  std::vector<Bounds> targets;  // by morph target: displacements
-};
 PrimitiveExtent extentOf(const Primitive& primitive);
 
 // A box around a primitive in the world, never too small: a skinned vertex lies between the places where its

@@ -40,7 +40,7 @@ float boundingRadius(const Mesh& mesh);
 void finishMorphTargets(Primitive& primitive, const std::function<void(Primitive&)>& makeTangents);
 
 // Unit smooth normals; uv0 where there is none (one unit of uv is `radius` metres); dPdu and dPdv; all
-// that morph targets displace.
+// that morph targets displace; the extent.
 void finishPrimitive(Primitive& primitive, float radius);
 
 // Keeps the given vertices only, in this order, in all arrays but the indices.

@@ -30,7 +30,7 @@ TEST(PrepareMesh, quadHasExactTangents) {
   TestGltf g;
   g.addQuad();
   const Scene scene = loaded(g);
-  const Primitive& p = scene.data().meshes[0].primitives[0];
+  const Primitive& p = scene.data().meshes[0]->primitives[0];
   for (size_t i = 0; i < p.vertexCount(); ++i) {
     EXPECT_LT(glm::length(p.dPdu[i] - glm::vec3(1, 0, 0)), 1e-6f);
     EXPECT_LT(glm::length(p.dPdv[i] - glm::vec3(0, -1, 0)), 1e-6f);
@@ -43,7 +43,7 @@ TEST(PrepareMesh, tangentsScaleWithTheMapping) {
   const int uv = g.addFloats({0, 0, 0.5f, 0, 0.5f, 8, 0, 8}, 2);
   g.addMesh({{"POSITION", position}, {"TEXCOORD_0", uv}}, g.addIndices({0, 1, 2, 0, 2, 3}));
   const Scene scene = loaded(g);
-  const Primitive& p = scene.data().meshes[0].primitives[0];
+  const Primitive& p = scene.data().meshes[0]->primitives[0];
   ASSERT_EQ(p.vertexCount(), 6u);  // flat: every corner its own
   for (size_t i = 0; i < p.vertexCount(); ++i) {
     EXPECT_LT(glm::length(p.dPdu[i] - glm::vec3(8, 0, 0)), 1e-5f);
@@ -60,7 +60,7 @@ TEST(PrepareMesh, mirroredMappingKeepsItsLengthAtTheSeam) {
   g.addMesh({{"POSITION", position}, {"TEXCOORD_0", uv}, {"NORMAL", normal}},
             g.addIndices({0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4}));
   const Scene scene = loaded(g);
-  for (const glm::vec3& dPdu : scene.data().meshes[0].primitives[0].dPdu)
+  for (const glm::vec3& dPdu : scene.data().meshes[0]->primitives[0].dPdu)
     EXPECT_NEAR(glm::length(dPdu), 1.0f, 1e-5f);
 }
 
@@ -69,7 +69,7 @@ TEST(PrepareMesh, degenerateMappingGetsCoordinatesForPatterns) {
   const int position = g.addFloats({0, 0, 0, 1, 0, 0, 0, 1, 0}, 3), uv = g.addFloats({0, 0, 1, 1, 2, 2}, 2);
   g.addMesh({{"POSITION", position}, {"TEXCOORD_0", uv}});
   const Scene scene = loaded(g);
-  const Primitive& p = scene.data().meshes[0].primitives[0];
+  const Primitive& p = scene.data().meshes[0]->primitives[0];
   ASSERT_EQ(p.patternUv.size(), p.vertexCount());
   EXPECT_EQ(p.uv0[2], glm::vec2(2, 2)) << "the file's own coordinates stay for its textures";
   for (size_t v = 0; v < p.vertexCount(); ++v)
@@ -78,7 +78,7 @@ TEST(PrepareMesh, degenerateMappingGetsCoordinatesForPatterns) {
 
 TEST(PrepareMesh, missingNormalsAreFlatAndSmoothNormalsShared) {
   const Scene scene = loaded(cube());
-  const Primitive& p = scene.data().meshes[0].primitives[0];
+  const Primitive& p = scene.data().meshes[0]->primitives[0];
   EXPECT_TRUE(p.generatedNormals);
   ASSERT_EQ(p.vertexCount(), 36u);
   for (size_t i = 0; i < p.vertexCount(); ++i) {
@@ -102,7 +102,7 @@ TEST(PrepareMesh, obtuseCornersWeighWhatTheyAre) {
     indices.insert(indices.end(), obtuse.begin(), obtuse.end());
     g.addMesh({{"POSITION", position}}, g.addIndices(indices));
     const Scene scene = loaded(g);
-    const Primitive& p = scene.data().meshes[0].primitives[0];
+    const Primitive& p = scene.data().meshes[0]->primitives[0];
     // 120 degrees of +z and 90 of +y.
     const glm::dvec3 expected = glm::normalize(glm::dvec3(0, 90, 120));
     int seen = 0;
@@ -139,7 +139,7 @@ TEST(PrepareMesh, generatedUvsAreContinuousAndScaleFree) {
   std::vector<glm::vec2> before;
   for (const float scale : {1.0f, 1e-6f, 1e6f}) {
     const Scene scene = loaded(cube(scale));
-    const Primitive& p = scene.data().meshes[0].primitives[0];
+    const Primitive& p = scene.data().meshes[0]->primitives[0];
     EXPECT_TRUE(p.generatedUvs);
     std::map<std::tuple<float, float, float>, glm::vec2> at;
     for (size_t i = 0; i < p.vertexCount(); ++i) {
@@ -159,7 +159,7 @@ TEST(PrepareMesh, brokenNormalsAreMended) {
   const int normal = g.addFloats({nan, 0, 0, 0, 0, 0, 0, inf, 0, 0, 0, 7}, 3);
   g.addMesh({{"POSITION", position}, {"NORMAL", normal}}, g.addIndices({0, 1, 2, 2, 1, 3}));
   const Scene scene = loaded(g);
-  for (const glm::vec3& n : scene.data().meshes[0].primitives[0].normals)
+  for (const glm::vec3& n : scene.data().meshes[0]->primitives[0].normals)
     EXPECT_LT(glm::length(n - glm::vec3(0, 0, 1)), 1e-5f);
   EXPECT_EQ(scene.warnings().size(), 1u);
 }
@@ -214,7 +214,7 @@ TEST(PrepareMesh, aBallClosesOnItself) {
                                        {"TEXCOORD_0", g.addFloats(uv, 2)}};
     g.addMesh(attributes, shares ? g.addIndices(indices) : -1);
     const Scene scene = loaded(g);
-    const Primitive& p = scene.data().meshes[0].primitives[0];
+    const Primitive& p = scene.data().meshes[0]->primitives[0];
     EXPECT_TRUE(p.wrapsU);
     EXPECT_FALSE(p.wrapsV);
     // One tangent at each place between the poles.

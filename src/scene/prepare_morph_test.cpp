@@ -17,7 +17,7 @@ Primitive morphedQuad(const std::vector<float>& displacements, const std::vector
   TestGltf::Json target = {{"POSITION", g.addFloats(displacements, 3)}};
   if (!normals.empty()) target["NORMAL"] = g.addFloats(normals, 3);
   primitive["targets"] = TestGltf::Json::array({target});
-  return loaded(g).data().meshes[0].primitives[0];
+  return loaded(g).data().meshes[0]->primitives[0];
 }
 
 TEST(PrepareMorph, tangentsFollowTheStretch) {
@@ -52,7 +52,7 @@ TEST(PrepareMorph, facesWithoutNormalsTurnWithTheirCorners) {
   TestGltf::Json& primitive = g.addMesh({{"POSITION", position}}, g.addIndices({0, 1, 2, 0, 2, 3}));
   primitive["targets"] =
       TestGltf::Json::array({{{"POSITION", g.addFloats({0, 0, 0, 0, 0, -1, 0, 0, 0, 0, 0, -1}, 3)}}});
-  const Primitive p = loaded(g).data().meshes[0].primitives[0];
+  const Primitive p = loaded(g).data().meshes[0]->primitives[0];
   const MorphTarget& target = p.morphTargets[0];
   ASSERT_TRUE(p.generatedNormals);
   ASSERT_EQ(target.normals.size(), p.vertexCount());

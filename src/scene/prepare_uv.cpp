@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/posed_bounds.h"
 #include "scene/position_weld.h"
 #include "scene/prepare_mesh.h"
 
@@ -174,6 +175,7 @@ void finishPrimitive(Primitive& p, float radius) {
   std::vector<uint32_t> places;
   makeTangents(p, scale, places);
   finishMorphTargets(p, [&](Primitive& morphed) { makeTangents(morphed, scale, places); });
+  p.extent = extentOf(p);
 }
 
 }  // namespace scumble::scene

@@ -42,7 +42,11 @@ std::shared_ptr<SceneData> import(Bytes bytes, const std::string& name, const st
   GltfBuffers buffers(document, folder, options.allowOutside, budget);
   data->files = buffers.files();
   GltfAccessors accessors(document, buffers, budget);
-  const GltfImport import{document, buffers, accessors, budget, warnings, threadCount(options.threads)};
+  ImportProgress progress(options.progress);
+  const GltfImport import{
+      document, buffers, accessors, budget, warnings, progress, threadCount(options.threads)};
+  progress.expect(1, 0.1);
+  progress.step();
   data->extensionsUsed = document.extensionsUsed();
   data->extensionsNotSupported = document.extensionsNotSupported();
   timings.parse = watch.lap();
@@ -54,12 +58,15 @@ std::shared_ptr<SceneData> import(Bytes bytes, const std::string& name, const st
   readSkins(import, *data, maps);
   readClips(import, maps, *data);
   placeScene(*data, warnings);
+  requireMeshes(*data);
   timings.geometry = watch.lap();
 
   readMaterials(import, *data);
   readImages(import, *data);
   timings.images = watch.lap();
   data->warnings = warnings.lines(name);
+  progress.expect(1, 1);
+  progress.step();
   return data;
 }
 
@@ -73,6 +80,18 @@ Error internalError(const std::string& name, const std::string& what) {
 }
 
 }  // namespace
+
+void scene::ImportProgress::expect(size_t count, double part) {
+  from_ = to_, to_ = part, count_ = count, done_ = 0;
+}
+
+void scene::ImportProgress::step() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++done_;
+  const double part = from_ + (to_ - from_) * double(done_) / double(std::max<size_t>(1, count_));
+  isStopped_ = isStopped_ || (callback_ && !callback_(part));
+  if (isStopped_) throw ImportFailure{Error{ErrorKind::cancelled, "", 0, "", "loading was cancelled", ""}};
+}
 
 Result<Scene> Scene::load(const std::string& path, const SceneOptions& options) {
   try {

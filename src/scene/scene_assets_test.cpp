@@ -98,7 +98,7 @@ TEST(SceneAssets, encodingsAgree) {
     const Result<Scene> scene = Scene::load((boxes / name).string());
     ASSERT_TRUE(scene.ok()) << scene.error().message();
     // All are a cube of 24 vertices, though in units of their own.
-    const Primitive& p = scene->data().meshes[0].primitives[0];
+    const Primitive& p = scene->data().meshes[0]->primitives[0];
     Bounds box;
     for (const glm::vec3& position : p.positions) box.add(position);
     const glm::vec3 halfSize = 0.5f * (box.max - box.min);

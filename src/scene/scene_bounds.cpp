@@ -18,17 +18,13 @@ struct MeshBox {
   std::vector<Bounds> offsets;
 };
 
-MeshBox measure(const Mesh& mesh, bool withTargets) {
+MeshBox measure(const Mesh& mesh) {
   MeshBox result;
-  result.offsets.resize(withTargets ? mesh.morphWeights.size() : 0);
+  result.offsets.resize(mesh.morphWeights.size());
   for (const Primitive& p : mesh.primitives) {
-    const Bounds box = boxOf(p.positions);
-    if (!box.empty) {
-      result.box.add(box.min);
-      result.box.add(box.max);
-    }
-    for (size_t t = 0; t < p.morphTargets.size() && t < result.offsets.size(); ++t)
-      for (const glm::vec3& d : p.morphTargets[t].positions) result.offsets[t].add(d);
+    result.box.add(p.extent.box);
+    for (size_t t = 0; t < p.extent.targets.size() && t < result.offsets.size(); ++t)
+      result.offsets[t].add(p.extent.targets[t]);
   }
   return result;
 }
@@ -97,15 +93,10 @@ void placeScene(SceneData& scene, ImportWarnings& warnings) {
                "\" leads out of what numbers can hold",
            "check the scales in the scene");
 
-  std::vector<bool> morphs(scene.meshes.size(), false);
-  const auto anyWeight = [](const std::vector<float>& w) {
-    return std::any_of(w.begin(), w.end(), [](float x) { return x != 0.0f; });
-  };
-  for (size_t i = 0; i < morphs.size(); ++i) morphs[i] = anyWeight(scene.meshes[i].morphWeights);
-  for (const Node& node : scene.nodes)
-    if (node.mesh >= 0 && anyWeight(node.morphWeights)) morphs[node.mesh] = true;
-  std::vector<MeshBox> boxes(scene.meshes.size());
-  for (size_t i = 0; i < boxes.size(); ++i) boxes[i] = measure(scene.meshes[i], morphs[i]);
+  scene.bounds = {};
+  const std::vector<bool> shown = shownNodes(scene);
+  std::vector<MeshBox> boxes;
+  for (const Mesh& mesh : scene.meshes) boxes.push_back(measure(mesh));
 
   std::map<std::pair<int, int>, Bounds> skinned;  // by mesh and skin: the node's place does not matter
   uint64_t drawn = 0;
@@ -142,13 +133,16 @@ void placeScene(SceneData& scene, ImportWarnings& warnings) {
       if (!good) warnings.add("nodes", "a mesh that lies absurdly far away is left out");
     }
     if (good) {
-      scene.bounds = bounds;
+      if (shown[size_t(&node - scene.nodes.data())]) scene.bounds = bounds;
     } else {
       node.mesh = node.skin = -1;
       node.instances.clear();
       node.morphWeights.clear();
     }
   }
+}
+
+void requireMeshes(const SceneData& scene) {
   if (scene.bounds.empty)
     fail({}, "holds nothing to draw", "a scene needs at least one node with a mesh of triangles");
 }

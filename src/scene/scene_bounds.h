@@ -6,8 +6,12 @@
 
 namespace scumble::scene {
 
-// Fills SceneData::bounds. What lies so far out that it could not be drawn is taken off its node with a
-// warning; fails when a transformation is not finite, or more is drawn than any machine could.
+// Fills SceneData::bounds, from what is visible. What lies so far out that it could not be drawn is taken off
+// its node with a warning; fails when a transformation is not finite, or more is drawn than any machine
+// could.
 void placeScene(SceneData& scene, ImportWarnings& warnings);
+
+// Fails where there is nothing to draw.
+void requireMeshes(const SceneData& scene);
 
 }  // namespace scumble::scene

@@ -46,8 +46,9 @@ void appendScene(SceneData& all, const SceneData& one, size_t firstNode, const A
       for (TextureUse* use : {&material.baseColorTexture, &material.emissiveTexture, &material.litTexture,
                               &material.shadowedTexture})
         moveBy(use->image, at.images);
-    for (Mesh& mesh : Tail<Mesh>{all.meshes, at.meshes})
-      for (Primitive& primitive : mesh.primitives) moveBy(primitive.material, at.materials);
+    if (at.materials > 0)
+      for (Shared<Mesh>& mesh : Tail<Shared<Mesh>>{all.meshes, at.meshes})
+        for (Primitive& primitive : mesh.own().primitives) moveBy(primitive.material, at.materials);
   }
   append(all.cameras, one.cameras);
   append(all.lights, one.lights);

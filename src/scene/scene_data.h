@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/pixels.h"
+#include "base/shared.h"
 
 namespace scumble::scene {
 
@@ -68,6 +69,27 @@ struct MorphTarget {
   std::vector<glm::vec3> positions, normals, smoothNormals, dPdu, dPdv;
 };
 
+struct Bounds {
+  glm::vec3 min{0.0f}, max{0.0f};
+  bool empty = true;
+  void add(const glm::vec3& p);
+  void add(const Bounds& other);
+  glm::vec3 center() const { return 0.5f * (min + max); }
+  float radius() const { return empty ? 1.0f : 0.5f * glm::length(max - min); }
+};
+
+// What the box of a primitive in any pose is found from, without its vertices.
+struct PrimitiveExtent {
+  Bounds box;  // all vertices, at rest, in mesh space
+  struct Joint {
+    uint16_t joint;
+    Bounds box;  // those that it moves
+  };
+  std::vector<Joint> joints;    // of skinned primitives
+  std::vector<Bounds> targets;  // by morph target: displacements
+  float longestEdge2 = 0;       // the square of its length, metres
+};
+
 // Triangles with one material. All non-empty vertex arrays have vertexCount() entries.
 struct Primitive {
   std::vector<glm::vec3> positions;
@@ -97,6 +119,7 @@ struct Primitive {
   std::vector<float> weights;
   std::vector<MorphTarget> morphTargets;
   bool generatedUvs = false, generatedNormals = false;
+  PrimitiveExtent extent;  // extentOf() it
 
   size_t vertexCount() const { return positions.size(); }
   const std::vector<glm::vec2>& patternCoordinates() const { return patternUv.empty() ? uv0 : patternUv; }
@@ -133,6 +156,8 @@ struct Node {
   // From extras: whether it stands for the ocean (absent: its name decides), and that it rides the waves.
   std::optional<bool> isOcean;
   std::optional<Floats> floats;
+  // Whether its mesh is drawn, and those of all nodes below it. What is not takes up no space either.
+  bool visible = true;
 };
 
 struct Camera {
@@ -185,20 +210,14 @@ struct Clip {
   std::vector<Channel> channels;
 };
 
-struct Bounds {
-  glm::vec3 min{0.0f}, max{0.0f};
-  bool empty = true;
-  void add(const glm::vec3& p);
-  void add(const Bounds& other);
-  glm::vec3 center() const { return 0.5f * (min + max); }
-  float radius() const { return empty ? 1.0f : 0.5f * glm::length(max - min); }
-};
-
 struct SceneData {
   std::string name;  // the file's name without folder and extension
-  std::vector<Image> images;
+  // Scenes of one family are one that changes (SceneEditor): nodes, meshes and materials of one are those of
+  // the others too, as far as both have them. 0: nobody's.
+  uint64_t family = 0;
+  std::vector<Shared<Image>> images;
   std::vector<Material> materials;  // index 0 is glTF's default material
-  std::vector<Mesh> meshes;
+  std::vector<Shared<Mesh>> meshes;
   std::vector<Node> nodes;  // those reachable from the chosen scene, parents first
   std::vector<Camera> cameras;
   std::vector<Light> lights;
@@ -212,6 +231,9 @@ struct SceneData {
 
 // World matrix of every node in the rest pose.
 std::vector<glm::mat4> worldMatrices(const SceneData& scene);
+
+// By node: whether it and all nodes above it are visible.
+std::vector<bool> shownNodes(const SceneData& scene);
 
 // Morph weights in the rest pose of a node that has a mesh.
 const std::vector<float>& restMorphWeights(const SceneData& scene, const Node& node);

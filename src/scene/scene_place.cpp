@@ -244,6 +244,7 @@ std::shared_ptr<SceneData> placeScenes(std::vector<PlacedScene>& scenes, Placeme
   try {
     ImportWarnings warnings;
     placeScene(*all, warnings);
+    requireMeshes(*all);
     for (std::string& line : warnings.lines(all->name)) all->warnings.push_back(std::move(line));
   } catch (const ImportFailure& failure) {
     problem = {scenes.size(), "", failure.error.problem, failure.error.advice};

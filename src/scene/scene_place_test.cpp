@@ -105,7 +105,7 @@ TEST(ScenePlace, whatStandsOnANodeRidesWithIt) {
     EXPECT_EQ(data.nodes[size_t(findNode(data, "dog"))].parent, findNode(data, "Deck"));
     // Its mesh, material and camera are its own.
     const Node& body = data.nodes[size_t(findNode(data, "Body"))];
-    EXPECT_EQ(data.materials[size_t(data.meshes[size_t(body.mesh)].primitives[0].material)].name, "Fur");
+    EXPECT_EQ(data.materials[size_t(data.meshes[size_t(body.mesh)]->primitives[0].material)].name, "Fur");
     EXPECT_EQ(data.cameras[size_t(data.nodes[size_t(findNode(data, "Neck"))].camera)].name, "Eye");
   }
   // On what stands on something, and on a scene itself.

@@ -60,7 +60,7 @@ TEST(Scene, materials) {
   EXPECT_NEAR(uv.x, 0.5f, 1e-5f);
   EXPECT_NEAR(uv.y, 0.25f - 2.0f, 1e-5f);
   ASSERT_EQ(scene.data().images.size(), 1u);
-  EXPECT_TRUE(scene.data().images[0].standIn);
+  EXPECT_TRUE(scene.data().images[0]->standIn);
   EXPECT_EQ(scene.warnings().size(), 1u);
 }
 
@@ -79,7 +79,7 @@ TEST(Scene, setsOfColoursFromExtras) {
     const Scene scene = loaded(g);
     const Material& m = scene.data().materials[1];
     const auto fileOf = [&](const TextureUse& use) {
-      return use.image < 0 ? std::string() : scene.data().images[size_t(use.image)].name;
+      return use.image < 0 ? std::string() : scene.data().images[size_t(use.image)]->name;
     };
     EXPECT_EQ(fileOf(m.baseColorTexture), "base.png");
     const auto isOurs = [](const std::string& warning) {
@@ -287,13 +287,13 @@ TestGltf animated() {
 
 TEST(Scene, skinsMorphsAndClips) {
   const Scene scene = loaded(animated());
-  const Primitive& p = scene.data().meshes[0].primitives[0];
+  const Primitive& p = scene.data().meshes[0]->primitives[0];
   ASSERT_EQ(p.influences, 4);
   for (size_t i = 0; i < p.vertexCount(); ++i)
     EXPECT_FLOAT_EQ(p.weights[4 * i] + p.weights[4 * i + 1] + p.weights[4 * i + 2] + p.weights[4 * i + 3],
                     1.0f);
   EXPECT_EQ(p.morphTargets.size(), 1u);
-  EXPECT_EQ(scene.data().meshes[0].morphWeights.size(), 1u);
+  EXPECT_EQ(scene.data().meshes[0]->morphWeights.size(), 1u);
   EXPECT_EQ(scene.data().skins[0].joints[0], 1);
   EXPECT_FLOAT_EQ(static_cast<float>(scene.summary().max[2]), 7.0f);  // where the joint is
 
@@ -371,7 +371,7 @@ TEST(Scene, combineMovesEveryIndex) {
   EXPECT_EQ(d.nodes[3].skin, 1);
   EXPECT_EQ(d.skins[1].joints[0], 4);
   EXPECT_EQ(d.clips[1].channels[0].node, 4);
-  EXPECT_EQ(d.meshes[2].primitives[0].material, 2);
+  EXPECT_EQ(d.meshes[2]->primitives[0].material, 2);
   EXPECT_EQ(d.materials.size(), 3u);
   EXPECT_EQ(both.warnings(), one.warnings());
   EXPECT_FLOAT_EQ(static_cast<float>(both.summary().max[2]), 7.0f);
@@ -388,6 +388,34 @@ TEST(Scene, threadsDoNotChangeTheResult) {
   const Scene a = loaded(g, one), b = loaded(g, many);
   EXPECT_EQ(a.warnings(), b.warnings());
   EXPECT_EQ(a.summary().triangles, b.summary().triangles);
+}
+
+// Loading tells how far it is, and stops where its caller wants to.
+TEST(Scene, progressAndCancelling) {
+  TestGltf g = quad();
+  for (int i = 0; i < 6; ++i) g.addQuad();
+  const std::string glb = g.glb();
+  size_t calls = 0;
+  for (size_t stopAt = 0;; ++stopAt) {
+    double last = 0;
+    calls = 0;
+    SceneOptions options;
+    options.threads = 3;
+    options.progress = [&](double part) {
+      EXPECT_GE(part, last);
+      EXPECT_LE(part, 1);
+      last = part;
+      return ++calls <= stopAt;
+    };
+    const Result<Scene> scene = Scene::loadFromMemory(glb.data(), glb.size(), "a.glb", "", options);
+    if (scene) {
+      EXPECT_EQ(last, 1);
+      break;
+    }
+    ASSERT_EQ(scene.error().kind, ErrorKind::cancelled);
+    EXPECT_EQ(calls, stopAt + 1) << "nobody asks again";
+  }
+  EXPECT_GT(calls, 10u);
 }
 
 }  // namespace

@@ -39,6 +39,7 @@ class World {
       fail("scenes", "these are too many scenes", "a world has " + std::to_string(kMostScenes) + " at most");
     std::vector<PlacedScene> placed;
     for (size_t i = 0; i < list->size(); ++i) {
+      done_ = double(i) / double(list->size()), share_ = 1.0 / double(list->size());
       Result<PlacedScene> one = readScene((*list)[i], at(i));
       if (!one) return one.error();
       placed.push_back(std::move(one).value());
@@ -92,6 +93,8 @@ class World {
     PlacedScene one;
     std::string file;
     SceneOptions options = options_;
+    if (options_.progress)
+      options.progress = [this](double part) { return options_.progress(done_ + part * share_); };
     for (const auto& [key, value] : entry.items()) {
       const std::string here = place + "." + key;
       if (key == "file") {
@@ -151,6 +154,7 @@ class World {
   const std::string path_;
   const SceneOptions options_;
   const std::vector<std::string> chain_;
+  double done_ = 0, share_ = 1;  // before the scene that is being read; its part of all
   std::map<std::pair<std::string, int>, Scene> loaded_;
 };
 

@@ -1,18 +1,74 @@
-/* c_face SCENE OUTPUT.png: draws a frame of two views through the C face, checks what comes back, and writes the
-   left one. Exit code 1, with a line, where something is wrong. */
+/* c_face SCENE OUTPUT.png: draws a frame of two views through the C face, checks what comes back, and writes
+   the left one. Exit code 1, with a line, where something is wrong. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "scumble/scumble.h"
 
-#define CHECK(condition)                                                                          \
-  do {                                                                                            \
-    if (!(condition)) {                                                                           \
-      fprintf(stderr, "c_face.c:%d: %s (%s)\n", __LINE__, #condition, scumble_error());           \
-      return 1;                                                                                   \
-    }                                                                                             \
+#define CHECK(condition)                                                                \
+  do {                                                                                  \
+    if (!(condition)) {                                                                 \
+      fprintf(stderr, "c_face.c:%d: %s (%s)\n", __LINE__, #condition, scumble_error()); \
+      return 1;                                                                         \
+    }                                                                                   \
   } while (0)
+
+static int32_t stop_at_once(void* user, double part) {
+  ++*(int*)user;
+  return part > 2;
+}
+static void count_finding(void* user, const char* setting, const char* problem) {
+  *(int*)user += strcmp(setting, "materials.Nobody") == 0 && strlen(problem) > 0;
+}
+static void count_message(void* user, int32_t level, const char* text) {
+  *(int*)user += level == 0 && strlen(text) > 0;
+}
+
+/* A tower of two boxes, made by hand; its upper one is moved, and hidden. */
+static int edit(void) {
+  const float corners[] = {-1, 0, 0, 1, 0, 0, 0, 2, 0};
+  const uint32_t indices[] = {0, 1, 2};
+  const uint8_t pixel[] = {200, 40, 30, 255};
+  float matrix[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  scumble_editor* editor = scumble_editor_create(NULL);
+  CHECK(editor != NULL);
+  scumble_material material;
+  scumble_material_default(&material);
+  material.name = "Red";
+  material.base_color_texture = scumble_editor_texture(editor, -1, "red", 1, 1, pixel);
+  CHECK(material.base_color_texture == 0);
+  CHECK(scumble_editor_texture(editor, 0, "red", 1, 1, pixel) == 0);
+  CHECK(scumble_editor_texture(editor, -1, "red", 0, 1, pixel) == -1);
+  const int32_t red = scumble_editor_material(editor, -1, &material);
+  CHECK(red == 1 && scumble_editor_find_material(editor, "Red") == 1);
+  CHECK(scumble_editor_find_material(editor, "Blue") == -1);
+  CHECK(scumble_editor_material(editor, red, &material) == red);
+  CHECK(scumble_editor_material(editor, 7, &material) == -1);
+  scumble_mesh_part part = {0};
+  CHECK(scumble_editor_mesh(editor, -1, &part, 1) == -1);
+  part.vertex_count = part.index_count = 3;
+  CHECK(scumble_editor_mesh(editor, -1, &part, 1) == -1);
+  part.positions = corners, part.indices = indices, part.material = red;
+  const int32_t mesh = scumble_editor_mesh(editor, -1, &part, 1);
+  CHECK(mesh == 0 && scumble_editor_mesh(editor, mesh, &part, 1) == mesh);
+  const int32_t lower = scumble_editor_add_node(editor, "Lower", -1, matrix, mesh);
+  matrix[13] = 2;
+  CHECK(scumble_editor_add_node(editor, "Upper", lower, matrix, mesh) == 1);
+  CHECK(scumble_editor_find_node(editor, "Lower/Upper") == 1);
+  CHECK(scumble_editor_add_node(editor, "Lost", 5, matrix, mesh) == -1);
+  CHECK(scumble_editor_set_transform(editor, 1, matrix) == SCUMBLE_OK);
+  CHECK(scumble_editor_set_transform(editor, 2, matrix) == SCUMBLE_USAGE);
+  CHECK(scumble_editor_set_instances(editor, 1, matrix, 1) == SCUMBLE_OK);
+  CHECK(scumble_editor_set_visible(editor, 1, 0) == SCUMBLE_OK);
+  scumble_scene* scene = scumble_editor_scene(editor);
+  CHECK(scene != NULL);
+  scumble_editor* again = scumble_editor_create(scene);
+  CHECK(scumble_editor_find_node(again, "Upper") == 1);
+  scumble_editor_free(again), scumble_editor_free(editor), scumble_editor_free(NULL),
+      scumble_scene_free(scene);
+  return 0;
+}
 
 int main(int argc, char** argv) {
   if (argc != 3) return 2;
@@ -20,15 +76,19 @@ int main(int argc, char** argv) {
   CHECK(strcmp(scumble_error(), "") == 0);
 
   /* Errors are values with a text. */
-  CHECK(scumble_scene_load("no/such.glb") == NULL);
+  CHECK(scumble_scene_load("no/such.glb", NULL, NULL) == NULL);
   CHECK(strstr(scumble_error(), "no/such.glb") != NULL);
-  CHECK(scumble_scene_load(NULL) == NULL);
+  CHECK(scumble_scene_load(NULL, NULL, NULL) == NULL);
   CHECK(scumble_scene_from_memory("{", 1, "mine.gltf", NULL) == NULL);
   CHECK(strstr(scumble_error(), "mine.gltf") != NULL);
   CHECK(scumble_look_load("no-such-look") == NULL);
   scumble_scene_free(NULL), scumble_look_free(NULL), scumble_frame_free(NULL), scumble_renderer_free(NULL);
 
-  scumble_scene* scene = scumble_scene_load(argv[1]);
+  int calls = 0;
+  CHECK(scumble_scene_load(argv[1], stop_at_once, &calls) == NULL && calls == 1);
+  CHECK(strstr(scumble_error(), "cancelled") != NULL);
+  if (edit() != 0) return 1;
+  scumble_scene* scene = scumble_scene_load(argv[1], NULL, NULL);
   CHECK(scene != NULL);
   scumble_look* look = scumble_look_create();
   CHECK(look != NULL);
@@ -36,19 +96,44 @@ int main(int argc, char** argv) {
   CHECK(scumble_look_set(look, "shadow.treshold", "0.45") == SCUMBLE_USAGE);
   CHECK(strstr(scumble_error(), "threshold") != NULL);
   CHECK(scumble_look_set(look, NULL, "1") == SCUMBLE_USAGE);
+  scumble_value value;
+  CHECK(scumble_look_get(look, "shadow.threshold", 0, &value) == SCUMBLE_OK);
+  CHECK(value.count == 1 && value.numbers[0] == 0.45 && value.text == NULL);
+  const double number = 0.7, color[] = {0.25, 0.5, 1}, yes = 1;
+  CHECK(scumble_look_set_numbers(look, "shadow.threshold", &number, 1) == SCUMBLE_OK);
+  CHECK(scumble_look_get(look, "shadow.threshold", 0, &value) == SCUMBLE_OK && value.numbers[0] == 0.7);
+  CHECK(scumble_look_unset(look, "shadow.threshold") == SCUMBLE_OK);
+  CHECK(scumble_look_get(look, "shadow.threshold", 0, &value) == SCUMBLE_OK && value.numbers[0] != 0.7);
+  CHECK(scumble_look_set_numbers(look, "ground.tint", color, 3) == SCUMBLE_OK);
+  CHECK(scumble_look_get(look, "ground.tint", 0, &value) == SCUMBLE_OK);
+  CHECK(value.count == 3 && value.numbers[0] == 0.25 && value.numbers[2] == 1);
+  CHECK(scumble_look_unset(look, "ground.tint") == SCUMBLE_OK);
+  CHECK(scumble_look_set_numbers(look, "shadow.threshold", color, 2) == SCUMBLE_USAGE);
+  CHECK(scumble_look_set_numbers(look, "materials.Nobody.final.ripple", &yes, 1) == SCUMBLE_USAGE);
+  CHECK(scumble_look_get(look, "final.ripple", 0, &value) == SCUMBLE_OK && value.count == 0 && value.text);
+  CHECK(scumble_look_set(look, "materials.Nobody.warp.amount", "2") == SCUMBLE_OK);
+  int findings = 0;
+  CHECK(scumble_check(scene, look, 0, count_finding, &findings) == SCUMBLE_OK && findings == 1);
+  CHECK(scumble_look_unset(look, "materials.Nobody.warp.amount") == SCUMBLE_OK);
+  CHECK(scumble_look_set(look, "shadow.threshold", "0.45") == SCUMBLE_OK);
 
   scumble_viewpoint viewpoint;
   scumble_viewpoint_default(&viewpoint);
   viewpoint.camera = "Hero";
   scumble_view views[2];
   size_t count = 0;
-  CHECK(scumble_make_views(scene, look, &viewpoint, 96.0f / 54.0f, 1, 0.4f, 0.5, views, &count) == SCUMBLE_OK);
+  CHECK(scumble_make_views(scene, look, &viewpoint, 96.0f / 54.0f, 1, 0.4f, 0.5, views, &count) ==
+        SCUMBLE_OK);
   CHECK(count == 2);
   viewpoint.camera = "Nobody";
   CHECK(scumble_make_views(scene, look, &viewpoint, 1, 0, 0, 0, views, &count) == SCUMBLE_USAGE);
 
-  scumble_renderer* renderer = scumble_renderer_create(NULL, NULL, 1);
-  CHECK(renderer != NULL);
+  int messages = 0;
+  scumble_renderer_options how;
+  scumble_renderer_options_default(&how);
+  how.validation = 1, how.log = count_message, how.log_user = &messages;
+  scumble_renderer* renderer = scumble_renderer_create(&how);
+  CHECK(renderer != NULL && messages == 1);
   CHECK(strlen(scumble_renderer_device(renderer)) > 0);
   scumble_options options;
   scumble_options_default(&options);
@@ -57,6 +142,11 @@ int main(int argc, char** argv) {
   const char* aovs[] = {"depth", "shadow-map"};
   options.aovs = aovs, options.aov_count = 2;
   CHECK(scumble_prepare(renderer, scene, look, views, 2, &options) == SCUMBLE_OK);
+  calls = 0;
+  options.progress = stop_at_once, options.progress_user = &calls;
+  CHECK(scumble_render(renderer, scene, look, 0.5, views, 2, &options) == NULL && calls == 1);
+  CHECK(scumble_prepare(renderer, scene, look, views, 2, &options) == SCUMBLE_CANCELLED);
+  options.progress = NULL;
   scumble_frame* frame = scumble_render(renderer, scene, look, 0.5, views, 2, &options);
   CHECK(frame != NULL);
   CHECK(scumble_frame_layers(frame) == 3);

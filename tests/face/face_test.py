@@ -32,7 +32,8 @@ class Viewpoint(ctypes.Structure):
 class Options(ctypes.Structure):
     _fields_ = [("width", ctypes.c_uint32), ("height", ctypes.c_uint32), ("samples", ctypes.c_uint32),
                 ("seed", ctypes.c_uint32), ("transparent", ctypes.c_int32), ("format", ctypes.c_int),
-                ("aovs", ctypes.POINTER(ctypes.c_char_p)), ("aov_count", ctypes.c_size_t)]
+                ("aovs", ctypes.POINTER(ctypes.c_char_p)), ("aov_count", ctypes.c_size_t), ("progress", ctypes.c_void_p),
+                ("progress_user", ctypes.c_void_p)]
 
 
 class Image(ctypes.Structure):
@@ -71,9 +72,9 @@ class FaceTest(unittest.TestCase):
         face.scumble_error.restype = ctypes.c_char_p
         for name in ("scumble_scene_load", "scumble_look_load", "scumble_renderer_create", "scumble_render"):
             getattr(face, name).restype = ctypes.c_void_p
-        scene = ctypes.c_void_p(face.scumble_scene_load(str(self.scene).encode()))
+        scene = ctypes.c_void_p(face.scumble_scene_load(str(self.scene).encode(), None, None))
         look = ctypes.c_void_p(face.scumble_look_load(b"storm"))
-        renderer = ctypes.c_void_p(face.scumble_renderer_create(None, None, 0))
+        renderer = ctypes.c_void_p(face.scumble_renderer_create(None))
         self.assertTrue(scene and look and renderer, face.scumble_error())
         viewpoint, views, count = Viewpoint(camera=b"Hero"), (View * 2)(), ctypes.c_size_t()
         status = face.scumble_make_views(scene, look, ctypes.byref(viewpoint), ctypes.c_float(WIDTH / HEIGHT), 0, ctypes.c_float(0),

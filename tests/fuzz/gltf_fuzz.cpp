@@ -72,7 +72,7 @@ void check(const SceneData& scene) {
                 inRange(node.light, scene.lights.size()) && inRange(node.skin, scene.skins.size()),
             "node indices");
     require(
-        node.morphWeights.empty() || node.morphWeights.size() == scene.meshes[node.mesh].morphWeights.size(),
+        node.morphWeights.empty() || node.morphWeights.size() == scene.meshes[node.mesh]->morphWeights.size(),
         "morph weights");
     if (node.floats)
       for (const std::optional<float>& size : {node.floats->length, node.floats->beam})
@@ -121,7 +121,7 @@ void checkPoses(const SceneData& scene) {
         require(isFinite(glm::vec3(world[column])) && std::isfinite(world[column].w), "finite pose");
     for (size_t n = 0; n < scene.nodes.size(); ++n) {
       const int mesh = scene.nodes[n].mesh;
-      require(mesh < 0 || pose.morphWeights[n].size() == scene.meshes[mesh].morphWeights.size(),
+      require(mesh < 0 || pose.morphWeights[n].size() == scene.meshes[mesh]->morphWeights.size(),
               "a weight for every target");
       for (const float weight : pose.morphWeights[n]) require(std::isfinite(weight), "finite weights");
     }

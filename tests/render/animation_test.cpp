@@ -523,7 +523,7 @@ TEST_P(AnimationDrawn, motion) {
         const auto held = posedTriangles(data, firstClipAt(scene, double(hold ? at / hold * hold : at) / 24));
         for (size_t i = 0; i < triangles.size(); ++i) {
           const scene::Node& node = data.nodes[size_t(triangles[i].id - 1)];
-          if (node.skin >= 0 || !data.meshes[size_t(node.mesh)].morphWeights.empty()) triangles[i] = held[i];
+          if (node.skin >= 0 || !data.meshes[size_t(node.mesh)]->morphWeights.empty()) triangles[i] = held[i];
         }
         return triangles;
       };

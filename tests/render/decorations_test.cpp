@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene/scene_data.h"
+#include "scumble/check.h"
 #include "scumble/renderer.h"
 #include "tests/support/animated_scene.h"
 #include "tests/support/aov.h"
@@ -293,13 +294,19 @@ TEST(DecorationSettings, areChecked) {
   EXPECT_EQ(problem(many), "");
 
   Look look = seaLook({{"decorations.D.water.node", "Bote"}, {"decorations.E.water.node", "Boat"}});
-  EXPECT_EQ(settingsWithoutNode(boatScene(), look), std::vector<std::string>{"decorations.D.water.node"});
+  const auto found = [](const Look& of, Finding::Kind kind) {
+    std::vector<std::string> settings;
+    for (const Finding& one : check(boatScene(), of))
+      if (one.kind == kind) settings.push_back(one.setting);
+    return settings;
+  };
+  EXPECT_EQ(found(look, Finding::Kind::noSuchNode), std::vector<std::string>{"decorations.D.water.node"});
 
-  EXPECT_TRUE(settingsWithoutOcean(boatScene(), look).empty());
+  EXPECT_TRUE(found(look, Finding::Kind::noOcean).empty());
   ASSERT_TRUE(look.set("ocean.mode", "off").ok());
-  EXPECT_EQ(settingsWithoutOcean(boatScene(), look),
+  EXPECT_EQ(found(look, Finding::Kind::noOcean),
             (std::vector<std::string>{"decorations", "ocean", "ocean.paint"}));
-  EXPECT_TRUE(settingsWithoutOcean(boatScene(), *Look::load("storm")).empty()) << "it is for many scenes";
+  EXPECT_TRUE(found(*Look::load("storm"), Finding::Kind::noOcean).empty()) << "it is for many scenes";
 }
 
 }  // namespace

@@ -7,18 +7,13 @@
 
 #include "base/test_folder.h"
 #include "scumble/image.h"
+#include "tests/support/aov.h"
 #include "tests/support/render_test.h"
 
 namespace scumble {
 namespace {
 
 using namespace test;
-
-// The curve by its definition.
-int codeOf(double linear) {
-  const double c = std::clamp(linear, 0.0, 1.0);
-  return int(std::lround(255 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055)));
-}
 
 class Formats : public BothEyes {
  protected:
@@ -68,7 +63,7 @@ TEST_P(Formats, areWhatFloatsWouldGive) {
           if (!isCode) continue;
           const bool isAlpha = i % 4 == 3;
           partial += isAlpha && value > 0 && value < 1;
-          ASSERT_EQ(code.codes[i], isAlpha ? std::lround(255.0 * value) : codeOf(value))
+          ASSERT_EQ(code.codes[i], isAlpha ? std::lround(255.0 * value) : srgbCode(value))
               << layer << ", " << i;
         }
       }

@@ -226,11 +226,6 @@ std::vector<float> floatsOf(const std::vector<uint8_t>& halves) {
   return floats;
 }
 
-int codeOf(float linear) {
-  const float c = std::clamp(linear, 0.0f, 1.0f);
-  return int(std::lround(255 * (c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f)));
-}
-
 class Vulkan : public RenderTest {
  protected:
   static constexpr uint32_t kWidth = 72, kHeight = 48;
@@ -404,7 +399,7 @@ TEST_F(Vulkan, eightBits) {
       for (uint32_t x = 0; x < kWidth; ++x)
         for (uint32_t c = 0; c < 3; ++c) {
           const int own = bytes[(y * kWidth + x) * 4 + (isBgr ? 2 - c : c)];
-          const int expected = codeOf(usual.layers[0].views[0].at(x, y, c));
+          const int expected = srgbCode(usual.layers[0].views[0].at(x, y, c));
           ASSERT_LE(std::abs(own - expected), 1) << format << " at " << x << ", " << y;
           differ += own != expected;
         }

@@ -86,4 +86,9 @@ double largestDifference(const Image& a, const Image& b) {
   return difference.most;
 }
 
+int srgbCode(double linear) {
+  const double c = std::clamp(linear, 0.0, 1.0);
+  return int(std::lround(255 * (c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055)));
+}
+
 }  // namespace scumble::test

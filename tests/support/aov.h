@@ -18,6 +18,9 @@ glm::dvec4 texel(const Image& image, int x, int y);
 double toHalf(double value);
 glm::dvec4 toHalf(const glm::dvec4& value);
 
+// 8 bits by the definition of sRGB's curve (IEC 61966-2-1).
+int srgbCode(double linear);
+
 // A picture of doubles.
 struct Texels {
   int width = 0, height = 0;

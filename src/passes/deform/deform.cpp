@@ -31,11 +31,13 @@ class Deform : public frame::Pass {
     frameSet_ = frame.frameSet();
     layout_ = gpu::SetLayout(frame.device(), std::vector<gpu::Binding>(15, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                                                             VK_SHADER_STAGE_COMPUTE_BIT}));
-    now_.create(frame, layout_, scene_->motion(), scene_->waves(), false);
-    if (scene_->previousMotion())
-      previous_.create(frame, layout_, *scene_->previousMotion(), scene_->previousWaves(), true);
+    now_.create(frame, layout_, scene_->waves() != nullptr, false);
+    if (scene_->previousMotion()) previous_.create(frame, layout_, scene_->waves() != nullptr, true);
   }
-  void bind(const gpu::GraphResources&) override {}
+  void bind(const gpu::GraphResources&) override {
+    now_.bind(*scene_, scene_->motion(), scene_->waves());
+    if (scene_->previousMotion()) previous_.bind(*scene_, *scene_->previousMotion(), scene_->previousWaves());
+  }
 
  private:
   // Of one of the two poses.
@@ -43,37 +45,40 @@ class Deform : public frame::Pass {
     gpu::DescriptorSets set;
     gpu::Pipeline dry, waves, decorations;
 
-    void create(frame::FrameBuilder& frame, const gpu::SetLayout& layout, const frame::SceneMotion& motion,
-                const frame::OceanWaves* ocean, bool positionsOnly) {
-      const frame::SceneOnGpu& scene = frame.scene();
-      const VkBuffer buffers[] = {scene.chunks().handle(),
-                                  motion.moved(),
-                                  motion.objects(),
-                                  motion.joints(),
-                                  motion.morphWeights(),
-                                  scene.restCore().handle(),
-                                  scene.restFrame().handle(),
-                                  scene.restSkin().handle(),
-                                  scene.morphStarts().handle(),
-                                  scene.morphs().handle(),
-                                  scene.finalCore().handle(),
-                                  scene.finalFrame().handle(),
-                                  scene.previousPositions().handle(),
-                                  ocean ? ocean->buffer().handle() : motion.objects(),
-                                  scene.surface().handle()};
+    void create(frame::FrameBuilder& frame, const gpu::SetLayout& layout, bool hasOcean, bool positionsOnly) {
       set = gpu::DescriptorSets(frame.device(), layout);
-      for (uint32_t i = 0; i < std::size(buffers); ++i) set.writeBuffer(0, i, buffers[i]);
       gpu::ComputePipelineDesc desc;
       desc.shader = {shaders::deform_comp};
       desc.sets = {frame.frameLayout().handle(), layout.handle()};
       desc.pushConstantBytes = 8;
       desc.constants = {positionsOnly, 0};
       dry = gpu::Pipeline(frame.device(), desc);
-      if (!ocean) return;
+      if (!hasOcean) return;
       desc.constants = {positionsOnly, shared::kWaves};
       waves = gpu::Pipeline(frame.device(), desc);
       desc.constants = {positionsOnly, shared::kDecoration};
       decorations = gpu::Pipeline(frame.device(), desc);
+    }
+
+    void bind(const frame::SceneOnGpu& scene, const frame::SceneMotion& motion,
+              const frame::OceanWaves* ocean) {
+      const frame::GeometryOnGpu& geometry = scene.geometry();
+      const VkBuffer buffers[] = {geometry.chunks().handle(),
+                                  motion.moved(),
+                                  motion.objects(),
+                                  motion.joints(),
+                                  motion.morphWeights(),
+                                  geometry.restCore().handle(),
+                                  geometry.restFrame().handle(),
+                                  geometry.restSkin().handle(),
+                                  geometry.morphStarts().handle(),
+                                  geometry.morphs().handle(),
+                                  geometry.finalCore().handle(),
+                                  geometry.finalFrame().handle(),
+                                  scene.previousPositions().handle(),
+                                  ocean ? ocean->buffer().handle() : motion.objects(),
+                                  geometry.surface().handle()};
+      for (uint32_t i = 0; i < std::size(buffers); ++i) set.writeBuffer(0, i, buffers[i]);
     }
 
     void record(VkCommandBuffer commands, VkDescriptorSet frameSet, const frame::SceneMotion& motion) const {

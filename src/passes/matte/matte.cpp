@@ -78,6 +78,8 @@ class Matte : public Pass {
   }
 
   void update(const FrameInput& input) override {
+    first_.step.refresh();
+    if (isLayered_) behind_.step.refresh();
     for (size_t m = 0; m < input.scene.materialCount(); ++m)
       materials_.write(m, {picture_.simplify(input.look, input.scene, m)});
     image_.setJobs({{{uint32_t(picture_.ripple(input.look))}, {}}});

@@ -54,7 +54,7 @@ class Ocean : public Pass {
     layout_ =
         gpu::SetLayout(frame.device(), {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT}});
     sets_ = gpu::DescriptorSets(frame.device(), layout_);
-    sets_.writeBuffer(0, 0, frame.scene().waves()->buffer().handle());
+    scene_ = &frame.scene();
 
     GeometryStepDesc desc;
     desc.what = GeometryStepDesc::What::ocean;
@@ -70,6 +70,7 @@ class Ocean : public Pass {
   }
   void bind(const gpu::GraphResources& resources) override {
     resources_ = &resources;
+    sets_.writeBuffer(0, 0, scene_->waves()->buffer().handle());
     image_.bind(resources);
   }
 
@@ -131,6 +132,7 @@ class Ocean : public Pass {
   }
 
   DrawnImage pattern_, waves_, depth_;
+  const SceneOnGpu* scene_ = nullptr;
   const gpu::GraphResources* resources_ = nullptr;
   Configuration configuration_;
   ExampleTextures* examples_ = nullptr;

@@ -2,6 +2,7 @@
 // is behind.
 #include <cmath>
 
+#include "scumble/yardstick.h"
 #include "tests/support/aov.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
@@ -15,10 +16,12 @@ class PlainTest : public BothEyes {
  protected:
   static constexpr int kWidth = 64, kHeight = 48;
 
-  static Frame drawPlain(const Scene& scene, const std::vector<View>& views) {
-    RenderOptions options = sized(kWidth, kHeight);
-    options.plain = true;
-    return draw(scene, quietLook(), views, options);
+  static Frame drawPlain(const Scene& scene, const std::vector<View>& views, int width = kWidth,
+                         int height = kHeight) {
+    Result<Frame> frame =
+        renderYardstick(renderer(), scene, quietLook(), 0, views, sized(uint32_t(width), uint32_t(height)));
+    if (!frame) throw std::runtime_error(frame.error().message());
+    return std::move(frame).value();
   }
   // sRGB in 8 bits: half a step of its code is at most 0.45 percent of a linear 1.
   static constexpr double kStep = 5e-3;
@@ -93,9 +96,7 @@ TEST_F(PlainTest, coverageOfAPaneAlone) {
   Json json = TestScene::colored("Pane", {0.5f, 0.2f, 0.8f, 0.5f});
   json["alphaMode"] = "BLEND";
   s.add(gridMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), s.material(json));
-  RenderOptions options = sized(8, 8);
-  options.plain = true;
-  const Frame frame = draw(s.load(), quietLook(), {parallelView(2, 1)}, options);
+  const Frame frame = drawPlain(s.load(), {parallelView(2, 1)}, 8, 8);
   const glm::dvec4 got = texel(aov(frame, ""), 4, 4);
   EXPECT_NEAR(got.w, 0.5, 0.5 / 255 + 1e-6);
   // Premultiplied, in steps of its code: twice as coarse.

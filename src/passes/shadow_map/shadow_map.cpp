@@ -39,6 +39,7 @@ class ShadowMap : public Pass {
     step_.create(frame, desc);
   }
   void bind(const gpu::GraphResources& resources) override { resources_ = &resources; }
+  void update(const FrameInput&) override { step_.refresh(); }
 
  private:
   void record(VkCommandBuffer commands) const {

@@ -218,6 +218,29 @@ class PosedWarpTest : public BothEyes {
     }
   }
 
+  // Calls visit(x, y, hit) at each pixel that shows what the reference hits there; few may show something
+  // else, and every object has more pixels than `least`.
+  template <class Hits, class Visit>
+  static void atSamePixels(const Frame& frame, size_t view, const Hits& hits,
+                           const std::vector<SurfaceTriangle>& surface, size_t least, Visit visit) {
+    std::map<int, size_t> pixels;
+    size_t misplaced = 0;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        const auto& hit = hits[size_t(y * kWidth + x)];
+        const int id = int(texel(aov(frame, "id", view), x, y).x);
+        if (id != (hit ? surface[hit->surface].id : 0)) {
+          ++misplaced;
+          continue;
+        }
+        if (!hit) continue;
+        ++pixels[id];
+        visit(x, y, *hit);
+      }
+    expectAllSeen(pixels, surface, least);
+    EXPECT_LT(misplaced, size_t(kWidth * kHeight / 200));
+  }
+
   // `pixelsOf`: the inflation of an object.
   void checkInflation(const Scene& scene, const Knobs& knobs,
                       const std::function<double(int)>& pixelsOf) const;
@@ -247,46 +270,34 @@ TEST_P(PosedWarpTest, gradientsAndVectorsOfAffinePoses) {
   reference.skewLevels = 2;
   for (size_t v = 0; v < seen.size(); ++v) {
     const auto hits = rasterised(onScreen(surface, seen[v], kWidth, kHeight, kStay), kWidth, kHeight);
-    std::map<int, size_t> pixels;
-    size_t misplaced = 0, turned[2] = {};
+    size_t turned[2] = {};
     Difference uvs(1e-4), gradients(1e-4), exponents(1e-4), vectors(0.05);
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
-        const auto& hit = hits[size_t(y * kWidth + x)];
-        const int id = int(texel(aov(frame, "id", v), x, y).x);
-        if (id != (hit ? surface[hit->surface].id : 0)) {
-          ++misplaced;
-          continue;
-        }
-        if (!hit) continue;
-        ++pixels[id];
-        const SurfaceTriangle& triangle = surface[hit->surface];
-        const Gradients g = differencesAt(seen[v], triangle, glm::dvec2(x, y) + 0.5);
-        const glm::dvec4 got = texel(aov(frame, "uv-gradient", v), x, y);
-        const double turn = g.u.x * g.v.y - g.u.y * g.v.x;
-        if (std::abs(turn) < 0.05 * glm::length(g.u) * glm::length(g.v)) continue;  // seen from the edge
-        const glm::dvec2 uv = uvAt(triangle, hit->barycentric);
-        uvs.add(texel(aov(frame, "uv", v), x, y).x, uv.x), uvs.add(texel(aov(frame, "uv", v), x, y).y, uv.y);
-        gradients.add(off({got.x, got.y}, g.u), 0), gradients.add(off({got.z, got.w}, g.v), 0);
-        // The tangents of the corners say the same.
-        const Gradients smooth = smoothAt(seen[v], triangle, *hit);
-        EXPECT_LT(off(smooth.u, g.u) + off(smooth.v, g.v), 1e-4) << "the references differ";
+    atSamePixels(frame, v, hits, surface, 100, [&](int x, int y, const auto& hit) {
+      const SurfaceTriangle& triangle = surface[hit.surface];
+      const Gradients g = differencesAt(seen[v], triangle, glm::dvec2(x, y) + 0.5);
+      const glm::dvec4 got = texel(aov(frame, "uv-gradient", v), x, y);
+      const double turn = g.u.x * g.v.y - g.u.y * g.v.x;
+      if (std::abs(turn) < 0.05 * glm::length(g.u) * glm::length(g.v)) return;  // seen from the edge
+      const glm::dvec2 uv = uvAt(triangle, hit.barycentric);
+      uvs.add(texel(aov(frame, "uv", v), x, y).x, uv.x), uvs.add(texel(aov(frame, "uv", v), x, y).y, uv.y);
+      gradients.add(off({got.x, got.y}, g.u), 0), gradients.add(off({got.z, got.w}, g.v), 0);
+      // The tangents of the corners say the same.
+      const Gradients smooth = smoothAt(seen[v], triangle, hit);
+      EXPECT_LT(off(smooth.u, g.u) + off(smooth.v, g.v), 1e-4) << "the references differ";
 
-        const auto shown = reference.at(uv, g.u, g.v);
-        const glm::dvec4 chosen = texel(aov(frame, "metatexture", v), x, y);
-        exponents.add(chosen.x, shown.exponent.x), exponents.add(chosen.y, shown.exponent.y);
-        exponents.add(chosen.z, shown.q);
-        // Section 4.3: turned by the gradient of u, by its other way where the mapping shows its back.
-        const glm::dvec2 axis = glm::normalize(g.u) * (turn < 0 ? -1.0 : 1.0),
-                         free = 2.0 * glm::dvec2(shown.value - reference.mean),
-                         w = free * std::min(1.0, 2.0 / glm::length(free));
-        const glm::dvec2 warp(texel(aov(frame, "warp", v), x, y));
-        vectors.add(warp.x / (kAmount * scale), axis.x * w.x - axis.y * w.y);
-        vectors.add(warp.y / (kAmount * scale), axis.y * w.x + axis.x * w.y);
-        ++turned[turn < 0];
-      }
-    expectAllSeen(pixels, surface, 100);
-    EXPECT_LT(misplaced, size_t(kWidth * kHeight / 200));
+      const auto shown = reference.at(uv, g.u, g.v);
+      const glm::dvec4 chosen = texel(aov(frame, "metatexture", v), x, y);
+      exponents.add(chosen.x, shown.exponent.x), exponents.add(chosen.y, shown.exponent.y);
+      exponents.add(chosen.z, shown.q);
+      // Section 4.3: turned by the gradient of u, by its other way where the mapping shows its back.
+      const glm::dvec2 axis = glm::normalize(g.u) * (turn < 0 ? -1.0 : 1.0),
+                       free = 2.0 * glm::dvec2(shown.value - reference.mean),
+                       w = free * std::min(1.0, 2.0 / glm::length(free));
+      const glm::dvec2 warp(texel(aov(frame, "warp", v), x, y));
+      vectors.add(warp.x / (kAmount * scale), axis.x * w.x - axis.y * w.y);
+      vectors.add(warp.y / (kAmount * scale), axis.y * w.x + axis.x * w.y);
+      ++turned[turn < 0];
+    });
     EXPECT_GT(turned[0], 500u) << "mirrored ones";
     EXPECT_GT(turned[1], 500u);
     // Floats; edges between faces are where rasterisers have them, to 1/256 pixel.
@@ -309,27 +320,14 @@ TEST_P(PosedWarpTest, gradientsOfBentPoses) {
                            sized(kWidth, kHeight, {"uv-gradient", "id"}));
   for (size_t v = 0; v < seen.size(); ++v) {
     const auto hits = rasterised(onScreen(surface, seen[v], kWidth, kHeight, kStay), kWidth, kHeight);
-    std::map<int, size_t> pixels;
-    size_t misplaced = 0;
     Difference gradients(1e-3);
-    for (int y = 0; y < kHeight; ++y)
-      for (int x = 0; x < kWidth; ++x) {
-        const auto& hit = hits[size_t(y * kWidth + x)];
-        const int id = int(texel(aov(frame, "id", v), x, y).x);
-        if (id != (hit ? surface[hit->surface].id : 0)) {
-          ++misplaced;
-          continue;
-        }
-        if (!hit) continue;
-        ++pixels[id];
-        const Gradients g = smoothAt(seen[v], surface[hit->surface], *hit);
-        const double turn = g.u.x * g.v.y - g.u.y * g.v.x;
-        if (std::abs(turn) < 0.05 * glm::length(g.u) * glm::length(g.v)) continue;
-        const glm::dvec4 got = texel(aov(frame, "uv-gradient", v), x, y);
-        gradients.add(off({got.x, got.y}, g.u), 0), gradients.add(off({got.z, got.w}, g.v), 0);
-      }
-    expectAllSeen(pixels, surface, 300);
-    EXPECT_LT(misplaced, size_t(kWidth * kHeight / 200));
+    atSamePixels(frame, v, hits, surface, 300, [&](int x, int y, const auto& hit) {
+      const Gradients g = smoothAt(seen[v], surface[hit.surface], hit);
+      const double turn = g.u.x * g.v.y - g.u.y * g.v.x;
+      if (std::abs(turn) < 0.05 * glm::length(g.u) * glm::length(g.v)) return;
+      const glm::dvec4 got = texel(aov(frame, "uv-gradient", v), x, y);
+      gradients.add(off({got.x, got.y}, g.u), 0), gradients.add(off({got.z, got.w}, g.v), 0);
+    });
     EXPECT_GT(gradients.count, 4000u);
     EXPECT_LT(gradients.beyondPart(), 2e-3) << gradients.text();
   }

@@ -84,8 +84,6 @@ class Warp : public Pass {
     step_.create(frame, desc);
     image_.create(frame);
     examples_ = &frame.examples();
-    const auto& draws = frame.scene().draws();
-    wraps_ = std::any_of(draws.begin(), draws.end(), [](const Draw& draw) { return draw.wraps; });
   }
   void bind(const gpu::GraphResources& resources) override {
     resources_ = &resources;
@@ -150,7 +148,7 @@ class Warp : public Pass {
     WarpSetup setup{metaTextureUse(metaParams, 0b0011, input.look, *examples_, pixelScale, shift),
                     metaTextureUse(breakupMeta, 0b0100, input.look, *examples_, pixelScale, shift),
                     breakup.amount};
-    setup.field.meta.wrapping = setup.marks.meta.wrapping = wraps_;
+    setup.field.meta.wrapping = setup.marks.meta.wrapping = input.scene.wraps();
     return setup;
   }
 
@@ -166,7 +164,6 @@ class Warp : public Pass {
   Configuration configuration_;
   MaterialBlocks<WarpMaterial> materials_;
   ExampleTextures* examples_ = nullptr;
-  bool wraps_ = false;
   gpu::SetLayout layout_;
   gpu::DescriptorSets sets_;
   GeometryStep step_;

@@ -1,0 +1,34 @@
+// What a frame took. Times are in milliseconds; those of the GPU are its own, from timestamps.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace scumble {
+
+struct PassTime {
+  std::string name;
+  double milliseconds = 0;  // on the GPU
+};
+
+struct FrameStats {
+  std::vector<PassTime> passes;  // in order; empty where the device has no timestamps
+  double gpuMilliseconds = 0;    // first to last timestamp
+  double cpuMilliseconds = 0;    // poses, uniforms, passes' updates, recording; beside the GPU's work
+  double readbackMilliseconds = 0;
+  double uploadMilliseconds = 0;  // building the scene's GPU data; next to 0 once it is there
+  double setupMilliseconds = 0;   // images and pipelines; next to 0 once they are there
+  // That were compiled for this frame: 0 once they are there, see Renderer::prepare().
+  uint32_t pipelines = 0;
+  // What of the scene was written to the device for this frame, since it was not there or is another one now:
+  // parts of meshes, textures, materials' links to textures. 0 once they are there, whatever moves.
+  uint32_t writtenPrimitives = 0, writtenTextures = 0, writtenMaterials = 0;
+  uint64_t triangles = 0, drawCalls = 0;
+  uint64_t deviceBytes = 0, uploadedBytes = 0;
+  // Of the frame's own images, those that live at different times in the same memory; and what they would
+  // take without that.
+  uint64_t imageBytes = 0, imageBytesUnshared = 0;
+};
+
+}  // namespace scumble

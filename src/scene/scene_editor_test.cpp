@@ -1,0 +1,173 @@
+// What an editor refuses, and what scenes share.
+#include "scumble/scene_editor.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+
+#include "scene/loaded_test_gltf.h"
+#include "scene/scene_data.h"
+#include "scene/test_gltf.h"
+
+namespace scumble {
+namespace {
+
+const std::vector<glm::vec3> kTriangle = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+
+std::string refusal(const Status& status) {
+  if (status) return "";
+  EXPECT_EQ(status.error().kind, ErrorKind::usage);
+  EXPECT_FALSE(status.error().advice.empty());
+  return status.error().problem;
+}
+
+template <class T>
+std::string refusal(const Result<T>& result) {
+  return result ? "" : refusal(Status(result.error()));
+}
+
+TEST(SceneEditor, isASceneOfItsParts) {
+  SceneEditor editor("parts");
+  const MeshId mesh = *editor.addMesh({{.positions = kTriangle}});
+  const NodeId up = *editor.addNode({.name = "up", .transform = glm::translate(glm::mat4(1.0f), {0, 5, 0})});
+  const NodeId node = *editor.addNode({.name = "leaf", .parent = up, .mesh = mesh});
+  EXPECT_EQ(editor.findNode("leaf"), node);
+  EXPECT_EQ(editor.findNode("up/leaf"), node);
+  EXPECT_EQ(editor.findNode("down"), NodeId::none);
+  const SceneSummary s = editor.scene()->summary();
+  EXPECT_EQ(s.triangles, 1u);
+  EXPECT_EQ(s.vertices, 3u);
+  EXPECT_EQ(s.nodeNames, (std::vector<std::string>{"up", "leaf"}));
+  EXPECT_EQ(s.min[1], 5);
+  EXPECT_EQ(s.max[1], 6);
+  ASSERT_TRUE(editor.setVisible(up, false).ok());
+  EXPECT_TRUE(editor.scene()->data().bounds.empty);
+  const glm::mat4 instances[] = {glm::mat4(1.0f), glm::translate(glm::mat4(1.0f), {0, 0, 7})};
+  ASSERT_TRUE(editor.setVisible(up, true).ok());
+  ASSERT_TRUE(editor.setInstances(node, instances).ok());
+  EXPECT_EQ(editor.scene()->summary().max[2], 7);
+}
+
+// Scenes that were given stay as they are, and share what did not change.
+TEST(SceneEditor, scenesStay) {
+  SceneEditor editor;
+  const uint8_t pixel[4] = {1, 2, 3, 255}, other[4] = {9, 9, 9, 255};
+  const TextureId texture = *editor.addTexture({"t", 1, 1, pixel});
+  const MeshId mesh = *editor.addMesh({{.positions = kTriangle}});
+  const NodeId node = *editor.addNode({.mesh = mesh});
+  const Scene first = *editor.scene();
+  EXPECT_EQ(&editor.scene()->data(), &first.data()) << "nothing has changed";
+  ASSERT_TRUE(editor.setTransform(node, glm::translate(glm::mat4(1.0f), {3, 0, 0})).ok());
+  ASSERT_TRUE(editor.setTexture(texture, {"t", 1, 1, other}).ok());
+  const Scene second = *editor.scene();
+  EXPECT_EQ(first.summary().min[0], 0);
+  EXPECT_EQ(second.summary().min[0], 3);
+  EXPECT_EQ(&*first.data().meshes[0], &*second.data().meshes[0]);
+  EXPECT_EQ(first.data().images[0]->rgba[0], 1);
+  EXPECT_EQ(second.data().images[0]->rgba[0], 9);
+  EXPECT_EQ(first.data().family, second.data().family);
+  EXPECT_NE(SceneEditor(first).scene()->data().family, first.data().family);
+}
+
+TEST(SceneEditor, refusesArraysThatDoNotFit) {
+  SceneEditor editor;
+  const auto mesh = [&](const MeshPart& part) { return refusal(editor.addMesh({part})); };
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<uint32_t> outside = {0, 1, 3}, two = {0, 1};
+  const std::vector<glm::vec3> broken = {{0, 0, 0}, {1, nan, 0}, {0, 1, 0}},
+                               far = {{0, 0, 0}, {2e15f, 0, 0}, {0, 1, 0}};
+  const std::vector<glm::vec2> uvs = {{0, 0}, {1, 0}};
+  const std::vector<float> scales = {1, 2, 65};
+  EXPECT_EQ(refusal(editor.addMesh({})), "mesh: it has no parts");
+  EXPECT_EQ(mesh({}), "part 0 of the mesh: it has no positions");
+  EXPECT_EQ(mesh({.positions = kTriangle, .indices = outside}),
+            "part 0 of the mesh: indices[2] is no vertex");
+  EXPECT_EQ(mesh({.positions = kTriangle, .indices = two}),
+            "part 0 of the mesh: 2 corners make no triangles");
+  EXPECT_EQ(mesh({.positions = broken}), "part 0 of the mesh: positions[1] is not finite");
+  EXPECT_EQ(mesh({.positions = far}), "part 0 of the mesh: positions[1] is out of range");
+  EXPECT_EQ(mesh({.positions = kTriangle, .normals = broken}),
+            "part 0 of the mesh: normals[1] is not finite");
+  EXPECT_EQ(mesh({.positions = kTriangle, .uv0 = uvs}), "part 0 of the mesh: there are 2 uv0 for 3 vertices");
+  EXPECT_EQ(mesh({.positions = kTriangle, .warpScales = scales}),
+            "part 0 of the mesh: a warp scale is out of range");
+  EXPECT_EQ(mesh({.positions = kTriangle, .material = MaterialId(1)}),
+            "part 0 of the mesh: there is no material 1");
+  EXPECT_EQ(editor.scene()->summary().meshes, 0u) << "nothing was added";
+
+  const std::vector<uint8_t> bytes(16);
+  EXPECT_EQ(refusal(editor.addTexture({"", 0, 4, bytes})), "texture: a size of 0x4 is out of range");
+  EXPECT_EQ(refusal(editor.addTexture({"", 16385, 1, bytes})), "texture: a size of 16385x1 is out of range");
+  EXPECT_EQ(refusal(editor.addTexture({"", 2, 1, bytes})), "texture: there are 16 bytes for 2x1 pixels");
+  EXPECT_EQ(refusal(editor.addTexture({"", 2, 2, bytes})), "");
+}
+
+TEST(SceneEditor, refusesNumbersThatMakeNoSense) {
+  SceneEditor editor;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(refusal(editor.addMaterial({.baseColor = {1, 2, 0, 1}})),
+            "material: its base colour is out of range");
+  EXPECT_EQ(refusal(editor.addMaterial({.emissive = {0, nan, 0}})),
+            "material: what it emits is out of range");
+  EXPECT_EQ(refusal(editor.addMaterial({.shadowedColor = glm::vec3(-1)})),
+            "material: its colour in shadow is out of range");
+  MaterialDesc textured;
+  textured.baseColorTexture.texture = TextureId(0);
+  EXPECT_EQ(refusal(editor.addMaterial(textured)), "material: there is no texture 0");
+  EXPECT_EQ(refusal(editor.setMaterial(MaterialId(1), {})), "there is no material 1");
+  EXPECT_EQ(refusal(editor.material(MaterialId(-1))), "there is no material -1");
+  EXPECT_EQ(editor.findMaterial("Gold"), std::nullopt);
+
+  const NodeId node = *editor.addNode({});
+  glm::mat4 perspective(1.0f), broken(1.0f);
+  perspective[2][3] = 1, broken[3][0] = nan;
+  for (const glm::mat4& m : {perspective, broken}) {
+    EXPECT_EQ(refusal(editor.setTransform(node, m)), "the transform is not affine, or not finite");
+    EXPECT_EQ(refusal(editor.addNode({.transform = m})), "the node's transform is not affine, or not finite");
+    EXPECT_EQ(refusal(editor.setInstances(node, {&m, 1})),
+              "an instance's transform is not affine, or not finite");
+  }
+  EXPECT_EQ(refusal(editor.addNode({.parent = NodeId(5)})), "there is no node 5");
+  EXPECT_EQ(refusal(editor.addNode({.mesh = MeshId(0)})), "there is no mesh 0");
+  EXPECT_EQ(refusal(editor.setTransform(NodeId(1), glm::mat4(1.0f))), "there is no node 1");
+  EXPECT_EQ(refusal(editor.setVisible(NodeId::none, true)), "there is no node -1");
+  EXPECT_EQ(refusal(editor.setMesh(node, MeshId(0))), "there is no mesh 0");
+  EXPECT_EQ(refusal(editor.setMesh(MeshId(0), {})), "there is no mesh 0");
+  EXPECT_EQ(refusal(editor.setTexture(TextureId(0), {})), "there is no texture 0");
+  EXPECT_EQ(editor.meshOf(NodeId(9)), MeshId::none);
+  LightDesc light;
+  light.innerCone = 1;
+  EXPECT_EQ(refusal(editor.setLight(node, light)), "light: its cones are out of range");
+  light = {.intensity = -1};
+  EXPECT_EQ(refusal(editor.setLight(node, light)), "light: its colour, intensity or range is out of range");
+
+  // Each is in range, and together they are not.
+  const MeshId mesh = *editor.addMesh({{.positions = kTriangle}});
+  NodeId parent = node;
+  for (int i = 0; i < 4; ++i)
+    parent = *editor.addNode(
+        {.parent = parent, .transform = glm::scale(glm::mat4(1.0f), glm::vec3(1e13f)), .mesh = mesh});
+  EXPECT_NE(refusal(editor.scene()), "");
+}
+
+// What files have and arrays have not stays as it is.
+TEST(SceneEditor, sparesWhatClipsAndJointsMove) {
+  scene::TestGltf g = scene::quad();
+  g.json["nodes"][0]["name"] = "Walker";
+  g.json["animations"] = scene::Json::array(
+      {{{"name", "walk"},
+        {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}},
+        {"samplers",
+         {{{"input", g.addFloats({0, 1}, 1)}, {"output", g.addFloats({0, 0, 0, 1, 0, 0}, 3)}}}}}});
+  SceneEditor editor(scene::loaded(g));
+  const NodeId walker = editor.findNode("Walker");
+  ASSERT_NE(walker, NodeId::none);
+  EXPECT_EQ(refusal(editor.setTransform(walker, glm::mat4(1.0f))), "the clip \"walk\" moves node 0");
+  EXPECT_EQ(refusal(editor.setVisible(walker, false)), "");
+  EXPECT_EQ(editor.scene()->summary().clips.size(), 1u);
+}
+
+}  // namespace
+}  // namespace scumble
