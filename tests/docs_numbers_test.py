@@ -85,6 +85,12 @@ def colorizers(root):
         yield [case["name"], f"{case['milliseconds']:.1f}", f"{case['ratio']:.1f}", whole(case["first"])]
 
 
+def edits(root):
+    yield ["", "ms", "of the whole"]
+    for case in load(root, "edits")["cases"]:
+        yield [case["name"], rough(case["milliseconds"]), f"{case['ratio']:.2f}"]
+
+
 def ocean(root):
     yield ["", "ms", "of the frame", "goal"]
     for case in load(root, "ocean")["cases"]:
@@ -132,7 +138,7 @@ def targets(root):
 
 COHERENCE = ["suzanne", "sail-ship", "toycar", "demo"]
 TABLES = {"bench.md": {"frames": frames, "metatexture": metatexture, "start": start, "sequences": sequences, "colorizers": colorizers,
-                       "ocean": ocean, "looks": looks},
+                       "edits": edits, "ocean": ocean, "looks": looks},
           "measure.md": {"targets": targets, **{name: coherence(name) for name in COHERENCE}}}
 
 

@@ -44,9 +44,10 @@ double median(std::vector<double> values) {
 }
 
 int run(const BenchArguments& args) {
+  // Check everything that can be checked before anything is drawn.
   if (args.runs < 1 || args.runs > 1000) return failUsage("--runs is out of range", "use 1 to 1000");
   const std::vector<double> times = timesOf(args);
-  if (!(std::abs(times.front()) < kMostSeconds && std::abs(times.back()) < kMostSeconds))
+  if (!(std::abs(times.front()) < Renderer::kMaxTime && std::abs(times.back()) < Renderer::kMaxTime))
     return failUsage("--time is out of range", "use a time within a million seconds");
   std::vector<std::string> inputs = args.scene.files;
   inputs.push_back(args.look.lookFor(args.scene.files[0]));
@@ -73,6 +74,7 @@ int run(const BenchArguments& args) {
   Result<std::unique_ptr<Renderer>> yardstick = Renderer::create(args.picture.rendererOptions());
   if (!yardstick) return fail(yardstick.error());
 
+  // Paint and yardstick in turns.
   std::vector<double> frame, plainFrame, ratios;
   std::map<std::string, std::vector<double>> passes;
   std::vector<std::string> order;
@@ -109,6 +111,7 @@ int run(const BenchArguments& args) {
     triangles = painted->stats.triangles;
   }
 
+  // Medians and spreads, as JSON and as text.
   nlohmann::json passReport = nlohmann::json::array();
   for (const std::string& name : order)
     passReport.push_back({{"name", name}, {"milliseconds", median(passes[name])}});

@@ -143,6 +143,7 @@ int run(const MeasureArguments& args) {
   OutputFiles files(inputs);
   for (const auto& [file, option] : {std::pair{args.plot, "--plot"}, {args.json.file(), "--json"}})
     if (const Status status = files.add(file, option); !status) return fail(status.error());
+  // Look and scene.
   Result<Look> look = args.look.load(args.scene.files[0], args.quiet);
   if (!look) return fail(look.error());
   const Result<Scene> scene = args.scene.load(args.quiet);
@@ -158,6 +159,7 @@ int run(const MeasureArguments& args) {
   Result<std::unique_ptr<Renderer>> renderer = Renderer::create(args.picture.rendererOptions());
   if (!renderer) return fail(renderer.error());
 
+  // Measure.
   MeasureOptions options;
   options.width = picture->width, options.height = picture->height;
   options.samples = picture->samples;
@@ -177,6 +179,7 @@ int run(const MeasureArguments& args) {
     return fail(
         Error{ErrorKind::internal, "", 0, "", "the validation layers found mistakes", "please report them"});
 
+  // Chart, table and JSON.
   std::string names;
   for (const std::string& file : args.scene.files)
     names += (names.empty() ? "" : ", ") + std::filesystem::path(file).filename().string();

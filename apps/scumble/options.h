@@ -38,7 +38,6 @@ struct LookArguments {
   Status applySettings(Look& look) const;
 };
 
-constexpr double kMostSeconds = 1e6;  // of time, either way: what renderers take
 
 struct PictureArguments {
   std::string camera, orbit, eye, target, size = "1280x720", stereo;

@@ -241,6 +241,7 @@ int run(RenderArguments args) {
   output->quality = args.quality;
   if (const Status status = output->format->checkQuality(args.quality); !status) return fail(status.error());
   if (const Status status = readExrOptions(args.exr, *output); !status) return fail(status.error());
+  // What is written is told apart from what is read.
   std::vector<std::string> inputs = args.scene.files;
   inputs.push_back(args.look.lookFor(args.scene.files[0]));
   inputs.push_back(background->file());
@@ -250,6 +251,7 @@ int run(RenderArguments args) {
   if (const Status status = files.add(args.stats, "--stats"); !status) return fail(status.error());
   if (const Status status = files.add(args.graph, "--graph"); !status) return fail(status.error());
   const bool isFilm = output->kind() == OutputKind::film;
+  // Times and frames.
   if (!args.frames.empty()) {
     const auto range = parseFrames(args.frames);
     if (!range)
@@ -264,7 +266,7 @@ int run(RenderArguments args) {
                      "write name.####.png with --resume, then make the film of those");
   if (!(args.fps >= 0.01 && args.fps <= 1000))
     return failUsage("--fps is out of range", "use 0.01 to 1000 frames a second");
-  if (!(std::abs(args.time.value_or(0)) < kMostSeconds))
+  if (!(std::abs(args.time.value_or(0)) < Renderer::kMaxTime))
     return failUsage("--time is out of range", "it is in seconds, up to a million");
   if (args.picture.turntable) {
     if (!(*args.picture.turntable > 0 && *args.picture.turntable <= kMostTurn))
@@ -274,6 +276,7 @@ int run(RenderArguments args) {
                        "name it like picture.mp4 or picture.####.png, or say --time");
     args.picture.turntable = framesOfTurn(args) / args.fps;
   }
+  // Look and scene.
   Result<Look> look = loadLook(args, *background);
   if (!look) return fail(look.error());
   const Result<Scene> scene = args.scene.load(args.quiet);
@@ -291,6 +294,7 @@ int run(RenderArguments args) {
     for (const int number : *numbers)
       for (const std::string& file : output->files(output->framePath(number)))
         if (const Status status = files.check(file, "a frame"); !status) return fail(status.error());
+  // What does nothing is told.
   if (!args.quiet) {
     warnOfIdle(args, *output);
     args.look.warnOfIdle(*look, *scene, args.scene.files[0]);
@@ -299,11 +303,12 @@ int run(RenderArguments args) {
   std::vector<double> times;
   for (const int number : *numbers) times.push_back(number / args.fps);
   for (const double time : times)
-    if (!(std::abs(time - 1 / args.fps) < kMostSeconds && std::abs(time) < kMostSeconds))
+    if (!(std::abs(time - 1 / args.fps) < Renderer::kMaxTime && std::abs(time) < Renderer::kMaxTime))
       return failUsage("a frame's time is out of range",
                        "frame n is at n / fps seconds, which may be up to a million");
   if (isPicture && !(args.resume && output->isThere(output->path))) times.push_back(args.time.value_or(0));
   lap("sceneMilliseconds");
+  // The device.
   Result<std::unique_ptr<Renderer>> renderer = Renderer::create(args.picture.rendererOptions());
   if (!renderer) return fail(renderer.error());
   lap("deviceMilliseconds");
@@ -339,6 +344,7 @@ int run(RenderArguments args) {
   if (!status) return fail(status.error());
   const double rendering = millisecondsSince(lapStart);
 
+  // Reports.
   if (!args.stats.empty()) {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);

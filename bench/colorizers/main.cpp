@@ -75,6 +75,7 @@ int main(int argc, char** argv) {
   const uint32_t width = screen.width(), height = screen.height();
   gpu::Samplers samplers(device);
 
+  // What is compared.
   const std::pair<std::string, std::string> fog{"volume.kind", "atmospheric"};
   std::vector<Case> cases;
   const auto addCase = [&](std::string name, Look look) {
@@ -108,6 +109,7 @@ int main(int argc, char** argv) {
   uniforms.views[1] = seen;
   uniforms.imageSize = {float(width), float(height)};
 
+  // The colours and the depth that all of them read.
   const auto image = [&](VkFormat format, VkImageUsageFlags usage) {
     return gpu::Image(device, {format, width, height, 1}, usage | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
   };
@@ -150,7 +152,7 @@ int main(int argc, char** argv) {
   const gpu::SetLayout layout(device, {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, all},
                                        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, all},
                                        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, all}});
-  constexpr uint64_t kStride = (sizeof(shared::ColorizeUniforms) + 255) / 256 * 256;
+  constexpr uint64_t kStride = gpu::uniformStride(sizeof(shared::ColorizeUniforms));
   gpu::Buffer frameBuffer(device, sizeof(uniforms),
                           VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                           gpu::MemoryKind::upload);
@@ -174,6 +176,7 @@ int main(int argc, char** argv) {
         i == 0 ? gpu::Shader{shaders::plain_reads_frag} : gpu::Shader{shaders::colorize_image_frag},
         {features, 0, 0, 1}, {frameLayout.handle(), layout.handle()});
   }
+  // A full screen of each.
   std::vector<bench::FullScreenCase> drawn;
   for (size_t i = 0; i < cases.size(); ++i)
     drawn.push_back({cases[i].name, [&, i](VkCommandBuffer commands) {

@@ -98,6 +98,7 @@ void MeshBuilder::grid(const Grid& grid, const GridOptions& options) {
     }
   }
 
+  // Vertices, shared by the faces of one material where it is smooth.
   const glm::mat3 turn = glm::mat3(transform_);
   struct Shared {
     int material;
@@ -130,6 +131,7 @@ void MeshBuilder::grid(const Grid& grid, const GridOptions& options) {
     }
     return index;
   };
+  // Two triangles a cell.
   auto face = [&](int material, std::array<size_t, 2> a, std::array<size_t, 2> b, std::array<size_t, 2> c) {
     if (options.flip) std::swap(b, c);
     const glm::vec3 pa = point(a[0], a[1]), pb = point(b[0], b[1]), pc = point(c[0], c[1]);

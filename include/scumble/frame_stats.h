@@ -1,4 +1,4 @@
-// What a frame took. Times are in milliseconds; those of the GPU are its own, from timestamps.
+// What a frame took, as a value of its own. Times are in milliseconds; those of the GPU are its own, from timestamps.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Pictures in memory, and the files they go into.
+// Pictures in memory, and the files they go into. Functions here keep nothing between calls: several threads
+// may call them at once, as long as nobody changes a picture meanwhile. Of two that write one file, one wins.
 #pragma once
 
 #include <cstdint>

@@ -82,6 +82,8 @@ struct Measurements {
 // `look` sets them. Of the look, these are set otherwise: no ground, and for the fields warp.inflation 0,
 // warp.distance 0 and warp.amount 64. Renders some 400 frames. The same call gives the same numbers.
 //
+// Uses the renderer as a call of render() does: from one thread at a time.
+//
 // Fails with usage for options out of range and where too little of the scene can be followed, and as
 // Renderer::render.
 SCUMBLE_API Result<Measurements> measure(Renderer& renderer, const Scene& scene, const Look& look,

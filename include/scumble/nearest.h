@@ -1,4 +1,4 @@
-// What was probably meant: for messages about words that nobody knows.
+// What was probably meant: for messages about words that nobody knows. From any thread.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,7 @@
 // The renderer: a frame is a pure function of scene, look, time and views. The same call gives the same
 // bytes.
+//
+// Functions here that take no renderer may be called from several threads at once.
 #pragma once
 
 #include <cstdint>
@@ -109,30 +111,37 @@ struct Frame {
 // Seconds after which every clip that a look plays has played once; 0 where none does.
 SCUMBLE_API double playedSeconds(const Scene& scene, const Look& look);
 
+// How far Renderer::prepare goes: each does what those before it do, and takes longer (docs/embedding.md).
+enum class Rehearsal {
+  tracks,  // whatever time it is: tracks are followed along their keys
+  knobs,   // whichever one knob is changed, of the whole scene or of one material or node
+  pairs    // whichever two knobs of the whole scene are changed
+};
+
 // One thread at a time uses a renderer: a call of another one meanwhile fails with usage and changes nothing,
 // and nobody destroys a renderer while a call is under way. Renderers of their own are independent.
 class SCUMBLE_API Renderer {
  public:
   static constexpr int kMaxViews = 6;
+  static constexpr double kMaxTime = 1e6;  // seconds, either way: a float still tells hundredths apart
 
   static Result<std::unique_ptr<Renderer>> create(const RendererOptions& options = {});
   ~Renderer();
   Renderer(const Renderer&) = delete;
   Renderer& operator=(const Renderer&) = delete;
 
-  // Renders one frame: `time` in seconds (up to a million), one view, two (left, right) or up to kMaxViews,
+  // Renders one frame: `time` in seconds (below kMaxTime), one view, two (left, right) or up to kMaxViews,
   // each of its own size where it has one. Clips play as the look says. Uploads the scene at its first use.
   // Fails with usage for options out of range, noUsableGpu when the device is lost or out of memory.
   Result<Frame> render(const Scene& scene, const Look& look, double time, const std::vector<View>& views,
                        const RenderOptions& options);
 
-  // Uploads a scene, makes images, and compiles all pipelines that frames with these views and options need,
-  // so that none is compiled while they run: whatever time it is (tracks are followed along their keys), and
-  // with `everyKnob`, which takes seconds more, whichever one knob of the whole scene is changed as well. For
-  // other sizes, numbers of views, samples and AOVs call it for each; images of the last call's size stay.
-  // Fails as render() does.
+  // Uploads a scene, makes images, and compiles the pipelines that frames with these views and options need,
+  // so that none is compiled while they run (FrameStats::pipelines), as far as they are rehearsed. For other
+  // sizes, numbers of views, samples and AOVs call it for each; images of the last call's size stay. Fails as
+  // render() does.
   Status prepare(const Scene& scene, const Look& look, const std::vector<View>& views,
-                 const RenderOptions& options, bool everyKnob = false);
+                 const RenderOptions& options, Rehearsal extent = Rehearsal::tracks);
 
   // The same in two halves, for films: begin() returns while the device still draws, finish() waits for the
   // oldest frame that was begun and gives it. With kMaxBegun frames begun the device always has work. After a

@@ -1,5 +1,6 @@
 // Errors as values. Nothing in libscumble throws across its public face: whatever a user gave us and
-// that cannot be used comes back as an Error that says where it is, what is wrong and what to do.
+// that cannot be used comes back as an Error that says where it is, what is wrong and what to do. Results are
+// values: each thread has its own.
 #pragma once
 
 #include <string>

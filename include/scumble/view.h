@@ -1,4 +1,5 @@
 // Views: from where a frame is seen. Mono is one view, a headset is two; both go through the same code.
+// Functions here keep nothing between calls; several threads may call them at once.
 #pragma once
 
 #include <glm/glm.hpp>

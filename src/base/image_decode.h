@@ -9,8 +9,6 @@
 
 namespace scumble {
 
-constexpr uint32_t kMaxImageSide = 16384;
-
 // Width and height as the header claims them; false when the bytes are no picture that we can read, and
 // `problem` says why. Cheap, and the place where absurd claims are refused before anything is allocated.
 bool readImageSize(Bytes bytes, uint32_t& width, uint32_t& height, std::string& problem);

@@ -6,6 +6,9 @@
 
 namespace scumble {
 
+// Most pixels a side of any picture, texture or frame.
+constexpr uint32_t kMaxImageSide = 16384;
+
 struct Pixels {
   uint32_t width = 0, height = 0;
   std::vector<uint8_t> rgba;  // 4 bytes a pixel, row 0 at the top; sRGB-encoded colour, straight alpha

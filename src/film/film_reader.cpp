@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "base/file_bytes.h"
+#include "base/pixels.h"
 #include "base/srgb.h"
 #include "film/child_process.h"
 #include "film/ffmpeg.h"
@@ -22,7 +23,6 @@ namespace {
 
 using film::ChildProcess;
 
-constexpr uint32_t kLargestPicture = 16384;
 constexpr double kRounding = 1e-3;   // seconds that containers are off
 constexpr size_t kReadOn = 200;      // pictures that are read and dropped rather than starting anew
 constexpr double kUnknownRate = 25;  // frames a second, where a film says nothing about time
@@ -101,6 +101,7 @@ Error FilmReader::State::notRead(const ChildProcess& program, const std::string&
 }
 
 Status FilmReader::State::probe() {
+  // Ask ffprobe.
   FileBytes bytes;
   std::string problem;
   if (!bytes.open(path, problem)) return unusable(problem, "check the name");
@@ -143,6 +144,7 @@ Status FilmReader::State::probe() {
   }
   if (!isStream || times.empty())
     return unusable("has no pictures", "give a film, or a picture (.png, .jpg, .webp)");
+  // When each is shown, from the first on.
   if (areKnown) {
     std::sort(times.begin(), times.end());
     // Packets that are never shown, as VP8 has them, have the time of the next picture.
@@ -179,7 +181,7 @@ Result<FilmReader::State::Picture> FilmReader::State::readNext() {
   if (words < 4) return Picture();
   unsigned width = 0, height = 0;
   if (std::sscanf(header.c_str(), "P6 %u %u 255", &width, &height) != 2 || width == 0 || height == 0 ||
-      width > kLargestPicture || height > kLargestPicture)
+      width > kMaxImageSide || height > kMaxImageSide)
     return unusable("is no film that can be shown: its pictures have no usable size", "use another film");
   std::vector<uint8_t> codes(size_t(width) * height * 3);
   if (ffmpeg->receive(codes.data(), codes.size()) < codes.size()) return Picture();

@@ -16,8 +16,6 @@ using film::unusable;
 
 namespace {
 
-constexpr uint32_t kMostSide = 16384;  // as renderers draw
-
 // Numbers of a TIFF block, in its byte order; 0 beyond its end.
 struct Tiff {
   Bytes bytes;
@@ -77,7 +75,7 @@ Image upright(const Pixels& pixels, uint32_t orientation) {
 }
 
 Error tooLarge(const std::string& path) {
-  return unusable(path, "has more than " + std::to_string(kMostSide) + " pixels a side",
+  return unusable(path, "has more than " + std::to_string(kMaxImageSide) + " pixels a side",
                   "use a smaller picture");
 }
 
@@ -92,13 +90,13 @@ Result<Image> readPicture(const std::string& path) {
     // Sixteen bits a channel stay what they are.
     if (bytes.size() >= 4 && std::memcmp(bytes.data(), "\x89PNG", 4) == 0) {
       Result<Image> png = readPng(path);
-      if (png && std::max(png->width, png->height) > kMostSide) return tooLarge(path);
+      if (png && std::max(png->width, png->height) > kMaxImageSide) return tooLarge(path);
       return png;
     }
     Pixels pixels;
     if (!readImageSize(bytes, pixels.width, pixels.height, problem))
       return unusable(path, "is no usable picture: " + problem, "give a PNG, a JPEG or a WebP");
-    if (std::max(pixels.width, pixels.height) > kMostSide) return tooLarge(path);
+    if (std::max(pixels.width, pixels.height) > kMaxImageSide) return tooLarge(path);
     if (uint64_t(pixels.width) * pixels.height > kMostPixels)
       return unusable(path, "has more pixels than this program accepts", "use a smaller picture");
     // Some are shown in spite of their damage, with what is wrong with them.

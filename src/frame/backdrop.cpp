@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "shading/luminance.shared.h"
+
 namespace scumble::frame {
 
 namespace {
@@ -78,7 +80,7 @@ void Backdrop::convert(const Image& picture, uint16_t* texels) const {
           sum += glm::vec3(in[0], in[1], in[2]) * (channels == 4 ? in[3] : 1.0f);
       }
       sum *= part;
-      const float luminance = glm::dot(sum, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+      const float luminance = glm::dot(sum, shared::kLuminance);
       for (int c = 0; c < 3; ++c) texels[c] = halfOf(sum[c]);
       texels[3] = halfOf(luminance * luminance);
     }

@@ -74,6 +74,7 @@ bool GeometryStep::includes(const Draw& draw) const {
 void GeometryStep::makePipelines() {
   const SceneOnGpu& scene = *scene_;
   drawsVersion_ = scene.drawsVersion();
+  // A pipeline for each variant that there is.
   for (const Draw& draw : scene.draws()) {
     if (!includes(draw)) continue;
     const Variant of = variant(draw);
@@ -115,6 +116,7 @@ void GeometryStep::makePipelines() {
     made = gpu::Pipeline(*device_, pipeline);
   }
 
+  // And which of them each draw has.
   std::map<Variant, Chosen> byVariant;
   for (const auto& [of, pipeline] : pipelines_) byVariant[of] = {&pipeline, uint32_t(byVariant.size())};
   chosen_.assign(scene.draws().size(), {});
@@ -126,11 +128,13 @@ void GeometryStep::makePipelines() {
 void GeometryStep::draw(VkCommandBuffer commands, const gpu::DescriptorSets* passSets,
                         uint32_t firstView) const {
   const SceneOnGpu& scene = *scene_;
+  // What all draws read.
   const VkBuffer buffers[] = {scene.geometry().finalCore().handle(), scene.geometry().finalFrame().handle(),
                               scene.geometry().surface().handle(), scene.previousPositions().handle()};
   const VkDeviceSize offsets[] = {0, 0, 0, 0};
   vkCmdBindVertexBuffers(commands, 0, uint32_t(std::size(buffers)), buffers, offsets);
 
+  // In which order.
   std::vector<const Draw*> order;
   for (const Draw& draw : scene.draws())
     if (includes(draw) && (draw.visible || desc_.what == GeometryStepDesc::What::casters))
@@ -147,6 +151,7 @@ void GeometryStep::draw(VkCommandBuffer commands, const gpu::DescriptorSets* pas
     return a->distance < b->distance;
   });
 
+  // Draws, with what changes from one to the next.
   const gpu::Pipeline* bound = nullptr;
   VkBuffer boundIndices = VK_NULL_HANDLE;
   uint32_t boundMaterial = ~0u;

@@ -17,8 +17,7 @@ std::vector<gpu::Handle> ImageStep::declare(FrameBuilder& frame, const std::stri
   constants_ = std::move(constants);
   textureCount_ = textureCount;
   maxJobs_ = maxJobs;
-  // No device wants uniforms at larger steps than this.
-  uniformStride_ = (std::max<uint64_t>(uniformBytes, 16) + 255) / 256 * 256;
+  uniformStride_ = gpu::uniformStride(std::max<uint64_t>(uniformBytes, 1));
   configuration_ = frame.configuration();
   compute_ = configuration_.computeImagePasses;
   frame.step(name, [this](VkCommandBuffer commands) { record(commands); });

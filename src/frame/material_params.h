@@ -9,8 +9,7 @@ namespace scumble::frame {
 template <class Block>
 class MaterialBlocks {
  public:
-  // No device wants dynamic offsets at larger steps than this.
-  static constexpr uint32_t kStride = (sizeof(Block) + 255) / 256 * 256;
+  static constexpr uint32_t kStride = uint32_t(gpu::uniformStride(sizeof(Block)));
 
   void create(FrameBuilder& frame) { slice_ = frame.uniform(frame.scene().materialCount() * kStride); }
   void bind(gpu::DescriptorSets& sets, uint32_t binding, size_t set = 0) const {

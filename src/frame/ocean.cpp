@@ -134,6 +134,7 @@ OceanWaves::OceanWaves(gpu::Device& device, const scene::SceneData& scene, const
 
 void OceanWaves::pose(const look::LookData& look, double time, const Travelled& travelled,
                       const OceanWaves* now) {
+  // The waves.
   const OceanParams params = look.get<OceanParams>();
   ocean::Spectrum spectrum;
   spectrum.grid = shape_.grid, spectrum.tile = double(shape_.tile);
@@ -147,6 +148,7 @@ void OceanWaves::pose(const look::LookData& look, double time, const Travelled& 
   waves_->at(time, field_);
   const float deviation = float(std::sqrt(waves_->variance()));
 
+  // Where the mesh lies on the water, which slides through it.
   floating_ = floatingNodes(*scene_, look, shape_.node);
   travelled_ = travelled(time);
   const double cell = double(shape_.cell());
@@ -154,6 +156,7 @@ void OceanWaves::pose(const look::LookData& look, double time, const Travelled& 
   within_ = travelled_ - cells_ * cell;
   slid_ = now ? now->travelled_ - travelled_ : glm::dvec2(0.0);
 
+  // What shaders know of that.
   auto* header = buffer_.as<shared::OceanField>();
   *header = {};
   const auto wrapped = [&](double index) {
@@ -170,6 +173,7 @@ void OceanWaves::pose(const look::LookData& look, double time, const Travelled& 
   header->relief = std::hypot(deviation, 0.1f);  // calm water has few colours
   header->within = within_;
   header->push = 0.2f + 0.5f * deviation;
+  // Decorations.
   if (now) {
     decorations_ = now->decorations_;
     for (shared::WaterDecoration& one : decorations_) {
@@ -183,6 +187,7 @@ void OceanWaves::pose(const look::LookData& look, double time, const Travelled& 
   header->decorationCount = int(decorations_.size());
   std::copy(decorations_.begin(), decorations_.end(), header->decorations);
 
+  // The points.
   auto* points = reinterpret_cast<shared::OceanPoint*>(buffer_.contents() + sizeof(shared::OceanField));
   reach_ = glm::vec3(0.0f);
   for (size_t i = 0; i < field_.displacement.size(); ++i) {

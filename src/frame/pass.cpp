@@ -6,7 +6,6 @@
 namespace scumble::frame {
 
 UniformSlice UniformMemory::slice(uint64_t bytes) {
-  constexpr uint64_t kAlignment = 256;  // no device asks for more
   constexpr uint64_t kBlock = 64 << 10;
   bytes = std::max<uint64_t>(bytes, 1);
   if (blocks_.empty() || used_ + bytes > blocks_.back().size()) {
@@ -16,7 +15,7 @@ UniformSlice UniformMemory::slice(uint64_t bytes) {
   }
   gpu::PerFrameBuffer& block = blocks_.back();
   const UniformSlice slice{block.handle(), used_, bytes, block.contents() + used_};
-  used_ += (bytes + kAlignment - 1) / kAlignment * kAlignment;
+  used_ += gpu::uniformStride(bytes);
   return slice;
 }
 

@@ -39,8 +39,7 @@ VkSamplerAddressMode addressMode(scene::Wrap wrap) {
 // Of the sets of colours, in material.glsl.
 constexpr uint32_t kLitBinding = 3, kShadowedBinding = 4;
 
-// From one material's data to the next: no device wants uniforms at larger steps than 256.
-constexpr uint64_t kMaterialStride = (sizeof(shared::MaterialData) + 255) / 256 * 256;
+constexpr uint64_t kMaterialStride = gpu::uniformStride(sizeof(shared::MaterialData));
 
 gpu::Buffer positionBuffer(gpu::Device& device, uint64_t count) {
   return gpu::Buffer(device, count * sizeof(glm::vec3),
@@ -152,6 +151,7 @@ const scene::Material& SceneOnGpu::material(size_t material) const {
 }
 
 void SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>& settle) {
+  // Objects: all items.
   std::vector<Draw> draws;
   objects_.clear();
   moving_.clear();
@@ -192,6 +192,7 @@ void SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>
 
     for (const float scale : primitive.warpScales)
       warpScaleOf_[item.material] = std::max(warpScaleOf_[item.material], scale);
+    // Draws: those that are shown.
     if (!item.shown) continue;
     Draw draw;
     draw.firstIndex = place.firstIndex;
@@ -211,10 +212,12 @@ void SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>
     draws.push_back(draw);
     triangleCount_ += draw.indexCount / 3;
   }
+  // What is transparent is sorted.
   transparent_.update(device_, std::move(blended), settle);
   for (Draw& draw : draws)
     if (draw.alpha == AlphaMode::blend) draw.firstIndex = transparent_.firstIndex(draw.object);
 
+  // Whether that takes other pipelines.
   const auto wantSamePipelines = [](const Draw& a, const Draw& b) {
     return a.alpha == b.alpha && a.material == b.material && a.varied == b.varied &&
            a.textured == b.textured && a.casts == b.casts;
@@ -367,8 +370,8 @@ void SceneOnGpu::measureColors(const Geometry& geometry) {
     const glm::mat3 linear(item.model);
     glm::vec3 root = glm::sqrt(glm::clamp(glm::vec3(material.baseColor), 0.0f, 1.0f));
     if (material.baseColorTexture.image >= 0) root *= textures_.meanRootRgb(material.baseColorTexture.image);
-    if (part.primitive != &primitive || part.linear != linear || part.root != root) {
-      part = {&primitive, linear, root};
+    if (part.primitive != &primitive || part.linear != linear) {
+      part = {&primitive, linear};
       const size_t triangles = primitive.indices.size() / 3,
                    step = std::max<size_t>(1, triangles / kTriangles);
       for (size_t t = 0; t < triangles; t += step) {
@@ -378,13 +381,12 @@ void SceneOnGpu::measureColors(const Geometry& geometry) {
                        glm::dvec3(linear * (primitive.positions[v[2]] - primitive.positions[v[0]])));
         const double area = glm::length(normal) * double(step);
         if (!std::isfinite(area)) continue;
-        glm::vec3 c = root;
-        if (!primitive.colors.empty()) c *= glm::sqrt(glm::vec3(primitive.colors[v[0]]) / 255.0f);
-        part.sum += area * glm::dvec3(c);
+        part.sum += primitive.colors.empty() ? glm::dvec3(area)
+                                             : area * glm::sqrt(glm::dvec3(primitive.colors[v[0]]) / 255.0);
         part.area += area;
       }
     }
-    sum += part.sum;
+    sum += part.sum * glm::dvec3(root);
     total += part.area;
   }
   colors_ = {};

@@ -167,11 +167,10 @@ class SceneOnGpu {
 
   // Of a material's textures: which image, and how it is read.
   using TextureBindings = std::array<std::pair<int, gpu::SamplerDesc>, 2>;
-  // What an item adds to the scene's mean colour.
+  // An item's part of the scene's surface, and of its vertices' colours there.
   struct ColorPart {
     const scene::Primitive* primitive = nullptr;
     glm::mat3 linear{0.0f};
-    glm::vec3 root{0.0f};
     glm::dvec3 sum{0.0};
     double area = 0;
   };

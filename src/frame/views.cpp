@@ -8,6 +8,7 @@
 #include "frame/playing.h"
 #include "scene/find_node.h"
 #include "scene/posed_bounds.h"
+#include "scene/prepare_mesh.h"
 #include "scumble/view.h"
 
 namespace scumble {
@@ -42,7 +43,7 @@ Error badViewpoint(std::string problem, std::string advice) {
 }
 
 // Turns and places beyond which floats tell neighbouring ones no longer apart.
-constexpr float kMostDegrees = 36000, kMostRadii = 1e6f, kMostMetres = 1e15f, kMostIpd = 1e6f;
+constexpr float kMostDegrees = 36000, kMostRadii = 1e6f, kMostMetres = scene::kMaxCoordinate, kMostIpd = 1e6f;
 
 Status checkRanges(const Viewpoint& viewpoint, float ipd) {
   const auto isBeyond = [](float number, float most) { return !(std::abs(number) <= most); };

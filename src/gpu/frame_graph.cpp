@@ -301,6 +301,7 @@ const char* nameOf(VkFormat format) {
 }  // namespace
 
 std::string FrameGraph::toDot(const Needs& needs, const ImageShape::Frame& frame) const {
+  // Names.
   const auto quoted = [](const std::string& text) {
     std::string out = "\"";
     for (const char c : text) {
@@ -316,6 +317,7 @@ std::string FrameGraph::toDot(const Needs& needs, const ImageShape::Frame& frame
     return "r" + std::to_string(handle.resource) + "v" + std::to_string(handle.version);
   };
   constexpr const char* kGrey = ", color=gray70, fontcolor=gray60";
+  // Versions of resources, each once.
   std::string steps, versions, edges;
   std::vector<std::vector<bool>> drawn;
   for (const Resource& resource : resources_) drawn.emplace_back(resource.versions + 1, false);
@@ -338,6 +340,7 @@ std::string FrameGraph::toDot(const Needs& needs, const ImageShape::Frame& frame
                 ", shape=" + (resource.isImage ? "ellipse" : "cylinder") +
                 (resource.isImported ? ", style=bold" : "") + (isNeeded ? "" : kGrey) + "];\n";
   };
+  // Steps, with what they read and write.
   for (size_t s = 0; s < steps_.size(); ++s) {
     const std::string node = "s" + std::to_string(s);
     const char* const color = needs.steps[s] ? "" : kGrey;

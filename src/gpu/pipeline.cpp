@@ -212,6 +212,7 @@ void make(Device& device, const GraphicsPipelineDesc& desc, PipelineStore::Made&
   depth.depthTestEnable = desc.depthFormat != VK_FORMAT_UNDEFINED;
   depth.depthWriteEnable = depth.depthTestEnable && desc.depthWrite;
   depth.depthCompareOp = desc.depthCompare;
+  // What it draws into.
   VkPipelineColorBlendAttachmentState target{};
   target.colorWriteMask = 0xF;
   if (desc.blend == Blend::over) {
@@ -237,6 +238,7 @@ void make(Device& device, const GraphicsPipelineDesc& desc, PipelineStore::Made&
   rendering.pColorAttachmentFormats = desc.colorFormats.data();
   rendering.depthAttachmentFormat = desc.depthFormat;
 
+  // All of it.
   VkGraphicsPipelineCreateInfo info{VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, &rendering};
   info.stageCount = uint32_t(stages.size());
   info.pStages = stages.data();

@@ -11,6 +11,12 @@
 
 namespace scumble::gpu {
 
+// Where a uniform may begin in a buffer, also by a dynamic offset: no device wants larger steps than this.
+constexpr uint64_t kUniformAlignment = 256;
+constexpr uint64_t uniformStride(uint64_t bytes) {
+  return (bytes + kUniformAlignment - 1) / kUniformAlignment * kUniformAlignment;
+}
+
 class Buffer {
  public:
   Buffer() = default;

@@ -53,6 +53,7 @@ bool isRight(const ProbePicture& picture) {
 }
 
 ProbePicture drawProbe(Device& device, ViewDrawing drawing, uint32_t samples) {
+  // A pipeline that draws a triangle over everything.
   const Views views{kProbeLayers, drawing};
   GraphicsPipelineDesc desc;
   desc.vertex = {shaders::view_probe_vert}, desc.fragment = {shaders::view_probe_frag};
@@ -87,6 +88,7 @@ ProbePicture drawProbe(Device& device, ViewDrawing drawing, uint32_t samples) {
                    [&](uint32_t resource) { return images.imageOf(resource); });
   };
 
+  // Draw, and read back.
   constexpr size_t kLayerBytes = size_t(kSize) * kSize * 4;
   const Buffer readback(device, 3 * kProbeLayers * kLayerBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                         MemoryKind::readback);
@@ -117,6 +119,7 @@ ProbePicture drawProbe(Device& device, ViewDrawing drawing, uint32_t samples) {
     recordBarriersOf(commands, 2);
   });
 
+  // Both colours and the depth, layer by layer.
   ProbePicture picture;
   const std::byte* at = readback.mapped();
   const auto reds = [&](std::vector<uint8_t>& out) {

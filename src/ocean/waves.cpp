@@ -88,6 +88,7 @@ void Waves::transform(const std::vector<glm::vec2>& heights, Factors&& factors, 
 }
 
 void Waves::at(double seconds, WaveField& out) const {
+  // Calm water, to begin with.
   const size_t grid = size_t(spectrum_.grid);
   out.grid = spectrum_.grid;
   out.tile = spectrum_.tile;
@@ -151,6 +152,7 @@ void Waves::at(double seconds, WaveField& out) const {
           out.greatestShift = glm::max(out.greatestShift, shift);
         }
       });
+  // Normals of the displaced surface, and by how much it is stretched (eq. 29 differentiated).
   transform(
       heights, [&](const Pair& p) { return -choppiness * p.inverseLength * p.k * p.k; },
       [&](size_t z, const kiss_fft_cpx* row) {

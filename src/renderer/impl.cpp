@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <set>
 
 #include "frame/framing.h"
 #include "frame/light.h"
@@ -24,9 +23,7 @@ double millisecondsSince(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-constexpr uint32_t kMaxSize = 16384;
 static_assert(Renderer::kMaxBegun <= int(gpu::kFramesInFlight), "each frame begun has copies of its own");
-constexpr double kMaxTime = 1e6;  // seconds; a float still tells hundredths apart
 
 bool isPicture(const Image& image) {
   const size_t channels = image.channels.size();
@@ -186,7 +183,8 @@ Status Renderer::Impl::check(const Request& request) const {
   const RenderOptions& options = request.options;
   const Delivery* const delivery = request.delivery;
   if (scene.empty()) return usage("the scene is empty", "load one with Scene::load");
-  const uint32_t largest = std::min(kMaxSize, device->limits().maxImageDimension2D);
+  // Sizes and samples.
+  const uint32_t largest = std::min(kMaxImageSide, device->limits().maxImageDimension2D);
   const auto isSize = [&](glm::uvec2 size) {
     return size.x >= 1 && size.y >= 1 && size.x <= largest && size.y <= largest;
   };
@@ -199,6 +197,7 @@ Status Renderer::Impl::check(const Request& request) const {
     return usage("the number of samples is neither 1 nor 4", "use 4");
   if (options.samples == 4 && !device->supports4Samples())
     return usage("this device has no 4 samples a pixel", "use --samples 1");
+  // Views, now and a frame before.
   if (views.empty() || views.size() > size_t(kMaxViews))
     return usage("there are " + std::to_string(views.size()) + " views",
                  "give one, a left and a right one, or up to " + std::to_string(kMaxViews));
@@ -219,6 +218,7 @@ Status Renderer::Impl::check(const Request& request) const {
       return usage("the previous scene is another one",
                    "give an earlier one of the same SceneEditor, with as many nodes");
   }
+  // Time, and the picture behind everything.
   const double previousTime = options.previousTime.value_or(time);
   if (!(std::abs(time) < kMaxTime && std::abs(previousTime) < kMaxTime))
     return usage("the time is out of range", "give it in seconds, up to a million");
@@ -245,6 +245,7 @@ Status Renderer::Impl::check(const Request& request) const {
                                                          ? "`scumble render --help` lists them"
                                                          : "did you mean '" + suggestion + "'?");
     }
+  // And only as it can be.
   for (const std::pair<const std::string, PixelFormat>& wanted : options.formats) {
     const std::string& name = wanted.first;
     if (name.empty()) continue;
@@ -457,98 +458,6 @@ Status Renderer::Impl::begin(const Request& request) {
   } catch (const std::bad_alloc&) {
     return outOfMemory();
   }
-}
-
-namespace {
-
-// Times between which tracks do not pass a key, and some in between.
-std::vector<double> timesOf(const look::LookData& look, double start) {
-  constexpr int kBetween = 8;
-  std::set<double> keys;
-  for (const look::Assignment& assignment : look.assignments)
-    if (assignment.track)
-      for (const look::Key& key : assignment.track->keys) keys.insert(key.time);
-  std::vector<double> times{start};
-  for (auto key = keys.begin(); key != keys.end(); ++key) {
-    times.push_back(*key);
-    const auto next = std::next(key);
-    for (int i = 1; next != keys.end() && i < kBetween; ++i)
-      times.push_back(*key + (*next - *key) * i / kBetween);
-  }
-  return times;
-}
-
-// Looks that differ from one in one knob of the whole scene: at its ends, off, and at all choices.
-std::vector<look::LookData> withEachKnob(const look::LookData& look) {
-  std::vector<look::LookData> looks;
-  for (const look::ParamBlock* const block : look::allBlocks()) {
-    if (!(block->targets & look::kScene)) continue;
-    for (const look::ParamRow& row : block->rows) {
-      std::set<double> values;
-      switch (row.kind) {
-        case look::ParamKind::toggle:
-          values = {0, 1};
-          break;
-        case look::ParamKind::choice:
-          for (size_t i = 0; i < look::choiceNames(row).size(); ++i) values.insert(double(i));
-          break;
-        case look::ParamKind::integer:
-          if (row.max - row.min <= 64)
-            for (double value = row.min; value <= row.max; ++value) values.insert(value);
-          else
-            values = {row.min, row.defaultValue, row.max};
-          break;
-        case look::ParamKind::number:
-          values = {row.min, std::clamp(0.0, row.min, row.max), row.defaultValue, 0.5 * (row.min + row.max),
-                    row.max};
-          break;
-        default:
-          break;
-      }
-      for (const double value : values) {
-        look::LookData& changed = looks.emplace_back(look);
-        look::Assignment assignment{};
-        assignment.block = block, assignment.row = &row;
-        assignment.value.number = value;
-        assignment.byHand = true;
-        changed.assignments.push_back(assignment);
-      }
-    }
-  }
-  return looks;
-}
-
-}  // namespace
-
-Status Renderer::Impl::prepare(const Request& request, bool everyKnob) {
-  Request rehearsal = request;
-  rehearsal.isRehearsal = true;
-  const std::vector<double> times = timesOf(request.look, request.time);
-  std::vector<look::LookData> looks;
-  if (everyKnob) looks = withEachKnob(request.look);
-  double done = 0;
-  const auto next = [&](Request& frame) {
-    const double all = double(times.size() + looks.size() + 1);
-    frame.progressFrom = done / all;
-    frame.progressTo = ++done / all;
-  };
-  for (const double time : times) {
-    next(rehearsal);
-    if (std::abs(time) >= kMaxTime) continue;
-    rehearsal.time = time;
-    if (Status status = begin(rehearsal); !status) return status;
-  }
-  const OceanShape ocean = oceanShape(request.scene.data(), request.look.at(request.time));
-  for (const look::LookData& look : looks) {
-    Request changed{request.scene, look, request.time, request.views, request.options, nullptr, true};
-    next(changed);
-    // Where there is another sea, or none any more, it is another scene.
-    if (oceanShape(request.scene.data(), look.at(request.time)).isThere != ocean.isThere) continue;
-    if (Status status = begin(changed); !status) return status;
-  }
-  rehearsal.time = request.time;
-  next(rehearsal);
-  return begin(rehearsal);
 }
 
 void Renderer::Impl::latch(const Request& request, const SceneMotion& motion, const Begun& frame) {

@@ -89,7 +89,8 @@ struct Renderer::Impl {
   std::optional<frame::Backdrop> backdrop;
   renderer::ColorMaps colorMaps;
   std::optional<gpu::Submission> submissions[gpu::kFramesInFlight];
-  std::deque<renderer::Begun> begun;  // the oldest first
+  std::deque<renderer::Begun> begun;         // the oldest first
+  std::vector<look::Assignment> structural;  // settings that prepare() has seen to take other pipelines
 
   Impl(std::unique_ptr<gpu::Device> device, const RendererOptions& options);
   ~Impl();
@@ -97,7 +98,7 @@ struct Renderer::Impl {
   // Nothing where a request can be drawn.
   Status check(const renderer::Request& request) const;
   Status begin(const renderer::Request& request);
-  Status prepare(const renderer::Request& request, bool everyKnob);
+  Status prepare(const renderer::Request& request, Rehearsal extent);
   // Waits for a frame and fetches its pictures, unless that has been done.
   void fetch(renderer::Begun& frame);
   // Before anything goes that frames under way use.

@@ -59,12 +59,12 @@ Status Renderer::begin(const Scene& scene, const Look& look, double time, const 
 }
 
 Status Renderer::prepare(const Scene& scene, const Look& look, const std::vector<View>& views,
-                         const RenderOptions& options, bool everyKnob) {
+                         const RenderOptions& options, Rehearsal extent) {
   const Turn turn(*impl_);
   if (!turn) return turn.refusal();
   if (!impl_->begun.empty())
     return usage("other frames have been begun", "call finish() until all are finished");
-  return impl_->prepare({scene, look.data(), 0, views, options}, everyKnob);
+  return impl_->prepare({scene, look.data(), 0, views, options}, extent);
 }
 
 Result<Frame> Renderer::finish() {

@@ -10,6 +10,7 @@
 #include "passes/surface/surface.h"
 #include "passes/warp/warp.h"
 #include "renderer/view_groups.h"
+#include "shading/luminance.shared.h"
 
 namespace scumble::renderer {
 
@@ -207,7 +208,7 @@ shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const l
   data.constantLit = glm::sqrt(constantLit + material.emissive);
   data.constantShadowedDown = glm::sqrt(dark * down * down + material.emissive);
   data.constantShadowedUp = glm::sqrt(dark * up * up + material.emissive);
-  data.constantLens = glm::dot(material.emissive, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+  data.constantLens = glm::dot(material.emissive, shared::kLuminance);
   return data;
 }
 

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "scene/gltf_import.h"
+#include "scene/prepare_mesh.h"
 
 namespace scumble::scene {
 
@@ -29,7 +30,8 @@ void cleanKeys(Channel& channel, size_t perKey, const std::string& path, ImportW
   bool broken = false, unsorted = false;
   for (size_t i = 0; i < count; ++i) {
     bool finite = std::abs(channel.times[i]) < 1e9f;
-    for (size_t k = 0; k < perKey && finite; ++k) finite = std::abs(channel.values[i * perKey + k]) < 1e15f;
+    for (size_t k = 0; k < perKey && finite; ++k)
+      finite = std::abs(channel.values[i * perKey + k]) < kMaxCoordinate;
     if (finite) order.push_back(static_cast<uint32_t>(i));
     broken |= !finite;
   }
@@ -98,6 +100,7 @@ bool propertyOf(const std::string& path, AnimatedProperty& property) {
 // False when the channel moves nothing in this scene.
 bool readChannel(const GltfImport& import, const GltfMaps& maps, const SceneData& scene, const JsonView& json,
                  const JsonView& samplers, Channel& channel) {
+  // What it moves.
   const JsonView target = json.object("target");
   if (!target) json.failAt("target", "is missing");
   const int64_t node = target.index("node", maps.nodes.size(), "node");
@@ -107,6 +110,7 @@ bool readChannel(const GltfImport& import, const GltfMaps& maps, const SceneData
     target.failAt("node", "names a node whose matrix is no composition of translation, rotation and scale");
   if (!propertyOf(target.text("path"), channel.property)) target.failAt("path", "is not a known property");
 
+  // When, and how it goes from key to key.
   const JsonView sampler =
       samplers.at(static_cast<size_t>(json.requiredIndex("sampler", samplers.size(), "sampler")));
   const std::string interpolation = sampler.text("interpolation", "LINEAR");
@@ -123,6 +127,7 @@ bool readChannel(const GltfImport& import, const GltfMaps& maps, const SceneData
   const Accessor output = import.accessors.open(sampler.requiredIndex("output", accessors, "accessor"));
   if (channel.times.empty()) sampler.failAt("input", "holds no times");
 
+  // As many values as the keys ask for.
   const size_t tangents = channel.interpolation == Interpolation::cubicSpline ? 3 : 1;
   const bool weights = channel.property == AnimatedProperty::weights;
   const int shape = weights ? 1 : channel.property == AnimatedProperty::rotation ? 4 : 3;
@@ -139,6 +144,7 @@ bool readChannel(const GltfImport& import, const GltfMaps& maps, const SceneData
   if (output.count != elements)
     sampler.failAt("output", "holds " + std::to_string(output.count) + " elements where the times ask for " +
                                  std::to_string(elements));
+  // The values.
   import.budget.takeBytes(elements * shape * 4, output.path);
   channel.values.resize(elements * shape);
   readFloats(output, {}, shape, channel.values.data());

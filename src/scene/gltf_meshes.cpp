@@ -33,6 +33,7 @@ void readMorphWeights(const JsonView& json, Mesh& mesh, ImportWarnings& warnings
 }  // namespace
 
 void readMeshes(const GltfImport& import, const GltfMaps& maps, SceneData& scene) {
+  // What there is to read.
   const JsonView list = import.document.list("meshes");
   struct Task {
     size_t mesh, primitive;
@@ -51,6 +52,7 @@ void readMeshes(const GltfImport& import, const GltfMaps& maps, SceneData& scene
     for (size_t k = 0; k < primitives.size(); ++k) tasks.push_back({index, k, primitives.at(k), {}});
   }
 
+  // Triangles, whole ones.
   import.progress.expect(tasks.size(), 0.4);
   parallelFor(tasks.size(), import.threads, [&](size_t i) {
     Task& task = tasks[i];
@@ -61,6 +63,7 @@ void readMeshes(const GltfImport& import, const GltfMaps& maps, SceneData& scene
   });
   for (const Task& task : tasks) import.warnings.merge(task.warnings);
 
+  // Meshes as wholes.
   std::vector<float> radii(scene.meshes.size());
   parallelFor(scene.meshes.size(), import.threads, [&](size_t i) {
     Mesh& mesh = scene.meshes[i].own();
@@ -74,6 +77,7 @@ void readMeshes(const GltfImport& import, const GltfMaps& maps, SceneData& scene
     if (!node.morphWeights.empty())
       node.morphWeights.resize(scene.meshes[node.mesh]->morphWeights.size(), 0.0f);
 
+  // And all that is found from whole meshes.
   std::vector<std::pair<size_t, size_t>> finishing;
   for (size_t i = 0; i < scene.meshes.size(); ++i)
     for (size_t k = 0; k < scene.meshes[i]->primitives.size(); ++k) finishing.emplace_back(i, k);

@@ -243,6 +243,7 @@ void readExtras(const JsonView& json, Node& node, ImportWarnings& warnings) {
 }  // namespace
 
 void readNodes(const GltfImport& import, int wantedScene, SceneData& scene, GltfMaps& maps) {
+  // Which nodes, and in which order.
   const JsonView list = import.document.list("nodes");
   const std::vector<int> parents = findParents(list);
   std::vector<size_t> order;
@@ -261,6 +262,7 @@ void readNodes(const GltfImport& import, int wantedScene, SceneData& scene, Gltf
       visit(children.indexAt(k, list.size(), "node"), static_cast<int>(at));
   }
 
+  // What they carry.
   const JsonView lights = import.document.root().extension("KHR_lights_punctual");
   maps.meshes.assign(import.document.list("meshes").size(), -1);
   maps.cameras.assign(import.document.list("cameras").size(), -1);
@@ -299,6 +301,7 @@ void readNodes(const GltfImport& import, int wantedScene, SceneData& scene, Gltf
     if (node.light >= 0) maps.lights[node.light] = 0;
     if (node.skin >= 0) maps.skins[node.skin] = 0;
   }
+  // Meshes in use are numbered anew; cameras, lights and skins when they are read.
   scene.meshes.resize(static_cast<size_t>(numberMarked(maps.meshes)));
   for (Node& node : scene.nodes)
     if (node.mesh >= 0) node.mesh = maps.meshes[node.mesh];

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "scene/gltf_draco.h"
+#include "scene/prepare_mesh.h"
 
 namespace scumble::scene {
 
@@ -247,7 +248,7 @@ class AttributeReader {
         std::vector<glm::vec3> values = vectors<glm::vec3>(accessor);
         for (glm::vec3& v : values)
           for (int c = 0; c < 3; ++c)
-            if (!(std::abs(v[c]) < 1e15f)) v[c] = 0.0f, broken = true;
+            if (!(std::abs(v[c]) < kMaxCoordinate)) v[c] = 0.0f, broken = true;
         return values;
       };
       import_.budget.takeBytes(count() * 4 * sizeof(glm::vec3), target.path());  // what preparation adds

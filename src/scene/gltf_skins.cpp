@@ -3,6 +3,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "scene/gltf_import.h"
+#include "scene/prepare_mesh.h"
 
 namespace scumble::scene {
 
@@ -30,7 +31,7 @@ Skin readSkin(const GltfImport& import, const GltfMaps& maps, const JsonView& js
   readFloats(accessor, {}, 16, glm::value_ptr(matrices[0]));
   for (size_t i = 0; i < joints.size(); ++i) {
     for (int k = 0; k < 16; ++k)
-      if (!(std::abs(glm::value_ptr(matrices[i])[k]) <= 1e15f))
+      if (!(std::abs(glm::value_ptr(matrices[i])[k]) <= kMaxCoordinate))
         json.failAt("inverseBindMatrices", "holds a number that is not finite");
     skin.inverseBindMatrices[i] = matrices[i];
   }

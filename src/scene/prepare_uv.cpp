@@ -97,6 +97,7 @@ std::vector<uint32_t> samePlaces(const Primitive& p, float scale, const std::vec
 
 // `first`: as samePlaces() has it; made here where it is empty.
 void makeTangents(Primitive& p, float scale, std::vector<uint32_t>& first) {
+  // How each triangle is mapped, and which way around its corners are on the whole.
   const size_t count = p.vertexCount();
   std::vector<Mapping> mappings;
   mappings.reserve(p.indices.size() / 3);
@@ -107,6 +108,7 @@ void makeTangents(Primitive& p, float scale, std::vector<uint32_t>& first) {
       balance[p.indices[i + k]] += mapping.mirrored ? -mapping.area : mapping.area;
   }
   if (first.empty()) first = samePlaces(p, scale, balance);
+  // Sums over the triangles at a place, by their areas.
   p.dPdu.assign(count, glm::vec3(0.0f));
   p.dPdv.assign(count, glm::vec3(0.0f));
   std::vector<float> areas(count, 0.0f);
@@ -147,6 +149,7 @@ void makeTangents(Primitive& p, float scale, std::vector<uint32_t>& first) {
       if (seamAreas[v] > 0.0f) areas[v] = seamAreas[v];
   }
 
+  // Means.
   for (size_t v = 0; v < count; ++v) {
     const float share = areas[v] > 0.0f ? 1.0f / areas[v] : 0.0f;
     p.dPdu[v] *= share;

@@ -85,6 +85,7 @@ size_t trianglesOf(const Mesh& mesh) {
 }  // namespace
 
 void placeScene(SceneData& scene, ImportWarnings& warnings) {
+  // Transformations that numbers can hold.
   const std::vector<glm::mat4> world = worldMatrices(scene);
   for (size_t i = 0; i < world.size(); ++i)
     if (!isDrawable(world[i]))
@@ -93,11 +94,13 @@ void placeScene(SceneData& scene, ImportWarnings& warnings) {
                "\" leads out of what numbers can hold",
            "check the scales in the scene");
 
+  // Boxes of meshes.
   scene.bounds = {};
   const std::vector<bool> shown = shownNodes(scene);
   std::vector<MeshBox> boxes;
   for (const Mesh& mesh : scene.meshes) boxes.push_back(measure(mesh));
 
+  // Boxes of nodes, in the world.
   std::map<std::pair<int, int>, Bounds> skinned;  // by mesh and skin: the node's place does not matter
   uint64_t drawn = 0;
   for (Node& node : scene.nodes) {

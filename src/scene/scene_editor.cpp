@@ -32,8 +32,6 @@ Error usage(std::string problem, std::string advice) {
   return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
 }
 
-constexpr uint32_t kMaxTextureSize = 16384;
-
 template <class T>
 bool isIndex(T id, size_t count) {
   return int(id) >= 0 && size_t(id) < count;
@@ -76,8 +74,8 @@ bool isAffine(const glm::mat4& m) {
 
 Image imageOf(const TextureDesc& texture) {
   const Check check("texture");
-  check.require(texture.width >= 1 && texture.height >= 1 && texture.width <= kMaxTextureSize &&
-                    texture.height <= kMaxTextureSize,
+  check.require(texture.width >= 1 && texture.height >= 1 && texture.width <= kMaxImageSide &&
+                    texture.height <= kMaxImageSide,
                 "a size of " + std::to_string(texture.width) + "x" + std::to_string(texture.height) +
                     " is out of range",
                 "use 1 to 16384 a side");

@@ -197,6 +197,7 @@ std::shared_ptr<SceneData> placeScenes(std::vector<PlacedScene>& scenes, Placeme
     nodes += 1 + scenes[i].scene.data().nodes.size();
     scales[i] = scenes[i].scale * (supports[i].scene >= 0 ? scales[size_t(supports[i].scene)] : 1.0f);
   }
+  // Not more than there may be.
   size_t clipNumbers = 0;
   for (const PlacedScene& one : scenes)
     for (const Clip& clip : one.scene.data().clips)
@@ -206,6 +207,7 @@ std::shared_ptr<SceneData> placeScenes(std::vector<PlacedScene>& scenes, Placeme
     problem = {scenes.size(), "", "the scenes have too many nodes or keys of clips together", "place fewer"};
     return nullptr;
   }
+  // One after the other, each below the node that carries it.
   all->nodes.resize(nodes);
   std::map<const SceneData*, Appended> appended;
   for (size_t i = 0; i < scenes.size(); ++i) {
@@ -240,6 +242,7 @@ std::shared_ptr<SceneData> placeScenes(std::vector<PlacedScene>& scenes, Placeme
       for (float* metres : {&all->cameras[c].halfHeight, &all->cameras[c].near, &all->cameras[c].far})
         *metres *= scales[i];
   }
+  // What the world takes up.
   if (all->materials.empty()) all->materials.resize(1);
   try {
     ImportWarnings warnings;

@@ -85,7 +85,7 @@ TEST_P(Prepare, everySizeThatWasPrepared) {
 TEST_P(Prepare, anyOneKnob) {
   NOT_WITH_SANITIZERS();
   const Look look;
-  ASSERT_TRUE(fresh->prepare(scene, look, views(), sized(kWidth, kHeight), true).ok());
+  ASSERT_TRUE(fresh->prepare(scene, look, views(), sized(kWidth, kHeight), Rehearsal::knobs).ok());
   const std::pair<const char*, const char*> settings[] = {{"limit.palette", "four-blues"},
                                                           {"final.ripple", "layered"},
                                                           {"final.ripple", "paper"},
@@ -107,6 +107,37 @@ TEST_P(Prepare, anyOneKnob) {
     EXPECT_EQ(drawn(changed, 0).stats.pipelines, 0u) << path << " = " << value;
   }
   EXPECT_GE(tried, 9u);
+  // Of one material or node as well.
+  const std::string material = scene.summary().materialNames.at(0);
+  for (const char* knob : {"texture.amount=0.3", "texture.blend=multiply", "warp.distance=0.5",
+                           "warp.metatexture.contrast=histogram", "shadow.steps=3"}) {
+    const std::string text = knob;
+    const size_t equals = text.find('=');
+    Look changed = look;
+    if (!changed.set("materials." + material + "." + text.substr(0, equals), text.substr(equals + 1)).ok())
+      continue;
+    EXPECT_EQ(drawn(changed, 0).stats.pipelines, 0u) << text;
+  }
+}
+
+// Any two of those that take other pipelines, in both orders.
+TEST_P(Prepare, anyTwoKnobs) {
+  NOT_WITH_SANITIZERS();
+  const Look look;
+  ASSERT_TRUE(fresh->prepare(scene, look, views(), sized(kWidth, kHeight), Rehearsal::pairs).ok());
+  const std::pair<const char*, KnobValue> settings[] = {
+      {"limit.palette", "four-blues"}, {"final.ripple", "layered"},
+      {"final.ripple", "paper"},       {"texture.amount", 0.3},
+      {"texture.blend", "multiply"},   {"shadow.indicationSteps", 3},
+      {"breakup.amount", 0.0},         {"warp.metatexture.contrast", "histogram"},
+      {"warp.distance", 0.5},          {"warp.metatexture.skew", "exact"}};
+  for (const auto& [first, value] : settings)
+    for (const auto& [second, other] : settings) {
+      Look changed = look;
+      ASSERT_TRUE(changed.set(first, value).ok()) << first;
+      ASSERT_TRUE(changed.set(second, other).ok()) << second;
+      EXPECT_EQ(drawn(changed, 0).stats.pipelines, 0u) << first << " and " << second;
+    }
 }
 
 TEST_P(Prepare, isRefusedWhereAFrameWouldBe) {

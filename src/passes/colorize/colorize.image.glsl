@@ -4,6 +4,7 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_quad : require
 #include "../../shading/frame.glsl"
+#include "../../shading/luminance.shared.h"
 #include "colorize.shared.h"
 #include "fog.shared.h"
 
@@ -114,7 +115,7 @@ vec3 colorized(vec3 from, int index, Sight sight, int layer) {
   if (has(kHasFalloff)) x = x / (x + rows.c.w * (1.0 - x));
   float amount = clamp(rows.b.w * x, 0.0, 1.0);
   vec3 graded = rows.b.rgb + rows.c.rgb * from;
-  if (has(kHasSaturation)) graded += rows.d.rgb * dot(from, vec3(0.2126, 0.7152, 0.0722));
+  if (has(kHasSaturation)) graded += rows.d.rgb * dot(from, kLuminance);
   graded = max(graded, 0.0);
   if (has(kHasGamma)) {
     vec3 gamma = otherRows(index).a.rgb;

@@ -24,7 +24,7 @@ vec3 pictureSimplified(vec2 uv) {
   for (int i = 0; i < 8; ++i) {
     float angle = 0.7853982 * (float(i) + 0.5);
     vec4 area = textureLod(backdrop, uv + reach * vec2(cos(angle), sin(angle)), u.backdrop.sectorLevel);
-    float luminance = dot(area.rgb, vec3(0.2126, 0.7152, 0.0722));
+    float luminance = dot(area.rgb, kLuminance);
     // Of what is dark, small differences count as much as an eye sees them.
     float variance = max(area.a - luminance * luminance, 0.0) / (luminance * luminance + 1e-3);
     float weight = 1.0 / (variance * variance + 1e-5);
@@ -93,7 +93,6 @@ vec4 overBackdrop(vec4 color, float matte, float distance, vec2 at) {
     vec3 plain = applyColorMap(u.backdrop.shadowed, root), styled = applyColorMap(u.backdrop.litShadowed, root);
     vec3 dark = mix(plain * plain, styled * styled, u.backdrop.style) * u.backdrop.shadowTint;
     // The polynomial makes the very darkest colours lighter than they are.
-    const vec3 kLuminance = vec3(0.2126, 0.7152, 0.0722);
     dark *= min(1.0, 0.75 * dot(inLight, kLuminance) / max(dot(dark, kLuminance), 1e-4));
     color.rgb += dark * matte;
   }

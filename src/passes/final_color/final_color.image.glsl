@@ -5,6 +5,7 @@
 #include "../../shading/frame.glsl"
 #include "../../shading/color_map.glsl"
 #include "../../shading/displacement.glsl"
+#include "../../shading/luminance.shared.h"
 #include "final_color.shared.h"
 
 layout(constant_id = 0) const int kGlows = 1;     // whether anything in the scene acts on the lens

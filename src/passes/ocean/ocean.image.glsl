@@ -2,6 +2,7 @@
 // The ocean's colours in light and in shadow, as square roots, for every pixel where water is nearest or lies behind.
 #extension GL_GOOGLE_include_directive : require
 #include "../../shading/frame.glsl"
+#include "../../shading/luminance.shared.h"
 #include "../../shading/metatexture.glsl"
 #include "../../shading/ocean.shared.h"
 #include "ocean.shared.h"
@@ -25,7 +26,7 @@ layout(set = 1, binding = 9) uniform sampler2D nextBathicMap;
 layout(set = 1, binding = 10) uniform sampler2D nextSkyMap;
 
 vec3 graded(vec3 color, float saturation, vec3 overlay, float amount) {
-  float gray = dot(color, vec3(0.2126, 0.7152, 0.0722));
+  float gray = dot(color, kLuminance);
   return mix(max(mix(vec3(gray), color, saturation), 0.0), overlay, amount);
 }
 

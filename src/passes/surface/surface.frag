@@ -5,6 +5,7 @@
 #include "../../shading/frame.glsl"
 #include "../../shading/color_map.glsl"
 #include "../../shading/light_space.glsl"
+#include "../../shading/luminance.shared.h"
 #include "../../shading/material.glsl"
 #define METATEXTURE_UNROLLS
 #include "../../shading/metatexture.glsl"
@@ -134,7 +135,7 @@ void main() {
     shadowed = mix(shadowed, lit, material.unlit);
     lit = sqrt(lit * lit + emissive);
     shadowed = sqrt(shadowed * shadowed + emissive);
-    lens = dot(emissive, vec3(0.2126, 0.7152, 0.0722));
+    lens = dot(emissive, kLuminance);
   }
 #endif
   if (kAlphaMode == 1 && alpha < material.alphaCutoff) discard;
