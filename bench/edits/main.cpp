@@ -85,7 +85,7 @@ int main(int argc, char** argv) try {
   std::vector<NodeId> nodes;
   const int side = int(std::ceil(std::sqrt(double(objects))));
   const auto placeOf = [&](int i) {
-    return glm::translate(glm::mat4(1.0f), {float(i % side), 0, float(i / side)});
+    return glm::translate(glm::mat4(1.0f), glm::vec3(glm::ivec3(i % side, 0, i / side)));
   };
   for (int i = 0; i < objects; ++i)
     nodes.push_back(take(editor.addNode({.transform = placeOf(i), .mesh = meshes[size_t(i % 100)]})));

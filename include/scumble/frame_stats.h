@@ -1,4 +1,5 @@
-// What a frame took, as a value of its own. Times are in milliseconds; those of the GPU are its own, from timestamps.
+// What a frame took, as a value of its own. Times are in milliseconds; those of the GPU are its own, from
+// timestamps.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +23,8 @@ struct FrameStats {
   // That were compiled for this frame: 0 once they are there, see Renderer::prepare().
   uint32_t pipelines = 0;
   // What of the scene was written to the device for this frame, since it was not there or is another one now:
-  // parts of meshes, textures, materials' links to textures. 0 once they are there, whatever moves.
+  // parts of meshes, textures, materials' links to textures. Without changes of the scene 0 once they are
+  // there, whatever moves.
   uint32_t writtenPrimitives = 0, writtenTextures = 0, writtenMaterials = 0;
   uint64_t triangles = 0, drawCalls = 0;
   uint64_t deviceBytes = 0, uploadedBytes = 0;

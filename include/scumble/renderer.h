@@ -115,7 +115,8 @@ SCUMBLE_API double playedSeconds(const Scene& scene, const Look& look);
 enum class Rehearsal {
   tracks,  // whatever time it is: tracks are followed along their keys
   knobs,   // whichever one knob is changed, of the whole scene or of one material or node
-  pairs    // whichever two knobs of the whole scene are changed
+  pairs    // whichever two knobs of the whole scene are changed; on a renderer that has drawn nothing yet,
+           // since those to be paired are known by what they compile
 };
 
 // One thread at a time uses a renderer: a call of another one meanwhile fails with usage and changes nothing,

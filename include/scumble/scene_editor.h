@@ -10,7 +10,9 @@
 // Scenes stay what they are: scene() gives the present one, which shares with those before it what did not
 // change. A renderer that has drawn one of an editor's scenes puts only what differs on its device for the
 // next: transforms, visibility and numbers of materials go with the frame; a texture or a mesh goes alone,
-// where it has as many vertices and indices as before.
+// where it has as many vertices and indices as before. The ground goes too, where the scene takes up another
+// space; and all vertices, where that makes a warped shadow map (light.shadowWarp) split long triangles
+// otherwise.
 #pragma once
 
 #include <glm/glm.hpp>

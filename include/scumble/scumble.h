@@ -3,7 +3,7 @@
 
    A function that can fail gives null or a status that is not SCUMBLE_OK; scumble_error() then says why, in
    one line. Text is UTF-8. Nothing throws, and nothing here keeps a pointer that it was given beyond the
-   call.
+   call, but for a renderer's log.
 
    Threads: scenes and looks may be used from several threads at once as long as nobody changes them; a
    renderer from one thread at a time (another one meanwhile is refused with SCUMBLE_USAGE). Each handle is
@@ -35,10 +35,12 @@ typedef enum scumble_status {
 /* Why the last call of this thread that failed did so: "FILE:LINE (JSON path): what is wrong; what to do".
    Empty before the first one. Valid until the next call that fails on this thread. */
 SCUMBLE_API const char* scumble_error(void);
+/* What kind of failure that was, also of calls that give null; SCUMBLE_OK before the first one. */
+SCUMBLE_API scumble_status scumble_error_status(void);
 /* The library's own version, which may differ from SCUMBLE_VERSION_STRING: "0.1.0". */
 SCUMBLE_API const char* scumble_version(void);
 
-/* Called now and then with the part that is done, 0 to 1; returns 0 to stop, and the call gives
+/* Called now and then with the part that is done, 0 to 1; returns 0 to stop, and the call fails with
    SCUMBLE_CANCELLED. From one thread at a time, not always the caller's (progress.h). */
 typedef int32_t (*scumble_progress)(void* user, double part);
 
@@ -192,7 +194,7 @@ typedef struct scumble_renderer_options {
   const char* cache_folder; /* where compiled pipelines are kept; null: nowhere */
   int32_t validation;       /* Vulkan's validation layers watch */
   scumble_log log;          /* null: their messages go to stderr, and others nowhere */
-  void* log_user;
+  void* log_user;           /* given to `log` as long as the renderer is */
 } scumble_renderer_options;
 SCUMBLE_API void scumble_renderer_options_default(scumble_renderer_options* options);
 /* `options` null: the defaults. */

@@ -33,10 +33,11 @@ struct scumble_frame {
 namespace {
 
 thread_local std::string lastError;
+thread_local scumble_status lastStatus = SCUMBLE_OK;
 
 scumble_status fail(const Error& error) {
   lastError = error.message();
-  return scumble_status(int(error.kind) + 1);
+  return lastStatus = scumble_status(int(error.kind) + 1);
 }
 scumble_status misuse(const std::string& problem) {
   return fail({ErrorKind::usage, "", 0, "", problem, "see scumble.h"});
@@ -170,6 +171,10 @@ bool endsWith(const std::string& text, const std::string& end) {
 
 const char* scumble_error(void) {
   return lastError.c_str();
+}
+
+scumble_status scumble_error_status(void) {
+  return lastStatus;
 }
 
 const char* scumble_version(void) {
@@ -370,10 +375,10 @@ scumble_status scumble_look_set_numbers(scumble_look* look, const char* path, co
     if (!look || !path || !numbers) return misuse("look, path or numbers are null");
     if (count != 1 && count != 3) return misuse("there are neither one number nor three");
     if (count == 3) return statusOf(look->look.set(path, glm::vec3(numbers[0], numbers[1], numbers[2])));
-    const Result<KnobValue> present = look->look.get(path);
-    const bool isToggle = present && std::holds_alternative<bool>(*present);
-    if (isToggle && numbers[0] != 0 && numbers[0] != 1) return misuse("a toggle is neither 0 nor 1");
-    return statusOf(look->look.set(path, isToggle ? KnobValue(numbers[0] != 0) : KnobValue(numbers[0])));
+    const Status asNumber = look->look.set(path, numbers[0]);
+    const bool mayBeToggle = !asNumber && (numbers[0] == 0 || numbers[0] == 1);
+    if (mayBeToggle && look->look.set(path, numbers[0] == 1)) return SCUMBLE_OK;
+    return statusOf(asNumber);
   });
 }
 

@@ -210,8 +210,8 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
   std::map<const scene::Primitive*, float> scales;
   scene::Bounds casters;
   for (const GeometryItem& item : geometry.items) {
-    if (!item.casts || !item.shown) continue;
-    casters.add(item.reach);
+    if (!item.casts) continue;
+    if (item.shown) casters.add(item.reach);
     float& scale = scales[item.primitive];
     scale = std::max(scale, largestScale(item.model));
   }

@@ -118,7 +118,7 @@ void SceneMotion::follow(const scene::SceneData& scene, const std::vector<shared
       touched_[i] = 1;
     object.model = now[i].model;
     object.normal = now[i].normal;
-    object.patternShift = now[i].patternShift;
+    if (object.water != uint32_t(Water::none)) object.patternShift = now[i].patternShift;
   }
   std::copy(placed.begin(), placed.end(), now);
   followed_ = &scene;

@@ -82,6 +82,17 @@ Result<look::Value> typedValue(const look::ParamRow& row, const KnobValue& value
   return look::Value{number, {}};
 }
 
+// Names that a look declares count in the order of their first setting: that one stays where it is.
+bool isFirstOfItsName(const std::vector<look::Assignment>& settings, const look::Assignment& setting) {
+  const bool declares =
+      std::any_of(std::begin(look::kSections), std::end(look::kSections), [&](const look::Section& section) {
+        return section.target == setting.target && section.most > 0 && !look::isPattern(setting.pattern);
+      });
+  return declares && &setting == &*std::find_if(settings.begin(), settings.end(), [&](const auto& other) {
+           return other.target == setting.target && other.pattern == setting.pattern;
+         });
+}
+
 bool isAlike(const look::Assignment& a, const look::Assignment& b) {
   return a.row == b.row && a.block == b.block && a.target == b.target && a.pattern == b.pattern &&
          a.byHand == b.byHand;
@@ -105,7 +116,10 @@ Status Look::set(const std::string& path, const KnobValue& value) {
   }
   assignment->value = *parsed;
   assignment->byHand = true;
-  std::erase_if(changed->assignments, [&](const look::Assignment& a) { return isAlike(a, *assignment); });
+  std::vector<look::Assignment> kept;
+  for (const look::Assignment& a : changed->assignments)
+    if (!isAlike(a, *assignment) || isFirstOfItsName(changed->assignments, a)) kept.push_back(a);
+  changed->assignments = std::move(kept);
   changed->assignments.push_back(*assignment);
   for (const look::Section& section : look::kSections)
     if (section.most > 0 && section.target == assignment->target &&

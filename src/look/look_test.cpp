@@ -167,12 +167,28 @@ TEST(Look, knobsAreReadSetAndUnset) {
     }
     // The same one again takes the place of the first.
     ASSERT_TRUE(typed.set(path, before).ok() && typed.set(path, after).ok());
-    EXPECT_EQ(typed.data().assignments.size(), 1u) << path;
+    const bool declares = row.block->targets & (look::kColorizers | look::kDecorations);
+    EXPECT_EQ(typed.data().assignments.size(), declares ? 2u : 1u) << path;
     ASSERT_TRUE(typed.unset(path).ok());
     EXPECT_TRUE(typed.data().assignments.empty()) << path;
     EXPECT_EQ(*typed.get(path), before) << path;
     EXPECT_EQ(isOfASection, path != row.path());
   }
+}
+
+// Colorizers act in the order in which they are named first, also when a slider sets one of them again.
+TEST(Look, settingAgainKeepsTheOrderOfNames) {
+  Look look;
+  for (const char* path : {"colorizers.A.volume.density", "colorizers.B.volume.density"})
+    ASSERT_TRUE(look.set(path, 0.5).ok());
+  for (const double value : {0.6, 0.7, 0.8}) {
+    ASSERT_TRUE(look.set("colorizers.A.volume.density", value).ok());
+    EXPECT_EQ(std::get<double>(*look.get("colorizers.A.volume.density")), value);
+    EXPECT_EQ(look.data().declared(look::kColorizers), (std::vector<std::string>{"A", "B"}));
+    EXPECT_LE(look.data().assignments.size(), 3u);
+  }
+  ASSERT_TRUE(look.unset("colorizers.A.volume.density").ok());
+  EXPECT_EQ(look.data().declared(look::kColorizers), std::vector<std::string>{"B"});
 }
 
 TEST(Look, typedValuesOfAWrongKindAreRefused) {

@@ -121,6 +121,8 @@ Resident& Renderer::Impl::useScene(const Scene& wanted, const GeometryOptions& o
     else if (changes.buffers)
       for (const std::unique_ptr<Setup>& setup : resident.setups) setup->bindScene();
   } catch (...) {
+    // What is half of one and half of the other goes, when nobody draws from it any more.
+    for (auto& submission : submissions) submission.reset();
     residents.pop_front();
     throw;
   }
@@ -163,12 +165,16 @@ void Renderer::Impl::useSetups(Resident& resident, const std::vector<SetupKey>& 
     now.resize(keys.size());
     for (size_t i = 0; i < keys.size(); ++i)
       if (now[i]) now[i]->resize(frame.parts[i].group.size);
+    const VkBuffer positions = resident.onGpu.previousPositions().handle();
     for (size_t i = 0; i < keys.size(); ++i)
       if (!now[i])
         now[i] =
             std::make_unique<Setup>(*device, *samplers, *examples, resident.onGpu,
                                     keys[i].plain ? plain : passes, keys[i], frame.parts[i].group.size,
                                     [&](double part) { progress((double(i) + part) / double(keys.size())); });
+    // One that needs to know where everything was has made room for it: others name what was there before.
+    if (resident.onGpu.previousPositions().handle() != positions)
+      for (const std::unique_ptr<Setup>& setup : now) setup->bindScene();
   }
   had = std::move(now);
   for (size_t i = 0; i < keys.size(); ++i) frame.parts[i].setup = had[i].get();
@@ -457,6 +463,10 @@ Status Renderer::Impl::begin(const Request& request) {
     return failure(error);
   } catch (const std::bad_alloc&) {
     return outOfMemory();
+  } catch (...) {
+    // The caller's own, out of a callback.
+    (void)cancelled();
+    throw;
   }
 }
 
@@ -529,6 +539,8 @@ Error Renderer::Impl::cancelled() {
     fetchAll();
   } catch (const gpu::VulkanError& error) {
     return failure(error);
+  } catch (const std::bad_alloc&) {
+    return outOfMemory();
   }
   // What was half made goes, and what has been posed was not drawn.
   for (Resident& resident : residents) {

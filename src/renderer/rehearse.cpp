@@ -116,7 +116,7 @@ Status Renderer::Impl::prepare(const Request& request, Rehearsal extent) {
     changed.isRehearsal = true;
     changed.progressFrom = changed.progressTo = part;
     const uint32_t before = device->pipelines().made();
-    const Status status = begin(changed);
+    Status status = begin(changed);
     hasCompiled = device->pipelines().made() > before;
     return status;
   };

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <stdexcept>
 #include <thread>
 
 #include "scumble/check.h"
@@ -119,6 +120,29 @@ TEST_F(Refusals, whoCancelsGetsNoFrame) {
   frame.progress = {};
   for (size_t i = 0; i < log.size(); ++i) EXPECT_NE(log[i].first, LogLevel::error) << log[i].second;
   EXPECT_EQ(fresh->validationMessages(), 0);
+
+  // What a callback throws is the caller's, and leaves nothing behind either.
+  const auto another = std::move(Renderer::create(options)).value();
+  for (size_t throwAt = 0;; ++throwAt) {
+    size_t told = 0;
+    frame.progress = [&](double) {
+      if (told++ == throwAt) throw std::runtime_error("enough");
+      return true;
+    };
+    try {
+      ASSERT_TRUE(another->render(scene_, Look(), 0, views, frame).ok());
+      break;
+    } catch (const std::runtime_error& thrown) {
+      EXPECT_STREQ(thrown.what(), "enough");
+    }
+    frame.progress = {};
+    if (throwAt % 3 == 0) {
+      EXPECT_TRUE(sameBytes(another->render(scene_, Look(), 0, views, frame)->layers[0].views[1],
+                            expected.layers[0].views[1]))
+          << throwAt;
+    }
+  }
+  EXPECT_EQ(another->validationMessages(), 0);
 
   // All of a rehearsal is one way from 0 to 1.
   double last = 0;

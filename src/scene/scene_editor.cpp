@@ -193,6 +193,8 @@ Mesh meshOf(const std::vector<MeshPart>& parts, const SceneData& scene) {
     const Check check("part " + std::to_string(i) + " of the mesh");
     mesh.primitives.push_back(primitiveOf(parts[i], scene, check, warnings));
   }
+  // What has no area takes up no space.
+  std::erase_if(mesh.primitives, [](const Primitive& p) { return p.indices.empty(); });
   weldSmoothNormals(mesh);
   const float radius = boundingRadius(mesh);
   parallelFor(mesh.primitives.size(), mesh.primitives.size() > 1 ? threadCount(0) : 1,
@@ -444,15 +446,14 @@ Status SceneEditor::setLight(NodeId id, const std::optional<LightDesc>& light) {
     } else {
       const Light made = lightOf(*light);
       const int had = node.light;
-      const bool isItsOwn =
-          had >= 0 && std::count_if(data.nodes.begin(), data.nodes.end(),
-                                    [&](const Node& other) { return other.light == had; }) == 1;
-      if (isItsOwn) {
-        data.lights[size_t(had)] = made;
-      } else {
-        data.lights.push_back(made);
-        node.light = int(data.lights.size()) - 1;
-      }
+      // Its own, else one that nobody has any more.
+      std::vector<size_t> users(data.lights.size(), 0);
+      for (const Node& other : data.nodes)
+        if (other.light >= 0) ++users[size_t(other.light)];
+      if (had < 0 || users[size_t(had)] > 1)
+        node.light = int(std::find(users.begin(), users.end(), size_t(0)) - users.begin());
+      if (size_t(node.light) == data.lights.size()) data.lights.emplace_back();
+      data.lights[size_t(node.light)] = made;
     }
     edited_->present.reset();
     return Done{};

@@ -152,11 +152,39 @@ TEST(SceneEditor, refusesNumbersThatMakeNoSense) {
   EXPECT_NE(refusal(editor.scene()), "");
 }
 
+TEST(SceneEditor, whatHasNoAreaTakesUpNoSpace) {
+  SceneEditor editor;
+  const std::vector<glm::vec3> line = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}};
+  const MeshId mesh = *editor.addMesh({{.positions = kTriangle}}),
+               thin = *editor.addMesh({{.positions = line}});
+  ASSERT_TRUE(editor.addNode({.mesh = mesh}).ok());
+  ASSERT_TRUE(editor.addNode({.transform = glm::translate(glm::mat4(1.0f), {100, 0, 0}), .mesh = thin}).ok());
+  const Scene scene = *editor.scene();
+  EXPECT_EQ(scene.summary().max[0], 1);
+  EXPECT_TRUE(scene.warnings().empty());
+}
+
+// A lamp that blinks is one lamp.
+TEST(SceneEditor, lightsAreUsedAgain) {
+  SceneEditor editor;
+  const NodeId node = *editor.addNode({}), other = *editor.addNode({});
+  for (int i = 0; i < 5; ++i) {
+    ASSERT_TRUE(editor.setLight(node, LightDesc{.intensity = 2}).ok());
+    ASSERT_TRUE(editor.setLight(node, std::nullopt).ok());
+  }
+  ASSERT_TRUE(editor.setLight(other, LightDesc{}).ok());
+  ASSERT_TRUE(editor.setLight(node, LightDesc{.intensity = 3}).ok());
+  const Scene scene = *editor.scene();
+  ASSERT_EQ(scene.data().lights.size(), 2u);
+  EXPECT_EQ(scene.data().lights[size_t(scene.data().nodes[0].light)].intensity, 3);
+  EXPECT_EQ(scene.data().lights[size_t(scene.data().nodes[1].light)].intensity, 1);
+}
+
 // What files have and arrays have not stays as it is.
 TEST(SceneEditor, sparesWhatClipsAndJointsMove) {
   scene::TestGltf g = scene::quad();
   g.json["nodes"][0]["name"] = "Walker";
-  g.json["animations"] = scene::Json::array(
+  g.json["animations"] = scene::TestGltf::Json::array(
       {{{"name", "walk"},
         {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}},
         {"samplers",

@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
 
   int calls = 0;
   CHECK(scumble_scene_load(argv[1], stop_at_once, &calls) == NULL && calls == 1);
-  CHECK(strstr(scumble_error(), "cancelled") != NULL);
+  CHECK(strstr(scumble_error(), "cancelled") != NULL && scumble_error_status() == SCUMBLE_CANCELLED);
   if (edit() != 0) return 1;
   scumble_scene* scene = scumble_scene_load(argv[1], NULL, NULL);
   CHECK(scene != NULL);
@@ -110,6 +110,9 @@ int main(int argc, char** argv) {
   CHECK(scumble_look_unset(look, "ground.tint") == SCUMBLE_OK);
   CHECK(scumble_look_set_numbers(look, "shadow.threshold", color, 2) == SCUMBLE_USAGE);
   CHECK(scumble_look_set_numbers(look, "materials.Nobody.final.ripple", &yes, 1) == SCUMBLE_USAGE);
+  CHECK(scumble_look_set_numbers(look, "materials.No*.shadowMap.cast", &yes, 1) == SCUMBLE_OK);
+  CHECK(scumble_look_set_numbers(look, "materials.No*.shadowMap.cast", &number, 1) == SCUMBLE_USAGE);
+  CHECK(scumble_look_unset(look, "materials.No*.shadowMap.cast") == SCUMBLE_OK);
   CHECK(scumble_look_get(look, "final.ripple", 0, &value) == SCUMBLE_OK && value.count == 0 && value.text);
   CHECK(scumble_look_set(look, "materials.Nobody.warp.amount", "2") == SCUMBLE_OK);
   int findings = 0;

@@ -16,8 +16,6 @@ namespace {
 
 using namespace test;
 
-constexpr uint32_t kWidth = 72, kHeight = 56;
-
 MeshPart partOf(const TestMesh& mesh, MaterialId material) {
   return {.positions = mesh.positions,
           .indices = mesh.indices,
@@ -80,7 +78,7 @@ struct Village {
 };
 
 // The default look, with its ground, and these knobs.
-Look lookOf(const Knobs& knobs) {
+Look usualLook(const Knobs& knobs) {
   Look look;
   for (const auto& [path, value] : knobs) EXPECT_TRUE(look.set(path, value).ok()) << path;
   return look;
@@ -88,6 +86,8 @@ Look lookOf(const Knobs& knobs) {
 
 class Edited : public BothEyes {
  protected:
+  static constexpr uint32_t kWidth = 72, kHeight = 56;
+
   static std::vector<View> views(const Scene& scene) {
     return viewsFrom(scene, {{3, 3, 6}, {0, 0.5f, 0}}, kWidth, kHeight, GetParam());
   }
@@ -277,7 +277,7 @@ TEST_P(Edited, onlyWhatChangedIsWritten) {
   Village v;
   const auto written = [&] {
     // How long edges may be depends on all that casts shadows, where the shadow map is warped.
-    const FrameStats stats = drawn(must(v.editor.scene()), lookOf({{"light.shadowWarp", "0"}})).stats;
+    const FrameStats stats = drawn(must(v.editor.scene()), usualLook({{"light.shadowWarp", "0"}})).stats;
     return std::vector<uint32_t>{stats.writtenPrimitives, stats.writtenTextures, stats.writtenMaterials,
                                  stats.pipelines};
   };

@@ -8,6 +8,7 @@
 #include <glm/gtc/packing.hpp>
 #include <numeric>
 
+#include "scumble/scene_editor.h"
 #include "tests/support/aov.h"
 #include "tests/support/render_test.h"
 #include "tests/support/test_device.h"
@@ -287,6 +288,34 @@ TEST_F(Vulkan, threeFramesInFlightIntoOwnImages) {
     const auto frame = Vulkan::renderer().render(scene, Look(), 0.5 * i, views(), options);
     ASSERT_TRUE(frame.ok());
     EXPECT_EQ(own, frame->layers[0].views[0].pixels) << "frame " << i;
+  }
+}
+
+// An AOV of one view needs what the other does without; and a scene that grows between the frames.
+TEST_F(Vulkan, anAovOfTheSecondViewAlone) {
+  Program program;
+  const std::unique_ptr<Renderer> renderer = on(program);
+  SceneEditor editor(scene);
+  std::vector<View> two = views();
+  View small = viewsFrom(scene, stand, 36, 24)[0];
+  small.size = {36, 24};
+  two.push_back(small);
+  constexpr VkExtent2D kSmall{36, 24};
+  for (int round = 0; round < 3; ++round) {
+    VulkanTargets targets;
+    targets.images = {target(program.image(kHalf, kExtent)), target(program.image(kHalf, kSmall)),
+                      target(program.image(kHalf, kSmall))};
+    for (const size_t i : {1, 2}) targets.images[i].view = 1, targets.images[i].extent = kSmall;
+    targets.images[2].aov = "depth";
+    const Scene now = editor.scene().value();
+    const Status status = begin(*renderer, now, Look(), 0, two, sized(kWidth, kHeight), targets);
+    ASSERT_TRUE(status.ok()) << status.error().message();
+    ASSERT_TRUE(renderer->finish().ok());
+    const Frame usual = draw(now, Look(), two, sized(kWidth, kHeight));
+    EXPECT_EQ(floatsOf(program.bytesOf(targets.images[0].image, kExtent, 8)),
+              usual.layers[0].views[0].pixels);
+    EXPECT_EQ(floatsOf(program.bytesOf(targets.images[1].image, kSmall, 8)), usual.layers[0].views[1].pixels);
+    ASSERT_TRUE(editor.addNode({.mesh = MeshId(0)}).ok());
   }
 }
 

@@ -36,7 +36,7 @@ class Deform : public frame::Pass {
   }
   void bind(const gpu::GraphResources&) override {
     now_.bind(*scene_, scene_->motion(), scene_->waves());
-    if (scene_->previousMotion()) previous_.bind(*scene_, *scene_->previousMotion(), scene_->previousWaves());
+    if (previous_.set.size() > 0) previous_.bind(*scene_, *scene_->previousMotion(), scene_->previousWaves());
   }
 
  private:
