@@ -419,7 +419,7 @@ TEST(LookFile, mistakesNameTheirJsonPath) {
     const Result<Look> look = Look::fromJson(c.text, "a.json");
     ASSERT_FALSE(look.ok()) << c.text;
     EXPECT_EQ(look.error().jsonPath, c.path);
-    EXPECT_EQ(look.error().message().substr(0, 8), "a.json (");
+    EXPECT_EQ(look.error().message().substr(0, 10), "a.json:1 (");
   }
   for (const char* text : {"3", "[]", "\"x\"", "null", "true"})
     EXPECT_FALSE(Look::fromJson(text, "a").ok()) << text;

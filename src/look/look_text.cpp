@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <string_view>
 
 #include "base/json_place.h"
 
@@ -142,6 +143,91 @@ Result<Json> parseText(const std::string& text, const std::string& file, std::ve
   }
   if (builder.failure()) return *builder.failure();
   return builder.finish();
+}
+
+namespace {
+
+// Goes through a text again, for the place of one path.
+class LineFinder : public nlohmann::json_sax<Json> {
+ public:
+  LineFinder(std::string_view text, const std::string& path, const char*& lastRead)
+      : text_(text), wanted_(path), lastRead_(lastRead) {}
+
+  bool null() override { return value(); }
+  bool boolean(bool) override { return value(); }
+  bool number_integer(Json::number_integer_t) override { return value(); }
+  bool number_unsigned(Json::number_unsigned_t) override { return value(); }
+  bool number_float(Json::number_float_t, const std::string&) override { return value(); }
+  bool string(std::string&) override { return value(); }
+  bool binary(Json::binary_t&) override { return false; }
+  bool start_object(size_t) override { return value() && open(false); }
+  bool start_array(size_t) override { return value() && open(true); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+  bool key(std::string& key) override {
+    Level& level = levels_.back();
+    path_.resize(level.length);
+    path_ += (path_.empty() ? "" : ".") + key;
+    return note();
+  }
+  bool parse_error(size_t, const std::string&, const nlohmann::detail::exception&) override { return false; }
+
+  int line() const { return line_; }
+
+ private:
+  struct Level {
+    bool isArray;
+    size_t length;  // of the path before its members
+    size_t count = 0;
+  };
+
+  // Of an array's item, what it is called.
+  bool value() {
+    if (levels_.empty() || !levels_.back().isArray) return true;
+    Level& level = levels_.back();
+    path_.resize(level.length);
+    path_ += "[" + std::to_string(level.count++) + "]";
+    return note();
+  }
+  bool open(bool isArray) {
+    levels_.push_back({isArray, path_.size()});
+    return true;
+  }
+  bool close() {
+    path_.resize(levels_.back().length);
+    levels_.pop_back();
+    return true;
+  }
+  // The path itself, or the last thing on the way to it; of keys that stand twice, the one that counts.
+  bool note() {
+    const bool isOnTheWay =
+        wanted_.starts_with(path_) &&
+        (wanted_.size() == path_.size() || wanted_[path_.size()] == '.' || wanted_[path_.size()] == '[');
+    if (isOnTheWay && path_.size() >= found_) {
+      found_ = path_.size();
+      line_ = lineOf(text_, lastRead_);
+    }
+    return true;
+  }
+
+  std::string_view text_;
+  const std::string& wanted_;
+  const char*& lastRead_;
+  std::string path_;
+  std::vector<Level> levels_;
+  size_t found_ = 1;
+  int line_ = 0;
+};
+
+}  // namespace
+
+int lineOfPath(const std::string& text, const std::string& path) {
+  const char* lastRead = text.data();
+  LineFinder finder(text, path, lastRead);
+  constexpr bool kIsWhole = true, kSkipsComments = true;
+  Json::sax_parse(JsonReading(text.data(), lastRead), JsonReading(text.data() + text.size(), lastRead),
+                  &finder, Json::input_format_t::json, kIsWhole, kSkipsComments);
+  return finder.line();
 }
 
 }  // namespace scumble::look

@@ -51,6 +51,28 @@ TEST(LookText, whatStandsThereCountsAsTheWarningSays) {
   EXPECT_EQ(twice.description(), "second");
 }
 
+// Whatever is wrong with what a look says, the message names the line beside the path.
+TEST(LookText, wrongContentHasItsLine) {
+  const auto lineOf = [](const std::string& text) {
+    const Result<Look> look = read(text);
+    EXPECT_FALSE(look.ok()) << text;
+    return look ? -1 : look.error().line;
+  };
+  EXPECT_EQ(lineOf("{\"shadow\": {\n\"steps\": 1,\n\"treshold\": 0.4}}"), 3);
+  EXPECT_EQ(lineOf("{\"shadow\": {\n\"steps\": 1,\n\"threshold\":\n 90}}"), 3) << "where its key stands";
+  EXPECT_EQ(lineOf("{\n\"materials\": {\n\"Sail\": {}, \"Sail.001\": {\n\"warp\": {\"amount\": -1}}}}"), 4);
+  EXPECT_EQ(lineOf("{\"warp\": {\"amount\": {\"keys\": [\n[0, 1],\n[1, 2],\n[2, 900]]}}}"), 4);
+  EXPECT_EQ(lineOf("{\"warp\": {\"amount\":\n{\"keys\": [\n[0, 1],\n[1,\n900]]}}}"), 5) << "within a key";
+  EXPECT_EQ(lineOf("{\"shadow\": {\"threshold\": 0.1},\n\"shadow\": {\n\"threshold\": 9}}"), 3)
+      << "that counts";
+  EXPECT_EQ(lineOf("{\n\n\"warp.amount\": 1}"), 3);
+  EXPECT_EQ(lineOf("{\n\"description\": 7}"), 2);
+  EXPECT_EQ(lineOf("{\"a\": {},\n\"extends\": 3}"), 2);
+  EXPECT_EQ(lineOf("[1]"), 0) << "nothing in it is wrong, but all of it";
+  EXPECT_EQ(failureOf("// note\n{\"shadow\": {\"threshold\": true}}").substr(0, 32),
+            "a.json:2 (shadow.threshold): the");
+}
+
 TEST(LookText, aHostileFileGetsAFewWarningsOnly) {
   std::string text = "{";
   for (int i = 0; i < 5000; ++i) text += "\"description\": \"\",\n";
@@ -91,7 +113,7 @@ TEST(LookText, aKeyIsOneWordOfAPath) {
     EXPECT_NE(failureOf(text).find("a dot stands in this key; nest it: \""), std::string::npos)
         << failureOf(text);
   EXPECT_EQ(failureOf("{\"warp.amount\": 0}"),
-            "a.json (warp.amount): a dot stands in this key; nest it: \"warp\": { \"amount\": ... }");
+            "a.json:1 (warp.amount): a dot stands in this key; nest it: \"warp\": { \"amount\": ... }");
   // Names of a scene may hold dots.
   EXPECT_TRUE(read("{\"materials\": {\"Paint.001\": {\"warp\": {\"amount\": 0}}}}").ok());
 }

@@ -160,7 +160,7 @@ class Looks(Case):
         self.put("base.json", '{"extends": "own.json"}')
         self.before = self.files()
         self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--look", "own.json", *TINY,
-                 says=["base.json (extends)", "own.json -> base.json -> own.json"])
+                 says=["base.json:1 (extends)", "own.json -> base.json -> own.json"])
 
     def test_colours_as_words(self):
         for one, other in (("navy", "#000080"), ("#abc", "#AABBCC")):

@@ -565,7 +565,7 @@ class Looks(Program):
         for name, says in (("huge.json", "huge.json:2: a number here is too large"), ("nul.json", "nul.json:2: a text here holds the character NUL"),
                            ("large.json", "a look has 16 MiB at most")):
             self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--look", name, *TINY, says=says)
-        self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--look", "wrong.json", *TINY, says="wrong.json (shadow.threshold): ")
+        self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--look", "wrong.json", *TINY, says="wrong.json:1 (shadow.threshold): ")
         self.bad(UNUSABLE, "render", "box.gltf", "-o", "x.png", "--look", "typo.json", *TINY, says="shadow.threshold")
         self.put("box.look.json", "{")
         self.before = self.files()
