@@ -196,7 +196,7 @@ Status readLook(const LookSource& source, LookChain chain, LookData& out) {
   if (isLookFile(file)) out.files.push_back(file);
   const Result<Json> root = parseText(text, file, out.warnings);
   if (!root) return root.error();
-  const Status status = Reader(out, chain).readRoot(*root);
+  Status status = Reader(out, chain).readRoot(*root);
   if (status) return status;
   // The JSON has forgotten its lines; the text is gone through again for the one that is asked for.
   Error error = status.error();

@@ -9,8 +9,8 @@ namespace scumble::look {
 // the last one win.
 Result<Json> parseText(const std::string& text, const std::string& file, std::vector<std::string>& warnings);
 
-// The line of what a path leads to ("materials.Sail.warp.amount.keys[2]"), or of the last thing on its way that
-// is there; 0: nothing is. Of a text that parseText() has taken.
+// The line of what a path leads to ("materials.Sail.warp.amount.keys[2]"), or of the last thing on its way
+// that is there; 0: nothing is. Of a text that parseText() has taken.
 int lineOfPath(const std::string& text, const std::string& path);
 
 }  // namespace scumble::look
