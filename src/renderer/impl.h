@@ -56,6 +56,9 @@ struct Request {
   double progressFrom = 0, progressTo = 1;
 };
 
+// The picture behind everything; null: there is none.
+const Image* backgroundOf(const Request& request);
+
 // A frame between begin() and finish().
 struct Begun {
   struct Part {
