@@ -38,7 +38,6 @@ struct LookArguments {
   Status applySettings(Look& look) const;
 };
 
-
 struct PictureArguments {
   std::string camera, orbit, eye, target, size = "1280x720", stereo;
   std::optional<float> roll, fov;

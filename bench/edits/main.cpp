@@ -13,6 +13,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
 
+#include "report/report.h"
 #include "scumble/renderer.h"
 #include "scumble/scene_editor.h"
 
@@ -22,16 +23,7 @@ namespace {
 
 template <class T>
 T take(Result<T> result) {
-  if (!result) {
-    std::fprintf(stderr, "edits_bench: error: %s\n", result.error().message().c_str());
-    std::exit(result.error().kind == ErrorKind::noUsableGpu ? 4 : 2);
-  }
-  return std::move(result).value();
-}
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
+  return bench::take("edits_bench", std::move(result));
 }
 
 // A sphere of 16 x 8 cells, as a mesh of its own.
@@ -166,17 +158,13 @@ int main(int argc, char** argv) try {
   const auto row = [&](const char* name, const std::vector<double>& times) {
     std::vector<double> ratios;
     for (size_t i = 0; i < times.size(); ++i) ratios.push_back(times[i] / whole[i]);
-    std::printf("%-40s %10.2f %12.3f\n", name, median(times), median(ratios));
-    report["cases"].push_back({{"name", name}, {"milliseconds", median(times)}, {"ratio", median(ratios)}});
+    std::printf("%-40s %10.2f %12.3f\n", name, bench::median(times), bench::median(ratios));
+    report["cases"].push_back(
+        {{"name", name}, {"milliseconds", bench::median(times)}, {"ratio", bench::median(ratios)}});
   };
   for (const Case& each : cases) row(each.name, each.times);
   row("the whole scene anew", whole);
-  if (json.empty()) return 0;
-  if (const Status written = writeText(json, report.dump(2) + "\n"); !written) {
-    std::fprintf(stderr, "edits_bench: error: %s\n", written.error().message().c_str());
-    return 5;
-  }
-  return 0;
+  return bench::give("edits_bench", json, report);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "edits_bench: error: %s\n", error.what());
   return 1;

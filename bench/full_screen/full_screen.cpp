@@ -5,21 +5,12 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "scumble/image.h"
+#include "report/report.h"
 #include "shaders/fullscreen_vert.h"
 
 namespace scumble::bench {
 
 using namespace frame;
-
-namespace {
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
-}  // namespace
 
 FullScreen::FullScreen(const std::string& program, const std::string& description, int argc, char** argv)
     : program_(program) {
@@ -117,12 +108,7 @@ int FullScreen::run(std::vector<FullScreenCase> cases, size_t yardstick) {
                              {"ratio", median(ratios)},
                              {"first", one.first}});
   }
-  if (json_.empty()) return 0;
-  if (const Status written = writeText(json_, json.dump(2) + "\n"); !written) {
-    std::fprintf(stderr, "%s: error: %s\n", program_.c_str(), written.error().message().c_str());
-    return 5;
-  }
-  return 0;
+  return give(program_.c_str(), json_, json);
 }
 
 }  // namespace scumble::bench

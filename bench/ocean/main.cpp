@@ -9,25 +9,16 @@
 #include <exception>
 #include <nlohmann/json.hpp>
 
-#include "scumble/image.h"
+#include "report/report.h"
 #include "scumble/renderer.h"
 
 using namespace scumble;
 
 namespace {
 
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
-
 template <class T>
 T take(Result<T> result) {
-  if (!result) {
-    std::fprintf(stderr, "ocean_bench: error: %s\n", result.error().message().c_str());
-    std::exit(result.error().kind == ErrorKind::noUsableGpu ? 4 : 2);
-  }
-  return std::move(result).value();
+  return bench::take("ocean_bench", std::move(result));
 }
 
 // Milliseconds of a frame.
@@ -110,8 +101,9 @@ int main(int argc, char** argv) try {
       times.push_back(of(with, without));
       ratios.push_back(times.back() / with.frame);
     }
-    std::printf("%-40s %10.2f %11.2f%%\n", name, median(times), 100 * median(ratios));
-    report["cases"].push_back({{"name", name}, {"milliseconds", median(times)}, {"ratio", median(ratios)}});
+    std::printf("%-40s %10.2f %11.2f%%\n", name, bench::median(times), 100 * bench::median(ratios));
+    report["cases"].push_back(
+        {{"name", name}, {"milliseconds", bench::median(times)}, {"ratio", bench::median(ratios)}});
   };
   const auto waves = [](const Cost& with, const Cost& without) { return with.cpu - without.cpu; };
   const auto vertices = [](const Cost& with, const Cost& without) { return with.deform - without.deform; };
@@ -121,12 +113,7 @@ int main(int argc, char** argv) try {
   row("painting, the pass ocean", [](const Cost& with, const Cost&) { return with.ocean; });
   row("the frame", [](const Cost& with, const Cost&) { return with.frame; });
   row("the frame without an ocean", [](const Cost&, const Cost& without) { return without.frame; });
-  if (json.empty()) return 0;
-  if (const Status written = writeText(json, report.dump(2) + "\n"); !written) {
-    std::fprintf(stderr, "ocean_bench: error: %s\n", written.error().message().c_str());
-    return 5;
-  }
-  return 0;
+  return bench::give("ocean_bench", json, report);
 } catch (const std::exception& error) {
   std::fprintf(stderr, "ocean_bench: error: %s\n", error.what());
   return 1;

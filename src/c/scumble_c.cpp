@@ -104,6 +104,12 @@ int32_t guardedId(Call call) {
   return id;
 }
 
+// An array of vectors, given by their numbers; null: none.
+template <class Vector>
+std::span<const Vector> listOf(const void* numbers, size_t count) {
+  return {static_cast<const Vector*>(numbers), numbers ? count : 0};
+}
+
 glm::mat4 toMatrix(const float* numbers) {
   return glm::make_mat4(numbers);
 }
@@ -283,19 +289,14 @@ int32_t scumble_editor_mesh(scumble_editor* editor, int32_t id, const scumble_me
       const scumble_mesh_part& given = parts[i];
       if ((!given.positions && given.vertex_count > 0) || (!given.indices && given.index_count > 0))
         return misuse("positions or indices are null"), -1;
-      const auto list = [&]<class T>(const T*, const void* data, size_t count) {
-        return std::span<const T>(static_cast<const T*>(data), data ? count : 0);
-      };
       const size_t count = given.vertex_count;
-      constexpr const glm::vec3* kVec3 = nullptr;
-      constexpr const glm::vec2* kVec2 = nullptr;
       MeshPart part;
-      part.positions = list(kVec3, given.positions, count);
+      part.positions = listOf<glm::vec3>(given.positions, count);
       part.indices = {given.indices, given.index_count};
-      part.normals = list(kVec3, given.normals, count);
-      part.uv0 = list(kVec2, given.uv0, count);
-      part.uv1 = list(kVec2, given.uv1, count);
-      part.colors = list(static_cast<const glm::u8vec4*>(nullptr), given.colors, count);
+      part.normals = listOf<glm::vec3>(given.normals, count);
+      part.uv0 = listOf<glm::vec2>(given.uv0, count);
+      part.uv1 = listOf<glm::vec2>(given.uv1, count);
+      part.colors = listOf<glm::u8vec4>(given.colors, count);
       part.material = MaterialId(given.material);
       mesh.push_back(part);
     }

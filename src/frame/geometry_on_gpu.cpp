@@ -121,31 +121,29 @@ GeometryOnGpu::Plan GeometryOnGpu::planOf(const std::vector<GeometryItem>& items
   return plan;
 }
 
-GeometryOnGpu::Update GeometryOnGpu::update(gpu::Device& device, gpu::Uploader& uploader,
-                                            const std::vector<GeometryItem>& items,
-                                            const std::function<void()>& settle) {
+bool GeometryOnGpu::update(gpu::Device& device, gpu::Uploader& uploader,
+                           const std::vector<GeometryItem>& items, const std::function<void()>& settle) {
   rewritten_.clear();
+  written_ = 0;
   Plan plan = planOf(items);
   bool fits = vertexCount_ > 0 && plan.restOf == plan_.restOf;
   for (size_t r = 0; fits && r < plan.rests.size(); ++r)
     fits = plan.rests[r].primitive == plan_.rests[r].primitive || plan.rests[r].isLaidAs(plan_.rests[r]);
-  if (fits) return rewrite(uploader, plan, settle) ? Update::primitives : Update::nothing;
-  settle();
-  build(device, uploader, plan);
-  return Update::everything;
+  if (fits) {
+    rewrite(uploader, plan, settle);
+  } else {
+    settle();
+    build(device, uploader, plan);
+  }
+  return !fits;
 }
 
-bool GeometryOnGpu::rewrite(gpu::Uploader& uploader, const Plan& plan, const std::function<void()>& settle) {
-  bool isSettled = false;
-  const auto beforeWriting = [&] {
-    if (!isSettled) settle();
-    isSettled = true;
-  };
+void GeometryOnGpu::rewrite(gpu::Uploader& uploader, const Plan& plan, const std::function<void()>& settle) {
   std::vector<bool> isNew(plan.rests.size(), false);
   for (size_t r = 0; r < plan.rests.size(); ++r) {
     Rest& rest = plan_.rests[r];
     if (rest.primitive == plan.rests[r].primitive) continue;
-    beforeWriting();
+    settle();
     isNew[r] = true;
     rest.primitive = plan.rests[r].primitive;
     ++written_;
@@ -163,14 +161,13 @@ bool GeometryOnGpu::rewrite(gpu::Uploader& uploader, const Plan& plan, const std
     const Rest& rest = plan_.rests[plan.restOf[i]];
     if (isNew[plan.restOf[i]]) rewritten_.push_back(i);
     if (!isNew[plan.restOf[i]] && plan.shifts[i] == plan_.shifts[i]) continue;
-    beforeWriting();
+    settle();
     plan_.shifts[i] = plan.shifts[i];
     if (rest.vertexCount > 0)
       writeSurface(
           *rest.primitive, plan.shifts[i],
           placeIn<shared::VertexSurface>(uploader, surface_, places_[i].firstVertex, rest.vertexCount));
   }
-  return isSettled;
 }
 
 void GeometryOnGpu::build(gpu::Device& device, gpu::Uploader& uploader, Plan& plan) {
@@ -214,7 +211,7 @@ void GeometryOnGpu::build(gpu::Device& device, gpu::Uploader& uploader, Plan& pl
     writeSkin(*rest.primitive, skins.data + rest.skin);
     std::copy(rest.primitive->indices.begin(), rest.primitive->indices.end(), indices.data + rest.index);
   });
-  written_ += uint32_t(plan.rests.size());
+  written_ = uint32_t(plan.rests.size());
 
   // Items, and deform's work.
   std::vector<shared::DeformChunk> chunks;

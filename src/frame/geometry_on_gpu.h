@@ -18,17 +18,13 @@ class GeometryOnGpu {
     uint32_t firstChunk = 0, chunkCount = 0;   // in chunks()
     bool morphs = false;
   };
-  enum class Update : uint8_t {
-    nothing,
-    primitives,  // some were written in place; everything lies where it lay
-    everything   // all buffers are others
-  };
 
   // Brings the buffers up to date. Primitives that are the same objects as before are taken to have the same
-  // vertices; those of before must still be alive. Calls `settle` before it changes anything that frames
-  // under way read, and ends with uploads that are not flushed. Throws gpu::VulkanError when it does not fit.
-  Update update(gpu::Device& device, gpu::Uploader& uploader, const std::vector<GeometryItem>& items,
-                const std::function<void()>& settle);
+  // vertices; those of before must still be alive. True where all buffers are others; else those that are new
+  // were written in place. Calls `settle` before it changes anything that frames under way read, and ends
+  // with uploads that are not flushed. Throws gpu::VulkanError when it does not fit.
+  bool update(gpu::Device& device, gpu::Uploader& uploader, const std::vector<GeometryItem>& items,
+              const std::function<void()>& settle);
 
   // By item.
   const std::vector<Place>& places() const { return places_; }
@@ -36,8 +32,8 @@ class GeometryOnGpu {
   const std::vector<uint32_t>& rewritten() const { return rewritten_; }
   uint32_t chunkCount() const { return chunkCount_; }
   uint32_t vertexCount() const { return vertexCount_; }  // final ones, at least one
-  // How many primitives were written since it was made.
-  uint32_t writtenPrimitives() const { return written_; }
+  // How many primitives the last update() has written.
+  uint32_t written() const { return written_; }
   uint64_t bytes() const { return bytes_; }
 
   const gpu::Buffer& chunks() const { return chunks_; }
@@ -70,7 +66,7 @@ class GeometryOnGpu {
     std::vector<glm::vec2> shifts;  // of pattern coordinates, by item
   };
   static Plan planOf(const std::vector<GeometryItem>& items);
-  bool rewrite(gpu::Uploader& uploader, const Plan& plan, const std::function<void()>& settle);
+  void rewrite(gpu::Uploader& uploader, const Plan& plan, const std::function<void()>& settle);
   void build(gpu::Device& device, gpu::Uploader& uploader, Plan& plan);
 
   Plan plan_;

@@ -64,7 +64,9 @@ class GeometryStep {
   // become.
   void specialise(uint32_t constant, std::vector<MaterialVariant> materials = {});
   // The same as it is, for what the scene has become.
-  void refresh() { specialise(constant_, materials_); }
+  void refresh() {
+    if (drawsVersion_ != scene_->drawsVersion()) makePipelines();
+  }
   // Draws opaque, then masked, then blended surfaces: by pipeline and material, the nearest first; blended
   // ones from far to near. `passSets`: set 2, one for all or one for each material; null for none.
   void draw(VkCommandBuffer commands, const gpu::DescriptorSets* passSets, uint32_t firstView) const;

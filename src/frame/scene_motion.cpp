@@ -63,7 +63,7 @@ SceneMotion::SceneMotion(gpu::Device& device, const scene::SceneData& scene,
       touched_(moving.size(), 0),
       followed_(&scene) {
   std::vector<shared::ObjectData> placed = objects;
-  layout_ = layOut(scene, &placed);
+  layout_ = layOut(scene, placed);
   objects_ = bufferOf<shared::ObjectData>(device, placed.size());
   joints_ = bufferOf<glm::mat4>(device, layout_.joints);
   morphWeights_ = bufferOf<float>(device, layout_.weights);
@@ -72,7 +72,7 @@ SceneMotion::SceneMotion(gpu::Device& device, const scene::SceneData& scene,
 }
 
 SceneMotion::Layout SceneMotion::layOut(const scene::SceneData& scene,
-                                        std::vector<shared::ObjectData>* objects) const {
+                                        std::vector<shared::ObjectData>& objects) const {
   Layout layout;
   layout.isJoint.resize(scene.nodes.size());
   layout.skinUseOf.resize(moving_.size());
@@ -89,25 +89,23 @@ SceneMotion::Layout SceneMotion::layOut(const scene::SceneData& scene,
         layout.joints += scene.skins[size_t(object.skin)].joints.size();
       }
       layout.skinUseOf[i] = use->second;
-      if (objects) (*objects)[i].firstJoint = layout.skinUses[use->second].firstJoint;
+      objects[i].firstJoint = layout.skinUses[use->second].firstJoint;
     }
     if (object.morphs) {
-      if (objects) (*objects)[i].firstMorphWeight = uint32_t(layout.weights);
+      objects[i].firstMorphWeight = uint32_t(layout.weights);
       layout.weights += scene.meshes[size_t(object.mesh)]->morphWeights.size();
     }
   }
   return layout;
 }
 
-bool SceneMotion::fits(const scene::SceneData& scene, size_t objectCount, uint32_t chunkCount) const {
-  if (objectCount != bounds_.size() || chunkCount != chunkCount_) return false;
-  const Layout layout = layOut(scene, nullptr);
-  return layout.joints == layout_.joints && layout.weights == layout_.weights;
-}
-
-void SceneMotion::follow(const scene::SceneData& scene, const std::vector<shared::ObjectData>& objects) {
+bool SceneMotion::follow(const scene::SceneData& scene, const std::vector<shared::ObjectData>& objects,
+                         uint32_t chunkCount) {
+  if (objects.size() != bounds_.size() || chunkCount != chunkCount_) return false;
   std::vector<shared::ObjectData> placed = objects;
-  layout_ = layOut(scene, &placed);
+  Layout layout = layOut(scene, placed);
+  if (layout.joints != layout_.joints || layout.weights != layout_.weights) return false;
+  layout_ = std::move(layout);
   auto* const now = objects_.as<shared::ObjectData>();
   for (size_t i = 0; i < placed.size(); ++i) {
     shared::ObjectData& object = placed[i];
@@ -123,6 +121,7 @@ void SceneMotion::follow(const scene::SceneData& scene, const std::vector<shared
   std::copy(placed.begin(), placed.end(), now);
   followed_ = &scene;
   isAtRest_ = false;
+  return true;
 }
 
 void SceneMotion::pose(const scene::SceneData& scene, const look::LookData& look, double time,

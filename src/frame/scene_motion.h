@@ -34,11 +34,10 @@ class SceneMotion {
               const std::vector<std::string>& materialNames, const std::vector<MovingObject>& moving,
               const std::vector<shared::ObjectData>& objects, uint32_t chunkCount);
 
-  // Whether its buffers have the right sizes for so much, where `moving` is as it will be.
-  bool fits(const scene::SceneData& scene, size_t objectCount, uint32_t chunkCount) const;
-  // What it was made for has become another that fits. What does not move because of that is not written
-  // anew.
-  void follow(const scene::SceneData& scene, const std::vector<shared::ObjectData>& objects);
+  // What it was made for has become another; what does not move because of that is not written anew. False,
+  // and nothing is done, where the buffers have other sizes than that takes.
+  bool follow(const scene::SceneData& scene, const std::vector<shared::ObjectData>& objects,
+              uint32_t chunkCount);
   // An object's vertices at rest are others.
   void touch(size_t object) { touched_[object] = 1; }
 
@@ -93,7 +92,7 @@ class SceneMotion {
     std::vector<uint32_t> skinUseOf;  // by object
     size_t joints = 0, weights = 0;
   };
-  Layout layOut(const scene::SceneData& scene, std::vector<shared::ObjectData>* objects) const;
+  Layout layOut(const scene::SceneData& scene, std::vector<shared::ObjectData>& objects) const;
 
   const std::vector<std::string>& materialNames_;
   const std::vector<MovingObject>& moving_;

@@ -56,58 +56,44 @@ SceneOnGpu::Changes SceneOnGpu::update(const scene::SceneData& scene, const Geom
     return std::tuple(materialNames_.size(), groundMaterial_, oceanMaterial_);
   };
   const auto materialsBefore = kindsOfMaterials();
-  const bool isFirst = !data_;
   data_ = &scene;
   options_ = options;
-  bool isSettled = isFirst;
-  const std::function<void()> settleOnce = [&] {
-    if (!isSettled) settle();
-    isSettled = true;
-  };
 
   // What is drawn, and with which materials.
   listMaterials();
   Geometry geometry = collectGeometry(scene, options, groundMaterial_, oceanMaterial_, made_);
   bounds_ = geometry.bounds;
   separateMaterials(geometry);
+  changes.materials = kindsOfMaterials() != materialsBefore;
 
   // Vertices, where they are others; then images.
   gpu::Uploader uploader(device_);
-  const GeometryOnGpu::Update vertices = geometry_.update(device_, uploader, geometry.items, settleOnce);
-  const bool keepsPlaces = vertices != GeometryOnGpu::Update::everything;
-  const bool otherTextures = textures_.update(uploader, scene.images, settleOnce);
+  const bool otherPlaces = geometry_.update(device_, uploader, geometry.items, settle);
+  const bool otherTextures = textures_.update(uploader, scene.images, settle);
   uploader.flush();
+  if (otherPlaces) {
+    previousPositions_ = positionBuffer(device_, previousMotion_ ? geometry_.vertexCount() : 1);
+    changes.buffers = true;
+  }
 
-  // What moves, and the water.
-  const bool hadPrevious = previousMotion_.has_value();
-  if (options.ocean.isThere) {
-    const bool fits = waves_ && waves_->fits(options.ocean);
-    if (!fits) {
-      settleOnce();
-      previousWaves_.reset();
-      waves_.emplace(device_, scene, options.ocean);
-      changes.buffers = true;
-    }
+  // The water, and what moves.
+  if (options.ocean.isThere && waves_ && waves_->fits(options.ocean)) {
     waves_->follow(scene, options.ocean);
     if (previousWaves_) previousWaves_->follow(scene, options.ocean);
-  } else if (waves_) {
-    settleOnce();
+  } else if (options.ocean.isThere || waves_) {
+    settle();
     waves_.reset(), previousWaves_.reset();
+    if (options.ocean.isThere) waves_.emplace(device_, scene, options.ocean);
+    if (waves_ && previousMotion_) previousWaves_.emplace(device_, scene, options.ocean);
     changes.buffers = true;
   }
-  if (!keepsPlaces) {
-    settleOnce();
-    previousPositions_ = positionBuffer(device_, hadPrevious ? geometry_.vertexCount() : 1);
-    changes.buffers = true;
-  }
-  listDraws(geometry, settleOnce);
-  if (!motion_ || !motion_->fits(scene, objects_.size(), geometry_.chunkCount())) settleOnce();
-  changes.buffers |= followMotion(keepsPlaces);
-  if (hadPrevious && waves_ && !previousWaves_) previousWaves_.emplace(device_, scene, options.ocean);
+  listDraws(geometry, settle);
+  changes.buffers |= followMotion(otherPlaces, settle);
 
   measureColors(geometry);
-  changes.materials = kindsOfMaterials() != materialsBefore;
-  writeMaterials(otherTextures, settleOnce);
+  changes.writtenMaterials = writeMaterials(otherTextures, settle);
+  changes.writtenPrimitives = geometry_.written();
+  changes.writtenTextures = textures_.uploaded();
   made_.sweep();
   return changes;
 }
@@ -227,17 +213,16 @@ void SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>
   draws_ = std::move(draws);
 }
 
-bool SceneOnGpu::followMotion(bool keepsPlaces) {
+bool SceneOnGpu::followMotion(bool otherPlaces, const std::function<void()>& settle) {
   bool renamed = false;
   for (std::optional<SceneMotion>* motion : {&motion_, &previousMotion_}) {
     if (!*motion && motion == &previousMotion_) continue;
-    if (!*motion || !(*motion)->fits(*data_, objects_.size(), geometry_.chunkCount())) {
+    if (!*motion || !(*motion)->follow(*data_, objects_, geometry_.chunkCount())) {
+      settle();
       motion->emplace(device_, *data_, materialNames_, moving_, objects_, geometry_.chunkCount());
       renamed = true;
-    } else {
-      (*motion)->follow(*data_, objects_);
-      if (!keepsPlaces) (*motion)->touchAll();
     }
+    if (otherPlaces) (*motion)->touchAll();
     for (const uint32_t item : geometry_.rewritten()) (*motion)->touch(item);
   }
   return renamed;
@@ -293,7 +278,8 @@ void SceneOnGpu::addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) {
   uploads.push_back(&materialData_);
 }
 
-void SceneOnGpu::writeMaterials(bool otherTextures, const std::function<void()>& settle) {
+uint32_t SceneOnGpu::writeMaterials(bool otherTextures, const std::function<void()>& settle) {
+  uint32_t written = 0;
   const bool isNew = materialTextures_.size() != materialNames_.size();
   if (isNew) {
     settle();
@@ -320,7 +306,7 @@ void SceneOnGpu::writeMaterials(bool otherTextures, const std::function<void()>&
     if (!isNew && !otherTextures && bindings == materialTextures_[m]) continue;
     settle();
     materialTextures_[m] = bindings;
-    ++writtenMaterials_;
+    ++written;
     // A new image may have an old one's name.
     const auto write = [&](uint32_t binding, const scene::TextureUse& use) {
       const SetTexture texture = textureOf(use);
@@ -330,6 +316,7 @@ void SceneOnGpu::writeMaterials(bool otherTextures, const std::function<void()>&
     write(kLitBinding, {});
     write(kShadowedBinding, {});
   }
+  return written;
 }
 
 SetTexture SceneOnGpu::textureOf(const scene::TextureUse& use) const {

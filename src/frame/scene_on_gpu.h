@@ -62,10 +62,12 @@ class SceneOnGpu {
   struct Changes {
     bool buffers = false;    // names that passes have bound
     bool materials = false;  // how many there are, and which are the ground's and the ocean's
+    // What was written to the device.
+    uint32_t writtenPrimitives = 0, writtenTextures = 0, writtenMaterials = 0;
   };
-  // Brings it up to date; `scene` stays until the next update is over. Calls `settle` before it changes
-  // anything that frames under way read. Throws gpu::VulkanError when it does not fit, and is good for
-  // nothing then.
+  // Brings it up to date; `scene` stays until the next update is over. Calls `settle`, maybe more than once,
+  // before it changes anything that frames under way read. Throws gpu::VulkanError when it does not fit, and
+  // is good for nothing then.
   Changes update(const scene::SceneData& scene, const GeometryOptions& options,
                  const std::function<void()>& settle);
   bool isOf(const scene::SceneData& scene, const GeometryOptions& options) const {
@@ -143,11 +145,6 @@ class SceneOnGpu {
 
   uint64_t triangleCount() const { return triangleCount_; }
   uint64_t uploadedBytes() const { return geometry_.bytes() + textures_.bytes(); }
-  // What was written to the device since it was made.
-  struct Written {
-    uint32_t primitives, textures, materials;
-  };
-  Written written() const { return {geometry_.writtenPrimitives(), textures_.uploaded(), writtenMaterials_}; }
 
  private:
   void listMaterials();
@@ -155,8 +152,9 @@ class SceneOnGpu {
   void separateMaterials(Geometry& geometry);
   void listDraws(const Geometry& geometry, const std::function<void()>& settle);
   // True where the buffers have other names.
-  bool followMotion(bool keepsPlaces);
-  void writeMaterials(bool otherTextures, const std::function<void()>& settle);
+  bool followMotion(bool otherPlaces, const std::function<void()>& settle);
+  // How many were written.
+  uint32_t writeMaterials(bool otherTextures, const std::function<void()>& settle);
   void measureColors(const Geometry& geometry);
 
   struct MaterialUse {
@@ -203,7 +201,6 @@ class SceneOnGpu {
   gpu::SetLayout materialLayout_;
   gpu::DescriptorSets materialSets_;
   std::vector<TextureBindings> materialTextures_;  // as they were written last
-  uint32_t writtenMaterials_ = 0;
   uint64_t triangleCount_ = 0;
 };
 

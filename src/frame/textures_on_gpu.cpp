@@ -36,29 +36,30 @@ bool TexturesOnGpu::update(gpu::Uploader& uploader, const std::vector<Shared<sce
   }
 
   // Which are new.
-  std::map<const scene::Image*, std::shared_ptr<const Texture>> known;
-  for (const auto& texture : textures_) known.emplace(texture->of.get(), texture);
+  std::map<const scene::Image*, std::shared_ptr<const Texture>> had, now;
+  for (const auto& texture : textures_) had.emplace(texture->of.get(), texture);
   std::vector<std::shared_ptr<const scene::Image>> fresh;
-  bool changes = false;
+  bool changes = images.size() < textures_.size();
   for (size_t i = 0; i < images.size(); ++i) {
     const scene::Image& image = *images[i];
     changes |= i < textures_.size() && textures_[i]->of.get() != &image;
-    if (known.contains(&image)) continue;
+    const auto [entry, isNew] = now.try_emplace(&image);
+    if (!isNew) continue;
+    if (const auto known = had.find(&image); known != had.end()) {
+      entry->second = known->second;
+      continue;
+    }
     if (image.width > device_.limits().maxImageDimension2D ||
         image.height > device_.limits().maxImageDimension2D)
       throw gpu::VulkanError{"a texture's size", VK_ERROR_OUT_OF_DEVICE_MEMORY};
-    known.emplace(&image, nullptr);
     fresh.push_back(images[i].keep());
   }
-  changes |= images.size() < textures_.size();
   if (changes) settle();
 
   // The old ones go before there are new ones, but those that stay.
+  had.clear();
   textures_.clear();
-  std::erase_if(known, [&](const auto& entry) {
-    return std::none_of(images.begin(), images.end(),
-                        [&](const Shared<scene::Image>& image) { return &*image == entry.first; });
-  });
+  uploaded_ = uint32_t(fresh.size());
   std::vector<std::vector<std::vector<uint8_t>>> mipmaps(fresh.size());
   scene::parallelFor(fresh.size(), scene::threadCount(0), [&](size_t i) {
     mipmaps[i] = makeMipmaps(fresh[i]->rgba, fresh[i]->width, fresh[i]->height);
@@ -73,11 +74,10 @@ bool TexturesOnGpu::update(gpu::Uploader& uploader, const std::vector<Shared<sce
     texture->mean = meanOf(image);
     texture->bytes = 0;
     for (const auto& level : levels) texture->bytes += level.size();
-    known[fresh[i].get()] = std::move(texture);
+    now[fresh[i].get()] = std::move(texture);
     mipmaps[i].clear();
-    ++uploaded_;
   }
-  for (const Shared<scene::Image>& image : images) textures_.push_back(known.at(&*image));
+  for (const Shared<scene::Image>& image : images) textures_.push_back(now.at(&*image));
   return changes;
 }
 

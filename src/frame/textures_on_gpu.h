@@ -25,7 +25,7 @@ class TexturesOnGpu {
   VkImageView view(int image) const;
   // Mean of the square root of linear RGB, weighted by alpha.
   const glm::vec3& meanRootRgb(int image) const { return textures_[size_t(image)]->mean; }
-  // How many were uploaded since it was made, and the bytes of those that are there.
+  // How many the last update() has uploaded, and the bytes of those that are there.
   uint32_t uploaded() const { return uploaded_; }
   uint64_t bytes() const;
 

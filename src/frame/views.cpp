@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "base/usage.h"
 #include "frame/camera.h"
 #include "frame/framing.h"
 #include "frame/playing.h"
@@ -38,31 +39,25 @@ namespace {
 
 using namespace frame;
 
-Error badViewpoint(std::string problem, std::string advice) {
-  return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
-}
-
 // Turns and places beyond which floats tell neighbouring ones no longer apart.
 constexpr float kMostDegrees = 36000, kMostRadii = 1e6f, kMostMetres = scene::kMaxCoordinate, kMostIpd = 1e6f;
 
 Status checkRanges(const Viewpoint& viewpoint, float ipd) {
   const auto isBeyond = [](float number, float most) { return !(std::abs(number) <= most); };
   if (isBeyond(viewpoint.roll.value_or(0), kMostDegrees))
-    return badViewpoint("the roll is out of range", "it is in degrees, up to a hundred turns");
+    return usage("the roll is out of range", "it is in degrees, up to a hundred turns");
   if (!(ipd >= 0 && ipd <= kMostIpd))
-    return badViewpoint("the distance between the eyes (ipd) is out of range",
-                        "it is in metres, 0 to a million");
+    return usage("the distance between the eyes (ipd) is out of range", "it is in metres, 0 to a million");
   if (isBeyond(viewpoint.azimuth, kMostDegrees))
-    return badViewpoint("the orbit's azimuth is out of range", "it is in degrees, up to a hundred turns");
+    return usage("the orbit's azimuth is out of range", "it is in degrees, up to a hundred turns");
   if (isBeyond(viewpoint.elevation, 90))
-    return badViewpoint("the orbit's elevation is out of range", "it is -90 to 90 degrees");
+    return usage("the orbit's elevation is out of range", "it is -90 to 90 degrees");
   if (viewpoint.distance && !(*viewpoint.distance > 0 && *viewpoint.distance <= kMostRadii))
-    return badViewpoint("the orbit's distance is out of range",
-                        "it is in scene radii, above 0 and up to a million");
+    return usage("the orbit's distance is out of range", "it is in scene radii, above 0 and up to a million");
   for (const auto& point : {viewpoint.eye, viewpoint.target})
     for (int axis = 0; axis < 3; ++axis)
       if (point && isBeyond((*point)[axis], kMostMetres))
-        return badViewpoint("the eye or its target is out of range", "they are in metres, up to 1e15");
+        return usage("the eye or its target is out of range", "they are in metres, up to 1e15");
   return Done{};
 }
 
@@ -133,7 +128,7 @@ View lookAt(const Shot& shot, const glm::vec3& eye, const glm::vec3& target, flo
 
 Result<View> fromEye(const Shot& shot, const glm::vec3& eye, const glm::vec3& target, float radius) {
   if (glm::length(target - eye) < 1e-9f * radius)
-    return badViewpoint("the eye stands on its target", "move one of them");
+    return usage("the eye stands on its target", "move one of them");
   return lookAt(shot, eye, target, 1e-3f * radius);
 }
 
@@ -219,8 +214,8 @@ Result<View> viewFrom(const Shot& shot, Standpoint standpoint) {
     for (size_t i = 0; i < scene.cameras.size(); ++i)
       names +=
           (i == 0 ? "" : ", ") + (scene.cameras[i].name.empty() ? std::to_string(i) : scene.cameras[i].name);
-    return badViewpoint("the scene has no camera '" + name + "'",
-                        names.empty() ? "it has none at all; use --orbit" : "it has: " + names);
+    return usage("the scene has no camera '" + name + "'",
+                 names.empty() ? "it has none at all; use --orbit" : "it has: " + names);
   }
   const scene::Bounds bounds = scene::playedBounds(scene, everPlayed(scene, shot.look));
   const float radius = std::max(bounds.radius(), 1e-6f);
@@ -235,16 +230,16 @@ Result<View> viewFrom(const Shot& shot, Standpoint standpoint) {
 
 Result<std::vector<View>> makeViews(const Scene& scene, const Viewpoint& viewpoint, float aspect,
                                     Stereo stereo, float ipd, const Look& look, double time) {
-  if (scene.empty()) return badViewpoint("the scene is empty", "load one with Scene::load");
+  if (scene.empty()) return usage("the scene is empty", "load one with Scene::load");
   const look::LookData now = look.data().at(time);
   const CameraParams camera = now.get<CameraParams>();
   const float fov = glm::radians(viewpoint.verticalFov.value_or(camera.fov));
   if (!(fov > 0.001f && fov < 3.1f))
-    return badViewpoint("a field of view of that size sees nothing", "use 1 to 170 degrees");
-  if (!(aspect > 0)) return badViewpoint("the picture has no area", "give a size like 1280x720");
+    return usage("a field of view of that size sees nothing", "use 1 to 170 degrees");
+  if (!(aspect > 0)) return usage("the picture has no area", "give a size like 1280x720");
   if (const Status status = checkRanges(viewpoint, ipd); !status) return status.error();
   if (viewpoint.turntable && !(*viewpoint.turntable > 0 && std::isfinite(*viewpoint.turntable)))
-    return badViewpoint("a turn takes no such time", "give it in seconds, above 0");
+    return usage("a turn takes no such time", "give it in seconds, above 0");
 
   const Shot shot{scene.data(), viewpoint, look.data(), now,
                   camera,       time,      fov,         viewpoint.roll.value_or(camera.roll),

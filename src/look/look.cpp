@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/color_text.h"
+#include "base/usage.h"
 #include "look/look_source.h"
 #include "look/read_value.h"
 #include "look/setting_path.h"
@@ -53,41 +54,32 @@ namespace {
 // The number or numbers of a value that is no text, as rows have them.
 Result<look::Value> typedValue(const look::ParamRow& row, const KnobValue& value) {
   using look::ParamKind;
-  const auto refuse = [](std::string problem, std::string advice) {
-    return Error{ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
-  };
   if (const bool* const on = std::get_if<bool>(&value)) {
     if (row.kind == ParamKind::toggle) return look::Value{double(*on), {}};
-    return refuse("it is no toggle", "give it a value of its own type");
+    return usage("it is no toggle", "give it a value of its own type");
   }
   if (const glm::vec3* const three = std::get_if<glm::vec3>(&value)) {
     if (row.kind != ParamKind::color && row.kind != ParamKind::triple)
-      return refuse("it is neither a colour nor a vector", "give it a value of its own type");
-    const double least = row.kind == ParamKind::color ? 0 : row.min,
-                 most = row.kind == ParamKind::color ? 1 : row.max;
-    for (int c = 0; c < 3; ++c)
-      if (!((*three)[c] >= least && (*three)[c] <= most))
-        return refuse(fmt::format("{:g} is out of range", (*three)[c]),
-                      fmt::format("it may be {:g} to {:g}", least, most));
+      return usage("it is neither a colour nor a vector", "give it a value of its own type");
+    for (int c = 0; c < 3; ++c) {
+      const double number = double((*three)[c]);
+      if (const Status status = look::checkNumber(row, number, fmt::format("{:g}", number)); !status)
+        return status.error();
+    }
     return look::Value{0, *three};
   }
   if (row.kind != ParamKind::number && row.kind != ParamKind::integer)
-    return refuse("it is no number", "give it a value of its own type");
+    return usage("it is no number", "give it a value of its own type");
   const double number = value.index() == 1 ? double(std::get<int>(value)) : std::get<double>(value);
-  if (!(number >= row.min && number <= row.max))
-    return refuse(fmt::format("{:g} is out of range", number),
-                  fmt::format("it may be {:g} to {:g}", row.min, row.max));
-  if (row.kind == ParamKind::integer && number != std::floor(number))
-    return refuse(fmt::format("{:g} is no whole number", number), "give a whole number");
+  if (const Status status = look::checkNumber(row, number, fmt::format("{:g}", number)); !status)
+    return status.error();
   return look::Value{number, {}};
 }
 
 // Names that a look declares count in the order of their first setting: that one stays where it is.
 bool isFirstOfItsName(const std::vector<look::Assignment>& settings, const look::Assignment& setting) {
-  const bool declares =
-      std::any_of(std::begin(look::kSections), std::end(look::kSections), [&](const look::Section& section) {
-        return section.target == setting.target && section.most > 0 && !look::isPattern(setting.pattern);
-      });
+  const bool declares = setting.target != look::kScene && look::firstSection(setting.target).most > 0 &&
+                        !look::isPattern(setting.pattern);
   return declares && &setting == &*std::find_if(settings.begin(), settings.end(), [&](const auto& other) {
            return other.target == setting.target && other.pattern == setting.pattern;
          });
@@ -103,7 +95,7 @@ bool isAlike(const look::Assignment& a, const look::Assignment& b) {
 Status Look::set(const std::string& path, const KnobValue& value) {
   const std::string* const text = std::get_if<std::string>(&value);
   if ((path + (text ? *text : "")).find('\0') != std::string::npos)
-    return Error{ErrorKind::usage, "", 0, "", "a setting holds the character NUL", "leave it out"};
+    return usage("a setting holds the character NUL", "leave it out");
   Result<look::Assignment> assignment = look::parseSettingPath(path);
   if (!assignment) return assignment.error();
   auto changed = std::make_shared<look::LookData>(*data_);
@@ -124,12 +116,8 @@ Status Look::set(const std::string& path, const KnobValue& value) {
   for (const look::Section& section : look::kSections)
     if (section.most > 0 && section.target == assignment->target &&
         changed->declared(section.target).size() > section.most)
-      return Error{ErrorKind::usage,
-                   "",
-                   0,
-                   "",
-                   path + ": these are too many " + section.name,
-                   "a look declares " + std::to_string(section.most) + " at most"};
+      return usage(path + ": these are too many " + section.name,
+                   "a look declares " + std::to_string(section.most) + " at most");
   data_ = std::move(changed);
   return Done{};
 }
@@ -148,9 +136,7 @@ Result<KnobValue> Look::get(const std::string& path, double time) const {
   const Result<look::Assignment> knob = look::parseSettingPath(path);
   if (!knob) return knob.error();
   if (look::isPattern(knob->pattern))
-    return Error{
-        ErrorKind::usage,  "", 0, "", path + ": what '" + knob->pattern + "' matches has no one value",
-        "ask for one name"};
+    return usage(path + ": what '" + knob->pattern + "' matches has no one value", "ask for one name");
   const look::ParamRow& row = *knob->row;
   const look::LookData now = data_->at(time);
   const look::Value value = now.valueOf(row, *knob->block, knob->target, knob->pattern);

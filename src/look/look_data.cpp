@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "base/color_text.h"
+#include "base/usage.h"
 #include "scumble/nearest.h"
 
 namespace scumble::look {
@@ -44,10 +45,6 @@ void store(const ParamRow& row, const Value& value, void* out) {
       put(Name(value.number));
       break;
   }
-}
-
-Error badValue(std::string problem, std::string advice) {
-  return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
 }
 
 bool sets(const Assignment& a, const ParamBlock& block, const char* row, Target target) {
@@ -202,14 +199,12 @@ Result<KnobRef> findKnob(const std::string& path, Targets targets) {
       const std::string here = std::string(block->path) + "." + row.name;
       if (here == path) return KnobRef{block, &row};
       if (here.compare(0, path.size() + 1, path + ".") == 0)
-        return badValue("'" + path + "' is a group of knobs",
-                        "give values to knobs in it, like '" + here + "'");
+        return usage("'" + path + "' is a group of knobs", "give values to knobs in it, like '" + here + "'");
       if (block->targets & targets) known.push_back(here);
     }
   const std::string suggestion = suggestionFor(path, known);
-  return badValue("there is no knob '" + path + "'", suggestion.empty()
-                                                         ? "`scumble params` lists them all"
-                                                         : "did you mean '" + suggestion + "'?");
+  return usage("there is no knob '" + path + "'",
+               suggestion.empty() ? "`scumble params` lists them all" : "did you mean '" + suggestion + "'?");
 }
 
 bool isKnob(const std::string& path) {
@@ -222,16 +217,23 @@ bool isKnob(const std::string& path) {
   return false;
 }
 
+Status checkNumber(const ParamRow& row, double number, const std::string& text) {
+  const bool isColor = row.kind == ParamKind::color;
+  const double least = isColor ? 0 : row.min, most = isColor ? 1 : row.max;
+  if (!(number >= least && number <= most))
+    return usage(fmt::format("{} is out of range", text), fmt::format("it may be {:g} to {:g}", least, most));
+  if (row.kind == ParamKind::integer && number != std::floor(number))
+    return usage("'" + text + "' is no whole number", "write a whole number");
+  return Done{};
+}
+
 namespace {
 
 Result<double> parseNumber(const ParamRow& row, const std::string& text) {
   char* end = nullptr;
   const double number = text.empty() ? 0 : std::strtod(text.c_str(), &end);
-  if (!end || *end || !std::isfinite(number))
-    return badValue("'" + text + "' is no number", "write a number");
-  if (number < row.min || number > row.max)
-    return badValue(fmt::format("{} is out of range", text),
-                    fmt::format("it may be {:g} to {:g}", row.min, row.max));
+  if (!end || *end || !std::isfinite(number)) return usage("'" + text + "' is no number", "write a number");
+  if (const Status status = checkNumber(row, number, text); !status) return status.error();
   return number;
 }
 
@@ -241,7 +243,7 @@ Result<Value> parseTriple(const ParamRow& row, const std::string& text) {
   for (int i = 0; i < 3; ++i) {
     const size_t comma = text.find(',', from);
     if ((comma == std::string::npos) != (i == 2))
-      return badValue("'" + text + "' is not three numbers", "write them like 1,2,3");
+      return usage("'" + text + "' is not three numbers", "write them like 1,2,3");
     const Result<double> number = parseNumber(row, text.substr(from, comma - from));
     if (!number) return number.error();
     value.linear[i] = float(*number);
@@ -259,29 +261,26 @@ Result<Value> parseValue(const ParamRow& row, const std::string& text) {
     for (char& c : small)
       if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
     const std::string meant = text.starts_with('#') ? "" : nearest(small, colorNames());
-    return badValue("'" + text + "' is no colour", meant.empty()
-                                                       ? "write it as #RRGGBB, #RGB or a name of CSS"
-                                                       : "did you mean '" + meant + "'?");
+    return usage("'" + text + "' is no colour", meant.empty() ? "write it as #RRGGBB, #RGB or a name of CSS"
+                                                              : "did you mean '" + meant + "'?");
   }
   if (row.kind == ParamKind::choice || row.kind == ParamKind::picture) {
     const std::vector<std::string> names = choiceNames(row);
     const auto it = std::find(names.begin(), names.end(), text);
     if (it == names.end())
-      return badValue("'" + text + "' is none of " + row.unit, row.kind == ParamKind::picture
-                                                                   ? "choose one of them, or a picture's file"
-                                                                   : "choose one of them");
+      return usage("'" + text + "' is none of " + row.unit, row.kind == ParamKind::picture
+                                                                ? "choose one of them, or a picture's file"
+                                                                : "choose one of them");
     return Value{double(it - names.begin()), {}};
   }
   if (row.kind == ParamKind::toggle) {
     if (text == "true" || text == "1" || text == "on") return Value{1, {}};
     if (text == "false" || text == "0" || text == "off") return Value{0, {}};
-    return badValue("'" + text + "' is neither true nor false", "write true or false");
+    return usage("'" + text + "' is neither true nor false", "write true or false");
   }
   if (row.kind == ParamKind::triple) return parseTriple(row, text);
   const Result<double> number = parseNumber(row, text);
   if (!number) return number.error();
-  if (row.kind == ParamKind::integer && *number != std::floor(*number))
-    return badValue("'" + text + "' is no whole number", "write a whole number");
   return Value{*number, {}};
 }
 

@@ -110,6 +110,10 @@ struct KnobRef {
 Result<KnobRef> findKnob(const std::string& path, Targets targets = ~Targets(0));
 bool isKnob(const std::string& path);
 
+// Whether a number is one of the row's, or of one of a colour's or triple's three; `text` is how messages
+// show it. Fails with ErrorKind::usage.
+Status checkNumber(const ParamRow& row, double number, const std::string& text);
+
 // Reads a value as text ("0.4", "true", "exact", "#EADFC8", the name of a picture that is built in); the
 // problem is in Error::problem.
 Result<Value> parseValue(const ParamRow& row, const std::string& text);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <string_view>
 
 #include "base/json_place.h"
 
@@ -18,8 +17,8 @@ constexpr size_t kMaxWarnings = 100;  // a hostile file could ask for any number
 class Builder : public nlohmann::json_sax<Json> {
  public:
   Builder(const std::string& text, const std::string& file, const char*& lastRead,
-          std::vector<std::string>& warnings)
-      : file_(file), lastRead_(lastRead), warnings_(warnings), counted_(text.data()) {}
+          std::vector<std::string>& warnings, const std::string* wanted = nullptr)
+      : file_(file), lastRead_(lastRead), warnings_(warnings), wanted_(wanted), counted_(text.data()) {}
 
   bool null() override { return add(nullptr); }
   bool boolean(bool value) override { return add(value); }
@@ -40,6 +39,8 @@ class Builder : public nlohmann::json_sax<Json> {
   }
 
   const std::optional<Error>& failure() const { return failure_; }
+  // The line of the wanted path, or of the last thing on its way that is there; 0: nothing is.
+  int wantedLine() const { return wantedLine_; }
   Json finish() {
     if (leftOut_ > 0) warnings_.push_back(file_ + ": " + std::to_string(leftOut_) + " more keys stand twice");
     return std::move(root_);
@@ -56,7 +57,10 @@ class Builder : public nlohmann::json_sax<Json> {
   Json& place() {
     if (levels_.empty()) return root_;
     Level& level = levels_.back();
-    return level.value->is_array() ? level.value->emplace_back() : (*level.value)[level.key];
+    if (!level.value->is_array()) return (*level.value)[level.key];
+    Json& value = level.value->emplace_back();
+    noteLine();
+    return value;
   }
   bool add(Json value) {
     place() = std::move(value);
@@ -80,6 +84,7 @@ class Builder : public nlohmann::json_sax<Json> {
   bool takeKey(const std::string& key) {
     Level& level = levels_.back();
     level.key = key;
+    noteLine();
     const int line = lineHere();
     const auto [known, isNew] = level.lines.try_emplace(key, line);
     if (isNew) return true;
@@ -117,9 +122,24 @@ class Builder : public nlohmann::json_sax<Json> {
     return path;
   }
 
+  // Whether this is the wanted path, or on its way there; of keys that stand twice the later one counts.
+  void noteLine() {
+    if (!wanted_) return;
+    const std::string here = path();
+    const bool isOnTheWay =
+        wanted_->starts_with(here) &&
+        (wanted_->size() == here.size() || (*wanted_)[here.size()] == '.' || (*wanted_)[here.size()] == '[');
+    if (!isOnTheWay || here.size() < wantedFound_) return;
+    wantedFound_ = here.size();
+    wantedLine_ = lineHere();
+  }
+
   const std::string& file_;
   const char*& lastRead_;
   std::vector<std::string>& warnings_;
+  const std::string* const wanted_;
+  size_t wantedFound_ = 1;  // letters of it
+  int wantedLine_ = 0;
   Json root_;
   std::vector<Level> levels_;
   std::optional<Error> failure_;
@@ -128,15 +148,19 @@ class Builder : public nlohmann::json_sax<Json> {
   int line_ = 1;
 };
 
+void parse(const std::string& text, const char*& lastRead, Builder& builder) {
+  constexpr bool kIsWhole = true, kSkipsComments = true;
+  Json::sax_parse(JsonReading(text.data(), lastRead), JsonReading(text.data() + text.size(), lastRead),
+                  &builder, Json::input_format_t::json, kIsWhole, kSkipsComments);
+}
+
 }  // namespace
 
 Result<Json> parseText(const std::string& text, const std::string& file, std::vector<std::string>& warnings) {
   const char* lastRead = text.data();
   Builder builder(text, file, lastRead, warnings);
-  constexpr bool kIsWhole = true, kSkipsComments = true;
   try {
-    Json::sax_parse(JsonReading(text.data(), lastRead), JsonReading(text.data() + text.size(), lastRead),
-                    &builder, Json::input_format_t::json, kIsWhole, kSkipsComments);
+    parse(text, lastRead, builder);
   } catch (const Json::exception&) {
     return Error{ErrorKind::unusableFile, file, lineOf(text, lastRead), "", "this JSON cannot be read",
                  "see `scumble schema`"};
@@ -145,89 +169,13 @@ Result<Json> parseText(const std::string& text, const std::string& file, std::ve
   return builder.finish();
 }
 
-namespace {
-
-// Goes through a text again, for the place of one path.
-class LineFinder : public nlohmann::json_sax<Json> {
- public:
-  LineFinder(std::string_view text, const std::string& path, const char*& lastRead)
-      : text_(text), wanted_(path), lastRead_(lastRead) {}
-
-  bool null() override { return value(); }
-  bool boolean(bool) override { return value(); }
-  bool number_integer(Json::number_integer_t) override { return value(); }
-  bool number_unsigned(Json::number_unsigned_t) override { return value(); }
-  bool number_float(Json::number_float_t, const std::string&) override { return value(); }
-  bool string(std::string&) override { return value(); }
-  bool binary(Json::binary_t&) override { return false; }
-  bool start_object(size_t) override { return value() && open(false); }
-  bool start_array(size_t) override { return value() && open(true); }
-  bool end_object() override { return close(); }
-  bool end_array() override { return close(); }
-  bool key(std::string& key) override {
-    Level& level = levels_.back();
-    path_.resize(level.length);
-    path_ += (path_.empty() ? "" : ".") + key;
-    return note();
-  }
-  bool parse_error(size_t, const std::string&, const nlohmann::detail::exception&) override { return false; }
-
-  int line() const { return line_; }
-
- private:
-  struct Level {
-    bool isArray;
-    size_t length;  // of the path before its members
-    size_t count = 0;
-  };
-
-  // Of an array's item, what it is called.
-  bool value() {
-    if (levels_.empty() || !levels_.back().isArray) return true;
-    Level& level = levels_.back();
-    path_.resize(level.length);
-    path_ += "[" + std::to_string(level.count++) + "]";
-    return note();
-  }
-  bool open(bool isArray) {
-    levels_.push_back({isArray, path_.size()});
-    return true;
-  }
-  bool close() {
-    path_.resize(levels_.back().length);
-    levels_.pop_back();
-    return true;
-  }
-  // The path itself, or the last thing on the way to it; of keys that stand twice, the one that counts.
-  bool note() {
-    const bool isOnTheWay =
-        wanted_.starts_with(path_) &&
-        (wanted_.size() == path_.size() || wanted_[path_.size()] == '.' || wanted_[path_.size()] == '[');
-    if (isOnTheWay && path_.size() >= found_) {
-      found_ = path_.size();
-      line_ = lineOf(text_, lastRead_);
-    }
-    return true;
-  }
-
-  std::string_view text_;
-  const std::string& wanted_;
-  const char*& lastRead_;
-  std::string path_;
-  std::vector<Level> levels_;
-  size_t found_ = 1;
-  int line_ = 0;
-};
-
-}  // namespace
-
 int lineOfPath(const std::string& text, const std::string& path) {
+  std::vector<std::string> warnings;
   const char* lastRead = text.data();
-  LineFinder finder(text, path, lastRead);
-  constexpr bool kIsWhole = true, kSkipsComments = true;
-  Json::sax_parse(JsonReading(text.data(), lastRead), JsonReading(text.data() + text.size(), lastRead),
-                  &finder, Json::input_format_t::json, kIsWhole, kSkipsComments);
-  return finder.line();
+  const std::string file;
+  Builder builder(text, file, lastRead, warnings, &path);
+  parse(text, lastRead, builder);
+  return builder.wantedLine();
 }
 
 }  // namespace scumble::look

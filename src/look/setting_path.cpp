@@ -4,13 +4,11 @@
 #include <cassert>
 #include <iterator>
 
+#include "base/usage.h"
+
 namespace scumble::look {
 
 namespace {
-
-Error wrong(std::string problem, std::string advice) {
-  return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
-}
 
 Result<Assignment> assignmentTo(const std::string& knobPath, const std::string& pattern,
                                 const Section* section) {
@@ -19,7 +17,7 @@ Result<Assignment> assignmentTo(const std::string& knobPath, const std::string& 
   const Target target = section ? section->target : kScene;
   const Targets allowed = knob->block->targets;
   if (!(allowed & target)) {
-    return wrong("'" + knobPath + "' holds for " + listed(allowed),
+    return usage("'" + knobPath + "' holds for " + listed(allowed),
                  allowed & kScene
                      ? std::string("set it without '") + section->name + ".'"
                      : std::string("write it like ") + firstSection(allowed).name + ".NAME." + knobPath);
@@ -60,11 +58,11 @@ Result<Assignment> parseSettingPath(const std::string& path) {
   const Section* section = end == std::string::npos ? nullptr : findSection(path.substr(0, end));
   if (!section) return assignmentTo(path, "", nullptr);
   const std::string rest = path.substr(end + 1), advice = std::string("write it like ") + section->example;
-  if (rest.empty() || rest[0] == '.') return wrong("'" + path + "' names no " + section->one, advice);
+  if (rest.empty() || rest[0] == '.') return usage("'" + path + "' names no " + section->one, advice);
   for (size_t dot = rest.rfind('.'); dot != std::string::npos && dot > 0; dot = rest.rfind('.', dot - 1))
     if (isKnob(rest.substr(dot + 1))) return assignmentTo(rest.substr(dot + 1), rest.substr(0, dot), section);
   const size_t dot = rest.find('.');
-  if (dot == std::string::npos) return wrong("'" + path + "' names no knob", advice);
+  if (dot == std::string::npos) return usage("'" + path + "' names no knob", advice);
   return findKnob(rest.substr(dot + 1), section->target).error();
 }
 

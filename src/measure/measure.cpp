@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "base/usage.h"
 #include "measure/cooccurrence.h"
 #include "measure/field.h"
 #include "measure/magnify.h"
@@ -47,10 +48,6 @@ int seedsAt(int i) {
 constexpr float kAmount = 64;  // px at 1080 lines: the most that the knob takes
 constexpr int kExampleSeeds = 4;
 constexpr size_t kFewestPixels = 16;
-
-Error usage(std::string problem, std::string advice) {
-  return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
-}
 
 Error cannotFollow() {
   return usage("the surface cannot be followed from frame to frame: too little of it is away from edges",

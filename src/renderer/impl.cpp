@@ -60,10 +60,6 @@ const Image* backgroundOf(const Request& request) {
   return options.transparent || request.isYardstick ? nullptr : options.background.get();
 }
 
-Error usage(std::string problem, std::string advice) {
-  return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
-}
-
 }  // namespace renderer
 
 Renderer::Impl::Impl(std::unique_ptr<gpu::Device> made, const RendererOptions& options)

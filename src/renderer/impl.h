@@ -7,6 +7,7 @@
 #include <optional>
 #include <thread>
 
+#include "base/usage.h"
 #include "renderer/setup.h"
 #include "renderer/uniforms.h"
 #include "renderer/view_groups.h"
@@ -15,8 +16,6 @@
 namespace scumble {
 
 namespace renderer {
-
-Error usage(std::string problem, std::string advice);
 
 // A scene that is on the device, and what its frames are drawn with.
 struct Resident {
@@ -152,8 +151,7 @@ class Renderer::Turn {
 
   explicit operator bool() const { return isTaken_; }
   Error refusal() const {
-    return renderer::usage("this renderer is in use by another thread",
-                           "give each thread a renderer of its own");
+    return usage("this renderer is in use by another thread", "give each thread a renderer of its own");
   }
 
  private:

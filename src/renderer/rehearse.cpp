@@ -70,10 +70,6 @@ std::vector<look::Assignment> everySetting() {
   return settings;
 }
 
-bool isSame(const look::Assignment& a, const look::Assignment& b) {
-  return a.row == b.row && a.value.number == b.value.number;
-}
-
 // "warp" of "warp.metatexture.skew".
 std::string groupOf(const look::Assignment& setting) {
   const std::string path = setting.block->path;
@@ -124,18 +120,19 @@ Status Renderer::Impl::prepare(const Request& request, Rehearsal extent) {
   // Each knob alone, of the whole scene; those that compile something, of one material and of one node, too.
   const double alone = extent == Rehearsal::knobs ? 1 : 0.2;
   const std::vector<look::Assignment> settings = everySetting();
+  const auto isStructural = [&](const look::Assignment& setting) {
+    return std::any_of(structural.begin(), structural.end(), [&](const look::Assignment& known) {
+      return known.row == setting.row && known.value.number == setting.value.number;
+    });
+  };
   const auto drawn = std::find_if(scene.nodes.begin(), scene.nodes.end(),
                                   [](const scene::Node& node) { return node.mesh >= 0; });
   for (size_t i = 0; i < settings.size(); ++i) {
     const look::Assignment& setting = settings[i];
     const double part = alone * double(i) / double(settings.size());
     if (Status status = rehearse({setting}, part); !status) return status;
-    const auto isIt = [&](const look::Assignment& known) {
-      return known.row == setting.row && known.value.number == setting.value.number;
-    };
-    if (hasCompiled && std::none_of(structural.begin(), structural.end(), isIt))
-      structural.push_back(setting);
     if (!hasCompiled) continue;
+    if (!isStructural(setting)) structural.push_back(setting);
     if (drawn == scene.nodes.end()) continue;
     const scene::Mesh& mesh = scene.meshes[size_t(drawn->mesh)];
     if ((setting.block->targets & look::kMaterials) && !mesh.primitives.empty()) {
@@ -149,10 +146,6 @@ Status Renderer::Impl::prepare(const Request& request, Rehearsal extent) {
   }
 
   // Those in pairs, and with whatever is in their own group: it may mean nothing without them.
-  const auto isStructural = [&](const look::Assignment& setting) {
-    return std::any_of(structural.begin(), structural.end(),
-                       [&](const look::Assignment& known) { return isSame(known, setting); });
-  };
   for (size_t a = 0; a < structural.size() && extent == Rehearsal::pairs; ++a) {
     const look::Assignment first = structural[a];
     const double part = alone + (1 - alone) * double(a) / double(structural.size());

@@ -23,13 +23,11 @@ Resident& Renderer::Impl::useScene(const Scene& wanted, const GeometryOptions& o
   Resident& resident = residents.front();
   if (resident.onGpu.isOf(wanted.data(), options)) return resident;
   try {
-    const SceneOnGpu::Written before = resident.onGpu.written();
     const SceneOnGpu::Changes changes = resident.onGpu.update(wanted.data(), options, [&] { fetchAll(); });
     resident.scene = wanted;
-    const SceneOnGpu::Written now = resident.onGpu.written();
-    stats.writtenPrimitives = now.primitives - before.primitives;
-    stats.writtenTextures = now.textures - before.textures;
-    stats.writtenMaterials = now.materials - before.materials;
+    stats.writtenPrimitives = changes.writtenPrimitives;
+    stats.writtenTextures = changes.writtenTextures;
+    stats.writtenMaterials = changes.writtenMaterials;
     if (changes.materials)
       resident.setups.clear();
     else if (changes.buffers)
@@ -38,6 +36,7 @@ Resident& Renderer::Impl::useScene(const Scene& wanted, const GeometryOptions& o
     // What is half of one and half of the other goes, when nobody draws from it any more.
     for (auto& submission : submissions) submission.reset();
     residents.pop_front();
+    abandon();
     throw;
   }
   return resident;

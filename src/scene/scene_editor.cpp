@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "base/usage.h"
 #include "scene/edited_parts.h"
 #include "scene/find_node.h"
 #include "scene/import_failure.h"
@@ -13,12 +14,6 @@ namespace scumble {
 
 namespace scene {
 
-class EditedScene {
- public:
-  SceneData data;
-  std::optional<Scene> present;
-};
-
 namespace {
 
 uint64_t newFamily() {
@@ -26,13 +21,13 @@ uint64_t newFamily() {
   return ++last;
 }
 
-Error usage(std::string problem, std::string advice) {
-  return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
-}
-
 Error noSuch(const char* what, int id) {
   return usage("there is no " + std::string(what) + " " + std::to_string(id),
                "use an id that this editor gave");
+}
+
+Error notAffine(const std::string& what) {
+  return usage(what + " is not affine, or not finite", "give one whose last row is 0, 0, 0, 1");
 }
 
 bool isPlain(const Mesh& mesh) {
@@ -63,6 +58,20 @@ auto guarded(Body body) -> decltype(body()) {
 
 }  // namespace
 
+class EditedScene {
+ public:
+  SceneData data;
+  std::optional<Scene> present;
+
+  // Changes the data by what gives a result; what there is now is another one where it is good.
+  template <class Change>
+  auto edit(Change change) -> decltype(change()) {
+    auto result = guarded(change);
+    if (result) present.reset();
+    return result;
+  }
+};
+
 }  // namespace scene
 
 using namespace scene;
@@ -87,35 +96,31 @@ SceneEditor& SceneEditor::operator=(SceneEditor&&) noexcept = default;
 // -- Textures and materials
 
 Result<TextureId> SceneEditor::addTexture(const TextureDesc& texture) {
-  return guarded([&]() -> Result<TextureId> {
+  return edited_->edit([&]() -> Result<TextureId> {
     edited_->data.images.push_back(imageOf(texture));
-    edited_->present.reset();
     return TextureId(int(edited_->data.images.size()) - 1);
   });
 }
 
 Status SceneEditor::setTexture(TextureId id, const TextureDesc& texture) {
   if (!isIndex(id, edited_->data.images.size())) return noSuch("texture", int(id));
-  return guarded([&]() -> Status {
+  return edited_->edit([&]() -> Status {
     edited_->data.images[size_t(id)] = imageOf(texture);
-    edited_->present.reset();
     return Done{};
   });
 }
 
 Result<MaterialId> SceneEditor::addMaterial(const MaterialDesc& material) {
-  return guarded([&]() -> Result<MaterialId> {
+  return edited_->edit([&]() -> Result<MaterialId> {
     edited_->data.materials.push_back(materialOf(material, edited_->data));
-    edited_->present.reset();
     return MaterialId(int(edited_->data.materials.size()) - 1);
   });
 }
 
 Status SceneEditor::setMaterial(MaterialId id, const MaterialDesc& material) {
   if (!isIndex(id, edited_->data.materials.size())) return noSuch("material", int(id));
-  return guarded([&]() -> Status {
+  return edited_->edit([&]() -> Status {
     edited_->data.materials[size_t(id)] = materialOf(material, edited_->data);
-    edited_->present.reset();
     return Done{};
   });
 }
@@ -134,9 +139,8 @@ std::optional<MaterialId> SceneEditor::findMaterial(const std::string& name) con
 // -- Meshes
 
 Result<MeshId> SceneEditor::addMesh(const std::vector<MeshPart>& parts) {
-  return guarded([&]() -> Result<MeshId> {
+  return edited_->edit([&]() -> Result<MeshId> {
     edited_->data.meshes.push_back(scene::meshOf(parts, edited_->data));
-    edited_->present.reset();
     return MeshId(int(edited_->data.meshes.size()) - 1);
   });
 }
@@ -145,9 +149,8 @@ Status SceneEditor::setMesh(MeshId id, const std::vector<MeshPart>& parts) {
   if (!isIndex(id, edited_->data.meshes.size())) return noSuch("mesh", int(id));
   if (!isPlain(edited_->data.meshes[size_t(id)]))
     return usage("mesh " + std::to_string(int(id)) + " has joints or morph targets", "add another one");
-  return guarded([&]() -> Status {
+  return edited_->edit([&]() -> Status {
     edited_->data.meshes[size_t(id)] = scene::meshOf(parts, edited_->data);
-    edited_->present.reset();
     return Done{};
   });
 }
@@ -160,17 +163,14 @@ Result<NodeId> SceneEditor::addNode(const NodeDesc& given) {
     return noSuch("node", int(given.parent));
   if (given.mesh != MeshId::none && !isIndex(given.mesh, data.meshes.size()))
     return noSuch("mesh", int(given.mesh));
-  if (!isAffine(given.transform))
-    return usage("the node's transform is not affine, or not finite",
-                 "give one whose last row is 0, 0, 0, 1");
-  return guarded([&]() -> Result<NodeId> {
+  if (!isAffine(given.transform)) return notAffine("the node's transform");
+  return edited_->edit([&]() -> Result<NodeId> {
     Node node;
     node.name = given.name;
     node.parent = int(given.parent);
     node.localMatrix = given.transform;
     node.mesh = int(given.mesh);
     data.nodes.push_back(std::move(node));
-    edited_->present.reset();
     return NodeId(int(data.nodes.size()) - 1);
   });
 }
@@ -187,23 +187,24 @@ MeshId SceneEditor::meshOf(NodeId id) const {
 Status SceneEditor::setTransform(NodeId id, const glm::mat4& transform) {
   SceneData& data = edited_->data;
   if (!isIndex(id, data.nodes.size())) return noSuch("node", int(id));
-  if (!isAffine(transform))
-    return usage("the transform is not affine, or not finite", "give one whose last row is 0, 0, 0, 1");
+  if (!isAffine(transform)) return notAffine("the transform");
   for (const Clip& clip : data.clips)
     for (const Channel& channel : clip.channels)
       if (channel.node == int(id) && channel.property != AnimatedProperty::weights)
         return usage("the clip \"" + clip.name + "\" moves node " + std::to_string(int(id)),
                      "move a node above it; Scene::place puts one over a whole scene");
-  data.nodes[size_t(id)].localMatrix = transform;
-  edited_->present.reset();
-  return Done{};
+  return edited_->edit([&]() -> Status {
+    data.nodes[size_t(id)].localMatrix = transform;
+    return Done{};
+  });
 }
 
 Status SceneEditor::setVisible(NodeId id, bool visible) {
   if (!isIndex(id, edited_->data.nodes.size())) return noSuch("node", int(id));
-  edited_->data.nodes[size_t(id)].visible = visible;
-  edited_->present.reset();
-  return Done{};
+  return edited_->edit([&]() -> Status {
+    edited_->data.nodes[size_t(id)].visible = visible;
+    return Done{};
+  });
 }
 
 Status SceneEditor::setMesh(NodeId id, MeshId mesh) {
@@ -217,9 +218,10 @@ Status SceneEditor::setMesh(NodeId id, MeshId mesh) {
       (mesh != MeshId::none && !isPlain(data.meshes[size_t(mesh)])))
     return usage("meshes with joints or morph targets stay on their nodes",
                  "hide the node with setVisible()");
-  node.mesh = int(mesh);
-  edited_->present.reset();
-  return Done{};
+  return edited_->edit([&]() -> Status {
+    node.mesh = int(mesh);
+    return Done{};
+  });
 }
 
 Status SceneEditor::setInstances(NodeId id, std::span<const glm::mat4> transforms) {
@@ -228,12 +230,9 @@ Status SceneEditor::setInstances(NodeId id, std::span<const glm::mat4> transform
   if (data.nodes[size_t(id)].skin >= 0)
     return usage("a skinned mesh has no instances: its joints place it", "add a scene for each");
   for (const glm::mat4& transform : transforms)
-    if (!isAffine(transform))
-      return usage("an instance's transform is not affine, or not finite",
-                   "give one whose last row is 0, 0, 0, 1");
-  return guarded([&]() -> Status {
+    if (!isAffine(transform)) return notAffine("an instance's transform");
+  return edited_->edit([&]() -> Status {
     data.nodes[size_t(id)].instances.assign(transforms.begin(), transforms.end());
-    edited_->present.reset();
     return Done{};
   });
 }
@@ -241,7 +240,7 @@ Status SceneEditor::setInstances(NodeId id, std::span<const glm::mat4> transform
 Status SceneEditor::setLight(NodeId id, const std::optional<LightDesc>& light) {
   SceneData& data = edited_->data;
   if (!isIndex(id, data.nodes.size())) return noSuch("node", int(id));
-  return guarded([&]() -> Status {
+  return edited_->edit([&]() -> Status {
     Node& node = data.nodes[size_t(id)];
     if (!light) {
       node.light = -1;
@@ -257,7 +256,6 @@ Status SceneEditor::setLight(NodeId id, const std::optional<LightDesc>& light) {
       if (size_t(node.light) == data.lights.size()) data.lights.emplace_back();
       data.lights[size_t(node.light)] = made;
     }
-    edited_->present.reset();
     return Done{};
   });
 }
