@@ -26,7 +26,7 @@ class Numbers(unittest.TestCase):
             for path in (numbers.ROOT / part).rglob("*"):
                 if path.is_dir():
                     (self.root / path.relative_to(numbers.ROOT)).mkdir(parents=True, exist_ok=True)
-        for room in ("src/frame", "src/measure"):
+        for room in ("src/stage", "src/world", "src/frame", "src/measure"):
             for path in (numbers.ROOT / room).glob("*.h"):
                 shutil.copy(path, self.root / room)
         for name in ("README.md", "src/passes/CMakeLists.txt", "src/shading/metatexture.params"):
@@ -88,14 +88,14 @@ class Numbers(unittest.TestCase):
         self.notices("henry-4.json", "places")
 
     def test_may_include(self):
-        self.change("docs/frame.md", "shading, ocean.", "shading.")
+        self.change("docs/frame.md", "ocean, world.", "ocean.")
         self.notices("docs/frame.md", "src/frame may include")
         self.change("docs/house.md", "| public, base, ocean |", "| public, base |")
         self.notices("docs/house.md", "src/measure may include")
 
     def test_lists(self):
         for file, before, after, word in (("docs/passes.md", "| `ocean` |", "| |", "ocean"), ("README.md", "| `dusk` |", "| |", "dusk"),
-                                          ("docs/frame.md", "| `palette.h` |", "| |", "palette.h"),
+                                          ("docs/stage.md", "| `palette.h` |", "| |", "palette.h"),
                                           ("docs/measure.md", "| `src/measure/field.h` |", "| |", "field.h"),
                                           ("docs/metatexture.md", "`paper`, `sea`, `foam`)", "`paper`)", "foam"),
                                           ("docs/house.md", "Henry's room, ", "", "henry")):

@@ -302,10 +302,11 @@ def check_lists(root):
     built = re.search(r"foreach\(pass ([^)]*)\)", (root / "src" / "passes" / "CMakeLists.txt").read_text()).group(1).split()
     for name in sorted(set(built) ^ folders(root / "src" / "passes")):
         yield f"src/passes/CMakeLists.txt and the folders differ: {name}"
-    named = first_cells((docs / "frame.md").read_text(encoding="utf-8"))
-    for header in headers(root, "src/frame"):
-        if header not in named:
-            yield f"docs/frame.md: its table lacks {header}"
+    for room in ("stage", "world", "frame"):
+        named = first_cells((docs / f"{room}.md").read_text(encoding="utf-8"))
+        for header in headers(root, f"src/{room}"):
+            if header not in named:
+                yield f"docs/{room}.md: its table lacks {header}"
     named = first_cells((docs / "measure.md").read_text(encoding="utf-8"))
     for header in headers(root, "src/measure"):
         if f"src/measure/{header}" not in named:

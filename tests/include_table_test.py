@@ -12,7 +12,7 @@ import include_table  # noqa: E402
 # Files that exist in the little tree that each case is tried in.
 TREE = """include/scumble/image.h src/base/files.h src/gpu/device.h src/scene/scene_data.h src/look/look_data.h
 src/frame/pass.h src/frame/view.h src/renderer/uniforms.h src/frame/cache.h src/passes/blur/blur.h src/passes/blur/blur.shared.h
-src/passes/warp/warp.h src/ocean/waves.h src/passes/warp/warp.glsl src/shading/frame.glsl src/film/srgb.h tests/support/pictures.h
+src/passes/warp/warp.h src/ocean/waves.h src/gltf/json.h src/stage/framing.h src/world/textures.h src/passes/warp/warp.glsl src/shading/frame.glsl src/film/srgb.h tests/support/pictures.h
 examples/mesh_kit/mesh.h""".split()
 
 ALLOWED = [
@@ -34,6 +34,11 @@ ALLOWED = [
     ("src/passes/blur/blur.frag", '"../../shading/frame.glsl"'),
     ("src/passes/blur/blur_test.cpp", '"tests/support/pictures.h"'),
     ("src/passes/blur/blur_test.cpp", '"support/pictures.h"'),
+    ("src/gltf/load.cpp", '"scene/scene_data.h"'),
+    ("src/stage/framing.cpp", '"scene/scene_data.h"'),
+    ("src/world/textures.cpp", '"stage/framing.h"'),
+    ("src/world/textures.cpp", '"gpu/device.h"'),
+    ("src/frame/pass.cpp", '"world/textures.h"'),
     ("src/frame/pass.cpp", '"ocean/waves.h"'),
     ("src/passes/blur/blur.cpp", '"ocean/waves.h"'),
     ("src/ocean/waves.cpp", '"base/files.h"'),
@@ -55,6 +60,11 @@ FORBIDDEN = [
     ("src/scene/import.cpp", '"gpu/device.h"'),
     ("src/scene/import.cpp", '"../gpu/device.h"'),
     ("src/scene/import_test.cpp", '"gpu/device.h"'),
+    ("src/scene/scene.cpp", '"gltf/json.h"'),
+    ("src/gltf/load.cpp", '"look/look_data.h"'),
+    ("src/stage/framing.cpp", '"gpu/device.h"'),
+    ("src/stage/framing.cpp", '"world/textures.h"'),
+    ("src/world/textures.cpp", '"frame/pass.h"'),
     ("src/look/look.cpp", '"frame/view.h"'),
     ("src/ocean/waves.cpp", '"look/look_data.h"'),
     ("src/scene/import.cpp", '"ocean/waves.h"'),
@@ -99,6 +109,18 @@ class IncludeTable(unittest.TestCase):
                 problems = problems_of(file, include)
                 self.assertEqual(len(problems), 1)
                 self.assertTrue(problems[0][0].startswith(file + ":"))
+
+    def test_sees_what_is_brought_along(self):
+        with tempfile.TemporaryDirectory(prefix="include table ") as folder:
+            root = Path(folder)
+            for name, line in (("include/scumble/image.h", ""), ("src/gpu/device.h", ""), ("src/base/files.h", '#include "base/more.h"'),
+                               ("src/base/more.h", '#include "gpu/device.h"'), ("src/film/png.cpp", '#include "base/files.h"'),
+                               ("src/gpu/queue.cpp", '#include "base/files.h"')):
+                (root / name).parent.mkdir(parents=True, exist_ok=True)
+                (root / name).write_text(line + "\n")
+            found = [text for text, _ in include_table.check(root)[0]]
+            self.assertEqual(found, ["src/base/files.h:1: includes base/more.h", "src/base/more.h:1: includes gpu/device.h",
+                                     "src/film/png.cpp:1: includes base/files.h"])
 
     def test_names_the_line(self):
         text, rule = problems_of("src/film/png.cpp", '"gpu/device.h"')[0]

@@ -3,7 +3,7 @@
 
     tools/include_table.py [ROOT]     checks the tree at ROOT (default: this checkout); exit code 1 with a list if it fails
 
-Only direct includes count: what a header brings along is that header's affair, and it is checked there.
+What an included header brings along counts like what the file includes itself.
 """
 import os
 import re
@@ -13,29 +13,31 @@ from pathlib import Path, PurePosixPath
 # Who may look into which. `*` in a room's name stands for one folder; "own" is the room itself and always allowed.
 # A target with a dot in it is a single file. All of src/ may use the public headers: results and pictures are theirs.
 PUBLIC = "include/scumble"
-LOWER = ["src/base", "src/gpu", "src/scene", "src/look", "src/shading", "src/ocean"]
-PASS = [PUBLIC, *LOWER, "src/frame"]
+STAGE = [PUBLIC, "src/base", "src/scene", "src/look", "src/shading"]
+WORLD = [*STAGE, "src/gpu", "src/stage", "src/ocean"]
+FRAME = [*WORLD, "src/world"]
+PASS = [*FRAME, "src/frame"]
 TABLE = {
     PUBLIC: [],
     "src/base": [PUBLIC],
     "src/gpu": [PUBLIC, "src/base"],
     "src/scene": [PUBLIC, "src/base"],
+    "src/gltf": [PUBLIC, "src/base", "src/scene"],
     "src/look": [PUBLIC, "src/base"],
     "src/shading": [],
     "src/ocean": [PUBLIC, "src/base"],
-    "src/frame": [PUBLIC, *LOWER],
+    "src/stage": STAGE,
+    "src/world": WORLD,
+    "src/frame": FRAME,
     "src/passes/*": PASS,
-    "src/renderer": [*PASS, "src/passes/*", "src/ink", "src/painting"],
-    "src/ink": PASS,
-    "src/painting": PASS,
+    "src/renderer": [*PASS, "src/passes/*"],
     "src/film": [PUBLIC, "src/base"],
     "src/c": [PUBLIC],
     "src/measure": [PUBLIC, "src/base", "src/ocean"],
-    "src/xr": [PUBLIC, "src/base", "src/gpu", "src/frame"],
     "apps/scumble": [PUBLIC],
     "examples": [PUBLIC],
     # The cost of one technique by itself is measured from inside.
-    "bench": [PUBLIC, "examples", "src/base", "src/gpu", "src/frame", "src/shading", "src/ocean", "src/passes/*"],
+    "bench": [*PASS, "examples", "src/passes/*"],
     # Tests of the whole look wherever they must; tests of one room lie in that room and follow its line.
     "tests": ["*"],
 }
@@ -118,9 +120,29 @@ def problem_with(root, file, bracket, name):
     allowed = list(TABLE[room])
     if TEST_FILE.search(file):
         allowed += TEST_ALSO
-    if target.startswith(place + "/") or any(matches(target, a) for a in allowed):
-        return None
-    return f"{room} may look into: {', '.join(allowed) or 'nothing but itself'}"
+
+    def may_see(other):
+        return room_of(other) is None or other.startswith(place + "/") or any(matches(other, a) for a in allowed)
+
+    rule = f"{room} may look into: {', '.join(allowed) or 'nothing but itself'}"
+    if not may_see(target):
+        return rule
+    brought = sorted(other for other in brought_by(root, target) if not may_see(other))
+    return f"{rule}; {target} brings {brought[0]}" if brought else None
+
+
+def brought_by(root, file, known={}):
+    """All files of the project that a file's includes lead to."""
+    key = (root, file)
+    if key not in known:
+        known[key] = set()  # of those that include each other
+        if (root / file).is_file():
+            for line in (root / file).read_text(encoding="utf-8", errors="replace").splitlines():
+                match = INCLUDE.match(line)
+                target = match and resolve(root, file, match.group(2))
+                if target and (match.group(1) == '"' or target.startswith("include/")):
+                    known[key] |= {target} | brought_by(root, target)
+    return known[key]
 
 
 def check(root):

@@ -1,9 +1,9 @@
 // MetaTexture as passes use it: the knobs of each use, and what the shaders read instead of knobs.
 #pragma once
 
-#include "frame/example_textures.h"
 #include "frame/pass.h"
 #include "shading/surface_tangents.shared.h"
+#include "world/example_textures.h"
 
 namespace scumble::frame {
 

@@ -13,19 +13,22 @@
 #include <vector>
 
 #include "frame/aov.h"
-#include "frame/backdrop.h"
-#include "frame/example_textures.h"
 #include "frame/formats.h"
 #include "frame/roles.h"
-#include "frame/scene_on_gpu.h"
 #include "gpu/frames_in_flight.h"
 #include "gpu/graph_resources.h"
 #include "gpu/pipeline.h"
 #include "gpu/view_drawing.h"
 #include "look/look_data.h"
 #include "shading/frame.shared.h"
+#include "world/backdrop.h"
+#include "world/example_textures.h"
+#include "world/scene_on_gpu.h"
 
 namespace scumble::frame {
+
+using namespace stage;
+using namespace world;
 
 // What is fixed as long as pipelines live.
 struct Configuration {

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <set>
 
-#include "frame/camera.h"
-#include "frame/ocean.h"
 #include "look/look_data.h"
 #include "look/setting_path.h"
 #include "passes/colorize/colorize.h"
 #include "scene/find_node.h"
+#include "stage/camera.h"
+#include "world/ocean.h"
 
 namespace scumble {
 
@@ -79,22 +79,22 @@ void findNodes(const scene::SceneData& scene, const look::LookData& look, Findin
                     : std::string(look::firstSection(target).name) + "." + name + "." + knob,
                 bySet);
     };
-    check(frame::CameraParams::block(), "target", look::kScene, "", now.get<frame::CameraParams>().target);
+    check(stage::CameraParams::block(), "target", look::kScene, "", now.get<stage::CameraParams>().target);
     for (const std::string& name : now.declared(look::kColorizers))
       check(passes::VolumeParams::block(), "node", look::kColorizers, name,
             now.getFor<passes::VolumeParams>(look::kColorizers, name).node);
     for (const std::string& name : now.declared(look::kDecorations))
-      check(frame::DecorationParams::block(), "node", look::kDecorations, name,
-            now.getFor<frame::DecorationParams>(look::kDecorations, name).node);
+      check(world::DecorationParams::block(), "node", look::kDecorations, name,
+            now.getFor<world::DecorationParams>(look::kDecorations, name).node);
   }
 }
 
 void findOceans(const scene::SceneData& scene, const look::LookData& look, Findings& found) {
-  if (frame::oceanShape(scene, look.at(0)).isThere) return;
+  if (world::oceanShape(scene, look.at(0)).isThere) return;
   std::vector<std::string> groups;
   for (const look::Assignment& setting : look.assignments) {
     const bool isMode =
-        setting.block == &frame::OceanParams::block() && setting.row->name == std::string("mode");
+        setting.block == &world::OceanParams::block() && setting.row->name == std::string("mode");
     if (isMode && setting.track) return;  // it comes and goes
     const std::string group = setting.block->path;
     const bool isOceans = group == "ocean" || group.starts_with("ocean.") || group == "float";

@@ -4,12 +4,12 @@
 #include <chrono>
 #include <cmath>
 
-#include "frame/framing.h"
-#include "frame/light.h"
-#include "frame/palette.h"
-#include "frame/playing.h"
-#include "frame/view_check.h"
 #include "scumble/nearest.h"
+#include "stage/framing.h"
+#include "stage/light.h"
+#include "stage/palette.h"
+#include "stage/playing.h"
+#include "stage/view_check.h"
 
 namespace scumble {
 

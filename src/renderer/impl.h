@@ -79,8 +79,8 @@ struct Renderer::Impl {
   std::atomic<std::thread::id> user;  // the thread that is inside, if one is
   std::unique_ptr<gpu::Device> device;
   std::optional<gpu::Samplers> samplers;
-  std::optional<frame::ExampleTextures> examples;
-  std::optional<frame::LookTextures> lookTextures;
+  std::optional<world::ExampleTextures> examples;
+  std::optional<world::LookTextures> lookTextures;
   ImagePassKind imagePasses = ImagePassKind::automatic;
   renderer::PassList passes, plain = renderer::plainPasses();
   // One of each of `passes`, for what they say of themselves.
@@ -88,7 +88,7 @@ struct Renderer::Impl {
   std::vector<const frame::Aov*> aovs;  // that they may offer
   uint64_t sceneBudget = 0;
   std::list<renderer::Resident> residents;  // the one that was drawn last first
-  std::optional<frame::Backdrop> backdrop;
+  std::optional<world::Backdrop> backdrop;
   renderer::ColorMaps colorMaps;
   std::optional<gpu::Submission> submissions[gpu::kFramesInFlight];
   std::deque<renderer::Begun> begun;         // the oldest first
@@ -112,7 +112,7 @@ struct Renderer::Impl {
 
  private:
   // The scene to draw, first of the residents, as it is now.
-  renderer::Resident& useScene(const Scene& wanted, const frame::GeometryOptions& options, FrameStats& stats);
+  renderer::Resident& useScene(const Scene& wanted, const world::GeometryOptions& options, FrameStats& stats);
   // Takes off the device what was drawn longest ago, but for so many scenes, while there is too much.
   void keepBudget(size_t least);
   // Texels of pictures behind everything; none: there is no such picture.
@@ -125,7 +125,7 @@ struct Renderer::Impl {
   std::vector<renderer::SetupKey> keysOf(const renderer::Request& request, const look::LookData& now,
                                          std::vector<renderer::Begun::Part>& parts) const;
   // Asks the caller for the newest views, and writes them where the frame will find them.
-  void latch(const renderer::Request& request, const frame::SceneMotion& motion,
+  void latch(const renderer::Request& request, const world::SceneMotion& motion,
              const renderer::Begun& frame);
   // One that no frame under way has.
   uint32_t freeSlot() const;

@@ -3,11 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "frame/animation_params.h"
-#include "frame/camera.h"
-#include "frame/light.h"
 #include "frame/metatexture.h"
-#include "frame/palette.h"
 #include "passes/blur/blur.h"
 #include "passes/color/color.h"
 #include "passes/colorize/colorize.h"
@@ -22,6 +18,10 @@
 #include "passes/shadow_map/shadow_map.h"
 #include "passes/surface/surface.h"
 #include "passes/warp/warp.h"
+#include "stage/animation_params.h"
+#include "stage/camera.h"
+#include "stage/light.h"
+#include "stage/palette.h"
 
 namespace scumble {
 
@@ -29,20 +29,20 @@ namespace look {
 
 const std::vector<const ParamBlock*>& allBlocks() {
   static const std::vector<const ParamBlock*> blocks{
-      &frame::LightParams::block(),       &passes::ShadowMapParams::block(),
-      &frame::PaletteParams::block(),     &frame::LitParams::block(),
-      &frame::ShadowedParams::block(),    &passes::SurfaceParams::block(),
+      &stage::LightParams::block(),       &passes::ShadowMapParams::block(),
+      &stage::PaletteParams::block(),     &stage::LitParams::block(),
+      &stage::ShadowedParams::block(),    &passes::SurfaceParams::block(),
       &passes::BlurParams::block(),       &passes::FinalShadowParams::block(),
       &passes::TextureParams::block(),    &frame::TextureMetaTextureParams::block(),
       &passes::WarpParams::block(),       &frame::WarpMetaTextureParams::block(),
       &passes::BreakupParams::block(),    &frame::BreakupMetaTextureParams::block(),
-      &passes::BackgroundParams::block(), &frame::GroundParams::block(),
+      &passes::BackgroundParams::block(), &stage::GroundParams::block(),
       &passes::VolumeParams::block(),     &passes::GradeParams::block(),
       &passes::LimitParams::block(),      &passes::FinalColorParams::block(),
-      &frame::AnimationParams::block(),   &frame::PlayParams::block(),
-      &frame::OceanParams::block(),       &frame::DecorationParams::block(),
+      &stage::AnimationParams::block(),   &stage::PlayParams::block(),
+      &world::OceanParams::block(),       &world::DecorationParams::block(),
       &passes::OceanPaintParams::block(), &frame::OceanMetaTextureParams::block(),
-      &frame::FloatParams::block(),       &frame::CameraParams::block()};
+      &world::FloatParams::block(),       &stage::CameraParams::block()};
   return blocks;
 }
 

@@ -8,12 +8,7 @@
 #include <set>
 #include <string>
 
-#include "frame/animation_params.h"
-#include "frame/camera.h"
-#include "frame/light.h"
 #include "frame/metatexture.h"
-#include "frame/ocean.h"
-#include "frame/palette.h"
 #include "passes/blur/blur.h"
 #include "passes/color/color.h"
 #include "passes/colorize/colorize.h"
@@ -25,6 +20,11 @@
 #include "passes/surface/surface.h"
 #include "passes/warp/warp.h"
 #include "scumble/renderer.h"
+#include "stage/animation_params.h"
+#include "stage/camera.h"
+#include "stage/light.h"
+#include "stage/palette.h"
+#include "world/ocean.h"
 
 namespace scumble::renderer {
 namespace {

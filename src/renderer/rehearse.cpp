@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
-#include "frame/ocean.h"
 #include "renderer/impl.h"
+#include "world/ocean.h"
 
 namespace scumble {
 
@@ -102,12 +102,12 @@ Status Renderer::Impl::prepare(const Request& request, Rehearsal extent) {
   // A frame with settings besides; whether it has compiled anything. Where there is another sea, or none any
   // more, it is another scene.
   const scene::SceneData& scene = request.scene.data();
-  const bool hasOcean = frame::oceanShape(scene, request.look.at(request.time)).isThere;
+  const bool hasOcean = world::oceanShape(scene, request.look.at(request.time)).isThere;
   bool hasCompiled = false;
   const auto rehearse = [&](std::initializer_list<look::Assignment> settings, double part) -> Status {
     look::LookData look = request.look;
     look.assignments.insert(look.assignments.end(), settings);
-    if (frame::oceanShape(scene, look.at(request.time)).isThere != hasOcean) return Done{};
+    if (world::oceanShape(scene, look.at(request.time)).isThere != hasOcean) return Done{};
     Request changed{request.scene, look, request.time, request.views, request.options};
     changed.isRehearsal = true;
     changed.progressFrom = changed.progressTo = part;

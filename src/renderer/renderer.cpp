@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "frame/playing.h"
 #include "renderer/gpu_list.h"
 #include "renderer/impl.h"
+#include "stage/playing.h"
 
 namespace scumble {
 

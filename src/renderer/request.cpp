@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "base/pixels.h"
-#include "frame/light.h"
-#include "frame/view_check.h"
 #include "renderer/impl.h"
 #include "scumble/nearest.h"
+#include "stage/light.h"
+#include "stage/view_check.h"
 
 namespace scumble {
 

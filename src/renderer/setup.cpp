@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "frame/light.h"
+#include "stage/light.h"
 
 namespace scumble::renderer {
 

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <span>
 
-#include "frame/light.h"
-#include "frame/palette.h"
 #include "passes/color/color.h"
 #include "passes/surface/surface.h"
 #include "passes/warp/warp.h"
 #include "renderer/view_groups.h"
 #include "shading/luminance.shared.h"
+#include "stage/light.h"
+#include "stage/palette.h"
 
 namespace scumble::renderer {
 
@@ -54,7 +54,7 @@ shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const look::LookDat
   const LightParams light = look.get<LightParams>();
   u.toLight = keyLightDirection(scene.data(), light, scene.motion().world());
   u.viewer = viewer;
-  setLightSpace(u, scene, light, viewer);
+  setLightSpace(u, scene.casters(), light, viewer);
   return u;
 }
 

@@ -3,10 +3,10 @@
 
 #include <optional>
 
-#include "frame/look_textures.h"
-#include "frame/palette.h"
 #include "frame/pass.h"
 #include "scumble/view.h"
+#include "stage/palette.h"
+#include "world/look_textures.h"
 
 namespace scumble::renderer {
 

@@ -67,9 +67,9 @@ View middleOf(const std::vector<View>& views) {
   return {glm::inverse(eyeToWorld), projection};
 }
 
-frame::Viewers viewersOf(const std::vector<View>& all, const std::vector<ViewGroup>& groups,
+stage::Viewers viewersOf(const std::vector<View>& all, const std::vector<ViewGroup>& groups,
                          const std::vector<float>& marginPixels) {
-  frame::Viewers viewers;
+  stage::Viewers viewers;
   for (size_t g = 0; g < groups.size(); ++g)
     for (const size_t member : groups[g].members)
       viewers.windows.push_back({all[member].eyeToClip * all[member].worldToEye,

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "frame/viewers.h"
 #include "scumble/view.h"
+#include "stage/viewers.h"
 
 namespace scumble::renderer {
 
@@ -29,7 +29,7 @@ View middleOf(const std::vector<View>& views);
 bool isParallel(const View& view);
 
 // What all views see, and `marginPixels` beside each of its size.
-frame::Viewers viewersOf(const std::vector<View>& all, const std::vector<ViewGroup>& groups,
+stage::Viewers viewersOf(const std::vector<View>& all, const std::vector<ViewGroup>& groups,
                          const std::vector<float>& marginPixels);
 
 }  // namespace scumble::renderer

@@ -8,8 +8,8 @@
 #include <map>
 #include <tuple>
 
-#include "scene/loaded_test_gltf.h"
 #include "scumble/scene.h"
+#include "tests/support/loaded_test_gltf.h"
 
 namespace scumble::scene {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "scene/loaded_test_gltf.h"
 #include "scene/scene_data.h"
 #include "scumble/scene.h"
+#include "tests/support/loaded_test_gltf.h"
 
 namespace scumble::scene {
 namespace {

@@ -4,13 +4,15 @@
 #include <cmath>
 #include <map>
 
-#include "scene/import_budget.h"
+#include "scene/import_failure.h"
 #include "scene/posed_bounds.h"
 #include "scene/prepare_mesh.h"
 
 namespace scumble::scene {
 
 namespace {
+
+constexpr uint64_t kMaxDrawnTriangles = 1ull << 28;  // instances and repeated meshes included
 
 // A mesh's box, and how far each of its morph targets can move it.
 struct MeshBox {
@@ -107,9 +109,8 @@ void placeScene(SceneData& scene, ImportWarnings& warnings) {
     if (node.mesh < 0) continue;
     const Mesh& mesh = scene.meshes[node.mesh];
     drawn += trianglesOf(mesh) * (node.skin >= 0 ? 1 : std::max<uint64_t>(1, node.instances.size()));
-    if (drawn > ImportBudget::kMaxDrawnTriangles)
-      fail("nodes",
-           "more than " + std::to_string(ImportBudget::kMaxDrawnTriangles) + " triangles would be drawn",
+    if (drawn > kMaxDrawnTriangles)
+      fail("nodes", "more than " + std::to_string(kMaxDrawnTriangles) + " triangles would be drawn",
            "reduce the instances or the meshes");
 
     Bounds bounds = scene.bounds;

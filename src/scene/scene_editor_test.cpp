@@ -7,9 +7,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
-#include "scene/loaded_test_gltf.h"
 #include "scene/scene_data.h"
-#include "scene/test_gltf.h"
+#include "tests/support/loaded_test_gltf.h"
+#include "tests/support/test_gltf.h"
 
 namespace scumble {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "scene/animation.h"
 #include "scene/find_node.h"
-#include "scene/loaded_test_gltf.h"
+#include "tests/support/loaded_test_gltf.h"
 
 namespace scumble {
 namespace {

@@ -19,8 +19,8 @@
 
 #include "scene/posed_bounds.h"
 #include "scene/scene_data.h"
-#include "scene/test_gltf.h"
 #include "scumble/scene.h"
+#include "tests/support/test_gltf.h"
 
 namespace {
 

@@ -37,7 +37,7 @@ class MetaTextureTest : public ::testing::Test {
   struct Gpu {
     std::unique_ptr<gpu::Device> device;
     std::optional<gpu::Samplers> samplers;
-    std::optional<frame::ExampleTextures> examples;
+    std::optional<world::ExampleTextures> examples;
   };
   static Gpu& gpuOfTests() {
     static Gpu* made = [] {
@@ -58,7 +58,7 @@ class MetaTextureTest : public ::testing::Test {
                                  look::Picture example = 0, bool specialised = false,
                                  const look::LookData& look = {}) {
     Gpu& g = gpuOfTests();
-    const frame::ExampleTexture& texture = meta.contrast == frame::kContrastHistogram
+    const world::ExampleTexture& texture = meta.contrast == frame::kContrastHistogram
                                                ? g.examples->getWithTwin(look, example)
                                                : g.examples->get(look, example);
     const frame::MetaTextureUse use{meta, &texture};
@@ -82,7 +82,7 @@ class MetaTextureTest : public ::testing::Test {
     sets.writeBuffer(0, 1, in.handle());
     sets.writeBuffer(0, 2, out.handle());
     sets.writeTexture(0, 3, use.image().view(), g.samplers->get(use.sampler()));
-    sets.writeTexture(0, 4, use.inverse().view(), g.samplers->get(frame::ExampleTextures::kInverseSampler));
+    sets.writeTexture(0, 4, use.inverse().view(), g.samplers->get(world::ExampleTextures::kInverseSampler));
     gpu::ComputePipelineDesc desc;
     desc.shader = {shaders::metatexture_probe_comp};
     desc.constants = {specialised ? meta.features() : ~0u};
@@ -103,7 +103,7 @@ class MetaTextureTest : public ::testing::Test {
 
   static MetaTextureReference reference(const MetaTexture& m, int example = 0) {
     MetaTextureReference r;
-    r.texture.pixels = frame::builtInExample(example);
+    r.texture.pixels = world::builtInExample(example);
     r.mean = m.mean;
     r.size = m.size.x, r.base = m.base, r.levelRotation = m.levelRotation, r.blend = m.blend, r.skip = m.skip;
     r.skewLevels = int(m.skewLevels);
@@ -249,7 +249,7 @@ TEST_F(MetaTextureTest, contrastIsTheTexturesOwn) {
     const double n = 2.0 * double(queries.size());
     return std::sqrt(squares / n - sum * sum / n / n);
   };
-  const double own = deviationOf(frame::builtInExample(0))[0];
+  const double own = deviationOf(world::builtInExample(0))[0];
   for (const bool askew : {false, true}) {
     MetaTexture m;
     m.skew = askew ? 2 : 0;
@@ -279,7 +279,7 @@ TEST_F(MetaTextureTest, histogramOfATextureOfTwoValues) {
     for (size_t c = 0; c < 3; ++c) picture->pixels.rgba[4 * i + c] = ink ? 40 : 220;
   }
   look.pictures.push_back(picture);
-  const frame::ExampleTexture& example = gpuOfTests().examples->get(look, look::Picture(-1));
+  const world::ExampleTexture& example = gpuOfTests().examples->get(look, look::Picture(-1));
   EXPECT_GT(example.statistics.distanceToGaussian.x, 0.3f);
   frame::WarpMetaTextureParams params;
   params.size = 64;
@@ -460,7 +460,7 @@ TEST_F(MetaTextureTest, finiteForAnything) {
 TEST_F(MetaTextureTest, orientationShowsTheContour) {
   MetaTexture m;
   m.orient = 1, m.contrast = 0;
-  const RepeatingTexture texture{frame::builtInExample(1)};
+  const RepeatingTexture texture{world::builtInExample(1)};
   for (const bool foreshortened : {false, true}) {
     std::vector<Query> queries(200);
     for (Query& query : queries) {
@@ -481,7 +481,7 @@ TEST_F(MetaTextureTest, orientationShowsTheContour) {
 
 // The rivals are what they are said to be.
 TEST_F(MetaTextureTest, rivals) {
-  const RepeatingTexture texture{frame::builtInExample(0)};
+  const RepeatingTexture texture{world::builtInExample(0)};
   MetaTexture m;
   m.size = glm::vec2(128), m.tiles = 3, m.contrast = 0;
   std::vector<Query> queries(200);

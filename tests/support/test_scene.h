@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "scene/test_gltf.h"
 #include "scumble/image.h"
 #include "scumble/scene.h"
+#include "tests/support/test_gltf.h"
 
 namespace scumble::test {
 

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "frame/image_step.h"
-#include "frame/palette.h"
 #include "passes/color/color.shared.h"
 #include "shaders/color_image_comp.h"
 #include "shaders/color_image_frag.h"
+#include "stage/palette.h"
 
 namespace scumble::passes {
 

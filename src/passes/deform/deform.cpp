@@ -60,9 +60,9 @@ class Deform : public frame::Pass {
       decorations = gpu::Pipeline(frame.device(), desc);
     }
 
-    void bind(const frame::SceneOnGpu& scene, const frame::SceneMotion& motion,
-              const frame::OceanWaves* ocean) {
-      const frame::GeometryOnGpu& geometry = scene.geometry();
+    void bind(const world::SceneOnGpu& scene, const world::SceneMotion& motion,
+              const world::OceanWaves* ocean) {
+      const world::GeometryOnGpu& geometry = scene.geometry();
       const VkBuffer buffers[] = {geometry.chunks().handle(),
                                   motion.moved(),
                                   motion.objects(),
@@ -81,7 +81,7 @@ class Deform : public frame::Pass {
       for (uint32_t i = 0; i < std::size(buffers); ++i) set.writeBuffer(0, i, buffers[i]);
     }
 
-    void record(VkCommandBuffer commands, VkDescriptorSet frameSet, const frame::SceneMotion& motion) const {
+    void record(VkCommandBuffer commands, VkDescriptorSet frameSet, const world::SceneMotion& motion) const {
       const uint32_t dryCount = motion.movedBeforeWater();
       dispatch(commands, frameSet, dry, 0, dryCount);
       for (const gpu::Pipeline* pipeline : {&waves, &decorations})
@@ -102,7 +102,7 @@ class Deform : public frame::Pass {
 
   gpu::SetLayout layout_;
   Work now_, previous_;
-  const frame::SceneOnGpu* scene_ = nullptr;
+  const world::SceneOnGpu* scene_ = nullptr;
   VkDescriptorSet frameSet_ = VK_NULL_HANDLE;
 };
 

@@ -14,7 +14,7 @@ namespace scumble::passes {
 // What the passes of surfaces say.
 struct SurfaceFacts {
   // The largest inflation of any of the scene's materials, in pixels.
-  float (*inflation)(const look::LookData& look, const frame::SceneOnGpu& scene, float imageHeight);
+  float (*inflation)(const look::LookData& look, const world::SceneOnGpu& scene, float imageHeight);
   // Whether anything may act on the lens at any time.
   bool (*glow)(const look::LookData& look, const scene::SceneData& scene);
 };

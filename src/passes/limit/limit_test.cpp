@@ -6,12 +6,12 @@
 #include <cmath>
 #include <limits>
 
-#include "frame/example_textures.h"
 #include "tests/support/aov.h"
 #include "tests/support/palette_reference.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
 #include "tests/support/sanitized.h"
+#include "world/example_textures.h"
 
 namespace scumble::passes {
 namespace {

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "frame/example_textures.h"
 #include "passes/limit/limit.h"
 #include "tests/support/aov.h"
 #include "tests/support/metatexture_reference.h"
 #include "tests/support/palette_reference.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
+#include "world/example_textures.h"
 
 namespace scumble::passes {
 namespace {
@@ -49,7 +49,7 @@ INSTANTIATE_BOTH_EYES(SkyMarksTest);
 
 TEST_P(SkyMarksTest, areThePatternInEveryDirection) {
   const Scene scene = emptySky();
-  const RepeatingTexture strokes{frame::builtInExample(1)};
+  const RepeatingTexture strokes{world::builtInExample(1)};
   const double dither = 0.9;
   size_t atSeam = 0;
   for (const double size : {120.0, 100.0, 7.0}) {

@@ -7,13 +7,13 @@
 #include "frame/geometry_step.h"
 #include "frame/image_step.h"
 #include "frame/metatexture.h"
-#include "frame/palette.h"
 #include "passes/ocean/ocean.shared.h"
 #include "passes/ocean/ocean_maps.h"
 #include "shaders/ocean_image_comp.h"
 #include "shaders/ocean_image_frag.h"
 #include "shaders/ocean_surface_frag.h"
 #include "shaders/ocean_surface_vert.h"
+#include "stage/palette.h"
 
 namespace scumble::passes {
 

@@ -4,6 +4,7 @@
 #include "shaders/shadow_map_frag.h"
 #include "shaders/shadow_map_opaque_vert.h"
 #include "shaders/shadow_map_vert.h"
+#include "stage/light.h"
 
 namespace scumble::passes {
 

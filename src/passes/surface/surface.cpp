@@ -5,7 +5,6 @@
 
 #include "frame/drawn_image.h"
 #include "frame/geometry_step.h"
-#include "frame/light.h"
 #include "frame/material_params.h"
 #include "frame/metatexture.h"
 #include "shaders/surface_frag.h"
@@ -13,6 +12,7 @@
 #include "shaders/surface_painted_frag.h"
 #include "shaders/surface_painted_vert.h"
 #include "shaders/surface_vert.h"
+#include "stage/light.h"
 
 namespace scumble::passes {
 

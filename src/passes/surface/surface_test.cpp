@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "frame/light.h"
 #include "frame/metatexture.h"
-#include "frame/palette.h"
+#include "stage/light.h"
+#include "stage/palette.h"
 #include "tests/support/aov.h"
 #include "tests/support/metatexture_reference.h"
 #include "tests/support/palette_reference.h"
@@ -334,7 +334,7 @@ TEST_P(SurfaceTest, paintsTexturesOfTheLook) {
                                  {"texture.metatexture.cyclopean", "off"}});
     const Frame frame = draw(scene, look, views, sized(kWidth, kHeight, {"lit", "uv", "uv-gradient", "id"}));
     MetaTextureReference reference;
-    reference.texture.pixels = frame::builtInExample(2);
+    reference.texture.pixels = world::builtInExample(2);
     reference.mean = meanOf(reference.texture.pixels);
     reference.size = 3000.0 * kHeight / 1080;
     reference.skew = MetaTextureReference::exact;

@@ -5,12 +5,12 @@
 #include <optional>
 
 #include "base/test_folder.h"
-#include "frame/example_textures.h"
 #include "tests/support/aov.h"
 #include "tests/support/metatexture_reference.h"
 #include "tests/support/posed_surface.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
+#include "world/example_textures.h"
 
 namespace scumble::passes {
 namespace {
@@ -149,7 +149,7 @@ TEST_P(MarksTest, fromATextureOfTheLook) {
 
   // Vectors do not know of it.
   MetaTextureReference builtIn;
-  builtIn.texture.pixels = frame::builtInExample(0);
+  builtIn.texture.pixels = world::builtInExample(0);
   builtIn.mean = meanOf(builtIn.texture.pixels);
   builtIn.size = 256, builtIn.skew = MetaTextureReference::exact, builtIn.skewLevels = 2;
   compare(
@@ -212,7 +212,7 @@ MetaTextureReference defaultReference(const Pixels& pixels, double size) {
 // Knobs as they are, but for the size: the built-in marks are near enough to a Gaussian, so that contrast is
 // restored by the variance.
 TEST_P(MarksTest, contrastByDefault) {
-  const MetaTextureReference reference = defaultReference(frame::builtInExample(0), 256);
+  const MetaTextureReference reference = defaultReference(world::builtInExample(0), 256);
   const double amount = 1.3, mean = reference.mean.z;
   compare(
       quietLook(quietKnobs({{"breakup.metatexture.size", "3072"}})), reference,

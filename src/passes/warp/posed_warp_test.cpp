@@ -5,7 +5,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
 
-#include "frame/example_textures.h"
 #include "tests/support/animated_scene.h"
 #include "tests/support/aov.h"
 #include "tests/support/metatexture_reference.h"
@@ -13,6 +12,7 @@
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
 #include "tests/support/test_device.h"
+#include "world/example_textures.h"
 
 namespace scumble::passes {
 namespace {
@@ -263,7 +263,7 @@ TEST_P(PosedWarpTest, gradientsAndVectorsOfAffinePoses) {
                            seen, sized(kWidth, kHeight, {"uv", "uv-gradient", "id", "warp", "metatexture"}));
   const double scale = kHeight / 1080.0;
   MetaTextureReference reference;
-  reference.texture.pixels = frame::builtInExample(0);
+  reference.texture.pixels = world::builtInExample(0);
   reference.mean = meanOf(reference.texture.pixels);
   reference.size = kSize * scale;
   reference.skew = MetaTextureReference::exact;

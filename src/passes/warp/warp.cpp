@@ -8,12 +8,12 @@
 #include "frame/image_step.h"
 #include "frame/material_params.h"
 #include "frame/metatexture.h"
-#include "frame/playing.h"
 #include "passes/warp/warp.shared.h"
 #include "shaders/warp_image_comp.h"
 #include "shaders/warp_image_frag.h"
 #include "shaders/warp_surface_frag.h"
 #include "shaders/warp_surface_vert.h"
+#include "stage/playing.h"
 
 namespace scumble::passes {
 
@@ -177,7 +177,7 @@ float inflationPixels(const WarpParams& params, float imageHeight) {
 }
 
 int boilDrawing(const WarpParams& params, double time) {
-  const double drawing = std::round(frame::heldTime(time, params.boilHold) * 24 / params.boilHold);
+  const double drawing = std::round(stage::heldTime(time, params.boilHold) * 24 / params.boilHold);
   return int(drawing - params.boilDrawings * std::floor(drawing / params.boilDrawings));
 }
 

@@ -1,0 +1,40 @@
+// A glTF as parsed JSON, with the binary chunk of a .glb; version and extensions checked.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/file_bytes.h"
+#include "gltf/json.h"
+#include "scene/import_warnings.h"
+
+namespace scumble::gltf {
+
+using namespace scene;
+
+class Document {
+ public:
+  // `bytes` must outlive the document. Fails when it is no glTF 2.x, or one that requires what we cannot do.
+  Document(Bytes bytes, ImportWarnings& warnings);
+
+  JsonView root() const { return JsonView(&root_, ""); }
+  JsonView list(const char* name) const { return root().list(name); }
+
+  bool hasBinaryChunk() const { return hasBinaryChunk_; }
+  Bytes binaryChunk() const { return binaryChunk_; }
+
+  const std::vector<std::string>& extensionsUsed() const { return extensionsUsed_; }
+  const std::vector<std::string>& extensionsNotSupported() const { return extensionsNotSupported_; }
+
+ private:
+  std::string_view splitGlb(Bytes bytes, ImportWarnings& warnings);
+  void checkVersion() const;
+  void checkExtensions(ImportWarnings& warnings);
+
+  Json root_;
+  bool hasBinaryChunk_ = false;
+  Bytes binaryChunk_;
+  std::vector<std::string> extensionsUsed_, extensionsNotSupported_;
+};
+
+}  // namespace scumble::gltf

@@ -1,0 +1,132 @@
+// From a file to a scene.
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <filesystem>
+
+#include "gltf/import.h"
+#include "gltf/world_file.h"
+#include "scene/parallel.h"
+#include "scene/scene_bounds.h"
+#include "scumble/scene.h"
+
+namespace scumble {
+
+namespace {
+
+using namespace gltf;
+
+class Stopwatch {
+ public:
+  // Milliseconds since the last call.
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    const double ms = std::chrono::duration<double, std::milli>(now - last_).count();
+    last_ = now;
+    return ms;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+std::shared_ptr<SceneData> import(Bytes bytes, const std::string& name, const std::string& folder,
+                                  const SceneOptions& options, SceneTimings& timings) {
+  Stopwatch watch;
+  auto data = std::make_shared<SceneData>();
+  data->name = std::filesystem::path(name).stem().string();
+  ImportWarnings warnings;
+  ImportBudget budget;
+  budget.addBacking(bytes.size());
+  const Document document(bytes, warnings);
+  Buffers buffers(document, folder, options.allowOutside, budget);
+  data->files = buffers.files();
+  Accessors accessors(document, buffers, budget);
+  ImportProgress progress(options.progress);
+  const Import import{
+      document, buffers, accessors, budget, warnings, progress, threadCount(options.threads)};
+  progress.expect(1, 0.1);
+  progress.step();
+  data->extensionsUsed = document.extensionsUsed();
+  data->extensionsNotSupported = document.extensionsNotSupported();
+  timings.parse = watch.lap();
+
+  Maps maps;
+  readNodes(import, options.scene, *data, maps);
+  readMeshes(import, maps, *data);
+  readCamerasAndLights(import, *data, maps);
+  readSkins(import, *data, maps);
+  readClips(import, maps, *data);
+  placeScene(*data, warnings);
+  requireMeshes(*data);
+  timings.geometry = watch.lap();
+
+  readMaterials(import, *data);
+  readImages(import, *data);
+  timings.images = watch.lap();
+  data->warnings = warnings.lines(name);
+  progress.expect(1, 1);
+  progress.step();
+  return data;
+}
+
+Error internalError(const std::string& name, const std::string& what) {
+  return Error{ErrorKind::internal, name, 0, {}, "the importer failed: " + what, "please report this file"};
+}
+
+}  // namespace
+
+void gltf::ImportProgress::expect(size_t count, double part) {
+  from_ = to_, to_ = part, count_ = count, done_ = 0;
+}
+
+void gltf::ImportProgress::step() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++done_;
+  const double part = from_ + (to_ - from_) * double(done_) / double(std::max<size_t>(1, count_));
+  isStopped_ = isStopped_ || (callback_ && !callback_(part));
+  if (isStopped_) throw ImportFailure{Error{ErrorKind::cancelled, "", 0, "", "loading was cancelled", ""}};
+}
+
+Result<Scene> Scene::load(const std::string& path, const SceneOptions& options) {
+  try {
+    if (path.ends_with(".json"))
+      if (std::optional<Result<Scene>> world = loadWorld(path, options)) return *std::move(world);
+    Stopwatch watch;
+    FileBytes file;
+    std::string problem;
+    if (!file.open(path, problem))
+      return Error{ErrorKind::unusableFile, path, 0, {}, problem, "give the path of a .gltf or .glb"};
+    const double read = watch.lap();
+    std::string folder = std::filesystem::path(path).parent_path().string();
+    if (folder.empty()) folder += '.';
+    Result<Scene> scene = loadFromMemory(file.bytes().data(), file.bytes().size(), path, folder, options);
+    if (scene) scene->timings_.read = read;
+    return scene;
+  } catch (const std::exception& error) {
+    return internalError(path, error.what());
+  }
+}
+
+Result<Scene> Scene::loadFromMemory(const void* bytes, size_t size, const std::string& name,
+                                    const std::string& folder, const SceneOptions& options) {
+  if (options.scene < -1)
+    return Error{
+        ErrorKind::usage,           name, 0, {}, "there is no scene " + std::to_string(options.scene),
+        "scenes are counted from 0"};
+  try {
+    Scene scene;
+    scene.data_ = import({static_cast<const uint8_t*>(bytes), size}, name, folder, options, scene.timings_);
+    return scene;
+  } catch (ImportFailure& failure) {
+    failure.error.file = name;
+    return failure.error;
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorKind::unusableFile, name, 0, {}, "needs more memory than there is",
+                 "use a smaller scene"};
+  } catch (const std::exception& error) {
+    return internalError(name, error.what());
+  }
+}
+
+}  // namespace scumble

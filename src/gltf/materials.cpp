@@ -1,0 +1,247 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/color_text.h"
+#include "gltf/import.h"
+
+namespace scumble::gltf {
+
+namespace {
+
+float linearOf(float srgb) {
+  return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
+}
+
+Wrap wrapOf(const JsonView& sampler, const char* key) {
+  switch (sampler.count(key, 10497)) {
+    case 33071:
+      return Wrap::clampToEdge;
+    case 33648:
+      return Wrap::mirroredRepeat;
+    case 10497:
+      return Wrap::repeat;
+    default:
+      sampler.failAt(key, "is not a known wrapping mode");
+  }
+}
+
+Sampler readSampler(const JsonView& json) {
+  Sampler sampler;
+  sampler.wrapU = wrapOf(json, "wrapS");
+  sampler.wrapV = wrapOf(json, "wrapT");
+  const uint64_t magnify = json.count("magFilter", 9729), minify = json.count("minFilter", 9987);
+  sampler.nearest = magnify == 9728;
+  sampler.mipmaps = minify != 9728 && minify != 9729;
+  return sampler;
+}
+
+// The image that a texture shows: its plain source where we can read that, else what an extension names.
+int64_t imageOf(const JsonView& texture, size_t images) {
+  for (const char* name :
+       {"EXT_texture_webp", "KHR_texture_basisu", "MSFT_texture_dds", "EXT_texture_avif"}) {
+    const bool usable = std::string_view(name) == "EXT_texture_webp";
+    if (!usable && texture.has("source")) continue;
+    if (const JsonView extension = texture.extension(name))
+      return extension.requiredIndex("source", images, "image");
+  }
+  return texture.requiredIndex("source", images, "image");
+}
+
+class MaterialReader {
+ public:
+  MaterialReader(const Import& import, SceneData& scene) : import_(import), scene_(scene) {}
+
+  Material read(const JsonView& json) {
+    Material m;
+    m.metallic = 1.0f;  // the specification's default, where a material is given
+    m.name = json.text("name");
+    m.doubleSided = json.flag("doubleSided", false);
+    m.alphaCutoff = std::clamp(json.number("alphaCutoff", 0.5f), 0.0f, 1.0f);
+    const std::string alphaMode = json.text("alphaMode", "OPAQUE");
+    if (alphaMode == "MASK")
+      m.alphaMode = AlphaMode::mask;
+    else if (alphaMode == "BLEND")
+      m.alphaMode = AlphaMode::blend;
+    else if (alphaMode != "OPAQUE")
+      import_.warnings.add(json.pathOf("alphaMode"), "an unknown alpha mode means OPAQUE");
+
+    if (const JsonView pbr = json.object("pbrMetallicRoughness")) {
+      pbr.numbers("baseColorFactor", &m.baseColor.x, 4);
+      m.metallic = std::clamp(pbr.number("metallicFactor", 1.0f), 0.0f, 1.0f);
+      m.roughness = std::clamp(pbr.number("roughnessFactor", 1.0f), 0.0f, 1.0f);
+      m.baseColorTexture = textureUse(pbr, "baseColorTexture");
+    }
+    json.numbers("emissiveFactor", &m.emissive.x, 3);
+    m.emissiveTexture = textureUse(json, "emissiveTexture");
+
+    const JsonView extensions = json.object("extensions");
+    if (extensions) readExtensions(extensions, m);
+    m.baseColor = glm::clamp(m.baseColor, glm::vec4(0.0f), glm::vec4(1.0f));
+    m.emissive = glm::clamp(m.emissive, glm::vec3(0.0f), glm::vec3(1e6f));
+    readExtras(json, m);
+    return m;
+  }
+
+ private:
+  void readExtensions(const JsonView& extensions, Material& m) {
+    m.unlit = extensions.has("KHR_materials_unlit");
+    if (const JsonView strength = extensions.object("KHR_materials_emissive_strength"))
+      m.emissive *= std::max(0.0f, strength.number("emissiveStrength", 1.0f));
+    if (const JsonView specular = extensions.object("KHR_materials_pbrSpecularGlossiness")) {
+      m.baseColor = glm::vec4(1.0f);
+      specular.numbers("diffuseFactor", &m.baseColor.x, 4);
+      m.baseColorTexture = textureUse(specular, "diffuseTexture");
+      m.metallic = 0.0f;
+      m.roughness = 1.0f - std::clamp(specular.number("glossinessFactor", 1.0f), 0.0f, 1.0f);
+    }
+  }
+
+  TextureUse textureUse(const JsonView& parent, const char* key) {
+    TextureUse use;
+    const JsonView info = parent.object(key);
+    if (!info) return use;
+    try {
+      const JsonView textures = import_.document.list("textures");
+      const JsonView texture =
+          textures.at(static_cast<size_t>(info.requiredIndex("index", textures.size(), "texture")));
+      uint64_t uvSet = info.count("texCoord", 0);
+      if (const JsonView transform = info.extension("KHR_texture_transform")) {
+        uvSet = transform.count("texCoord", uvSet);
+        use.transform = transformOf(transform);
+      }
+      if (uvSet > 1) {
+        import_.warnings.add(info.path(), "texture coordinates beyond TEXCOORD_1 are replaced by TEXCOORD_0");
+        uvSet = 0;
+      }
+      use.uvSet = static_cast<int>(uvSet);
+      const JsonView samplers = import_.document.list("samplers");
+      if (const int64_t sampler = texture.index("sampler", samplers.size(), "sampler"); sampler >= 0)
+        use.sampler = readSampler(samplers.at(sampler));
+      use.image = imageNumber(imageOf(texture, import_.document.list("images").size()));
+    } catch (const ImportFailure& failure) {
+      import_.warnings.add(failure.error.jsonPath,
+                           "a texture is drawn as a magenta checker: " + failure.error.problem);
+      use.image = imageNumber(-1);
+    }
+    return use;
+  }
+
+  static glm::mat3 transformOf(const JsonView& json) {
+    glm::vec2 offset(0.0f), scale(1.0f);
+    json.numbers("offset", &offset.x, 2);
+    json.numbers("scale", &scale.x, 2);
+    const float rotation = json.number("rotation", 0.0f), c = std::cos(rotation), s = std::sin(rotation);
+    // Translation * rotation * scale, in columns; the extension turns counter-clockwise with v downwards.
+    return glm::mat3(c * scale.x, -s * scale.x, 0.0f, s * scale.y, c * scale.y, 0.0f, offset.x, offset.y,
+                     1.0f);
+  }
+
+  // Our number of the file's image; -1 stands for one that is missing. Image::name holds the file's number
+  // until readImages fills it in.
+  int imageNumber(int64_t fileImage) {
+    const auto [entry, isNew] = imageMap_.emplace(fileImage, static_cast<int>(scene_.images.size()));
+    if (isNew) scene_.images.emplace_back().own().name = std::to_string(fileImage);
+    return entry->second;
+  }
+
+  void readExtras(const JsonView& json, Material& m) {
+    const auto extras = json.json().find("extras");
+    if (extras == json.json().end() || !extras->is_object()) return;
+    if (const auto found = extras->find("scumble_shadowed"); found != extras->end())
+      m.shadowedColor = colorOf(*found, json.pathOf("extras.scumble_shadowed"));
+    for (const auto& [key, use] : {std::pair("scumble_lit_texture", &m.litTexture),
+                                   std::pair("scumble_shadowed_texture", &m.shadowedTexture)})
+      if (const auto found = extras->find(key); found != extras->end())
+        *use = namedTexture(*found, json.pathOf(std::string("extras.") + key));
+  }
+
+  std::optional<glm::vec3> colorOf(const Json& json, const std::string& path) {
+    glm::vec3 srgb(-1.0f);
+    if (json.is_string()) {
+      if (const std::optional<uint32_t> color = parseColor(json.get<std::string>()))
+        for (int i = 0; i < 3; ++i) srgb[i] = static_cast<float>(*color >> (16 - 8 * i) & 0xFF) / 255.0f;
+    } else if (json.is_array() && json.size() == 3) {
+      for (int i = 0; i < 3; ++i)
+        if (json[i].is_number()) srgb[i] = static_cast<float>(json[i].get<double>());
+    }
+    for (int i = 0; i < 3; ++i)
+      if (!(srgb[i] >= 0.0f && srgb[i] <= 1.0f)) {
+        import_.warnings.add(path,
+                             "a shadowed colour is ignored: it is neither a colour like \"#RRGGBB\" nor "
+                             "three numbers in [0, 1]");
+        return std::nullopt;
+      }
+    return glm::vec3(linearOf(srgb.x), linearOf(srgb.y), linearOf(srgb.z));
+  }
+
+  // A texture that extras name: {"index": 3}, or what modelling programs can write as a property: the number
+  // alone, or the name of an image.
+  TextureUse namedTexture(const Json& json, const std::string& path) {
+    TextureUse use;
+    const JsonView textures = import_.document.list("textures"), images = import_.document.list("images");
+    const Json* index = json.is_object() && json.contains("index") ? &json["index"] : &json;
+    try {
+      if (json.is_string()) {
+        const std::string& name = json.get_ref<const std::string&>();
+        for (size_t i = 0; i < images.size() && use.image < 0; ++i)
+          if (isNamed(images.at(i), name)) use.image = imageNumber(static_cast<int64_t>(i));
+        if (use.image >= 0) return use;
+      } else if (index->is_number()) {
+        const double number = index->get<double>();
+        if (number >= 0 && number < static_cast<double>(textures.size()) && number == std::floor(number)) {
+          const JsonView texture = textures.at(static_cast<size_t>(number));
+          const JsonView samplers = import_.document.list("samplers");
+          if (const int64_t sampler = texture.index("sampler", samplers.size(), "sampler"); sampler >= 0)
+            use.sampler = readSampler(samplers.at(sampler));
+          use.image = imageNumber(imageOf(texture, images.size()));
+          return use;
+        }
+      }
+    } catch (const ImportFailure&) {
+    }
+    import_.warnings.add(path, "a texture for light or shadow is ignored: it names no texture of the file");
+    return TextureUse();
+  }
+
+  // By its name, or by that of its file.
+  static bool isNamed(const JsonView& image, const std::string& name) {
+    if (name.empty()) return false;
+    const auto uri = image.json().find("uri");
+    return image.text("name") == name ||
+           (uri != image.json().end() && uri->is_string() && uri->get_ref<const std::string&>() == name);
+  }
+
+  const Import& import_;
+  SceneData& scene_;
+  std::map<int64_t, int> imageMap_;
+};
+
+}  // namespace
+
+void readMaterials(const Import& import, SceneData& scene) {
+  const JsonView list = import.document.list("materials");
+  std::vector<bool> used(list.size() + 1, false);
+  for (const Mesh& mesh : scene.meshes)
+    for (const Primitive& primitive : mesh.primitives) used[primitive.material] = true;
+
+  scene.materials.resize(1);
+  scene.materials[0].metallic = 1.0f;
+  // One that nothing uses keeps its place, but its textures are not looked at.
+  MaterialReader reader(import, scene);
+  for (size_t i = 0; i < list.size(); ++i) {
+    Material material;
+    try {
+      if (used[i + 1])
+        material = reader.read(list.at(i));
+      else
+        material.name = list.at(i).text("name");
+    } catch (const ImportFailure& failure) {
+      import.warnings.add(failure.error.jsonPath,
+                          "a material is replaced by the default one: " + failure.error.problem);
+      material = scene.materials[0];
+    }
+    scene.materials.push_back(std::move(material));
+  }
+}
+
+}  // namespace scumble::gltf

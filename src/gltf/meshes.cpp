@@ -1,0 +1,92 @@
+#include <algorithm>
+#include <cmath>
+
+#include "gltf/import.h"
+#include "gltf/primitive.h"
+#include "scene/parallel.h"
+#include "scene/prepare_mesh.h"
+
+namespace scumble::gltf {
+
+namespace {
+
+// Every primitive of a mesh must have the same morph targets; those with fewer get empty ones.
+void alignMorphTargets(Mesh& mesh) {
+  size_t count = 0;
+  for (const Primitive& p : mesh.primitives) count = std::max(count, p.morphTargets.size());
+  for (Primitive& p : mesh.primitives) p.morphTargets.resize(count);
+  mesh.morphWeights.resize(count, 0.0f);
+}
+
+void readMorphWeights(const JsonView& json, Mesh& mesh, ImportWarnings& warnings) {
+  const JsonView weights = json.list("weights");
+  if (!weights) return;
+  std::vector<float> values(weights.size());
+  try {
+    json.numbers("weights", values.data(), values.size());
+    mesh.morphWeights = std::move(values);
+  } catch (const ImportFailure& failure) {
+    warnIgnored(warnings, failure, "morph weights");
+  }
+}
+
+}  // namespace
+
+void readMeshes(const Import& import, const Maps& maps, SceneData& scene) {
+  // What there is to read.
+  const JsonView list = import.document.list("meshes");
+  struct Task {
+    size_t mesh, primitive;
+    JsonView json;
+    ImportWarnings warnings;
+  };
+  std::vector<Task> tasks;
+  for (size_t i = 0; i < maps.meshes.size(); ++i) {
+    if (maps.meshes[i] < 0) continue;
+    const JsonView json = list.at(i), primitives = json.list("primitives");
+    const size_t index = static_cast<size_t>(maps.meshes[i]);
+    Mesh& mesh = scene.meshes[index].own();
+    mesh.name = json.text("name");
+    mesh.primitives.resize(primitives.size());
+    readMorphWeights(json, mesh, import.warnings);
+    for (size_t k = 0; k < primitives.size(); ++k) tasks.push_back({index, k, primitives.at(k), {}});
+  }
+
+  // Triangles, whole ones.
+  import.progress.expect(tasks.size(), 0.4);
+  parallelFor(tasks.size(), import.threads, [&](size_t i) {
+    Task& task = tasks[i];
+    Primitive& primitive = scene.meshes[task.mesh].own().primitives[task.primitive];
+    primitive = readPrimitive(import, task.json, task.warnings);
+    if (!primitive.indices.empty()) cleanPrimitive(primitive, task.json.path(), task.warnings);
+    import.progress.step();
+  });
+  for (const Task& task : tasks) import.warnings.merge(task.warnings);
+
+  // Meshes as wholes.
+  std::vector<float> radii(scene.meshes.size());
+  parallelFor(scene.meshes.size(), import.threads, [&](size_t i) {
+    Mesh& mesh = scene.meshes[i].own();
+    std::erase_if(mesh.primitives, [](const Primitive& p) { return p.indices.empty(); });
+    alignMorphTargets(mesh);
+    weldSmoothNormals(mesh);
+    radii[i] = boundingRadius(mesh);
+  });
+
+  for (Node& node : scene.nodes)
+    if (!node.morphWeights.empty())
+      node.morphWeights.resize(scene.meshes[node.mesh]->morphWeights.size(), 0.0f);
+
+  // And all that is found from whole meshes.
+  std::vector<std::pair<size_t, size_t>> finishing;
+  for (size_t i = 0; i < scene.meshes.size(); ++i)
+    for (size_t k = 0; k < scene.meshes[i]->primitives.size(); ++k) finishing.emplace_back(i, k);
+  import.progress.expect(finishing.size(), 0.6);
+  parallelFor(finishing.size(), import.threads, [&](size_t i) {
+    const auto [mesh, primitive] = finishing[i];
+    finishPrimitive(scene.meshes[mesh].own().primitives[primitive], radii[mesh]);
+    import.progress.step();
+  });
+}
+
+}  // namespace scumble::gltf

@@ -1,0 +1,351 @@
+#include "stage/framing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scumble/view.h"
+#include "stage/seen_views.h"
+#include "tests/support/loaded_test_gltf.h"
+
+namespace scumble {
+namespace {
+
+using scene::Bounds;
+using scene::TestGltf;
+using Json = TestGltf::Json;
+
+// The surface of this box; one that is flat leaves out what has no area.
+TestGltf boxScene(const glm::vec3& low, const glm::vec3& high) {
+  TestGltf g;
+  std::vector<float> corners;
+  for (int i = 0; i < 8; ++i)
+    corners.insert(corners.end(), {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
+  g.addMesh({{"POSITION", g.addFloats(corners, 3)}},
+            g.addIndices({0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
+                          2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6}));
+  return g;
+}
+
+// A box with three cameras: by name, without a name of its own, and one that is named like a number.
+Scene withCameras() {
+  TestGltf g = boxScene({-1, 0, -1}, {1, 2, 1});
+  g.json["cameras"] = {
+      {{"name", "Hero"}, {"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.25}}}},
+      {{"type", "orthographic"}, {"orthographic", {{"xmag", 4}, {"ymag", 3}, {"znear", 0.5}, {"zfar", 50}}}},
+      {{"name", "0"}, {"type", "perspective"}, {"perspective", {{"yfov", 1.2}, {"znear", 0.1}}}}};
+  g.json["nodes"].push_back({{"camera", 0}, {"translation", {0, 1, 8}}, {"scale", {3, 3, 3}}});
+  g.json["nodes"].push_back(
+      {{"camera", 1}, {"translation", {5, 1, 0}}, {"rotation", {0, 0.70710678, 0, 0.70710678}}});
+  g.json["nodes"].push_back({{"camera", 2}, {"translation", {0, 9, 0}}});
+  for (const int node : {1, 2, 3}) g.json["scenes"][0]["nodes"].push_back(node);
+  return loaded(g);
+}
+
+std::vector<View> mustSee(const Scene& scene, const Viewpoint& viewpoint, float aspect = 16.0f / 9,
+                          Stereo stereo = Stereo::mono, float ipd = 0.063f) {
+  const Result<std::vector<View>> views = makeViews(scene, viewpoint, aspect, stereo, ipd);
+  EXPECT_TRUE(views.ok()) << views.error().message();
+  return views.ok() ? views.value() : std::vector<View>(2);
+}
+
+glm::vec3 ndcOf(const View& view, const glm::vec3& point) {
+  const glm::vec4 clip = view.eyeToClip * view.worldToEye * glm::vec4(point, 1);
+  return glm::vec3(clip) / clip.w;
+}
+
+// How much of the frame a box takes: the largest |ndc| of its corners. Also whether all of it lies before the
+// eye.
+struct Extent {
+  float x = 0, y = 0;
+  bool inFront = true;
+};
+Extent extentOf(const View& view, const Bounds& bounds) {
+  Extent extent;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::vec3 p(corner & 1 ? bounds.max.x : bounds.min.x, corner & 2 ? bounds.max.y : bounds.min.y,
+                      corner & 4 ? bounds.max.z : bounds.min.z);
+    const glm::vec3 ndc = ndcOf(view, p);
+    extent.x = std::max(extent.x, std::abs(ndc.x));
+    extent.y = std::max(extent.y, std::abs(ndc.y));
+    extent.inFront &= ndc.z > 0 && ndc.z < 1;
+  }
+  return extent;
+}
+
+// -- Framing
+
+// Everything is seen with air around it, and is not lost in the middle of the frame.
+TEST(Framing, holdsEverythingWithAirAround) {
+  const glm::vec3 sizes[] = {{1, 1, 1},         {100, 1, 1}, {1, 100, 1},
+                             {1, 1, 100},       {50, 0, 50}, {0.001f, 0.002f, 0.001f},
+                             {3e4f, 2e4f, 1e4f}};
+  for (const glm::vec3& size : sizes) {
+    const glm::vec3 low = glm::vec3(7, -3, 2) * std::max({size.x, size.y, size.z});
+    const Scene scene = loaded(boxScene(low, low + size));
+    for (const float aspect : {0.1f, 9.0f / 16, 1.0f, 16.0f / 9, 8.0f})
+      for (const float fov : {10.0f, 34.0f, 100.0f})
+        for (const bool orbit : {false, true}) {
+          Viewpoint viewpoint;
+          viewpoint.verticalFov = fov;
+          viewpoint.orbit = orbit;
+          viewpoint.azimuth = -110, viewpoint.elevation = 35;
+          const View view = mustSee(scene, viewpoint, aspect)[0];
+          const Extent extent = extentOf(view, scene.data().bounds);
+          EXPECT_TRUE(extent.inFront) << size.x << " " << size.y << " " << size.z << " aspect " << aspect;
+          EXPECT_LT(std::max(extent.x, extent.y), 0.88f)
+              << size.x << " " << size.y << " " << size.z << " aspect " << aspect;
+          EXPECT_GT(std::max(extent.x, extent.y), 0.5f)
+              << size.x << " " << size.y << " " << size.z << " aspect " << aspect;
+        }
+  }
+}
+
+TEST(Framing, aPointHasADistanceToo) {
+  Bounds point;
+  point.add({1, 1, 1});
+  EXPECT_GT(stage::framingDistance(point, {0, 0, 1}, 0.6f, 1.5f), 0);
+}
+
+TEST(Framing, theDefaultIsAThreeQuarterViewFromAbove) {
+  const Scene scene = loaded(boxScene({-1, -1, -1}, {1, 1, 1}));
+  const glm::vec3 eye = eyeOf(mustSee(scene, {})[0]);
+  EXPECT_GT(eye.z, std::abs(eye.x));  // more from the front than from the side
+  EXPECT_GT(std::abs(eye.x), 0.3f * eye.z);
+  EXPECT_GT(eye.y, 0);
+}
+
+// -- Orbit
+
+TEST(Viewpoint, orbitsGoAroundTheCentre) {
+  const glm::vec3 center(4, 5, 6);
+  const Scene scene = loaded(boxScene(center - glm::vec3(1, 2, 3), center + glm::vec3(1, 2, 3)));
+  const struct {
+    float azimuth, elevation;
+    glm::vec3 direction;
+  } cases[] = {{0, 0, {0, 0, 1}},    {90, 0, {1, 0, 0}},
+               {-90, 0, {-1, 0, 0}}, {180, 0, {0, 0, -1}},
+               {0, 90, {0, 1, 0}},   {50, -90, {0, -1, 0}},
+               {450, 0, {1, 0, 0}},  {0, 45, {0, 0.70710678f, 0.70710678f}}};
+  for (const auto& c : cases) {
+    Viewpoint viewpoint;
+    viewpoint.orbit = true;
+    viewpoint.azimuth = c.azimuth, viewpoint.elevation = c.elevation, viewpoint.distance = 3.0f;
+    const View view = mustSee(scene, viewpoint)[0];
+    const float radius = scene.data().bounds.radius();
+    expectClose(eyeOf(view), center + 3 * radius * c.direction, 1e-3f);
+    expectClose(axisOf(view), -c.direction, 1e-3f);
+    // Upright where that means something.
+    if (std::abs(c.elevation) < 90) {
+      EXPECT_GT((view.worldToEye * glm::vec4(0, 1, 0, 0)).y, 0.5f);
+    }
+  }
+}
+
+TEST(Viewpoint, orbitsWithoutADistanceFrameEverything) {
+  const Scene scene = loaded(boxScene({0, 0, 0}, {9, 1, 2}));
+  Viewpoint viewpoint;
+  viewpoint.orbit = true;
+  for (viewpoint.azimuth = -180; viewpoint.azimuth <= 180; viewpoint.azimuth += 30) {
+    const Extent extent = extentOf(mustSee(scene, viewpoint)[0], scene.data().bounds);
+    EXPECT_LT(std::max(extent.x, extent.y), 0.88f);
+  }
+}
+
+// -- Eye and target
+
+TEST(Viewpoint, eyeAndTargetByHand) {
+  const Scene scene = withCameras();  // they win over the scene's cameras
+  Viewpoint viewpoint;
+  viewpoint.eye = glm::vec3(1, 2, 3);
+  viewpoint.target = glm::vec3(-4, 2.5f, -6);
+  viewpoint.verticalFov = 50.0f;
+  View view = mustSee(scene, viewpoint, 1.5f)[0];
+  expectClose(eyeOf(view), *viewpoint.eye);
+  expectClose(axisOf(view), glm::normalize(*viewpoint.target - *viewpoint.eye));
+  EXPECT_NEAR(fovOf(view), 50.0f, 1e-3f);
+  EXPECT_NEAR(view.eyeToClip[0][0] * 1.5f, -view.eyeToClip[1][1], 1e-5f);
+  // Straight down: some upright must be chosen, and the picture must not be empty.
+  viewpoint.eye = glm::vec3(0, 5, 0), viewpoint.target = glm::vec3(0, 1, 0);
+  view = mustSee(scene, viewpoint)[0];
+  expectClose(axisOf(view), {0, -1, 0});
+  EXPECT_NEAR(glm::determinant(glm::mat3(view.worldToEye)), 1, 1e-4f);
+}
+
+TEST(Viewpoint, eyeAloneLooksAtTheSceneAndTargetAloneIsLookedAt) {
+  const Scene scene = loaded(boxScene({-1, -1, -1}, {1, 1, 1}));
+  Viewpoint viewpoint;
+  viewpoint.eye = glm::vec3(0, 0, 9);
+  expectClose(axisOf(mustSee(scene, viewpoint)[0]), {0, 0, -1});
+  viewpoint.eye.reset();
+  viewpoint.target = glm::vec3(1, 0, 0);
+  const View view = mustSee(scene, viewpoint)[0];
+  EXPECT_NEAR(ndcOf(view, {1, 0, 0}).x, 0, 1e-4f);
+  EXPECT_NEAR(ndcOf(view, {1, 0, 0}).y, 0, 1e-4f);
+}
+
+// The camera turns clockwise, so what it sees turns the other way.
+TEST(Viewpoint, rollTurnsTheCameraClockwise) {
+  const Scene scene = loaded(boxScene({-1, -1, -1}, {1, 1, 1}));
+  Viewpoint viewpoint;
+  viewpoint.eye = glm::vec3(0, 0, 9), viewpoint.roll = 90;
+  const View view = mustSee(scene, viewpoint, 1)[0];
+  const glm::vec3 right = ndcOf(view, {1, 0, 0});
+  EXPECT_NEAR(right.x, 0, 1e-4f);
+  EXPECT_LT(right.y, -0.1f);  // y down: it is at the top now
+}
+
+// -- The scene's cameras
+
+TEST(Viewpoint, theFirstCameraIsTheDefault) {
+  const View view = mustSee(withCameras(), {}, 2)[0];
+  expectClose(eyeOf(view), {0, 1, 8});
+  expectClose(axisOf(view), {0, 0, -1});
+  EXPECT_NEAR(fovOf(view), glm::degrees(0.7f), 1e-3f);
+  // Scale in its node means nothing.
+  EXPECT_NEAR(glm::determinant(glm::mat3(view.worldToEye)), 1, 1e-4f);
+  EXPECT_NEAR(ndcOf(view, {0, 1, 8 - 0.25f}).z, 1, 1e-4f);  // its near plane
+}
+
+TEST(Viewpoint, camerasByNameAndByNumber) {
+  const Scene scene = withCameras();
+  const struct {
+    const char* name;
+    glm::vec3 eye;
+  } cases[] = {{"Hero", {0, 1, 8}},
+               {"1", {5, 1, 0}},
+               {"2", {0, 9, 0}},
+               {"0", {0, 9, 0}}};  // a name wins over a number
+  for (const auto& c : cases) {
+    Viewpoint viewpoint;
+    viewpoint.camera = c.name;
+    expectClose(eyeOf(mustSee(scene, viewpoint)[0]), c.eye);
+  }
+}
+
+TEST(Viewpoint, orthographicCameras) {
+  Viewpoint viewpoint;
+  viewpoint.camera = "1";
+  const View view = mustSee(withCameras(), viewpoint, 2)[0];
+  expectClose(axisOf(view), {-1, 0, 0});
+  EXPECT_NEAR(ndcOf(view, {0, 4, 0}).y, -1, 1e-4f);  // three metres above the axis
+  EXPECT_NEAR(ndcOf(view, {0, 1, -6}).x, 1, 1e-4f);  // the picture's aspect counts, not the camera's
+  EXPECT_NEAR(ndcOf(view, {4.5f, 1, 0}).z, 1, 1e-4f);
+  EXPECT_NEAR(ndcOf(view, {-45, 1, 0}).z, 0, 1e-4f);
+}
+
+TEST(Viewpoint, aFieldOfViewByHandWins) {
+  Viewpoint viewpoint;
+  viewpoint.verticalFov = 20.0f;
+  EXPECT_NEAR(fovOf(mustSee(withCameras(), viewpoint)[0]), 20.0f, 1e-3f);
+}
+
+TEST(Viewpoint, unknownCamerasAreUsageErrorsThatNameTheKnownOnes) {
+  const Scene scene = withCameras(), without = loaded(boxScene({0, 0, 0}, {1, 1, 1}));
+  for (const char* name : {"hero", "3", "-1", "99999999999999999999", "Hero ", "1.0"}) {
+    Viewpoint viewpoint;
+    viewpoint.camera = name;
+    const auto views = makeViews(scene, viewpoint, 1);
+    ASSERT_FALSE(views.ok()) << name;
+    EXPECT_EQ(views.error().kind, ErrorKind::usage);
+    EXPECT_NE(views.error().message().find("Hero"), std::string::npos) << views.error().message();
+    EXPECT_FALSE(makeViews(without, viewpoint, 1).ok());
+  }
+}
+
+TEST(Viewpoint, viewsThatSeeNothingAreUsageErrors) {
+  const Scene scene = loaded(boxScene({0, 0, 0}, {1, 1, 1}));
+  const auto expectUsage = [&](const Viewpoint& viewpoint, float aspect) {
+    const auto views = makeViews(scene, viewpoint, aspect);
+    ASSERT_FALSE(views.ok());
+    EXPECT_EQ(views.error().kind, ErrorKind::usage);
+    EXPECT_FALSE(views.error().advice.empty());
+  };
+  Viewpoint onTarget;
+  onTarget.eye = onTarget.target = glm::vec3(1, 2, 3);
+  expectUsage(onTarget, 1);
+  for (const float fov : {0.0f, -20.0f, 180.0f, 1e9f, std::nanf("")}) {
+    Viewpoint viewpoint;
+    viewpoint.verticalFov = fov;
+    expectUsage(viewpoint, 1);
+  }
+  for (const float distance : {0.0f, -1.0f, std::nanf("")}) {
+    Viewpoint viewpoint;
+    viewpoint.orbit = true, viewpoint.distance = distance;
+    expectUsage(viewpoint, 1);
+  }
+  for (const float aspect : {0.0f, -1.0f, std::nanf("")}) expectUsage({}, aspect);
+}
+
+TEST(Viewpoint, numbersOutOfRangeAreUsageErrors) {
+  const Scene scene = loaded(boxScene({0, 0, 0}, {1, 1, 1}));
+  const auto problem = [&](const Viewpoint& viewpoint, float ipd = 0.063f) -> std::string {
+    const auto views = makeViews(scene, viewpoint, 1, Stereo::stereo, ipd);
+    if (views) return "";
+    EXPECT_EQ(views.error().kind, ErrorKind::usage);
+    EXPECT_FALSE(views.error().advice.empty());
+    return views.error().problem;
+  };
+  const auto orbit = [](float azimuth, float elevation, std::optional<float> distance = {}) {
+    Viewpoint viewpoint;
+    viewpoint.orbit = true;
+    viewpoint.azimuth = azimuth, viewpoint.elevation = elevation, viewpoint.distance = distance;
+    return viewpoint;
+  };
+  for (const float degrees : {-90.0f, 0.0f, 90.0f}) EXPECT_EQ(problem(orbit(-400, degrees)), "");
+  for (const float degrees : {-91.0f, 1000.0f, std::nanf("")})
+    EXPECT_EQ(problem(orbit(0, degrees)), "the orbit's elevation is out of range");
+  EXPECT_EQ(problem(orbit(1e30f, 0)), "the orbit's azimuth is out of range");
+  EXPECT_EQ(problem(orbit(0, 0, 1e30f)), "the orbit's distance is out of range");
+  Viewpoint rolled, far;
+  rolled.roll = 720;
+  EXPECT_EQ(problem(rolled), "");
+  rolled.roll = 1e30f;
+  EXPECT_EQ(problem(rolled), "the roll is out of range");
+  far.eye = glm::vec3(0, 0, 1e16f);
+  EXPECT_EQ(problem(far), "the eye or its target is out of range");
+  for (const float ipd : {0.0f, 10.0f}) EXPECT_EQ(problem({}, ipd), "");
+  for (const float ipd : {-1.0f, 1e30f, std::nanf("")})
+    EXPECT_EQ(problem({}, ipd), "the distance between the eyes (ipd) is out of range");
+}
+
+// -- Stereo
+
+TEST(Stereo, eyesAreSideBySideAndParallel) {
+  const Scene scene = withCameras();
+  for (const char* camera : {"Hero", "1"})
+    for (const float ipd : {0.063f, 0.5f, 0.0f}) {
+      Viewpoint viewpoint;
+      viewpoint.camera = camera;
+      viewpoint.roll = 20;
+      const View middle = mustSee(scene, viewpoint, 1.6f)[0];
+      const std::vector<View> eyes = mustSee(scene, viewpoint, 1.6f, Stereo::stereo, ipd);
+      ASSERT_EQ(eyes.size(), 2u);
+      EXPECT_NEAR(glm::length(eyeOf(eyes[0]) - eyeOf(eyes[1])), ipd, 1e-5f);
+      expectClose(0.5f * (eyeOf(eyes[0]) + eyeOf(eyes[1])), eyeOf(middle));
+      // Left first, along the rolled camera's own axis.
+      expectClose(glm::vec3(middle.worldToEye * glm::vec4(eyeOf(eyes[0]), 1)), {-0.5f * ipd, 0, 0});
+      for (const View& eye : eyes) {
+        expectClose(axisOf(eye), axisOf(middle));
+        EXPECT_EQ(eye.eyeToClip, middle.eyeToClip);
+      }
+    }
+}
+
+// -- The default direction, from which the light is measured
+
+TEST(Framing, theDefaultDirectionIsTheFirstCameras) {
+  expectClose(stage::defaultEyeDirection(withCameras().data()), {0, 0, 1});
+  const Scene without = loaded(boxScene({0, 0, 0}, {1, 1, 1}));
+  EXPECT_NEAR(glm::length(stage::defaultEyeDirection(without.data())), 1, 1e-5f);
+  // A camera that looks straight down says nothing about a side.
+  TestGltf g = boxScene({0, 0, 0}, {1, 1, 1});
+  g.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.25}}}}};
+  g.json["nodes"].push_back({{"camera", 0}, {"rotation", {-0.70710678, 0, 0, 0.70710678}}});
+  g.json["scenes"][0]["nodes"].push_back(1);
+  expectClose(stage::defaultEyeDirection(loaded(g).data()), stage::defaultEyeDirection(without.data()));
+}
+
+}  // namespace
+}  // namespace scumble

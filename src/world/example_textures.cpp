@@ -1,0 +1,105 @@
+#include "world/example_textures.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/tileable_noise.h"
+#include "ocean/maps.h"
+#include "world/mipmaps.h"
+
+namespace scumble::world {
+
+namespace {
+
+// A quarter of a unit is one deviation: then noise seldom leaves [0, 1].
+uint8_t noiseByte(float v) {
+  return uint8_t(std::lround(std::clamp(0.5f + v / 4.0f, 0.0f, 1.0f) * 255));
+}
+
+// Longer than wide, with flat tops and sharp sides.
+std::vector<uint8_t> knifeMarks() {
+  const std::vector<float> noise = selfSimilarNoise(kBuiltInSize, 32, 3, 0.6f, 5, 4.0f);
+  std::vector<uint8_t> marks(noise.size());
+  std::transform(noise.begin(), noise.end(), marks.begin(),
+                 [](float v) { return uint8_t(std::lround((0.5f + 0.5f * std::tanh(1.05f * v)) * 255)); });
+  return marks;
+}
+
+Pixels grey(const std::vector<uint8_t>& values) {
+  Pixels pixels{kBuiltInSize, kBuiltInSize, std::vector<uint8_t>(values.size() * 4, 255)};
+  for (size_t i = 0; i < values.size(); ++i)
+    for (size_t c = 0; c < 3; ++c) pixels.rgba[4 * i + c] = values[i];
+  return pixels;
+}
+
+gpu::Image upload(gpu::Uploader& uploader, const Pixels& pixels) {
+  const auto smaller = makeValueMipmaps(pixels.rgba, pixels.width, pixels.height);
+  std::vector<std::span<const std::byte>> levels{std::as_bytes(std::span(pixels.rgba))};
+  for (const auto& level : smaller) levels.push_back(std::as_bytes(std::span(level)));
+  return uploader.texture(levels, VK_FORMAT_R8G8B8A8_UNORM, pixels.width, pixels.height);
+}
+
+Pixels pixelsOf(const look::LookData& look, look::Picture picture) {
+  return picture.index >= 0 ? builtInExample(picture.index)
+                            : look.pictures[size_t(-1 - picture.index)]->pixels;
+}
+
+}  // namespace
+
+Pixels builtInExample(int index) {
+  if (index == 3) return ocean::dither();
+  if (index == 4) return ocean::foam();
+  if (index == 1) {
+    // Lying, as `orient` wants them.
+    const std::vector<uint8_t> standing = knifeMarks();
+    std::vector<uint8_t> lying(standing.size());
+    for (uint32_t y = 0; y < kBuiltInSize; ++y)
+      for (uint32_t x = 0; x < kBuiltInSize; ++x)
+        lying[y * kBuiltInSize + x] = standing[x * kBuiltInSize + y];
+    return grey(lying);
+  }
+  if (index == 2) {
+    const std::vector<float> grain = selfSimilarNoise(kBuiltInSize, 24, 4, 0.7f, 31);
+    std::vector<uint8_t> bytes(grain.size());
+    std::transform(grain.begin(), grain.end(), bytes.begin(), noiseByte);
+    return grey(bytes);
+  }
+  const std::vector<float> x = selfSimilarNoise(kBuiltInSize, 14, 3, 0.62f, 11);
+  const std::vector<float> y = selfSimilarNoise(kBuiltInSize, 14, 3, 0.62f, 23);
+  Pixels pixels = grey(knifeMarks());
+  for (size_t i = 0; i < x.size(); ++i)
+    pixels.rgba[4 * i] = noiseByte(x[i]), pixels.rgba[4 * i + 1] = noiseByte(y[i]);
+  return pixels;
+}
+
+ExampleTexture& ExampleTextures::find(const look::LookData& look, look::Picture picture) {
+  const int builtIn = std::max(picture.index, -1);
+  const uint64_t contents = builtIn >= 0 ? 0 : look.pictures[size_t(-1 - picture.index)]->contents;
+  for (Known& known : known_)
+    if (known.builtIn == builtIn && known.contents == contents) return known.texture;
+
+  const Pixels pixels = pixelsOf(look, picture);
+  ExampleTexture texture;
+  texture.width = pixels.width, texture.height = pixels.height;
+  texture.statistics = measure(pixels);
+  gpu::Uploader uploader(device_);
+  texture.image = upload(uploader, pixels);
+  uploader.flush();
+  known_.push_back({builtIn, contents, std::move(texture)});
+  return known_.back().texture;
+}
+
+const ExampleTexture& ExampleTextures::getWithTwin(const look::LookData& look, look::Picture picture) {
+  ExampleTexture& texture = find(look, picture);
+  if (texture.gaussian.handle()) return texture;
+  const GaussianTwin twin = gaussianTwin(pixelsOf(look, picture));
+  texture.gaussianStatistics = measure(twin.pixels);
+  gpu::Uploader uploader(device_);
+  texture.gaussian = upload(uploader, twin.pixels);
+  const std::span<const std::byte> row = std::as_bytes(std::span(twin.inverse));
+  texture.inverse = uploader.texture({&row, 1}, VK_FORMAT_R8G8B8A8_UNORM, 256, 1);
+  uploader.flush();
+  return texture;
+}
+
+}  // namespace scumble::world

@@ -1,0 +1,233 @@
+#include "world/geometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+#include <map>
+
+#include "stage/light.h"
+#include "world/tessellate.h"
+
+namespace scumble::world {
+
+namespace {
+
+constexpr size_t kMaxNewTriangles = 1 << 18;
+
+// A disc around and a little below the scene: rings that widen, so that it is fine near the scene and reaches
+// far.
+scene::Primitive makeGround(const scene::Bounds& bounds) {
+  constexpr int kSectors = 48, kRings = 9;
+  constexpr float kReach = 40.0f;  // scene radii
+  const float radius = std::max(bounds.radius(), 1e-6f);
+  const glm::vec3 center(bounds.center().x, groundHeight(bounds), bounds.center().z);
+  scene::Primitive ground;
+  const auto addVertex = [&](float x, float z) {
+    ground.positions.push_back(center + glm::vec3(x, 0, z));
+    ground.uv0.push_back(glm::vec2(x, z) / radius);
+  };
+  addVertex(0, 0);
+  for (int ring = 1; ring <= kRings; ++ring) {
+    const float r = radius * kReach * std::pow(float(ring) / kRings, 2.5f);
+    for (int s = 0; s < kSectors; ++s) {
+      const float angle = 6.2831853f * float(s) / kSectors;
+      addVertex(r * std::cos(angle), -r * std::sin(angle));
+    }
+  }
+  const auto at = [&](int ring, int s) {
+    return ring == 0 ? 0u : uint32_t(1 + (ring - 1) * kSectors + s % kSectors);
+  };
+  for (int ring = 0; ring < kRings; ++ring)
+    for (int s = 0; s < kSectors; ++s) {
+      ground.indices.insert(ground.indices.end(), {at(ring, s), at(ring + 1, s), at(ring + 1, s + 1)});
+      if (ring > 0)
+        ground.indices.insert(ground.indices.end(), {at(ring, s), at(ring + 1, s + 1), at(ring, s + 1)});
+    }
+  const size_t count = ground.vertexCount();
+  ground.normals.assign(count, {0, 1, 0});
+  ground.smoothNormals.assign(count, {0, 1, 0});
+  ground.dPdu.assign(count, {radius, 0, 0});
+  ground.dPdv.assign(count, {0, 0, radius});
+  return ground;
+}
+
+float largestScale(const glm::mat4& m) {
+  return std::max({glm::length(glm::vec3(m[0])), glm::length(glm::vec3(m[1])), glm::length(glm::vec3(m[2]))});
+}
+
+enum MadeKind { kGround, kOceanTile, kOceanRing, kOceanDecoration };
+
+void addOcean(const scene::SceneData& scene, const OceanShape& shape, uint32_t material, MadePrimitives& made,
+              Geometry& geometry) {
+  GeometryItem item;
+  item.node = GeometryItem::kNoNode;
+  item.material = material;
+  item.id = uint32_t(scene.nodes.size() + 2);  // as Frame::objects has them
+  item.casts = false;
+  const auto use = [&](const scene::Primitive& primitive) {
+    item.primitive = &primitive, item.extent = &primitive.extent;
+  };
+  item.water = Water::waves;
+  for (int z = 0; z < shape.tiles; ++z)
+    for (int x = 0; x < shape.tiles; ++x) {
+      const OceanTile tile = oceanTileAt(shape, x, z);
+      const auto& [negativeX, positiveX, negativeZ, positiveZ] = tile.beside;
+      use(made.get({kOceanTile, double(shape.grid), double(shape.tile), double(tile.stride),
+                    double(negativeX), double(positiveX), double(negativeZ), double(positiveZ)},
+                   [&] { return makeOceanTile(shape, tile); }));
+      const glm::vec2 corner = glm::vec2(shape.firstPoint() + glm::ivec2(x, z) * shape.grid) * shape.cell();
+      item.instance = glm::translate(glm::mat4(1.0f), shape.origin + glm::vec3(corner.x, 0, corner.y));
+      item.model = item.instance;
+      item.patternShift = corner / kWaterPerPattern;
+      item.reach = scene::posedBounds(*item.extent, item.model, {}, {});
+      geometry.items.push_back(item);
+    }
+  use(made.get({kOceanRing, double(shape.falseHorizon), double(shape.horizon)},
+               [&] { return makeOceanRing(shape); }));
+  item.water = Water::flat;
+  item.instance = item.model = glm::translate(glm::mat4(1.0f), shape.origin);
+  item.patternShift = glm::vec2(0.0f);
+  item.reach = scene::posedBounds(*item.extent, item.model, {}, {});
+  geometry.items.push_back(item);
+  item.water = Water::decoration;
+  item.instance = item.model = glm::mat4(1.0f);
+  item.patternShift = -glm::vec2(shape.origin.x, shape.origin.z) / kWaterPerPattern;
+  for (const int kind : shape.decorations) {
+    use(made.get({kOceanDecoration, double(kind)}, [&] { return makeOceanDecoration(kind); }));
+    geometry.items.push_back(item);
+    ++item.decoration;
+  }
+}
+
+void addGround(const scene::SceneData& scene, uint32_t material, MadePrimitives& made, Geometry& geometry) {
+  GeometryItem item;
+  const scene::Bounds& bounds = geometry.bounds;
+  item.primitive = &made.get({kGround, double(bounds.empty), bounds.min.x, bounds.min.y, bounds.min.z,
+                              bounds.max.x, bounds.max.y, bounds.max.z},
+                             [&] { return makeGround(bounds); });
+  item.node = GeometryItem::kNoNode;
+  item.material = material;
+  item.extent = &item.primitive->extent;
+  item.id = uint32_t(scene.nodes.size() + 1);
+  item.casts = false;
+  item.reach = item.extent->box;
+  geometry.items.push_back(item);
+}
+
+}  // namespace
+
+float groundHeight(const scene::Bounds& bounds) {
+  return bounds.min.y - 0.002f * std::max(bounds.radius(), 1e-6f);
+}
+
+float longestEdge(float shadowWarp) {
+  if (shadowWarp <= 0) return std::numeric_limits<float>::infinity();
+  // The algebraic sigmoid's second derivative is at most 0.858; the warp scales t by the strength, and what
+  // it has of the range to 2.
+  const float range = 2 * shadowWarp / std::sqrt(1 + shadowWarp * shadowWarp);
+  const float curvature = (1 - kEvenShare) * 2 * shadowWarp * shadowWarp * 0.858f / range;
+  const float tolerance = 2.0f / float(kShadowMapSize);
+  return std::sqrt(8 * tolerance / curvature);
+}
+
+const scene::Primitive& MadePrimitives::get(const std::vector<double>& key,
+                                            const std::function<scene::Primitive()>& make) {
+  Entry& entry = made_[key];
+  if (!entry.primitive) {
+    entry.primitive = std::make_unique<scene::Primitive>(make());
+    entry.primitive->extent = scene::extentOf(*entry.primitive);
+  }
+  entry.isUsed = true;
+  return *entry.primitive;
+}
+
+const scene::Primitive& MadePrimitives::splitOf(const scene::Primitive& source, scene::Primitive&& result) {
+  Entry& entry = split_[&source];
+  // The same edges are split over a range of lengths. Nothing else of a source changes.
+  if (!entry.primitive || entry.primitive->positions != result.positions ||
+      entry.primitive->indices != result.indices) {
+    if (entry.primitive) replaced_.push_back(std::move(entry.primitive));
+    entry.primitive = std::make_unique<scene::Primitive>(std::move(result));
+  }
+  entry.isUsed = true;
+  return *entry.primitive;
+}
+
+void MadePrimitives::sweep() {
+  replaced_.clear();
+  const auto sweep = [](auto& entries) {
+    std::erase_if(entries, [](const auto& entry) { return !entry.second.isUsed; });
+    for (auto& [key, entry] : entries) entry.isUsed = false;
+  };
+  sweep(made_), sweep(split_);
+}
+
+Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& options, int groundMaterial,
+                         int oceanMaterial, MadePrimitives& made) {
+  Geometry geometry;
+  geometry.bounds = scene::playedBounds(scene, options.clips);
+  const std::vector<glm::mat4> world = scene::worldMatrices(scene);
+
+  // One item for each primitive of each node, and for each of its instances.
+  const std::vector<bool> shown = scene::shownNodes(scene);
+  const std::vector<glm::mat4> one{glm::mat4(1.0f)};
+  for (size_t n = 0; n < scene.nodes.size(); ++n) {
+    const scene::Node& node = scene.nodes[n];
+    if (node.mesh < 0 || int(n) == options.ocean.node) continue;
+    for (const scene::Primitive& primitive : scene.meshes[size_t(node.mesh)]->primitives) {
+      if (primitive.indices.empty()) continue;
+      GeometryItem item;
+      item.primitive = &primitive;
+      item.node = n;
+      item.material = uint32_t(primitive.material);
+      item.id = uint32_t(n + 1);
+      item.casts = options.casts[item.material];
+      item.extent = &primitive.extent;
+      item.shown = shown[n];
+      if (node.skin >= 0 && primitive.influences > 0) item.skin = node.skin;
+      for (const glm::mat4& instance : node.instances.empty() || item.skin >= 0 ? one : node.instances) {
+        item.instance = instance;
+        item.model = world[n] * instance;
+        geometry.items.push_back(item);
+        ++item.instanceOfNode;
+      }
+    }
+  }
+
+  // Where clips take them.
+  scene::forEachPose(scene, options.clips, [&](const scene::Pose& pose) {
+    std::vector<std::vector<glm::mat4>> joints;
+    for (const scene::Skin& skin : scene.skins) joints.push_back(scene::jointMatrices(skin, pose.world));
+    for (GeometryItem& item : geometry.items)
+      item.reach.add(scene::posedBounds(*item.extent, pose.world[item.node] * item.instance,
+                                        item.skin >= 0 ? std::span<const glm::mat4>(joints[size_t(item.skin)])
+                                                       : std::span<const glm::mat4>(),
+                                        pose.morphWeights[item.node]));
+  });
+
+  // Split casters that are too long for the shadow map's sigmoid: by the largest scale at which a primitive
+  // is drawn.
+  std::map<const scene::Primitive*, float> scales;
+  scene::Bounds casters;
+  for (const GeometryItem& item : geometry.items) {
+    if (!item.casts) continue;
+    if (item.shown) casters.add(item.reach);
+    float& scale = scales[item.primitive];
+    scale = std::max(scale, largestScale(item.model));
+  }
+  std::map<const scene::Primitive*, const scene::Primitive*> split;
+  const float maxEdge = longestEdge(options.shadowWarp) * std::max(casters.radius(), 1e-6f);
+  for (const auto& [primitive, scale] : scales)
+    if (scale > 0)
+      if (auto result = tessellate(*primitive, maxEdge / scale, kMaxNewTriangles))
+        split[primitive] = &made.splitOf(*primitive, std::move(*result));
+  for (GeometryItem& item : geometry.items)
+    if (const auto it = split.find(item.primitive); it != split.end()) item.primitive = it->second;
+
+  if (oceanMaterial >= 0) addOcean(scene, options.ocean, uint32_t(oceanMaterial), made, geometry);
+  if (groundMaterial >= 0) addGround(scene, uint32_t(groundMaterial), made, geometry);
+  return geometry;
+}
+
+}  // namespace scumble::world

@@ -1,0 +1,94 @@
+// From scene nodes to what is drawn: one item for each primitive and instance, with a ground if there is to
+// be one.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "scene/posed_bounds.h"
+#include "shading/frame.shared.h"
+#include "stage/node_settings.h"
+#include "world/ocean.h"
+
+namespace scumble::world {
+
+using namespace stage;
+
+// What of the look goes into a scene's geometry.
+struct GeometryOptions {
+  bool ground = false;
+  float shadowWarp = 0;     // strength of the shadow map's sigmoid, which long triangles cannot follow
+  std::vector<bool> casts;  // by material: whether it casts shadows
+  std::vector<int> clips;   // those that play at any time: they tell what space the scene takes up
+  NodeSettings nodes;
+  OceanShape ocean;
+  bool operator==(const GeometryOptions&) const = default;
+};
+
+enum class Water : uint8_t {
+  none,
+  waves = shared::kWaves,
+  flat = shared::kFlat,
+  decoration = shared::kDecoration
+};
+
+struct GeometryItem {
+  const scene::Primitive* primitive;
+  size_t node = 0;            // kNoNode for the ground
+  size_t instanceOfNode = 0;  // which one
+  glm::mat4 instance{1.0f};   // to the node's space
+  glm::mat4 model{1.0f};      // to the world, at rest; ignored where `skin` is set
+  int skin = -1;
+  uint32_t material = 0;
+  uint32_t id = 0;    // whole number from 1, one a node
+  bool casts = true;  // shadows
+  bool shown = true;
+  Water water = Water::none;
+  uint32_t decoration = 0;       // which one
+  glm::vec2 patternShift{0.0f};  // added to pattern coordinates
+  const scene::PrimitiveExtent* extent = nullptr;
+  scene::Bounds reach;  // in the world: where clips take it, as far as is known before
+  static constexpr size_t kNoNode = ~size_t(0);
+};
+
+// Primitives that a scene does not have: subdivided ones, the ground, water. What is asked for again is the
+// same object, so that nobody takes it for a new one.
+class MadePrimitives {
+ public:
+  // What is made for a key, numbers that say all about it.
+  const scene::Primitive& get(const std::vector<double>& key, const std::function<scene::Primitive()>& make);
+  // What a primitive of the scene becomes.
+  const scene::Primitive& splitOf(const scene::Primitive& source, scene::Primitive&& result);
+  // Forgets what was not asked for since the last time.
+  void sweep();
+
+ private:
+  struct Entry {
+    std::unique_ptr<scene::Primitive> primitive;
+    bool isUsed = false;
+  };
+  std::map<std::vector<double>, Entry> made_;
+  std::map<const scene::Primitive*, Entry> split_;
+  std::vector<std::unique_ptr<scene::Primitive>> replaced_;  // until the next sweep
+};
+
+struct Geometry {
+  // Also what is not shown, so that showing it changes nothing else.
+  std::vector<GeometryItem> items;
+  scene::Bounds bounds;  // of all that clips do, without the ground
+};
+
+// `groundMaterial`, `oceanMaterial`: their indices, or -1 where there is none.
+Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& options, int groundMaterial,
+                         int oceanMaterial, MadePrimitives& made);
+
+// Where a ground lies under a scene that takes up so much.
+float groundHeight(const scene::Bounds& bounds);
+
+// Longest edge, as a part of the shadow map's half width, that a sigmoid of this strength bends by less than
+// a texel: an edge of length L strays from its curve by L^2 f'' / 8.
+float longestEdge(float shadowWarp);
+
+}  // namespace scumble::world

@@ -1,0 +1,262 @@
+#include "world/geometry_on_gpu.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+
+#include "scene/parallel.h"
+
+namespace scumble::world {
+
+namespace {
+
+constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+constexpr VkBufferUsageFlags kVertex = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
+
+uint32_t encodeNormal(glm::vec3 n) {
+  n /= std::max(std::abs(n.x) + std::abs(n.y) + std::abs(n.z), 1e-20f);
+  glm::vec2 oct(n.x, n.y);
+  if (n.z < 0)
+    oct = {(1 - std::abs(n.y)) * (n.x >= 0 ? 1.0f : -1.0f), (1 - std::abs(n.x)) * (n.y >= 0 ? 1.0f : -1.0f)};
+  const auto snorm = [](float v) {
+    return uint32_t(uint16_t(int16_t(std::lround(std::clamp(v, -1.0f, 1.0f) * 32767))));
+  };
+  return snorm(oct.x) | snorm(oct.y) << 16;
+}
+
+// The displacements of all targets, vertex by vertex; `starts` has one more entry than vertices.
+void listDisplacements(const scene::Primitive& primitive, std::vector<uint32_t>& starts,
+                       std::vector<shared::MorphDisplacement>& list) {
+  const auto at = [](const std::vector<glm::vec3>& values, size_t v) {
+    return values.empty() ? glm::vec3(0.0f) : values[v];
+  };
+  for (size_t v = 0; v < primitive.vertexCount(); ++v) {
+    starts.push_back(uint32_t(list.size()));
+    for (size_t t = 0; t < primitive.morphTargets.size(); ++t) {
+      const scene::MorphTarget& target = primitive.morphTargets[t];
+      const shared::MorphDisplacement d{uint32_t(t),           at(target.positions, v),
+                                        at(target.normals, v), at(target.smoothNormals, v),
+                                        at(target.dPdu, v),    at(target.dPdv, v)};
+      const glm::vec3 zero(0.0f);
+      if (d.position != zero || d.normal != zero || d.smoothNormal != zero || d.dPdu != zero ||
+          d.dPdv != zero)
+        list.push_back(d);
+    }
+  }
+  starts.push_back(uint32_t(list.size()));
+}
+
+void writeCore(const scene::Primitive& primitive, shared::VertexCore* core) {
+  for (size_t v = 0; v < primitive.vertexCount(); ++v)
+    core[v] = {primitive.positions[v], encodeNormal(primitive.normals[v])};
+}
+
+void writeFrame(const scene::Primitive& primitive, shared::VertexFrame* frame) {
+  for (size_t v = 0; v < primitive.vertexCount(); ++v)
+    frame[v] = {primitive.dPdu[v], encodeNormal(primitive.smoothNormals[v]), primitive.dPdv[v]};
+}
+
+void writeSkin(const scene::Primitive& primitive, shared::VertexSkin* skin) {
+  const size_t groups = primitive.vertexCount() * size_t(primitive.influences / 4);
+  for (size_t g = 0; g < groups; ++g) {
+    const uint16_t* j = &primitive.joints[4 * g];
+    const float* w = &primitive.weights[4 * g];
+    skin[g] = {{uint32_t(j[0]) | uint32_t(j[1]) << 16, uint32_t(j[2]) | uint32_t(j[3]) << 16},
+               {w[0], w[1], w[2], w[3]}};
+  }
+}
+
+void writeSurface(const scene::Primitive& primitive, const glm::vec2& shift, shared::VertexSurface* surface) {
+  for (size_t v = 0; v < primitive.vertexCount(); ++v) {
+    uint32_t color = 0xFFFFFFFFu;
+    if (!primitive.colors.empty()) std::memcpy(&color, &primitive.colors[v], 4);
+    surface[v] = {primitive.uv0[v], primitive.uv1.empty() ? primitive.uv0[v] : primitive.uv1[v],
+                  primitive.patternCoordinates()[v] + shift, color,
+                  primitive.warpScales.empty() ? 1.0f : primitive.warpScales[v]};
+  }
+}
+
+// A buffer that is filled in place: in device memory where the CPU sees it, else by way of staging.
+template <class T>
+struct Stream {
+  gpu::Buffer buffer;
+  T* data = nullptr;
+};
+
+template <class T>
+Stream<T> reserve(gpu::Uploader& uploader, uint64_t count, VkBufferUsageFlags usage, uint64_t& bytes) {
+  Stream<T> stream;
+  const uint64_t size = std::max<uint64_t>(1, count) * sizeof(T);
+  std::byte* target = nullptr;
+  stream.buffer = uploader.reserve(size, usage, &target);
+  stream.data = reinterpret_cast<T*>(target);
+  bytes += size;
+  return stream;
+}
+
+template <class T>
+T* placeIn(gpu::Uploader& uploader, gpu::Buffer& buffer, uint64_t first, uint64_t count) {
+  return reinterpret_cast<T*>(uploader.rewrite(buffer, first * sizeof(T), count * sizeof(T)));
+}
+
+}  // namespace
+
+GeometryOnGpu::Plan GeometryOnGpu::planOf(const std::vector<GeometryItem>& items) {
+  Plan plan;
+  std::map<const scene::Primitive*, uint32_t> known;
+  for (const GeometryItem& item : items) {
+    const scene::Primitive& primitive = *item.primitive;
+    const auto [rest, isNew] = known.try_emplace(&primitive, uint32_t(plan.rests.size()));
+    if (isNew) {
+      Rest& added = plan.rests.emplace_back(Rest{&primitive});
+      added.vertexCount = uint32_t(primitive.vertexCount());
+      added.indexCount = uint32_t(primitive.indices.size());
+      added.influences = primitive.influences;
+      if (!primitive.morphTargets.empty()) added.morph = 0;
+    }
+    plan.restOf.push_back(rest->second);
+    plan.shifts.push_back(item.patternShift);
+  }
+  return plan;
+}
+
+bool GeometryOnGpu::update(gpu::Device& device, gpu::Uploader& uploader,
+                           const std::vector<GeometryItem>& items, const std::function<void()>& settle) {
+  rewritten_.clear();
+  written_ = 0;
+  Plan plan = planOf(items);
+  bool fits = vertexCount_ > 0 && plan.restOf == plan_.restOf;
+  for (size_t r = 0; fits && r < plan.rests.size(); ++r)
+    fits = plan.rests[r].primitive == plan_.rests[r].primitive || plan.rests[r].isLaidAs(plan_.rests[r]);
+  if (fits) {
+    rewrite(uploader, plan, settle);
+  } else {
+    settle();
+    build(device, uploader, plan);
+  }
+  return !fits;
+}
+
+void GeometryOnGpu::rewrite(gpu::Uploader& uploader, const Plan& plan, const std::function<void()>& settle) {
+  std::vector<bool> isNew(plan.rests.size(), false);
+  for (size_t r = 0; r < plan.rests.size(); ++r) {
+    Rest& rest = plan_.rests[r];
+    if (rest.primitive == plan.rests[r].primitive) continue;
+    settle();
+    isNew[r] = true;
+    rest.primitive = plan.rests[r].primitive;
+    ++written_;
+    if (rest.vertexCount == 0) continue;
+    writeCore(*rest.primitive,
+              placeIn<shared::VertexCore>(uploader, restCore_, rest.vertex, rest.vertexCount));
+    writeFrame(*rest.primitive,
+               placeIn<shared::VertexFrame>(uploader, restFrame_, rest.vertex, rest.vertexCount));
+    if (const uint64_t entries = uint64_t(rest.vertexCount) * uint64_t(rest.influences / 4); entries > 0)
+      writeSkin(*rest.primitive, placeIn<shared::VertexSkin>(uploader, restSkin_, rest.skin, entries));
+    std::copy(rest.primitive->indices.begin(), rest.primitive->indices.end(),
+              placeIn<uint32_t>(uploader, indices_, rest.index, rest.indexCount));
+  }
+  for (uint32_t i = 0; i < plan.restOf.size(); ++i) {
+    const Rest& rest = plan_.rests[plan.restOf[i]];
+    if (isNew[plan.restOf[i]]) rewritten_.push_back(i);
+    if (!isNew[plan.restOf[i]] && plan.shifts[i] == plan_.shifts[i]) continue;
+    settle();
+    plan_.shifts[i] = plan.shifts[i];
+    if (rest.vertexCount > 0)
+      writeSurface(
+          *rest.primitive, plan.shifts[i],
+          placeIn<shared::VertexSurface>(uploader, surface_, places_[i].firstVertex, rest.vertexCount));
+  }
+}
+
+void GeometryOnGpu::build(gpu::Device& device, gpu::Uploader& uploader, Plan& plan) {
+  // Lay out: rest data once for each primitive, final and static vertices once for each item.
+  uint64_t restVertices = 0, indexCount = 0, skinEntries = 0, finalVertices = 0;
+  std::vector<uint32_t> morphStarts;
+  std::vector<shared::MorphDisplacement> morphs;
+  for (Rest& rest : plan.rests) {
+    rest.vertex = uint32_t(restVertices), rest.index = uint32_t(indexCount),
+    rest.skin = uint32_t(skinEntries);
+    if (rest.morph != shared::kNoMorph) {
+      rest.morph = uint32_t(morphStarts.size());
+      listDisplacements(*rest.primitive, morphStarts, morphs);
+    }
+    restVertices += rest.vertexCount;
+    indexCount += rest.indexCount;
+    skinEntries += uint64_t(rest.vertexCount) * uint64_t(rest.influences / 4);
+  }
+  for (const uint32_t rest : plan.restOf) finalVertices += plan.rests[rest].vertexCount;
+  const uint64_t largest = std::max(std::max(restVertices, finalVertices) * sizeof(shared::VertexFrame),
+                                    morphs.size() * sizeof(shared::MorphDisplacement));
+  if (largest > device.limits().maxStorageBufferRange || indexCount > (1ull << 31))
+    throw gpu::VulkanError{"the scene's vertices", VK_ERROR_OUT_OF_DEVICE_MEMORY};
+
+  // What was there goes first.
+  bytes_ = 0;
+  vertexCount_ = 0;
+  for (gpu::Buffer* buffer : {&chunks_, &restCore_, &restFrame_, &restSkin_, &morphStarts_, &morphs_,
+                              &finalCore_, &finalFrame_, &surface_, &indices_})
+    *buffer = {};
+  auto core = reserve<shared::VertexCore>(uploader, restVertices, kStorage, bytes_);
+  auto around = reserve<shared::VertexFrame>(uploader, restVertices, kStorage, bytes_);
+  auto skins = reserve<shared::VertexSkin>(uploader, skinEntries, kStorage, bytes_);
+  auto surface = reserve<shared::VertexSurface>(uploader, finalVertices, kStorage | kVertex, bytes_);
+  auto indices = reserve<uint32_t>(uploader, indexCount, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, bytes_);
+
+  scene::parallelFor(plan.rests.size(), scene::threadCount(0), [&](size_t r) {
+    const Rest& rest = plan.rests[r];
+    writeCore(*rest.primitive, core.data + rest.vertex);
+    writeFrame(*rest.primitive, around.data + rest.vertex);
+    writeSkin(*rest.primitive, skins.data + rest.skin);
+    std::copy(rest.primitive->indices.begin(), rest.primitive->indices.end(), indices.data + rest.index);
+  });
+  written_ = uint32_t(plan.rests.size());
+
+  // Items, and deform's work.
+  std::vector<shared::DeformChunk> chunks;
+  places_.clear();
+  uint32_t finalVertex = 0;
+  for (uint32_t i = 0; i < plan.restOf.size(); ++i) {
+    const Rest& rest = plan.rests[plan.restOf[i]];
+    Place& place = places_.emplace_back();
+    place.firstIndex = rest.index;
+    place.firstVertex = finalVertex;
+    place.firstChunk = uint32_t(chunks.size());
+    place.morphs = rest.morph != shared::kNoMorph;
+    for (uint32_t v = 0; v < rest.vertexCount; v += shared::kDeformChunk)
+      chunks.push_back({i, rest.vertex + v, finalVertex + v,
+                        std::min(rest.vertexCount - v, uint32_t(shared::kDeformChunk)),
+                        rest.skin + v * uint32_t(rest.influences / 4),
+                        place.morphs ? rest.morph + v : shared::kNoMorph});
+    finalVertex += rest.vertexCount;
+    place.chunkCount = uint32_t(chunks.size()) - place.firstChunk;
+  }
+  scene::parallelFor(plan.restOf.size(), scene::threadCount(0), [&](size_t i) {
+    writeSurface(*plan.rests[plan.restOf[i]].primitive, plan.shifts[i],
+                 surface.data + places_[i].firstVertex);
+  });
+
+  const auto upload = [&](const auto& array) {
+    auto stream = reserve<std::remove_cvref_t<decltype(array[0])>>(uploader, array.size(), kStorage, bytes_);
+    std::copy(array.begin(), array.end(), stream.data);
+    return std::move(stream.buffer);
+  };
+  chunks_ = upload(chunks);
+  morphStarts_ = upload(morphStarts);
+  morphs_ = upload(morphs);
+  restCore_ = std::move(core.buffer);
+  restFrame_ = std::move(around.buffer);
+  restSkin_ = std::move(skins.buffer);
+  surface_ = std::move(surface.buffer);
+  indices_ = std::move(indices.buffer);
+  chunkCount_ = uint32_t(chunks.size());
+  vertexCount_ = std::max(1u, finalVertex);
+  finalCore_ = gpu::Buffer(device, vertexCount_ * sizeof(shared::VertexCore), kStorage | kVertex,
+                           gpu::MemoryKind::device);
+  finalFrame_ = gpu::Buffer(device, vertexCount_ * sizeof(shared::VertexFrame), kStorage | kVertex,
+                            gpu::MemoryKind::device);
+  plan_ = std::move(plan);
+}
+
+}  // namespace scumble::world

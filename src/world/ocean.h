@@ -1,0 +1,124 @@
+// A scene's ocean: where it is, its mesh, and its waves at a moment, on the CPU and on the device
+// (paper 000, section 6.1; the waves themselves: src/ocean).
+#pragma once
+
+#include <array>
+#include <compare>
+#include <optional>
+
+#include "gpu/frames_in_flight.h"
+#include "look/look_data.h"
+#include "ocean/surface.h"
+#include "scene/scene_data.h"
+#include "shading/ocean.shared.h"
+#include "world/decorations.h"
+
+namespace scumble::world {
+
+#define PARAMS_STRUCT OceanParams
+#define PARAMS_FILE "world/ocean.params"
+#define PARAMS_PATH "ocean"
+#define PARAMS_TARGETS kScene
+#include "look/define_params.h"
+
+// What of the ocean goes into the scene's geometry.
+struct OceanShape {
+  bool isThere = false;
+  int node = -1;                                        // whose mesh it stands for; -1: none
+  glm::vec3 origin{0.0f};                               // middle of calm water, world
+  int grid = 80, tiles = 5;                             // vertices along a tile; tiles along a side
+  float tile = 60, falseHorizon = 120, horizon = 1000;  // metres
+  std::vector<int> decorations;                         // their kinds
+  bool operator==(const OceanShape&) const = default;
+  // Metres from the middle to which waves are whole.
+  float fadeStart() const { return 0.6f * falseHorizon; }
+  float cell() const { return tile / float(grid); }
+  // Place of the mesh's first point, in cells from the middle, along x and z.
+  int firstPoint() const { return -(tiles * grid / 2); }
+};
+OceanShape oceanShape(const scene::SceneData& scene, const look::LookData& look);
+
+using shared::kWaterPerPattern;
+
+// A tile with its corner at the origin. The middle one has all points, and is split as src/ocean/surface.h
+// says; each ring of tiles around it every second point of the one before, since small triangles far away
+// cost much and show nothing.
+struct OceanTile {
+  int stride = 1;               // points between corners of its cells
+  std::array<int, 4> beside{};  // along its sides -x, +x, -z, +z, where a finer tile may lie beside it
+  auto operator<=>(const OceanTile&) const = default;
+};
+OceanTile oceanTileAt(const OceanShape& shape, int x, int z);
+scene::Primitive makeOceanTile(const OceanShape& shape, const OceanTile& tile);
+// The flat water between the waves and the horizon.
+scene::Primitive makeOceanRing(const OceanShape& shape);
+// What of a decoration is finer than the ocean's own mesh: it rides at the same height, and the ocean's is
+// pushed down below it.
+scene::Primitive makeOceanDecoration(int kind);
+
+// The waves of a moment. The mesh stays where it is but for part of a cell, and waves and pattern slide
+// through it: nothing wraps and nothing pops.
+class OceanWaves {
+ public:
+  // `scene` stays until another one is followed.
+  OceanWaves(gpu::Device& device, const scene::SceneData& scene, const OceanShape& shape);
+  // Whether follow() can be called for it.
+  bool fits(const OceanShape& shape) const { return shape.grid == shape_.grid; }
+  void follow(const scene::SceneData& scene, const OceanShape& shape) {
+    scene_ = &scene;
+    shape_ = shape;
+  }
+
+  // The waves at a time, in seconds; the look is one at that time. `travelled`: how far over the water the
+  // scene is at any time.
+  // `now`: waves of another time whose points of the mesh are to be followed, for where they were at this
+  // one; null: the mesh stays. Decorations are then those of `now`, carried along by the water.
+  void pose(const look::LookData& look, double time, const Travelled& travelled,
+            const OceanWaves* now = nullptr);
+
+  // What tiles are moved by: less than a cell, where no other time's points are followed.
+  glm::vec3 offset() const { return {-within_.x, 0.0f, -within_.y}; }
+  // What the flat water is moved by, where they are.
+  glm::vec3 ringOffset() const { return {slid_.x, 0.0f, slid_.y}; }
+  // What is added to pattern coordinates of tiles, and of what does not move.
+  glm::vec2 tilePattern() const { return patternAt(travelled_ - glm::dvec2(within_)); }
+  glm::vec2 ringPattern() const { return patternAt(travelled_); }
+  // Where a decoration's mesh is; empty where it draws nothing.
+  scene::Bounds decorationBounds(size_t decoration) const;
+  // What rides.
+  const std::vector<FloatingNode>& floating() const { return floating_; }
+  // How far vertices may be from their place at rest, metres.
+  const glm::vec3& reach() const { return reach_; }
+
+  // From where something is on calm water to where it rides the waves. `world`: its matrix.
+  glm::mat4 riding(const FloatParams& params, const glm::mat4& world) const;
+  const ocean::WaveField& field() const { return field_; }
+  // Where on the field a place of the world is: metres, x and z.
+  glm::dvec2 onField(const glm::vec3& at) const {
+    return glm::dvec2(at.x - shape_.origin.x, at.z - shape_.origin.z) + travelled_;
+  }
+
+  const gpu::PerFrameBuffer& buffer() const { return buffer_; }
+  void addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) { uploads.push_back(&buffer_); }
+
+ private:
+  // Begins anew after a power of two, at which all scales of a pattern repeat: numbers stay fine.
+  static glm::vec2 patternAt(const glm::dvec2& metres) {
+    return glm::mod(metres / double(kWaterPerPattern), glm::dvec2(8192.0));
+  }
+
+  const scene::SceneData* scene_;
+  OceanShape shape_;
+  std::optional<ocean::Waves> waves_;
+  ocean::WaveField field_;
+  glm::dvec2 travelled_{0.0};  // over the water, metres
+  glm::dvec2 cells_{0.0};      // whole cells of it
+  glm::vec2 within_{0.0f};     // the rest
+  glm::vec2 slid_{0.0f};       // metres that the water has slid since, to the time whose points are followed
+  glm::vec3 reach_{0.0f};
+  std::vector<FloatingNode> floating_;
+  std::vector<shared::WaterDecoration> decorations_;
+  gpu::PerFrameBuffer buffer_;  // shared::OceanField, then grid * grid shared::OceanPoint
+};
+
+}  // namespace scumble::world

@@ -1,0 +1,245 @@
+#include "world/scene_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+
+#include "scene/parallel.h"
+#include "stage/playing.h"
+
+namespace scumble::world {
+
+namespace {
+
+// Fewer objects than this are placed sooner than threads start.
+constexpr size_t kManyObjects = 2000;
+
+template <class T>
+gpu::PerFrameBuffer bufferOf(gpu::Device& device, size_t count) {
+  return gpu::PerFrameBuffer(device, std::max<size_t>(1, count) * sizeof(T),
+                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+}
+
+// Writes and says whether anything is new.
+template <class T>
+bool replace(T* target, const T* source, size_t count) {
+  if (std::memcmp(target, source, count * sizeof(T)) == 0) return false;
+  std::memcpy(target, source, count * sizeof(T));
+  return true;
+}
+
+// Inverse transpose of the linear part, up to a positive factor.
+glm::mat3 normalMatrix(const glm::mat3& linear, bool mirrored) {
+  // The cofactor matrix is the inverse transpose times the determinant, and exists for flat matrices too.
+  glm::mat3 normal(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
+                   glm::cross(linear[0], linear[1]));
+  // Its entries are products of two lengths; divide by the largest, so that tiny and huge scales keep
+  // precision.
+  float most = 0;
+  for (int i = 0; i < 9; ++i) most = std::max(most, std::abs(normal[i / 3][i % 3]));
+  return normal * ((mirrored ? -1.0f : 1.0f) / (most > 0 && std::isfinite(most) ? most : 1.0f));
+}
+
+// As the scene has it, which may be another one than that the object was made for.
+const glm::mat4& instanceOf(const scene::SceneData& scene, const MovingObject& object) {
+  if (object.node == MovingObject::kNoNode || object.node >= scene.nodes.size()) return object.instance;
+  const std::vector<glm::mat4>& instances = scene.nodes[object.node].instances;
+  return object.instanceOfNode < instances.size() ? instances[object.instanceOfNode] : object.instance;
+}
+
+}  // namespace
+
+SceneMotion::SceneMotion(gpu::Device& device, const scene::SceneData& scene,
+                         const std::vector<std::string>& materialNames,
+                         const std::vector<MovingObject>& moving,
+                         const std::vector<shared::ObjectData>& objects, uint32_t chunkCount)
+    : materialNames_(materialNames),
+      moving_(moving),
+      chunkCount_(chunkCount),
+      bounds_(moving.size()),
+      mirrored_(moving.size(), 0),
+      touched_(moving.size(), 0),
+      followed_(&scene) {
+  std::vector<shared::ObjectData> placed = objects;
+  layout_ = layOut(scene, placed);
+  objects_ = bufferOf<shared::ObjectData>(device, placed.size());
+  joints_ = bufferOf<glm::mat4>(device, layout_.joints);
+  morphWeights_ = bufferOf<float>(device, layout_.weights);
+  moved_ = bufferOf<uint32_t>(device, chunkCount);
+  std::copy(placed.begin(), placed.end(), objects_.as<shared::ObjectData>());
+}
+
+SceneMotion::Layout SceneMotion::layOut(const scene::SceneData& scene,
+                                        std::vector<shared::ObjectData>& objects) const {
+  Layout layout;
+  layout.isJoint.resize(scene.nodes.size());
+  layout.skinUseOf.resize(moving_.size());
+  for (const scene::Skin& skin : scene.skins)
+    for (const int joint : skin.joints) layout.isJoint[size_t(joint)] = true;
+  std::map<std::pair<int, uint32_t>, uint32_t> uses;
+  for (size_t i = 0; i < moving_.size(); ++i) {
+    const MovingObject& object = moving_[i];
+    if (object.skin >= 0) {
+      const auto [use, isNew] =
+          uses.try_emplace({object.skin, object.material}, uint32_t(layout.skinUses.size()));
+      if (isNew) {
+        layout.skinUses.push_back({object.skin, object.material, uint32_t(layout.joints)});
+        layout.joints += scene.skins[size_t(object.skin)].joints.size();
+      }
+      layout.skinUseOf[i] = use->second;
+      objects[i].firstJoint = layout.skinUses[use->second].firstJoint;
+    }
+    if (object.morphs) {
+      objects[i].firstMorphWeight = uint32_t(layout.weights);
+      layout.weights += scene.meshes[size_t(object.mesh)]->morphWeights.size();
+    }
+  }
+  return layout;
+}
+
+bool SceneMotion::follow(const scene::SceneData& scene, const std::vector<shared::ObjectData>& objects,
+                         uint32_t chunkCount) {
+  if (objects.size() != bounds_.size() || chunkCount != chunkCount_) return false;
+  std::vector<shared::ObjectData> placed = objects;
+  Layout layout = layOut(scene, placed);
+  if (layout.joints != layout_.joints || layout.weights != layout_.weights) return false;
+  layout_ = std::move(layout);
+  auto* const now = objects_.as<shared::ObjectData>();
+  for (size_t i = 0; i < placed.size(); ++i) {
+    shared::ObjectData& object = placed[i];
+    // Who reads joints or weights from elsewhere now, or is another kind of water, moves.
+    if (object.firstJoint != now[i].firstJoint || object.firstMorphWeight != now[i].firstMorphWeight ||
+        object.influences != now[i].influences || object.water != now[i].water ||
+        object.decoration != now[i].decoration)
+      touched_[i] = 1;
+    object.model = now[i].model;
+    object.normal = now[i].normal;
+    if (object.water != uint32_t(Water::none)) object.patternShift = now[i].patternShift;
+  }
+  std::copy(placed.begin(), placed.end(), now);
+  followed_ = &scene;
+  isAtRest_ = false;
+  return true;
+}
+
+void SceneMotion::pose(const scene::SceneData& scene, const look::LookData& look, double time,
+                       const OceanWaves* waves) {
+  movedCount_ = movedBeforeWater_ = 0;
+  const std::vector<scene::PlayedClip> clips = playedClips(scene, look);
+  const bool rests = clips.empty() && !waves && &scene == followed_;
+  if (rests && isAtRest_ && written_) return;
+  isAtRest_ = rests;
+
+  // One pose for each length of time that poses stand: joints and morph weights are held for as long as the
+  // material that they move says, whatever the look names as long as it says.
+  const std::vector<int> named = namedHolds(scene, look);
+  const auto poseHeldFor = [&](int frames) {
+    scene::NodeTimes times;
+    for (size_t n = 0; n < scene.nodes.size(); ++n) {
+      const double held = heldTime(time, named[n] >= 0 ? named[n] : frames);
+      times.transforms.push_back(named[n] >= 0 || layout_.isJoint[n] ? held : time);
+      times.morphWeights.push_back(held);
+    }
+    return scene::poseAt(scene, clips, times);
+  };
+  std::map<int, scene::Pose> poses;
+  std::vector<const scene::Pose*> poseOf;
+  for (const std::string& material : materialNames_) {
+    const int frames = look.getForMaterial<AnimationParams>(material).hold;
+    const auto [pose, isNew] = poses.try_emplace(frames);
+    if (isNew) pose->second = poseHeldFor(frames);
+    poseOf.push_back(&pose->second);
+  }
+  const int usual = look.get<AnimationParams>().hold;
+  const auto usualPose = poses.find(usual);
+  worldAsDrawn_ = usualPose != poses.end() ? usualPose->second.world : poseHeldFor(usual).world;
+  world_ = scene::poseAt(scene, clips, time).world;
+
+  // What rides the waves is moved by them as the waves are now, however long poses are held.
+  riding_.clear();
+  if (waves && !waves->floating().empty()) {
+    riding_.resize(scene.nodes.size());
+    for (const FloatingNode& one : waves->floating())
+      riding_[one.node] = waves->riding(one.params, world_[one.node]);
+    for (size_t n = 0; n < scene.nodes.size(); ++n)
+      if (const int parent = scene.nodes[n].parent; parent >= 0 && riding_[size_t(parent)])
+        riding_[n] = riding_[size_t(parent)];
+    const auto ride = [&](std::vector<glm::mat4>& world) {
+      for (size_t n = 0; n < world.size(); ++n)
+        if (riding_[n]) world[n] = *riding_[n] * world[n];
+    };
+    for (auto& [frames, pose] : poses) ride(pose.world);
+    ride(world_);
+    ride(worldAsDrawn_);
+  }
+
+  // Joints.
+  std::vector<uint8_t> bends(layout_.skinUses.size());
+  for (size_t i = 0; i < layout_.skinUses.size(); ++i) {
+    const SkinUse& use = layout_.skinUses[i];
+    const std::vector<glm::mat4> matrices =
+        scene::jointMatrices(scene.skins[size_t(use.skin)], poseOf[use.material]->world);
+    bends[i] = replace(joints_.as<glm::mat4>() + use.firstJoint, matrices.data(), matrices.size());
+  }
+
+  // Objects.
+  std::vector<uint8_t> moves(moving_.size());
+  scene::parallelFor(
+      moving_.size(), moving_.size() < kManyObjects ? 1 : scene::threadCount(0), [&](size_t i) {
+        const MovingObject& object = moving_[i];
+        const scene::Pose& pose = *poseOf[object.material];
+        shared::ObjectData& data = objects_.as<shared::ObjectData>()[i];
+        const glm::mat4& instance = instanceOf(scene, object);
+        glm::mat4 model =
+            object.node == MovingObject::kNoNode ? instance : pose.world[object.node] * instance;
+        if (object.water == Water::waves) model[3] += glm::vec4(waves->offset(), 0.0f);
+        if (object.water == Water::flat) model[3] += glm::vec4(waves->ringOffset(), 0.0f);
+        if (object.water != Water::none)
+          data.patternShift = object.water == Water::waves ? waves->tilePattern() : waves->ringPattern();
+        bool changes = object.water == Water::waves || object.water == Water::decoration || !written_ ||
+                       touched_[i] || (object.skin >= 0 && bends[layout_.skinUseOf[i]]);
+        if (replace(&data.model, &model, 1) || !written_) {
+          const glm::mat3 linear(model);
+          mirrored_[i] = object.skin < 0 && glm::determinant(linear) < 0;
+          data.normal = normalMatrix(linear, mirrored_[i]);
+          changes |= object.skin < 0;
+        }
+        std::span<const float> weights;
+        if (object.morphs) {
+          weights = pose.morphWeights[object.node];
+          changes |=
+              replace(morphWeights_.as<float>() + data.firstMorphWeight, weights.data(), weights.size());
+        }
+        moves[i] = changes;
+        if (!changes) return;
+        std::span<const glm::mat4> joints;
+        if (object.skin >= 0)
+          joints = {joints_.as<glm::mat4>() + data.firstJoint,
+                    scene.skins[size_t(object.skin)].joints.size()};
+        bounds_[i] = scene::posedBounds(*object.extent, model, joints, weights);
+        if (object.water == Water::waves) {
+          bounds_[i].min -= waves->reach();
+          bounds_[i].max += waves->reach();
+        }
+        if (object.water == Water::decoration) bounds_[i] = waves->decorationBounds(object.decoration);
+      });
+  written_ = true;
+  std::fill(touched_.begin(), touched_.end(), uint8_t(0));
+
+  uint32_t* moved = moved_.as<uint32_t>();
+  bool isDry = true;
+  for (size_t i = 0; i < moving_.size(); ++i) {
+    isDry &= moving_[i].water == Water::none;
+    if (!moves[i]) continue;
+    for (uint32_t c = 0; c < moving_[i].chunkCount; ++c) moved[movedCount_++] = moving_[i].firstChunk + c;
+    if (isDry) movedBeforeWater_ = movedCount_;
+  }
+}
+
+void SceneMotion::addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) {
+  for (gpu::PerFrameBuffer* buffer : {&objects_, &joints_, &morphWeights_, &moved_})
+    uploads.push_back(buffer);
+}
+
+}  // namespace scumble::world

@@ -1,0 +1,113 @@
+// What moves in a scene: where objects and joints are at a frame's time and how far morph targets are in, in
+// device memory, and which vertices have to be written anew for that.
+#pragma once
+
+#include "gpu/frames_in_flight.h"
+#include "look/look_data.h"
+#include "scene/posed_bounds.h"
+#include "shading/frame.shared.h"
+#include "world/geometry.h"
+
+namespace scumble::world {
+
+using namespace stage;
+
+// One drawn thing as far as it moves.
+struct MovingObject {
+  size_t node = 0;  // kNoNode: it stands still, as the ground does
+  glm::mat4 instance{1.0f};
+  size_t instanceOfNode = 0;  // which one it is
+  int skin = -1;              // -1: rigid
+  int mesh = -1;
+  uint32_t material = 0;
+  uint32_t firstChunk = 0, chunkCount = 0;  // of its vertices
+  const scene::PrimitiveExtent* extent = nullptr;
+  bool morphs = false;
+  Water water = Water::none;
+  uint32_t decoration = 0;
+  static constexpr size_t kNoNode = GeometryItem::kNoNode;
+};
+
+class SceneMotion {
+ public:
+  // `objects` with all that does not move (material, id ...); matrices, joints and weights are filled in
+  // here. `materialNames` and `moving` stay alive as long as this does.
+  SceneMotion(gpu::Device& device, const scene::SceneData& scene,
+              const std::vector<std::string>& materialNames, const std::vector<MovingObject>& moving,
+              const std::vector<shared::ObjectData>& objects, uint32_t chunkCount);
+
+  // What it was made for has become another; what does not move because of that is not written anew. False,
+  // and nothing is done, where the buffers have other sizes than that takes.
+  bool follow(const scene::SceneData& scene, const std::vector<shared::ObjectData>& objects,
+              uint32_t chunkCount);
+  // An object's vertices at rest are others.
+  void touch(size_t object) { touched_[object] = 1; }
+
+  // The pose at a time, in seconds; the look is one at that time (LookData::at). `waves`: those of that time,
+  // where there is an ocean. `scene`: the one that it follows, or as it was at that time, with the same
+  // nodes.
+  void pose(const scene::SceneData& scene, const look::LookData& look, double time, const OceanWaves* waves);
+
+  // World bounds of each object in the pose.
+  const std::vector<scene::Bounds>& bounds() const { return bounds_; }
+  // Whether triangles are turned inside out, by object.
+  const std::vector<uint8_t>& mirrored() const { return mirrored_; }
+  // Matrix of an object to the world in the pose, and of its joints: those of a skinned one go from where its
+  // vertices are at rest to the world.
+  const glm::mat4& model(size_t object) const { return objects_.as<shared::ObjectData>()[object].model; }
+  const glm::mat4* joints(size_t object) const {
+    return joints_.as<glm::mat4>() + objects_.as<shared::ObjectData>()[object].firstJoint;
+  }
+  // World matrices of nodes at the time itself: what holds poses does not hold lights and cameras.
+  const std::vector<glm::mat4>& world() const { return world_; }
+  // The same as they are drawn where no material says how long poses stand: what hangs on a held node is held
+  // with it.
+  const std::vector<glm::mat4>& worldAsDrawn() const { return worldAsDrawn_; }
+
+  // What waves move a node by, from where it is without them.
+  glm::mat4 riding(size_t node) const {
+    return riding_.empty() || !riding_[node] ? glm::mat4(1.0f) : *riding_[node];
+  }
+
+  // Chunks of vertices whose final ones are out of date; the next pose starts from these being written.
+  uint32_t movedCount() const { return movedCount_; }
+  // How many of these come first that are no water; after them there may be anything.
+  uint32_t movedBeforeWater() const { return movedBeforeWater_; }
+  // Forgets what was written before: everything has moved.
+  void touchAll() { written_ = isAtRest_ = false; }
+
+  VkBuffer objects() const { return objects_.handle(); }
+  VkBuffer joints() const { return joints_.handle(); }
+  VkBuffer morphWeights() const { return morphWeights_.handle(); }
+  VkBuffer moved() const { return moved_.handle(); }
+  void addUploads(std::vector<gpu::PerFrameBuffer*>& uploads);
+
+ private:
+  struct SkinUse {
+    int skin;
+    uint32_t material, firstJoint;
+  };
+  // Who uses which part of the buffers; also in `objects`.
+  struct Layout {
+    std::vector<bool> isJoint;        // by node
+    std::vector<SkinUse> skinUses;    // a skin is posed once for each material that is drawn with it
+    std::vector<uint32_t> skinUseOf;  // by object
+    size_t joints = 0, weights = 0;
+  };
+  Layout layOut(const scene::SceneData& scene, std::vector<shared::ObjectData>& objects) const;
+
+  const std::vector<std::string>& materialNames_;
+  const std::vector<MovingObject>& moving_;
+  Layout layout_;
+  uint32_t chunkCount_;
+  gpu::PerFrameBuffer objects_, joints_, morphWeights_, moved_;
+  std::vector<scene::Bounds> bounds_;
+  std::vector<uint8_t> mirrored_, touched_;
+  std::vector<glm::mat4> world_, worldAsDrawn_;
+  std::vector<std::optional<glm::mat4>> riding_;  // by node; empty: nothing rides
+  uint32_t movedCount_ = 0, movedBeforeWater_ = 0;
+  const scene::SceneData* followed_;
+  bool written_ = false, isAtRest_ = false;
+};
+
+}  // namespace scumble::world

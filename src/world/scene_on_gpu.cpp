@@ -1,0 +1,390 @@
+#include "world/scene_on_gpu.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <tuple>
+
+#include "stage/visibility.h"
+#include "world/geometry.h"
+#include "world/ocean_travel.h"
+
+namespace scumble::world {
+
+namespace {
+
+AlphaMode alphaMode(const scene::Material& material) {
+  switch (material.alphaMode) {
+    case scene::AlphaMode::mask:
+      return AlphaMode::mask;
+    case scene::AlphaMode::blend:
+      return AlphaMode::blend;
+    default:
+      return AlphaMode::opaque;
+  }
+}
+
+VkSamplerAddressMode addressMode(scene::Wrap wrap) {
+  switch (wrap) {
+    case scene::Wrap::mirroredRepeat:
+      return VK_SAMPLER_ADDRESS_MODE_MIRRORED_REPEAT;
+    case scene::Wrap::clampToEdge:
+      return VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    default:
+      return VK_SAMPLER_ADDRESS_MODE_REPEAT;
+  }
+}
+
+// Of the sets of colours, in material.glsl.
+constexpr uint32_t kLitBinding = 3, kShadowedBinding = 4;
+
+constexpr uint64_t kMaterialStride = gpu::uniformStride(sizeof(shared::MaterialData));
+
+gpu::Buffer positionBuffer(gpu::Device& device, uint64_t count) {
+  return gpu::Buffer(device, count * sizeof(glm::vec3),
+                     VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
+                     gpu::MemoryKind::device);
+}
+
+}  // namespace
+
+SceneOnGpu::Changes SceneOnGpu::update(const scene::SceneData& scene, const GeometryOptions& options,
+                                       const std::function<void()>& settle) {
+  Changes changes;
+  const auto kindsOfMaterials = [&] {
+    return std::tuple(materialNames_.size(), groundMaterial_, oceanMaterial_);
+  };
+  const auto materialsBefore = kindsOfMaterials();
+  data_ = &scene;
+  options_ = options;
+
+  // What is drawn, and with which materials.
+  listMaterials();
+  Geometry geometry = collectGeometry(scene, options, groundMaterial_, oceanMaterial_, made_);
+  bounds_ = geometry.bounds;
+  separateMaterials(geometry);
+  changes.materials = kindsOfMaterials() != materialsBefore;
+
+  // Vertices, where they are others; then images.
+  gpu::Uploader uploader(device_);
+  const bool otherPlaces = geometry_.update(device_, uploader, geometry.items, settle);
+  const bool otherTextures = textures_.update(uploader, scene.images, settle);
+  uploader.flush();
+  if (otherPlaces) {
+    previousPositions_ = positionBuffer(device_, previousMotion_ ? geometry_.vertexCount() : 1);
+    changes.buffers = true;
+  }
+
+  // The water, and what moves.
+  if (options.ocean.isThere && waves_ && waves_->fits(options.ocean)) {
+    waves_->follow(scene, options.ocean);
+    if (previousWaves_) previousWaves_->follow(scene, options.ocean);
+  } else if (options.ocean.isThere || waves_) {
+    settle();
+    waves_.reset(), previousWaves_.reset();
+    if (options.ocean.isThere) waves_.emplace(device_, scene, options.ocean);
+    if (waves_ && previousMotion_) previousWaves_.emplace(device_, scene, options.ocean);
+    changes.buffers = true;
+  }
+  listDraws(geometry, settle);
+  changes.buffers |= followMotion(otherPlaces, settle);
+
+  measureColors(geometry);
+  changes.writtenMaterials = writeMaterials(otherTextures, settle);
+  changes.writtenPrimitives = geometry_.written();
+  changes.writtenTextures = textures_.uploaded();
+  made_.sweep();
+  return changes;
+}
+
+void SceneOnGpu::listMaterials() {
+  materialNames_.clear();
+  materialUses_.clear();
+  groundMaterial_ = oceanMaterial_ = -1;
+  for (const scene::Material& material : data_->materials) {
+    materialUses_.push_back({int(materialNames_.size())});
+    materialNames_.push_back(material.name);
+  }
+  const auto add = [&](const char* name) {
+    materialUses_.push_back({-1});
+    materialNames_.push_back(name);
+    return int(materialNames_.size()) - 1;
+  };
+  if (options_.ground) groundMaterial_ = add("Ground");
+  if (options_.ocean.isThere) oceanMaterial_ = add("Ocean");
+}
+
+void SceneOnGpu::separateMaterials(Geometry& geometry) {
+  if (options_.nodes.ofNode.empty()) return;
+  std::map<std::pair<uint32_t, uint32_t>, uint32_t> known;
+  for (GeometryItem& item : geometry.items) {
+    const uint32_t settings = item.node == GeometryItem::kNoNode ? 0 : options_.nodes.ofNode[item.node];
+    if (settings == 0) continue;
+    const auto [entry, isNew] = known.try_emplace({item.material, settings}, uint32_t(materialNames_.size()));
+    if (isNew) {
+      materialUses_.push_back({int(item.material), settings});
+      materialNames_.push_back(data_->materials[item.material].name);
+    }
+    item.material = entry->second;
+  }
+}
+
+const scene::Material& SceneOnGpu::material(size_t material) const {
+  static const scene::Material kGround{};
+  const int base = materialUses_[material].base;
+  return base >= 0 ? data_->materials[size_t(base)] : kGround;
+}
+
+void SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>& settle) {
+  // Objects: all items.
+  std::vector<Draw> draws;
+  objects_.clear();
+  moving_.clear();
+  triangleCount_ = 0;
+  wraps_ = false;
+  std::vector<TransparentTriangles::Part> blended;
+  warpScaleOf_.assign(materialCount(), 1.0f);
+  isVaried_.assign(materialCount(), false);
+  for (size_t i = 0; i < geometry.items.size(); ++i) {
+    const GeometryItem& item = geometry.items[i];
+    const GeometryOnGpu::Place& place = geometry_.places()[i];
+    const scene::Primitive& primitive = *item.primitive;
+    const scene::Material& material = this->material(item.material);
+
+    shared::ObjectData object{};
+    object.material = item.material;
+    object.id = item.id;
+    object.wraps = uint32_t(primitive.wrapsU) + 2 * uint32_t(primitive.wrapsV);
+    object.water = uint32_t(item.water);
+    object.decoration = item.decoration;
+    object.influences = item.skin >= 0 ? uint32_t(primitive.influences) : 0;
+    objects_.push_back(object);
+
+    MovingObject moving;
+    moving.node = item.node;
+    moving.instanceOfNode = item.instanceOfNode;
+    moving.instance = item.instance;
+    moving.skin = item.skin;
+    moving.mesh = item.node == GeometryItem::kNoNode ? -1 : data_->nodes[item.node].mesh;
+    moving.water = item.water;
+    moving.decoration = item.decoration;
+    moving.material = item.material;
+    moving.extent = item.extent;
+    moving.morphs = place.morphs;
+    moving.firstChunk = place.firstChunk;
+    moving.chunkCount = place.chunkCount;
+    moving_.push_back(moving);
+
+    for (const float scale : primitive.warpScales)
+      warpScaleOf_[item.material] = std::max(warpScaleOf_[item.material], scale);
+    // Draws: those that are shown.
+    if (!item.shown) continue;
+    Draw draw;
+    draw.firstIndex = place.firstIndex;
+    draw.indexCount = uint32_t(primitive.indices.size());
+    draw.vertexOffset = int32_t(place.firstVertex);
+    draw.object = uint32_t(i);
+    draw.material = item.material;
+    draw.alpha = alphaMode(material);
+    draw.cullsBack = !material.doubleSided;
+    draw.textured = material.baseColorTexture.image >= 0 || material.emissiveTexture.image >= 0;
+    draw.varied = draw.textured || !primitive.colors.empty();
+    draw.casts = item.casts;
+    draw.reach = item.reach;
+    wraps_ |= primitive.wrapsU || primitive.wrapsV;
+    if (draw.varied) isVaried_[item.material] = true;
+    if (draw.alpha == AlphaMode::blend) blended.push_back({&primitive, draw.object, item.skin >= 0});
+    draws.push_back(draw);
+    triangleCount_ += draw.indexCount / 3;
+  }
+  // What is transparent is sorted.
+  transparent_.update(device_, std::move(blended), settle);
+  for (Draw& draw : draws)
+    if (draw.alpha == AlphaMode::blend) draw.firstIndex = transparent_.firstIndex(draw.object);
+
+  // Whether that takes other pipelines.
+  const auto wantSamePipelines = [](const Draw& a, const Draw& b) {
+    return a.alpha == b.alpha && a.material == b.material && a.varied == b.varied &&
+           a.textured == b.textured && a.casts == b.casts;
+  };
+  if (!std::equal(draws.begin(), draws.end(), draws_.begin(), draws_.end(), wantSamePipelines))
+    ++drawsVersion_;
+  draws_ = std::move(draws);
+}
+
+bool SceneOnGpu::followMotion(bool otherPlaces, const std::function<void()>& settle) {
+  bool renamed = false;
+  for (std::optional<SceneMotion>* motion : {&motion_, &previousMotion_}) {
+    if (!*motion && motion == &previousMotion_) continue;
+    if (!*motion || !(*motion)->follow(*data_, objects_, geometry_.chunkCount())) {
+      settle();
+      motion->emplace(device_, *data_, materialNames_, moving_, objects_, geometry_.chunkCount());
+      renamed = true;
+    }
+    if (otherPlaces) (*motion)->touchAll();
+    for (const uint32_t item : geometry_.rewritten()) (*motion)->touch(item);
+  }
+  return renamed;
+}
+
+void SceneOnGpu::pose(const look::LookData& look, const look::LookData& now, double time) {
+  if (waves_) waves_->pose(now, time, travelledBy(look));
+  motion_->pose(*data_, now, time, waves());
+  for (Draw& draw : draws_) {
+    draw.bounds = motion_->bounds()[draw.object];
+    draw.mirrored = motion_->mirrored()[draw.object];
+  }
+}
+
+void SceneOnGpu::look(const Viewers& viewers) {
+  nearestOf_.assign(materialCount(), std::numeric_limits<float>::infinity());
+  for (Draw& draw : draws_) {
+    draw.visible =
+        std::any_of(viewers.windows.begin(), viewers.windows.end(), [&](const Viewers::Window& window) {
+          return mayBeSeen(draw.bounds, window.worldToClip, window.margin);
+        });
+    draw.distance = viewers.distanceTo(draw.bounds.center());
+    if (draw.visible) nearestOf_[draw.material] = std::min(nearestOf_[draw.material], draw.distance);
+    if (draw.alpha == AlphaMode::blend && (draw.visible || draw.casts))
+      transparent_.sort(draw.object, *motion_, viewers);
+  }
+}
+
+std::vector<scene::Bounds> SceneOnGpu::casters() const {
+  std::vector<scene::Bounds> boxes;
+  for (const Draw& draw : draws_)
+    if (draw.casts) boxes.emplace_back(draw.reach).add(draw.bounds);
+  return boxes;
+}
+
+void SceneOnGpu::posePrevious(const scene::SceneData& scene, const look::LookData& look,
+                              const look::LookData& then, double time) {
+  if (previousWaves_) previousWaves_->pose(then, time, travelledBy(look), waves());
+  previousMotion_->pose(scene, then, time, previousWaves());
+}
+
+void SceneOnGpu::forgetPoses() {
+  motion_->touchAll();
+  if (previousMotion_) previousMotion_->touchAll();
+}
+
+void SceneOnGpu::keepPrevious() {
+  if (previousMotion_) return;
+  previousPositions_ = positionBuffer(device_, geometry_.vertexCount());
+  if (waves_) previousWaves_.emplace(device_, *data_, options_.ocean);
+  previousMotion_.emplace(device_, *data_, materialNames_, moving_, objects_, geometry_.chunkCount());
+}
+
+void SceneOnGpu::addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) {
+  motion_->addUploads(uploads);
+  if (previousMotion_) previousMotion_->addUploads(uploads);
+  transparent_.addUploads(uploads);
+  if (waves_) waves_->addUploads(uploads);
+  if (previousWaves_) previousWaves_->addUploads(uploads);
+  uploads.push_back(&materialData_);
+}
+
+uint32_t SceneOnGpu::writeMaterials(bool otherTextures, const std::function<void()>& settle) {
+  uint32_t written = 0;
+  const bool isNew = materialTextures_.size() != materialNames_.size();
+  if (isNew) {
+    settle();
+    constexpr VkDescriptorType kTexture = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+    if (!materialLayout_.handle())
+      materialLayout_ = gpu::SetLayout(device_, {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kStages},
+                                                 {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
+                                                 {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
+                                                 {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
+                                                 {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT}});
+    materialSets_ = gpu::DescriptorSets(device_, materialLayout_, uint32_t(materialNames_.size()));
+    materialData_ = gpu::PerFrameBuffer(device_, materialNames_.size() * kMaterialStride,
+                                        VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT);
+    materialTextures_.assign(materialNames_.size(), {});
+    for (size_t m = 0; m < materialNames_.size(); ++m)
+      materialSets_.writeBuffer(m, 0, materialData_.handle(), m * kMaterialStride,
+                                sizeof(shared::MaterialData));
+  }
+  for (size_t m = 0; m < materialNames_.size(); ++m) {
+    TextureBindings bindings;
+    const scene::TextureUse* const uses[] = {&material(m).baseColorTexture, &material(m).emissiveTexture};
+    for (size_t i = 0; i < bindings.size(); ++i) bindings[i] = {uses[i]->image, textureOf(*uses[i]).sampler};
+    if (!isNew && !otherTextures && bindings == materialTextures_[m]) continue;
+    settle();
+    materialTextures_[m] = bindings;
+    ++written;
+    // A new image may have an old one's name.
+    const auto write = [&](uint32_t binding, const scene::TextureUse& use) {
+      const SetTexture texture = textureOf(use);
+      materialSets_.rewriteTexture(m, binding, texture.view, samplers_.get(texture.sampler));
+    };
+    for (uint32_t i = 0; i < bindings.size(); ++i) write(1 + i, *uses[i]);
+    write(kLitBinding, {});
+    write(kShadowedBinding, {});
+  }
+  return written;
+}
+
+SetTexture SceneOnGpu::textureOf(const scene::TextureUse& use) const {
+  gpu::SamplerDesc desc;
+  desc.wrapU = addressMode(use.sampler.wrapU);
+  desc.wrapV = addressMode(use.sampler.wrapV);
+  desc.mipmaps = use.sampler.mipmaps;
+  if (use.sampler.nearest) desc.filter = VK_FILTER_NEAREST;
+  return {textures_.view(use.image), desc};
+}
+
+void SceneOnGpu::setColorSets(size_t material, const SetTexture* lit, const SetTexture* shadowed) {
+  materialUses_[material].colorSets = uint8_t((lit ? kLitSet : 0) | (shadowed ? kShadowedSet : 0));
+  if (lit) materialSets_.writeTexture(material, kLitBinding, lit->view, samplers_.get(lit->sampler));
+  if (shadowed)
+    materialSets_.writeTexture(material, kShadowedBinding, shadowed->view, samplers_.get(shadowed->sampler));
+}
+
+void SceneOnGpu::setMaterial(size_t material, const shared::MaterialData& data) {
+  std::memcpy(materialData_.contents() + material * kMaterialStride, &data, sizeof(data));
+}
+
+void SceneOnGpu::measureColors(const Geometry& geometry) {
+  // Mean over the scene's surface, by the area of up to so many triangles of each item.
+  constexpr size_t kTriangles = 64;
+  glm::dvec3 sum(0.0);
+  double total = 0;
+  colorParts_.resize(geometry.items.size());
+  for (size_t i = 0; i < geometry.items.size(); ++i) {
+    const GeometryItem& item = geometry.items[i];
+    ColorPart& part = colorParts_[i];
+    if (item.node == GeometryItem::kNoNode || !item.shown) {
+      part = {};
+      continue;
+    }
+    const scene::Primitive& primitive = *item.primitive;
+    const scene::Material& material = this->material(item.material);
+    const glm::mat3 linear(item.model);
+    glm::vec3 root = glm::sqrt(glm::clamp(glm::vec3(material.baseColor), 0.0f, 1.0f));
+    if (material.baseColorTexture.image >= 0) root *= textures_.meanRootRgb(material.baseColorTexture.image);
+    if (part.primitive != &primitive || part.linear != linear) {
+      part = {&primitive, linear};
+      const size_t triangles = primitive.indices.size() / 3,
+                   step = std::max<size_t>(1, triangles / kTriangles);
+      for (size_t t = 0; t < triangles; t += step) {
+        const uint32_t* v = &primitive.indices[3 * t];
+        const glm::dvec3 normal =
+            glm::cross(glm::dvec3(linear * (primitive.positions[v[1]] - primitive.positions[v[0]])),
+                       glm::dvec3(linear * (primitive.positions[v[2]] - primitive.positions[v[0]])));
+        const double area = glm::length(normal) * double(step);
+        if (!std::isfinite(area)) continue;
+        part.sum += primitive.colors.empty() ? glm::dvec3(area)
+                                             : area * glm::sqrt(glm::dvec3(primitive.colors[v[0]]) / 255.0);
+        part.area += area;
+      }
+    }
+    sum += part.sum * glm::dvec3(root);
+    total += part.area;
+  }
+  colors_ = {};
+  if (total > 0) colors_.meanRootRgb = glm::vec3(sum / total);
+}
+
+}  // namespace scumble::world

@@ -1,0 +1,208 @@
+// A scene in device memory, and the list of draws. It follows a scene that changes, and what of the look goes
+// into it, part by part: what did not change stays.
+#pragma once
+
+#include <array>
+#include <cstring>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gpu/frames_in_flight.h"
+#include "gpu/pipeline.h"
+#include "stage/palette.h"
+#include "stage/viewers.h"
+#include "world/geometry_on_gpu.h"
+#include "world/scene_motion.h"
+#include "world/textures_on_gpu.h"
+#include "world/transparent_triangles.h"
+
+namespace scumble::world {
+
+using namespace stage;
+
+enum class AlphaMode : uint8_t { opaque, mask, blend };
+
+struct Draw {
+  // In SceneOnGpu::indices(); of blended draws in transparentIndices().
+  uint32_t firstIndex = 0, indexCount = 0;
+  int32_t vertexOffset = 0;
+  uint32_t object = 0, material = 0;
+  AlphaMode alpha = AlphaMode::opaque;
+  bool cullsBack = true;  // single-sided
+  bool mirrored = false;  // the object's matrix turns triangles inside out, in the frame's pose
+  bool varied = false;    // vertex colours or textures vary the material's colour
+  bool textured = false;
+  bool casts = true;     // shadows
+  scene::Bounds bounds;  // world, in the frame's pose
+  scene::Bounds reach;   // world, at any time as far as is known before
+  bool visible = true;   // in one of the frame's views, or beside it as far as edges reach
+  float distance = 0;    // of its centre from the first view, metres
+};
+
+// A set of colours, as a texture.
+struct SetTexture {
+  VkImageView view = VK_NULL_HANDLE;
+  gpu::SamplerDesc sampler;
+};
+
+// Whole sets of colours that a material has: bits.
+enum ColorSets : uint8_t { kLitSet = 1, kShadowedSet = 2 };
+
+class SceneOnGpu {
+ public:
+  // Empty until the first update().
+  SceneOnGpu(gpu::Device& device, gpu::Samplers& samplers)
+      : device_(device), samplers_(samplers), textures_(device) {}
+
+  // What has become another, of all that others keep.
+  struct Changes {
+    bool buffers = false;    // names that passes have bound
+    bool materials = false;  // how many there are, and which are the ground's and the ocean's
+    // What was written to the device.
+    uint32_t writtenPrimitives = 0, writtenTextures = 0, writtenMaterials = 0;
+  };
+  // Brings it up to date; `scene` stays until the next update is over. Calls `settle`, maybe more than once,
+  // before it changes anything that frames under way read. Throws gpu::VulkanError when it does not fit, and
+  // is good for nothing then.
+  Changes update(const scene::SceneData& scene, const GeometryOptions& options,
+                 const std::function<void()>& settle);
+  bool isOf(const scene::SceneData& scene, const GeometryOptions& options) const {
+    return data_ == &scene && options_ == options;
+  }
+
+  const GeometryOptions& options() const { return options_; }
+
+  const scene::SceneData& data() const { return *data_; }
+  const std::vector<Draw>& draws() const { return draws_; }
+  // Materials by index: the scene's, then (with a ground) the ground's, then those of nodes for which the
+  // look sets something.
+  size_t materialCount() const { return materialNames_.size(); }
+  const std::string& materialName(size_t material) const { return materialNames_[material]; }
+  // What the scene has for it; glTF's default material for the ground.
+  const scene::Material& material(size_t material) const;
+  // The knobs with which a material is drawn. The look is one that these options come from, at any time.
+  template <class Params>
+  Params knobs(const look::LookData& look, size_t material) const {
+    return look.getForMaterial<Params>(materialNames_[material],
+                                       options_.nodes.lists[materialUses_[material].settings]);
+  }
+  // Whether vertex colours or textures vary this material's colour anywhere.
+  bool isVaried(size_t material) const { return isVaried_[material]; }
+  int groundMaterial() const { return groundMaterial_; }
+  int oceanMaterial() const { return oceanMaterial_; }
+  // The ocean's waves; null where there is none.
+  const OceanWaves* waves() const { return waves_ ? &*waves_ : nullptr; }
+  const OceanWaves* previousWaves() const { return previousWaves_ ? &*previousWaves_ : nullptr; }
+  const SceneColors& colors() const { return colors_; }
+  // Boxes of what casts shadows, world: what each reaches at any time, so that what depends on it stays from
+  // frame to frame.
+  std::vector<scene::Bounds> casters() const;
+
+  // Sets what moves to its place at a time (seconds). The look has its tracks; `now` is the same at that time
+  // (LookData::at).
+  void pose(const look::LookData& look, const look::LookData& now, double time);
+  // Finds out what can be seen, and sorts what is transparent; after pose().
+  void look(const Viewers& viewers);
+  // The largest factor on a material's inflation that vertices of it have (attribute _WARP), at least 1.
+  float warpScaleOf(size_t material) const { return warpScaleOf_[material]; }
+  // Metres from the first view to the nearest draw of a material.
+  float nearestOf(uint32_t material) const { return nearestOf_[material]; }
+  // Where it was a frame ago; after keepPrevious() only. `scene`: what it was then, of the same nodes.
+  void posePrevious(const scene::SceneData& scene, const look::LookData& look, const look::LookData& then,
+                    double time);
+  // The last poses are not on their way to the device after all.
+  void forgetPoses();
+  // Makes room for the positions of a frame ago, unless there is.
+  void keepPrevious();
+  const SceneMotion& motion() const { return *motion_; }
+  const SceneMotion* previousMotion() const { return previousMotion_ ? &*previousMotion_ : nullptr; }
+  // What the CPU writes for each frame.
+  void addUploads(std::vector<gpu::PerFrameBuffer*>& uploads);
+
+  const GeometryOnGpu& geometry() const { return geometry_; }
+  // One vec3 a final vertex; of one vertex only before keepPrevious().
+  const gpu::Buffer& previousPositions() const { return previousPositions_; }
+  // Each blended draw's triangles, sorted by look().
+  VkBuffer transparentIndices() const { return transparent_.indices(); }
+  // What the scene takes up, whatever its clips do.
+  const scene::Bounds& bounds() const { return bounds_; }  // without the ground
+  // Set 1 of geometry passes: a material's facts and its textures.
+  const gpu::SetLayout& materialLayout() const { return materialLayout_; }
+  VkDescriptorSet materialSet(uint32_t material) const { return materialSets_[material]; }
+  // Called before each frame, since the colours follow the look.
+  void setMaterial(size_t material, const shared::MaterialData& data);
+  // The sets of colours that a material is drawn with; null: none. A picture stays as long as this does.
+  void setColorSets(size_t material, const SetTexture* lit, const SetTexture* shadowed);
+  uint8_t colorSets(size_t material) const { return materialUses_[material].colorSets; }
+  // A set of colours that comes with the scene.
+  SetTexture textureOf(const scene::TextureUse& use) const;
+
+  // Whether a mapping closes on itself, of any that is drawn.
+  bool wraps() const { return wraps_; }
+  // Counts up whenever draws() may want other pipelines.
+  uint32_t drawsVersion() const { return drawsVersion_; }
+
+  uint64_t triangleCount() const { return triangleCount_; }
+  uint64_t uploadedBytes() const { return geometry_.bytes() + textures_.bytes(); }
+
+ private:
+  void listMaterials();
+  // Gives draws on nodes with settings materials of their own.
+  void separateMaterials(Geometry& geometry);
+  void listDraws(const Geometry& geometry, const std::function<void()>& settle);
+  // True where the buffers have other names.
+  bool followMotion(bool otherPlaces, const std::function<void()>& settle);
+  // How many were written.
+  uint32_t writeMaterials(bool otherTextures, const std::function<void()>& settle);
+  void measureColors(const Geometry& geometry);
+
+  struct MaterialUse {
+    int base;               // in the scene; -1 for the ground
+    uint32_t settings = 0;  // in NodeSettings::lists
+    uint8_t colorSets = 0;
+  };
+
+  // Of a material's textures: which image, and how it is read.
+  using TextureBindings = std::array<std::pair<int, gpu::SamplerDesc>, 2>;
+  // An item's part of the scene's surface, and of its vertices' colours there.
+  struct ColorPart {
+    const scene::Primitive* primitive = nullptr;
+    glm::mat3 linear{0.0f};
+    glm::dvec3 sum{0.0};
+    double area = 0;
+  };
+
+  gpu::Device& device_;
+  gpu::Samplers& samplers_;
+  const scene::SceneData* data_ = nullptr;
+  GeometryOptions options_;
+  MadePrimitives made_;
+  std::vector<std::string> materialNames_;
+  std::vector<MaterialUse> materialUses_;
+  int groundMaterial_ = -1, oceanMaterial_ = -1;
+  std::vector<Draw> draws_;
+  uint32_t drawsVersion_ = 0;
+  bool wraps_ = false;
+  std::vector<float> nearestOf_, warpScaleOf_;  // by material
+  std::vector<bool> isVaried_;                  // by material
+  SceneColors colors_;
+  std::vector<ColorPart> colorParts_;  // by item
+  scene::Bounds bounds_;
+  GeometryOnGpu geometry_;
+  TexturesOnGpu textures_;
+  gpu::Buffer previousPositions_;
+  std::vector<shared::ObjectData> objects_;  // without what moves
+  std::vector<MovingObject> moving_;
+  TransparentTriangles transparent_;
+  std::optional<OceanWaves> waves_, previousWaves_;
+  std::optional<SceneMotion> motion_, previousMotion_;
+  gpu::PerFrameBuffer materialData_;
+  gpu::SetLayout materialLayout_;
+  gpu::DescriptorSets materialSets_;
+  std::vector<TextureBindings> materialTextures_;  // as they were written last
+  uint64_t triangleCount_ = 0;
+};
+
+}  // namespace scumble::world

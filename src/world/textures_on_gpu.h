@@ -1,0 +1,45 @@
+// A scene's images in device memory, with mip levels.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "base/shared.h"
+#include "gpu/resources.h"
+#include "scene/scene_data.h"
+
+namespace scumble::world {
+
+class TexturesOnGpu {
+ public:
+  explicit TexturesOnGpu(gpu::Device& device) : device_(device) {}
+
+  // Uploads images that are not there yet, and lets go of those that are in the list no more. Calls `settle`
+  // before one goes that frames under way may read. True where an index now stands for another image. Throws
+  // gpu::VulkanError when they do not fit.
+  bool update(gpu::Uploader& uploader, const std::vector<Shared<scene::Image>>& images,
+              const std::function<void()>& settle);
+
+  // By their index in the scene; -1: white.
+  VkImageView view(int image) const;
+  // Mean of the square root of linear RGB, weighted by alpha.
+  const glm::vec3& meanRootRgb(int image) const { return textures_[size_t(image)]->mean; }
+  // How many the last update() has uploaded, and the bytes of those that are there.
+  uint32_t uploaded() const { return uploaded_; }
+  uint64_t bytes() const;
+
+ private:
+  struct Texture {
+    std::shared_ptr<const scene::Image> of;
+    gpu::Image image;
+    glm::vec3 mean;
+    uint64_t bytes;
+  };
+  gpu::Device& device_;
+  gpu::Image white_;
+  std::vector<std::shared_ptr<const Texture>> textures_;  // by index
+  uint32_t uploaded_ = 0;
+};
+
+}  // namespace scumble::world
