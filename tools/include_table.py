@@ -5,18 +5,21 @@
 
 What an included header brings along counts like what the file includes itself.
 """
+import fnmatch
 import os
 import re
 import sys
 from pathlib import Path, PurePosixPath
 
 # Who may look into which. `*` in a room's name stands for one folder; "own" is the room itself and always allowed.
-# A target with a dot in it is a single file. All of src/ may use the public headers: results and pictures are theirs.
+# A target with a dot in it is a file, or files by a pattern. All of src/ may use the public headers: results and pictures are theirs.
 PUBLIC = "include/scumble"
 STAGE = [PUBLIC, "src/base", "src/scene", "src/look", "src/shading"]
 WORLD = [*STAGE, "src/gpu", "src/stage", "src/ocean"]
 FRAME = [*WORLD, "src/world"]
+# Passes read each other's knobs, and nothing else of each other.
 PASS = [*FRAME, "src/frame"]
+KNOBS = "src/passes/*/*_knobs.h"
 TABLE = {
     PUBLIC: [],
     "src/base": [PUBLIC],
@@ -29,7 +32,7 @@ TABLE = {
     "src/stage": STAGE,
     "src/world": WORLD,
     "src/frame": FRAME,
-    "src/passes/*": PASS,
+    "src/passes/*": [*PASS, KNOBS],
     "src/renderer": [*PASS, "src/passes/*"],
     "src/film": [PUBLIC, "src/base"],
     "src/c": [PUBLIC],
@@ -77,9 +80,11 @@ def room_of(path):
 
 
 def matches(target, allowed):
-    """Whether a file is the allowed one or lies in an allowed room."""
+    """Whether a file is one of the allowed ones or lies in an allowed room."""
     if allowed == "*" or target == allowed:
         return True
+    if "." in allowed:
+        return fnmatch.fnmatchcase(target, allowed)
     pattern, parts = allowed.split("/"), target.split("/")
     return len(parts) > len(pattern) and all(p in ("*", part) for p, part in zip(pattern, parts))
 

@@ -4,44 +4,6 @@
 
 namespace scumble::frame {
 
-namespace {
-
-void addVertexInput(gpu::GraphicsPipelineDesc& pipeline, uint32_t inputs) {
-  struct Attribute {
-    uint32_t binding;
-    VkFormat format;
-    uint32_t offset;
-  };
-  using shared::VertexCore, shared::VertexFrame, shared::VertexSurface;
-  static constexpr Attribute kAttributes[] = {
-      {0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(VertexCore, position)},
-      {0, VK_FORMAT_R16G16_SNORM, offsetof(VertexCore, normal)},
-      {2, VK_FORMAT_R32G32_SFLOAT, offsetof(VertexSurface, uv0)},
-      {2, VK_FORMAT_R32G32_SFLOAT, offsetof(VertexSurface, uv1)},
-      {2, VK_FORMAT_R8G8B8A8_UNORM, offsetof(VertexSurface, color)},
-      {1, VK_FORMAT_R32G32B32_SFLOAT, offsetof(VertexFrame, dPdu)},
-      {1, VK_FORMAT_R16G16_SNORM, offsetof(VertexFrame, smoothNormal)},
-      {1, VK_FORMAT_R32G32B32_SFLOAT, offsetof(VertexFrame, dPdv)},
-      {2, VK_FORMAT_R32G32_SFLOAT, offsetof(VertexSurface, patternUv)},
-      {2, VK_FORMAT_R32_SFLOAT, offsetof(VertexSurface, warpScale)},
-      {3, VK_FORMAT_R32G32B32_SFLOAT, 0},
-  };
-  static constexpr uint32_t kStrides[] = {sizeof(VertexCore), sizeof(VertexFrame), sizeof(VertexSurface),
-                                          sizeof(glm::vec3)};
-  bool used[std::size(kStrides)] = {};
-  for (uint32_t location = 0; location < std::size(kAttributes); ++location) {
-    if (!(inputs >> location & 1)) continue;
-    const Attribute& a = kAttributes[location];
-    pipeline.vertexAttributes.push_back({location, a.binding, a.format, a.offset});
-    used[a.binding] = true;
-  }
-  for (uint32_t binding = 0; binding < std::size(kStrides); ++binding)
-    if (used[binding])
-      pipeline.vertexBindings.push_back({binding, kStrides[binding], VK_VERTEX_INPUT_RATE_VERTEX});
-}
-
-}  // namespace
-
 void GeometryStep::create(FrameBuilder& frame, const GeometryStepDesc& desc) {
   device_ = &frame.device();
   scene_ = &frame.scene();
@@ -61,6 +23,7 @@ void GeometryStep::specialise(uint32_t constant, std::vector<MaterialVariant> ma
 }
 
 bool GeometryStep::includes(const Draw& draw) const {
+  if (desc_.leavesBlended && draw.alpha == AlphaMode::blend) return false;
   switch (desc_.what) {
     case GeometryStepDesc::What::casters:
       return draw.casts;
@@ -104,10 +67,6 @@ void GeometryStep::makePipelines() {
     pipeline.colorFormats = desc_.colorFormats;
     pipeline.depthFormat = VK_FORMAT_D32_SFLOAT;
     pipeline.depthCompare = desc_.depthCompare;
-    if (draw.alpha == AlphaMode::blend && desc_.blends) {
-      pipeline.blend = gpu::Blend::over;
-      pipeline.depthWrite = false;
-    }
     pipeline.samples = desc_.samples;
     pipeline.viewMask = desc_.viewMask;
     pipeline.pushConstantBytes = desc_.viewMask ? 4 : 0;
@@ -129,10 +88,8 @@ void GeometryStep::draw(VkCommandBuffer commands, const gpu::DescriptorSets* pas
                         uint32_t firstView) const {
   const SceneOnGpu& scene = *scene_;
   // What all draws read.
-  const VkBuffer buffers[] = {scene.geometry().finalCore().handle(), scene.geometry().finalFrame().handle(),
-                              scene.geometry().surface().handle(), scene.previousPositions().handle()};
-  const VkDeviceSize offsets[] = {0, 0, 0, 0};
-  vkCmdBindVertexBuffers(commands, 0, uint32_t(std::size(buffers)), buffers, offsets);
+  bindVertices(commands, scene);
+  vkCmdBindIndexBuffer(commands, scene.geometry().indices().handle(), 0, VK_INDEX_TYPE_UINT32);
 
   // In which order.
   std::vector<const Draw*> order;
@@ -142,7 +99,6 @@ void GeometryStep::draw(VkCommandBuffer commands, const gpu::DescriptorSets* pas
   const auto chosen = [&](const Draw* draw) { return chosen_[size_t(draw - scene.draws().data())]; };
   std::stable_sort(order.begin(), order.end(), [&](const Draw* a, const Draw* b) {
     if (a->alpha != b->alpha) return a->alpha < b->alpha;
-    if (a->alpha == AlphaMode::blend) return a->distance > b->distance;
     if (chosen(a).rank != chosen(b).rank) return chosen(a).rank < chosen(b).rank;
     if (a->material != b->material) {
       const float nearA = scene.nearestOf(a->material), nearB = scene.nearestOf(b->material);
@@ -153,7 +109,6 @@ void GeometryStep::draw(VkCommandBuffer commands, const gpu::DescriptorSets* pas
 
   // Draws, with what changes from one to the next.
   const gpu::Pipeline* bound = nullptr;
-  VkBuffer boundIndices = VK_NULL_HANDLE;
   uint32_t boundMaterial = ~0u;
   int cull = -1, front = -1;
   std::vector<uint32_t> offsetsOfMaterial(desc_.materialStrides.size());
@@ -175,10 +130,6 @@ void GeometryStep::draw(VkCommandBuffer commands, const gpu::DescriptorSets* pas
                          offsetsOfMaterial);
       boundMaterial = draw->material;
     }
-    const VkBuffer indices =
-        draw->alpha == AlphaMode::blend ? scene.transparentIndices() : scene.geometry().indices().handle();
-    if (boundIndices != indices)
-      vkCmdBindIndexBuffer(commands, indices, 0, VK_INDEX_TYPE_UINT32), boundIndices = indices;
     if (cull != int(draw->cullsBack))
       vkCmdSetCullMode(commands, draw->cullsBack ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE),
           cull = draw->cullsBack;

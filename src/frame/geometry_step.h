@@ -1,27 +1,13 @@
-// What the geometry passes share: the vertex streams, and one pipeline for each kind of material.
+// Draws the scene, with one pipeline for each kind of material.
 #pragma once
 
 #include <compare>
 #include <map>
 
 #include "frame/pass.h"
+#include "frame/vertex_input.h"
 
 namespace scumble::frame {
-
-// Vertex attributes by shader location.
-enum VertexInput : uint32_t {
-  kPosition = 1 << 0,
-  kNormal = 1 << 1,
-  kUv0 = 1 << 2,
-  kUv1 = 1 << 3,
-  kColor = 1 << 4,
-  kDPdu = 1 << 5,
-  kSmoothNormal = 1 << 6,
-  kDPdv = 1 << 7,
-  kPatternUv = 1 << 8,
-  kWarpScale = 1 << 9,
-  kPreviousPosition = 1 << 10,  // a frame ago; only where the configuration has facts
-};
 
 struct GeometryStepDesc {
   // Which draws: those that are visible, those that cast shadows, or the ocean where it is visible.
@@ -40,7 +26,8 @@ struct GeometryStepDesc {
   uint32_t samples = 1, viewMask = 0;  // mask 0: the shaders know no views
   uint32_t viewCount = 1;
   uint32_t constant = 0;  // specialisation constant 4, to begin with
-  bool blends = false;    // blended surfaces are composited; else they are drawn like masked ones
+  // Blended surfaces are left to somebody else; else they are drawn like masked ones.
+  bool leavesBlended = false;
   // Set 2, or null for none. Its first bindings are dynamic uniforms, one for each of `materialStrides`: the
   // step from one material's knobs to the next one's, in bytes.
   const gpu::SetLayout* passLayout = nullptr;
@@ -67,8 +54,8 @@ class GeometryStep {
   void refresh() {
     if (drawsVersion_ != scene_->drawsVersion()) makePipelines();
   }
-  // Draws opaque, then masked, then blended surfaces: by pipeline and material, the nearest first; blended
-  // ones from far to near. `passSets`: set 2, one for all or one for each material; null for none.
+  // Draws opaque, then masked, then blended surfaces: by pipeline and material, the nearest first.
+  // `passSets`: set 2, one for all or one for each material; null for none.
   void draw(VkCommandBuffer commands, const gpu::DescriptorSets* passSets, uint32_t firstView) const;
 
  private:

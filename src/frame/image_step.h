@@ -13,14 +13,29 @@ struct ImageShader {
   gpu::Shader fragment, compute;
 };
 
-class ImageStep {
- public:
+// What a step reads and writes. Bindings are those of set 1, by the names that the pass's shared header gives
+// them; 0 is the uniform block.
+struct ImageStepDesc {
   struct Input {
+    uint32_t binding;
     gpu::Handle image;
     bool linear = false;  // sampled between texels; else texelFetch only (of multisampled images: by sample)
   };
-  // A texture that is none of the frame's images; bound after the inputs.
+  std::string name;
+  ImageShader shader;
+  std::vector<Input> inputs;
+  std::vector<uint32_t> textures;    // bindings of what is none of the frame's images
+  std::vector<gpu::Handle> outputs;  // one image, or two of one size for shaders with SHADES_TWO
+  uint64_t uniformBytes = 0;         // of the block for each job; 0 where the shader has none
+  std::vector<uint32_t> constants;   // specialisation constants 0 to 2 of a step without jobs of its own
+  uint32_t maxJobs = 1;
+};
+
+class ImageStep {
+ public:
+  // A texture that is none of the frame's images.
   struct Texture {
+    uint32_t binding;
     const gpu::Image* image = nullptr;
     gpu::SamplerDesc sampler{};
   };
@@ -28,15 +43,10 @@ class ImageStep {
   // among them, the shader has SHADES_SOME (src/shading/image_pass.glsl).
   struct Job {
     std::vector<uint32_t> constants;  // specialisation constants 0 to 2
-    std::vector<Texture> textures;    // as many as were declared
+    std::vector<Texture> textures;    // all that were declared
   };
-  // `outputs`: one image, or two of one size for shaders with SHADES_TWO; gives what they hold then.
-  // `uniformBytes`: size of the step's uniform block (set 1, binding 0) for each job; 0 where the shader has
-  // none.
-  std::vector<gpu::Handle> declare(FrameBuilder& frame, const std::string& name, ImageShader shader,
-                                   std::vector<Input> inputs, std::vector<gpu::Handle> outputs,
-                                   uint64_t uniformBytes, std::vector<uint32_t> constants = {},
-                                   uint32_t textureCount = 0, uint32_t maxJobs = 1);
+  // Gives what the outputs hold then.
+  std::vector<gpu::Handle> declare(FrameBuilder& frame, ImageStepDesc desc);
   // Steps without textures have their one job from here on; others need setJobs before their first frame.
   void create(FrameBuilder& frame);
   void bind(const gpu::GraphResources& resources);
@@ -50,13 +60,9 @@ class ImageStep {
   const gpu::Pipeline& pipelineFor(const std::vector<uint32_t>& constants);
   void record(VkCommandBuffer commands) const;
 
-  ImageShader shader_;
-  std::vector<Input> inputs_;
-  std::vector<uint32_t> constants_;
-  std::vector<gpu::Handle> outputs_;
+  ImageStepDesc desc_;
   UniformSlice uniforms_;
   uint64_t uniformStride_ = 0;
-  uint32_t textureCount_ = 0, maxJobs_ = 1;
   bool compute_ = false;
   Configuration configuration_;
   FrameBuilder* frame_ = nullptr;

@@ -11,16 +11,24 @@ class MaterialBlocks {
  public:
   static constexpr uint32_t kStride = uint32_t(gpu::uniformStride(sizeof(Block)));
 
-  void create(FrameBuilder& frame) { slice_ = frame.uniform(frame.scene().materialCount() * kStride); }
+  // `hasRows`: also as rows without gaps, for shaders that look materials up.
+  void create(FrameBuilder& frame, bool hasRows = false) {
+    slice_ = frame.uniform(frame.scene().materialCount() * kStride);
+    if (hasRows) rows_ = frame.uniform(frame.scene().materialCount() * sizeof(Block));
+  }
   void bind(gpu::DescriptorSets& sets, uint32_t binding, size_t set = 0) const {
     sets.writeBuffer(set, binding, slice_.buffer, slice_.offset, sizeof(Block));
   }
+  void bindRows(gpu::DescriptorSets& sets, uint32_t binding, size_t set = 0) const {
+    sets.writeBuffer(set, binding, rows_.buffer, rows_.offset, rows_.size);
+  }
   void write(size_t material, const Block& block) const {
     std::memcpy(slice_.mapped + material * kStride, &block, sizeof(Block));
+    if (rows_.mapped) std::memcpy(rows_.mapped + material * sizeof(Block), &block, sizeof(Block));
   }
 
  private:
-  UniformSlice slice_;
+  UniformSlice slice_, rows_;
 };
 
 // The same for a pass that reads its knobs as they are.
@@ -28,8 +36,7 @@ template <class Params>
 class MaterialParams : public MaterialBlocks<Params> {
  public:
   void update(const FrameInput& input) const {
-    for (size_t m = 0; m < input.scene.materialCount(); ++m)
-      this->write(m, input.scene.knobs<Params>(input.look, m));
+    for (size_t m = 0; m < input.scene.materialCount(); ++m) this->write(m, input.knobs.of<Params>(m));
   }
 };
 

@@ -21,6 +21,7 @@
 #include "gpu/view_drawing.h"
 #include "look/look_data.h"
 #include "shading/frame.shared.h"
+#include "stage/knob_table.h"
 #include "world/backdrop.h"
 #include "world/example_textures.h"
 #include "world/scene_on_gpu.h"
@@ -70,9 +71,11 @@ class UniformMemory {
 // What changes from frame to frame.
 struct FrameInput {
   const look::LookData& look;  // at the frame's time
+  const KnobTable& knobs;      // the same, by the scene's materials
   double time = 0;             // seconds
   const shared::FrameUniforms& uniforms;
   const SceneOnGpu& scene;
+  float inflation = 0;       // how far outside of its silhouette any surface tears edges, pixels
   bool transparent = false;  // nothing is laid behind what is drawn, or something is later: `backdrop`
   uint32_t seed = 0;
   const BackdropInput* backdrop = nullptr;  // where there is a picture behind everything

@@ -19,6 +19,10 @@ inline constexpr Layer kLayers[] = {Layer::first, Layer::behind};
 // Buffers: the final vertices that `deform` writes, and the positions that they had a frame before.
 inline constexpr Role kVertices{"vertices"}, kPreviousVertices{"previous vertices"};
 
+// Indices of the triangles of blended surfaces, in the order in which they are composited; only where there
+// are any.
+inline constexpr Role kTransparentOrder{"transparent order"};
+
 inline constexpr Role kShadowMap{"shadow map"};  // depth from the light in sigmoid-warped light space
 // R, G: warp vector in pixels (x right, y down); B: breakup marks; A: eye depth of the inflated surface, or
 // 0.

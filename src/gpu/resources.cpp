@@ -173,6 +173,13 @@ void memoryBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 sourceStages,
   vkCmdPipelineBarrier2(commands, &dependency);
 }
 
+void computeBarrier(VkCommandBuffer commands) {
+  memoryBarrier(commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+}
+
 VkImageAspectFlags aspectOf(VkFormat format) {
   return VkImageAspectFlags(isDepthFormat(format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT);
 }

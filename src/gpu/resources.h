@@ -91,6 +91,9 @@ uint32_t bytesPerPixel(VkFormat format);
 void memoryBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 sourceStages, VkAccessFlags2 sourceAccess,
                    VkPipelineStageFlags2 targetStages, VkAccessFlags2 targetAccess);
 
+// Of storage buffers, between two dispatches.
+void computeBarrier(VkCommandBuffer commands);
+
 // Gathers uploads and sends them in few submissions. Memory that the CPU sees is written directly.
 class Uploader {
  public:

@@ -16,37 +16,6 @@ namespace scumble::look {
 
 namespace {
 
-void store(const ParamRow& row, const Value& value, void* out) {
-  std::byte* target = static_cast<std::byte*>(out) + row.offset;
-  const auto put = [&](const auto& v) { std::memcpy(target, &v, sizeof(v)); };
-  switch (row.kind) {
-    case ParamKind::number:
-      put(float(value.number));
-      break;
-    case ParamKind::integer:
-      put(int(value.number));
-      break;
-    case ParamKind::toggle:
-      put(Toggle(value.number));
-      break;
-    case ParamKind::choice:
-      put(Choice(value.number));
-      break;
-    case ParamKind::color:
-      put(value.linear);
-      break;
-    case ParamKind::picture:
-      put(Picture(value.number));
-      break;
-    case ParamKind::triple:
-      put(value.linear);
-      break;
-    case ParamKind::name:
-      put(Name(value.number));
-      break;
-  }
-}
-
 bool sets(const Assignment& a, const ParamBlock& block, const char* row, Target target) {
   return a.block == &block && a.target == target && std::strcmp(a.row->name, row) == 0;
 }
@@ -79,6 +48,37 @@ std::string suggestionFor(const std::string& path, const std::vector<std::string
 }
 
 }  // namespace
+
+void store(const ParamRow& row, const Value& value, void* block) {
+  std::byte* const target = static_cast<std::byte*>(block) + row.offset;
+  const auto put = [&](const auto& v) { std::memcpy(target, &v, sizeof(v)); };
+  switch (row.kind) {
+    case ParamKind::number:
+      put(float(value.number));
+      break;
+    case ParamKind::integer:
+      put(int(value.number));
+      break;
+    case ParamKind::toggle:
+      put(Toggle(value.number));
+      break;
+    case ParamKind::choice:
+      put(Choice(value.number));
+      break;
+    case ParamKind::color:
+      put(value.linear);
+      break;
+    case ParamKind::picture:
+      put(Picture(value.number));
+      break;
+    case ParamKind::triple:
+      put(value.linear);
+      break;
+    case ParamKind::name:
+      put(Name(value.number));
+      break;
+  }
+}
 
 bool LookData::isAnimated() const {
   return std::any_of(assignments.begin(), assignments.end(), [](const Assignment& a) { return a.track; });

@@ -120,5 +120,7 @@ Result<Value> parseValue(const ParamRow& row, const std::string& text);
 std::string formatValue(const ParamRow& row, double number);
 // What a row has where nobody sets it.
 Value defaultOf(const ParamRow& row);
+// Writes a row's member of its block's struct.
+void store(const ParamRow& row, const Value& value, void* block);
 
 }  // namespace scumble::look

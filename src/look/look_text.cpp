@@ -51,7 +51,10 @@ class Builder : public nlohmann::json_sax<Json> {
     Json* value;
     std::string key;                   // of an object: the last one
     std::map<std::string, int> lines;  // of its keys
+    // Letters of the wanted path that lead here, and on to what is being read in it; kNone where they do not.
+    size_t here = kNone, on = kNone;
   };
+  static constexpr size_t kNone = std::string::npos;
 
   // Where the next value stands. What is open does not move while something in it is.
   Json& place() {
@@ -69,7 +72,7 @@ class Builder : public nlohmann::json_sax<Json> {
   bool begin(Json empty) {
     Json& value = place();
     value = std::move(empty);
-    levels_.push_back({&value, "", {}});
+    levels_.push_back({&value, "", {}, levels_.empty() ? 0 : levels_.back().on});
     return true;
   }
   bool end() {
@@ -123,14 +126,20 @@ class Builder : public nlohmann::json_sax<Json> {
   }
 
   // Whether this is the wanted path, or on its way there; of keys that stand twice the later one counts.
+  // Level by level: files may be nested deeply.
   void noteLine() {
-    if (!wanted_) return;
-    const std::string here = path();
-    const bool isOnTheWay =
-        wanted_->starts_with(here) &&
-        (wanted_->size() == here.size() || (*wanted_)[here.size()] == '.' || (*wanted_)[here.size()] == '[');
-    if (!isOnTheWay || here.size() < wantedFound_) return;
-    wantedFound_ = here.size();
+    Level& level = levels_.back();
+    level.on = kNone;
+    if (!wanted_ || level.here == kNone) return;
+    const std::string part = level.value->is_array() ? "[" + std::to_string(level.value->size() - 1) + "]"
+                                                     : (level.here == 0 ? "" : ".") + level.key;
+    const size_t end = level.here + part.size();
+    const bool isOnTheWay = wanted_->compare(level.here, part.size(), part) == 0 &&
+                            (wanted_->size() == end || (*wanted_)[end] == '.' || (*wanted_)[end] == '[');
+    if (!isOnTheWay) return;
+    level.on = end;
+    if (end < wantedFound_) return;
+    wantedFound_ = end;
     wantedLine_ = lineHere();
   }
 

@@ -23,6 +23,27 @@ uint32_t srgbFromLinear(const glm::vec3& linear) {
   return packed;
 }
 
+namespace {
+
+std::vector<const ParamBlock*>& blocks() {
+  static std::vector<const ParamBlock*> all = ownBlocks();
+  return all;
+}
+
+}  // namespace
+
+const std::vector<const ParamBlock*>& allBlocks() {
+  return blocks();
+}
+
+AddedBlock::AddedBlock(const ParamBlock& block) : block_(&block) {
+  blocks().push_back(block_);
+}
+
+AddedBlock::~AddedBlock() {
+  std::erase(blocks(), block_);
+}
+
 std::vector<std::string> choiceNames(const ParamRow& row) {
   std::vector<std::string> names(1);
   for (const char* c = row.unit; *c; ++c) {

@@ -108,9 +108,25 @@ constexpr ParamKind kindOf() {
   if constexpr (std::is_same_v<T, Name>) return ParamKind::name;
 }
 
-// Every block of the program, in the order of the documentation. Defined by the pass list (src/frame),
-// because this room knows no pass.
+// Every block that looks may set: those of the program, in the order of the documentation, and those that
+// have been added.
 const std::vector<const ParamBlock*>& allBlocks();
+
+// The program's own. This room knows none of who reads them: defined by the list of passes.
+const std::vector<const ParamBlock*>& ownBlocks();
+
+// Adds a block, for a pass from outside, as long as this lives: before looks that set it are read, and after
+// all of them are gone. Not while other threads read looks or draw.
+class AddedBlock {
+ public:
+  explicit AddedBlock(const ParamBlock& block);
+  ~AddedBlock();
+  AddedBlock(const AddedBlock&) = delete;
+  AddedBlock& operator=(const AddedBlock&) = delete;
+
+ private:
+  const ParamBlock* block_;
+};
 
 // The names of a choice or picture row, split at '|'.
 std::vector<std::string> choiceNames(const ParamRow& row);

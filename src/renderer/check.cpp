@@ -5,7 +5,7 @@
 
 #include "look/look_data.h"
 #include "look/setting_path.h"
-#include "passes/colorize/colorize.h"
+#include "passes/colorize/colorize_knobs.h"
 #include "scene/find_node.h"
 #include "stage/camera.h"
 #include "world/ocean.h"

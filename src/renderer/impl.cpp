@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "passes/shadow_map/shadow_map_knobs.h"
 #include "scumble/nearest.h"
 #include "stage/framing.h"
 #include "stage/light.h"
@@ -70,6 +71,7 @@ Renderer::Impl::Impl(std::unique_ptr<gpu::Device> made, const RendererOptions& o
   passes = standardPasses();
   if (options.arrangePasses) options.arrangePasses(passes);
   asked = passes.makeAll();
+  askedPlain = plain.makeAll();
   aovs = aovsOf(asked);
 }
 
@@ -131,12 +133,17 @@ Status Renderer::Impl::begin(const Request& request) {
     };
 
     // The scene, as the look has it, and what its views are drawn with.
+    knobs.evaluate(now);
     GeometryOptions geometry;
     geometry.ocean = oceanShape(scene.data(), now);
     geometry.ground = hasGround(scene.data(), now, background != nullptr) && !options.transparent;
-    geometry.ground &= !geometry.ocean.isThere || now.get<GroundParams>().mode == 1;
-    geometry.shadowWarp = now.get<LightParams>().shadowWarp;
-    geometry.casts = shadowCasters(scene.data(), now);
+    geometry.ground &= !geometry.ocean.isThere || knobs.scene<GroundParams>().mode == 1;
+    geometry.shadowWarp = knobs.scene<LightParams>().shadowWarp;
+    std::vector<KnobTable::Material> materials;
+    for (const scene::Material& material : scene.data().materials) materials.push_back({material.name, {}});
+    knobs.evaluate(materials);
+    for (size_t m = 0; m < materials.size(); ++m)
+      geometry.casts.push_back(knobs.of<passes::ShadowMapParams>(m).cast);
     geometry.clips = everPlayed(scene.data(), look);
     geometry.nodes = nodeSettings(scene.data(), now);
     for (const Aov* const aov : aovs)
@@ -157,14 +164,20 @@ Status Renderer::Impl::begin(const Request& request) {
 
     // Everything to its place.
     SceneOnGpu& sceneOnGpu = resident.onGpu;
-    sceneOnGpu.pose(look, now, time);
+    const std::vector<KnobTable::Material> subjects = sceneOnGpu.knobSubjects();
+    knobs.evaluate(subjects);
+    sceneOnGpu.pose(look, knobs, time);
     const bool needsPrevious = std::any_of(next.parts.begin(), next.parts.end(), [](const Begun::Part& part) {
       return part.setup->needsPrevious();
     });
     const double previousTime = options.previousTime.value_or(time);
-    if (needsPrevious)
+    if (needsPrevious) {
+      const look::LookData then = look.at(previousTime);
+      previousKnobs.evaluate(then);
+      previousKnobs.evaluate(subjects);
       sceneOnGpu.posePrevious(options.previousScene.empty() ? scene.data() : options.previousScene.data(),
-                              look, look.at(previousTime), previousTime);
+                              look, previousKnobs, previousTime);
+    }
     const std::vector<View> seenFrom = ridden(views, sceneOnGpu.motion());
     std::vector<View> seenBefore;
     if (needsPrevious)
@@ -172,29 +185,32 @@ Status Renderer::Impl::begin(const Request& request) {
           ridden(options.previousViews.empty() ? views : options.previousViews, *sceneOnGpu.previousMotion());
 
     // What all views see alike.
-    std::vector<float> margins;
-    for (const ViewGroup& group : groups)
-      margins.push_back(largestInflation(now, sceneOnGpu, float(group.size.y)) + 1);
+    std::vector<float> inflations, margins;
+    for (const ViewGroup& group : groups) {
+      inflations.push_back(largestInflation(sceneOnGpu, knobs, float(group.size.y)));
+      margins.push_back(inflations.back() + 1);
+    }
     sceneOnGpu.look(viewersOf(seenFrom, groups, margins));
     for (size_t m = 0; m < sceneOnGpu.materialCount(); ++m) {
-      const ChosenSets sets = chosenSets(sceneOnGpu, m, now, *lookTextures);
+      const ChosenSets sets = chosenSets(sceneOnGpu, m, knobs, *lookTextures);
       sceneOnGpu.setColorSets(m, sets.lit ? &*sets.lit : nullptr, sets.shadowed ? &*sets.shadowed : nullptr);
-      sceneOnGpu.setMaterial(m, materialData(sceneOnGpu, m, now, background != nullptr, colorMaps));
+      sceneOnGpu.setMaterial(m, materialData(sceneOnGpu, m, knobs, background != nullptr, colorMaps));
     }
 
     // What each group of them sees.
-    for (Begun::Part& part : next.parts) {
+    for (size_t p = 0; p < next.parts.size(); ++p) {
+      Begun::Part& part = next.parts[p];
       shared::FrameUniforms uniforms =
-          frameUniforms(sceneOnGpu, now, viewsOf(part.group, seenFrom), viewsOf(part.group, seenBefore),
+          frameUniforms(sceneOnGpu, knobs, viewsOf(part.group, seenFrom), viewsOf(part.group, seenBefore),
                         rigOf(part.group.rig, seenFrom), time, part.group.size);
       const std::vector<shared::PunctualLight> lights = punctualLights(
-          scene.data(), now.get<LightParams>(), sceneOnGpu.motion().world(), uniforms.sceneRadius);
+          scene.data(), knobs.scene<LightParams>(), sceneOnGpu.motion().world(), uniforms.sceneRadius);
       uniforms.lightCount = uint32_t(lights.size());
       std::optional<BackdropInput> behind;
       if (background)
-        behind = {&backdrop->image(), backdropUniforms(sceneOnGpu, now, uniforms, texels, colorMaps)};
-      part.setup->update({now, time, uniforms, sceneOnGpu, options.transparent || background, options.seed,
-                          behind ? &*behind : nullptr},
+        behind = {&backdrop->image(), backdropUniforms(sceneOnGpu, knobs, uniforms, texels, colorMaps)};
+      part.setup->update({now, knobs, time, uniforms, sceneOnGpu, inflations[p],
+                          options.transparent || background, options.seed, behind ? &*behind : nullptr},
                          lights);
       part.setup->setTargets(next.slot, part.images);
     }

@@ -83,13 +83,14 @@ struct Renderer::Impl {
   std::optional<world::LookTextures> lookTextures;
   ImagePassKind imagePasses = ImagePassKind::automatic;
   renderer::PassList passes, plain = renderer::plainPasses();
-  // One of each of `passes`, for what they say of themselves.
-  std::vector<std::unique_ptr<frame::Pass>> asked;
+  // One of each of these, for what they say of themselves.
+  std::vector<std::unique_ptr<frame::Pass>> asked, askedPlain;
   std::vector<const frame::Aov*> aovs;  // that they may offer
   uint64_t sceneBudget = 0;
   std::list<renderer::Resident> residents;  // the one that was drawn last first
   std::optional<world::Backdrop> backdrop;
   renderer::ColorMaps colorMaps;
+  stage::KnobTable knobs, previousKnobs;  // of the last frame, and of the moment before it
   std::optional<gpu::Submission> submissions[gpu::kFramesInFlight];
   std::deque<renderer::Begun> begun;         // the oldest first
   std::vector<look::Assignment> structural;  // settings that prepare() has seen to take other pipelines

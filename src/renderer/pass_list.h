@@ -36,10 +36,4 @@ PassList plainPasses();
 // What passes may offer to save, in their order, each once.
 std::vector<const Aov*> aovsOf(const std::vector<std::unique_ptr<Pass>>& passes);
 
-// How far outside of its silhouette any surface tears edges under a look, in pixels.
-float largestInflation(const look::LookData& look, const SceneOnGpu& scene, float imageHeight);
-
-// Which materials cast shadows under a look; the ground, if there is one, is no material of the scene's.
-std::vector<bool> shadowCasters(const scene::SceneData& scene, const look::LookData& look);
-
 }  // namespace scumble::renderer

@@ -115,10 +115,8 @@ SetupKey Renderer::Impl::keyOf(const Request& request, const look::LookData& now
   key.plain = request.isYardstick;
   key.readsBack = !request.delivery;
   key.aovs = request.options.aovs;
-  if (key.plain)
-    key.variants.assign(2, 0);
-  else
-    for (const auto& pass : asked) key.variants.push_back(pass->variant(request.scene.data(), now));
+  for (const auto& pass : key.plain ? askedPlain : asked)
+    key.variants.push_back(pass->variant(request.scene.data(), now));
   key.lights = std::max<size_t>(1, punctualLightCount(request.scene.data()));
   return key;
 }

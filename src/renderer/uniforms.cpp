@@ -4,9 +4,9 @@
 #include <cmath>
 #include <span>
 
-#include "passes/color/color.h"
-#include "passes/surface/surface.h"
-#include "passes/warp/warp.h"
+#include "passes/color/color_knobs.h"
+#include "passes/surface/surface_knobs.h"
+#include "passes/warp/warp_knobs.h"
 #include "renderer/view_groups.h"
 #include "shading/luminance.shared.h"
 #include "stage/light.h"
@@ -33,7 +33,7 @@ shared::ViewUniforms viewUniforms(const View& view, const View& previous) {
   return u;
 }
 
-shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const look::LookData& look,
+shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const KnobTable& knobs,
                                     const std::vector<View>& views, const std::vector<View>& previousViews,
                                     const std::vector<View>& rig, double time, glm::uvec2 size) {
   shared::FrameUniforms u{};
@@ -51,7 +51,7 @@ shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const look::LookDat
   u.worldToCyclopean = cyclopean.worldToClip;
   u.cyclopeanNdcToEyeRay = cyclopean.ndcToEyeRay;
 
-  const LightParams light = look.get<LightParams>();
+  const LightParams light = knobs.scene<LightParams>();
   u.toLight = keyLightDirection(scene.data(), light, scene.motion().world());
   u.viewer = viewer;
   setLightSpace(u, scene.casters(), light, viewer);
@@ -85,18 +85,17 @@ PaletteParams ofChosenLight(PaletteParams palette) {
 
 }  // namespace
 
-ChosenSets chosenSets(const SceneOnGpu& scene, size_t index, const look::LookData& look,
-                      LookTextures& textures) {
+ChosenSets chosenSets(const SceneOnGpu& scene, size_t index, const KnobTable& knobs, LookTextures& textures) {
   // A texture for all of a scene is not meant for the quiet ground under it.
   if (int(index) == scene.groundMaterial()) return {};
   const scene::Material& material = scene.material(index);
   const auto choose = [&](look::Picture picture, const scene::TextureUse& own) -> std::optional<SetTexture> {
-    if (picture.index < 0) return textures.get(look, picture);
+    if (picture.index < 0) return textures.get(knobs.look(), picture);
     if (picture.index == kSetOfScene && own.image >= 0) return scene.textureOf(own);
     return std::nullopt;
   };
-  return {choose(scene.knobs<LitParams>(look, index).texture, material.litTexture),
-          choose(scene.knobs<ShadowedParams>(look, index).texture, material.shadowedTexture)};
+  return {choose(knobs.of<LitParams>(index).texture, material.litTexture),
+          choose(knobs.of<ShadowedParams>(index).texture, material.shadowedTexture)};
 }
 
 namespace {
@@ -111,13 +110,13 @@ glm::vec3 tintDown(float skyTint) {
 
 }  // namespace
 
-shared::Backdrop backdropUniforms(const SceneOnGpu& scene, const look::LookData& look,
+shared::Backdrop backdropUniforms(const SceneOnGpu& scene, const KnobTable& knobs,
                                   const shared::FrameUniforms& frame, const glm::uvec2& texels,
                                   ColorMaps& maps) {
-  const passes::BackgroundParams params = look.get<passes::BackgroundParams>();
+  const passes::BackgroundParams params = knobs.scene<passes::BackgroundParams>();
   const int ground = scene.groundMaterial();
   const PaletteParams palette =
-      ground < 0 ? look.get<PaletteParams>() : scene.knobs<PaletteParams>(look, size_t(ground));
+      ground < 0 ? knobs.scene<PaletteParams>() : knobs.of<PaletteParams>(size_t(ground));
   shared::Backdrop b{};
   // Covering the frame: the same texels per pixel both ways.
   const glm::vec2 ratio = glm::vec2(texels) / frame.imageSize;
@@ -128,7 +127,7 @@ shared::Backdrop backdropUniforms(const SceneOnGpu& scene, const look::LookData&
   b.sectorLevel = std::max(0.0f, std::log2(0.8f * b.radius * density));
   b.style = params.style;
   b.warp = params.warp;
-  b.tear = look.get<passes::WarpParams>().amount * frame.pixelScale;
+  b.tear = knobs.scene<passes::WarpParams>().amount * frame.pixelScale;
   b.groundHeight = groundHeight(scene.bounds());
   // Long before the disc of the ground ends.
   const float center = glm::length(frame.sceneCenter - frame.viewer);
@@ -141,11 +140,19 @@ shared::Backdrop backdropUniforms(const SceneOnGpu& scene, const look::LookData&
   return b;
 }
 
-shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const look::LookData& look,
+float largestInflation(const SceneOnGpu& scene, const KnobTable& knobs, float imageHeight) {
+  float most = 0;
+  for (size_t m = 0; m < scene.materialCount(); ++m)
+    most = std::max(
+        most, scene.warpScaleOf(m) * passes::inflationPixels(knobs.of<passes::WarpParams>(m), imageHeight));
+  return most;
+}
+
+shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const KnobTable& knobs,
                                   bool overPicture, ColorMaps& maps) {
   const bool isGround = int(index) == scene.groundMaterial();
   const scene::Material& material = scene.material(index);
-  const PaletteParams palette = scene.knobs<PaletteParams>(look, index);
+  const PaletteParams palette = knobs.of<PaletteParams>(index);
   const uint8_t sets = scene.colorSets(index);
   shared::MaterialData data{};
   data.baseColor = material.baseColor;
@@ -159,17 +166,17 @@ shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const l
   data.tintDown = glm::sqrt(tintDown(palette.skyTint));
 
   // Where both colours come from.
-  const Grade litGrade = Grade::of(scene.knobs<LitParams>(look, index)),
-              shadowedGrade = Grade::of(scene.knobs<ShadowedParams>(look, index));
-  const bool derivesShadow = scene.knobs<ShadowedParams>(look, index).texture.index == kSetDerived;
+  const Grade litGrade = Grade::of(knobs.of<LitParams>(index)),
+              shadowedGrade = Grade::of(knobs.of<ShadowedParams>(index));
+  const bool derivesShadow = knobs.of<ShadowedParams>(index).texture.index == kSetDerived;
   ColorRule lit{ColorRule::lit, palette, litGrade}, shadowed{ColorRule::shadowed, palette, shadowedGrade};
   const ColorRule painted{ColorRule::painted, {}, litGrade};
   glm::dvec3 base = glm::clamp(glm::dvec3(material.baseColor), 0.0, 1.0);
   if (isGround) {
     // The ground belongs to the background, not to the scene's palette.
-    const glm::vec3 ground = look.get<passes::BackgroundParams>().mode == 0
+    const glm::vec3 ground = knobs.scene<passes::BackgroundParams>().mode == 0
                                  ? automaticBackground(scene.colors()).ground
-                                 : glm::vec3(look.get<GroundParams>().tint);
+                                 : glm::vec3(knobs.scene<GroundParams>().tint);
     data.baseColor = glm::vec4(ground, 1.0f);
     base = glm::dvec3(ground);
     lit = painted;
@@ -190,7 +197,7 @@ shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const l
   // What is unlit is to look as its author painted it.
   if (material.unlit) lit = painted;
 
-  const bool isPainted = scene.knobs<passes::TextureParams>(look, index).amount > 0;
+  const bool isPainted = knobs.of<passes::TextureParams>(index).amount > 0;
   data.lit = identityColorMap();
   if (scene.isVaried(index) || isPainted || sets) {
     data.lit = maps.get(lit);

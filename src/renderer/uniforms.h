@@ -15,7 +15,7 @@ using namespace frame;
 shared::ViewUniforms viewUniforms(const View& view, const View& previous);
 
 // Of views that are drawn together, at most shared::kMaxViews of one size, of a rig.
-shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const look::LookData& look,
+shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const KnobTable& knobs,
                                     const std::vector<View>& views, const std::vector<View>& previousViews,
                                     const std::vector<View>& rig, double time, glm::uvec2 size);
 
@@ -33,17 +33,20 @@ class ColorMaps {
 struct ChosenSets {
   std::optional<SetTexture> lit, shadowed;
 };
-ChosenSets chosenSets(const SceneOnGpu& scene, size_t material, const look::LookData& look,
+ChosenSets chosenSets(const SceneOnGpu& scene, size_t material, const KnobTable& knobs,
                       LookTextures& textures);
 
 // How a picture of so many texels lies behind everything, under a look.
-shared::Backdrop backdropUniforms(const SceneOnGpu& scene, const look::LookData& look,
+shared::Backdrop backdropUniforms(const SceneOnGpu& scene, const KnobTable& knobs,
                                   const shared::FrameUniforms& frame, const glm::uvec2& texels,
                                   ColorMaps& maps);
 
+// How far outside of its silhouette any surface tears edges, in pixels.
+float largestInflation(const SceneOnGpu& scene, const KnobTable& knobs, float imageHeight);
+
 // The material's facts, its texture transforms and its colour maps under a look, with the sets of colours
 // that the scene has been given for it. `overPicture`: the ground is seen by its shadows only.
-shared::MaterialData materialData(const SceneOnGpu& scene, size_t material, const look::LookData& look,
+shared::MaterialData materialData(const SceneOnGpu& scene, size_t material, const KnobTable& knobs,
                                   bool overPicture, ColorMaps& maps);
 
 }  // namespace scumble::renderer

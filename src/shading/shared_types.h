@@ -9,9 +9,11 @@
 
 namespace scumble::shared {
 using glm::ivec2;
+using glm::ivec4;
 using glm::mat3;
 using glm::mat4;
 using glm::uvec2;
+using glm::uvec3;
 using glm::vec2;
 using glm::vec3;
 using glm::vec4;
@@ -25,11 +27,14 @@ using uint = uint32_t;
 #define SHARED_BEGIN
 #define SHARED_END
 
-// The row types of .params files.
+// A .params file within the braces of a struct gives its members. (C++ has the struct from
+// look/define_params.h.)
+#define PARAM(type, name, defaultValue, low, high, unit, meaning) type name;
 #define toggle uint
 #define choice int
 #define srgb vec3
 #define picture int
+#define triple vec3
 
 #endif
 #endif

@@ -51,11 +51,9 @@ const glm::mat4& instanceOf(const scene::SceneData& scene, const MovingObject& o
 }  // namespace
 
 SceneMotion::SceneMotion(gpu::Device& device, const scene::SceneData& scene,
-                         const std::vector<std::string>& materialNames,
                          const std::vector<MovingObject>& moving,
                          const std::vector<shared::ObjectData>& objects, uint32_t chunkCount)
-    : materialNames_(materialNames),
-      moving_(moving),
+    : moving_(moving),
       chunkCount_(chunkCount),
       bounds_(moving.size()),
       mirrored_(moving.size(), 0),
@@ -123,17 +121,17 @@ bool SceneMotion::follow(const scene::SceneData& scene, const std::vector<shared
   return true;
 }
 
-void SceneMotion::pose(const scene::SceneData& scene, const look::LookData& look, double time,
+void SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, double time,
                        const OceanWaves* waves) {
   movedCount_ = movedBeforeWater_ = 0;
-  const std::vector<scene::PlayedClip> clips = playedClips(scene, look);
+  const std::vector<scene::PlayedClip> clips = playedClips(scene, knobs.look());
   const bool rests = clips.empty() && !waves && &scene == followed_;
   if (rests && isAtRest_ && written_) return;
   isAtRest_ = rests;
 
   // One pose for each length of time that poses stand: joints and morph weights are held for as long as the
   // material that they move says, whatever the look names as long as it says.
-  const std::vector<int> named = namedHolds(scene, look);
+  const std::vector<int> named = namedHolds(scene, knobs.look());
   const auto poseHeldFor = [&](int frames) {
     scene::NodeTimes times;
     for (size_t n = 0; n < scene.nodes.size(); ++n) {
@@ -145,13 +143,13 @@ void SceneMotion::pose(const scene::SceneData& scene, const look::LookData& look
   };
   std::map<int, scene::Pose> poses;
   std::vector<const scene::Pose*> poseOf;
-  for (const std::string& material : materialNames_) {
-    const int frames = look.getForMaterial<AnimationParams>(material).hold;
+  for (size_t m = 0; m < knobs.materialCount(); ++m) {
+    const int frames = knobs.of<AnimationParams>(m).hold;
     const auto [pose, isNew] = poses.try_emplace(frames);
     if (isNew) pose->second = poseHeldFor(frames);
     poseOf.push_back(&pose->second);
   }
-  const int usual = look.get<AnimationParams>().hold;
+  const int usual = knobs.scene<AnimationParams>().hold;
   const auto usualPose = poses.find(usual);
   worldAsDrawn_ = usualPose != poses.end() ? usualPose->second.world : poseHeldFor(usual).world;
   world_ = scene::poseAt(scene, clips, time).world;

@@ -6,6 +6,7 @@
 #include "look/look_data.h"
 #include "scene/posed_bounds.h"
 #include "shading/frame.shared.h"
+#include "stage/knob_table.h"
 #include "world/geometry.h"
 
 namespace scumble::world {
@@ -31,9 +32,8 @@ struct MovingObject {
 class SceneMotion {
  public:
   // `objects` with all that does not move (material, id ...); matrices, joints and weights are filled in
-  // here. `materialNames` and `moving` stay alive as long as this does.
-  SceneMotion(gpu::Device& device, const scene::SceneData& scene,
-              const std::vector<std::string>& materialNames, const std::vector<MovingObject>& moving,
+  // here. `moving` stays alive as long as this does.
+  SceneMotion(gpu::Device& device, const scene::SceneData& scene, const std::vector<MovingObject>& moving,
               const std::vector<shared::ObjectData>& objects, uint32_t chunkCount);
 
   // What it was made for has become another; what does not move because of that is not written anew. False,
@@ -43,10 +43,10 @@ class SceneMotion {
   // An object's vertices at rest are others.
   void touch(size_t object) { touched_[object] = 1; }
 
-  // The pose at a time, in seconds; the look is one at that time (LookData::at). `waves`: those of that time,
+  // The pose at a time, in seconds; the knobs are those of that time. `waves`: those of that time,
   // where there is an ocean. `scene`: the one that it follows, or as it was at that time, with the same
   // nodes.
-  void pose(const scene::SceneData& scene, const look::LookData& look, double time, const OceanWaves* waves);
+  void pose(const scene::SceneData& scene, const KnobTable& knobs, double time, const OceanWaves* waves);
 
   // World bounds of each object in the pose.
   const std::vector<scene::Bounds>& bounds() const { return bounds_; }
@@ -96,7 +96,6 @@ class SceneMotion {
   };
   Layout layOut(const scene::SceneData& scene, std::vector<shared::ObjectData>& objects) const;
 
-  const std::vector<std::string>& materialNames_;
   const std::vector<MovingObject>& moving_;
   Layout layout_;
   uint32_t chunkCount_;

@@ -87,7 +87,7 @@ SceneOnGpu::Changes SceneOnGpu::update(const scene::SceneData& scene, const Geom
     if (waves_ && previousMotion_) previousWaves_.emplace(device_, scene, options.ocean);
     changes.buffers = true;
   }
-  listDraws(geometry, settle);
+  changes.buffers |= listDraws(geometry, settle);
   changes.buffers |= followMotion(otherPlaces, settle);
 
   measureColors(geometry);
@@ -130,13 +130,20 @@ void SceneOnGpu::separateMaterials(Geometry& geometry) {
   }
 }
 
+std::vector<KnobTable::Material> SceneOnGpu::knobSubjects() const {
+  std::vector<KnobTable::Material> subjects;
+  for (size_t m = 0; m < materialCount(); ++m)
+    subjects.push_back({materialNames_[m], options_.nodes.lists[materialUses_[m].settings]});
+  return subjects;
+}
+
 const scene::Material& SceneOnGpu::material(size_t material) const {
   static const scene::Material kGround{};
   const int base = materialUses_[material].base;
   return base >= 0 ? data_->materials[size_t(base)] : kGround;
 }
 
-void SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>& settle) {
+bool SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>& settle) {
   // Objects: all items.
   std::vector<Draw> draws;
   objects_.clear();
@@ -194,14 +201,12 @@ void SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>
     draw.reach = item.reach;
     wraps_ |= primitive.wrapsU || primitive.wrapsV;
     if (draw.varied) isVaried_[item.material] = true;
-    if (draw.alpha == AlphaMode::blend) blended.push_back({&primitive, draw.object, item.skin >= 0});
+    if (draw.alpha == AlphaMode::blend)
+      blended.push_back({&primitive, draw.object, place.firstVertex, draw.material, draw.varied});
     draws.push_back(draw);
     triangleCount_ += draw.indexCount / 3;
   }
-  // What is transparent is sorted.
-  transparent_.update(device_, std::move(blended), settle);
-  for (Draw& draw : draws)
-    if (draw.alpha == AlphaMode::blend) draw.firstIndex = transparent_.firstIndex(draw.object);
+  const bool renamed = transparent_.update(device_, std::move(blended), settle);
 
   // Whether that takes other pipelines.
   const auto wantSamePipelines = [](const Draw& a, const Draw& b) {
@@ -211,6 +216,7 @@ void SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>
   if (!std::equal(draws.begin(), draws.end(), draws_.begin(), draws_.end(), wantSamePipelines))
     ++drawsVersion_;
   draws_ = std::move(draws);
+  return renamed;
 }
 
 bool SceneOnGpu::followMotion(bool otherPlaces, const std::function<void()>& settle) {
@@ -219,7 +225,7 @@ bool SceneOnGpu::followMotion(bool otherPlaces, const std::function<void()>& set
     if (!*motion && motion == &previousMotion_) continue;
     if (!*motion || !(*motion)->follow(*data_, objects_, geometry_.chunkCount())) {
       settle();
-      motion->emplace(device_, *data_, materialNames_, moving_, objects_, geometry_.chunkCount());
+      motion->emplace(device_, *data_, moving_, objects_, geometry_.chunkCount());
       renamed = true;
     }
     if (otherPlaces) (*motion)->touchAll();
@@ -228,8 +234,8 @@ bool SceneOnGpu::followMotion(bool otherPlaces, const std::function<void()>& set
   return renamed;
 }
 
-void SceneOnGpu::pose(const look::LookData& look, const look::LookData& now, double time) {
-  if (waves_) waves_->pose(now, time, travelledBy(look));
+void SceneOnGpu::pose(const look::LookData& look, const KnobTable& now, double time) {
+  if (waves_) waves_->pose(now.look(), time, travelledBy(look));
   motion_->pose(*data_, now, time, waves());
   for (Draw& draw : draws_) {
     draw.bounds = motion_->bounds()[draw.object];
@@ -239,6 +245,7 @@ void SceneOnGpu::pose(const look::LookData& look, const look::LookData& now, dou
 
 void SceneOnGpu::look(const Viewers& viewers) {
   nearestOf_.assign(materialCount(), std::numeric_limits<float>::infinity());
+  size_t part = 0;  // parts are blended draws in their order
   for (Draw& draw : draws_) {
     draw.visible =
         std::any_of(viewers.windows.begin(), viewers.windows.end(), [&](const Viewers::Window& window) {
@@ -246,8 +253,7 @@ void SceneOnGpu::look(const Viewers& viewers) {
         });
     draw.distance = viewers.distanceTo(draw.bounds.center());
     if (draw.visible) nearestOf_[draw.material] = std::min(nearestOf_[draw.material], draw.distance);
-    if (draw.alpha == AlphaMode::blend && (draw.visible || draw.casts))
-      transparent_.sort(draw.object, *motion_, viewers);
+    if (draw.alpha == AlphaMode::blend) transparent_.show(part++, draw.visible, draw.mirrored);
   }
 }
 
@@ -259,8 +265,8 @@ std::vector<scene::Bounds> SceneOnGpu::casters() const {
 }
 
 void SceneOnGpu::posePrevious(const scene::SceneData& scene, const look::LookData& look,
-                              const look::LookData& then, double time) {
-  if (previousWaves_) previousWaves_->pose(then, time, travelledBy(look), waves());
+                              const KnobTable& then, double time) {
+  if (previousWaves_) previousWaves_->pose(then.look(), time, travelledBy(look), waves());
   previousMotion_->pose(scene, then, time, previousWaves());
 }
 
@@ -273,7 +279,7 @@ void SceneOnGpu::keepPrevious() {
   if (previousMotion_) return;
   previousPositions_ = positionBuffer(device_, geometry_.vertexCount());
   if (waves_) previousWaves_.emplace(device_, *data_, options_.ocean);
-  previousMotion_.emplace(device_, *data_, materialNames_, moving_, objects_, geometry_.chunkCount());
+  previousMotion_.emplace(device_, *data_, moving_, objects_, geometry_.chunkCount());
 }
 
 void SceneOnGpu::addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) {
@@ -336,10 +342,26 @@ SetTexture SceneOnGpu::textureOf(const scene::TextureUse& use) const {
 }
 
 void SceneOnGpu::setColorSets(size_t material, const SetTexture* lit, const SetTexture* shadowed) {
+  materialUses_[material].lit = lit ? *lit : SetTexture();
+  materialUses_[material].shadowed = shadowed ? *shadowed : SetTexture();
   materialUses_[material].colorSets = uint8_t((lit ? kLitSet : 0) | (shadowed ? kShadowedSet : 0));
   if (lit) materialSets_.writeTexture(material, kLitBinding, lit->view, samplers_.get(lit->sampler));
   if (shadowed)
     materialSets_.writeTexture(material, kShadowedBinding, shadowed->view, samplers_.get(shadowed->sampler));
+}
+
+const shared::MaterialData& SceneOnGpu::materialData(size_t material) const {
+  return *reinterpret_cast<const shared::MaterialData*>(materialData_.as<std::byte>() +
+                                                        material * kMaterialStride);
+}
+
+std::array<SetTexture, 4> SceneOnGpu::textures(size_t material) const {
+  const scene::Material& of = this->material(material);
+  const auto own = [&](const scene::TextureUse& use) {
+    return use.image >= 0 ? textureOf(use) : SetTexture();
+  };
+  return {own(of.baseColorTexture), own(of.emissiveTexture), materialUses_[material].lit,
+          materialUses_[material].shadowed};
 }
 
 void SceneOnGpu::setMaterial(size_t material, const shared::MaterialData& data) {

@@ -11,6 +11,7 @@
 
 #include "gpu/frames_in_flight.h"
 #include "gpu/pipeline.h"
+#include "stage/knob_table.h"
 #include "stage/palette.h"
 #include "stage/viewers.h"
 #include "world/geometry_on_gpu.h"
@@ -25,7 +26,6 @@ using namespace stage;
 enum class AlphaMode : uint8_t { opaque, mask, blend };
 
 struct Draw {
-  // In SceneOnGpu::indices(); of blended draws in transparentIndices().
   uint32_t firstIndex = 0, indexCount = 0;
   int32_t vertexOffset = 0;
   uint32_t object = 0, material = 0;
@@ -82,12 +82,8 @@ class SceneOnGpu {
   const std::string& materialName(size_t material) const { return materialNames_[material]; }
   // What the scene has for it; glTF's default material for the ground.
   const scene::Material& material(size_t material) const;
-  // The knobs with which a material is drawn. The look is one that these options come from, at any time.
-  template <class Params>
-  Params knobs(const look::LookData& look, size_t material) const {
-    return look.getForMaterial<Params>(materialNames_[material],
-                                       options_.nodes.lists[materialUses_[material].settings]);
-  }
+  // What their knobs follow from, in the same order, under a look that these options come from at any time.
+  std::vector<KnobTable::Material> knobSubjects() const;
   // Whether vertex colours or textures vary this material's colour anywhere.
   bool isVaried(size_t material) const { return isVaried_[material]; }
   int groundMaterial() const { return groundMaterial_; }
@@ -100,17 +96,17 @@ class SceneOnGpu {
   // frame to frame.
   std::vector<scene::Bounds> casters() const;
 
-  // Sets what moves to its place at a time (seconds). The look has its tracks; `now` is the same at that time
-  // (LookData::at).
-  void pose(const look::LookData& look, const look::LookData& now, double time);
-  // Finds out what can be seen, and sorts what is transparent; after pose().
+  // Sets what moves to its place at a time (seconds). The look has its tracks; `now` are its knobs at that
+  // time.
+  void pose(const look::LookData& look, const KnobTable& now, double time);
+  // Finds out what can be seen; after pose().
   void look(const Viewers& viewers);
   // The largest factor on a material's inflation that vertices of it have (attribute _WARP), at least 1.
   float warpScaleOf(size_t material) const { return warpScaleOf_[material]; }
   // Metres from the first view to the nearest draw of a material.
   float nearestOf(uint32_t material) const { return nearestOf_[material]; }
   // Where it was a frame ago; after keepPrevious() only. `scene`: what it was then, of the same nodes.
-  void posePrevious(const scene::SceneData& scene, const look::LookData& look, const look::LookData& then,
+  void posePrevious(const scene::SceneData& scene, const look::LookData& look, const KnobTable& then,
                     double time);
   // The last poses are not on their way to the device after all.
   void forgetPoses();
@@ -124,8 +120,8 @@ class SceneOnGpu {
   const GeometryOnGpu& geometry() const { return geometry_; }
   // One vec3 a final vertex; of one vertex only before keepPrevious().
   const gpu::Buffer& previousPositions() const { return previousPositions_; }
-  // Each blended draw's triangles, sorted by look().
-  VkBuffer transparentIndices() const { return transparent_.indices(); }
+  // The triangles of blended draws.
+  const TransparentTriangles& transparent() const { return transparent_; }
   // What the scene takes up, whatever its clips do.
   const scene::Bounds& bounds() const { return bounds_; }  // without the ground
   // Set 1 of geometry passes: a material's facts and its textures.
@@ -136,6 +132,11 @@ class SceneOnGpu {
   // The sets of colours that a material is drawn with; null: none. A picture stays as long as this does.
   void setColorSets(size_t material, const SetTexture* lit, const SetTexture* shadowed);
   uint8_t colorSets(size_t material) const { return materialUses_[material].colorSets; }
+  // What setMaterial() was given last.
+  const shared::MaterialData& materialData(size_t material) const;
+  // Its textures: base colour, emission, sets of colours for light and shadow; without a view where it has
+  // none.
+  std::array<SetTexture, 4> textures(size_t material) const;
   // A set of colours that comes with the scene.
   SetTexture textureOf(const scene::TextureUse& use) const;
 
@@ -151,7 +152,8 @@ class SceneOnGpu {
   void listMaterials();
   // Gives draws on nodes with settings materials of their own.
   void separateMaterials(Geometry& geometry);
-  void listDraws(const Geometry& geometry, const std::function<void()>& settle);
+  // True where the buffers of blended draws have other names.
+  bool listDraws(const Geometry& geometry, const std::function<void()>& settle);
   // True where the buffers have other names.
   bool followMotion(bool otherPlaces, const std::function<void()>& settle);
   // How many were written.
@@ -162,6 +164,7 @@ class SceneOnGpu {
     int base;               // in the scene; -1 for the ground
     uint32_t settings = 0;  // in NodeSettings::lists
     uint8_t colorSets = 0;
+    SetTexture lit{}, shadowed{};
   };
 
   // Of a material's textures: which image, and how it is read.

@@ -1,59 +1,48 @@
-// The triangles of blended surfaces, in the order in which they are to be composited: the farthest first. One
-// order serves both eyes.
+// The triangles of blended surfaces, of all objects: one order over all of them, the farthest first, serves
+// both eyes (passes/order finds it).
 #pragma once
 
 #include <functional>
-#include <map>
 
-#include "stage/viewers.h"
-#include "world/scene_motion.h"
+#include "gpu/frames_in_flight.h"
+#include "scene/scene_data.h"
+#include "shading/transparent.shared.h"
 
 namespace scumble::world {
 
-using namespace stage;
-
 class TransparentTriangles {
  public:
-  // `object`: whose matrix, or whose joints, place the primitive.
   struct Part {
     const scene::Primitive* primitive;
-    uint32_t object;
-    bool isSkinned;
+    uint32_t object, firstVertex;  // of the final ones
+    uint32_t material;
+    bool varied;
     bool operator==(const Part&) const = default;
   };
-  // All that there is. Primitives that are the same objects as before have the same triangles; where there
-  // are others, `settle` is called before indices() go that frames under way may read.
-  void update(gpu::Device& device, std::vector<Part> parts, const std::function<void()>& settle);
+  // All that there is. Primitives that are the same objects as before have the same triangles. Where there
+  // are others the buffers have other names, which is told by true, and `settle` is called before they go.
+  bool update(gpu::Device& device, std::vector<Part> parts, const std::function<void()>& settle);
 
-  // At which an object's triangles begin in indices().
-  uint32_t firstIndex(uint32_t object) const { return 3 * objects_.at(object).first; }
+  // For the next frame.
+  void show(size_t part, bool isVisible, bool isMirrored);
 
-  // Sorts the triangles of an object by their centroids. Morph targets do not move the centroids, and a
-  // skinned one goes with the joint that pulls it most.
-  void sort(uint32_t object, const SceneMotion& motion, const Viewers& viewers);
-
-  VkBuffer indices() const { return sorted_.handle(); }
+  uint32_t count() const { return count_; }
+  // shared::TransparentTriangle, and shared::TransparentPart.
+  VkBuffer triangles() const { return triangles_.handle(); }
+  VkBuffer parts() const { return parts_.handle(); }
+  // A 32-bit number of a part for each final vertex, up to the last one that is a part's.
+  VkBuffer partOfVertex() const { return partOfVertex_.handle(); }
+  // Three final vertices for each triangle, in the frame's order.
+  VkBuffer indices() const { return indices_.handle(); }
   void addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) {
-    if (!objects_.empty()) uploads.push_back(&sorted_);
+    if (count_ > 0) uploads.push_back(&parts_);
   }
 
  private:
-  struct Triangle {
-    glm::vec3 centroid;  // at rest, in the object's space
-    uint32_t joint;
-  };
-  struct Range {
-    uint32_t first, count;  // triangles
-    bool isSkinned;
-  };
-  void add(const Part& part);
-
-  std::vector<Part> parts_;
-  std::vector<Triangle> triangles_;
-  std::vector<uint32_t> indices_;  // as the primitives have them
-  std::map<uint32_t, Range> objects_;
-  std::vector<std::pair<float, uint32_t>> order_;
-  gpu::PerFrameBuffer sorted_;
+  std::vector<Part> known_;
+  uint32_t count_ = 0;
+  gpu::Buffer triangles_, partOfVertex_, indices_;
+  gpu::PerFrameBuffer parts_;
 };
 
 }  // namespace scumble::world

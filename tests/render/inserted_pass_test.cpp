@@ -6,6 +6,8 @@
 
 #include "frame/image_step.h"
 #include "renderer/pass_list.h"
+#include "shaders/inserted_brighten_image_comp.h"
+#include "shaders/inserted_brighten_image_frag.h"
 #include "shaders/inserted_count_comp.h"
 #include "shaders/inserted_flip_comp.h"
 #include "shaders/inserted_gamma_image_comp.h"
@@ -19,6 +21,12 @@ namespace {
 using namespace test;
 using namespace frame;
 
+#define PARAMS_STRUCT BrightenParams
+#define PARAMS_FILE "tests/render/inserted_brighten.params"
+#define PARAMS_PATH "brighten"
+#define PARAMS_TARGETS kScene
+#include "look/define_params.h"
+
 // An image pass with an AOV of its own.
 class Gamma : public Pass {
  public:
@@ -28,8 +36,11 @@ class Gamma : public Pass {
 
   void declare(FrameBuilder& frame, uint32_t) override {
     const gpu::Handle picture = step_.declare(
-        frame, "gamma", {{shaders::inserted_gamma_image_frag}, {shaders::inserted_gamma_image_comp}},
-        {{frame.get(kPicture)}}, {frame.image("gamma", {.format = kHalves})}, sizeof(float))[0];
+        frame, {.name = name(),
+                .shader = {{shaders::inserted_gamma_image_frag}, {shaders::inserted_gamma_image_comp}},
+                .inputs = {{1, frame.get(kPicture)}},
+                .outputs = {frame.image(name(), {.format = kHalves})},
+                .uniformBytes = sizeof(float)})[0];
     frame.give(kPicture, picture);
     frame.offer(kAovs[0], {picture});
   }
@@ -40,6 +51,27 @@ class Gamma : public Pass {
  private:
   static constexpr Aov kAovs[] = {{.name = "gamma", .isColor = true, .premultiplied = 3}};
   float power_;
+  ImageStep step_;
+};
+
+// An image pass with a knob: one row of a .params file, and its one use in the shader.
+class Brighten : public Pass {
+ public:
+  const char* name() const override { return "brighten"; }
+
+  void declare(FrameBuilder& frame, uint32_t) override {
+    frame.give(kPicture, step_.declare(frame, {.name = name(),
+                                               .shader = {{shaders::inserted_brighten_image_frag},
+                                                          {shaders::inserted_brighten_image_comp}},
+                                               .inputs = {{1, frame.get(kPicture)}},
+                                               .outputs = {frame.image(name(), {.format = kHalves})},
+                                               .uniformBytes = sizeof(BrightenParams)})[0]);
+  }
+  void create(FrameBuilder& frame) override { step_.create(frame); }
+  void bind(const gpu::GraphResources& resources) override { step_.bind(resources); }
+  void update(const FrameInput& input) override { step_.update(input.knobs.scene<BrightenParams>()); }
+
+ private:
   ImageStep step_;
 };
 
@@ -121,7 +153,8 @@ class InsertedPass : public BothEyes {
 
   // Layers of a frame by a renderer whose passes were arranged.
   static Frame drawWith(const std::function<void(renderer::PassList&)>& arrange,
-                        const std::vector<std::string>& aovs = {}, std::string* graph = nullptr) {
+                        const std::vector<std::string>& aovs = {}, std::string* graph = nullptr,
+                        const Look& look = {}, double time = 0) {
     RendererOptions options;
     options.device = testDevice();
     options.validation = true;
@@ -131,9 +164,9 @@ class InsertedPass : public BothEyes {
     const Scene scene = stillLife().load();
     const auto views = viewsFrom(scene, {{2, 2.5f, 6}, {0, 0.8f, 0}}, kWidth, kHeight, GetParam());
     // Twice, with another size between, so that everything was bound to other images as well.
-    Result<Frame> frame = (*made)->render(scene, Look(), 0, views, sized(kWidth, kHeight, aovs));
-    if (frame) frame = (*made)->render(scene, Look(), 0, views, sized(2 * kWidth, 16, aovs));
-    if (frame) frame = (*made)->render(scene, Look(), 0, views, sized(kWidth, kHeight, aovs));
+    Result<Frame> frame = (*made)->render(scene, look, time, views, sized(kWidth, kHeight, aovs));
+    if (frame) frame = (*made)->render(scene, look, time, views, sized(2 * kWidth, 16, aovs));
+    if (frame) frame = (*made)->render(scene, look, time, views, sized(kWidth, kHeight, aovs));
     if (!frame) throw std::runtime_error(frame.error().message());
     EXPECT_EQ((*made)->validationMessages(), 0);
     if (graph) *graph = (*made)->graph();
@@ -181,6 +214,40 @@ TEST_P(InsertedPass, anImagePassBetweenTwoOthers) {
     EXPECT_EQ(with.layers[3].views[v].pixels, with.layers[2].views[v].pixels) << "no colorizers: as it is";
     EXPECT_NE(with.layers[0].views[v].pixels, plain.layers[0].views[v].pixels);
   }
+}
+
+// A knob from outside of the library: a row gives the struct on both sides, the reader, the checks, tracks
+// and
+// --set; the shader uses it.
+TEST_P(InsertedPass, aKnobIsOneRowAndOneUse) {
+  const look::AddedBlock added(BrightenParams::block());
+  const auto arrange = [](renderer::PassList& list) {
+    list.insertAfter("final-color", [] { return std::make_unique<Brighten>(); });
+  };
+  const Frame plain = drawWith({});
+  const auto expectTimes = [&](const Look& look, double time, float factor) {
+    const Frame with = drawWith(arrange, {}, nullptr, look, time);
+    for (size_t v = 0; v < viewCount(); ++v) {
+      const Image &before = plain.layers[0].views[v], &after = with.layers[0].views[v];
+      for (size_t i = 0; i < before.pixels.size(); ++i) {
+        const float expected = before.pixels[i] * (i % 4 == 3 ? 1 : factor);
+        ASSERT_NEAR(after.pixels[i], expected, 2e-3f * std::max(expected, 0.05f)) << i;
+      }
+    }
+  };
+  expectTimes(Look(), 0, 1);
+  Look look;
+  ASSERT_TRUE(look.set("brighten.by", "1.75"));
+  expectTimes(look, 0, 1.75f);
+  const Result<Look> tracked =
+      Look::fromJson(R"({"brighten": {"by": {"keys": [[0, 0.5], [2, 1.5]]}}})", "test");
+  ASSERT_TRUE(tracked.ok()) << tracked.error().message();
+  expectTimes(*tracked, 1, 1.0f);
+  expectTimes(*tracked, 2, 1.5f);
+  EXPECT_FALSE(look.set("brighten.by", "9")) << "beyond the row's range";
+  const Status slip = look.set("brighten.bi", "1");
+  ASSERT_FALSE(slip.ok());
+  EXPECT_NE(slip.error().message().find("brighten.by"), std::string::npos) << slip.error().message();
 }
 
 TEST_P(InsertedPass, computeWithAnIndirectBufferOfItsOwn) {

@@ -1,7 +1,7 @@
 # scumble_shaders(FILES...): compiles GLSL to SPIR-V, validates it, and makes for each FOO.vert a header
 # shaders/FOO_vert.h with the array scumble::shaders::FOO_vert. NAME.image.glsl is compiled twice, as
-# NAME_image_frag and NAME_image_comp (src/shading/image_pass.glsl). scumble_shader_variant(FOO.vert WORD DEFINE): once
-# more with that macro, as foo_WORD_vert; NAME.image.glsl as NAME_WORD_image_frag and NAME_WORD_image_comp.
+# NAME_image_frag and NAME_image_comp (src/shading/image_pass.glsl). scumble_shader_variant(FOO.vert WORD DEFINES...): once
+# more with those macros, as foo_WORD_vert; NAME.image.glsl as NAME_WORD_image_frag and NAME_WORD_image_comp.
 function(scumble_compile_shader source name stage defines)
   set(dir ${CMAKE_BINARY_DIR}/generated/shaders)
   set(spirv ${dir}/${name}.spv)
@@ -36,14 +36,15 @@ function(scumble_shaders)
   endforeach()
 endfunction()
 
-function(scumble_shader_variant file word define)
+function(scumble_shader_variant file word)
+  list(TRANSFORM ARGN PREPEND -D OUTPUT_VARIABLE defines)
   if(file MATCHES "^(.*)\\.image\\.glsl$")
     set(source ${CMAKE_CURRENT_SOURCE_DIR}/${file})
-    scumble_compile_shader(${source} ${CMAKE_MATCH_1}_${word}_image_frag fragment -D${define})
-    scumble_compile_shader(${source} ${CMAKE_MATCH_1}_${word}_image_comp compute "-DSCUMBLE_COMPUTE;-D${define}")
+    scumble_compile_shader(${source} ${CMAKE_MATCH_1}_${word}_image_frag fragment "${defines}")
+    scumble_compile_shader(${source} ${CMAKE_MATCH_1}_${word}_image_comp compute "-DSCUMBLE_COMPUTE;${defines}")
     return()
   endif()
   string(REGEX MATCH "^(.*)\\.(vert|frag|comp)$" matched ${file})
   scumble_compile_shader(${CMAKE_CURRENT_SOURCE_DIR}/${file} ${CMAKE_MATCH_1}_${word}_${CMAKE_MATCH_2} ${CMAKE_MATCH_2}
-                         -D${define})
+                         "${defines}")
 endfunction()

@@ -6,6 +6,7 @@
 
 #include "frame/image_step.h"
 #include "passes/blur/blur.shared.h"
+#include "passes/blur/blur_knobs.h"
 #include "shaders/blur_image_comp.h"
 #include "shaders/blur_image_frag.h"
 
@@ -59,11 +60,16 @@ class Blur : public Pass {
     const ImageShader shader{{shaders::blur_image_frag}, {shaders::blur_image_comp}};
     gpu::Handle blurred = frame.get(kShadow);
     for (size_t i = 0; i < steps_.size(); ++i) {
-      const std::string name = i + 1 < steps_.size() ? "blur " + std::to_string(i + 1) : "blur";
+      const std::string part = i + 1 < steps_.size() ? "blur " + std::to_string(i + 1) : "blur";
       const gpu::Handle next =
-          frame.image(name, {.format = kHalves, .overX = kFraction, .overY = i == 0 ? 1 : kFraction});
-      blurred = steps_[i].declare(frame, "blur", shader, {{blurred}, {frame.get(kDepth)}}, {next},
-                                  sizeof(shared::BlurStep), {uint32_t(i == 0), 1})[0];
+          frame.image(part, {.format = kHalves, .overX = kFraction, .overY = i == 0 ? 1 : kFraction});
+      blurred = steps_[i].declare(
+          frame, {.name = name(),
+                  .shader = shader,
+                  .inputs = {{shared::kBlurSource, blurred}, {shared::kBlurDepth, frame.get(kDepth)}},
+                  .outputs = {next},
+                  .uniformBytes = sizeof(shared::BlurStep),
+                  .constants = {uint32_t(i == 0), 1}})[0];
     }
     frame.give(kBlur, blurred);
     frame.offer(kAovs[0], {blurred});
@@ -77,7 +83,7 @@ class Blur : public Pass {
   }
 
   void update(const FrameInput& input) override {
-    const BlurParams params = input.look.get<BlurParams>();
+    const BlurParams params = input.knobs.scene<BlurParams>();
     const BlurPlan plan = planBlur(params.radius * input.uniforms.pixelScale);
     for (size_t i = 0; i < steps_.size(); ++i) {
       auto [step, taps] =

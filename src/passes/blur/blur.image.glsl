@@ -12,8 +12,8 @@
 layout(constant_id = 0) const int kFirst = 0;  // 1: depth comes from the depth buffer, else from B
 layout(constant_id = 1) const int kTaps = 1;
 layout(set = 1, binding = 0, scalar) uniform Block { BlurStep blurStep; };
-layout(set = 1, binding = 1) uniform sampler2DArray source;
-layout(set = 1, binding = 2) uniform sampler2DArray depth;
+layout(set = 1, binding = kBlurSource) uniform sampler2DArray source;
+layout(set = 1, binding = kBlurDepth) uniform sampler2DArray depth;
 
 float fetchDepth(ivec2 texel, int layer) {
   return min(eyeDepth(texelFetch(depth, ivec3(texel, layer), 0).r, layer), 60000.0);

@@ -3,6 +3,9 @@
 #include "../../shading/shared_types.h"
 
 SHARED_BEGIN
+// Bindings of set 1.
+const int kBlurSource = 1, kBlurDepth = 2;
+
 const int kMaxBlurTaps = 64;
 struct BlurStep {
   ivec2 axis;            // (1, 0) or (0, 1)

@@ -1,10 +1,9 @@
 // The chain of four steps against the same in double precision, from the `shadow` and `depth` AOVs.
-#include "passes/blur/blur.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "passes/blur/blur_knobs.h"
 #include "tests/support/aov.h"
 #include "tests/support/render_test.h"
 

@@ -5,19 +5,6 @@
 
 namespace scumble::passes {
 
-#define PARAMS_STRUCT BackgroundParams
-#define PARAMS_FILE "passes/color/color.params"
-#define PARAMS_PATH "background"
-#define PARAMS_TARGETS kScene
-#include "look/define_params.h"
-
-// What the final shadow tells of how it is to be mixed.
-struct ShadowMix {
-  glm::vec3 glowColor{1.0f};
-  float glowColorAmount = 0;
-  bool mixesValues = false;  // in equal parts of value, not of light
-};
-using ShadowMixOf = ShadowMix (*)(const look::LookData& look);
-std::unique_ptr<frame::Pass> makeColor(frame::Layer layer, ShadowMixOf shadowMix);
+std::unique_ptr<frame::Pass> makeColor(frame::Layer layer);
 
 }  // namespace scumble::passes

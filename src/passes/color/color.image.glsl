@@ -5,10 +5,10 @@
 #include "color.shared.h"
 
 layout(set = 1, binding = 0, scalar) uniform Block { ColorUniforms u; };
-layout(set = 1, binding = 1) uniform sampler2DArray finalShadow;
-layout(set = 1, binding = 2) uniform sampler2DArray lit;
-layout(set = 1, binding = 3) uniform sampler2DArray shadowed;
-layout(set = 1, binding = 4) uniform sampler2DArray depth;
+layout(set = 1, binding = kColorLight) uniform sampler2DArray finalShadow;
+layout(set = 1, binding = kColorLit) uniform sampler2DArray lit;
+layout(set = 1, binding = kColorShadowed) uniform sampler2DArray shadowed;
+layout(set = 1, binding = kColorDepth) uniform sampler2DArray depth;
 
 vec3 sky(vec2 ndc, int layer) {
   vec4 toRay = VIEW_FIELD(ndcToEyeRay, layer);
@@ -35,7 +35,7 @@ vec4 shade(ivec2 pixel, int layer) {
   color += shadow.b * u.glowColorAmount * (u.glowColor - litColor);
 
   float distance = eyeDepth(texelFetch(depth, at, 0).r, layer);
-  color = mix(color, u.horizon, u.air * smoothstep(u.airStart, u.airEnd, distance)) * coverage;
+  color = mix(color, u.horizon, u.knobs.air * smoothstep(u.airStart, u.airEnd, distance)) * coverage;
 
   float open = (1.0 - coverage) * (1.0 - u.transparent);
   color += sky((vec2(pixel) + 0.5) / frame.imageSize * 2.0 - 1.0, layer) * open;

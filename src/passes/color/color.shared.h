@@ -1,13 +1,27 @@
 #ifndef SCUMBLE_COLOR_SHARED_H
 #define SCUMBLE_COLOR_SHARED_H
 #include "../../shading/shared_types.h"
+#ifdef __cplusplus
+#include "passes/color/color_knobs.h"
+#endif
 
 SHARED_BEGIN
+#ifdef __cplusplus
+using passes::BackgroundParams;
+#else
+struct BackgroundParams {
+#include "color.params"
+};
+#endif
+
+// Bindings of set 1.
+const int kColorLight = 1, kColorLit = 2, kColorShadowed = 3, kColorDepth = 4;
+
 struct ColorUniforms {
+  BackgroundParams knobs;
   vec3 horizon;
   float height;  // sine of the elevation at which the sky has its upper colour
   vec3 zenith;
-  float air;
   float airStart, airEnd;  // metres along the view axis
   float transparent;       // 1: alpha 0 where nothing is
   vec3 glowColor;          // of the inner glow

@@ -1,11 +1,10 @@
 // FORMULAS 14: the colour is the mix of shadowed and lit by the final shadow, in the air, over the sky;
 // against the same in double precision, from the AOVs of the passes before.
-#include "passes/color/color.h"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "passes/color/color_knobs.h"
 #include "tests/support/aov.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"

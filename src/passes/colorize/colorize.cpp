@@ -24,10 +24,13 @@ class Colorize : public Pass {
     viewCount_ = frame.configuration().viewCount;
     gpu::Handle picture = frame.get(kPicture, layer_);
     if (hasColorizers)
-      picture =
-          step_.declare(frame, name(), {{shaders::colorize_image_frag}, {shaders::colorize_image_comp}},
-                        {{picture}, {frame.get(kDepth, layer_)}}, {frame.image(name(), {.format = kHalves})},
-                        sizeof(shared::ColorizeUniforms))[0];
+      picture = step_.declare(
+          frame,
+          {.name = name(),
+           .shader = {{shaders::colorize_image_frag}, {shaders::colorize_image_comp}},
+           .inputs = {{shared::kColorizeColor, picture}, {shared::kColorizeDepth, frame.get(kDepth, layer_)}},
+           .outputs = {frame.image(name(), {.format = kHalves})},
+           .uniformBytes = sizeof(shared::ColorizeUniforms)})[0];
     frame.give(kPicture, picture, layer_);
     if (layer_ == Layer::first) frame.offer(kAovs[0], {picture});
   }

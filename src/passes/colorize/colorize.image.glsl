@@ -10,8 +10,8 @@
 
 layout(constant_id = 0) const int kFeatures = 0;
 layout(set = 1, binding = 0, scalar) uniform Block { ColorizeUniforms u; };
-layout(set = 1, binding = 1) uniform sampler2DArray color;
-layout(set = 1, binding = 2) uniform sampler2DArray depth;
+layout(set = 1, binding = kColorizeColor) uniform sampler2DArray color;
+layout(set = 1, binding = kColorizeDepth) uniform sampler2DArray depth;
 
 bool has(int feature) { return (kFeatures & feature) != 0; }
 

@@ -4,6 +4,9 @@
 
 SHARED_BEGIN
 
+// Bindings of set 1.
+const int kColorizeColor = 1, kColorizeDepth = 2;
+
 // As the shader tells volumes apart; a sphere is an ellipsoid whose space is the world's, but for the scale.
 const int kShapeSphere = 0, kShapeEllipsoid = 1, kShapeBox = 2, kShapeCapsule = 3, kShapeHalfSpace = 4,
           kShapeScene = 5;

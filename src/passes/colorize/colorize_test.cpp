@@ -1,12 +1,11 @@
 // Colorizers (paper 002; FORMULAS 16 and 17): the pass's picture against a reference in double precision from
 // the AOVs before it, and what looks promise of identity, order, nodes and numbers.
-#include "passes/colorize/colorize.h"
-
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
+#include "passes/colorize/colorize_knobs.h"
 #include "tests/support/aov.h"
 #include "tests/support/palette_reference.h"
 #include "tests/support/ray_cast.h"

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "passes/colorize/colorize.h"
 #include "passes/colorize/colorize.shared.h"
+#include "passes/colorize/colorize_knobs.h"
 
 namespace scumble::passes {
 

@@ -74,8 +74,7 @@ class Facts : public Pass {
   void update(const FrameInput& input) override {
     std::vector<MaterialVariant> variants;
     for (size_t m = 0; m < input.scene.materialCount(); ++m) {
-      const std::string& name = input.scene.materialName(m);
-      const auto params = input.look.getForMaterial<WarpMetaTextureParams>(name);
+      const auto params = input.knobs.of<WarpMetaTextureParams>(m);
       const MetaTextureUse use =
           metaTextureUse(params, 0b0011, input.look, *examples_, input.uniforms.pixelScale, glm::vec2(0.0f));
       materials_.write(m, {use.meta.uniforms()});

@@ -3,6 +3,8 @@
 #include "frame/image_step.h"
 #include "frame/metatexture.h"
 #include "passes/final_color/final_color.shared.h"
+#include "passes/final_color/final_color_knobs.h"
+#include "passes/surface/surface_knobs.h"
 #include "shaders/final_color_image_comp.h"
 #include "shaders/final_color_image_frag.h"
 
@@ -25,7 +27,6 @@ uint32_t backdropFeatures(const BackdropInput* backdrop) {
 
 class FinalColor : public Pass {
  public:
-  explicit FinalColor(const SurfaceFacts& surfaces) : surfaces_(surfaces) {}
   const char* name() const override { return "final-color"; }
   std::span<const Aov> aovs() const override { return kAovs; }
   uint32_t variant(const scene::SceneData&, const look::LookData& look) const override {
@@ -38,18 +39,21 @@ class FinalColor : public Pass {
       return frame.get(role, isLayered ? Layer::behind : Layer::first);
     };
     const gpu::Handle picture = step_.declare(
-        frame, "final-color", {{shaders::final_color_image_frag}, {shaders::final_color_image_comp}},
-        {{frame.get(kPicture), true},
-         {frame.get(kWarp)},
-         {frame.get(kDepth)},
-         {frame.get(kBlur), true},
-         {behind(kPicture)},
-         {behind(kDepth)},
-         {frame.get(kLight)},
-         {frame.get(kLit)},
-         {behind(kLight)},
-         {behind(kLit)}},
-        {frame.image("final-color", {.format = kHalves})}, sizeof(shared::FinalColorUniforms), {}, 2)[0];
+        frame, {.name = name(),
+                .shader = {{shaders::final_color_image_frag}, {shaders::final_color_image_comp}},
+                .inputs = {{shared::kFinalColorColor, frame.get(kPicture), true},
+                           {shared::kFinalColorWarp, frame.get(kWarp)},
+                           {shared::kFinalColorDepth, frame.get(kDepth)},
+                           {shared::kFinalColorBlurred, frame.get(kBlur), true},
+                           {shared::kFinalColorBehind, behind(kPicture)},
+                           {shared::kFinalColorBehindDepth, behind(kDepth)},
+                           {shared::kFinalColorLight, frame.get(kLight)},
+                           {shared::kFinalColorLit, frame.get(kLit)},
+                           {shared::kFinalColorBehindLight, behind(kLight)},
+                           {shared::kFinalColorBehindLit, behind(kLit)}},
+                .textures = {shared::kFinalColorBackdrop, shared::kFinalColorTear},
+                .outputs = {frame.image(name(), {.format = kHalves})},
+                .uniformBytes = sizeof(shared::FinalColorUniforms)})[0];
     frame.give(kPicture, picture);
     frame.offer(kAovs[0], {picture});
   }
@@ -60,11 +64,11 @@ class FinalColor : public Pass {
   void bind(const gpu::GraphResources& resources) override { step_.bind(resources); }
 
   void update(const FrameInput& input) override {
-    const FinalColorParams params = input.look.get<FinalColorParams>();
+    const FinalColorParams params = input.knobs.scene<FinalColorParams>();
     shared::FinalColorUniforms uniforms{};
     uniforms.bloom = params.bloom * glm::vec3(params.bloomTint);
-    uniforms.displacement = {surfaces_.inflation(input.look, input.scene, input.uniforms.imageSize.y)};
-    const WarpMetaTextureParams tear = input.look.get<WarpMetaTextureParams>();
+    uniforms.displacement = {input.inflation};
+    const WarpMetaTextureParams tear = input.knobs.scene<WarpMetaTextureParams>();
     const ExampleTexture& example = examples_->get(input.look, tear.example);
     const gpu::Image* picture = &example.image;
     if (input.backdrop) {
@@ -76,9 +80,9 @@ class FinalColor : public Pass {
       picture = input.backdrop->image;
     }
     const uint32_t ripple = uint32_t(params.ripple);
-    step_.setJobs(
-        {{{surfaces_.glow(input.look, input.scene.data()), ripple, backdropFeatures(input.backdrop)},
-          {{picture, kPictureSampler}, {&example.image, ExampleTextures::kSampler}}}});
+    step_.setJobs({{{mayGlow(input.look, input.scene.data()), ripple, backdropFeatures(input.backdrop)},
+                    {{shared::kFinalColorBackdrop, picture, kPictureSampler},
+                     {shared::kFinalColorTear, &example.image, ExampleTextures::kSampler}}}});
     step_.update(uniforms);
   }
 
@@ -88,15 +92,14 @@ class FinalColor : public Pass {
 
   static constexpr Aov kAovs[] = {{.name = "final-color", .isColor = true, .premultiplied = 3}};
 
-  SurfaceFacts surfaces_;
   ImageStep step_;
   ExampleTextures* examples_ = nullptr;
 };
 
 }  // namespace
 
-std::unique_ptr<Pass> makeFinalColor(const SurfaceFacts& surfaces) {
-  return std::make_unique<FinalColor>(surfaces);
+std::unique_ptr<Pass> makeFinalColor() {
+  return std::make_unique<FinalColor>();
 }
 
 }  // namespace scumble::passes

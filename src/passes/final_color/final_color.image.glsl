@@ -13,18 +13,18 @@ layout(constant_id = 1) const int kRipple = 0;    // of displacement.shared.h; l
 layout(constant_id = 2) const int kBackdrop = 0;  // kBackdropIsThere ...; 0: there is no picture behind everything
 const bool kLayered = kRipple == kRippleLayered;
 layout(set = 1, binding = 0, scalar) uniform Block { FinalColorUniforms u; };
-layout(set = 1, binding = 1) uniform sampler2DArray color;
-layout(set = 1, binding = 2) uniform sampler2DArray warp;
-layout(set = 1, binding = 3) uniform sampler2DArray depth;
-layout(set = 1, binding = 4) uniform sampler2DArray blurred;
-layout(set = 1, binding = 5) uniform sampler2DArray behind;
-layout(set = 1, binding = 6) uniform sampler2DArray behindDepth;
-layout(set = 1, binding = 7) uniform sampler2DArray finalShadow;
-layout(set = 1, binding = 8) uniform sampler2DArray lit;
-layout(set = 1, binding = 9) uniform sampler2DArray behindShadow;
-layout(set = 1, binding = 10) uniform sampler2DArray behindLit;
-layout(set = 1, binding = 11) uniform sampler2D backdrop;
-layout(set = 1, binding = 12) uniform sampler2D tear;
+layout(set = 1, binding = kFinalColorColor) uniform sampler2DArray color;
+layout(set = 1, binding = kFinalColorWarp) uniform sampler2DArray warp;
+layout(set = 1, binding = kFinalColorDepth) uniform sampler2DArray depth;
+layout(set = 1, binding = kFinalColorBlurred) uniform sampler2DArray blurred;
+layout(set = 1, binding = kFinalColorBehind) uniform sampler2DArray behind;
+layout(set = 1, binding = kFinalColorBehindDepth) uniform sampler2DArray behindDepth;
+layout(set = 1, binding = kFinalColorLight) uniform sampler2DArray finalShadow;
+layout(set = 1, binding = kFinalColorLit) uniform sampler2DArray lit;
+layout(set = 1, binding = kFinalColorBehindLight) uniform sampler2DArray behindShadow;
+layout(set = 1, binding = kFinalColorBehindLit) uniform sampler2DArray behindLit;
+layout(set = 1, binding = kFinalColorBackdrop) uniform sampler2D backdrop;
+layout(set = 1, binding = kFinalColorTear) uniform sampler2D tear;
 #include "backdrop.glsl"
 
 vec4 shade(ivec2 pixel, int layer) {

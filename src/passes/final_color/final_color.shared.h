@@ -4,6 +4,12 @@
 #include "../../shading/displacement.shared.h"
 
 SHARED_BEGIN
+// Bindings of set 1.
+const int kFinalColorColor = 1, kFinalColorWarp = 2, kFinalColorDepth = 3, kFinalColorBlurred = 4,
+          kFinalColorBehind = 5, kFinalColorBehindDepth = 6, kFinalColorLight = 7, kFinalColorLit = 8,
+          kFinalColorBehindLight = 9, kFinalColorBehindLit = 10, kFinalColorBackdrop = 11,
+          kFinalColorTear = 12;
+
 struct FinalColorUniforms {
   vec3 bloom;  // colour times amount
   Displacement displacement;

@@ -1,10 +1,9 @@
 // The picture against the same in double precision, from the `color`, `warp`, `depth` and `blur` AOVs; and
 // FORMULAS 10.
-#include "passes/final_color/final_color.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "passes/final_color/final_color_knobs.h"
 #include "tests/support/aov.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"

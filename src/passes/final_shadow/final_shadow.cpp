@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "frame/image_step.h"
+#include "passes/blur/blur_knobs.h"
 #include "passes/final_shadow/final_shadow.shared.h"
+#include "passes/final_shadow/final_shadow_knobs.h"
 #include "shaders/final_shadow_image_comp.h"
 #include "shaders/final_shadow_image_frag.h"
 
@@ -40,15 +42,19 @@ namespace {
 
 class FinalShadow : public Pass {
  public:
-  explicit FinalShadow(BlurFactsOf blurFacts) : blurFacts_(blurFacts) {}
   const char* name() const override { return "final-shadow"; }
   std::span<const Aov> aovs() const override { return kAovs; }
 
   void declare(FrameBuilder& frame, uint32_t) override {
     const gpu::Handle light = step_.declare(
-        frame, "final-shadow", {{shaders::final_shadow_image_frag}, {shaders::final_shadow_image_comp}},
-        {{frame.get(kBlur)}, {frame.get(kShadow)}, {frame.get(kDepth)}, {frame.get(kWarp)}},
-        {frame.image("final-shadow", {.format = kBytes})}, sizeof(shared::FinalShadowUniforms))[0];
+        frame, {.name = name(),
+                .shader = {{shaders::final_shadow_image_frag}, {shaders::final_shadow_image_comp}},
+                .inputs = {{shared::kFinalShadowBlurred, frame.get(kBlur)},
+                           {shared::kFinalShadowShadow, frame.get(kShadow)},
+                           {shared::kFinalShadowDepth, frame.get(kDepth)},
+                           {shared::kFinalShadowWarp, frame.get(kWarp)}},
+                .outputs = {frame.image(name(), {.format = kBytes})},
+                .uniformBytes = sizeof(shared::FinalShadowUniforms)})[0];
     frame.give(kLight, light);
     frame.offer(kAovs[0], {light});
   }
@@ -56,39 +62,35 @@ class FinalShadow : public Pass {
   void bind(const gpu::GraphResources& resources) override { step_.bind(resources); }
 
   void update(const FrameInput& input) override {
-    const FinalShadowParams params = input.look.get<FinalShadowParams>();
+    const FinalShadowParams params = input.knobs.scene<FinalShadowParams>();
     shared::FinalShadowUniforms uniforms{};
+    uniforms.knobs = params;
     const StepThresholds steps = stepThresholds(params);
     uniforms.stepThresholds = glm::vec4(params.threshold);
     for (int i = 0; i < params.steps; ++i) {
       uniforms.stepThresholds[i] = steps.darkest + steps.spacing * float(i);
       uniforms.stepShares[i] = 1.0f / float(params.steps);
     }
-    uniforms.softness = params.softness;
-    uniforms.innerGlow = params.innerGlow;
     uniforms.darkestEdge = steps.darkest;
     uniforms.brightestEdge = uniforms.stepThresholds[params.steps - 1];
     uniforms.glowReach = glowReach(params.glowWidth, steps.darkest);
-    uniforms.indication = params.indication;
-    uniforms.dither = params.dither;
     step_.setJobs({{{uint32_t(params.indicationSteps)}, {}}});
-    const BlurFacts blur = blurFacts_(input.look, input.uniforms.pixelScale);
-    uniforms.blurAmount = blur.amount;
-    uniforms.depthSharpness = blur.depthSharpness;
+    const BlurParams blur = input.knobs.scene<BlurParams>();
+    uniforms.blurAmount = planBlur(blur.radius * input.uniforms.pixelScale).amount;
+    uniforms.depthSharpness = depthSharpness(blur.depthEdge);
     step_.update(uniforms);
   }
 
  private:
   static constexpr Aov kAovs[] = {{.name = "final-shadow"}};
 
-  BlurFactsOf blurFacts_;
   ImageStep step_;
 };
 
 }  // namespace
 
-std::unique_ptr<Pass> makeFinalShadow(BlurFactsOf blurFacts) {
-  return std::make_unique<FinalShadow>(blurFacts);
+std::unique_ptr<Pass> makeFinalShadow() {
+  return std::make_unique<FinalShadow>();
 }
 
 }  // namespace scumble::passes

@@ -5,28 +5,6 @@
 
 namespace scumble::passes {
 
-#define PARAMS_STRUCT FinalShadowParams
-#define PARAMS_FILE "passes/final_shadow/final_shadow.params"
-#define PARAMS_PATH "shadow"
-#define PARAMS_TARGETS kScene
-#include "look/define_params.h"
-
-// The edges between light and shadow: amounts of light, the first of them and the distance to the next.
-struct StepThresholds {
-  float darkest, spacing;
-};
-StepThresholds stepThresholds(const FinalShadowParams& params);
-
-// How far the light must fall below `begin`, as a part of it, for the glow to be full: what is left of the
-// light beside a straight edge at `width` of the way from that edge to where the blurred light ends.
-float glowReach(float width, float begin);
-
-// What the blur tells of its result, for a look and a scale of pixels.
-struct BlurFacts {
-  float amount;          // how much of the blurred image counts
-  float depthSharpness;  // of its weights over relative depth
-};
-using BlurFactsOf = BlurFacts (*)(const look::LookData& look, float pixelScale);
-std::unique_ptr<frame::Pass> makeFinalShadow(BlurFactsOf blurFacts);
+std::unique_ptr<frame::Pass> makeFinalShadow();
 
 }  // namespace scumble::passes

@@ -9,10 +9,10 @@
 
 layout(constant_id = 0) const int kIndicationSteps = 1;
 layout(set = 1, binding = 0, scalar) uniform Block { FinalShadowUniforms u; };
-layout(set = 1, binding = 1) uniform sampler2DArray blurred;
-layout(set = 1, binding = 2) uniform sampler2DArray shadow;
-layout(set = 1, binding = 3) uniform sampler2DArray depthBuffer;
-layout(set = 1, binding = 4) uniform sampler2DArray warp;
+layout(set = 1, binding = kFinalShadowBlurred) uniform sampler2DArray blurred;
+layout(set = 1, binding = kFinalShadowShadow) uniform sampler2DArray shadow;
+layout(set = 1, binding = kFinalShadowDepth) uniform sampler2DArray depthBuffer;
+layout(set = 1, binding = kFinalShadowWarp) uniform sampler2DArray warp;
 
 vec4 shade(ivec2 pixel, int layer) {
   vec4 own = texelFetch(shadow, ivec3(pixel, layer), 0);
@@ -43,26 +43,26 @@ vec4 shade(ivec2 pixel, int layer) {
   // FORMULAS 15: the edge is about `softness` pixels wide, whatever the slope of the blurred image.
   vec2 slope = 0.25 * vec2(mix(lights[1] - lights[0], lights[3] - lights[2], f.y),
                            mix(lights[2] - lights[0], lights[3] - lights[1], f.x));
-  float width = max(0.5 * u.softness * length(slope), 1e-3);
+  float width = max(0.5 * u.knobs.softness * length(slope), 1e-3);
 
   // A dither of the ramp: the breakup map moves the threshold; where it does, its own slope softens the edge.
-  float dither = u.dither * (0.5 - warped.b) * float(warped.a > 0.0);
-  width = max(width, 0.05 * u.dither);
+  float dither = u.knobs.dither * (0.5 - warped.b) * float(warped.a > 0.0);
+  width = max(width, 0.05 * u.knobs.dither);
   float lit = dot(u.stepShares, smoothstep(u.stepThresholds - width, u.stepThresholds + width, vec4(light - dither)));
 
   // Texture indication: where the breakup map is set, marks push the blurred light over the threshold in a few more
   // steps, each a flat shape.
-  float push = light + own.b * warped.b * u.indication;
+  float push = light + own.b * warped.b * u.knobs.indication;
   float pushed = 0.0;
   for (int i = 1; i <= kIndicationSteps; ++i) {
-    float level = u.brightestEdge + 0.9 * u.indication * float(i) / float(kIndicationSteps);
+    float level = u.brightestEdge + 0.9 * u.knobs.indication * float(i) / float(kIndicationSteps);
     pushed += clamp(0.5 + (push - level) * 25.0, 0.0, 1.0);
   }
   if (own.b > 0.0) lit = max(lit, pushed * clamp(light * 6.0, 0.0, 1.0) / float(kIndicationSteps));
 
   // Inner glow: the inverted blur, clamped, adds light to the interior of the dark, none at its edge.
   float inside = clamp((u.darkestEdge - light) / u.darkestEdge / u.glowReach, 0.0, 1.0);
-  float glow = (1.0 - lit) * u.innerGlow * inside;
+  float glow = (1.0 - lit) * u.knobs.innerGlow * inside;
   return own.a > 0.0 ? vec4(lit + glow, own.g, glow, own.a) : vec4(0.0);
 }
 

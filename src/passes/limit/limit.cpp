@@ -7,6 +7,7 @@
 #include "frame/image_step.h"
 #include "frame/metatexture.h"
 #include "passes/limit/limit.shared.h"
+#include "passes/limit/limit_knobs.h"
 #include "shaders/limit_image_comp.h"
 #include "shaders/limit_image_frag.h"
 #include "shaders/limit_mend_image_comp.h"
@@ -46,17 +47,24 @@ class Limit : public Pass {
     gpu::Handle picture = frame.get(kPicture, layer_);
     if (isLimited) {
       const std::string of = layer_ == Layer::first ? "" : "behind-";
-      const gpu::Handle limited = limit_.declare(
-          frame, "limit", {{shaders::limit_image_frag}, {shaders::limit_image_comp}},
-          {{picture}, {frame.get(kWarp)}, {frame.get(kDepth)}},
-          {frame.image(of + "limited", {.format = kHalves})}, sizeof(shared::LimitUniforms), {}, 1)[0];
+      const gpu::Handle limited =
+          limit_.declare(frame, {.name = name(),
+                                 .shader = {{shaders::limit_image_frag}, {shaders::limit_image_comp}},
+                                 .inputs = {{shared::kLimitColor, picture},
+                                            {shared::kLimitWarp, frame.get(kWarp)},
+                                            {shared::kLimitDepth, frame.get(kDepth)}},
+                                 .textures = {shared::kLimitStrokes},
+                                 .outputs = {frame.image(of + "limited", {.format = kHalves})},
+                                 .uniformBytes = sizeof(shared::LimitUniforms)})[0];
       // What lies behind is not seen as it is, and needs no mending.
-      picture =
-          layer_ != Layer::first
-              ? limited
-              : mend_.declare(frame, "limit",
-                              {{shaders::limit_mend_image_frag}, {shaders::limit_mend_image_comp}},
-                              {{picture}, {limited}}, {frame.image("limit", {.format = kHalves})}, 0)[0];
+      if (layer_ == Layer::first)
+        picture = mend_.declare(
+            frame, {.name = name(),
+                    .shader = {{shaders::limit_mend_image_frag}, {shaders::limit_mend_image_comp}},
+                    .inputs = {{shared::kMendColor, picture}, {shared::kMendLimited, limited}},
+                    .outputs = {frame.image(name(), {.format = kHalves})}})[0];
+      else
+        picture = limited;
     }
     frame.give(kPicture, picture, layer_);
     if (layer_ == Layer::first) frame.offer(kAovs[0], {picture});
@@ -73,16 +81,14 @@ class Limit : public Pass {
   }
 
   void update(const FrameInput& input) override {
-    const LimitParams params = input.look.get<LimitParams>();
+    const LimitParams params = input.knobs.scene<LimitParams>();
     const std::vector<glm::vec3> colors = paletteColors(params);
     shared::LimitUniforms uniforms{};
-    uniforms.amount = params.amount;
+    uniforms.knobs = params;
     // The rest of the way is left to edges, so that marks and edges leave the palette's own colours alone.
     constexpr float kReach = 0.8f;
     uniforms.dither = kReach * params.dither;
-    uniforms.lightness = params.lightness;
     uniforms.driftReach = std::max(int(std::lround(12 * input.uniforms.pixelScale)), 2);
-    uniforms.softness = params.softness;
     uint32_t count = 0;
     for (size_t i = 0; i < shared::kMaxPaletteColors && !colors.empty(); ++i)
       uniforms.colors[i] = glm::vec3(oklabFromLinear(glm::dvec3(colors[std::min(i, colors.size() - 1)]))) *
@@ -107,7 +113,7 @@ class Limit : public Pass {
     }
     // The marks at a pixel are those of what stands before it.
     const uint32_t marks = layer_ != Layer::first ? 0 : sky ? 2 : params.dither > 0 ? 1 : 0;
-    const ImageStep::Texture texture{&strokes.image, ExampleTextures::kSampler};
+    const ImageStep::Texture texture{shared::kLimitStrokes, &strokes.image, ExampleTextures::kSampler};
     limit_.update(uniforms);
     limit_.setJobs({{{count, marks}, {texture}}});
     if (layer_ == Layer::first) mend_.setJobs({{{uint32_t(count > 0 && params.softness > 0)}, {}}});

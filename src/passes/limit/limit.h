@@ -2,26 +2,9 @@
 // palette-knife marks decide.
 #pragma once
 
-#include <span>
-
 #include "frame/pass.h"
 
 namespace scumble::passes {
-
-#define PARAMS_STRUCT LimitParams
-#define PARAMS_FILE "passes/limit/limit.params"
-#define PARAMS_PATH "limit"
-#define PARAMS_TARGETS kScene
-#include "look/define_params.h"
-
-// The choices of limit.palette.
-enum LimitPalette : int { kLimitOff, kLimitLook, kFirstBuiltIn };
-
-// The colours that a look limits the picture to, linear; empty: it does not.
-std::vector<glm::vec3> paletteColors(const LimitParams& params);
-
-// The palettes that are built in, from kFirstBuiltIn on: sRGB, 0xRRGGBB.
-std::span<const uint32_t> builtInPalette(int palette);
 
 std::unique_ptr<frame::Pass> makeLimit(frame::Layer layer);
 

@@ -10,10 +10,10 @@
 layout(constant_id = 0) const int kColors = 16;  // 0: none, colours stay; else the palette's, rounded up to a multiple of 4
 layout(constant_id = 1) const int kMarks = 2;    // 0: none; 1: on surfaces; 2: in the sky as well
 layout(set = 1, binding = 0, scalar) uniform Block { LimitUniforms u; };
-layout(set = 1, binding = 1) uniform sampler2DArray color;
-layout(set = 1, binding = 2) uniform sampler2DArray warp;
-layout(set = 1, binding = 3) uniform sampler2DArray depth;
-layout(set = 1, binding = 4) uniform sampler2D strokes;
+layout(set = 1, binding = kLimitColor) uniform sampler2DArray color;
+layout(set = 1, binding = kLimitWarp) uniform sampler2DArray warp;
+layout(set = 1, binding = kLimitDepth) uniform sampler2DArray depth;
+layout(set = 1, binding = kLimitStrokes) uniform sampler2D strokes;
 
 // Half of the most that an edge may be wide, of the way from one colour to another.
 const float kWidest = 0.1;
@@ -49,7 +49,7 @@ float order(vec3 lab) { return lab.x + 0.01 * lab.y + 0.001 * lab.z; }
 vec4 shade(ivec2 pixel, int layer) {
   vec4 own = texelFetch(color, ivec3(pixel, layer), 0);
   if (kColors == 0) return own;
-  vec3 weights = vec3(u.lightness, 1.0, 1.0), cones = conesAt(pixel, layer), roots = cubeRoot(cones);
+  vec3 weights = vec3(u.knobs.lightness, 1.0, 1.0), cones = conesAt(pixel, layer), roots = cubeRoot(cones);
   vec3 lab = weights * oklabFromConeRoots(roots);
 
   // The nearest colour.
@@ -103,10 +103,10 @@ vec4 shade(ivec2 pixel, int layer) {
       skySlope = sky * u.skySlope;
     }
   }
-  float width = clamp(0.5 * u.softness * (length(slope) + skySlope), 1e-5, kWidest);
+  float width = clamp(0.5 * u.knobs.softness * (length(slope) + skySlope), 1e-5, kWidest);
   vec3 snapped = mix(dark, light, clamp(0.5 + 0.5 * beyond / width, 0.0, 1.0));
 
-  vec3 result = mix(lab, snapped, u.amount) * vec3(1.0 / u.lightness, 1.0, 1.0);
+  vec3 result = mix(lab, snapped, u.knobs.amount) * vec3(1.0 / u.knobs.lightness, 1.0, 1.0);
   return vec4(max(linearFromOklab(result), vec3(0.0)) * own.a, own.a);
 }
 

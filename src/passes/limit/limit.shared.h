@@ -1,20 +1,33 @@
 #ifndef SCUMBLE_LIMIT_SHARED_H
 #define SCUMBLE_LIMIT_SHARED_H
 #include "../../shading/shared_types.h"
+#ifdef __cplusplus
+#include "passes/limit/limit_knobs.h"
+#endif
 
 SHARED_BEGIN
+#ifdef __cplusplus
+using passes::LimitParams;
+#else
+struct LimitParams {
+#include "limit.params"
+};
+#endif
+
+// Bindings of set 1.
+const int kLimitColor = 1, kLimitWarp = 2, kLimitDepth = 3, kLimitStrokes = 4;
+const int kMendColor = 1, kMendLimited = 2;
+
 const int kMaxPaletteColors = 16;
 struct LimitUniforms {
-  float amount;
+  LimitParams knobs;
   float dither, skyDither;  // how much of the way from one colour to another marks cover
-  float lightness;          // factor on OKLab's L in everything below
-  float softness;           // pixels
   int driftReach;           // pixels over which colours on surfaces must drift to have marks
   vec2 skyShift;            // copies
   vec2 skyTiles;            // copies of that pattern around the horizon, and up a radian
   float skyLod;
   float skySlope;  // of the marks there, of that way a pixel
-  // OKLab with its L multiplied by `lightness`; the last one repeated to the end.
+  // OKLab with its L multiplied by the knob `lightness`; the last one repeated to the end.
   vec3 colors[kMaxPaletteColors];
 };
 SHARED_END

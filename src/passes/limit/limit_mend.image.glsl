@@ -4,10 +4,11 @@
 // becomes the same mixture of what became of its neighbours.
 #extension GL_GOOGLE_include_directive : require
 #include "../../shading/frame.glsl"
+#include "limit.shared.h"
 
 layout(constant_id = 0) const int kMends = 1;
-layout(set = 1, binding = 1) uniform sampler2DArray color;
-layout(set = 1, binding = 2) uniform sampler2DArray limited;
+layout(set = 1, binding = kMendColor) uniform sampler2DArray color;
+layout(set = 1, binding = kMendLimited) uniform sampler2DArray limited;
 
 // Square root of a pixel's straight colour: about as far apart as the eye sees colours.
 vec3 rootAt(sampler2DArray source, ivec2 pixel, int layer) {

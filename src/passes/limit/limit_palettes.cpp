@@ -1,7 +1,7 @@
 // The palettes that are built in.
 #include <array>
 
-#include "passes/limit/limit.h"
+#include "passes/limit/limit_knobs.h"
 
 namespace scumble::passes {
 

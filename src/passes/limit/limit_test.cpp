@@ -1,11 +1,10 @@
 // Few colours against the same in double precision, from the `color`, `warp` and `depth` AOVs; the distances
 // by trying all colours.
-#include "passes/limit/limit.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "passes/limit/limit_knobs.h"
 #include "tests/support/aov.h"
 #include "tests/support/palette_reference.h"
 #include "tests/support/ray_cast.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "passes/limit/limit.h"
+#include "passes/limit/limit_knobs.h"
 #include "tests/support/aov.h"
 #include "tests/support/metatexture_reference.h"
 #include "tests/support/palette_reference.h"

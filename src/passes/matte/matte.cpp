@@ -3,7 +3,9 @@
 #include "frame/geometry_step.h"
 #include "frame/image_step.h"
 #include "frame/material_params.h"
+#include "passes/final_color/final_color_knobs.h"
 #include "passes/matte/matte.shared.h"
+#include "passes/surface/surface_knobs.h"
 #include "shaders/matte_image_comp.h"
 #include "shaders/matte_image_frag.h"
 #include "shaders/matte_samples_image_comp.h"
@@ -27,11 +29,10 @@ struct ObjectLayer {
 
 class Matte : public Pass {
  public:
-  explicit Matte(const PictureFacts& picture) : picture_(picture) {}
   const char* name() const override { return "matte"; }
   std::span<const Aov> aovs() const override { return kAovs; }
   uint32_t variant(const scene::SceneData&, const look::LookData& look) const override {
-    return picture_.ripple(look) == shared::kRippleLayered;
+    return look.get<FinalColorParams>().ripple == shared::kRippleLayered;
   }
 
   void declare(FrameBuilder& frame, uint32_t isLayered) override {
@@ -44,16 +45,18 @@ class Matte : public Pass {
     const ImageShader one{{shaders::matte_image_frag}, {shaders::matte_image_comp}},
         four{{shaders::matte_samples_image_frag}, {shaders::matte_samples_image_comp}};
     // Without layers the shader looks at none of what lies behind.
-    const std::vector<gpu::Handle> ranks =
-        image_.declare(frame, "matte", configuration_.samples > 1 ? four : one,
-                       {{first_.objects},
-                        {frame.get(kWarp)},
-                        {firstDepth_},
-                        {isLayered_ ? behind_.objects : firstDepth_},
-                        {isLayered_ ? frame.get(kDepth, Layer::behind) : firstDepth_}},
-                       {frame.image("cryptomatte", {.format = kFloats}),
-                        frame.image("cryptomatte rest", {.format = kFloats})},
-                       sizeof(shared::MatteUniforms));
+    const std::vector<gpu::Handle> ranks = image_.declare(
+        frame,
+        {.name = name(),
+         .shader = configuration_.samples > 1 ? four : one,
+         .inputs = {{shared::kMatteObjects, first_.objects},
+                    {shared::kMatteWarp, frame.get(kWarp)},
+                    {shared::kMatteDepth, firstDepth_},
+                    {shared::kMatteBehind, isLayered_ ? behind_.objects : firstDepth_},
+                    {shared::kMatteBehindDepth, isLayered_ ? frame.get(kDepth, Layer::behind) : firstDepth_}},
+         .outputs = {frame.image("cryptomatte", {.format = kFloats}),
+                     frame.image("cryptomatte rest", {.format = kFloats})},
+         .uniformBytes = sizeof(shared::MatteUniforms)});
     frame.offer(kAovs[0], ranks);
   }
 
@@ -81,10 +84,9 @@ class Matte : public Pass {
     first_.step.refresh();
     if (isLayered_) behind_.step.refresh();
     for (size_t m = 0; m < input.scene.materialCount(); ++m)
-      materials_.write(m, {picture_.simplify(input.look, input.scene, m)});
-    image_.setJobs({{{uint32_t(picture_.ripple(input.look))}, {}}});
-    image_.update(
-        shared::MatteUniforms{picture_.displacement(input.look, input.scene, input.uniforms.imageSize.y)});
+      materials_.write(m, {input.knobs.of<SurfaceParams>(m).simplify});
+    image_.setJobs({{{uint32_t(input.knobs.scene<FinalColorParams>().ripple)}, {}}});
+    image_.update(shared::MatteUniforms{{input.inflation}});
   }
 
  private:
@@ -133,7 +135,6 @@ class Matte : public Pass {
        .needsFloat = true,
        .namesObjects = true}};
 
-  PictureFacts picture_;
   FrameBuilder* frame_ = nullptr;
   Configuration configuration_;
   bool isLayered_ = false;
@@ -147,8 +148,8 @@ class Matte : public Pass {
 
 }  // namespace
 
-std::unique_ptr<Pass> makeMatte(const PictureFacts& picture) {
-  return std::make_unique<Matte>(picture);
+std::unique_ptr<Pass> makeMatte() {
+  return std::make_unique<Matte>();
 }
 
 }  // namespace scumble::passes

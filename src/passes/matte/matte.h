@@ -3,19 +3,9 @@
 #pragma once
 
 #include "frame/pass.h"
-#include "shading/displacement.shared.h"
 
 namespace scumble::passes {
 
-// What other passes say, whose knobs decide what the picture shows.
-struct PictureFacts {
-  shared::Displacement (*displacement)(const look::LookData& look, const world::SceneOnGpu& scene,
-                                       float imageHeight);
-  int (*ripple)(const look::LookData& look);  // of shading/displacement.shared.h
-  // Of a material's textures, in mip levels.
-  float (*simplify)(const look::LookData& look, const world::SceneOnGpu& scene, size_t material);
-};
-
-std::unique_ptr<frame::Pass> makeMatte(const PictureFacts& picture);
+std::unique_ptr<frame::Pass> makeMatte();
 
 }  // namespace scumble::passes

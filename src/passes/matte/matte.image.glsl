@@ -11,16 +11,16 @@
 layout(constant_id = 0) const int kRipple = 0;  // of displacement.shared.h; layered: there are objects behind
 layout(set = 1, binding = 0, scalar) uniform Block { MatteUniforms u; };
 #ifdef MULTISAMPLED
-layout(set = 1, binding = 1) uniform sampler2DMSArray objects4;  // the frame's four samples
+layout(set = 1, binding = kMatteObjects) uniform sampler2DMSArray objects4;  // the frame's four samples
 const int kGroups = 4;
 #else
-layout(set = 1, binding = 1) uniform sampler2DArray objects1;
+layout(set = 1, binding = kMatteObjects) uniform sampler2DArray objects1;
 const int kGroups = 1;
 #endif
-layout(set = 1, binding = 2) uniform sampler2DArray warp;
-layout(set = 1, binding = 3) uniform sampler2DArray depth;
-layout(set = 1, binding = 4) uniform sampler2DArray behind;
-layout(set = 1, binding = 5) uniform sampler2DArray behindDepth;
+layout(set = 1, binding = kMatteWarp) uniform sampler2DArray warp;
+layout(set = 1, binding = kMatteDepth) uniform sampler2DArray depth;
+layout(set = 1, binding = kMatteBehind) uniform sampler2DArray behind;
+layout(set = 1, binding = kMatteBehindDepth) uniform sampler2DArray behindDepth;
 
 const float kNone = 1e30;  // after all objects' numbers
 

@@ -3,6 +3,9 @@
 #include "../../shading/displacement.shared.h"
 
 SHARED_BEGIN
+// Bindings of set 1 of the image step.
+const int kMatteObjects = 1, kMatteWarp = 2, kMatteDepth = 3, kMatteBehind = 4, kMatteBehindDepth = 5;
+
 struct MatteMaterial {
   float simplify;  // of textures, in mip levels
 };

@@ -8,6 +8,7 @@
 #include "frame/image_step.h"
 #include "frame/metatexture.h"
 #include "passes/ocean/ocean.shared.h"
+#include "passes/ocean/ocean_knobs.h"
 #include "passes/ocean/ocean_maps.h"
 #include "shaders/ocean_image_comp.h"
 #include "shaders/ocean_image_frag.h"
@@ -39,10 +40,17 @@ class Ocean : public Pass {
     waves_.declare(frame, "ocean waves", kWavesFormat);
     depth_.declare(frame, "ocean depth", kDepthFormat);
     const std::vector<gpu::Handle> colors = image_.declare(
-        frame, "ocean", {{shaders::ocean_image_frag}, {shaders::ocean_image_comp}},
-        {{pattern_.image()}, {waves_.image()}, {depth_.image()}},
-        {frame.image("ocean-lit", {.format = kHalves}), frame.image("ocean-shadowed", {.format = kHalves})},
-        sizeof(PaintUniforms), {}, 7);
+        frame, {.name = name(),
+                .shader = {{shaders::ocean_image_frag}, {shaders::ocean_image_comp}},
+                .inputs = {{shared::kOceanPatternBinding, pattern_.image()},
+                           {shared::kOceanWavesBinding, waves_.image()},
+                           {shared::kOceanDepthBinding, depth_.image()}},
+                .textures = {shared::kOceanExampleBinding, shared::kOceanInverseBinding,
+                             shared::kOceanFoamBinding, shared::kOceanBathicBinding, shared::kOceanSkyBinding,
+                             shared::kOceanNextBathicBinding, shared::kOceanNextSkyBinding},
+                .outputs = {frame.image("ocean-lit", {.format = kHalves}),
+                            frame.image("ocean-shadowed", {.format = kHalves})},
+                .uniformBytes = sizeof(PaintUniforms)});
     frame.give(kOceanLit, colors[0]);
     frame.give(kOceanShadowed, colors[1]);
   }
@@ -75,48 +83,39 @@ class Ocean : public Pass {
   }
 
   void update(const FrameInput& input) override {
-    const OceanPaintParams p = input.look.get<OceanPaintParams>();
-    const auto metaParams = sameRows(input.look.get<OceanMetaTextureParams>());
+    const OceanPaintParams p = input.knobs.scene<OceanPaintParams>();
+    const auto metaParams = sameRows(input.knobs.scene<OceanMetaTextureParams>());
     step_.specialise(tangentOptions(metaParams, input.uniforms));
     MetaTextureUse use = metaTextureUse(metaParams, 0b0111, input.look, *examples_, input.uniforms.pixelScale,
                                         patternShift(input.seed));
     use.meta.wrapping = 0;
     constexpr double kTurn = 6.283185307179586;
-    const PaletteParams palette =
-        input.scene.knobs<PaletteParams>(input.look, size_t(input.scene.oceanMaterial()));
+    const PaletteParams palette = input.knobs.of<PaletteParams>(size_t(input.scene.oceanMaterial()));
     const glm::vec3 foam(p.foamColor);
-    const OceanParams params = input.look.get<OceanParams>();
+    const OceanParams params = input.knobs.scene<OceanParams>();
     const float wind = glm::radians(float(params.windDirection));
     PaintUniforms uniforms{use.meta.uniforms(), {}};
-    uniforms.ocean = {.dither = p.dither,
-                      .lightDither = p.lightDither,
-                      .reflection = p.reflection,
+    uniforms.ocean = {.knobs = p,
                       .phase = float(std::fmod(double(p.live) * input.time, 1.0) * kTurn),
                       .liveSpread = float(kTurn) * p.liveSpread,
-                      .foam = p.foam,
-                      .foamStart = p.foamStart,
                       .foamLit = glm::sqrt(foam),
                       .foamShadowed = glm::sqrt(glm::vec3(shadowedColor(palette, glm::dvec3(foam)))),
-                      .saturation = p.saturation,
-                      .overlayAmount = p.overlayAmount,
-                      .skySaturation = p.skySaturation,
-                      .skyOverlayAmount = p.skyOverlayAmount,
-                      .overlay = p.overlay.linear,
-                      .skyOverlay = p.skyOverlay.linear,
-                      .next = p.next,
                       .fadeEnd = input.scene.options().ocean.falseHorizon,
                       .wind = {std::cos(wind), std::sin(wind)}};
     image_.update(uniforms);
     const bool goesOver = p.next > 0;
     const gpu::SamplerDesc clamped;
-    image_.setJobs({{{goesOver ? uint32_t(shared::kOceanNext) : 0u, use.meta.features()},
-                     {{&use.image(), use.sampler()},
-                      {&use.inverse(), ExampleTextures::kInverseSampler},
-                      {&examples_->get(input.look, look::Picture{kFoamExample}).image, use.sampler()},
-                      {&maps_->bathic(input.look, p.colors), clamped},
-                      {&maps_->sky(input.look, p.sky), clamped},
-                      {&maps_->bathic(input.look, goesOver ? p.nextColors : p.colors), clamped},
-                      {&maps_->sky(input.look, goesOver ? p.nextSky : p.sky), clamped}}}});
+    image_.setJobs(
+        {{{goesOver ? uint32_t(shared::kOceanNext) : 0u, use.meta.features()},
+          {{shared::kOceanExampleBinding, &use.image(), use.sampler()},
+           {shared::kOceanInverseBinding, &use.inverse(), ExampleTextures::kInverseSampler},
+           {shared::kOceanFoamBinding, &examples_->get(input.look, look::Picture{kFoamExample}).image,
+            use.sampler()},
+           {shared::kOceanBathicBinding, &maps_->bathic(input.look, p.colors), clamped},
+           {shared::kOceanSkyBinding, &maps_->sky(input.look, p.sky), clamped},
+           {shared::kOceanNextBathicBinding, &maps_->bathic(input.look, goesOver ? p.nextColors : p.colors),
+            clamped},
+           {shared::kOceanNextSkyBinding, &maps_->sky(input.look, goesOver ? p.nextSky : p.sky), clamped}}}});
   }
 
  private:

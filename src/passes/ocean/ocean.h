@@ -7,12 +7,6 @@
 
 namespace scumble::passes {
 
-#define PARAMS_STRUCT OceanPaintParams
-#define PARAMS_FILE "passes/ocean/ocean_paint.params"
-#define PARAMS_PATH "ocean.paint"
-#define PARAMS_TARGETS kScene
-#include "look/define_params.h"
-
 std::unique_ptr<frame::Pass> makeOcean();
 
 }  // namespace scumble::passes

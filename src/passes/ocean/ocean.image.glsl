@@ -14,16 +14,16 @@ layout(set = 1, binding = 0, scalar) uniform Block {
   MetaTexture metaOfLook;
   OceanPaint ocean;
 };
-layout(set = 1, binding = 1) uniform usampler2DArray pattern;
-layout(set = 1, binding = 2) uniform usampler2DArray waves;
-layout(set = 1, binding = 3) uniform sampler2DArray depth;
-layout(set = 1, binding = 4) uniform sampler2D example;
-layout(set = 1, binding = 5) uniform sampler2D inverse;
-layout(set = 1, binding = 6) uniform sampler2D foamMap;
-layout(set = 1, binding = 7) uniform sampler2D bathicMap;
-layout(set = 1, binding = 8) uniform sampler2D skyMap;
-layout(set = 1, binding = 9) uniform sampler2D nextBathicMap;
-layout(set = 1, binding = 10) uniform sampler2D nextSkyMap;
+layout(set = 1, binding = kOceanPatternBinding) uniform usampler2DArray pattern;
+layout(set = 1, binding = kOceanWavesBinding) uniform usampler2DArray waves;
+layout(set = 1, binding = kOceanDepthBinding) uniform sampler2DArray depth;
+layout(set = 1, binding = kOceanExampleBinding) uniform sampler2D example;
+layout(set = 1, binding = kOceanInverseBinding) uniform sampler2D inverse;
+layout(set = 1, binding = kOceanFoamBinding) uniform sampler2D foamMap;
+layout(set = 1, binding = kOceanBathicBinding) uniform sampler2D bathicMap;
+layout(set = 1, binding = kOceanSkyBinding) uniform sampler2D skyMap;
+layout(set = 1, binding = kOceanNextBathicBinding) uniform sampler2D nextBathicMap;
+layout(set = 1, binding = kOceanNextSkyBinding) uniform sampler2D nextSkyMap;
 
 vec3 graded(vec3 color, float saturation, vec3 overlay, float amount) {
   float gray = dot(color, kLuminance);
@@ -33,8 +33,8 @@ vec3 graded(vec3 color, float saturation, vec3 overlay, float amount) {
 vec3 bathic(float depthIndex, float illumination) {
   vec2 at = vec2(depthIndex, illumination);
   vec3 color = textureLod(bathicMap, at, 0.0).rgb;
-  if (kNext) color = mix(color, textureLod(nextBathicMap, at, 0.0).rgb, ocean.next);
-  return graded(color, ocean.saturation, ocean.overlay, ocean.overlayAmount);
+  if (kNext) color = mix(color, textureLod(nextBathicMap, at, 0.0).rgb, ocean.knobs.next);
+  return graded(color, ocean.knobs.saturation, ocean.knobs.overlay, ocean.knobs.overlayAmount);
 }
 
 // Equations 27 to 30: the texture's three patterns in turn, and places of some metres each at a moment of their own.
@@ -81,8 +81,8 @@ void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
   float faces = smoothstep(0.1, 0.6, abs(dot(normal, toEye) / max(abs(toEye.y), 1e-3)));
   stroke = mix(0.5, stroke, mix(0.2, 1.0, nearness) * (1.0 - 0.6 * decorated.y) * faces);
 
-  float index = 0.42 + 0.14 * clamp(wave.x, -2.0, 2.0) + ocean.dither * (stroke - 0.5);
-  float shift = ocean.lightDither * (stroke - 0.5);
+  float index = 0.42 + 0.14 * clamp(wave.x, -2.0, 2.0) + ocean.knobs.dither * (stroke - 0.5);
+  float shift = ocean.knobs.lightDither * (stroke - 0.5);
   lit = bathic(index, 0.8 + shift), shadowed = bathic(index, 0.15 + shift);
 
   vec3 ray = reflect(-toEye, normal);
@@ -91,9 +91,9 @@ void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
   float towards = dot(away, sun) * inversesqrt(max(dot(away, away) * dot(sun, sun), 1e-12));
   float azimuth = acos(clamp(towards, -1.0, 1.0)) * 0.31830989;
   vec4 sky = textureLod(skyMap, vec2(azimuth, elevation), 0.0);
-  if (kNext) sky = mix(sky, textureLod(nextSkyMap, vec2(azimuth, elevation), 0.0), ocean.next);
-  sky.rgb = graded(sky.rgb, ocean.skySaturation, ocean.skyOverlay, ocean.skyOverlayAmount);
-  float reflected = ocean.reflection * sky.a;
+  if (kNext) sky = mix(sky, textureLod(nextSkyMap, vec2(azimuth, elevation), 0.0), ocean.knobs.next);
+  sky.rgb = graded(sky.rgb, ocean.knobs.skySaturation, ocean.knobs.skyOverlay, ocean.knobs.skyOverlayAmount);
+  float reflected = ocean.knobs.reflection * sky.a;
   float shown = clamp((reflected - 0.5 + 0.9 * (stroke - 0.5)) * 14.0 + 0.5, 0.0, 1.0);
   shown *= min(10.0 * reflected, 1.0);  // not even the strongest stroke mirrors what is not there
   shown *= faces * (1.0 - min(decorated.x, 1.0));  // nor does what is churned
@@ -102,9 +102,9 @@ void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
   lit = sqrt(lit), shadowed = sqrt(shadowed);
 
   // Foam where crests are drawn together, most on faces that are turned against the wind.
-  float drawn = clamp((ocean.foamStart - wave.y) * 2.5, 0.0, 1.0);
+  float drawn = clamp((ocean.knobs.foamStart - wave.y) * 2.5, 0.0, 1.0);
   float upwind = clamp(-4.0 * dot(wave.zw, ocean.wind), 0.0, 1.0);
-  float cover = max(ocean.foam * 1.6 * drawn * (0.35 + 0.65 * upwind) * (1.0 - decorated.y) * faces, decorated.x);
+  float cover = max(ocean.knobs.foam * 1.6 * drawn * (0.35 + 0.65 * upwind) * (1.0 - decorated.y) * faces, decorated.x);
   float foam = 0.0;
   for (bool isFoamy = cover > 1e-4; isFoamy; isFoamy = false) {
     float hole = metaTextureSample(meta, chosen, foamMap, uv, vec2(0.0), vec2(pixel) + 0.5).r;

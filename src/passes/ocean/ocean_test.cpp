@@ -1,8 +1,6 @@
 // The sea as it is drawn and painted against the same in double precision: its waves from docs/ocean.md, its
 // paint from paper 000, section 6.1. Pictures stand for the maps, of which red says how far across a colour
 // was taken, and green how far down.
-#include "passes/ocean/ocean.h"
-
 #include <bit>
 #include <cmath>
 #include <filesystem>
@@ -10,6 +8,7 @@
 #include <optional>
 
 #include "ocean/maps.h"
+#include "passes/ocean/ocean_knobs.h"
 #include "scumble/image.h"
 #include "tests/support/aov.h"
 #include "tests/support/metatexture_reference.h"

@@ -1,8 +1,10 @@
 #include "passes/plain/plain.h"
 
 #include "frame/drawn_image.h"
-#include "frame/geometry_step.h"
+#include "frame/transparent_step.h"
 #include "shaders/plain_frag.h"
+#include "shaders/plain_transparent_frag.h"
+#include "shaders/plain_transparent_vert.h"
 #include "shaders/plain_vert.h"
 
 namespace scumble::passes {
@@ -19,6 +21,8 @@ class Plain : public Pass {
     configuration_ = frame.configuration();
     frame.step("plain", [this](VkCommandBuffer commands) { record(commands); });
     frame.use(frame.get(kVertices), gpu::Use::vertexBuffer);
+    hasBlended_ = frame.has(kTransparentOrder);
+    if (hasBlended_) frame.use(frame.get(kTransparentOrder), gpu::Use::indexBuffer);
     color_.declare(frame, "plain", kFormat, configuration_.samples);
     depth_ =
         frame.use(frame.image("plain depth", {.format = kDepthFormat, .samples = configuration_.samples}),
@@ -35,18 +39,36 @@ class Plain : public Pass {
     desc.samples = configuration_.samples;
     desc.viewMask = configuration_.views().mask();
     desc.viewCount = configuration_.viewCount;
-    desc.blends = true;
+    desc.leavesBlended = hasBlended_;
     step_.create(frame, desc);
+    if (!hasBlended_) return;
+    TransparentStepDesc blended;
+    blended.vertex = {shaders::plain_transparent_vert};
+    blended.fragment = {shaders::plain_transparent_frag};
+    blended.inputs = desc.inputs;
+    blended.colorFormats = desc.colorFormats;
+    blended.samples = desc.samples;
+    blended.viewMask = desc.viewMask;
+    blended.viewCount = desc.viewCount;
+    blended_.create(frame, blended);
   }
-  void bind(const gpu::GraphResources& resources) override { resources_ = &resources; }
-  void update(const FrameInput&) override { step_.refresh(); }
+  void bind(const gpu::GraphResources& resources) override {
+    resources_ = &resources;
+    if (hasBlended_) blended_.bind();
+  }
+  void update(const FrameInput&) override {
+    step_.refresh();
+    if (hasBlended_) blended_.update(0);
+  }
 
  private:
   void record(VkCommandBuffer commands) const {
     const gpu::Target color = color_.target(*resources_);
     const gpu::Target depth{&resources_->image(depth_), nullptr, {}};
-    gpu::drawViews(commands, configuration_.views(), {&color, 1}, &depth,
-                   [&](uint32_t firstView) { step_.draw(commands, nullptr, firstView); });
+    gpu::drawViews(commands, configuration_.views(), {&color, 1}, &depth, [&](uint32_t firstView) {
+      step_.draw(commands, nullptr, firstView);
+      if (hasBlended_) blended_.draw(commands, nullptr, firstView);
+    });
   }
 
   static constexpr VkFormat kFormat = VK_FORMAT_R8G8B8A8_SRGB;
@@ -56,6 +78,8 @@ class Plain : public Pass {
   Configuration configuration_;
   const gpu::GraphResources* resources_ = nullptr;
   GeometryStep step_;
+  bool hasBlended_ = false;
+  TransparentStep blended_;
 };
 
 }  // namespace

@@ -1,18 +1,29 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "../../shading/frame.glsl"
+#define TRANSPARENT_TEXTURES
 #include "../../shading/material.glsl"
 
 layout(constant_id = 0) const int kAlphaMode = 0;
 layout(constant_id = 2) const int kTextured = 0;
 
+#ifdef TRANSPARENT
+layout(location = 11) flat in uint inPart;
+#endif
 layout(location = 0) in vec2 inUv;
 layout(location = 1) in vec4 inColor;
 layout(location = 0) out vec4 outColor;
 
 void main() {
   vec4 color = inColor;
+#ifdef TRANSPARENT
+  materialIndex = materialOf(inPart);
+  color *= sampleSlots(materialRows[materialIndex].slots, inUv, 0.0).values[0];
+  if (isCulled(seesFront(inPart, gl_FrontFacing))) discard;
+  outColor = color;
+#else
   if (kTextured != 0) color *= texture(baseTexture, inUv);
   if (kAlphaMode == 1 && color.a < material.alphaCutoff) discard;
-  outColor = vec4(color.rgb, kAlphaMode == 2 ? color.a : 1.0);
+  outColor = vec4(color.rgb, 1.0);
+#endif
 }

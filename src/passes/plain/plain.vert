@@ -6,6 +6,10 @@
 
 layout(constant_id = 2) const int kTextured = 0;
 
+#ifdef TRANSPARENT
+layout(location = 11) in uint inPart;
+layout(location = 11) flat out uint outPart;
+#endif
 layout(location = 0) in vec3 inPosition;
 layout(location = 2) in vec2 inUv0;
 layout(location = 3) in vec2 inUv1;
@@ -16,6 +20,11 @@ layout(location = 1) out vec4 outColor;
 
 void main() {
   gl_Position = VIEW_FIELD(worldToClip, viewIndex()) * vec4(inPosition, 1.0);
+#ifdef TRANSPARENT
+  outPart = parts[inPart].known;
+  materialIndex = materialOf(outPart);
+  if (!isOfGroup(outPart)) gl_Position = kNowhere;
+#endif
   outUv = kTextured != 0 ? baseUv(inUv0, inUv1) : vec2(0.0);
   outColor = material.baseColor * inColor;
 }

@@ -2,7 +2,7 @@
 // sample, light without the blur).
 #include <cmath>
 
-#include "passes/surface/surface.h"
+#include "passes/surface/surface_knobs.h"
 #include "tests/support/aov.h"
 #include "tests/support/palette_reference.h"
 #include "tests/support/ray_cast.h"

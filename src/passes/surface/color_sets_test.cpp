@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "passes/surface/surface.h"
+#include "passes/surface/surface_knobs.h"
 #include "scumble/image.h"
 #include "tests/support/aov.h"
 #include "tests/support/palette_reference.h"

@@ -1,7 +1,7 @@
 // Point and spot lights on surfaces, against KHR_lights_punctual in double precision.
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "passes/surface/surface.h"
+#include "passes/surface/surface_knobs.h"
 #include "tests/support/aov.h"
 #include "tests/support/render_test.h"
 

@@ -1,7 +1,7 @@
 // The tint of shadows by the sky above and the ground below, for every tilt of a surface (docs/palette.md).
 #include <cmath>
 
-#include "passes/surface/surface.h"
+#include "passes/surface/surface_knobs.h"
 #include "tests/support/aov.h"
 #include "tests/support/palette_reference.h"
 #include "tests/support/ray_cast.h"

@@ -7,23 +7,23 @@
 #include "frame/geometry_step.h"
 #include "frame/material_params.h"
 #include "frame/metatexture.h"
+#include "frame/transparent_step.h"
+#include "passes/surface/surface.shared.h"
 #include "shaders/surface_frag.h"
 #include "shaders/surface_ocean_frag.h"
 #include "shaders/surface_painted_frag.h"
 #include "shaders/surface_painted_vert.h"
+#include "shaders/surface_transparent_frag.h"
+#include "shaders/surface_transparent_painted_frag.h"
+#include "shaders/surface_transparent_painted_vert.h"
+#include "shaders/surface_transparent_vert.h"
 #include "shaders/surface_vert.h"
-#include "stage/light.h"
 
 namespace scumble::passes {
 
 using namespace frame;
 
 namespace {
-
-// Mirrors SurfaceUniforms in surface.glsl.
-struct SurfaceUniforms {
-  float terminator, terminatorSharpness;
-};
 
 // Mirrors PaintedMaterial in surface.glsl.
 struct PaintedMaterial {
@@ -47,6 +47,8 @@ class Surface : public Pass {
       const Role& role = i == 0 ? kOceanLit : kOceanShadowed;
       if (frame.has(role)) ocean_[i] = frame.use(frame.get(role), gpu::Use::sampledByFragment);
     }
+    hasBlended_ = !isBehind_ && frame.has(kTransparentOrder);
+    if (hasBlended_) frame.use(frame.get(kTransparentOrder), gpu::Use::indexBuffer);
     if (isBehind_) firstDepth_ = frame.use(frame.get(kDepth), gpu::Use::sampledByFragment);
     const std::string before = isBehind_ ? "behind-" : "";
     for (size_t i = 0; i < colors_.size(); ++i)
@@ -64,9 +66,9 @@ class Surface : public Pass {
 
   void create(FrameBuilder& frame) override {
     frame_ = &frame;
-    uniforms_ = frame.uniform(sizeof(SurfaceUniforms));
-    params_.create(frame);
-    painted_.create(frame);
+    light_ = frame.uniform(sizeof(LightParams));
+    params_.create(frame, hasBlended_);
+    painted_.create(frame, hasBlended_);
     constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
     constexpr VkDescriptorType kTexture = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     layout_ = gpu::SetLayout(frame.device(),
@@ -83,9 +85,9 @@ class Surface : public Pass {
     const size_t materials = frame.scene().materialCount();
     sets_ = gpu::DescriptorSets(frame.device(), layout_, uint32_t(materials));
     for (size_t m = 0; m < materials; ++m) {
-      params_.bind(sets_, 0, m);
-      painted_.bind(sets_, 1, m);
-      sets_.writeBuffer(m, 2, uniforms_.buffer, uniforms_.offset, uniforms_.size);
+      params_.bind(sets_, shared::kSurfaceKnobs, m);
+      painted_.bind(sets_, shared::kSurfacePainted, m);
+      sets_.writeBuffer(m, shared::kSurfaceLight, light_.buffer, light_.offset, light_.size);
     }
 
     GeometryStepDesc desc;
@@ -100,11 +102,12 @@ class Surface : public Pass {
     desc.samples = samples_;
     desc.viewMask = configuration_.views().mask();
     desc.viewCount = configuration_.viewCount;
-    desc.blends = !isBehind_;
+    desc.leavesBlended = hasBlended_;
     desc.constant = constant(false);
     desc.passLayout = &layout_;
     desc.materialStrides = {params_.kStride, painted_.kStride};
     step_.create(frame, desc);
+    if (hasBlended_) createBlended(desc);
   }
 
   void bind(const gpu::GraphResources& resources) override {
@@ -115,21 +118,28 @@ class Surface : public Pass {
     // The first layer does not look at what is before it, nor does anything but the ocean at its colours.
     const auto orAny = [&](gpu::Handle image) { return resources.image(image ? image : shadowMap_).view(); };
     for (size_t m = 0; m < sets_.size(); ++m) {
-      sets_.rewriteTexture(m, 3, resources.image(shadowMap_).view(), frame_->samplers().get(compare));
-      sets_.rewriteTexture(m, 6, orAny(firstDepth_), exact);
-      for (uint32_t i = 0; i < ocean_.size(); ++i) sets_.rewriteTexture(m, 7 + i, orAny(ocean_[i]), exact);
+      sets_.rewriteTexture(m, shared::kSurfaceShadowMap, resources.image(shadowMap_).view(),
+                           frame_->samplers().get(compare));
+      sets_.rewriteTexture(m, shared::kSurfaceFirstDepth, orAny(firstDepth_), exact);
+      for (uint32_t i = 0; i < ocean_.size(); ++i)
+        sets_.rewriteTexture(m, shared::kSurfaceOceanLit + i, orAny(ocean_[i]), exact);
+      if (hasBlended_)
+        blendedSets_.rewriteTexture(m, shared::kSurfaceShadowMap, resources.image(shadowMap_).view(),
+                                    frame_->samplers().get(compare));
     }
+    if (hasBlended_) blended_.bind();
   }
 
   void update(const FrameInput& input) override {
     params_.update(input);
-    const LightParams light = input.look.get<LightParams>();
-    uniforms_.write(SurfaceUniforms{light.terminator, light.terminatorSharpness});
+    light_.write(input.knobs.scene<LightParams>());
 
     std::vector<MaterialVariant> variants;
+    std::vector<std::pair<const gpu::Image*, const gpu::Image*>> paintings;  // each once
+    std::vector<uint32_t> paintingOf;
     for (size_t m = 0; m < input.scene.materialCount(); ++m) {
-      const TextureParams texture = input.scene.knobs<TextureParams>(input.look, m);
-      auto metaParams = sameRows(input.scene.knobs<TextureMetaTextureParams>(input.look, m));
+      const TextureParams texture = input.knobs.of<TextureParams>(m);
+      auto metaParams = sameRows(input.knobs.of<TextureMetaTextureParams>(m));
       // What is not painted needs no texture of its own.
       if (texture.amount <= 0) metaParams = WarpMetaTextureParams();
       const MetaTextureUse use = metaTextureUse(metaParams, 0b0111, input.look, frame_->examples(),
@@ -146,11 +156,21 @@ class Surface : public Pass {
                             uint32_t(texture.blend) << 14;
       }
       variants.push_back(variant);
-      sets_.writeTexture(m, 4, use.image().view(), frame_->samplers().get(use.sampler()));
-      sets_.writeTexture(m, 5, use.inverse().view(),
-                         frame_->samplers().get(ExampleTextures::kInverseSampler));
+      for (gpu::DescriptorSets* const sets : {&sets_, &blendedSets_}) {
+        if (sets->size() == 0) continue;
+        sets->writeTexture(m, shared::kSurfaceExample, use.image().view(),
+                           frame_->samplers().get(use.sampler()));
+        sets->writeTexture(m, shared::kSurfaceInverse, use.inverse().view(),
+                           frame_->samplers().get(ExampleTextures::kInverseSampler));
+      }
+      const std::pair painting{&use.image(), &use.inverse()};
+      const auto known = std::find(paintings.begin(), paintings.end(), painting);
+      paintingOf.push_back(uint32_t(known - paintings.begin()));
+      if (known == paintings.end()) paintings.push_back(painting);
     }
-    step_.specialise(constant(input.uniforms.lightCount > 0), std::move(variants));
+    const uint32_t constantNow = constant(input.uniforms.lightCount > 0);
+    if (hasBlended_) blended_.update(constantNow, variants, paintingOf);
+    step_.specialise(constantNow, std::move(variants));
   }
 
  private:
@@ -159,6 +179,37 @@ class Surface : public Pass {
       {.name = "lit", .isColor = true, .premultiplied = 3, .isSquareRoot = true},
       {.name = "shadowed", .isColor = true, .premultiplied = 3, .isSquareRoot = true}};
 
+  // Blended surfaces are drawn after the others, as those are but for the materials, which are rows there.
+  void createBlended(const GeometryStepDesc& solid) {
+    FrameBuilder& frame = *frame_;
+    constexpr VkShaderStageFlags kFragment = VK_SHADER_STAGE_FRAGMENT_BIT;
+    blendedLayout_ = gpu::SetLayout(frame.device(), {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFragment},
+                                                     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFragment},
+                                                     {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kFragment},
+                                                     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment},
+                                                     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment},
+                                                     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment}});
+    blendedSets_ = gpu::DescriptorSets(frame.device(), blendedLayout_, uint32_t(sets_.size()));
+    for (size_t m = 0; m < sets_.size(); ++m) {
+      params_.bindRows(blendedSets_, shared::kSurfaceKnobs, m);
+      painted_.bindRows(blendedSets_, shared::kSurfacePainted, m);
+      blendedSets_.writeBuffer(m, shared::kSurfaceLight, light_.buffer, light_.offset, light_.size);
+    }
+    TransparentStepDesc desc;
+    desc.vertex = {shaders::surface_transparent_vert};
+    desc.fragment = {shaders::surface_transparent_frag};
+    desc.inputs = solid.inputs;
+    desc.paintedVertex = {shaders::surface_transparent_painted_vert};
+    desc.paintedFragment = {shaders::surface_transparent_painted_frag};
+    desc.paintedInputs = solid.paintedInputs;
+    desc.colorFormats = solid.colorFormats;
+    desc.samples = solid.samples;
+    desc.viewMask = solid.viewMask;
+    desc.viewCount = solid.viewCount;
+    desc.passLayout = &blendedLayout_;
+    blended_.create(frame, desc);
+  }
+
   // kOptions in the shaders.
   uint32_t constant(bool lights) const { return (isBehind_ ? 1 : 0) | (lights ? 2 : 0); }
 
@@ -166,8 +217,10 @@ class Surface : public Pass {
     std::array<gpu::Target, std::size(kAovs)> colors;
     for (size_t i = 0; i < colors.size(); ++i) colors[i] = colors_[i].target(*resources_);
     const gpu::Target depth = depth_.target(*resources_);
-    gpu::drawViews(commands, configuration_.views(), colors, &depth,
-                   [&](uint32_t firstView) { step_.draw(commands, &sets_, firstView); });
+    gpu::drawViews(commands, configuration_.views(), colors, &depth, [&](uint32_t firstView) {
+      step_.draw(commands, &sets_, firstView);
+      if (hasBlended_) blended_.draw(commands, &blendedSets_, firstView);
+    });
   }
 
   Layer layer_;
@@ -178,7 +231,7 @@ class Surface : public Pass {
   DrawnImage depth_;
   uint32_t samples_ = 1;
   Configuration configuration_;
-  UniformSlice uniforms_;
+  UniformSlice light_;
   MaterialParams<SurfaceParams> params_;
   MaterialBlocks<PaintedMaterial> painted_;
   FrameBuilder* frame_ = nullptr;
@@ -186,9 +239,22 @@ class Surface : public Pass {
   gpu::SetLayout layout_;
   gpu::DescriptorSets sets_;
   GeometryStep step_;
+  bool hasBlended_ = false;
+  gpu::SetLayout blendedLayout_;
+  gpu::DescriptorSets blendedSets_;
+  TransparentStep blended_;
 };
 
 }  // namespace
+
+bool mayGlow(const look::LookData& look, const scene::SceneData& scene) {
+  const auto sets = [](const look::Assignment& a) {
+    return a.block == &SurfaceParams::block() && std::string_view(a.row->name) == "glow";
+  };
+  return std::any_of(look.assignments.begin(), look.assignments.end(), sets) ||
+         std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const scene::Material& material) { return material.emissive != glm::vec3(0.0f); });
+}
 
 std::unique_ptr<Pass> makeSurface(Layer layer) {
   return std::make_unique<Surface>(layer);

@@ -6,6 +6,7 @@
 #include "../../shading/color_map.glsl"
 #include "../../shading/light_space.glsl"
 #include "../../shading/luminance.shared.h"
+#define TRANSPARENT_TEXTURES
 #include "../../shading/material.glsl"
 #define METATEXTURE_UNROLLS
 #include "../../shading/metatexture.glsl"
@@ -24,10 +25,18 @@ layout(constant_id = 5) const int kSets = 0;     // sets of colours of its own: 
 layout(constant_id = 6) const int kPainted = 0;
 const bool kBehind = (kOptions & 1) != 0;
 
-layout(set = 2, binding = 0, scalar) uniform ParamsBlock { SurfaceParams params; };
-layout(set = 2, binding = 2, scalar) uniform SurfaceBlock { SurfaceUniforms surface; };
-layout(set = 2, binding = 3) uniform sampler2DArrayShadow shadowMap;
-layout(set = 2, binding = 6) uniform sampler2DArray firstDepth;
+#ifdef TRANSPARENT
+layout(set = 2, binding = kSurfaceKnobs, scalar) readonly buffer ParamRows { SurfaceParams paramRows[]; };
+#define params paramRows[materialIndex]
+layout(location = 11) flat in uint inPart;
+#else
+layout(set = 2, binding = kSurfaceKnobs, scalar) uniform ParamsBlock { SurfaceParams params; };
+#endif
+layout(set = 2, binding = kSurfaceLight, scalar) uniform LightKnobs { LightParams keyLight; };
+layout(set = 2, binding = kSurfaceShadowMap) uniform sampler2DArrayShadow shadowMap;
+#ifndef TRANSPARENT
+layout(set = 2, binding = kSurfaceFirstDepth) uniform sampler2DArray firstDepth;
+#endif
 
 layout(location = 0) in vec3 inLightSpace;
 layout(location = 1) in vec2 inFacing;
@@ -41,9 +50,14 @@ layout(location = 1) out vec4 outLit;
 layout(location = 2) out vec4 outShadowed;
 
 #ifdef PAINTED
-layout(set = 2, binding = 1, scalar) uniform PaintedBlock { PaintedMaterial painted; };
-layout(set = 2, binding = 4) uniform sampler2D paintedExample;
-layout(set = 2, binding = 5) uniform sampler2D paintedInverse;
+#ifdef TRANSPARENT
+layout(set = 2, binding = kSurfacePainted, scalar) readonly buffer PaintedRows { PaintedMaterial paintedRows[]; };
+#define painted paintedRows[materialIndex]
+#else
+layout(set = 2, binding = kSurfacePainted, scalar) uniform PaintedBlock { PaintedMaterial painted; };
+#endif
+layout(set = 2, binding = kSurfaceExample) uniform sampler2D paintedExample;
+layout(set = 2, binding = kSurfaceInverse) uniform sampler2D paintedInverse;
 layout(location = 4) in vec2 inPatternUv;
 layout(location = 5) in vec3 inTangentU;
 layout(location = 6) in vec3 inTangentV;
@@ -75,16 +89,28 @@ vec3 paint(vec3 over, vec3 root) {
 #endif
 
 #ifdef OCEAN
-layout(set = 2, binding = 7) uniform sampler2DArray oceanLit;
-layout(set = 2, binding = 8) uniform sampler2DArray oceanShadowed;
+layout(set = 2, binding = kSurfaceOceanLit) uniform sampler2DArray oceanLit;
+layout(set = 2, binding = kSurfaceOceanShadowed) uniform sampler2DArray oceanShadowed;
 #endif
 
 void main() {
+#ifdef TRANSPARENT
+  materialIndex = materialOf(inPart);
+  bool isFront = seesFront(inPart, gl_FrontFacing), isVaried = kVaried != 0 && isVariedPart(inPart);
+  ivec4 slots = materialRows[materialIndex].slots;
+  bool hasShadowedSet = slots.w >= 0;
+  SlotValues here = sampleSlots(slots, inUvs.xy, params.simplify);
+  SlotValues emissiveHere = sampleSlots(slots, inUvs.zw, params.simplify);
+  if (isCulled(isFront)) discard;
+#else
+  bool isFront = gl_FrontFacing;
+  const bool isVaried = kVaried != 0, hasShadowedSet = (kSets & 2) != 0;
   if (kBehind) {
     float first = texelFetch(firstDepth, ivec3(gl_FragCoord.xy, viewIndex()), 0).r;
     if (eyeDepth(gl_FragCoord.z, viewIndex()) < 1.005 * eyeDepth(first, viewIndex())) discard;
   }
-  vec2 facing = gl_FrontFacing ? inFacing : -inFacing;
+#endif
+  vec2 facing = isFront ? inFacing : -inFacing;
   float up = 0.5 + 0.5 * facing.y;
 
   // Square roots of the colours in light and in shadow, and what acts on the lens.
@@ -108,27 +134,40 @@ void main() {
   lit = water.rgb;
   shadowed = texelFetch(oceanShadowed, here, 0).rgb;
 #else
-  if (kVaried != 0) {
+#if defined(PAINTED) && defined(TRANSPARENT)
+  vec3 over = paintedTexture();  // mip levels need neighbours
+#endif
+  if (isVaried) {
     vec4 albedo = material.baseColor * inColor;
     vec3 emissive = material.emissive;
+    vec3 own = sqrt(material.shadowedColor);
+#ifdef TRANSPARENT
+    albedo *= here.values[0];
+    emissive *= emissiveHere.values[1].rgb;
+    if (slots.z >= 0) albedo.rgb = here.values[2].rgb;
+    if (hasShadowedSet) own = sqrt(here.values[3].rgb);
+    alpha = albedo.a;
+#else
     if (kTextured != 0) {
       albedo *= texture(baseTexture, inUvs.xy, params.simplify);
       emissive *= texture(emissiveTexture, inUvs.zw, params.simplify).rgb;
     }
     alpha = albedo.a;
     if ((kSets & 1) != 0) albedo.rgb = texture(litTexture, inUvs.xy, params.simplify).rgb;
+    if (hasShadowedSet) own = sqrt(texture(shadowedTexture, inUvs.xy, params.simplify).rgb);
+#endif
     vec3 root = sqrt(clamp(albedo.rgb, 0.0, 1.0));
-    vec3 own = sqrt(material.shadowedColor);
-    if ((kSets & 2) != 0) own = sqrt(texture(shadowedTexture, inUvs.xy, params.simplify).rgb);
 #ifdef PAINTED
+#ifndef TRANSPARENT
     vec3 over = paintedTexture();
+#endif
     root = paint(over, root);
-    if ((kSets & 2) != 0) own = paint(over, own);
+    if (hasShadowedSet) own = paint(over, own);
 #endif
     lit = applyColorMap(material.lit, root);
     shadowed = applyColorMap(material.shadowed, root);
     vec3 tint = mix(material.tintDown, material.tintUp, up);
-    if ((kSets & 2) != 0)
+    if (hasShadowedSet)
       shadowed = mix(shadowed * tint, applyColorMap(material.ownShadowed, own), material.hasShadowedColor);
     else
       shadowed = mix(shadowed, own, material.hasShadowedColor) * tint;
@@ -144,10 +183,10 @@ void main() {
   // Red: Lambert times cast shadow, steepened around the terminator. Outside the map there is nothing that could cast a
   // shadow, and its border is empty.
   float reaches = texture(shadowMap, vec4(shadowMapUv(inLightSpace.xy), 0.0, min(inLightSpace.z, 1.0)));
-  float turn = facing.x - surface.terminator;
-  float light = clamp(0.5 + turn * surface.terminatorSharpness, 0.0, 1.0) * reaches;
+  float turn = facing.x - keyLight.terminator;
+  float light = clamp(0.5 + turn * keyLight.terminatorSharpness, 0.0, 1.0) * reaches;
   if ((kOptions & 2) != 0)
-    light = min(light + punctualLight(inWorld, normalize(gl_FrontFacing ? inNormal : -inNormal)), 1.0);
+    light = min(light + punctualLight(inWorld, normalize(isFront ? inNormal : -inNormal)), 1.0);
   light = max(light, material.unlit);
 
   // What a matte shows has its own light already; only what is cast on it is new.

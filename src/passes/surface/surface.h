@@ -6,19 +6,6 @@
 
 namespace scumble::passes {
 
-#define PARAMS_STRUCT SurfaceParams
-#define PARAMS_FILE "passes/surface/surface.params"
-#define PARAMS_PATH "surface"
-#define PARAMS_TARGETS kScene | kMaterials | kNodes
-#include "look/define_params.h"
-
-// A texture that the look paints on a material, by MetaTexture.
-#define PARAMS_STRUCT TextureParams
-#define PARAMS_FILE "passes/surface/texture.params"
-#define PARAMS_PATH "texture"
-#define PARAMS_TARGETS kScene | kMaterials
-#include "look/define_params.h"
-
 // Behind the first surfaces light is thresholded without a blur.
 std::unique_ptr<frame::Pass> makeSurface(frame::Layer layer);
 

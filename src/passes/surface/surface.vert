@@ -13,8 +13,12 @@ layout(constant_id = 1) const int kVaried = 0;    // colours vary: vertex colour
 layout(constant_id = 2) const int kTextured = 0;
 layout(constant_id = 4) const int kOptions = 0;  // 2: there are point and spot lights
 
+#ifdef TRANSPARENT
+layout(location = 11) in uint inPart;
+layout(location = 11) flat out uint outPart;
+#endif
+
 #ifdef PAINTED  // the look paints a texture on it
-layout(set = 2, binding = 1, scalar) uniform PaintedBlock { PaintedMaterial painted; };
 layout(location = 5) in vec3 inDPdu;
 layout(location = 7) in vec3 inDPdv;
 layout(location = 8) in vec2 inPatternUv;
@@ -39,8 +43,18 @@ layout(location = 9) out vec3 outWorld;
 layout(location = 10) out vec3 outNormal;
 
 void main() {
+#ifdef TRANSPARENT
+  uint index = parts[inPart].object;
+  outPart = parts[inPart].known;
+  materialIndex = materialOf(outPart);
+#else
+  uint index = gl_InstanceIndex;
+#endif
   mat4 worldToClip = VIEW_FIELD(worldToClip, viewIndex());
   gl_Position = worldToClip * vec4(inPosition, 1.0);
+#ifdef TRANSPARENT
+  if (!isOfGroup(outPart)) gl_Position = kNowhere;
+#endif
   vec3 normal = decodeNormal(inNormal);
   float lambert = dot(normal, frame.toLight);
 
@@ -61,11 +75,11 @@ void main() {
 #ifdef PAINTED
 layout(constant_id = 6) const int kPainted = 0;  // as in the fragment shader
   mat4 tangentClip = tangentView(kPainted >> 11, worldToClip);
-  outPatternUv = inPatternUv + objects[gl_InstanceIndex].patternShift;
+  outPatternUv = inPatternUv + objects[index].patternShift;
   outTangentU = tangentToClip(tangentClip, inDPdu);
   outTangentV = tangentToClip(tangentClip, inDPdv);
   outPoint = pointInTangentView(kPainted >> 11, worldToClip, inPosition);
-  outWraps = objects[gl_InstanceIndex].wraps;
+  outWraps = objects[index].wraps;
 #endif
   if (kTextured != 0) outUvs = vec4(baseUv(inUv0, inUv1), emissiveUv(inUv0, inUv1));
 }

@@ -1,11 +1,10 @@
 // The geometry pass against the CPU: light from the Lambert term, colours from the palette rule, lens, holes,
 // and blended surfaces composited from far to near.
-#include "passes/surface/surface.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "frame/metatexture.h"
+#include "passes/surface/surface_knobs.h"
 #include "stage/light.h"
 #include "stage/palette.h"
 #include "tests/support/aov.h"

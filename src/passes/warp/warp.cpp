@@ -9,6 +9,7 @@
 #include "frame/material_params.h"
 #include "frame/metatexture.h"
 #include "passes/warp/warp.shared.h"
+#include "passes/warp/warp_knobs.h"
 #include "shaders/warp_image_comp.h"
 #include "shaders/warp_image_frag.h"
 #include "shaders/warp_surface_frag.h"
@@ -56,10 +57,17 @@ class Warp : public Pass {
     knobs_.declare(frame, "warp knobs", kKnobsFormat);
     depth_.declare(frame, "warp depth", kDepthFormat);
 
-    const gpu::Handle warp = image_.declare(
-        frame, "warp", {{shaders::warp_image_frag}, {shaders::warp_image_comp}},
-        {{pattern_.image()}, {knobs_.image()}, {depth_.image()}}, {frame.image("warp", {.format = kHalves})},
-        sizeof(SetupUniforms), {}, 4, uint32_t(std::max<size_t>(1, frame.scene().materialCount())))[0];
+    const gpu::Handle warp =
+        image_.declare(frame, {.name = name(),
+                               .shader = {{shaders::warp_image_frag}, {shaders::warp_image_comp}},
+                               .inputs = {{shared::kWarpPattern, pattern_.image()},
+                                          {shared::kWarpKnobs, knobs_.image()},
+                                          {shared::kWarpDepth, depth_.image()}},
+                               .textures = {shared::kWarpFieldExample, shared::kWarpFieldInverse,
+                                            shared::kWarpMarksExample, shared::kWarpMarksInverse},
+                               .outputs = {frame.image(name(), {.format = kHalves})},
+                               .uniformBytes = sizeof(SetupUniforms),
+                               .maxJobs = uint32_t(std::max<size_t>(1, frame.scene().materialCount()))})[0];
     frame.give(kWarp, warp);
     frame.offer(kAovs[0], {warp});
   }
@@ -95,10 +103,9 @@ class Warp : public Pass {
     std::vector<MaterialVariant> variants;
     const float pixelScale = input.uniforms.pixelScale;
     for (size_t m = 0; m < input.scene.materialCount(); ++m) {
-      const std::string& name = input.scene.materialName(m);
-      const WarpParams params = input.look.getForMaterial<WarpParams>(name);
-      const auto metaParams = input.look.getForMaterial<WarpMetaTextureParams>(name);
-      const WarpSetup setup = setupOf(input, name, params, metaParams);
+      const WarpParams params = input.knobs.of<WarpParams>(m);
+      const auto metaParams = input.knobs.of<WarpMetaTextureParams>(m);
+      const WarpSetup setup = setupOf(input, m, params, metaParams);
       const size_t index = size_t(std::find(setups.begin(), setups.end(), setup) - setups.begin());
       if (index == setups.size()) setups.push_back(setup);
       const float inflation = params.inflationUnit == 0
@@ -123,11 +130,12 @@ class Warp : public Pass {
                     i);
       const uint32_t needs =
           (setup.isApart() ? shared::kWarpApart : 0) | (setups.size() > 1 ? shared::kWarpSeveral : 0);
-      jobs.push_back({{needs, setup.field.meta.features(), setup.marks.meta.features()},
-                      {{&setup.field.image(), setup.field.sampler()},
-                       {&setup.field.inverse(), ExampleTextures::kInverseSampler},
-                       {&setup.marks.image(), setup.marks.sampler()},
-                       {&setup.marks.inverse(), ExampleTextures::kInverseSampler}}});
+      jobs.push_back(
+          {{needs, setup.field.meta.features(), setup.marks.meta.features()},
+           {{shared::kWarpFieldExample, &setup.field.image(), setup.field.sampler()},
+            {shared::kWarpFieldInverse, &setup.field.inverse(), ExampleTextures::kInverseSampler},
+            {shared::kWarpMarksExample, &setup.marks.image(), setup.marks.sampler()},
+            {shared::kWarpMarksInverse, &setup.marks.inverse(), ExampleTextures::kInverseSampler}}});
     }
     image_.setJobs(jobs);
   }
@@ -137,10 +145,10 @@ class Warp : public Pass {
   static constexpr VkFormat kPatternFormat = VK_FORMAT_R32G32B32A32_UINT,
                             kKnobsFormat = VK_FORMAT_R32G32_SFLOAT;
 
-  WarpSetup setupOf(const FrameInput& input, const std::string& material, const WarpParams& params,
+  WarpSetup setupOf(const FrameInput& input, size_t material, const WarpParams& params,
                     const WarpMetaTextureParams& metaParams) const {
-    const BreakupParams breakup = input.look.getForMaterial<BreakupParams>(material);
-    const auto breakupMeta = sameRows(input.look.getForMaterial<BreakupMetaTextureParams>(material));
+    const BreakupParams breakup = input.knobs.of<BreakupParams>(material);
+    const auto breakupMeta = sameRows(input.knobs.of<BreakupMetaTextureParams>(material));
     glm::vec2 shift = patternShift(input.seed);
     if (const int drawing = boilDrawing(params, input.time))
       shift += params.boil * patternShift(0x5EA0u + 2 * uint32_t(drawing));

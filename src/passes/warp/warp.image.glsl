@@ -20,13 +20,13 @@ layout(set = 1, binding = 0, scalar) uniform Block {
   vec2 fieldMean;
   float marksMean;
 } u;
-layout(set = 1, binding = 1) uniform usampler2DArray pattern;
-layout(set = 1, binding = 2) uniform sampler2DArray knobs;
-layout(set = 1, binding = 3) uniform sampler2DArray depth;
-layout(set = 1, binding = 4) uniform sampler2D fieldExample;
-layout(set = 1, binding = 5) uniform sampler2D fieldInverse;
-layout(set = 1, binding = 6) uniform sampler2D marksExample;
-layout(set = 1, binding = 7) uniform sampler2D marksInverse;
+layout(set = 1, binding = kWarpPattern) uniform usampler2DArray pattern;
+layout(set = 1, binding = kWarpKnobs) uniform sampler2DArray knobs;
+layout(set = 1, binding = kWarpDepth) uniform sampler2DArray depth;
+layout(set = 1, binding = kWarpFieldExample) uniform sampler2D fieldExample;
+layout(set = 1, binding = kWarpFieldInverse) uniform sampler2D fieldInverse;
+layout(set = 1, binding = kWarpMarksExample) uniform sampler2D marksExample;
+layout(set = 1, binding = kWarpMarksInverse) uniform sampler2D marksInverse;
 
 vec4 valueOf(MetaTexture m, int features, sampler2D example, sampler2D inverse, vec2 uv, vec2 dSdu, vec2 dSdv, vec2 wraps, vec2 at,
              out MetaTextureChoice chosen) {

@@ -3,6 +3,10 @@
 #include "../../shading/shared_types.h"
 
 SHARED_BEGIN
+// Bindings of set 1 of the image step.
+const int kWarpPattern = 1, kWarpKnobs = 2, kWarpDepth = 3, kWarpFieldExample = 4, kWarpFieldInverse = 5,
+          kWarpMarksExample = 6, kWarpMarksInverse = 7;
+
 // Specialisation constant 0 of the image step: what its setup needs, so that others do not pay for it.
 const int kWarpApart = 1;    // the breakup map is not in the blue channel of the same texture
 const int kWarpSeveral = 2;  // there are other setups: most pixels are another's

@@ -1,13 +1,12 @@
 // MetaTexture and the warp vectors: FORMULAS 1 (pairing), 2 (contrast), 3 (gradients) and 9 (camera roll),
 // and all of it against the same in double precision, from the `uv` and `uv-gradient` AOVs.
-#include "passes/warp/warp.h"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "frame/metatexture.h"
+#include "passes/warp/warp_knobs.h"
 #include "tests/support/aov.h"
 #include "tests/support/metatexture_reference.h"
 #include "tests/support/ray_cast.h"

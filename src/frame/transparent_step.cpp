@@ -1,0 +1,154 @@
+#include "frame/transparent_step.h"
+
+#include <algorithm>
+
+namespace scumble::frame {
+
+namespace {
+
+constexpr size_t kMostTextures = size_t(shared::kTransparentTextures);
+constexpr uint32_t kFirstTexture = 2;  // its binding
+
+bool isSame(const SetTexture& a, const SetTexture& b) {
+  return a.view == b.view && a.sampler == b.sampler;
+}
+
+// Index in a list, which it is added to where it is new; -1 for none.
+int slotOf(const SetTexture& texture, std::vector<SetTexture>& list) {
+  if (!texture.view) return -1;
+  const auto found =
+      std::find_if(list.begin(), list.end(), [&](const SetTexture& other) { return isSame(texture, other); });
+  if (found != list.end()) return int(found - list.begin());
+  list.push_back(texture);
+  return int(list.size()) - 1;
+}
+
+}  // namespace
+
+void TransparentStep::create(FrameBuilder& frame, const TransparentStepDesc& desc) {
+  frame_ = &frame;
+  desc_ = desc;
+  const size_t materials = frame.scene().materialCount();
+  constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+  std::vector<gpu::Binding> bindings(kFirstTexture, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBoth});
+  bindings.resize(kFirstTexture + kMostTextures,
+                  {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT});
+  layout_ = gpu::SetLayout(frame.device(), std::move(bindings));
+  sets_ = gpu::DescriptorSets(frame.device(), layout_, uint32_t(materials));
+  rows_ = frame.uniform(materials * sizeof(shared::TransparentMaterial));
+  for (size_t set = 0; set < sets_.size(); ++set)
+    sets_.writeBuffer(set, 0, rows_.buffer, rows_.offset, rows_.size);
+}
+
+void TransparentStep::bind() {
+  for (size_t set = 0; set < sets_.size(); ++set)
+    sets_.writeBuffer(set, 1, frame_->scene().transparent().parts());
+}
+
+TransparentStep::Group& TransparentStep::groupFor(const MaterialVariant& variant, uint32_t painting,
+                                                  const std::array<SetTexture, 4>& textures) {
+  for (Group& group : groups_) {
+    if (variant.isPainted &&
+        (!group.isPainted || group.options != variant.options || group.painting != painting))
+      continue;
+    std::vector<SetTexture> all = group.textures;
+    for (const SetTexture& texture : textures) slotOf(texture, all);
+    if (all.size() <= kMostTextures) return group;
+  }
+  return groups_.emplace_back(Group{.isPainted = variant.isPainted,
+                                    .options = variant.isPainted ? variant.options : 0,
+                                    .painting = painting});
+}
+
+const gpu::Pipeline& TransparentStep::pipelineFor(const Group& group, uint32_t index) {
+  gpu::GraphicsPipelineDesc desc;
+  const bool isTextured = !group.textures.empty();
+  desc.constants = {uint32_t(AlphaMode::blend),
+                    group.isVaried || isTextured || group.isPainted,
+                    isTextured,
+                    desc_.viewCount,
+                    constant_,
+                    0,
+                    group.options,
+                    index,
+                    uint32_t(group.textures.size())};
+  std::vector<uint32_t> key = desc.constants;
+  key.push_back(group.isPainted);
+  gpu::Pipeline& made = pipelines_[key];
+  if (made) return made;
+  desc.vertex = group.isPainted ? desc_.paintedVertex : desc_.vertex;
+  desc.fragment = group.isPainted ? desc_.paintedFragment : desc_.fragment;
+  addVertexInput(desc, kPart | (group.isPainted ? desc_.paintedInputs : desc_.inputs));
+  desc.colorFormats = desc_.colorFormats;
+  desc.blend = gpu::Blend::over;
+  desc.depthFormat = kDepthFormat;
+  desc.depthWrite = false;
+  desc.samples = desc_.samples;
+  desc.viewMask = desc_.viewMask;
+  desc.pushConstantBytes = desc_.viewMask ? 4 : 0;
+  desc.dynamicCulling = true;
+  desc.sets = {frame_->frameLayout().handle(), layout_.handle()};
+  if (desc_.passLayout) desc.sets.push_back(desc_.passLayout->handle());
+  made = gpu::Pipeline(frame_->device(), desc);
+  return made;
+}
+
+void TransparentStep::update(uint32_t constant, std::span<const MaterialVariant> variants,
+                             std::span<const uint32_t> paintings) {
+  constant_ = constant;
+  const SceneOnGpu& scene = frame_->scene();
+  std::vector<uint32_t> blended;
+  for (const Draw& draw : scene.draws())
+    if (draw.alpha == AlphaMode::blend) blended.push_back(draw.material);
+  std::sort(blended.begin(), blended.end());
+  blended.erase(std::unique(blended.begin(), blended.end()), blended.end());
+  const auto variantOf = [&](uint32_t m) { return m < variants.size() ? variants[m] : MaterialVariant(); };
+  // What is painted chooses a group, and the others join any.
+  std::stable_sort(blended.begin(), blended.end(),
+                   [&](uint32_t a, uint32_t b) { return variantOf(a).isPainted > variantOf(b).isPainted; });
+
+  groups_.clear();
+  auto* const rows = reinterpret_cast<shared::TransparentMaterial*>(rows_.mapped);
+  for (const uint32_t m : blended) {
+    const std::array<SetTexture, 4> textures = scene.textures(m);
+    const size_t before = groups_.size();
+    Group& group = groupFor(variantOf(m), m < paintings.size() ? paintings[m] : 0, textures);
+    if (groups_.size() > before) group.leader = m;
+    glm::ivec4 slots;
+    for (int i = 0; i < 4; ++i) slots[i] = slotOf(textures[size_t(i)], group.textures);
+    group.isVaried |= scene.isVaried(m);
+    rows[m] = {scene.materialData(m), slots, uint32_t(&group - groups_.data()),
+               scene.material(m).doubleSided ? 0u : 1u};
+  }
+
+  const SetTexture white = scene.textureOf({});
+  for (uint32_t g = 0; g < groups_.size(); ++g) {
+    groups_[g].pipeline = &pipelineFor(groups_[g], groups_.size() > 1 ? g : ~0u);
+    for (size_t t = 0; t < kMostTextures; ++t) {
+      const SetTexture& texture = t < groups_[g].textures.size() ? groups_[g].textures[t] : white;
+      sets_.writeTexture(g, kFirstTexture + uint32_t(t), texture.view,
+                         frame_->samplers().get(texture.sampler));
+    }
+  }
+}
+
+void TransparentStep::draw(VkCommandBuffer commands, const gpu::DescriptorSets* passSets,
+                           uint32_t firstView) const {
+  const TransparentTriangles& triangles = frame_->scene().transparent();
+  if (triangles.count() == 0) return;
+  bindVertices(commands, frame_->scene());
+  vkCmdBindIndexBuffer(commands, triangles.indices(), 0, VK_INDEX_TYPE_UINT32);
+  for (uint32_t g = 0; g < groups_.size(); ++g) {
+    const gpu::Pipeline& pipeline = *groups_[g].pipeline;
+    pipeline.bind(commands);
+    pipeline.bindSet(commands, 0, frame_->frameSet());
+    pipeline.bindSet(commands, 1, sets_[g]);
+    if (passSets) pipeline.bindSet(commands, 2, (*passSets)[passSets->size() > 1 ? groups_[g].leader : 0]);
+    if (desc_.viewMask) pipeline.push(commands, firstView);
+    vkCmdSetCullMode(commands, VK_CULL_MODE_NONE);
+    vkCmdSetFrontFace(commands, VK_FRONT_FACE_COUNTER_CLOCKWISE);
+    vkCmdDrawIndexed(commands, 3 * triangles.count(), 1, 0, 0, 0);
+  }
+}
+
+}  // namespace scumble::frame

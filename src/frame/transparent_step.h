@@ -1,0 +1,60 @@
+// Draws the blended surfaces of all objects and materials at once, in one order, the farthest first
+// (kTransparentOrder). Materials are looked up by the shaders (shading/transparent.glsl), so that triangles
+// of two objects may follow each other in any order.
+//
+// Materials on which the look paints different textures, and more textures than a shader may have, take a
+// draw each: then the order holds within each of these groups, one after the other.
+#pragma once
+
+#include "frame/geometry_step.h"
+
+namespace scumble::frame {
+
+struct TransparentStepDesc {
+  gpu::Shader vertex, fragment;
+  uint32_t inputs = 0;  // VertexInput bits that `vertex` reads
+  // Instead of both, with more inputs, for groups that the look paints textures on; may be empty.
+  gpu::Shader paintedVertex, paintedFragment;
+  uint32_t paintedInputs = 0;
+  std::vector<VkFormat> colorFormats;
+  uint32_t samples = 1, viewMask = 0, viewCount = 1;
+  const gpu::SetLayout* passLayout = nullptr;  // set 2, or null for none
+};
+
+class TransparentStep {
+ public:
+  void create(FrameBuilder& frame, const TransparentStepDesc& desc);
+  // The scene's buffers have other names.
+  void bind();
+  // Before each frame, after the scene has its materials. `constant`, `variants`: as in
+  // GeometryStep::specialise. `paintings`: by material, which of the pass's own textures are painted on it;
+  // empty: none is.
+  void update(uint32_t constant, std::span<const MaterialVariant> variants = {},
+              std::span<const uint32_t> paintings = {});
+  // `passSets`: set 2, one for all or one for each material, of which a group takes that of its first one;
+  // null for none.
+  void draw(VkCommandBuffer commands, const gpu::DescriptorSets* passSets, uint32_t firstView) const;
+
+ private:
+  struct Group {
+    bool isPainted = false, isVaried = false;
+    uint32_t options = 0, painting = 0;  // where it is painted
+    uint32_t leader = 0;                 // its first material, painted ones first
+    std::vector<SetTexture> textures;
+    const gpu::Pipeline* pipeline = nullptr;
+  };
+  Group& groupFor(const MaterialVariant& variant, uint32_t painting,
+                  const std::array<SetTexture, 4>& textures);
+  const gpu::Pipeline& pipelineFor(const Group& group, uint32_t index);
+
+  FrameBuilder* frame_ = nullptr;
+  TransparentStepDesc desc_;
+  gpu::SetLayout layout_;
+  gpu::DescriptorSets sets_;  // by group: there are no more than materials
+  UniformSlice rows_;         // shared::TransparentMaterial, by material
+  uint32_t constant_ = 0;
+  std::vector<Group> groups_;
+  std::map<std::vector<uint32_t>, gpu::Pipeline> pipelines_;
+};
+
+}  // namespace scumble::frame

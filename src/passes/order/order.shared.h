@@ -1,0 +1,8 @@
+#ifndef SCUMBLE_ORDER_SHARED_H
+#define SCUMBLE_ORDER_SHARED_H
+#include "../../shading/shared_types.h"
+
+SHARED_BEGIN
+const int kOrderThreads = 64, kOrderGroupsX = 32768;
+SHARED_END
+#endif

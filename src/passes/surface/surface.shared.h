@@ -1,0 +1,27 @@
+#ifndef SCUMBLE_SURFACE_SHARED_H
+#define SCUMBLE_SURFACE_SHARED_H
+#include "../../shading/shared_types.h"
+#ifdef __cplusplus
+#include "passes/surface/surface_knobs.h"
+#include "stage/light.h"
+#endif
+
+SHARED_BEGIN
+#ifdef __cplusplus
+using passes::SurfaceParams;
+using stage::LightParams;
+#else
+struct SurfaceParams {
+#include "surface.params"
+};
+struct LightParams {
+#include "../../stage/light.params"
+};
+#endif
+
+// Bindings of set 2.
+const int kSurfaceKnobs = 0, kSurfacePainted = 1, kSurfaceLight = 2, kSurfaceShadowMap = 3,
+          kSurfaceExample = 4, kSurfaceInverse = 5, kSurfaceFirstDepth = 6, kSurfaceOceanLit = 7,
+          kSurfaceOceanShadowed = 8;
+SHARED_END
+#endif

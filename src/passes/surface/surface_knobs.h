@@ -1,0 +1,25 @@
+// Knobs of surfaces, and of the textures that a look paints on them.
+#pragma once
+
+#include "look/look_data.h"
+#include "scene/scene_data.h"
+
+namespace scumble::passes {
+
+#define PARAMS_STRUCT SurfaceParams
+#define PARAMS_FILE "passes/surface/surface.params"
+#define PARAMS_PATH "surface"
+#define PARAMS_TARGETS kScene | kMaterials | kNodes
+#include "look/define_params.h"
+
+// A texture that the look paints on a material, by MetaTexture.
+#define PARAMS_STRUCT TextureParams
+#define PARAMS_FILE "passes/surface/texture.params"
+#define PARAMS_PATH "texture"
+#define PARAMS_TARGETS kScene | kMaterials
+#include "look/define_params.h"
+
+// Whether anything may act on the lens at any time.
+bool mayGlow(const look::LookData& look, const scene::SceneData& scene);
+
+}  // namespace scumble::passes
