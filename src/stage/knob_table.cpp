@@ -33,10 +33,12 @@ void KnobTable::apply(const look::Assignment& setting, Row& row) const {
 void KnobTable::evaluate(const look::LookData& now) {
   look_ = &now;
   if (blocks_ != look::allBlocks()) layOut();
+  for (Places& places : forScene_) places.clear();
+  for (uint32_t i = 0; i < now.assignments.size(); ++i)
+    if (now.assignments[i].target == look::kScene) forScene_[now.assignments[i].byHand].push_back(i);
   scene_ = defaults_;
-  for (const bool byHand : {false, true})
-    for (const look::Assignment& setting : now.assignments)
-      if (setting.target == look::kScene && setting.byHand == byHand) apply(setting, scene_);
+  for (const Places& places : forScene_)
+    for (const uint32_t place : places) apply(now.assignments[place], scene_);
   rows_.clear();
   rowOf_.clear();
 
@@ -49,21 +51,31 @@ void KnobTable::evaluate(const look::LookData& now) {
   if (isSame) return;
   known_.clear();
   subjects_.clear();
-  for (const look::Assignment& a : now.assignments)
+  byName_.clear();
+  byPattern_.clear();
+  for (uint32_t i = 0; i < now.assignments.size(); ++i) {
+    const look::Assignment& a = now.assignments[i];
     subjects_.push_back({a.row, a.target, a.byHand, a.pattern});
+    if (a.target == look::kMaterials)
+      (look::isPattern(a.pattern) ? byPattern_ : byName_)[a.pattern].push_back(i);
+  }
 }
 
 KnobTable::Places KnobTable::placesFor(const Material& material) const {
-  const std::vector<look::Assignment>& all = look_->assignments;
+  // Those for the material, in the order of the look.
   const std::string name(material.name);
+  Places own;
+  const auto add = [&](const Places& some) { own.insert(own.end(), some.begin(), some.end()); };
+  if (const auto found = byName_.find(name); found != byName_.end()) add(found->second);
+  for (const auto& [pattern, some] : byPattern_)
+    if (look::matches(pattern, name)) add(some);
+  std::sort(own.begin(), own.end());
+
   Places places;
-  for (const bool byHand : {false, true}) {
-    for (uint32_t i = 0; i < all.size(); ++i)
-      if (all[i].target == look::kMaterials && all[i].byHand == byHand && look::matches(all[i].pattern, name))
-        places.push_back(i);
-    for (const uint32_t i : material.settings)
-      if (all[i].byHand == byHand) places.push_back(i);
-  }
+  for (const bool byHand : {false, true})
+    for (const std::span<const uint32_t> some : {std::span<const uint32_t>(own), material.settings})
+      for (const uint32_t i : some)
+        if (look_->assignments[i].byHand == byHand) places.push_back(i);
   return places;
 }
 
@@ -91,8 +103,7 @@ void KnobTable::evaluate(std::span<const Material> materials) {
     // Those by hand come after all of the file's, for the whole scene and for some names.
     Row& values = rows_.emplace_back(defaults_);
     for (const bool byHand : {false, true}) {
-      for (const look::Assignment& setting : look_->assignments)
-        if (setting.target == look::kScene && setting.byHand == byHand) apply(setting, values);
+      for (const uint32_t place : forScene_[byHand]) apply(look_->assignments[place], values);
       for (const uint32_t place : *places)
         if (look_->assignments[place].byHand == byHand) apply(look_->assignments[place], values);
     }

@@ -69,10 +69,13 @@ class KnobTable {
   Row defaults_;  // what knobs are where nobody sets them
 
   const look::LookData* look_ = nullptr;
+  Places forScene_[2];  // settings for the whole scene: the file's, and those by hand
   Row scene_;
   std::vector<Row> rows_;
   std::vector<uint32_t> rowOf_;
-  std::vector<Subject> subjects_;  // that `known_` was found for
+  std::vector<Subject> subjects_;  // that what follows was found for
+  // Places of settings for materials by the pattern that they are for: names, and those that match several.
+  std::map<std::string, Places, std::less<>> byName_, byPattern_;
   std::map<std::pair<std::string, Places>, Places, std::less<>> known_;
 };
 

@@ -67,9 +67,13 @@ std::vector<int> everPlayed(const scene::SceneData& scene, const LookData& look)
   return {played.begin(), played.end()};
 }
 
-std::vector<int> namedHolds(const scene::SceneData& scene, const LookData& look) {
+std::vector<int> namedHolds(const scene::SceneData& scene, const LookData& whole) {
   std::vector<int> holds(scene.nodes.size(), -1);
   const look::ParamBlock& block = AnimationParams::block();
+  // Of a large look little is about this.
+  LookData look;
+  for (const look::Assignment& setting : whole.assignments)
+    if (setting.block == &block) look.assignments.push_back(setting);
   const bool byNode = look.setsAny(block, "hold", look::kNodes);
   const bool byMaterial = look.setsAny(block, "hold", look::kMaterials);
   if (!byNode && !byMaterial) return holds;

@@ -309,6 +309,65 @@ TEST_P(Edited, onlyWhatChangedIsWritten) {
   EXPECT_EQ(written(), Counts({1, 0, 0, 0})) << "the lowest thing";
 }
 
+// A knob, or a track on it, writes what is made of it, and nothing else: of the scene mostly nothing.
+TEST_P(Edited, looksWriteOnlyWhatIsMadeOfThem) {
+  Village v;
+  const Scene scene = must(v.editor.scene());
+  struct Counts {
+    uint32_t primitives, textures, materials, pipelines;
+    bool operator==(const Counts&) const = default;
+  };
+  const Counts nothing{};
+  const auto written = [&](const Look& look, double time = 0) {
+    const Result<Frame> frame = renderer().render(scene, look, time, views(scene), sized(kWidth, kHeight));
+    if (!frame) throw std::runtime_error(frame.error().message());
+    const FrameStats& stats = frame->stats;
+    return Counts{stats.writtenPrimitives, stats.writtenTextures, stats.writtenMaterials, stats.pipelines};
+  };
+  const auto tracked = [](const std::string& json) {
+    const Result<Look> look = Look::fromJson(json, "tracked");
+    if (!look) throw std::runtime_error(look.error().message());
+    return *look;
+  };
+  (void)written(usualLook({{"light.shadowWarp", "0"}}));
+  EXPECT_EQ(written(usualLook({{"light.shadowWarp", "0"}, {"palette.litTint", "#ff8030"}})), nothing)
+      << "a colour";
+  EXPECT_EQ(written(usualLook({{"light.shadowWarp", "0"}, {"materials.Red.palette.saturation", "0.3"}})),
+            nothing);
+
+  // Triangles that are too long for the warp are split: floor, box, the pane at most.
+  const Look warped = tracked(R"({"light": {"shadowWarp": {"keys": [[0, 0], [1, 6]]}}})");
+  uint32_t split = 0;
+  for (const double time : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    const Counts counts = written(warped, time);
+    EXPECT_EQ(counts.textures, 0u);
+    EXPECT_EQ(counts.materials, 0u);
+    EXPECT_EQ(counts.pipelines, 0u);
+    split += counts.primitives;
+  }
+  EXPECT_GT(split, 0u);
+  EXPECT_EQ(written(warped, 1.0), nothing) << "the same as before";
+
+  const Look sea = tracked(R"({"ocean": {"mode": "on", "level": {"keys": [[0, -0.5], [1, -0.2]]}}})");
+  (void)written(sea, 0);
+  for (const double time : {0.3, 0.6, 1.0}) EXPECT_EQ(written(sea, time), nothing) << "the sea's level";
+
+  // A node's own knobs make a material of its own, once.
+  (void)written(usualLook({}));
+  const Counts own = written(usualLook({{"nodes.Balls.palette.saturation", "0.2"}}));
+  EXPECT_EQ(own.primitives, 0u);
+  EXPECT_EQ(own.textures, 0u);
+  EXPECT_EQ(own.pipelines, 0u);
+  EXPECT_EQ(written(usualLook({{"nodes.Balls.palette.saturation", "0.9"}})), nothing) << "another value";
+
+  // Another step in the frame.
+  (void)written(usualLook({}));
+  const Counts limited = written(usualLook({{"limit.palette", "dusk"}}));
+  EXPECT_EQ(limited, (Counts{0, 0, 0, limited.pipelines}));
+  (void)written(usualLook({}));
+  EXPECT_EQ(written(usualLook({{"limit.palette", "dusk"}})), nothing) << "switched on again";
+}
+
 // Frames of earlier scenes that are still under way are not touched.
 TEST_P(Edited, framesUnderWayKeepTheirScene) {
   Village v;
