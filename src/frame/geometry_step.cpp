@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "shading/geometry_constants.shared.h"
+
 namespace scumble::frame {
 
 void GeometryStep::create(FrameBuilder& frame, const GeometryStepDesc& desc) {
@@ -54,13 +56,17 @@ void GeometryStep::makePipelines() {
                           : material.isPainted ? desc_.paintedFragment
                                                : desc_.fragment;
     const bool varies = material.isPainted || material.isOcean || material.sets != 0;
-    pipeline.constants = {uint32_t(draw.alpha),
-                          draw.varied || varies,
-                          draw.textured || material.sets != 0,
-                          desc_.viewCount,
-                          constant_,
-                          material.sets,
-                          material.options};
+    const auto specialise = [&](int id, uint32_t value) { pipeline.constants[size_t(id)] = value; };
+    pipeline.constants.resize(shared::kGeometryConstants);
+    specialise(shared::kAlphaModeId, uint32_t(draw.alpha));
+    specialise(shared::kVariedId, draw.varied || varies);
+    specialise(shared::kTexturedId, draw.textured || material.sets != 0);
+    specialise(shared::kViewCountId, desc_.viewCount);
+    specialise(shared::kPassId, constant_);
+    specialise(shared::kColorSetsId, material.sets);
+    specialise(shared::kFeaturesId, material.features);
+    specialise(shared::kTangentsId, material.tangents);
+    specialise(shared::kMaterialId, material.options);
     addVertexInput(pipeline, depthOnly            ? uint32_t(kPosition)
                              : material.isPainted ? desc_.paintedInputs
                                                   : desc_.inputs);

@@ -25,7 +25,7 @@ struct GeometryStepDesc {
   VkCompareOp depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
   uint32_t samples = 1, viewMask = 0;  // mask 0: the shaders know no views
   uint32_t viewCount = 1;
-  uint32_t constant = 0;  // specialisation constant 4, to begin with
+  uint32_t constant = 0;  // the pass's own, to begin with
   // Blended surfaces are left to somebody else; else they are drawn like masked ones.
   bool leavesBlended = false;
   // Set 2, or null for none. Its first bindings are dynamic uniforms, one for each of `materialStrides`: the
@@ -37,17 +37,19 @@ struct GeometryStepDesc {
 // What of the look goes into a material's pipelines besides its vertex colours and the scene's textures.
 struct MaterialVariant {
   bool isOcean = false;
-  uint8_t sets = 0;        // ColorSets; specialisation constant 5
+  uint8_t sets = 0;        // ColorSets
   bool isPainted = false;  // the look paints a texture on it
-  uint32_t options = 0;    // specialisation constant 6, the pass's own
+  uint32_t features = 0;   // MetaTexture::features() of what is laid on it
+  uint32_t tangents = 0;   // tangentOptions() of that
+  uint32_t options = 0;    // the pass's own
   auto operator<=>(const MaterialVariant&) const = default;
 };
 
 class GeometryStep {
  public:
   void create(FrameBuilder& frame, const GeometryStepDesc& desc);
-  // What of the look goes into the pipelines: specialisation constant 4, the pass's own, and what each
-  // material has. Makes the pipelines that are still missing, also for what the scene has
+  // What of the look goes into the pipelines: the pass's own constant, and what each material
+  // has. Makes the pipelines that are still missing, also for what the scene has
   // become.
   void specialise(uint32_t constant, std::vector<MaterialVariant> materials = {});
   // The same as it is, for what the scene has become.
@@ -59,8 +61,7 @@ class GeometryStep {
   void draw(VkCommandBuffer commands, const gpu::DescriptorSets* passSets, uint32_t firstView) const;
 
  private:
-  // What a pipeline is made for, in the order in which they draw: specialisation constant 0 is the alpha
-  // mode, 1 whether colours vary, 2 whether the scene's textures are read.
+  // What a pipeline is made for, in the order in which they draw.
   struct Variant {
     uint32_t constant;
     AlphaMode alpha;

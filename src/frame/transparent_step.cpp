@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "shading/geometry_constants.shared.h"
+
 namespace scumble::frame {
 
 namespace {
@@ -47,38 +49,43 @@ void TransparentStep::bind() {
 
 TransparentStep::Group& TransparentStep::groupFor(const MaterialVariant& variant, uint32_t painting,
                                                   const std::array<SetTexture, 4>& textures) {
+  // Their colours are looked up.
+  const MaterialVariant painted = variant.isPainted ? MaterialVariant{.isPainted = true,
+                                                                      .features = variant.features,
+                                                                      .tangents = variant.tangents,
+                                                                      .options = variant.options}
+                                                    : MaterialVariant();
   for (Group& group : groups_) {
-    if (variant.isPainted &&
-        (!group.isPainted || group.options != variant.options || group.painting != painting))
-      continue;
+    if (painted.isPainted && (group.painted != painted || group.painting != painting)) continue;
     std::vector<SetTexture> all = group.textures;
     for (const SetTexture& texture : textures) slotOf(texture, all);
     if (all.size() <= kMostTextures) return group;
   }
-  return groups_.emplace_back(Group{.isPainted = variant.isPainted,
-                                    .options = variant.isPainted ? variant.options : 0,
-                                    .painting = painting});
+  return groups_.emplace_back(Group{.painted = painted, .painting = painting});
 }
 
 const gpu::Pipeline& TransparentStep::pipelineFor(const Group& group, uint32_t index) {
   gpu::GraphicsPipelineDesc desc;
   const bool isTextured = !group.textures.empty();
-  desc.constants = {uint32_t(AlphaMode::blend),
-                    group.isVaried || isTextured || group.isPainted,
-                    isTextured,
-                    desc_.viewCount,
-                    constant_,
-                    0,
-                    group.options,
-                    index,
-                    uint32_t(group.textures.size())};
+  const auto specialise = [&](int id, uint32_t value) { desc.constants[size_t(id)] = value; };
+  desc.constants.resize(shared::kGeometryConstants);
+  specialise(shared::kAlphaModeId, uint32_t(AlphaMode::blend));
+  specialise(shared::kVariedId, group.isVaried || isTextured || group.painted.isPainted);
+  specialise(shared::kTexturedId, isTextured);
+  specialise(shared::kViewCountId, desc_.viewCount);
+  specialise(shared::kPassId, constant_);
+  specialise(shared::kFeaturesId, group.painted.features);
+  specialise(shared::kTangentsId, group.painted.tangents);
+  specialise(shared::kMaterialId, group.painted.options);
+  specialise(shared::kGroupId, index);
+  specialise(shared::kSlotsId, uint32_t(group.textures.size()));
   std::vector<uint32_t> key = desc.constants;
-  key.push_back(group.isPainted);
+  key.push_back(group.painted.isPainted);
   gpu::Pipeline& made = pipelines_[key];
   if (made) return made;
-  desc.vertex = group.isPainted ? desc_.paintedVertex : desc_.vertex;
-  desc.fragment = group.isPainted ? desc_.paintedFragment : desc_.fragment;
-  addVertexInput(desc, kPart | (group.isPainted ? desc_.paintedInputs : desc_.inputs));
+  desc.vertex = group.painted.isPainted ? desc_.paintedVertex : desc_.vertex;
+  desc.fragment = group.painted.isPainted ? desc_.paintedFragment : desc_.fragment;
+  addVertexInput(desc, kPart | (group.painted.isPainted ? desc_.paintedInputs : desc_.inputs));
   desc.colorFormats = desc_.colorFormats;
   desc.blend = gpu::Blend::over;
   desc.depthFormat = kDepthFormat;

@@ -37,9 +37,10 @@ class TransparentStep {
 
  private:
   struct Group {
-    bool isPainted = false, isVaried = false;
-    uint32_t options = 0, painting = 0;  // where it is painted
-    uint32_t leader = 0;                 // its first material, painted ones first
+    MaterialVariant painted;  // what the look paints on it
+    uint32_t painting = 0;    // and which textures
+    bool isVaried = false;
+    uint32_t leader = 0;  // its first material, painted ones first
     std::vector<SetTexture> textures;
     const gpu::Pipeline* pipeline = nullptr;
   };

@@ -3,12 +3,13 @@
 #define SCUMBLE_FRAME_GLSL
 #extension GL_EXT_scalar_block_layout : require
 #include "frame.shared.h"
+#include "geometry_constants.shared.h"
 
 layout(set = 0, binding = 0, scalar) uniform FrameBlock { FrameUniforms frame; };
 layout(set = 0, binding = 1, scalar) readonly buffer ObjectBlock { ObjectData objects[]; };
 layout(set = 0, binding = 2, scalar) readonly buffer LightBlock { PunctualLight lights[]; };
 
-layout(constant_id = 3) const int kViewCount = 2;
+layout(constant_id = kViewCountId) const int kViewCount = 2;
 
 // A field of one view's uniforms. Choosing between two loads costs less than one at an index that the compiler does not
 // know to be the same for all pixels: CPU drivers then load it pixel by pixel.

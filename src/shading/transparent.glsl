@@ -6,8 +6,8 @@
 
 layout(set = 1, binding = 0, scalar) readonly buffer MaterialRows { TransparentMaterial materialRows[]; };
 layout(set = 1, binding = 1, scalar) readonly buffer PartRows { TransparentPart parts[]; };
-layout(constant_id = 7) const int kGroup = -1;  // which is drawn; -1: there is but one
-layout(constant_id = 8) const int kSlots = 0;  // textures that the group has
+layout(constant_id = kGroupId) const int kGroup = -1;  // which is drawn; -1: there is but one
+layout(constant_id = kSlotsId) const int kSlots = 0;  // textures that the group has
 
 const vec4 kNowhere = vec4(0.0, 0.0, 2.0, 1.0);  // outside of what is drawn
 

@@ -78,7 +78,8 @@ class Facts : public Pass {
       const MetaTextureUse use =
           metaTextureUse(params, 0b0011, input.look, *examples_, input.uniforms.pixelScale, glm::vec2(0.0f));
       materials_.write(m, {use.meta.uniforms()});
-      variants.push_back({.options = use.meta.features() | tangentOptions(params, input.uniforms) << 11});
+      variants.push_back(
+          {.features = use.meta.features(), .tangents = tangentOptions(params, input.uniforms)});
     }
     step_.specialise(0, std::move(variants));
   }

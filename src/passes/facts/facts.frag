@@ -7,8 +7,9 @@
 #include "../../shading/view_index.glsl"
 #include "facts.glsl"
 
-layout(constant_id = 0) const int kAlphaMode = 0;
-layout(constant_id = 6) const int kOptions = 0;  // MetaTexture.features; from bit 11 on those of surface_tangents.shared.h
+layout(constant_id = kAlphaModeId) const int kAlphaMode = 0;
+layout(constant_id = kFeaturesId) const int kFeatures = 0;
+layout(constant_id = kTangentsId) const int kTangents = 0;
 
 layout(location = 0) in vec3 inPosition;
 layout(location = 1) in vec3 inNormal;
@@ -33,7 +34,7 @@ layout(location = 7) out vec4 outId;
 
 void main() {
   vec2 metaU, metaV;
-  surfaceTangents(kOptions >> 11, inMetaTangentU, inMetaTangentV, inMetaPoint, inUv, viewIndex(), metaU, metaV);
+  surfaceTangents(kTangents, inMetaTangentU, inMetaTangentV, inMetaPoint, inUv, viewIndex(), metaU, metaV);
   if (kAlphaMode != 0 && isHole(inBaseUvAlpha.xy, inBaseUvAlpha.z, kAlphaMode)) discard;
   float w = 1.0 / gl_FragCoord.w;
   vec2 ndc = gl_FragCoord.xy / frame.imageSize * 2.0 - 1.0;
@@ -41,7 +42,7 @@ void main() {
   metaTextureInvert(metaTextureProject(inTangentU, ndc, w, frame.imageSize),
                     metaTextureProject(inTangentV, ndc, w, frame.imageSize), gradU, gradV);
   MetaTexture meta = facts.meta;
-  meta.features = kOptions;
+  meta.features = kFeatures;
   MetaTextureChoice chosen = metaTextureChoose(meta, metaU, metaV, 1.0);
 
   outDepth = vec4(eyeDepth(gl_FragCoord.z, viewIndex()));

@@ -7,9 +7,9 @@
 #include "../../shading/view_index.glsl"
 #include "facts.glsl"
 
-layout(constant_id = 6) const int kOptions = 0;
+layout(constant_id = kTangentsId) const int kTangents = 0;
 
-layout(constant_id = 0) const int kAlphaMode = 0;
+layout(constant_id = kAlphaModeId) const int kAlphaMode = 0;
 
 layout(location = 0) in vec3 inPosition;
 layout(location = 1) in vec2 inNormal;
@@ -41,10 +41,10 @@ void main() {
   outUv = inPatternUv + objects[gl_InstanceIndex].patternShift;
   outTangentU = (worldToClip * vec4(inDPdu, 0.0)).xyw;
   outTangentV = (worldToClip * vec4(inDPdv, 0.0)).xyw;
-  mat4 tangentClip = tangentView(kOptions >> 11, worldToClip);
+  mat4 tangentClip = tangentView(kTangents, worldToClip);
   outMetaTangentU = tangentToClip(tangentClip, inDPdu);
   outMetaTangentV = tangentToClip(tangentClip, inDPdv);
-  outMetaPoint = pointInTangentView(kOptions >> 11, worldToClip, inPosition);
+  outMetaPoint = pointInTangentView(kTangents, worldToClip, inPosition);
   outPrevious = VIEW_FIELD(previousWorldToClip, viewIndex()) * vec4(inPreviousPosition, 1.0);
   outObject = gl_InstanceIndex;
   if (kAlphaMode != 0) outBaseUvAlpha = vec3(baseUv(inUv0, inUv1), inColor.a);

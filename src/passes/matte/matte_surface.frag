@@ -6,8 +6,8 @@
 #include "../../shading/view_index.glsl"
 #include "matte.shared.h"
 
-layout(constant_id = 0) const int kAlphaMode = 0;
-layout(constant_id = 4) const int kBehind = 0;  // only what lies behind the first surface
+layout(constant_id = kAlphaModeId) const int kAlphaMode = 0;
+layout(constant_id = kPassId) const int kBehind = 0;  // only what lies behind the first surface
 
 layout(set = 2, binding = 0, scalar) uniform Block { MatteMaterial matte; };
 layout(set = 2, binding = 1) uniform sampler2DArray firstDepth;

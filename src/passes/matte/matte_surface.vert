@@ -4,7 +4,7 @@
 #include "../../shading/material.glsl"
 #include "../../shading/view_index.glsl"
 
-layout(constant_id = 0) const int kAlphaMode = 0;
+layout(constant_id = kAlphaModeId) const int kAlphaMode = 0;
 
 layout(location = 0) in vec3 inPosition;
 layout(location = 2) in vec2 inUv0;

@@ -8,7 +8,7 @@
 #include "../../shading/surface_tangents_at_pixel.glsl"
 #include "../../shading/view_index.glsl"
 
-layout(constant_id = 4) const int kTangents = 0;  // options of surface_tangents.shared.h
+layout(constant_id = kPassId) const int kTangents = 0;  // options of surface_tangents.shared.h
 
 layout(location = 0) in vec2 inPatternUv;
 layout(location = 1) in vec3 inTangentU;

@@ -7,7 +7,7 @@
 #include "../../shading/surface_tangents.glsl"
 #include "../../shading/view_index.glsl"
 
-layout(constant_id = 4) const int kTangents = 0;  // options of surface_tangents.shared.h
+layout(constant_id = kPassId) const int kTangents = 0;  // options of surface_tangents.shared.h
 layout(set = 2, binding = 0, scalar) readonly buffer Waves { OceanField field; OceanPoint points[]; };
 #include "../../shading/water.glsl"
 

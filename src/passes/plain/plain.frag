@@ -4,8 +4,8 @@
 #define TRANSPARENT_TEXTURES
 #include "../../shading/material.glsl"
 
-layout(constant_id = 0) const int kAlphaMode = 0;
-layout(constant_id = 2) const int kTextured = 0;
+layout(constant_id = kAlphaModeId) const int kAlphaMode = 0;
+layout(constant_id = kTexturedId) const int kTextured = 0;
 
 #ifdef TRANSPARENT
 layout(location = 11) flat in uint inPart;

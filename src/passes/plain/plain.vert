@@ -4,7 +4,7 @@
 #include "../../shading/material.glsl"
 #include "../../shading/view_index.glsl"
 
-layout(constant_id = 2) const int kTextured = 0;
+layout(constant_id = kTexturedId) const int kTextured = 0;
 
 #ifdef TRANSPARENT
 layout(location = 11) in uint inPart;

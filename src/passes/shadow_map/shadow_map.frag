@@ -4,7 +4,7 @@
 #include "../../shading/frame.glsl"
 #include "../../shading/material.glsl"
 
-layout(constant_id = 0) const int kAlphaMode = 0;
+layout(constant_id = kAlphaModeId) const int kAlphaMode = 0;
 layout(location = 0) in vec3 inUvAlpha;
 
 void main() {

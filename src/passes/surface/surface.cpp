@@ -151,9 +151,11 @@ class Surface : public Pass {
       } else {
         variant.sets = input.scene.colorSets(m);
         variant.isPainted = texture.amount > 0;
-        if (variant.isPainted)
-          variant.options = use.meta.features() | tangentOptions(metaParams, input.uniforms) << 11 |
-                            uint32_t(texture.blend) << 14;
+        if (variant.isPainted) {
+          variant.features = use.meta.features();
+          variant.tangents = tangentOptions(metaParams, input.uniforms);
+          variant.options = uint32_t(texture.blend);
+        }
       }
       variants.push_back(variant);
       for (gpu::DescriptorSets* const sets : {&sets_, &blendedSets_}) {

@@ -15,14 +15,15 @@
 #include "../../shading/view_index.glsl"
 #include "surface.glsl"
 
-layout(constant_id = 0) const int kAlphaMode = 0;  // 0 opaque, 1 masked, 2 blended
-layout(constant_id = 1) const int kVaried = 0;
-layout(constant_id = 2) const int kTextured = 0;
-layout(constant_id = 4) const int kOptions = 0;  // 1: only what lies behind the first surface; 2: there are lights
-layout(constant_id = 5) const int kSets = 0;     // sets of colours of its own: 1 for light, 2 for shadow
-// MetaTexture.features of what the look paints; from bit 11 on the options of surface_tangents.shared.h; from bit 14 on
-// how it is laid: 0 multiply, 1 overlay, 2 replace.
-layout(constant_id = 6) const int kPainted = 0;
+layout(constant_id = kAlphaModeId) const int kAlphaMode = 0;  // 0 opaque, 1 masked, 2 blended
+layout(constant_id = kVariedId) const int kVaried = 0;
+layout(constant_id = kTexturedId) const int kTextured = 0;
+layout(constant_id = kPassId) const int kOptions = 0;  // 1: only what lies behind the first surface; 2: there are lights
+layout(constant_id = kColorSetsId) const int kSets = 0;     // sets of colours of its own: 1 for light, 2 for shadow
+// Of what the look paints.
+layout(constant_id = kFeaturesId) const int kFeatures = 0;
+layout(constant_id = kTangentsId) const int kTangents = 0;
+layout(constant_id = kMaterialId) const int kBlend = 0;  // how it is laid: 0 multiply, 1 overlay, 2 replace
 const bool kBehind = (kOptions & 1) != 0;
 
 #ifdef TRANSPARENT
@@ -67,9 +68,9 @@ layout(location = 8) flat in uint inWraps;
 // What the look paints.
 vec3 paintedTexture() {
   vec2 dSdu, dSdv;
-  surfaceTangents(kPainted >> 11, inTangentU, inTangentV, inPoint, inPatternUv, viewIndex(), dSdu, dSdv);
+  surfaceTangents(kTangents, inTangentU, inTangentV, inPoint, inPatternUv, viewIndex(), dSdu, dSdv);
   MetaTexture meta = painted.meta;
-  meta.features = kPainted;
+  meta.features = kFeatures;
   MetaTextureChoice chosen = metaTextureChoose(meta, dSdu, dSdv, 1.0);
   vec4 value = metaTextureSample(meta, chosen, paintedExample, inPatternUv,
                                  vec2(inWraps & 1u, inWraps >> 1), gl_FragCoord.xy);
@@ -80,7 +81,6 @@ vec3 paintedTexture() {
 // It over the square root of a colour.
 vec3 paint(vec3 over, vec3 root) {
   vec3 result = over;
-  const int kBlend = kPainted >> 14;
   if (kBlend == 0) result = root * over;
   if (kBlend == 1)
     result = mix(2.0 * root * over, 1.0 - 2.0 * (1.0 - root) * (1.0 - over), greaterThan(root, vec3(0.5)));

@@ -9,9 +9,9 @@
 #include "../../shading/view_index.glsl"
 #include "surface.glsl"
 
-layout(constant_id = 1) const int kVaried = 0;    // colours vary: vertex colours or textures
-layout(constant_id = 2) const int kTextured = 0;
-layout(constant_id = 4) const int kOptions = 0;  // 2: there are point and spot lights
+layout(constant_id = kVariedId) const int kVaried = 0;    // colours vary: vertex colours or textures
+layout(constant_id = kTexturedId) const int kTextured = 0;
+layout(constant_id = kPassId) const int kOptions = 0;  // 2: there are point and spot lights
 
 #ifdef TRANSPARENT
 layout(location = 11) in uint inPart;
@@ -19,6 +19,7 @@ layout(location = 11) flat out uint outPart;
 #endif
 
 #ifdef PAINTED  // the look paints a texture on it
+layout(constant_id = kTangentsId) const int kTangents = 0;
 layout(location = 5) in vec3 inDPdu;
 layout(location = 7) in vec3 inDPdv;
 layout(location = 8) in vec2 inPatternUv;
@@ -73,12 +74,11 @@ void main() {
   }
   if (kVaried != 0) outColor = inColor;
 #ifdef PAINTED
-layout(constant_id = 6) const int kPainted = 0;  // as in the fragment shader
-  mat4 tangentClip = tangentView(kPainted >> 11, worldToClip);
+  mat4 tangentClip = tangentView(kTangents, worldToClip);
   outPatternUv = inPatternUv + objects[index].patternShift;
   outTangentU = tangentToClip(tangentClip, inDPdu);
   outTangentV = tangentToClip(tangentClip, inDPdv);
-  outPoint = pointInTangentView(kPainted >> 11, worldToClip, inPosition);
+  outPoint = pointInTangentView(kTangents, worldToClip, inPosition);
   outWraps = objects[index].wraps;
 #endif
   if (kTextured != 0) outUvs = vec4(baseUv(inUv0, inUv1), emissiveUv(inUv0, inUv1));

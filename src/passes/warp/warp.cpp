@@ -115,8 +115,7 @@ class Warp : public Pass {
       const float distance = int(m) == input.scene.oceanMaterial()
                                  ? std::max(params.distance, 1 / input.scene.options().ocean.falseHorizon)
                                  : params.distance;
-      variants.push_back({.options = tangentOptions(metaParams, input.uniforms) |
-                                     (distance > 0 ? shared::kWarpDistance : 0)});
+      variants.push_back({.tangents = tangentOptions(metaParams, input.uniforms), .options = distance > 0});
       materials_.write(m, {params.amount * pixelScale, inflation, distance, float(index + 1)});
     }
     step_.specialise(0, std::move(variants));

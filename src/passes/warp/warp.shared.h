@@ -13,7 +13,5 @@ const int kWarpSeveral = 2;  // there are other setups: most pixels are another'
 // No vector is longer than this times the amount; of those of the examples that are built in, one in a
 // thousand would be.
 const float kFarthestTear = 2.0;
-// The geometry step's options of a material, beside those of surface_tangents.shared.h.
-const int kWarpDistance = 8;
 SHARED_END
 #endif

@@ -15,8 +15,9 @@
 #include "warp.glsl"
 #include "warp.shared.h"
 
-layout(constant_id = 0) const int kAlphaMode = 0;
-layout(constant_id = 6) const int kOptions = 0;  // of surface_tangents.shared.h, and kWarpDistance
+layout(constant_id = kAlphaModeId) const int kAlphaMode = 0;
+layout(constant_id = kTangentsId) const int kTangents = 0;
+layout(constant_id = kMaterialId) const int kFadesAway = 0;  // far things are torn less
 
 layout(location = 0) in vec3 inUvScale;
 layout(location = 1) in vec3 inTangentU;
@@ -29,12 +30,12 @@ layout(location = 1) out vec2 outKnobs;
 
 void main() {
   vec2 dSdu, dSdv;
-  surfaceTangents(kOptions, inTangentU, inTangentV, inPoint, inUvScale.xy, viewIndex(), dSdu, dSdv);
+  surfaceTangents(kTangents, inTangentU, inTangentV, inPoint, inUvScale.xy, viewIndex(), dSdu, dSdv);
   if (kAlphaMode != 0 && isHole(inBaseUvAlpha.xy, inBaseUvAlpha.z, kAlphaMode)) discard;
   outPattern = uvec4(floatBitsToUint(inUvScale.xy), packBfloat(dSdu), packBfloat(dSdv));
   // Paper 000, eq. 26; FORMULAS 12: the distance has a scale.
   float amount = warp.amount * inUvScale.z;
-  if ((kOptions & kWarpDistance) != 0) {
+  if (kFadesAway != 0) {
     float far = warp.distance * eyeDepth(gl_FragCoord.z, viewIndex());
     amount /= 1.0 + far * far;
   }

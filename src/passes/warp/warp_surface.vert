@@ -8,9 +8,9 @@
 #include "../../shading/view_index.glsl"
 #include "warp.glsl"
 
-layout(constant_id = 6) const int kOptions = 0;
+layout(constant_id = kTangentsId) const int kTangents = 0;
 
-layout(constant_id = 0) const int kAlphaMode = 0;
+layout(constant_id = kAlphaModeId) const int kAlphaMode = 0;
 
 layout(location = 0) in vec3 inPosition;
 layout(location = 2) in vec2 inUv0;
@@ -45,11 +45,11 @@ void main() {
     clip.xy += outward / size * warp.inflation * inWarpScale * turned / (0.5 * frame.imageSize) * clip.w;
   gl_Position = clip;
 
-  mat4 tangentClip = tangentView(kOptions, worldToClip);
+  mat4 tangentClip = tangentView(kTangents, worldToClip);
   outUvScale = vec3(inPatternUv + objects[gl_InstanceIndex].patternShift, inWarpScale);
   outTangentU = tangentToClip(tangentClip, inDPdu);
   outTangentV = tangentToClip(tangentClip, inDPdv);
-  if (kViewCount > 1) outPoint = pointInTangentView(kOptions, worldToClip, inPosition);
+  if (kViewCount > 1) outPoint = pointInTangentView(kTangents, worldToClip, inPosition);
   outCode = 4.0 * warp.setup + float(objects[gl_InstanceIndex].wraps);
   if (kAlphaMode != 0) outBaseUvAlpha = vec3(baseUv(inUv0, inUv1), inColor.a);
 }
