@@ -1,6 +1,7 @@
 #include "frame/transparent_step.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "shading/geometry_constants.shared.h"
 
@@ -23,6 +24,14 @@ int slotOf(const SetTexture& texture, std::vector<SetTexture>& list) {
   if (found != list.end()) return int(found - list.begin());
   list.push_back(texture);
   return int(list.size()) - 1;
+}
+
+// Of so many textures a pipeline is made for: a few numbers, so that one more texture compiles nothing. What
+// is too many is white.
+uint32_t slotsFor(size_t textures) {
+  for (const uint32_t slots : {0u, 1u, 2u, 4u, 8u})
+    if (textures <= slots) return slots;
+  return uint32_t(kMostTextures);
 }
 
 }  // namespace
@@ -78,7 +87,7 @@ const gpu::Pipeline& TransparentStep::pipelineFor(const Group& group, uint32_t i
   specialise(shared::kTangentsId, group.painted.tangents);
   specialise(shared::kMaterialId, group.painted.options);
   specialise(shared::kGroupId, index);
-  specialise(shared::kSlotsId, uint32_t(group.textures.size()));
+  specialise(shared::kSlotsId, slotsFor(group.textures.size()));
   std::vector<uint32_t> key = desc.constants;
   key.push_back(group.painted.isPainted);
   gpu::Pipeline& made = pipelines_[key];
@@ -105,8 +114,13 @@ void TransparentStep::update(uint32_t constant, std::span<const MaterialVariant>
   constant_ = constant;
   const SceneOnGpu& scene = frame_->scene();
   std::vector<uint32_t> blended;
-  for (const Draw& draw : scene.draws())
-    if (draw.alpha == AlphaMode::blend) blended.push_back(draw.material);
+  std::map<uint32_t, float> farthestOf;  // metres
+  for (const Draw& draw : scene.draws()) {
+    if (draw.alpha != AlphaMode::blend) continue;
+    blended.push_back(draw.material);
+    float& farthest = farthestOf[draw.material];
+    if (draw.visible) farthest = std::max(farthest, draw.distance);
+  }
   std::sort(blended.begin(), blended.end());
   blended.erase(std::unique(blended.begin(), blended.end()), blended.end());
   const auto variantOf = [&](uint32_t m) { return m < variants.size() ? variants[m] : MaterialVariant(); };
@@ -114,38 +128,62 @@ void TransparentStep::update(uint32_t constant, std::span<const MaterialVariant>
   std::stable_sort(blended.begin(), blended.end(),
                    [&](uint32_t a, uint32_t b) { return variantOf(a).isPainted > variantOf(b).isPainted; });
 
-  groups_.clear();
   auto* const rows = reinterpret_cast<shared::TransparentMaterial*>(rows_.mapped);
-  for (const uint32_t m : blended) {
-    const std::array<SetTexture, 4> textures = scene.textures(m);
-    const size_t before = groups_.size();
-    Group& group = groupFor(variantOf(m), m < paintings.size() ? paintings[m] : 0, textures);
-    if (groups_.size() > before) group.leader = m;
-    glm::ivec4 slots;
-    for (int i = 0; i < 4; ++i) slots[i] = slotOf(textures[size_t(i)], group.textures);
-    group.isVaried |= scene.isVaried(m);
-    rows[m] = {scene.materialData(m), slots, uint32_t(&group - groups_.data()),
-               scene.material(m).doubleSided ? 0u : 1u};
+  const auto group = [&] {
+    groups_.clear();
+    for (const uint32_t m : blended) {
+      const std::array<SetTexture, 4> textures = scene.textures(m);
+      const size_t before = groups_.size();
+      Group& own = groupFor(variantOf(m), m < paintings.size() ? paintings[m] : 0, textures);
+      if (groups_.size() > before) own.leader = m;
+      glm::ivec4 slots;
+      for (int i = 0; i < 4; ++i) slots[i] = slotOf(textures[size_t(i)], own.textures);
+      own.isVaried |= scene.isVaried(m);
+      own.farthest = std::max(own.farthest, farthestOf[m]);
+      const bool varies = variantOf(m).isPainted || variantOf(m).sets != 0;
+      rows[m] = {scene.materialData(m), slots, uint32_t(&own - groups_.data()),
+                 scene.material(m).doubleSided ? 0u : 1u, varies ? 1u : 0u};
+    }
+  };
+  group();
+  // Where one group is not enough, those belong together that lie together.
+  if (groups_.size() > 1) {
+    std::stable_sort(blended.begin(), blended.end(),
+                     [&](uint32_t a, uint32_t b) { return farthestOf[a] > farthestOf[b]; });
+    group();
   }
 
   const SetTexture white = scene.textureOf({});
-  for (uint32_t g = 0; g < groups_.size(); ++g) {
+  const bool isRenamed = texturesVersion_ != scene.texturesVersion();
+  texturesVersion_ = scene.texturesVersion();
+  for (uint32_t g = 0; g < groups_.size(); ++g)
     groups_[g].pipeline = &pipelineFor(groups_[g], groups_.size() > 1 ? g : ~0u);
+  // Of sets that no group has now as well: one may have them later.
+  for (uint32_t set = 0; set < (isRenamed ? sets_.size() : groups_.size()); ++set)
     for (size_t t = 0; t < kMostTextures; ++t) {
-      const SetTexture& texture = t < groups_[g].textures.size() ? groups_[g].textures[t] : white;
-      sets_.writeTexture(g, kFirstTexture + uint32_t(t), texture.view,
-                         frame_->samplers().get(texture.sampler));
+      const bool isThere = set < groups_.size() && t < groups_[set].textures.size();
+      const SetTexture& texture = isThere ? groups_[set].textures[t] : white;
+      const VkSampler sampler = frame_->samplers().get(texture.sampler);
+      if (isRenamed)
+        sets_.rewriteTexture(set, kFirstTexture + uint32_t(t), texture.view, sampler);
+      else
+        sets_.writeTexture(set, kFirstTexture + uint32_t(t), texture.view, sampler);
     }
-  }
+
+  // Groups come after each other, the one that reaches farthest first.
+  order_.resize(groups_.size());
+  std::iota(order_.begin(), order_.end(), 0u);
+  std::stable_sort(order_.begin(), order_.end(),
+                   [&](uint32_t a, uint32_t b) { return groups_[a].farthest > groups_[b].farthest; });
 }
 
 void TransparentStep::draw(VkCommandBuffer commands, const gpu::DescriptorSets* passSets,
                            uint32_t firstView) const {
   const TransparentTriangles& triangles = frame_->scene().transparent();
-  if (triangles.count() == 0) return;
+  if (!triangles.isVisible()) return;
   bindVertices(commands, frame_->scene());
   vkCmdBindIndexBuffer(commands, triangles.indices(), 0, VK_INDEX_TYPE_UINT32);
-  for (uint32_t g = 0; g < groups_.size(); ++g) {
+  for (const uint32_t g : order_) {
     const gpu::Pipeline& pipeline = *groups_[g].pipeline;
     pipeline.bind(commands);
     pipeline.bindSet(commands, 0, frame_->frameSet());

@@ -2,8 +2,9 @@
 // (kTransparentOrder). Materials are looked up by the shaders (shading/transparent.glsl), so that triangles
 // of two objects may follow each other in any order.
 //
-// Materials on which the look paints different textures, and more textures than a shader may have, take a
-// draw each: then the order holds within each of these groups, one after the other.
+// Materials on which the look paints otherwise (another texture, or in another way), and more textures than a
+// shader may have, make groups, which are drawn one after the other, the one that reaches farthest first: the
+// order holds within each.
 #pragma once
 
 #include "frame/geometry_step.h"
@@ -42,6 +43,7 @@ class TransparentStep {
     bool isVaried = false;
     uint32_t leader = 0;  // its first material, painted ones first
     std::vector<SetTexture> textures;
+    float farthest = 0;  // metres to what is the farthest of it
     const gpu::Pipeline* pipeline = nullptr;
   };
   Group& groupFor(const MaterialVariant& variant, uint32_t painting,
@@ -55,6 +57,8 @@ class TransparentStep {
   UniformSlice rows_;         // shared::TransparentMaterial, by material
   uint32_t constant_ = 0;
   std::vector<Group> groups_;
+  std::vector<uint32_t> order_;  // in which they are drawn
+  uint32_t texturesVersion_ = 0;
   std::map<std::vector<uint32_t>, gpu::Pipeline> pipelines_;
 };
 

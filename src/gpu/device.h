@@ -84,6 +84,8 @@ class Device {
   MemoryPool& memory() { return *memory_; }
   const DeviceInfo& info() const { return info_; }
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
+  // As if storage buffers bound no more bytes than this: for tests, before anything is made.
+  void limitStorageRange(uint32_t bytes) { limits_.maxStorageBufferRange = bytes; }
   bool supports4Samples() const { return supports4Samples_; }
   // Whether image passes run faster as compute shaders. Measured: CPU drivers draw a full screen 1.45 times
   // faster than they dispatch it; servers' GPUs have few graphics units and dispatch up to 30 times faster.

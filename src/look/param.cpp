@@ -1,7 +1,9 @@
 #include "look/param.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <string_view>
 
 namespace scumble::look {
 
@@ -37,6 +39,11 @@ const std::vector<const ParamBlock*>& allBlocks() {
 }
 
 AddedBlock::AddedBlock(const ParamBlock& block) : block_(&block) {
+  assert(std::none_of(blocks().begin(), blocks().end(),
+                      [&](const ParamBlock* other) {
+                        return other == &block || std::string_view(other->path) == block.path;
+                      }) &&
+         "there is such a block");
   blocks().push_back(block_);
 }
 

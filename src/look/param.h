@@ -115,8 +115,9 @@ const std::vector<const ParamBlock*>& allBlocks();
 // The program's own. This room knows none of who reads them: defined by the list of passes.
 const std::vector<const ParamBlock*>& ownBlocks();
 
-// Adds a block, for a pass from outside, as long as this lives: before looks that set it are read, and after
-// all of them are gone. Not while other threads read looks or draw.
+// Adds a block with a path of its own, for a pass from outside, as long as this lives: from before looks that
+// set it are read until all of them are gone. It is not for a pass to have, since passes are made often. Not
+// while other threads read looks or draw.
 class AddedBlock {
  public:
   explicit AddedBlock(const ParamBlock& block);

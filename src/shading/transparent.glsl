@@ -39,16 +39,16 @@ layout(set = 1, binding = 11) uniform sampler2D slot9;
 layout(set = 1, binding = 12) uniform sampler2D slot10;
 layout(set = 1, binding = 13) uniform sampler2D slot11;
 
-// Those of four slots at a place, white where there is none. All of the group's are sampled: which one is wanted may
-// differ from pixel to pixel, and mip levels need neighbours.
+// Those of four slots at a place, white where there is none. All pixels of a quad want the same ones, so that mip levels
+// find their neighbours within the branches.
 struct SlotValues {
   vec4 values[4];
 };
 SlotValues sampleSlots(ivec4 slots, vec2 uv, float bias) {
   SlotValues all = SlotValues(vec4[](vec4(1.0), vec4(1.0), vec4(1.0), vec4(1.0)));
 #define SCUMBLE_SLOT(index, slot)                              \
-  if (kSlots > index) {                                        \
-    vec4 value = texture(slot, uv, bias);                      \
+  if (kSlots > index && any(equal(slots, ivec4(index)))) { \
+    vec4 value = texture(slot, uv, bias); \
     if (slots.x == index) all.values[0] = value;               \
     if (slots.y == index) all.values[1] = value;               \
     if (slots.z == index) all.values[2] = value;               \

@@ -80,6 +80,9 @@ KnobTable::Places KnobTable::placesFor(const Material& material) const {
 }
 
 void KnobTable::evaluate(std::span<const Material> materials) {
+  // Names of scenes that come and go must not fill the memory.
+  constexpr size_t kMostKnown = 1 << 16;
+  if (known_.size() > kMostKnown) known_.clear();
   rows_.clear();
   rowOf_.clear();
   std::map<const Places*, uint32_t> rowOfPlaces;

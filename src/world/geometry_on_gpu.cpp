@@ -14,6 +14,9 @@ namespace {
 constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
 constexpr VkBufferUsageFlags kVertex = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
 
+// Vertices: of any stream so many take a multiple of the largest alignment that a device may ask for.
+constexpr uint32_t kPageAlignment = 64;
+
 uint32_t encodeNormal(glm::vec3 n) {
   n /= std::max(std::abs(n.x) + std::abs(n.y) + std::abs(n.z), 1e-20f);
   glm::vec2 oct(n.x, n.y);
@@ -187,10 +190,20 @@ void GeometryOnGpu::build(gpu::Device& device, gpu::Uploader& uploader, Plan& pl
     skinEntries += uint64_t(rest.vertexCount) * uint64_t(rest.influences / 4);
   }
   for (const uint32_t rest : plan.restOf) finalVertices += plan.rests[rest].vertexCount;
-  const uint64_t largest = std::max(std::max(restVertices, finalVertices) * sizeof(shared::VertexFrame),
-                                    morphs.size() * sizeof(shared::MorphDisplacement));
-  if (largest > device.limits().maxStorageBufferRange || indexCount > (1ull << 31))
+  // Skins and morph targets lie in one piece.
+  const uint64_t range = device.limits().maxStorageBufferRange;
+  const uint64_t largest =
+      std::max({skinEntries * sizeof(shared::VertexSkin), morphs.size() * sizeof(shared::MorphDisplacement),
+                morphStarts.size() * sizeof(uint32_t)});
+  if (largest > range || std::max({restVertices, finalVertices, indexCount}) > (1ull << 31))
     throw gpu::VulkanError{"the scene's vertices", VK_ERROR_OUT_OF_DEVICE_MEMORY};
+  // So many that each stream begins where storage buffers may; a chunk may reach into the next page.
+  constexpr uint64_t kLargestVertex =
+      std::max({sizeof(shared::VertexCore), sizeof(shared::VertexFrame), sizeof(shared::VertexSurface)});
+  pageVertices_ =
+      uint32_t(std::min<uint64_t>(range / kLargestVertex, 1u << 31) / kPageAlignment * kPageAlignment);
+  const uint32_t step =
+      pageVertices_ - kPageAlignment * ((shared::kDeformChunk + kPageAlignment - 1) / kPageAlignment);
 
   // What was there goes first.
   bytes_ = 0;
@@ -215,6 +228,9 @@ void GeometryOnGpu::build(gpu::Device& device, gpu::Uploader& uploader, Plan& pl
 
   // Items, and deform's work.
   std::vector<shared::DeformChunk> chunks;
+  std::map<VertexPage, uint32_t> known;
+  pages_.clear();
+  pageOfChunk_.clear();
   places_.clear();
   uint32_t finalVertex = 0;
   for (uint32_t i = 0; i < plan.restOf.size(); ++i) {
@@ -224,11 +240,16 @@ void GeometryOnGpu::build(gpu::Device& device, gpu::Uploader& uploader, Plan& pl
     place.firstVertex = finalVertex;
     place.firstChunk = uint32_t(chunks.size());
     place.morphs = rest.morph != shared::kNoMorph;
-    for (uint32_t v = 0; v < rest.vertexCount; v += shared::kDeformChunk)
-      chunks.push_back({i, rest.vertex + v, finalVertex + v,
+    for (uint32_t v = 0; v < rest.vertexCount; v += shared::kDeformChunk) {
+      const VertexPage page{(rest.vertex + v) / step * step, (finalVertex + v) / step * step};
+      const auto [found, isNew] = known.try_emplace(page, uint32_t(pages_.size()));
+      if (isNew) pages_.push_back(page);
+      pageOfChunk_.push_back(found->second);
+      chunks.push_back({i, rest.vertex + v - page.firstRest, finalVertex + v - page.firstFinal,
                         std::min(rest.vertexCount - v, uint32_t(shared::kDeformChunk)),
                         rest.skin + v * uint32_t(rest.influences / 4),
                         place.morphs ? rest.morph + v : shared::kNoMorph});
+    }
     finalVertex += rest.vertexCount;
     place.chunkCount = uint32_t(chunks.size()) - place.firstChunk;
   }
@@ -250,7 +271,6 @@ void GeometryOnGpu::build(gpu::Device& device, gpu::Uploader& uploader, Plan& pl
   restSkin_ = std::move(skins.buffer);
   surface_ = std::move(surface.buffer);
   indices_ = std::move(indices.buffer);
-  chunkCount_ = uint32_t(chunks.size());
   vertexCount_ = std::max(1u, finalVertex);
   finalCore_ = gpu::Buffer(device, vertexCount_ * sizeof(shared::VertexCore), kStorage | kVertex,
                            gpu::MemoryKind::device);

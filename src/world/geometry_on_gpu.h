@@ -10,6 +10,13 @@
 
 namespace scumble::world {
 
+// A part of the vertices at rest and one of the final ones, as much as the device binds at a time: `deform`
+// goes from page to page. Chunks count their vertices from where their page begins.
+struct VertexPage {
+  uint32_t firstRest = 0, firstFinal = 0;  // vertices
+  auto operator<=>(const VertexPage&) const = default;
+};
+
 class GeometryOnGpu {
  public:
   // Where an item's data lies.
@@ -30,7 +37,12 @@ class GeometryOnGpu {
   const std::vector<Place>& places() const { return places_; }
   // Items whose vertices at rest the last update() has written in place.
   const std::vector<uint32_t>& rewritten() const { return rewritten_; }
-  uint32_t chunkCount() const { return chunkCount_; }
+  uint32_t chunkCount() const { return uint32_t(pageOfChunk_.size()); }
+  const std::vector<VertexPage>& pages() const { return pages_; }
+  // By chunk: index of its page.
+  const std::vector<uint32_t>& pageOfChunk() const { return pageOfChunk_; }
+  // How many vertices of any kind a page has at most.
+  uint32_t pageVertices() const { return pageVertices_; }
   uint32_t vertexCount() const { return vertexCount_; }  // final ones, at least one
   // How many primitives the last update() has written.
   uint32_t written() const { return written_; }
@@ -72,7 +84,9 @@ class GeometryOnGpu {
   Plan plan_;
   std::vector<Place> places_;
   std::vector<uint32_t> rewritten_;
-  uint32_t chunkCount_ = 0, vertexCount_ = 0, written_ = 0;
+  std::vector<VertexPage> pages_;
+  std::vector<uint32_t> pageOfChunk_;
+  uint32_t pageVertices_ = 0, vertexCount_ = 0, written_ = 0;
   uint64_t bytes_ = 0;
   gpu::Buffer chunks_, restCore_, restFrame_, restSkin_, morphStarts_, morphs_, finalCore_, finalFrame_,
       surface_, indices_;

@@ -52,9 +52,10 @@ const glm::mat4& instanceOf(const scene::SceneData& scene, const MovingObject& o
 
 SceneMotion::SceneMotion(gpu::Device& device, const scene::SceneData& scene,
                          const std::vector<MovingObject>& moving,
-                         const std::vector<shared::ObjectData>& objects, uint32_t chunkCount)
+                         const std::vector<shared::ObjectData>& objects, const GeometryOnGpu& geometry)
     : moving_(moving),
-      chunkCount_(chunkCount),
+      geometry_(geometry),
+      chunkCount_(geometry.chunkCount()),
       bounds_(moving.size()),
       mirrored_(moving.size(), 0),
       touched_(moving.size(), 0),
@@ -64,7 +65,7 @@ SceneMotion::SceneMotion(gpu::Device& device, const scene::SceneData& scene,
   objects_ = bufferOf<shared::ObjectData>(device, placed.size());
   joints_ = bufferOf<glm::mat4>(device, layout_.joints);
   morphWeights_ = bufferOf<float>(device, layout_.weights);
-  moved_ = bufferOf<uint32_t>(device, chunkCount);
+  moved_ = bufferOf<uint32_t>(device, chunkCount_);
   std::copy(placed.begin(), placed.end(), objects_.as<shared::ObjectData>());
 }
 
@@ -96,9 +97,8 @@ SceneMotion::Layout SceneMotion::layOut(const scene::SceneData& scene,
   return layout;
 }
 
-bool SceneMotion::follow(const scene::SceneData& scene, const std::vector<shared::ObjectData>& objects,
-                         uint32_t chunkCount) {
-  if (objects.size() != bounds_.size() || chunkCount != chunkCount_) return false;
+bool SceneMotion::follow(const scene::SceneData& scene, const std::vector<shared::ObjectData>& objects) {
+  if (objects.size() != bounds_.size() || geometry_.chunkCount() != chunkCount_) return false;
   std::vector<shared::ObjectData> placed = objects;
   Layout layout = layOut(scene, placed);
   if (layout.joints != layout_.joints || layout.weights != layout_.weights) return false;
@@ -123,7 +123,7 @@ bool SceneMotion::follow(const scene::SceneData& scene, const std::vector<shared
 
 void SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, double time,
                        const OceanWaves* waves) {
-  movedCount_ = movedBeforeWater_ = 0;
+  movedOfPage_.assign(geometry_.pages().size(), {});
   const std::vector<scene::PlayedClip> clips = playedClips(scene, knobs.look());
   const bool rests = clips.empty() && !waves && &scene == followed_;
   if (rests && isAtRest_ && written_) return;
@@ -225,14 +225,30 @@ void SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, do
   written_ = true;
   std::fill(touched_.begin(), touched_.end(), uint8_t(0));
 
-  uint32_t* moved = moved_.as<uint32_t>();
-  bool isDry = true;
+  // What is to be written: page by page, where first all is counted that is in each.
+  std::vector<bool> isDry(moving_.size());  // neither water nor after it
+  bool isBefore = true;
+  const auto forEachMoved = [&](auto&& visit) {
+    for (size_t i = 0; i < moving_.size(); ++i)
+      for (uint32_t c = 0; moves[i] && c < moving_[i].chunkCount; ++c)
+        visit(i, moving_[i].firstChunk + c, movedOfPage_[geometry_.pageOfChunk()[moving_[i].firstChunk + c]]);
+  };
   for (size_t i = 0; i < moving_.size(); ++i) {
-    isDry &= moving_[i].water == Water::none;
-    if (!moves[i]) continue;
-    for (uint32_t c = 0; c < moving_[i].chunkCount; ++c) moved[movedCount_++] = moving_[i].firstChunk + c;
-    if (isDry) movedBeforeWater_ = movedCount_;
+    isBefore &= moving_[i].water == Water::none;
+    isDry[i] = isBefore;
   }
+  forEachMoved([](size_t, uint32_t, Moved& page) { ++page.count; });
+  uint32_t next = 0;
+  for (Moved& page : movedOfPage_) {
+    page.first = next;
+    next += page.count;
+    page.count = 0;
+  }
+  auto* const moved = moved_.as<uint32_t>();
+  forEachMoved([&](size_t i, uint32_t chunk, Moved& page) {
+    moved[page.first + page.count++] = chunk;
+    if (isDry[i]) page.beforeWater = page.count;
+  });
 }
 
 void SceneMotion::addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) {

@@ -7,7 +7,7 @@
 #include "scene/posed_bounds.h"
 #include "shading/frame.shared.h"
 #include "stage/knob_table.h"
-#include "world/geometry.h"
+#include "world/geometry_on_gpu.h"
 
 namespace scumble::world {
 
@@ -32,14 +32,13 @@ struct MovingObject {
 class SceneMotion {
  public:
   // `objects` with all that does not move (material, id ...); matrices, joints and weights are filled in
-  // here. `moving` stays alive as long as this does.
+  // here. `moving` and `geometry` stay alive as long as this does.
   SceneMotion(gpu::Device& device, const scene::SceneData& scene, const std::vector<MovingObject>& moving,
-              const std::vector<shared::ObjectData>& objects, uint32_t chunkCount);
+              const std::vector<shared::ObjectData>& objects, const GeometryOnGpu& geometry);
 
   // What it was made for has become another; what does not move because of that is not written anew. False,
   // and nothing is done, where the buffers have other sizes than that takes.
-  bool follow(const scene::SceneData& scene, const std::vector<shared::ObjectData>& objects,
-              uint32_t chunkCount);
+  bool follow(const scene::SceneData& scene, const std::vector<shared::ObjectData>& objects);
   // An object's vertices at rest are others.
   void touch(size_t object) { touched_[object] = 1; }
 
@@ -69,10 +68,12 @@ class SceneMotion {
     return riding_.empty() || !riding_[node] ? glm::mat4(1.0f) : *riding_[node];
   }
 
-  // Chunks of vertices whose final ones are out of date; the next pose starts from these being written.
-  uint32_t movedCount() const { return movedCount_; }
-  // How many of these come first that are no water; after them there may be anything.
-  uint32_t movedBeforeWater() const { return movedBeforeWater_; }
+  // Chunks of vertices whose final ones are out of date, in moved(); the next pose starts from these being
+  // written. By page: those that are no water come first, after them there may be anything.
+  struct Moved {
+    uint32_t first = 0, beforeWater = 0, count = 0;
+  };
+  const std::vector<Moved>& movedOfPage() const { return movedOfPage_; }
   // Forgets what was written before: everything has moved.
   void touchAll() { written_ = isAtRest_ = false; }
 
@@ -98,13 +99,14 @@ class SceneMotion {
 
   const std::vector<MovingObject>& moving_;
   Layout layout_;
+  const GeometryOnGpu& geometry_;
   uint32_t chunkCount_;
   gpu::PerFrameBuffer objects_, joints_, morphWeights_, moved_;
   std::vector<scene::Bounds> bounds_;
   std::vector<uint8_t> mirrored_, touched_;
   std::vector<glm::mat4> world_, worldAsDrawn_;
   std::vector<std::optional<glm::mat4>> riding_;  // by node; empty: nothing rides
-  uint32_t movedCount_ = 0, movedBeforeWater_ = 0;
+  std::vector<Moved> movedOfPage_;
   const scene::SceneData* followed_;
   bool written_ = false, isAtRest_ = false;
 };

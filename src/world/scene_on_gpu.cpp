@@ -71,6 +71,7 @@ SceneOnGpu::Changes SceneOnGpu::update(const scene::SceneData& scene, const Geom
   const bool otherPlaces = geometry_.update(device_, uploader, geometry.items, settle);
   const bool otherTextures = textures_.update(uploader, scene.images, settle);
   uploader.flush();
+  if (otherTextures) ++texturesVersion_;
   if (otherPlaces) {
     previousPositions_ = positionBuffer(device_, previousMotion_ ? geometry_.vertexCount() : 1);
     changes.buffers = true;
@@ -223,9 +224,9 @@ bool SceneOnGpu::followMotion(bool otherPlaces, const std::function<void()>& set
   bool renamed = false;
   for (std::optional<SceneMotion>* motion : {&motion_, &previousMotion_}) {
     if (!*motion && motion == &previousMotion_) continue;
-    if (!*motion || !(*motion)->follow(*data_, objects_, geometry_.chunkCount())) {
+    if (!*motion || !(*motion)->follow(*data_, objects_)) {
       settle();
-      motion->emplace(device_, *data_, moving_, objects_, geometry_.chunkCount());
+      motion->emplace(device_, *data_, moving_, objects_, geometry_);
       renamed = true;
     }
     if (otherPlaces) (*motion)->touchAll();
@@ -279,7 +280,7 @@ void SceneOnGpu::keepPrevious() {
   if (previousMotion_) return;
   previousPositions_ = positionBuffer(device_, geometry_.vertexCount());
   if (waves_) previousWaves_.emplace(device_, *data_, options_.ocean);
-  previousMotion_.emplace(device_, *data_, moving_, objects_, geometry_.chunkCount());
+  previousMotion_.emplace(device_, *data_, moving_, objects_, geometry_);
 }
 
 void SceneOnGpu::addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) {

@@ -144,9 +144,11 @@ class SceneOnGpu {
   bool wraps() const { return wraps_; }
   // Counts up whenever draws() may want other pipelines.
   uint32_t drawsVersion() const { return drawsVersion_; }
+  // Counts up whenever textures are other images: a new one's view may have an old one's name.
+  uint32_t texturesVersion() const { return texturesVersion_; }
 
   uint64_t triangleCount() const { return triangleCount_; }
-  uint64_t uploadedBytes() const { return geometry_.bytes() + textures_.bytes(); }
+  uint64_t uploadedBytes() const { return geometry_.bytes() + textures_.bytes() + transparent_.bytes(); }
 
  private:
   void listMaterials();
@@ -186,7 +188,7 @@ class SceneOnGpu {
   std::vector<MaterialUse> materialUses_;
   int groundMaterial_ = -1, oceanMaterial_ = -1;
   std::vector<Draw> draws_;
-  uint32_t drawsVersion_ = 0;
+  uint32_t drawsVersion_ = 0, texturesVersion_ = 0;
   bool wraps_ = false;
   std::vector<float> nearestOf_, warpScaleOf_;  // by material
   std::vector<bool> isVaried_;                  // by material

@@ -18,6 +18,7 @@ bool TransparentTriangles::update(gpu::Device& device, std::vector<Part> parts,
   if (bytes > device.limits().maxStorageBufferRange)
     throw gpu::VulkanError{"the scene's transparent triangles", VK_ERROR_OUT_OF_DEVICE_MEMORY};
   count_ = uint32_t(triangles);
+  visible_ = 0;
 
   constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
   gpu::Uploader uploader(device);
@@ -46,6 +47,8 @@ bool TransparentTriangles::update(gpu::Device& device, std::vector<Part> parts,
 }
 
 void TransparentTriangles::show(size_t part, bool isVisible, bool isMirrored) {
+  if (part == 0) visible_ = 0;
+  visible_ += isVisible ? 1 : 0;
   const Part& known = known_[part];
   parts_.as<shared::TransparentPart>()[part] = {
       known.object, known.material << 2 | uint32_t(known.varied) << 1 | uint32_t(isMirrored),

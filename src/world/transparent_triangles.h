@@ -23,10 +23,14 @@ class TransparentTriangles {
   // are others the buffers have other names, which is told by true, and `settle` is called before they go.
   bool update(gpu::Device& device, std::vector<Part> parts, const std::function<void()>& settle);
 
-  // For the next frame.
+  // For the next frame, all of them in their order.
   void show(size_t part, bool isVisible, bool isMirrored);
 
   uint32_t count() const { return count_; }
+  bool isVisible() const { return visible_ > 0; }  // any of them
+  uint64_t bytes() const {
+    return triangles_.size() + partOfVertex_.size() + indices_.size() + parts_.size();
+  }
   // shared::TransparentTriangle, and shared::TransparentPart.
   VkBuffer triangles() const { return triangles_.handle(); }
   VkBuffer parts() const { return parts_.handle(); }
@@ -40,7 +44,7 @@ class TransparentTriangles {
 
  private:
   std::vector<Part> known_;
-  uint32_t count_ = 0;
+  uint32_t count_ = 0, visible_ = 0;
   gpu::Buffer triangles_, partOfVertex_, indices_;
   gpu::PerFrameBuffer parts_;
 };

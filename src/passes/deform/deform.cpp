@@ -36,20 +36,24 @@ class Deform : public frame::Pass {
   }
   void bind(const gpu::GraphResources&) override {
     now_.bind(*scene_, scene_->motion(), scene_->waves());
-    if (previous_.set.size() > 0) previous_.bind(*scene_, *scene_->previousMotion(), scene_->previousWaves());
+    if (previous_.device) previous_.bind(*scene_, *scene_->previousMotion(), scene_->previousWaves());
   }
 
  private:
   // Of one of the two poses.
   struct Work {
-    gpu::DescriptorSets set;
+    gpu::Device* device = nullptr;
+    const gpu::SetLayout* layout = nullptr;
+    gpu::DescriptorSets sets;  // by page
     gpu::Pipeline dry, waves, decorations;
 
-    void create(frame::FrameBuilder& frame, const gpu::SetLayout& layout, bool hasOcean, bool positionsOnly) {
-      set = gpu::DescriptorSets(frame.device(), layout);
+    void create(frame::FrameBuilder& frame, const gpu::SetLayout& bindings, bool hasOcean,
+                bool positionsOnly) {
+      device = &frame.device();
+      layout = &bindings;
       gpu::ComputePipelineDesc desc;
       desc.shader = {shaders::deform_comp};
-      desc.sets = {frame.frameLayout().handle(), layout.handle()};
+      desc.sets = {frame.frameLayout().handle(), bindings.handle()};
       desc.pushConstantBytes = 8;
       desc.constants = {positionsOnly, 0};
       dry = gpu::Pipeline(frame.device(), desc);
@@ -63,37 +67,52 @@ class Deform : public frame::Pass {
     void bind(const world::SceneOnGpu& scene, const world::SceneMotion& motion,
               const world::OceanWaves* ocean) {
       const world::GeometryOnGpu& geometry = scene.geometry();
-      const VkBuffer buffers[] = {geometry.chunks().handle(),
-                                  motion.moved(),
-                                  motion.objects(),
-                                  motion.joints(),
-                                  motion.morphWeights(),
-                                  geometry.restCore().handle(),
-                                  geometry.restFrame().handle(),
-                                  geometry.restSkin().handle(),
-                                  geometry.morphStarts().handle(),
-                                  geometry.morphs().handle(),
-                                  geometry.finalCore().handle(),
-                                  geometry.finalFrame().handle(),
-                                  scene.previousPositions().handle(),
-                                  ocean ? ocean->buffer().handle() : motion.objects(),
-                                  geometry.surface().handle()};
-      for (uint32_t i = 0; i < std::size(buffers); ++i) set.writeBuffer(0, i, buffers[i]);
+      if (sets.size() < geometry.pages().size())
+        sets = gpu::DescriptorSets(*device, *layout, uint32_t(geometry.pages().size()));
+      for (size_t p = 0; p < geometry.pages().size(); ++p) {
+        const world::VertexPage& page = geometry.pages()[p];
+        uint32_t binding = 0;
+        const auto whole = [&](VkBuffer buffer) { sets.writeBuffer(p, binding++, buffer); };
+        // As much of a stream as the page may reach.
+        const auto part = [&](const gpu::Buffer& buffer, uint32_t first, uint64_t vertexBytes) {
+          const uint64_t offset = std::min(first * vertexBytes, buffer.size() - 1) / 256 * 256;
+          sets.writeBuffer(p, binding++, buffer.handle(), offset,
+                           std::min(geometry.pageVertices() * vertexBytes, buffer.size() - offset));
+        };
+        whole(geometry.chunks().handle());
+        whole(motion.moved());
+        whole(motion.objects());
+        whole(motion.joints());
+        whole(motion.morphWeights());
+        part(geometry.restCore(), page.firstRest, sizeof(shared::VertexCore));
+        part(geometry.restFrame(), page.firstRest, sizeof(shared::VertexFrame));
+        whole(geometry.restSkin().handle());
+        whole(geometry.morphStarts().handle());
+        whole(geometry.morphs().handle());
+        part(geometry.finalCore(), page.firstFinal, sizeof(shared::VertexCore));
+        part(geometry.finalFrame(), page.firstFinal, sizeof(shared::VertexFrame));
+        part(scene.previousPositions(), page.firstFinal, sizeof(glm::vec3));
+        whole(ocean ? ocean->buffer().handle() : motion.objects());
+        part(geometry.surface(), page.firstFinal, sizeof(shared::VertexSurface));
+      }
     }
 
     void record(VkCommandBuffer commands, VkDescriptorSet frameSet, const world::SceneMotion& motion) const {
-      const uint32_t dryCount = motion.movedBeforeWater();
-      dispatch(commands, frameSet, dry, 0, dryCount);
-      for (const gpu::Pipeline* pipeline : {&waves, &decorations})
-        dispatch(commands, frameSet, *pipeline, dryCount, motion.movedCount() - dryCount);
+      for (size_t p = 0; p < motion.movedOfPage().size(); ++p) {
+        const world::SceneMotion::Moved& moved = motion.movedOfPage()[p];
+        dispatch(commands, frameSet, sets[p], dry, moved.first, moved.beforeWater);
+        for (const gpu::Pipeline* pipeline : {&waves, &decorations})
+          dispatch(commands, frameSet, sets[p], *pipeline, moved.first + moved.beforeWater,
+                   moved.count - moved.beforeWater);
+      }
     }
 
-    void dispatch(VkCommandBuffer commands, VkDescriptorSet frameSet, const gpu::Pipeline& pipeline,
-                  uint32_t first, uint32_t count) const {
+    void dispatch(VkCommandBuffer commands, VkDescriptorSet frameSet, VkDescriptorSet set,
+                  const gpu::Pipeline& pipeline, uint32_t first, uint32_t count) const {
       if (count == 0) return;
       pipeline.bind(commands);
       pipeline.bindSet(commands, 0, frameSet);
-      pipeline.bindSet(commands, 1, set[0]);
+      pipeline.bindSet(commands, 1, set);
       pipeline.push(commands, {first, count});
       const uint32_t x = std::min(count, uint32_t(shared::kMaxGroupsX));
       vkCmdDispatch(commands, x, (count + x - 1) / x, 1);

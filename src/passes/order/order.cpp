@@ -59,8 +59,8 @@ class Order : public Pass {
 
  private:
   void record(VkCommandBuffer commands) const {
+    if (!frame_->scene().transparent().isVisible()) return;
     const uint32_t count = frame_->scene().transparent().count();
-    if (count == 0) return;
     const auto run = [&](const gpu::Pipeline& pipeline) {
       gpu::computeBarrier(commands);
       pipeline.bind(commands);

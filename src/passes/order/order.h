@@ -1,4 +1,5 @@
-// The order of all triangles of blended surfaces, of all objects: the farthest first (FORMULAS 19).
+// The order of all triangles of blended surfaces, of all objects: the farthest first. (Paper 002 orders
+// each object for itself.)
 #pragma once
 
 #include <memory>

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scumble/scene_editor.h"
 #include "tests/support/aov.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
+#include "tests/support/test_device.h"
 
 namespace scumble::passes {
 namespace {
@@ -215,6 +217,114 @@ TEST_P(OrderTest, manyTextures) {
       EXPECT_NEAR(got.w, expected.a, 2 * kByte) << i;
       for (int c = 0; c < 3; ++c) EXPECT_NEAR(std::sqrt(got[c]), std::sqrt(expected[c]), 6 * kByte) << i;
     }
+}
+
+// The same over each other: groups lie over each other as what is in them does.
+TEST_P(OrderTest, manyTexturesOverEachOther) {
+  constexpr int kPanes = 20;
+  for (const bool nearestFirst : {false, true}) {
+    TestScene s;
+    Composite composite;
+    std::vector<glm::vec4> colors;
+    for (int i = 0; i < kPanes; ++i)
+      colors.push_back({float(i % 4) / 3, float(i / 4 % 4) / 3, float(i / 16) / 2, 0.4f});
+    for (int i = 0; i < kPanes; ++i) {
+      Json json = TestScene::unlit("Pane " + std::to_string(i), {1, 1, 1, 1});
+      json["pbrMetallicRoughness"]["baseColorTexture"]["index"] = s.texture(solid(colors[size_t(i)]));
+      const float z = 0.1f * float(nearestFirst ? kPanes - i : i);
+      s.add(gridMesh({-1, -1, z}, {2, 0, 0}, {0, 2, 0}), s.material(blended(json)));
+    }
+    for (int i = 0; i < kPanes; ++i) {
+      const glm::dvec4 c(colors[size_t(nearestFirst ? kPanes - 1 - i : i)]);
+      composite.over(glm::sqrt(glm::dvec3(c)), c.a);
+    }
+    const Scene scene = s.load();
+    const auto views = viewsFrom(scene, {{0, 0, 6}}, kWidth, kHeight, GetParam());
+    const Frame frame =
+        draw(scene, quietLook({{"light.shadowWarp", "0"}}), views, sized(kWidth, kHeight, {"lit"}));
+    for (size_t v = 0; v < viewCount(); ++v) {
+      const glm::dvec4 got = texel(aov(frame, "lit", v), kWidth / 2, kHeight / 2);
+      for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(std::sqrt(got[c]), composite.root()[c], 12 * kByte) << nearestFirst;
+    }
+  }
+}
+
+// Pictures that the look paints on them, or gives them as colours, are those that an opaque surface gets.
+TEST_P(OrderTest, looksPaintAndColorThem) {
+  const auto drawn = [&](bool isBlended, const Knobs& knobs) {
+    TestScene s;
+    Json json = TestScene::colored("Pane", {0.4f, 0.5f, 0.2f, isBlended ? 0.6f : 1.0f});
+    s.add(gridMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 2), s.material(isBlended ? blended(json) : json));
+    const Scene scene = s.load();
+    return draw(scene, quietLook(knobs), viewsFrom(scene, {{0, 0, 5}}, kWidth, kHeight, GetParam()),
+                sized(kWidth, kHeight, {"lit"}));
+  };
+  const Frame plain = drawn(true, {});
+  const Knobs painted{{"materials.Pane.texture.amount", "1"}, {"materials.Pane.texture.blend", "replace"}};
+  const Frame got = drawn(true, painted), expected = drawn(false, painted);
+  for (size_t v = 0; v < viewCount(); ++v) {
+    Difference same(4 * kByte);
+    double changed = 0;
+    for (int y = 20; y < kHeight - 20; ++y)
+      for (int x = 30; x < kWidth - 30; ++x)
+        for (int c = 0; c < 3; ++c) {
+          const double root = std::sqrt(texel(aov(got, "lit", v), x, y)[c]);
+          same.add(root, std::sqrt(texel(aov(expected, "lit", v), x, y)[c]));
+          changed += std::abs(root - std::sqrt(texel(aov(plain, "lit", v), x, y)[c]));
+        }
+    EXPECT_EQ(same.beyond, 0u) << same.text();
+    EXPECT_GT(changed, 1) << "nothing is painted";
+  }
+}
+
+// An editor's textures come and go while the same materials stay. Without the validation layers, whose
+// handles are never used again.
+TEST_P(OrderTest, texturesThatAreReplaced) {
+  RendererOptions options;
+  options.device = testDevice();
+  const auto renderer = Renderer::create(options);
+  ASSERT_TRUE(renderer.ok());
+  SceneEditor editor("panes");
+  std::vector<uint8_t> texels(8 * 8 * 4, 255);
+  const auto paint = [&](int i) {
+    for (size_t t = 0; t < texels.size(); t += 4)
+      texels[t] = uint8_t(40 * i), texels[t + 1] = uint8_t(255 - 40 * i), texels[t + 3] = 200;
+    return TextureDesc{"t", 8, 8, texels};
+  };
+  const Result<TextureId> texture = editor.addTexture(paint(0));
+  ASSERT_TRUE(texture.ok());
+  MaterialDesc material;
+  material.name = "Pane";
+  material.alpha = MaterialDesc::Alpha::blend;
+  material.doubleSided = material.unlit = true;
+  material.baseColorTexture.texture = *texture;
+  const Result<MaterialId> pane = editor.addMaterial(material);
+  ASSERT_TRUE(pane.ok());
+  const TestMesh grid = gridMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0});
+  const Result<MeshId> mesh = editor.addMesh({{.positions = grid.positions,
+                                               .indices = grid.indices,
+                                               .normals = grid.normals,
+                                               .uv0 = grid.uvs,
+                                               .material = *pane}});
+  ASSERT_TRUE(mesh.ok());
+  ASSERT_TRUE(editor.addNode({.name = "Pane", .mesh = *mesh}).ok());
+  for (int i = 0; i < 6; ++i) {
+    ASSERT_TRUE(editor.setTexture(*texture, paint(i)).ok());
+    const Result<Scene> scene = editor.scene();
+    ASSERT_TRUE(scene.ok());
+    const auto views = viewsFrom(*scene, {{0, 0, 5}}, kWidth, kHeight, GetParam());
+    for (int again = 0; again < 2; ++again) {
+      const Result<Frame> frame =
+          (*renderer)->render(*scene, quietLook(), 0, views, sized(kWidth, kHeight, {"lit"}));
+      ASSERT_TRUE(frame.ok());
+      for (size_t v = 0; v < viewCount(); ++v) {
+        const glm::dvec4 got = texel(aov(*frame, "lit", v), kWidth / 2, kHeight / 2);
+        EXPECT_NEAR(srgbCode(got.r), 40 * i, 6) << i;
+        EXPECT_NEAR(srgbCode(got.g), 255 - 40 * i, 6) << i;
+      }
+    }
+  }
 }
 
 // Frames of one scene, alone and after others from elsewhere, are the same to the byte.

@@ -18,7 +18,7 @@ void main() {
   vec4 color = inColor;
 #ifdef TRANSPARENT
   materialIndex = materialOf(inPart);
-  color *= sampleSlots(materialRows[materialIndex].slots, inUv, 0.0).values[0];
+  color *= sampleSlots(ivec4(materialRows[materialIndex].slots.x, -1, -1, -1), inUv, 0.0).values[0];
   if (isCulled(seesFront(inPart, gl_FrontFacing))) discard;
   outColor = color;
 #else

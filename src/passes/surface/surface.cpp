@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "frame/drawn_image.h"
 #include "frame/geometry_step.h"
@@ -135,7 +136,7 @@ class Surface : public Pass {
     light_.write(input.knobs.scene<LightParams>());
 
     std::vector<MaterialVariant> variants;
-    std::vector<std::pair<const gpu::Image*, const gpu::Image*>> paintings;  // each once
+    std::vector<std::tuple<const gpu::Image*, const gpu::Image*, VkSampler>> paintings;  // each once
     std::vector<uint32_t> paintingOf;
     for (size_t m = 0; m < input.scene.materialCount(); ++m) {
       const TextureParams texture = input.knobs.of<TextureParams>(m);
@@ -165,7 +166,7 @@ class Surface : public Pass {
         sets->writeTexture(m, shared::kSurfaceInverse, use.inverse().view(),
                            frame_->samplers().get(ExampleTextures::kInverseSampler));
       }
-      const std::pair painting{&use.image(), &use.inverse()};
+      const std::tuple painting{&use.image(), &use.inverse(), frame_->samplers().get(use.sampler())};
       const auto known = std::find(paintings.begin(), paintings.end(), painting);
       paintingOf.push_back(uint32_t(known - paintings.begin()));
       if (known == paintings.end()) paintings.push_back(painting);

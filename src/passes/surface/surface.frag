@@ -96,11 +96,11 @@ layout(set = 2, binding = kSurfaceOceanShadowed) uniform sampler2DArray oceanSha
 void main() {
 #ifdef TRANSPARENT
   materialIndex = materialOf(inPart);
-  bool isFront = seesFront(inPart, gl_FrontFacing), isVaried = kVaried != 0 && isVariedPart(inPart);
+  bool isFront = seesFront(inPart, gl_FrontFacing), isVaried = kVaried != 0 && (isVariedPart(inPart) || materialRows[materialIndex].varies != 0);
   ivec4 slots = materialRows[materialIndex].slots;
   bool hasShadowedSet = slots.w >= 0;
-  SlotValues here = sampleSlots(slots, inUvs.xy, params.simplify);
-  SlotValues emissiveHere = sampleSlots(slots, inUvs.zw, params.simplify);
+  SlotValues here = sampleSlots(ivec4(slots.x, -1, slots.zw), inUvs.xy, params.simplify);
+  SlotValues emissiveHere = sampleSlots(ivec4(-1, slots.y, -1, -1), inUvs.zw, params.simplify);
   if (isCulled(isFront)) discard;
 #else
   bool isFront = gl_FrontFacing;
