@@ -6,6 +6,7 @@
 #include "gpu/prefix_sum.shared.h"
 #include "shaders/prefix_sum_comp.h"
 #include "shaders/radix_sort_comp.h"
+#include "shaders/radix_sort_whole_comp.h"
 
 namespace scumble::gpu {
 
@@ -90,7 +91,7 @@ RadixSort::RadixSort(Device& device, uint32_t most, uint32_t keyBits)
   const SetLayout layout = storageBuffers(device, 5);
   counts_ = Pipeline(device, description({shaders::radix_sort_comp}, layout, {0}, 16));
   scatters_ = Pipeline(device, description({shaders::radix_sort_comp}, layout, {1}, 16));
-  whole_ = Pipeline(device, description({shaders::radix_sort_comp}, layout, {2, digitCount_}, 16));
+  whole_ = Pipeline(device, description({shaders::radix_sort_whole_comp}, layout, {0, digitCount_}, 16));
   sets_ = DescriptorSets(device, layout, 2);
   for (const uint32_t from : {0u, 1u}) {
     const Buffer* const buffers[] = {&keys_[from], &values_[from], &keys_[1 - from], &values_[1 - from],

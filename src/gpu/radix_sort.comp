@@ -1,28 +1,33 @@
 #version 460
-// A radix sort, the least significant digit first. kStep 0: how often a digit occurs in each block of keys. kStep 1, after
-// prefix sums over these: every pair goes to its place. kStep 2: all digits at once, of no more than one block. Ranks
-// within a block follow the order of its threads and of the keys of each, so that the sort is stable, and the same on
+// A radix sort, the least significant digit first: how often a digit occurs in each block of keys; with kScatters, after
+// prefix sums over these, every pair goes to its place. With WHOLE defined: all digits at once, of no more than one block.
+// Ranks within a block follow the order of its threads and of the keys of each, so that the sort is stable, and the same on
 // every device.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_scalar_block_layout : require
 #include "prefix_sum.shared.h"
 
-layout(constant_id = 0) const uint kStep = 0;
-layout(constant_id = 1) const uint kAllDigits = 8;
-const uint kCounts = 0, kScatters = 1, kWhole = 2;
+layout(constant_id = 0) const bool kScatters = false;
+layout(constant_id = 1) const uint kAllDigits = 8;  // of WHOLE
+
+#ifdef WHOLE
+#define SHARES coherent  // what a thread has written another one reads
+#else
+#define SHARES
+#endif
 
 layout(local_size_x = kSortThreads) in;
-layout(set = 0, binding = 0, scalar) coherent buffer Keys { uint keys[]; };
-layout(set = 0, binding = 1, scalar) coherent buffer Values { uint values[]; };
-layout(set = 0, binding = 2, scalar) coherent buffer OtherKeys { uint otherKeys[]; };
-layout(set = 0, binding = 3, scalar) coherent buffer OtherValues { uint otherValues[]; };
+layout(set = 0, binding = 0, scalar) SHARES buffer Keys { uint keys[]; };
+layout(set = 0, binding = 1, scalar) SHARES buffer Values { uint values[]; };
+layout(set = 0, binding = 2, scalar) SHARES buffer OtherKeys { uint otherKeys[]; };
+layout(set = 0, binding = 3, scalar) SHARES buffer OtherValues { uint otherValues[]; };
 layout(set = 0, binding = 4, scalar) buffer Counts { uint counts[]; };  // by digit, then by block
-layout(push_constant, scalar) uniform Push { uint count, groupsX, blocks, which; };  // which digit
+layout(push_constant, scalar) uniform Push { uint count, groupsX, blocks, which; };  // which digit, but of WHOLE
 
 // By thread, two digits in each word: a block has fewer than 2^16 keys.
 const uint kWords = kDigits / 2;
 shared uint ranks[kWords][kSortThreads];
-shared uint totals[kWords], places[kDigits];
+shared uint totals[kWords];
 
 uint digitOf(uint key, uint digit) { return key >> digit * kDigitBits & (kDigits - 1); }
 uint half16(uint word, uint digit) { return word >> 16 * (digit & 1) & 0xFFFFu; }
@@ -49,6 +54,10 @@ void rank(uint first, uint end, uint digit, bool back) {
   barrier();
 }
 
+#ifdef WHOLE
+shared uint places[kDigits];
+#endif
+
 // The place of the thread's next pair of a digit within its block.
 uint nextOf(uint d) {
   uint thread = gl_LocalInvocationID.x, place = half16(ranks[d / 2][thread], d);
@@ -59,30 +68,28 @@ uint nextOf(uint d) {
 void main() {
   uint thread = gl_LocalInvocationID.x, block = gl_WorkGroupID.x + gl_WorkGroupID.y * groupsX;
   uint first = block * kSortBlock + thread * kSortRun, end = min(first + kSortRun, count);
-  if (kStep == kWhole) {
-    for (uint digit = 0; digit < kAllDigits; ++digit) {
-      bool back = (digit & 1) != 0;
-      rank(first, end, digit, back);
-      if (thread == 0)
-        for (uint d = 0, before = 0; d < kDigits; before += half16(totals[d / 2], d), ++d) places[d] = before;
-      barrier();
-      for (uint i = first; i < end; ++i) {
-        uint key = back ? otherKeys[i] : keys[i], value = back ? otherValues[i] : values[i];
-        uint d = digitOf(key, digit), place = places[d] + nextOf(d);
-        if (back)
-          keys[place] = key, values[place] = value;
-        else
-          otherKeys[place] = key, otherValues[place] = value;
-      }
-      memoryBarrierBuffer();
-      barrier();
+#ifdef WHOLE
+  for (uint digit = 0; digit < kAllDigits; ++digit) {
+    bool back = (digit & 1) != 0;
+    rank(first, end, digit, back);
+    if (thread == 0)
+      for (uint d = 0, before = 0; d < kDigits; before += half16(totals[d / 2], d), ++d) places[d] = before;
+    barrier();
+    for (uint i = first; i < end; ++i) {
+      uint key = back ? otherKeys[i] : keys[i], value = back ? otherValues[i] : values[i];
+      uint d = digitOf(key, digit), place = places[d] + nextOf(d);
+      if (back)
+        keys[place] = key, values[place] = value;
+      else
+        otherKeys[place] = key, otherValues[place] = value;
     }
-    return;
+    memoryBarrierBuffer();
+    barrier();
   }
-
+#else
   if (block >= blocks) return;
   rank(first, end, which, false);
-  if (kStep == kCounts) {
+  if (!kScatters) {
     if (thread < kDigits) counts[thread * blocks + block] = half16(totals[thread / 2], thread);
     return;
   }
@@ -91,4 +98,5 @@ void main() {
     otherKeys[place] = keys[i];
     otherValues[place] = values[i];
   }
+#endif
 }
