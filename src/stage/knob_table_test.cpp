@@ -3,7 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <algorithm>
+#include <span>
 
 #include "scumble/look.h"
 #include "stage/animation_params.h"
@@ -16,7 +17,7 @@ using Materials = std::vector<KnobTable::Material>;
 
 template <class Params>
 bool isSame(const Params& a, const Params& b) {
-  return std::memcmp(&a, &b, sizeof(Params)) == 0;
+  return std::ranges::equal(std::as_bytes(std::span(&a, 1)), std::as_bytes(std::span(&b, 1)));
 }
 
 // File before hand, the whole scene before some names, the later one last.

@@ -17,15 +17,17 @@ class ManyMaterials : public BothEyes {
 
   static std::string nameOf(int i) { return "M" + std::to_string(i); }
   static glm::vec4 colorOf(int i) {
-    return {float(i % 7) / 6, float(i / 7 % 11) / 10, float(i / 77 % 13) / 12, 1};
+    const int green = i / 7 % 11, blue = i / 77 % 13;
+    return {float(i % 7) / 6, float(green) / 10, float(blue) / 12, 1};
   }
   static Scene scene() {
     TestScene s;
-    for (int i = 0; i < kColumns * kRows; ++i)
-      s.add(gridMesh(
-                {-2.5f + 5.0f * float(i % kColumns) / kColumns, -2 + 4.0f * float(i / kColumns) / kRows, 0},
-                {5.0f / kColumns, 0, 0}, {0, 4.0f / kRows, 0}),
+    for (int i = 0; i < kColumns * kRows; ++i) {
+      const int row = i / kColumns;
+      s.add(gridMesh({-2.5f + 5.0f * float(i % kColumns) / kColumns, -2 + 4.0f * float(row) / kRows, 0},
+                     {5.0f / kColumns, 0, 0}, {0, 4.0f / kRows, 0}),
             s.material(TestScene::unlit(nameOf(i), colorOf(i))));
+    }
     return s.load();
   }
   static Look lookOf(const nlohmann::json& materials) {
@@ -52,8 +54,9 @@ TEST_P(ManyMaterials, eachHasItsColor) {
   const Frame frame = draw(many, quietLook(), views, sized(kWidth, kHeight, {"lit"}));
   for (size_t v = 0; v < viewCount(); ++v)
     for (int i = 0; i < kColumns * kRows; ++i) {
-      const glm::dvec3 middle(-2.5 + 5.0 * (i % kColumns + 0.5) / kColumns,
-                              -2 + 4.0 * (i / kColumns + 0.5) / kRows, 0);
+      const int row = i / kColumns;
+      const glm::dvec3 middle(-2.5 + 5.0 * (i % kColumns + 0.5) / kColumns, -2 + 4.0 * (row + 0.5) / kRows,
+                              0);
       const glm::ivec2 at(pixelOf(views[v], middle, kWidth, kHeight));
       const glm::dvec4 got = texel(aov(frame, "lit", v), at.x, at.y);
       for (int c = 0; c < 3; ++c) ASSERT_NEAR(std::sqrt(got[c]), std::sqrt(colorOf(i)[c]), 1.5 / 255) << i;

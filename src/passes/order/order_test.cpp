@@ -195,14 +195,16 @@ TEST_P(OrderTest, panesOfEveryKindOverEachOther) {
 TEST_P(OrderTest, manyTextures) {
   constexpr int kPanes = 30;
   const auto colorOf = [](int i) {
-    return glm::vec4(float(i % 4) / 3, float(i / 4 % 4) / 3, float(i / 16) / 2, 0.7f);
+    const int row = i / 4 % 4, block = i / 16;
+    return glm::vec4(float(i % 4) / 3, float(row) / 3, float(block) / 2, 0.7f);
   };
   TestScene s;
   for (int i = 0; i < kPanes; ++i) {
     Json json = TestScene::unlit("Pane " + std::to_string(i), {1, 1, 1, 1});
     const glm::vec4 c = colorOf(i);
     json["pbrMetallicRoughness"]["baseColorTexture"]["index"] = s.texture(solid(c));
-    s.add(gridMesh({-1.5f + 0.5f * float(i % 6), -1 + 0.4f * float(i / 6), 0}, {0.45f, 0, 0}, {0, 0.35f, 0}),
+    const int row = i / 6;
+    s.add(gridMesh({-1.5f + 0.5f * float(i % 6), -1 + 0.4f * float(row), 0}, {0.45f, 0, 0}, {0, 0.35f, 0}),
           s.material(blended(json)));
   }
   const Scene scene = s.load();
@@ -210,7 +212,8 @@ TEST_P(OrderTest, manyTextures) {
   const Frame frame = draw(scene, quietLook(), views, sized(kWidth, kHeight, {"lit"}));
   for (size_t v = 0; v < viewCount(); ++v)
     for (int i = 0; i < kPanes; ++i) {
-      const glm::dvec3 middle(-1.275 + 0.5 * (i % 6), -0.825 + 0.4 * (i / 6), 0);
+      const int row = i / 6;
+      const glm::dvec3 middle(-1.275 + 0.5 * (i % 6), -0.825 + 0.4 * row, 0);
       const glm::ivec2 at(pixelOf(views[v], middle, kWidth, kHeight));
       const glm::dvec4 got = texel(aov(frame, "lit", v), at.x, at.y);
       const glm::vec4 expected = colorOf(i);
@@ -226,8 +229,10 @@ TEST_P(OrderTest, manyTexturesOverEachOther) {
     TestScene s;
     Composite composite;
     std::vector<glm::vec4> colors;
-    for (int i = 0; i < kPanes; ++i)
-      colors.push_back({float(i % 4) / 3, float(i / 4 % 4) / 3, float(i / 16) / 2, 0.4f});
+    for (int i = 0; i < kPanes; ++i) {
+      const int row = i / 4 % 4, block = i / 16;
+      colors.push_back({float(i % 4) / 3, float(row) / 3, float(block) / 2, 0.4f});
+    }
     for (int i = 0; i < kPanes; ++i) {
       Json json = TestScene::unlit("Pane " + std::to_string(i), {1, 1, 1, 1});
       json["pbrMetallicRoughness"]["baseColorTexture"]["index"] = s.texture(solid(colors[size_t(i)]));
