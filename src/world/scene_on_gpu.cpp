@@ -260,6 +260,7 @@ void SceneOnGpu::look(const Viewers& viewers) {
 
 std::vector<scene::Bounds> SceneOnGpu::casters() const {
   std::vector<scene::Bounds> boxes;
+  boxes.reserve(draws_.size());
   for (const Draw& draw : draws_)
     if (draw.casts) boxes.emplace_back(draw.reach).add(draw.bounds);
   return boxes;
