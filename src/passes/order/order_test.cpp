@@ -291,11 +291,13 @@ TEST_P(OrderTest, texturesThatAreReplaced) {
   const auto renderer = Renderer::create(options);
   ASSERT_TRUE(renderer.ok());
   SceneEditor editor("panes");
-  std::vector<uint8_t> texels(8 * 8 * 4, 255);
+  std::vector<uint8_t> texels;
   const auto paint = [&](int i) {
+    const uint32_t size = 8u << (3 * i) % 5;
+    texels.assign(size_t(size) * size * 4, 255);
     for (size_t t = 0; t < texels.size(); t += 4)
       texels[t] = uint8_t(40 * i), texels[t + 1] = uint8_t(255 - 40 * i), texels[t + 3] = 200;
-    return TextureDesc{"t", 8, 8, texels};
+    return TextureDesc{"t", size, size, texels};
   };
   const Result<TextureId> texture = editor.addTexture(paint(0));
   ASSERT_TRUE(texture.ok());
