@@ -48,9 +48,8 @@ struct MaterialVariant {
 class GeometryStep {
  public:
   void create(FrameBuilder& frame, const GeometryStepDesc& desc);
-  // What of the look goes into the pipelines: the pass's own constant, and what each material
-  // has. Makes the pipelines that are still missing, also for what the scene has
-  // become.
+  // What of the look goes into the pipelines: the pass's own constant, and what each material has. Makes the
+  // pipelines that are still missing, also for what the scene has become.
   void specialise(uint32_t constant, std::vector<MaterialVariant> materials = {});
   // The same as it is, for what the scene has become.
   void refresh() {

@@ -12,15 +12,10 @@ namespace {
 constexpr size_t kMostTextures = size_t(shared::kTransparentTextures);
 constexpr uint32_t kFirstTexture = 2;  // its binding
 
-bool isSame(const SetTexture& a, const SetTexture& b) {
-  return a.view == b.view && a.sampler == b.sampler;
-}
-
 // Index in a list, which it is added to where it is new; -1 for none.
 int slotOf(const SetTexture& texture, std::vector<SetTexture>& list) {
   if (!texture.view) return -1;
-  const auto found =
-      std::find_if(list.begin(), list.end(), [&](const SetTexture& other) { return isSame(texture, other); });
+  const auto found = std::find(list.begin(), list.end(), texture);
   if (found != list.end()) return int(found - list.begin());
   list.push_back(texture);
   return int(list.size()) - 1;
@@ -36,7 +31,7 @@ uint32_t slotsFor(size_t textures) {
 
 }  // namespace
 
-void TransparentStep::create(FrameBuilder& frame, const TransparentStepDesc& desc) {
+void TransparentStep::create(FrameBuilder& frame, const GeometryStepDesc& desc) {
   frame_ = &frame;
   desc_ = desc;
   const size_t materials = frame.scene().materialCount();

@@ -11,20 +11,11 @@
 
 namespace scumble::frame {
 
-struct TransparentStepDesc {
-  gpu::Shader vertex, fragment;
-  uint32_t inputs = 0;  // VertexInput bits that `vertex` reads
-  // Instead of both, with more inputs, for groups that the look paints textures on; may be empty.
-  gpu::Shader paintedVertex, paintedFragment;
-  uint32_t paintedInputs = 0;
-  std::vector<VkFormat> colorFormats;
-  uint32_t samples = 1, viewMask = 0, viewCount = 1;
-  const gpu::SetLayout* passLayout = nullptr;  // set 2, or null for none
-};
-
 class TransparentStep {
  public:
-  void create(FrameBuilder& frame, const TransparentStepDesc& desc);
+  // Of the description count shaders and their inputs, formats, samples, views, and the layout of set 2, of
+  // which nothing is dynamic.
+  void create(FrameBuilder& frame, const GeometryStepDesc& desc);
   // The scene's buffers have other names.
   void bind();
   // Before each frame, after the scene has its materials. `constant`, `variants`: as in
@@ -51,7 +42,7 @@ class TransparentStep {
   const gpu::Pipeline& pipelineFor(const Group& group, uint32_t index);
 
   FrameBuilder* frame_ = nullptr;
-  TransparentStepDesc desc_;
+  GeometryStepDesc desc_;
   gpu::SetLayout layout_;
   gpu::DescriptorSets sets_;  // by group: there are no more than materials
   UniformSlice rows_;         // shared::TransparentMaterial, by material

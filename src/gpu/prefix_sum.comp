@@ -10,12 +10,12 @@ layout(constant_id = 0) const bool kAdds = false;
 layout(local_size_x = kSumThreads) in;
 layout(set = 0, binding = 0, scalar) buffer Values { uint values[]; };
 layout(set = 0, binding = 1, scalar) buffer Above { uint above[]; };
-layout(push_constant, scalar) uniform Push { uint count, groupsX; };
+layout(push_constant, scalar) uniform Push { uint count; };
 
 shared uint sums[kSumThreads];
 
 void main() {
-  uint thread = gl_LocalInvocationID.x, block = gl_WorkGroupID.x + gl_WorkGroupID.y * groupsX;
+  uint thread = gl_LocalInvocationID.x, block = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
   uint first = block * kSumBlock + thread * kSumRun;
   if (kAdds) {
     for (uint i = first; i < min(first + kSumRun, count); ++i) values[i] += above[block];

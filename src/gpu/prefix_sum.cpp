@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "gpu/dispatch.h"
 #include "gpu/prefix_sum.shared.h"
 #include "shaders/prefix_sum_comp.h"
 #include "shaders/radix_sort_comp.h"
@@ -14,14 +15,6 @@ namespace {
 
 constexpr uint32_t blocksOf(uint32_t count, uint32_t block) {
   return uint32_t((uint64_t(count) + block - 1) / block);
-}
-
-// No device has fewer groups along x.
-constexpr uint32_t kGroupsX = 32768;
-
-void dispatch(VkCommandBuffer commands, uint32_t groups) {
-  const uint32_t x = std::min(groups, kGroupsX);
-  vkCmdDispatch(commands, x, blocksOf(groups, x), 1);
 }
 
 Buffer numbers(Device& device, uint32_t count) {
@@ -54,8 +47,8 @@ PrefixSum::PrefixSum(Device& device, const Buffer& values, uint32_t most) {
     if (count == 1) break;
   }
   const SetLayout layout = storageBuffers(device, 2);
-  scans_ = Pipeline(device, description({shaders::prefix_sum_comp}, layout, {0}, 8));
-  adds_ = Pipeline(device, description({shaders::prefix_sum_comp}, layout, {1}, 8));
+  scans_ = Pipeline(device, description({shaders::prefix_sum_comp}, layout, {0}, 4));
+  adds_ = Pipeline(device, description({shaders::prefix_sum_comp}, layout, {1}, 4));
   sets_ = DescriptorSets(device, layout, uint32_t(levels_.size()));
   for (size_t level = 0; level < levels_.size(); ++level) {
     sets_.writeBuffer(level, 0, (level == 0 ? values : levels_[level - 1]).handle());
@@ -73,7 +66,7 @@ void PrefixSum::record(VkCommandBuffer commands, uint32_t count) const {
     const uint32_t groups = blocksOf(counts[level], kSumBlock);
     pipeline.bind(commands);
     pipeline.bindSet(commands, 0, sets_[level]);
-    pipeline.push(commands, {counts[level], std::min(groups, kGroupsX)});
+    pipeline.push(commands, {counts[level]});
     dispatch(commands, groups);
   };
   for (size_t level = 0; level < counts.size(); ++level) run(scans_, level);
@@ -89,9 +82,9 @@ RadixSort::RadixSort(Device& device, uint32_t most, uint32_t keyBits)
   digits_ = numbers(device, digits);
   sum_ = PrefixSum(device, digits_, digits);
   const SetLayout layout = storageBuffers(device, 5);
-  counts_ = Pipeline(device, description({shaders::radix_sort_comp}, layout, {0}, 16));
-  scatters_ = Pipeline(device, description({shaders::radix_sort_comp}, layout, {1}, 16));
-  whole_ = Pipeline(device, description({shaders::radix_sort_whole_comp}, layout, {0, digitCount_}, 16));
+  counts_ = Pipeline(device, description({shaders::radix_sort_comp}, layout, {0}, 12));
+  scatters_ = Pipeline(device, description({shaders::radix_sort_comp}, layout, {1}, 12));
+  whole_ = Pipeline(device, description({shaders::radix_sort_whole_comp}, layout, {0, digitCount_}, 12));
   sets_ = DescriptorSets(device, layout, 2);
   for (const uint32_t from : {0u, 1u}) {
     const Buffer* const buffers[] = {&keys_[from], &values_[from], &keys_[1 - from], &values_[1 - from],
@@ -107,7 +100,7 @@ void RadixSort::record(VkCommandBuffer commands, uint32_t count) const {
     computeBarrier(commands);
     pipeline.bind(commands);
     pipeline.bindSet(commands, 0, sets_[set]);
-    pipeline.push(commands, {count, std::min(blocks, kGroupsX), blocks, digit});
+    pipeline.push(commands, {count, blocks, digit});
     dispatch(commands, blocks);
   };
   if (blocks == 1) return run(whole_, 0, 0);

@@ -22,7 +22,7 @@ layout(set = 0, binding = 1, scalar) SHARES buffer Values { uint values[]; };
 layout(set = 0, binding = 2, scalar) SHARES buffer OtherKeys { uint otherKeys[]; };
 layout(set = 0, binding = 3, scalar) SHARES buffer OtherValues { uint otherValues[]; };
 layout(set = 0, binding = 4, scalar) buffer Counts { uint counts[]; };  // by digit, then by block
-layout(push_constant, scalar) uniform Push { uint count, groupsX, blocks, which; };  // which digit, but of WHOLE
+layout(push_constant, scalar) uniform Push { uint count, blocks, which; };  // which digit, but of WHOLE
 
 // By thread, two digits in each word: a block has fewer than 2^16 keys.
 const uint kWords = kDigits / 2;
@@ -66,7 +66,7 @@ uint nextOf(uint d) {
 }
 
 void main() {
-  uint thread = gl_LocalInvocationID.x, block = gl_WorkGroupID.x + gl_WorkGroupID.y * groupsX;
+  uint thread = gl_LocalInvocationID.x, block = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
   uint first = block * kSortBlock + thread * kSortRun, end = min(first + kSortRun, count);
 #ifdef WHOLE
   for (uint digit = 0; digit < kAllDigits; ++digit) {

@@ -85,8 +85,7 @@ void KnobTable::evaluate(std::span<const Material> materials) {
   if (known_.size() > kMostKnown) known_.clear();
   rows_.clear();
   rowOf_.clear();
-  std::map<const Places*, uint32_t> rowOfPlaces;
-  std::map<Places, const Places*> same;
+  std::map<Places, uint32_t> rowOfPlaces;
   for (const Material& material : materials) {
     std::pair<std::string, Places> key{material.name,
                                        Places(material.settings.begin(), material.settings.end())};
@@ -95,11 +94,11 @@ void KnobTable::evaluate(std::span<const Material> materials) {
       Places places = placesFor(material);
       known = known_.emplace(std::move(key), std::move(places)).first;
     }
-    const Places* const places = same.try_emplace(known->second, &known->second).first->second;
+    const Places& places = known->second;
     const auto [row, isNew] = rowOfPlaces.try_emplace(places, uint32_t(rows_.size()));
     rowOf_.push_back(row->second);
     if (!isNew) continue;
-    if (places->empty()) {
+    if (places.empty()) {
       rows_.push_back(scene_);
       continue;
     }
@@ -107,7 +106,7 @@ void KnobTable::evaluate(std::span<const Material> materials) {
     Row& values = rows_.emplace_back(defaults_);
     for (const bool byHand : {false, true}) {
       for (const uint32_t place : forScene_[byHand]) apply(look_->assignments[place], values);
-      for (const uint32_t place : *places)
+      for (const uint32_t place : places)
         if (look_->assignments[place].byHand == byHand) apply(look_->assignments[place], values);
     }
   }

@@ -61,7 +61,6 @@ class KnobTable {
     look::Target target;
     bool byHand;
     std::string pattern;
-    bool operator==(const Subject&) const = default;
   };
 
   std::vector<const look::ParamBlock*> blocks_;
@@ -75,8 +74,8 @@ class KnobTable {
   std::vector<uint32_t> rowOf_;
   std::vector<Subject> subjects_;  // that what follows was found for
   // Places of settings for materials by the pattern that they are for: names, and those that match several.
-  std::map<std::string, Places, std::less<>> byName_, byPattern_;
-  std::map<std::pair<std::string, Places>, Places, std::less<>> known_;
+  std::map<std::string, Places> byName_, byPattern_;
+  std::map<std::pair<std::string, Places>, Places> known_;
 };
 
 }  // namespace scumble::stage

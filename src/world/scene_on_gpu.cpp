@@ -346,7 +346,6 @@ SetTexture SceneOnGpu::textureOf(const scene::TextureUse& use) const {
 void SceneOnGpu::setColorSets(size_t material, const SetTexture* lit, const SetTexture* shadowed) {
   materialUses_[material].lit = lit ? *lit : SetTexture();
   materialUses_[material].shadowed = shadowed ? *shadowed : SetTexture();
-  materialUses_[material].colorSets = uint8_t((lit ? kLitSet : 0) | (shadowed ? kShadowedSet : 0));
   if (lit) materialSets_.writeTexture(material, kLitBinding, lit->view, samplers_.get(lit->sampler));
   if (shadowed)
     materialSets_.writeTexture(material, kShadowedBinding, shadowed->view, samplers_.get(shadowed->sampler));

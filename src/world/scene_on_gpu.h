@@ -45,6 +45,7 @@ struct Draw {
 struct SetTexture {
   VkImageView view = VK_NULL_HANDLE;
   gpu::SamplerDesc sampler;
+  bool operator==(const SetTexture&) const = default;
 };
 
 // Whole sets of colours that a material has: bits.
@@ -131,7 +132,10 @@ class SceneOnGpu {
   void setMaterial(size_t material, const shared::MaterialData& data);
   // The sets of colours that a material is drawn with; null: none. A picture stays as long as this does.
   void setColorSets(size_t material, const SetTexture* lit, const SetTexture* shadowed);
-  uint8_t colorSets(size_t material) const { return materialUses_[material].colorSets; }
+  uint8_t colorSets(size_t material) const {
+    const MaterialUse& use = materialUses_[material];
+    return uint8_t((use.lit.view ? kLitSet : 0) | (use.shadowed.view ? kShadowedSet : 0));
+  }
   // What setMaterial() was given last.
   const shared::MaterialData& materialData(size_t material) const;
   // Its textures: base colour, emission, sets of colours for light and shadow; without a view where it has
@@ -165,7 +169,6 @@ class SceneOnGpu {
   struct MaterialUse {
     int base;               // in the scene; -1 for the ground
     uint32_t settings = 0;  // in NodeSettings::lists
-    uint8_t colorSets = 0;
     SetTexture lit{}, shadowed{};
   };
 

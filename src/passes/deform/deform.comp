@@ -35,7 +35,7 @@ layout(set = 1, binding = 14, scalar) writeonly buffer Surface { VertexSurface s
 layout(push_constant, scalar) uniform Push { uint firstMoved, movedCount; };
 
 void main() {
-  uint group = gl_WorkGroupID.x + gl_WorkGroupID.y * kMaxGroupsX;
+  uint group = gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x;
   if (group >= movedCount) return;
   DeformChunk chunk = chunks[moved[firstMoved + group]];
   ObjectData object = placed[chunk.object];

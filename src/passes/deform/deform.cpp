@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "gpu/dispatch.h"
 #include "passes/deform/deform.shared.h"
 #include "shaders/deform_comp.h"
 
@@ -75,7 +76,8 @@ class Deform : public frame::Pass {
         const auto whole = [&](VkBuffer buffer) { sets.writeBuffer(p, binding++, buffer); };
         // As much of a stream as the page may reach.
         const auto part = [&](const gpu::Buffer& buffer, uint32_t first, uint64_t vertexBytes) {
-          const uint64_t offset = std::min(first * vertexBytes, buffer.size() - 1) / 256 * 256;
+          const uint64_t offset = std::min(first * vertexBytes, buffer.size() - 1) / gpu::kUniformAlignment *
+                                  gpu::kUniformAlignment;
           sets.writeBuffer(p, binding++, buffer.handle(), offset,
                            std::min(geometry.pageVertices() * vertexBytes, buffer.size() - offset));
         };
@@ -114,8 +116,7 @@ class Deform : public frame::Pass {
       pipeline.bindSet(commands, 0, frameSet);
       pipeline.bindSet(commands, 1, set);
       pipeline.push(commands, {first, count});
-      const uint32_t x = std::min(count, uint32_t(shared::kMaxGroupsX));
-      vkCmdDispatch(commands, x, (count + x - 1) / x, 1);
+      gpu::dispatch(commands, count);
     }
   };
 

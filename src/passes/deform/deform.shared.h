@@ -4,6 +4,5 @@
 
 SHARED_BEGIN
 const int kDeformThreads = 64;
-const int kMaxGroupsX = 32768;
 SHARED_END
 #endif

@@ -15,7 +15,7 @@ layout(set = 1, binding = 2, scalar) readonly buffer Vertices { VertexCore verti
 layout(set = 1, binding = 3, scalar) writeonly buffer Keys { uint keys[]; };
 layout(set = 1, binding = 4, scalar) buffer Order { uint order[]; };
 layout(set = 1, binding = 5, scalar) writeonly buffer Indices { uvec3 indices[]; };
-layout(push_constant, scalar) uniform Push { uint count, groupsX; };
+layout(push_constant, scalar) uniform Push { uint count; };
 
 // Farther is less. Neither what is not finite nor what is not seen has an order.
 uint keyOf(vec3 middle) {
@@ -29,7 +29,7 @@ uint keyOf(vec3 middle) {
 }
 
 void main() {
-  uint i = (gl_WorkGroupID.x + gl_WorkGroupID.y * groupsX) * kOrderThreads + gl_LocalInvocationID.x;
+  uint i = (gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x) * kOrderThreads + gl_LocalInvocationID.x;
   if (i >= count) return;
   if (kGathers) {
     TransparentTriangle triangle = triangles[order[i]];

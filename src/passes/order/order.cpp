@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "gpu/dispatch.h"
 #include "gpu/prefix_sum.h"
 #include "passes/order/order.shared.h"
 #include "shaders/order_comp.h"
@@ -38,7 +39,7 @@ class Order : public Pass {
     gpu::ComputePipelineDesc desc;
     desc.shader = {shaders::order_comp};
     desc.sets = {frame.frameLayout().handle(), layout_.handle()};
-    desc.pushConstantBytes = 8;
+    desc.pushConstantBytes = 4;
     desc.constants = {0};
     keys_ = gpu::Pipeline(frame.device(), desc);
     desc.constants = {1};
@@ -66,10 +67,8 @@ class Order : public Pass {
       pipeline.bind(commands);
       pipeline.bindSet(commands, 0, frame_->frameSet());
       pipeline.bindSet(commands, 1, set_[0]);
-      const uint32_t groups = (count + shared::kOrderThreads - 1) / shared::kOrderThreads;
-      const uint32_t x = std::min(groups, uint32_t(shared::kOrderGroupsX));
-      pipeline.push(commands, {count, x});
-      vkCmdDispatch(commands, x, (groups + x - 1) / x, 1);
+      pipeline.push(commands, count);
+      gpu::dispatch(commands, (count + shared::kOrderThreads - 1) / shared::kOrderThreads);
     };
     run(keys_);
     sort_->record(commands, count);

@@ -3,6 +3,6 @@
 #include "../../shading/shared_types.h"
 
 SHARED_BEGIN
-const int kOrderThreads = 64, kOrderGroupsX = 32768;
+const int kOrderThreads = 64;
 SHARED_END
 #endif

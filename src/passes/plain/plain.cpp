@@ -42,15 +42,9 @@ class Plain : public Pass {
     desc.leavesBlended = hasBlended_;
     step_.create(frame, desc);
     if (!hasBlended_) return;
-    TransparentStepDesc blended;
-    blended.vertex = {shaders::plain_transparent_vert};
-    blended.fragment = {shaders::plain_transparent_frag};
-    blended.inputs = desc.inputs;
-    blended.colorFormats = desc.colorFormats;
-    blended.samples = desc.samples;
-    blended.viewMask = desc.viewMask;
-    blended.viewCount = desc.viewCount;
-    blended_.create(frame, blended);
+    desc.vertex = {shaders::plain_transparent_vert};
+    desc.fragment = {shaders::plain_transparent_frag};
+    blended_.create(frame, desc);
   }
   void bind(const gpu::GraphResources& resources) override {
     resources_ = &resources;

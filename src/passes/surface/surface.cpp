@@ -183,7 +183,7 @@ class Surface : public Pass {
       {.name = "shadowed", .isColor = true, .premultiplied = 3, .isSquareRoot = true}};
 
   // Blended surfaces are drawn after the others, as those are but for the materials, which are rows there.
-  void createBlended(const GeometryStepDesc& solid) {
+  void createBlended(GeometryStepDesc desc) {
     FrameBuilder& frame = *frame_;
     constexpr VkShaderStageFlags kFragment = VK_SHADER_STAGE_FRAGMENT_BIT;
     blendedLayout_ = gpu::SetLayout(frame.device(), {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFragment},
@@ -198,17 +198,10 @@ class Surface : public Pass {
       painted_.bindRows(blendedSets_, shared::kSurfacePainted, m);
       blendedSets_.writeBuffer(m, shared::kSurfaceLight, light_.buffer, light_.offset, light_.size);
     }
-    TransparentStepDesc desc;
     desc.vertex = {shaders::surface_transparent_vert};
     desc.fragment = {shaders::surface_transparent_frag};
-    desc.inputs = solid.inputs;
     desc.paintedVertex = {shaders::surface_transparent_painted_vert};
     desc.paintedFragment = {shaders::surface_transparent_painted_frag};
-    desc.paintedInputs = solid.paintedInputs;
-    desc.colorFormats = solid.colorFormats;
-    desc.samples = solid.samples;
-    desc.viewMask = solid.viewMask;
-    desc.viewCount = solid.viewCount;
     desc.passLayout = &blendedLayout_;
     blended_.create(frame, desc);
   }
