@@ -1,5 +1,6 @@
-// What changes of a scene cost: from the change to the point at which a frame of the changed scene could be
-// drawn, beside building the whole scene on the device anew in the same run.
+// What changes of a scene cost the CPU: from the change to the point at which a frame of the changed scene
+// could be drawn, beside building the whole scene on the device anew in the same run; and until that frame is
+// submitted.
 //
 //   edits_bench [--objects 10000] [--runs 15] [--device NAME] [--json FILE]
 #include <CLI/CLI.hpp>
@@ -85,17 +86,21 @@ int main(int argc, char** argv) try {
   const std::unique_ptr<Renderer> renderer = take(Renderer::create(rendererOptions));
   RenderOptions options;
   options.width = 64, options.height = 36, options.samples = 1;
-  const std::vector<View> views = take(makeViews(take(editor.scene()), {}, 16.0f / 9));
+  std::vector<View> views = take(makeViews(take(editor.scene()), {}, 16.0f / 9));
   const auto milliseconds = [](auto since) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - since).count();
   };
-  // From the change until the scene is on the device.
+  // From the change until the scene is on the device, and from there until its frame is on its way.
+  struct Cost {
+    double change, frame;  // ms
+  };
   const auto timeOf = [&](const std::function<void()>& change, const std::function<Scene()>& scene) {
     const auto start = std::chrono::steady_clock::now();
     change();
     const Scene changed = scene();
     const double before = milliseconds(start);
-    return before + take(renderer->render(changed, Look(), 0, views, options)).stats.uploadMilliseconds;
+    const FrameStats stats = take(renderer->render(changed, Look(), 0, views, options)).stats;
+    return Cost{before + stats.uploadMilliseconds, stats.setupMilliseconds + stats.cpuMilliseconds};
   };
   const auto present = [&] { return take(editor.scene()); };
   const auto done = [](const Status& status) { take(Result<Done>(status)); };
@@ -104,7 +109,7 @@ int main(int argc, char** argv) try {
   struct Case {
     const char* name;
     std::function<void(int run)> change;
-    std::vector<double> times{};
+    std::vector<Cost> costs{};
   };
   const int middle = objects / 2;
   const MeshId one = take(editor.addMesh(Ball(0.4f).parts(material))),
@@ -112,6 +117,11 @@ int main(int argc, char** argv) try {
   done(editor.setMesh(nodes[size_t(middle)], one));
   done(editor.setMesh(nodes[size_t(middle) + 3], other));
   std::vector<Case> cases = {
+      {"nothing, seen from elsewhere",
+       [&](int run) {
+         for (View& view : views)
+           view.worldToEye = glm::translate(view.worldToEye, {run % 2 ? 0.1f : -0.1f, 0, 0});
+       }},
       {"one transform",
        [&](int run) {
          done(editor.setTransform(nodes[size_t(middle + 1)],
@@ -140,9 +150,9 @@ int main(int argc, char** argv) try {
       {"a mesh, of another size",
        [&](int run) { done(editor.setMesh(other, Ball(0.4f, 18 + 2 * uint32_t(run % 2)).parts(material))); }},
   };
-  std::vector<double> whole;
+  std::vector<Cost> whole;
   for (int run = 0; run < runs; ++run) {
-    for (Case& each : cases) each.times.push_back(timeOf([&] { each.change(run); }, present));
+    for (Case& each : cases) each.costs.push_back(timeOf([&] { each.change(run); }, present));
     // A scene that nobody has seen.
     Scene fresh = take(SceneEditor(take(editor.scene())).scene());
     const auto newOne = [&] { return fresh; };
@@ -151,18 +161,25 @@ int main(int argc, char** argv) try {
   }
 
   const GpuInfo gpu = renderer->gpu();
-  std::printf("%s, %d objects, medians of %d\n%-40s %10s %12s\n", gpu.name.c_str(), objects, runs, "", "ms",
-              "of the whole");
+  std::printf("%s, %d objects, medians of %d\n%-40s %10s %12s %10s\n", gpu.name.c_str(), objects, runs, "",
+              "ms", "of the whole", "frame, ms");
   nlohmann::ordered_json report{
       {"device", gpu.name}, {"driver", gpu.driver}, {"objects", objects}, {"runs", runs}};
-  const auto row = [&](const char* name, const std::vector<double>& times) {
-    std::vector<double> ratios;
-    for (size_t i = 0; i < times.size(); ++i) ratios.push_back(times[i] / whole[i]);
-    std::printf("%-40s %10.2f %12.3f\n", name, bench::median(times), bench::median(ratios));
-    report["cases"].push_back(
-        {{"name", name}, {"milliseconds", bench::median(times)}, {"ratio", bench::median(ratios)}});
+  const auto row = [&](const char* name, const std::vector<Cost>& costs) {
+    std::vector<double> changes, ratios, frames;
+    for (size_t i = 0; i < costs.size(); ++i) {
+      changes.push_back(costs[i].change);
+      ratios.push_back(costs[i].change / whole[i].change);
+      frames.push_back(costs[i].frame);
+    }
+    std::printf("%-40s %10.2f %12.3f %10.2f\n", name, bench::median(changes), bench::median(ratios),
+                bench::median(frames));
+    report["cases"].push_back({{"name", name},
+                               {"milliseconds", bench::median(changes)},
+                               {"ratio", bench::median(ratios)},
+                               {"frameMilliseconds", bench::median(frames)}});
   };
-  for (const Case& each : cases) row(each.name, each.times);
+  for (const Case& each : cases) row(each.name, each.costs);
   row("the whole scene anew", whole);
   return bench::give("edits_bench", json, report);
 } catch (const std::exception& error) {

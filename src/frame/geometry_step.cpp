@@ -1,6 +1,7 @@
 #include "frame/geometry_step.h"
 
 #include <algorithm>
+#include <tuple>
 
 #include "shading/geometry_constants.shared.h"
 
@@ -18,108 +19,100 @@ void GeometryStep::create(FrameBuilder& frame, const GeometryStepDesc& desc) {
 }
 
 void GeometryStep::specialise(uint32_t constant, std::vector<MaterialVariant> materials) {
-  if (constant_ == constant && materials_ == materials && drawsVersion_ == scene_->drawsVersion()) return;
+  if (constant_ == constant && materials_ == materials) return refresh();
   constant_ = constant;
   materials_ = std::move(materials);
   makePipelines();
 }
 
-bool GeometryStep::includes(const Draw& draw) const {
-  if (desc_.leavesBlended && draw.alpha == AlphaMode::blend) return false;
+bool GeometryStep::includes(const DrawState& state) const {
+  if (desc_.leavesBlended && state.alpha == AlphaMode::blend) return false;
   switch (desc_.what) {
     case GeometryStepDesc::What::casters:
-      return draw.casts;
+      return state.casts;
     case GeometryStepDesc::What::ocean:
-      return int(draw.material) == scene_->oceanMaterial();
+      return int(state.material) == scene_->oceanMaterial();
     default:
       return true;
   }
 }
 
-void GeometryStep::makePipelines() {
-  const SceneOnGpu& scene = *scene_;
-  drawsVersion_ = scene.drawsVersion();
-  // A pipeline for each variant that there is.
-  for (const Draw& draw : scene.draws()) {
-    if (!includes(draw)) continue;
-    const Variant of = variant(draw);
-    gpu::Pipeline& made = pipelines_[of];
-    if (made) continue;
-    const MaterialVariant& material = of.material;
-    const bool depthOnly = draw.alpha == AlphaMode::opaque && !desc_.depthOnlyVertex.words.empty();
-    gpu::GraphicsPipelineDesc pipeline;
-    pipeline.vertex = depthOnly            ? desc_.depthOnlyVertex
-                      : material.isPainted ? desc_.paintedVertex
-                                           : desc_.vertex;
-    if (!depthOnly)
-      pipeline.fragment = material.isOcean     ? desc_.oceanFragment
-                          : material.isPainted ? desc_.paintedFragment
-                                               : desc_.fragment;
-    const bool varies = material.isPainted || material.isOcean || material.sets != 0;
-    const auto specialise = [&](int id, uint32_t value) { pipeline.constants[size_t(id)] = value; };
-    pipeline.constants.resize(shared::kGeometryConstants);
-    specialise(shared::kAlphaModeId, uint32_t(draw.alpha));
-    specialise(shared::kVariedId, draw.varied || varies);
-    specialise(shared::kTexturedId, draw.textured || material.sets != 0);
-    specialise(shared::kViewCountId, desc_.viewCount);
-    specialise(shared::kPassId, constant_);
-    specialise(shared::kColorSetsId, material.sets);
-    specialise(shared::kFeaturesId, material.features);
-    specialise(shared::kTangentsId, material.tangents);
-    specialise(shared::kMaterialId, material.options);
-    addVertexInput(pipeline, depthOnly            ? uint32_t(kPosition)
-                             : material.isPainted ? desc_.paintedInputs
-                                                  : desc_.inputs);
-    pipeline.colorFormats = desc_.colorFormats;
-    pipeline.depthFormat = VK_FORMAT_D32_SFLOAT;
-    pipeline.depthCompare = desc_.depthCompare;
-    pipeline.samples = desc_.samples;
-    pipeline.viewMask = desc_.viewMask;
-    pipeline.pushConstantBytes = desc_.viewMask ? 4 : 0;
-    pipeline.dynamicCulling = true;
-    pipeline.sets = setLayouts_;
-    made = gpu::Pipeline(*device_, pipeline);
-  }
+const gpu::Pipeline& GeometryStep::pipelineFor(const Variant& variant) {
+  gpu::Pipeline& made = pipelines_[variant];
+  if (made) return made;
+  const MaterialVariant& material = variant.material;
+  const bool depthOnly = variant.alpha == AlphaMode::opaque && !desc_.depthOnlyVertex.words.empty();
+  gpu::GraphicsPipelineDesc pipeline;
+  pipeline.vertex = depthOnly            ? desc_.depthOnlyVertex
+                    : material.isPainted ? desc_.paintedVertex
+                                         : desc_.vertex;
+  if (!depthOnly)
+    pipeline.fragment = material.isOcean     ? desc_.oceanFragment
+                        : material.isPainted ? desc_.paintedFragment
+                                             : desc_.fragment;
+  const bool varies = material.isPainted || material.isOcean || material.sets != 0;
+  const auto specialise = [&](int id, uint32_t value) { pipeline.constants[size_t(id)] = value; };
+  pipeline.constants.resize(shared::kGeometryConstants);
+  specialise(shared::kAlphaModeId, uint32_t(variant.alpha));
+  specialise(shared::kVariedId, variant.varied || varies);
+  specialise(shared::kTexturedId, variant.textured || material.sets != 0);
+  specialise(shared::kViewCountId, desc_.viewCount);
+  specialise(shared::kPassId, constant_);
+  specialise(shared::kColorSetsId, material.sets);
+  specialise(shared::kFeaturesId, material.features);
+  specialise(shared::kTangentsId, material.tangents);
+  specialise(shared::kMaterialId, material.options);
+  addVertexInput(pipeline, depthOnly            ? uint32_t(kPosition)
+                           : material.isPainted ? desc_.paintedInputs
+                                                : desc_.inputs);
+  pipeline.colorFormats = desc_.colorFormats;
+  pipeline.depthFormat = VK_FORMAT_D32_SFLOAT;
+  pipeline.depthCompare = desc_.depthCompare;
+  pipeline.samples = desc_.samples;
+  pipeline.viewMask = desc_.viewMask;
+  pipeline.pushConstantBytes = desc_.viewMask ? 4 : 0;
+  pipeline.dynamicCulling = true;
+  pipeline.sets = setLayouts_;
+  made = gpu::Pipeline(*device_, pipeline);
+  return made;
+}
 
-  // And which of them each draw has.
-  std::map<Variant, Chosen> byVariant;
-  for (const auto& [of, pipeline] : pipelines_) byVariant[of] = {&pipeline, uint32_t(byVariant.size())};
-  chosen_.assign(scene.draws().size(), {});
-  for (size_t i = 0; i < chosen_.size(); ++i)
-    if (const auto found = byVariant.find(variant(scene.draws()[i])); found != byVariant.end())
-      chosen_[i] = found->second;
+void GeometryStep::makePipelines() {
+  const DrawList& list = scene_->draws();
+  statesVersion_ = list.statesVersion();
+  std::vector<std::pair<Variant, Chosen>> chosen;
+  for (uint32_t b = 0; b < list.buckets().size(); ++b) {
+    const DrawState& state = list.buckets()[b].state;
+    if (!includes(state)) continue;
+    const Variant of = variant(state);
+    chosen.push_back({of, {&pipelineFor(of), b}});
+  }
+  // By pipeline; of each as buckets lie.
+  std::stable_sort(chosen.begin(), chosen.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.first.alpha, a.first) < std::tie(b.first.alpha, b.first);
+  });
+  chosen_.clear();
+  for (const auto& [of, choice] : chosen) chosen_.push_back(choice);
 }
 
 void GeometryStep::draw(VkCommandBuffer commands, const gpu::DescriptorSets* passSets,
                         uint32_t firstView) const {
   const SceneOnGpu& scene = *scene_;
-  // What all draws read.
+  // What all draws read. Casters count wherever they are.
+  const VkBuffer draws =
+      desc_.what == GeometryStepDesc::What::casters ? scene.draws().commands() : scene.draws().seen();
   bindVertices(commands, scene);
   vkCmdBindIndexBuffer(commands, scene.geometry().indices().handle(), 0, VK_INDEX_TYPE_UINT32);
 
-  // In which order.
-  std::vector<const Draw*> order;
-  for (const Draw& draw : scene.draws())
-    if (includes(draw) && (draw.visible || desc_.what == GeometryStepDesc::What::casters))
-      order.push_back(&draw);
-  const auto chosen = [&](const Draw* draw) { return chosen_[size_t(draw - scene.draws().data())]; };
-  std::stable_sort(order.begin(), order.end(), [&](const Draw* a, const Draw* b) {
-    if (a->alpha != b->alpha) return a->alpha < b->alpha;
-    if (chosen(a).rank != chosen(b).rank) return chosen(a).rank < chosen(b).rank;
-    if (a->material != b->material) {
-      const float nearA = scene.nearestOf(a->material), nearB = scene.nearestOf(b->material);
-      return nearA != nearB ? nearA < nearB : a->material < b->material;
-    }
-    return a->distance < b->distance;
-  });
-
-  // Draws, with what changes from one to the next.
+  // Buckets, with what changes from one to the next.
   const gpu::Pipeline* bound = nullptr;
   uint32_t boundMaterial = ~0u;
   int cull = -1, front = -1;
   std::vector<uint32_t> offsetsOfMaterial(desc_.materialStrides.size());
-  for (const Draw* draw : order) {
-    const gpu::Pipeline& pipeline = *chosen(draw).pipeline;
+  for (const Chosen& chosen : chosen_) {
+    const gpu::Pipeline& pipeline = *chosen.pipeline;
+    const DrawBucket& bucket = scene.draws().buckets()[chosen.bucket];
+    const DrawState& state = bucket.state;
     if (bound != &pipeline) {
       pipeline.bind(commands);
       pipeline.bindSet(commands, 0, frameSet_);
@@ -127,22 +120,26 @@ void GeometryStep::draw(VkCommandBuffer commands, const gpu::DescriptorSets* pas
       bound = &pipeline;
       boundMaterial = ~0u;
     }
-    if (boundMaterial != draw->material) {
-      pipeline.bindSet(commands, 1, scene.materialSet(draw->material));
+    if (boundMaterial != state.material) {
+      pipeline.bindSet(commands, 1, scene.materialSet(state.material));
       for (size_t i = 0; i < desc_.materialStrides.size(); ++i)
-        offsetsOfMaterial[i] = draw->material * desc_.materialStrides[i];
+        offsetsOfMaterial[i] = state.material * desc_.materialStrides[i];
       if (passSets)
-        pipeline.bindSet(commands, 2, (*passSets)[passSets->size() > 1 ? draw->material : 0],
+        pipeline.bindSet(commands, 2, (*passSets)[passSets->size() > 1 ? state.material : 0],
                          offsetsOfMaterial);
-      boundMaterial = draw->material;
+      boundMaterial = state.material;
     }
-    if (cull != int(draw->cullsBack))
-      vkCmdSetCullMode(commands, draw->cullsBack ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE),
-          cull = draw->cullsBack;
-    if (front != int(draw->mirrored))
-      vkCmdSetFrontFace(commands, draw->mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE),
-          front = draw->mirrored;
-    vkCmdDrawIndexed(commands, draw->indexCount, 1, draw->firstIndex, draw->vertexOffset, draw->object);
+    if (cull != int(state.cullsBack))
+      vkCmdSetCullMode(commands, state.cullsBack ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE),
+          cull = state.cullsBack;
+    if (front != int(state.mirrored))
+      vkCmdSetFrontFace(commands, state.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE),
+          front = state.mirrored;
+    constexpr uint32_t kStride = sizeof(shared::DrawCommand);
+    const uint32_t most = device_->limits().maxDrawIndirectCount;
+    for (uint32_t i = 0; i < bucket.count; i += most)
+      vkCmdDrawIndexedIndirect(commands, draws, VkDeviceSize(bucket.first + i) * kStride,
+                               std::min(most, bucket.count - i), kStride);
   }
 }
 

@@ -47,15 +47,20 @@ struct MaterialVariant {
 
 class GeometryStep {
  public:
+  // What the step that draws them uses, while a pass declares: all but casters.
+  static void use(FrameBuilder& frame) {
+    frame.use(frame.get(kVertices), gpu::Use::vertexBuffer);
+    frame.use(frame.get(kDrawList), gpu::Use::indirectBuffer);
+  }
   void create(FrameBuilder& frame, const GeometryStepDesc& desc);
   // What of the look goes into the pipelines: the pass's own constant, and what each material has. Makes the
   // pipelines that are still missing, also for what the scene has become.
   void specialise(uint32_t constant, std::vector<MaterialVariant> materials = {});
   // The same as it is, for what the scene has become.
   void refresh() {
-    if (drawsVersion_ != scene_->drawsVersion()) makePipelines();
+    if (statesVersion_ != scene_->draws().statesVersion()) makePipelines();
   }
-  // Draws opaque, then masked, then blended surfaces: by pipeline and material, the nearest first.
+  // Draws opaque, then masked, then blended surfaces: by pipeline and material, of each the nearest first.
   // `passSets`: set 2, one for all or one for each material; null for none.
   void draw(VkCommandBuffer commands, const gpu::DescriptorSets* passSets, uint32_t firstView) const;
 
@@ -68,13 +73,13 @@ class GeometryStep {
     bool varied, textured;
     auto operator<=>(const Variant&) const = default;
   };
-  Variant variant(const Draw& draw) const {
-    return {constant_, draw.alpha,
-            draw.material < materials_.size() ? materials_[draw.material] : MaterialVariant(), draw.varied,
-            draw.textured};
+  Variant variant(const DrawState& state) const {
+    return {constant_, state.alpha,
+            state.material < materials_.size() ? materials_[state.material] : MaterialVariant(), state.varied,
+            state.textured};
   }
-  // Whether a draw is ever one of the step's.
-  bool includes(const Draw& draw) const;
+  bool includes(const DrawState& state) const;
+  const gpu::Pipeline& pipelineFor(const Variant& variant);
   void makePipelines();
 
   gpu::Device* device_ = nullptr;
@@ -85,13 +90,13 @@ class GeometryStep {
   uint32_t constant_ = 0;
   std::vector<MaterialVariant> materials_;
   std::map<Variant, gpu::Pipeline> pipelines_;
-  // For each draw of the scene: its pipeline, where it has one, and where that stands among all of them.
+  // The step's buckets of the scene's draws, in the order in which they are drawn.
   struct Chosen {
-    const gpu::Pipeline* pipeline = nullptr;
-    uint32_t rank = 0;
+    const gpu::Pipeline* pipeline;
+    uint32_t bucket;
   };
   std::vector<Chosen> chosen_;
-  uint32_t drawsVersion_ = 0;  // of the scene, that they were chosen for
+  uint32_t statesVersion_ = 0;  // of the draw list, that they were chosen for
 };
 
 }  // namespace scumble::frame

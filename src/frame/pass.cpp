@@ -20,7 +20,10 @@ UniformSlice UniformMemory::slice(uint64_t bytes) {
 }
 
 void UniformMemory::addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) {
-  for (gpu::PerFrameBuffer& block : blocks_) uploads.push_back(&block);
+  for (gpu::PerFrameBuffer& block : blocks_) {
+    block.contents();  // slices are written at any time
+    uploads.push_back(&block);
+  }
 }
 
 void UniformMemory::amend(const UniformSlice& slice, uint32_t frame) {

@@ -19,6 +19,9 @@ inline constexpr Layer kLayers[] = {Layer::first, Layer::behind};
 // Buffers: the final vertices that `deform` writes, and the positions that they had a frame before.
 inline constexpr Role kVertices{"vertices"}, kPreviousVertices{"previous vertices"};
 
+// Which draws the views see: commands by bucket (world/draw_list.h).
+inline constexpr Role kDrawList{"draw list"};
+
 // Indices of the triangles of blended surfaces, in the order in which they are composited; only where there
 // are any.
 inline constexpr Role kTransparentOrder{"transparent order"};

@@ -108,16 +108,9 @@ void TransparentStep::update(uint32_t constant, std::span<const MaterialVariant>
                              std::span<const uint32_t> paintings) {
   constant_ = constant;
   const SceneOnGpu& scene = frame_->scene();
+  const std::map<uint32_t, float>& farthestOf = scene.transparent().farthest();
   std::vector<uint32_t> blended;
-  std::map<uint32_t, float> farthestOf;  // metres
-  for (const Draw& draw : scene.draws()) {
-    if (draw.alpha != AlphaMode::blend) continue;
-    blended.push_back(draw.material);
-    float& farthest = farthestOf[draw.material];
-    if (draw.visible) farthest = std::max(farthest, draw.distance);
-  }
-  std::sort(blended.begin(), blended.end());
-  blended.erase(std::unique(blended.begin(), blended.end()), blended.end());
+  for (const auto& [material, farthest] : farthestOf) blended.push_back(material);
   const auto variantOf = [&](uint32_t m) { return m < variants.size() ? variants[m] : MaterialVariant(); };
   // What is painted chooses a group, and the others join any.
   std::stable_sort(blended.begin(), blended.end(),
@@ -134,7 +127,7 @@ void TransparentStep::update(uint32_t constant, std::span<const MaterialVariant>
       glm::ivec4 slots;
       for (int i = 0; i < 4; ++i) slots[i] = slotOf(textures[size_t(i)], own.textures);
       own.isVaried |= scene.isVaried(m);
-      own.farthest = std::max(own.farthest, farthestOf[m]);
+      own.farthest = std::max(own.farthest, farthestOf.at(m));
       const bool varies = variantOf(m).isPainted || variantOf(m).sets != 0;
       rows[m] = {scene.materialData(m), slots, uint32_t(&own - groups_.data()),
                  scene.material(m).doubleSided ? 0u : 1u, varies ? 1u : 0u};
@@ -144,7 +137,7 @@ void TransparentStep::update(uint32_t constant, std::span<const MaterialVariant>
   // Where one group is not enough, those belong together that lie together.
   if (groups_.size() > 1) {
     std::stable_sort(blended.begin(), blended.end(),
-                     [&](uint32_t a, uint32_t b) { return farthestOf[a] > farthestOf[b]; });
+                     [&](uint32_t a, uint32_t b) { return farthestOf.at(a) > farthestOf.at(b); });
     group();
   }
 

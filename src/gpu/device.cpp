@@ -28,6 +28,8 @@ void forEachRequired(VulkanFeatures& f, Visit visit) {
   visit(f.v11.multiview, "multiview");
   visit(f.core.features.fragmentStoresAndAtomics, "fragmentStoresAndAtomics");
   visit(f.core.features.independentBlend, "independentBlend");
+  visit(f.core.features.multiDrawIndirect, "multiDrawIndirect");
+  visit(f.core.features.drawIndirectFirstInstance, "drawIndirectFirstInstance");
 }
 
 // What image passes use of subgroups, whichever way they run.

@@ -48,6 +48,8 @@ PerFrameBuffer::PerFrameBuffer(Device& device, uint64_t size, VkBufferUsageFlags
       contents_(size) {}
 
 void PerFrameBuffer::upload(VkCommandBuffer commands, uint32_t frame) {
+  if (!isWritten_) return;
+  isWritten_ = false;
   if (!staging_[frame].handle())
     staging_[frame] =
         Buffer(*device_, contents_.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::upload);
@@ -67,7 +69,7 @@ void recordUploads(VkCommandBuffer commands, std::span<PerFrameBuffer* const> bu
   memoryBarrier(
       commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
       VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
-      VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_INDEX_READ_BIT);
+      VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
 }
 
 }  // namespace scumble::gpu

@@ -38,18 +38,22 @@ class PerFrameBuffer {
   PerFrameBuffer(Device& device, uint64_t size, VkBufferUsageFlags usage);
   VkBuffer handle() const { return onDevice_.handle(); }
   uint64_t size() const { return onDevice_.size(); }
-  // The CPU's own copy, which stays as it is from frame to frame; null for a buffer that was not made.
-  std::byte* contents() { return contents_.data(); }
+  // The CPU's own copy, which stays as it is from frame to frame; null for a buffer that was not made. Whoever
+  // asks for it in order to write makes the next upload copy it.
+  std::byte* contents() {
+    isWritten_ = true;
+    return contents_.data();
+  }
   template <class T>
   T* as() {
-    return reinterpret_cast<T*>(contents_.data());
+    return reinterpret_cast<T*>(contents());
   }
   template <class T>
   const T* as() const {
     return reinterpret_cast<const T*>(contents_.data());
   }
-  // Records the copy of contents() as they are now; `frame` is below kFramesInFlight, and its last turn is
-  // over. Callers put recordUploads() around all of them.
+  // Records the copy of contents() as they are now, where they were written since the last one; `frame` is
+  // below kFramesInFlight, and its last turn is over. Callers put recordUploads() around all of them.
   void upload(VkCommandBuffer commands, uint32_t frame);
   // Takes a part of contents() once more into an upload that was recorded, and not yet sent.
   void amend(uint32_t frame, uint64_t offset, uint64_t bytes);
@@ -59,6 +63,7 @@ class PerFrameBuffer {
   Buffer onDevice_;
   std::array<Buffer, kFramesInFlight> staging_;  // made when they are first needed
   std::vector<std::byte> contents_;
+  bool isWritten_ = true;
 };
 
 // Sends buffers with a frame's own commands: after all that an earlier frame does with them, before all that

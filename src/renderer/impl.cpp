@@ -234,7 +234,7 @@ Status Renderer::Impl::begin(const Request& request) {
     device->savePipelineCache();
     stats.pipelines = device->pipelines().made() - pipelinesBefore;
     stats.triangles = sceneOnGpu.triangleCount();
-    stats.drawCalls = sceneOnGpu.draws().size();
+    stats.drawCalls = sceneOnGpu.draws().count();
     stats.deviceBytes = device->memory().bytesInUse();
     stats.uploadedBytes = sceneOnGpu.uploadedBytes();
     for (const Begun::Part& part : next.parts) {

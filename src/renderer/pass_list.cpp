@@ -10,6 +10,7 @@
 #include "passes/color/color_knobs.h"
 #include "passes/colorize/colorize.h"
 #include "passes/colorize/colorize_knobs.h"
+#include "passes/cull/cull.h"
 #include "passes/deform/deform.h"
 #include "passes/facts/facts.h"
 #include "passes/final_color/final_color.h"
@@ -86,6 +87,7 @@ std::vector<std::unique_ptr<Pass>> PassList::makeAll() const {
 PassList standardPasses() {
   PassList list;
   list.append(passes::makeDeform);
+  list.append(passes::makeCull);
   list.append(passes::makeOrder);
   list.append(passes::makeShadowMap);
   list.append(passes::makeWarp);
@@ -105,6 +107,7 @@ PassList standardPasses() {
 PassList plainPasses() {
   PassList list;
   list.append(passes::makeDeform);
+  list.append(passes::makeCull);
   list.append(passes::makeOrder);
   list.append(passes::makePlain);
   return list;

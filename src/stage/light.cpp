@@ -84,12 +84,17 @@ void setLightSpace(shared::FrameUniforms& uniforms, std::span<const scene::Bound
   // cast their shadows with the side that faces the light.
   const glm::mat3 toLightAxes = glm::transpose(glm::mat3(right, -above, away));
 
+  // All corners: each axis of theirs is a sum of one product with either side of the box for x, y and z, and
+  // sums are largest where their parts are.
   scene::Bounds box;
-  for (const scene::Bounds& reach : casters)
-    for (int corner = 0; corner < 8; ++corner)
-      box.add(toLightAxes * glm::vec3(corner & 1 ? reach.max.x : reach.min.x,
-                                      corner & 2 ? reach.max.y : reach.min.y,
-                                      corner & 4 ? reach.max.z : reach.min.z));
+  for (const scene::Bounds& reach : casters) {
+    glm::vec3 low(0.0f), high(0.0f);
+    for (int i = 0; i < 3; ++i) {
+      const glm::vec3 a = toLightAxes[i] * reach.min[i], b = toLightAxes[i] * reach.max[i];
+      low += glm::min(a, b), high += glm::max(a, b);
+    }
+    box.add(scene::Bounds{low, high, false});
+  }
   if (box.empty) box.add(glm::vec3(0.0f));
   // A margin of one percent, and no flat box.
   const glm::vec3 half = 0.505f * (box.max - box.min) + 1e-4f * uniforms.sceneRadius;

@@ -121,12 +121,12 @@ bool SceneMotion::follow(const scene::SceneData& scene, const std::vector<shared
   return true;
 }
 
-void SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, double time,
+bool SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, double time,
                        const OceanWaves* waves) {
   movedOfPage_.assign(geometry_.pages().size(), {});
   const std::vector<scene::PlayedClip> clips = playedClips(scene, knobs.look());
   const bool rests = clips.empty() && !waves && &scene == followed_;
-  if (rests && isAtRest_ && written_) return;
+  if (rests && isAtRest_ && written_) return false;
   isAtRest_ = rests;
 
   // One pose for each length of time that poses stand: joints and morph weights are held for as long as the
@@ -249,6 +249,7 @@ void SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, do
     moved[page.first + page.count++] = chunk;
     if (isDry[i]) page.beforeWater = page.count;
   });
+  return true;
 }
 
 void SceneMotion::addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) {

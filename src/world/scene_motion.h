@@ -44,8 +44,8 @@ class SceneMotion {
 
   // The pose at a time, in seconds; the knobs are those of that time. `waves`: those of that time,
   // where there is an ocean. `scene`: the one that it follows, or as it was at that time, with the same
-  // nodes.
-  void pose(const scene::SceneData& scene, const KnobTable& knobs, double time, const OceanWaves* waves);
+  // nodes. False where all is as it was.
+  bool pose(const scene::SceneData& scene, const KnobTable& knobs, double time, const OceanWaves* waves);
 
   // World bounds of each object in the pose.
   const std::vector<scene::Bounds>& bounds() const { return bounds_; }

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <tuple>
 
-#include "stage/visibility.h"
 #include "world/geometry.h"
 #include "world/ocean_travel.h"
 
@@ -147,6 +145,7 @@ const scene::Material& SceneOnGpu::material(size_t material) const {
 bool SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>& settle) {
   // Objects: all items.
   std::vector<Draw> draws;
+  reach_.clear();
   objects_.clear();
   moving_.clear();
   triangleCount_ = 0;
@@ -193,31 +192,23 @@ bool SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>
     draw.indexCount = uint32_t(primitive.indices.size());
     draw.vertexOffset = int32_t(place.firstVertex);
     draw.object = uint32_t(i);
-    draw.material = item.material;
-    draw.alpha = alphaMode(material);
-    draw.cullsBack = !material.doubleSided;
-    draw.textured = material.baseColorTexture.image >= 0 || material.emissiveTexture.image >= 0;
-    draw.varied = draw.textured || !primitive.colors.empty();
-    draw.casts = item.casts;
-    draw.reach = item.reach;
+    draw.state.material = item.material;
+    draw.state.alpha = alphaMode(material);
+    draw.state.cullsBack = !material.doubleSided;
+    draw.state.textured = material.baseColorTexture.image >= 0 || material.emissiveTexture.image >= 0;
+    draw.state.varied = draw.state.textured || !primitive.colors.empty();
+    draw.state.casts = item.casts;
     wraps_ |= primitive.wrapsU || primitive.wrapsV;
-    if (draw.varied) isVaried_[item.material] = true;
-    if (draw.alpha == AlphaMode::blend)
-      blended.push_back({&primitive, draw.object, place.firstVertex, draw.material, draw.varied});
+    if (draw.state.varied) isVaried_[item.material] = true;
+    if (draw.state.alpha == AlphaMode::blend)
+      blended.push_back({&primitive, draw.object, place.firstVertex, item.material, draw.state.varied});
     draws.push_back(draw);
+    reach_.push_back(item.reach);
     triangleCount_ += draw.indexCount / 3;
   }
-  const bool renamed = transparent_.update(device_, std::move(blended), settle);
-
-  // Whether that takes other pipelines.
-  const auto wantSamePipelines = [](const Draw& a, const Draw& b) {
-    return a.alpha == b.alpha && a.material == b.material && a.varied == b.varied &&
-           a.textured == b.textured && a.casts == b.casts;
-  };
-  if (!std::equal(draws.begin(), draws.end(), draws_.begin(), draws_.end(), wantSamePipelines))
-    ++drawsVersion_;
-  draws_ = std::move(draws);
-  return renamed;
+  arePlaced_ = false;
+  const bool otherTriangles = transparent_.update(device_, std::move(blended), settle);
+  return draws_.update(device_, std::move(draws), settle) || otherTriangles;
 }
 
 bool SceneOnGpu::followMotion(bool otherPlaces, const std::function<void()>& settle) {
@@ -237,33 +228,17 @@ bool SceneOnGpu::followMotion(bool otherPlaces, const std::function<void()>& set
 
 void SceneOnGpu::pose(const look::LookData& look, const KnobTable& now, double time) {
   if (waves_) waves_->pose(now.look(), time, travelledBy(look));
-  motion_->pose(*data_, now, time, waves());
-  for (Draw& draw : draws_) {
-    draw.bounds = motion_->bounds()[draw.object];
-    draw.mirrored = motion_->mirrored()[draw.object];
-  }
+  if (!motion_->pose(*data_, now, time, waves()) && arePlaced_) return;
+  arePlaced_ = true;
+  draws_.place(motion_->bounds(), motion_->mirrored());
+  casters_.clear();
+  for (size_t d = 0; d < draws_.count(); ++d)
+    if (const Draw& draw = draws_.draws()[d]; draw.state.casts)
+      casters_.emplace_back(reach_[d]).add(motion_->bounds()[draw.object]);
 }
 
 void SceneOnGpu::look(const Viewers& viewers) {
-  nearestOf_.assign(materialCount(), std::numeric_limits<float>::infinity());
-  size_t part = 0;  // parts are blended draws in their order
-  for (Draw& draw : draws_) {
-    draw.visible =
-        std::any_of(viewers.windows.begin(), viewers.windows.end(), [&](const Viewers::Window& window) {
-          return mayBeSeen(draw.bounds, window.worldToClip, window.margin);
-        });
-    draw.distance = viewers.distanceTo(draw.bounds.center());
-    if (draw.visible) nearestOf_[draw.material] = std::min(nearestOf_[draw.material], draw.distance);
-    if (draw.alpha == AlphaMode::blend) transparent_.show(part++, draw.visible, draw.mirrored);
-  }
-}
-
-std::vector<scene::Bounds> SceneOnGpu::casters() const {
-  std::vector<scene::Bounds> boxes;
-  boxes.reserve(draws_.size());
-  for (const Draw& draw : draws_)
-    if (draw.casts) boxes.emplace_back(draw.reach).add(draw.bounds);
-  return boxes;
+  transparent_.look(viewers, motion_->bounds(), motion_->mirrored());
 }
 
 void SceneOnGpu::posePrevious(const scene::SceneData& scene, const look::LookData& look,
@@ -275,6 +250,7 @@ void SceneOnGpu::posePrevious(const scene::SceneData& scene, const look::LookDat
 void SceneOnGpu::forgetPoses() {
   motion_->touchAll();
   if (previousMotion_) previousMotion_->touchAll();
+  draws_.forget();
 }
 
 void SceneOnGpu::keepPrevious() {
@@ -286,6 +262,7 @@ void SceneOnGpu::keepPrevious() {
 
 void SceneOnGpu::addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) {
   motion_->addUploads(uploads);
+  draws_.addUploads(uploads);
   if (previousMotion_) previousMotion_->addUploads(uploads);
   transparent_.addUploads(uploads);
   if (waves_) waves_->addUploads(uploads);

@@ -14,6 +14,7 @@
 #include "stage/knob_table.h"
 #include "stage/palette.h"
 #include "stage/viewers.h"
+#include "world/draw_list.h"
 #include "world/geometry_on_gpu.h"
 #include "world/scene_motion.h"
 #include "world/textures_on_gpu.h"
@@ -22,24 +23,6 @@
 namespace scumble::world {
 
 using namespace stage;
-
-enum class AlphaMode : uint8_t { opaque, mask, blend };
-
-struct Draw {
-  uint32_t firstIndex = 0, indexCount = 0;
-  int32_t vertexOffset = 0;
-  uint32_t object = 0, material = 0;
-  AlphaMode alpha = AlphaMode::opaque;
-  bool cullsBack = true;  // single-sided
-  bool mirrored = false;  // the object's matrix turns triangles inside out, in the frame's pose
-  bool varied = false;    // vertex colours or textures vary the material's colour
-  bool textured = false;
-  bool casts = true;     // shadows
-  scene::Bounds bounds;  // world, in the frame's pose
-  scene::Bounds reach;   // world, at any time as far as is known before
-  bool visible = true;   // in one of the frame's views, or beside it as far as edges reach
-  float distance = 0;    // of its centre from the first view, metres
-};
 
 // A set of colours, as a texture.
 struct SetTexture {
@@ -76,7 +59,8 @@ class SceneOnGpu {
   const GeometryOptions& options() const { return options_; }
 
   const scene::SceneData& data() const { return *data_; }
-  const std::vector<Draw>& draws() const { return draws_; }
+  // What is shown.
+  const DrawList& draws() const { return draws_; }
   // Materials by index: the scene's, then (with a ground) the ground's, then those of nodes for which the
   // look sets something.
   size_t materialCount() const { return materialNames_.size(); }
@@ -93,19 +77,17 @@ class SceneOnGpu {
   const OceanWaves* waves() const { return waves_ ? &*waves_ : nullptr; }
   const OceanWaves* previousWaves() const { return previousWaves_ ? &*previousWaves_ : nullptr; }
   const SceneColors& colors() const { return colors_; }
-  // Boxes of what casts shadows, world: what each reaches at any time, so that what depends on it stays from
-  // frame to frame.
-  std::vector<scene::Bounds> casters() const;
+  // Boxes of what casts shadows, world: what each reaches at any time, as far as is known before, so that
+  // what depends on it stays from frame to frame; and in the frame's pose.
+  const std::vector<scene::Bounds>& casters() const { return casters_; }
 
   // Sets what moves to its place at a time (seconds). The look has its tracks; `now` are its knobs at that
   // time.
   void pose(const look::LookData& look, const KnobTable& now, double time);
-  // Finds out what can be seen; after pose().
+  // Finds out which blended surfaces can be seen; after pose(). (The device finds the others.)
   void look(const Viewers& viewers);
   // The largest factor on a material's inflation that vertices of it have (attribute _WARP), at least 1.
   float warpScaleOf(size_t material) const { return warpScaleOf_[material]; }
-  // Metres from the first view to the nearest draw of a material.
-  float nearestOf(uint32_t material) const { return nearestOf_[material]; }
   // Where it was a frame ago; after keepPrevious() only. `scene`: what it was then, of the same nodes.
   void posePrevious(const scene::SceneData& scene, const look::LookData& look, const KnobTable& then,
                     double time);
@@ -146,19 +128,17 @@ class SceneOnGpu {
 
   // Whether a mapping closes on itself, of any that is drawn.
   bool wraps() const { return wraps_; }
-  // Counts up whenever draws() may want other pipelines.
-  uint32_t drawsVersion() const { return drawsVersion_; }
   // Counts up whenever textures are other images: a new one's view may have an old one's name.
   uint32_t texturesVersion() const { return texturesVersion_; }
 
   uint64_t triangleCount() const { return triangleCount_; }
-  uint64_t uploadedBytes() const { return geometry_.bytes() + textures_.bytes() + transparent_.bytes(); }
+  uint64_t uploadedBytes() const { return geometry_.bytes() + textures_.bytes() + transparent_.bytes() + draws_.bytes(); }
 
  private:
   void listMaterials();
   // Gives draws on nodes with settings materials of their own.
   void separateMaterials(Geometry& geometry);
-  // True where the buffers of blended draws have other names.
+  // True where buffers have other names.
   bool listDraws(const Geometry& geometry, const std::function<void()>& settle);
   // True where the buffers have other names.
   bool followMotion(bool otherPlaces, const std::function<void()>& settle);
@@ -190,11 +170,14 @@ class SceneOnGpu {
   std::vector<std::string> materialNames_;
   std::vector<MaterialUse> materialUses_;
   int groundMaterial_ = -1, oceanMaterial_ = -1;
-  std::vector<Draw> draws_;
-  uint32_t drawsVersion_ = 0, texturesVersion_ = 0;
+  DrawList draws_;
+  bool arePlaced_ = false;             // draws_ and casters_, in the last pose
+  std::vector<scene::Bounds> reach_;   // by draw, world: at any time as far as is known before
+  std::vector<scene::Bounds> casters_;
+  uint32_t texturesVersion_ = 0;
   bool wraps_ = false;
-  std::vector<float> nearestOf_, warpScaleOf_;  // by material
-  std::vector<bool> isVaried_;                  // by material
+  std::vector<float> warpScaleOf_;  // by material
+  std::vector<bool> isVaried_;      // by material
   SceneColors colors_;
   std::vector<ColorPart> colorParts_;  // by item
   scene::Bounds bounds_;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "stage/visibility.h"
+
 namespace scumble::world {
 
 bool TransparentTriangles::update(gpu::Device& device, std::vector<Part> parts,
@@ -18,7 +20,7 @@ bool TransparentTriangles::update(gpu::Device& device, std::vector<Part> parts,
   if (bytes > device.limits().maxStorageBufferRange)
     throw gpu::VulkanError{"the scene's transparent triangles", VK_ERROR_OUT_OF_DEVICE_MEMORY};
   count_ = uint32_t(triangles);
-  visible_ = 0;
+  isVisible_ = false;
 
   constexpr VkBufferUsageFlags kStorage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
   gpu::Uploader uploader(device);
@@ -46,13 +48,24 @@ bool TransparentTriangles::update(gpu::Device& device, std::vector<Part> parts,
   return true;
 }
 
-void TransparentTriangles::show(size_t part, bool isVisible, bool isMirrored) {
-  if (part == 0) visible_ = 0;
-  visible_ += isVisible ? 1 : 0;
-  const Part& known = known_[part];
-  parts_.as<shared::TransparentPart>()[part] = {
-      known.object, known.material << 2 | uint32_t(known.varied) << 1 | uint32_t(isMirrored),
-      isVisible ? 1u : 0u};
+void TransparentTriangles::look(const Viewers& viewers, const std::vector<scene::Bounds>& bounds,
+                                const std::vector<uint8_t>& mirrored) {
+  isVisible_ = false;
+  farthest_.clear();
+  for (size_t p = 0; p < known_.size(); ++p) {
+    const Part& part = known_[p];
+    const scene::Bounds& box = bounds[part.object];
+    const bool isSeen =
+        std::any_of(viewers.windows.begin(), viewers.windows.end(), [&](const Viewers::Window& window) {
+          return mayBeSeen(box, window.worldToClip, window.margin);
+        });
+    float& farthest = farthest_[part.material];
+    if (isSeen) farthest = std::max(farthest, viewers.distanceTo(box.center()));
+    isVisible_ |= isSeen;
+    parts_.as<shared::TransparentPart>()[p] = {
+        part.object, part.material << 2 | uint32_t(part.varied) << 1 | uint32_t(mirrored[part.object]),
+        isSeen ? 1u : 0u};
+  }
 }
 
 }  // namespace scumble::world

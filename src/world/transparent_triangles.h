@@ -3,12 +3,16 @@
 #pragma once
 
 #include <functional>
+#include <map>
 
 #include "gpu/frames_in_flight.h"
 #include "scene/scene_data.h"
 #include "shading/transparent.shared.h"
+#include "stage/viewers.h"
 
 namespace scumble::world {
+
+using namespace stage;
 
 class TransparentTriangles {
  public:
@@ -23,11 +27,14 @@ class TransparentTriangles {
   // are others the buffers have other names, which is told by true, and `settle` is called before they go.
   bool update(gpu::Device& device, std::vector<Part> parts, const std::function<void()>& settle);
 
-  // For the next frame, all of them in their order.
-  void show(size_t part, bool isVisible, bool isMirrored);
+  // For the next frame: where objects are, and whether they are mirrored, both by object.
+  void look(const Viewers& viewers, const std::vector<scene::Bounds>& bounds,
+            const std::vector<uint8_t>& mirrored);
 
   uint32_t count() const { return count_; }
-  bool isVisible() const { return visible_ > 0; }  // any of them
+  bool isVisible() const { return isVisible_; }  // any of them
+  // Materials that there are, each with how far the farthest of it is that is seen, metres.
+  const std::map<uint32_t, float>& farthest() const { return farthest_; }
   uint64_t bytes() const {
     return triangles_.size() + partOfVertex_.size() + indices_.size() + parts_.size();
   }
@@ -44,7 +51,9 @@ class TransparentTriangles {
 
  private:
   std::vector<Part> known_;
-  uint32_t count_ = 0, visible_ = 0;
+  uint32_t count_ = 0;
+  bool isVisible_ = false;
+  std::map<uint32_t, float> farthest_;
   gpu::Buffer triangles_, partOfVertex_, indices_;
   gpu::PerFrameBuffer parts_;
 };

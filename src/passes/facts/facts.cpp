@@ -42,7 +42,7 @@ class Facts : public Pass {
   void declare(FrameBuilder& frame, uint32_t) override {
     configuration_ = frame.configuration();
     frame.step("facts", [this](VkCommandBuffer commands) { record(commands); });
-    frame.use(frame.get(kVertices), gpu::Use::vertexBuffer);
+    GeometryStep::use(frame);
     frame.use(frame.get(kPreviousVertices), gpu::Use::vertexBuffer);
     depth_.declare(frame, "facts depth", kDepthFormat);
     for (size_t i = 0; i < kFactCount; ++i) {

@@ -93,7 +93,7 @@ class Matte : public Pass {
   void declareLayer(FrameBuilder& frame, ObjectLayer& layer, uint32_t samples, const std::string& name) {
     layer.samples = samples;
     frame.step("matte", [this, &layer](VkCommandBuffer commands) { record(commands, layer); });
-    frame.use(frame.get(kVertices), gpu::Use::vertexBuffer);
+    GeometryStep::use(frame);
     frame.use(firstDepth_, gpu::Use::sampledByFragment);
     layer.objects = frame.use(frame.image(name + " objects", {.format = kFormat, .samples = samples}),
                               gpu::Use::colorTarget);

@@ -35,7 +35,7 @@ class Ocean : public Pass {
   void declare(FrameBuilder& frame, uint32_t) override {
     if (frame.scene().oceanMaterial() < 0) return;
     frame.step("ocean", [this](VkCommandBuffer commands) { record(commands); });
-    frame.use(frame.get(kVertices), gpu::Use::vertexBuffer);
+    GeometryStep::use(frame);
     pattern_.declare(frame, "ocean pattern", kPatternFormat);
     waves_.declare(frame, "ocean waves", kWavesFormat);
     depth_.declare(frame, "ocean depth", kDepthFormat);

@@ -2,7 +2,7 @@
 // Before the sort: each triangle's key, the less the farther its middle lies from the middle of all eyes. After it
 // (kGathers): vertices in the order of the keys.
 #extension GL_GOOGLE_include_directive : require
-#include "../../shading/frame.glsl"
+#include "../../shading/distance_key.glsl"
 #include "../../shading/transparent.shared.h"
 #include "order.shared.h"
 
@@ -17,17 +17,6 @@ layout(set = 1, binding = 4, scalar) buffer Order { uint order[]; };
 layout(set = 1, binding = 5, scalar) writeonly buffer Indices { uvec3 indices[]; };
 layout(push_constant, scalar) uniform Push { uint count; };
 
-// Farther is less. Neither what is not finite nor what is not seen has an order.
-uint keyOf(vec3 middle) {
-  vec3 from = middle - frame.viewer;
-  // Parallel projections count along the axis, which may be before the viewer as well.
-  float along = -(frame.views[0].worldToEye * vec4(middle, 1.0)).z;
-  float distance = mix(dot(from, from), along, frame.views[0].orthographic);
-  uint bits = floatBitsToUint(distance);
-  if ((bits & 0x7F800000u) == 0x7F800000u) return 0xFFFFFFFEu;
-  return (bits & 0x80000000u) != 0 ? bits : ~(bits | 0x80000000u);
-}
-
 void main() {
   uint i = (gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x) * kOrderThreads + gl_LocalInvocationID.x;
   if (i >= count) return;
@@ -39,6 +28,6 @@ void main() {
   TransparentTriangle triangle = triangles[i];
   vec3 middle = (vertices[triangle.vertices.x].position + vertices[triangle.vertices.y].position +
                    vertices[triangle.vertices.z].position) / 3.0;
-  keys[i] = parts[triangle.part].visible != 0 ? keyOf(middle) : 0xFFFFFFFFu;
+  keys[i] = parts[triangle.part].visible != 0 ? ~distanceKey(middle) : 0xFFFFFFFFu;
   order[i] = i;
 }

@@ -20,7 +20,7 @@ class Plain : public Pass {
   void declare(FrameBuilder& frame, uint32_t) override {
     configuration_ = frame.configuration();
     frame.step("plain", [this](VkCommandBuffer commands) { record(commands); });
-    frame.use(frame.get(kVertices), gpu::Use::vertexBuffer);
+    GeometryStep::use(frame);
     hasBlended_ = frame.has(kTransparentOrder);
     if (hasBlended_) frame.use(frame.get(kTransparentOrder), gpu::Use::indexBuffer);
     color_.declare(frame, "plain", kFormat, configuration_.samples);

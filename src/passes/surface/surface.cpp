@@ -42,7 +42,7 @@ class Surface : public Pass {
     configuration_ = frame.configuration();
     samples_ = isBehind_ ? 1 : configuration_.samples;
     frame.step(name(), [this](VkCommandBuffer commands) { record(commands); });
-    frame.use(frame.get(kVertices), gpu::Use::vertexBuffer);
+    GeometryStep::use(frame);
     shadowMap_ = frame.use(frame.get(kShadowMap), gpu::Use::sampledByFragment);
     for (size_t i = 0; i < ocean_.size(); ++i) {
       const Role& role = i == 0 ? kOceanLit : kOceanShadowed;

@@ -52,7 +52,7 @@ class Warp : public Pass {
 
   void declare(FrameBuilder& frame, uint32_t) override {
     frame.step("warp", [this](VkCommandBuffer commands) { record(commands); });
-    frame.use(frame.get(kVertices), gpu::Use::vertexBuffer);
+    GeometryStep::use(frame);
     pattern_.declare(frame, "warp pattern", kPatternFormat);
     knobs_.declare(frame, "warp knobs", kKnobsFormat);
     depth_.declare(frame, "warp depth", kDepthFormat);

@@ -1,0 +1,97 @@
+#include "passes/cull/cull.h"
+
+#include <algorithm>
+#include <bit>
+#include <optional>
+
+#include "gpu/dispatch.h"
+#include "gpu/prefix_sum.h"
+#include "passes/cull/cull.shared.h"
+#include "shaders/cull_comp.h"
+
+namespace scumble::passes {
+
+using namespace frame;
+
+namespace {
+
+class Cull : public Pass {
+ public:
+  const char* name() const override { return "cull"; }
+
+  void declare(FrameBuilder& frame, uint32_t) override {
+    const gpu::Handle list = frame.graph().importBuffer(kDrawList.name);
+    frame.step("cull", [this](VkCommandBuffer commands) { record(commands); });
+    frame.give(kDrawList, frame.use(list, gpu::Use::storageBufferWrite));
+  }
+
+  void create(FrameBuilder& frame) override {
+    frame_ = &frame;
+    uniforms_ = frame.uniform(sizeof(shared::CullUniforms));
+    std::vector<gpu::Binding> bindings(6, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT});
+    bindings[0].type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    layout_ = gpu::SetLayout(frame.device(), std::move(bindings));
+    set_ = gpu::DescriptorSets(frame.device(), layout_);
+    set_.writeBuffer(0, 0, uniforms_.buffer, uniforms_.offset, uniforms_.size);
+    gpu::ComputePipelineDesc desc;
+    desc.shader = {shaders::cull_comp};
+    desc.sets = {frame.frameLayout().handle(), layout_.handle()};
+    desc.constants.resize(size_t(shared::kPassId) + 1);
+    desc.constants[size_t(shared::kViewCountId)] = frame.configuration().viewCount;
+    keys_ = gpu::Pipeline(frame.device(), desc);
+    desc.constants[size_t(shared::kPassId)] = 1;
+    gather_ = gpu::Pipeline(frame.device(), desc);
+  }
+
+  void bind(const gpu::GraphResources&) override {
+    const DrawList& list = frame_->scene().draws();
+    if (!sort_ || sorts_ < list.room()) {
+      sorts_ = list.room();
+      sort_.emplace(frame_->device(), sorts_);
+    }
+    const VkBuffer buffers[] = {list.commands(), list.places(), sort_->keys().handle(),
+                                sort_->values().handle(), list.seen()};
+    for (uint32_t i = 0; i < std::size(buffers); ++i) set_.writeBuffer(0, 1 + i, buffers[i]);
+  }
+
+  void update(const FrameInput& input) override {
+    const DrawList& list = input.scene.draws();
+    // At least one bit tells what is seen, and one is left for distances.
+    const uint32_t bucketBits = uint32_t(std::bit_width(std::max<size_t>(1, list.buckets().size()) - 1));
+    const shared::CullUniforms uniforms{2.0f * (input.inflation + 1) / input.uniforms.imageSize, list.count(),
+                                        std::min(31u, 32u - bucketBits)};
+    uniforms_.write(uniforms);
+  }
+
+ private:
+  void record(VkCommandBuffer commands) const {
+    const uint32_t count = frame_->scene().draws().count();
+    if (count == 0) return;
+    const auto run = [&](const gpu::Pipeline& pipeline) {
+      gpu::computeBarrier(commands);
+      pipeline.bind(commands);
+      pipeline.bindSet(commands, 0, frame_->frameSet());
+      pipeline.bindSet(commands, 1, set_[0]);
+      gpu::dispatch(commands, (count + shared::kCullThreads - 1) / shared::kCullThreads);
+    };
+    run(keys_);
+    sort_->record(commands, count);
+    run(gather_);
+  }
+
+  FrameBuilder* frame_ = nullptr;
+  UniformSlice uniforms_;
+  gpu::SetLayout layout_;
+  gpu::DescriptorSets set_;
+  gpu::Pipeline keys_, gather_;
+  std::optional<gpu::RadixSort> sort_;
+  uint32_t sorts_ = 0;  // draws that it has room for
+};
+
+}  // namespace
+
+std::unique_ptr<Pass> makeCull() {
+  return std::make_unique<Cull>();
+}
+
+}  // namespace scumble::passes

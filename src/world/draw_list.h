@@ -1,0 +1,81 @@
+// All draws of a scene, in device memory. They lie in buckets: what is drawn with the same state, one bucket
+// after the other, so that one indirect call draws a bucket, however many objects there are. Which of its draws
+// are seen, and in which order they come, is the device's to find out, in every frame (passes/cull).
+#pragma once
+
+#include <compare>
+#include <functional>
+#include <vector>
+
+#include "gpu/frames_in_flight.h"
+#include "scene/scene_data.h"
+#include "shading/draws.shared.h"
+
+namespace scumble::world {
+
+enum class AlphaMode : uint8_t { opaque, mask, blend };
+
+// What draws of a bucket have in common, in the order in which buckets lie.
+struct DrawState {
+  AlphaMode alpha = AlphaMode::opaque;
+  uint32_t material = 0;
+  bool cullsBack = true;  // single-sided
+  bool mirrored = false;  // matrices turn triangles inside out, in the frame's pose
+  bool varied = false;    // vertex colours or textures vary the material's colour
+  bool textured = false;
+  bool casts = true;  // shadows
+  auto operator<=>(const DrawState&) const = default;
+};
+
+struct Draw {
+  DrawState state;  // but for `mirrored`, which poses decide
+  uint32_t firstIndex = 0, indexCount = 0;
+  int32_t vertexOffset = 0;
+  uint32_t object = 0;
+};
+
+struct DrawBucket {
+  DrawState state;
+  uint32_t first = 0, count = 0;  // commands
+};
+
+class DrawList {
+ public:
+  // All draws that there are, as if none was mirrored. Where there is more room for them than before, the
+  // buffers have other names, which is told by true, and `settle` is called before the old ones go.
+  bool update(gpu::Device& device, std::vector<Draw> draws, const std::function<void()>& settle);
+  // Where objects are, and whether they are mirrored; both by object.
+  void place(const std::vector<scene::Bounds>& bounds, const std::vector<uint8_t>& mirrored);
+  // It is not on its way to the device after all.
+  void forget() { commands_.contents(), places_.contents(); }
+
+  const std::vector<Draw>& draws() const { return draws_; }
+  const std::vector<DrawBucket>& buckets() const { return buckets_; }
+  // Counts up whenever states of buckets are others.
+  uint32_t statesVersion() const { return statesVersion_; }
+  uint32_t count() const { return uint32_t(draws_.size()); }
+  // How many fit into the buffers.
+  uint32_t room() const { return room_; }
+
+  // shared::DrawCommand, all with one instance, and shared::DrawPlace; both by bucket.
+  VkBuffer commands() const { return commands_.handle(); }
+  VkBuffer places() const { return places_.handle(); }
+  // shared::DrawCommand that the device writes: within each bucket those that are seen, then such as draw
+  // nothing.
+  VkBuffer seen() const { return seen_.handle(); }
+  uint64_t bytes() const { return commands_.size() + places_.size() + seen_.size(); }
+  void addUploads(std::vector<gpu::PerFrameBuffer*>& uploads);
+
+ private:
+  void sortIntoBuckets();
+
+  std::vector<Draw> draws_;
+  std::vector<DrawBucket> buckets_;
+  std::vector<uint32_t> commandOf_;  // by draw
+  std::vector<uint8_t> mirrored_;    // by draw
+  uint32_t statesVersion_ = 0, room_ = 0;
+  gpu::PerFrameBuffer commands_, places_;
+  gpu::Buffer seen_;
+};
+
+}  // namespace scumble::world
