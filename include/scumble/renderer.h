@@ -88,8 +88,8 @@ struct RenderOptions {
   // the frame is sent; prepare() tells of all its frames. Cancelled, the frame is not drawn.
   Progress progress;
   // Late latch: called when the frame is recorded, just before it is sent, with its views, whose poses and
-  // projections may be changed there. What decides where marks lie, what is left out because no view sees it,
-  // and the order of what is transparent stay as the first ones have it, so that it is for the last
+  // projections may be changed there. What decides where marks lie, which transparent surfaces are left out
+  // because no view sees them, and their order stay as the first ones have it, so that it is for the last
   // milliseconds of a head's way. Views that cannot be drawn from change nothing.
   std::function<void(std::vector<View>&)> latch;
 };

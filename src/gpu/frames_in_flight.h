@@ -38,8 +38,8 @@ class PerFrameBuffer {
   PerFrameBuffer(Device& device, uint64_t size, VkBufferUsageFlags usage);
   VkBuffer handle() const { return onDevice_.handle(); }
   uint64_t size() const { return onDevice_.size(); }
-  // The CPU's own copy, which stays as it is from frame to frame; null for a buffer that was not made. Whoever
-  // asks for it in order to write makes the next upload copy it.
+  // The CPU's own copy, which stays as it is from frame to frame; null for a buffer that was not made.
+  // Whoever asks for it in order to write makes the next upload copy it.
   std::byte* contents() {
     isWritten_ = true;
     return contents_.data();

@@ -15,9 +15,10 @@ bool DrawList::update(gpu::Device& device, std::vector<Draw> draws, const std::f
     constexpr VkBufferUsageFlags kUsage =
         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
     commands_ = gpu::PerFrameBuffer(device, room_ * sizeof(shared::DrawCommand), kUsage);
-    seen_ = gpu::Buffer(device, room_ * sizeof(shared::DrawCommand), kUsage, gpu::MemoryKind::device);
-    places_ = gpu::PerFrameBuffer(device, room_ * sizeof(shared::DrawPlace),
-                                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    seen_ = gpu::Buffer(device, room_ * sizeof(shared::DrawCommand),
+                        kUsage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, gpu::MemoryKind::device);
+    places_ =
+        gpu::PerFrameBuffer(device, room_ * sizeof(shared::DrawPlace), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
   }
   sortIntoBuckets();
   return grows;
@@ -65,7 +66,8 @@ void DrawList::place(const std::vector<scene::Bounds>& bounds, const std::vector
   auto* const places = places_.as<shared::DrawPlace>();
   for (size_t d = 0; d < draws_.size(); ++d) {
     const scene::Bounds& box = bounds[draws_[d].object];
-    places[commandOf_[d]] = {box.empty ? glm::vec3(1.0f) : box.min, box.empty ? glm::vec3(-1.0f) : box.max, 0};
+    places[commandOf_[d]] = {box.empty ? glm::vec3(1.0f) : box.min, box.empty ? glm::vec3(-1.0f) : box.max,
+                             0};
   }
   for (uint32_t b = 0; b < buckets_.size(); ++b)
     for (uint32_t i = 0; i < buckets_[b].count; ++i) places[buckets_[b].first + i].bucket = b;

@@ -1,6 +1,6 @@
 // All draws of a scene, in device memory. They lie in buckets: what is drawn with the same state, one bucket
-// after the other, so that one indirect call draws a bucket, however many objects there are. Which of its draws
-// are seen, and in which order they come, is the device's to find out, in every frame (passes/cull).
+// after the other, so that one indirect call draws a bucket, however many objects there are. Which of its
+// draws are seen, and in which order they come, is the device's to find out, in every frame (passes/cull).
 #pragma once
 
 #include <compare>
@@ -61,7 +61,7 @@ class DrawList {
   VkBuffer commands() const { return commands_.handle(); }
   VkBuffer places() const { return places_.handle(); }
   // shared::DrawCommand that the device writes: within each bucket those that are seen, then such as draw
-  // nothing.
+  // nothing. May be copied from.
   VkBuffer seen() const { return seen_.handle(); }
   uint64_t bytes() const { return commands_.size() + places_.size() + seen_.size(); }
   void addUploads(std::vector<gpu::PerFrameBuffer*>& uploads);

@@ -132,7 +132,9 @@ class SceneOnGpu {
   uint32_t texturesVersion() const { return texturesVersion_; }
 
   uint64_t triangleCount() const { return triangleCount_; }
-  uint64_t uploadedBytes() const { return geometry_.bytes() + textures_.bytes() + transparent_.bytes() + draws_.bytes(); }
+  uint64_t uploadedBytes() const {
+    return geometry_.bytes() + textures_.bytes() + transparent_.bytes() + draws_.bytes();
+  }
 
  private:
   void listMaterials();
@@ -171,8 +173,8 @@ class SceneOnGpu {
   std::vector<MaterialUse> materialUses_;
   int groundMaterial_ = -1, oceanMaterial_ = -1;
   DrawList draws_;
-  bool arePlaced_ = false;             // draws_ and casters_, in the last pose
-  std::vector<scene::Bounds> reach_;   // by draw, world: at any time as far as is known before
+  bool arePlaced_ = false;            // draws_ and casters_, in the last pose
+  std::vector<scene::Bounds> reach_;  // by draw, world: at any time as far as is known before
   std::vector<scene::Bounds> casters_;
   uint32_t texturesVersion_ = 0;
   bool wraps_ = false;

@@ -55,10 +55,9 @@ void TransparentTriangles::look(const Viewers& viewers, const std::vector<scene:
   for (size_t p = 0; p < known_.size(); ++p) {
     const Part& part = known_[p];
     const scene::Bounds& box = bounds[part.object];
-    const bool isSeen =
-        std::any_of(viewers.windows.begin(), viewers.windows.end(), [&](const Viewers::Window& window) {
-          return mayBeSeen(box, window.worldToClip, window.margin);
-        });
+    const bool isSeen = std::any_of(
+        viewers.windows.begin(), viewers.windows.end(),
+        [&](const Viewers::Window& window) { return mayBeSeen(box, window.worldToClip, window.margin); });
     float& farthest = farthest_[part.material];
     if (isSeen) farthest = std::max(farthest, viewers.distanceTo(box.center()));
     isVisible_ |= isSeen;

@@ -1,5 +1,5 @@
-// Which draws a frame's views see: of each bucket of the list those that are seen, the nearest first, and then
-// such as draw nothing.
+// Which draws a frame's views see: of each bucket of the list those that are seen, the nearest first, and
+// then such as draw nothing.
 #pragma once
 
 #include <memory>
