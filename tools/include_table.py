@@ -15,7 +15,7 @@ from pathlib import Path, PurePosixPath
 # A target with a dot in it is a file, or files by a pattern. All of src/ may use the public headers: results and pictures are theirs.
 PUBLIC = "include/scumble"
 STAGE = [PUBLIC, "src/base", "src/scene", "src/look", "src/shading"]
-WORLD = [*STAGE, "src/gpu", "src/stage", "src/ocean"]
+WORLD = [*STAGE, "src/gpu", "src/stage"]
 FRAME = [*WORLD, "src/world"]
 # Passes read each other's knobs, and nothing else of each other.
 PASS = [*FRAME, "src/frame"]
@@ -28,19 +28,20 @@ TABLE = {
     "src/gltf": [PUBLIC, "src/base", "src/scene"],
     "src/look": [PUBLIC, "src/base"],
     "src/shading": [],
-    "src/ocean": [PUBLIC, "src/base"],
     "src/stage": STAGE,
     "src/world": WORLD,
     "src/frame": FRAME,
     "src/passes/*": [*PASS, KNOBS],
+    # Nobody includes a feature: the build lists them, and the renderer calls what the list names.
+    "src/features/*": [*PASS, KNOBS],
     "src/renderer": [*PASS, "src/passes/*"],
     "src/film": [PUBLIC, "src/base"],
     "src/c": [PUBLIC],
-    "src/measure": [PUBLIC, "src/base", "src/ocean"],
+    "src/measure": [PUBLIC, "src/base"],
     "apps/scumble": [PUBLIC],
     "examples": [PUBLIC],
     # The cost of one technique by itself is measured from inside.
-    "bench": [*PASS, "examples", "src/passes/*"],
+    "bench": [*PASS, "examples", "src/passes/*", "src/features/*"],
     # Tests of the whole look wherever they must; tests of one room lie in that room and follow its line.
     "tests": ["*"],
 }

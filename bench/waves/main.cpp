@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "ocean/surface.h"
+#include "features/ocean/waves/surface.h"
 
 using namespace scumble::ocean;
 

@@ -15,7 +15,7 @@ struct Finding {
   enum class Kind {
     noSuchName,  // nothing in the scene is called so, e.g. "materials.Sial"
     noSuchNode,  // it hangs on a node that there is not, e.g. "colorizers.Glow.volume.node"; it is left out
-    noOcean      // it is about the sea, and there is none, e.g. "ocean.paint"
+    notThere     // it is about something that the scene does not have, e.g. a group of knobs of the sea
   };
   Kind kind = Kind::noSuchName;
   std::string setting;

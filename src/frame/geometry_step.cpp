@@ -27,14 +27,8 @@ void GeometryStep::specialise(uint32_t constant, std::vector<MaterialVariant> ma
 
 bool GeometryStep::includes(const DrawState& state) const {
   if (desc_.leavesBlended && state.alpha == AlphaMode::blend) return false;
-  switch (desc_.what) {
-    case GeometryStepDesc::What::casters:
-      return state.casts;
-    case GeometryStepDesc::What::ocean:
-      return int(state.material) == scene_->oceanMaterial();
-    default:
-      return true;
-  }
+  if (desc_.onlyMaterial && state.material != *desc_.onlyMaterial) return false;
+  return desc_.what != GeometryStepDesc::What::casters || state.casts;
 }
 
 const gpu::Pipeline& GeometryStep::pipelineFor(const Variant& variant) {
@@ -47,10 +41,10 @@ const gpu::Pipeline& GeometryStep::pipelineFor(const Variant& variant) {
                     : material.isPainted ? desc_.paintedVertex
                                          : desc_.vertex;
   if (!depthOnly)
-    pipeline.fragment = material.isOcean     ? desc_.oceanFragment
-                        : material.isPainted ? desc_.paintedFragment
-                                             : desc_.fragment;
-  const bool varies = material.isPainted || material.isOcean || material.sets != 0;
+    pipeline.fragment = material.isPrepainted ? desc_.prepaintedFragment
+                        : material.isPainted  ? desc_.paintedFragment
+                                              : desc_.fragment;
+  const bool varies = material.isPainted || material.isPrepainted || material.sets != 0;
   const auto specialise = [&](int id, uint32_t value) { pipeline.constants[size_t(id)] = value; };
   pipeline.constants.resize(shared::kGeometryConstants);
   specialise(shared::kAlphaModeId, uint32_t(variant.alpha));

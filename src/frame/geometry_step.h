@@ -10,16 +10,17 @@
 namespace scumble::frame {
 
 struct GeometryStepDesc {
-  // Which draws: those that are visible, those that cast shadows, or the ocean where it is visible.
-  enum class What : uint8_t { visible, casters, ocean };
+  // Which draws: those that are visible, or those that cast shadows.
+  enum class What : uint8_t { visible, casters };
   What what = What::visible;
+  std::optional<uint32_t> onlyMaterial;  // nothing but what has this one
   gpu::Shader vertex, fragment;
   uint32_t inputs = 0;  // VertexInput bits that `vertex` reads
   // Instead of both, with more inputs, for materials that the look paints textures on; may be empty.
   gpu::Shader paintedVertex, paintedFragment;
   uint32_t paintedInputs = 0;
-  // Instead of `fragment`, for the ocean; may be empty.
-  gpu::Shader oceanFragment;
+  // Instead of `fragment`, for materials whose colours a pass has painted already; may be empty.
+  gpu::Shader prepaintedFragment;
   gpu::Shader depthOnlyVertex;  // instead of both for opaque surfaces: position in, depth out; may be empty
   std::vector<VkFormat> colorFormats;
   VkCompareOp depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
@@ -36,7 +37,7 @@ struct GeometryStepDesc {
 
 // What of the look goes into a material's pipelines besides its vertex colours and the scene's textures.
 struct MaterialVariant {
-  bool isOcean = false;
+  bool isPrepainted = false;
   uint8_t sets = 0;        // ColorSets
   bool isPainted = false;  // the look paints a texture on it
   uint32_t features = 0;   // MetaTexture::features() of what is laid on it

@@ -35,17 +35,6 @@ namespace scumble::frame {
 
 #undef METATEXTURE_SIZE
 #undef METATEXTURE_SKEW
-#define METATEXTURE_SIZE 850.0  // broad strokes
-#define METATEXTURE_SKEW 0      // that lie along the horizon in all of the picture
-#define METATEXTURE_EXAMPLE 3   // sea
-#define PARAMS_STRUCT OceanMetaTextureParams
-#define PARAMS_FILE "shading/metatexture.params"
-#define PARAMS_PATH "ocean.metatexture"
-#define PARAMS_TARGETS kScene
-#include "look/define_params.h"
-#undef METATEXTURE_EXAMPLE
-#undef METATEXTURE_SKEW
-#undef METATEXTURE_SIZE
 
 // Mirrors MetaTexture in shading/metatexture.glsl.
 struct MetaTextureUniforms {

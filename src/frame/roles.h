@@ -36,8 +36,9 @@ inline constexpr Role kShadow{"shadow"};
 // 8 bits, and cost drivers less than sRGB.
 inline constexpr Role kLit{"lit"}, kShadowed{"shadowed"};
 inline constexpr Role kDepth{"depth"};  // depth buffer of the surfaces
-// Square root of the ocean's colour; once a pixel, wherever it is first or not.
-inline constexpr Role kOceanLit{"ocean lit"}, kOceanShadowed{"ocean shadowed"};
+// Square root of the colours of prepainted materials (world/feature.h); once a pixel, wherever they are first
+// or not. A: 0 where there are none.
+inline constexpr Role kPrepaintedLit{"prepainted lit"}, kPrepaintedShadowed{"prepainted shadowed"};
 inline constexpr Role kBlur{
     "blur"};  // R, G, A: the shadow's, blurred, at a quarter of the size; B: eye depth
 // R: light after threshold and inner glow; G: lens; B: the glow's part of it; A: coverage. Behind the first

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "passes/shadow_map/shadow_map_knobs.h"
+#include "renderer/feature_list.h"
 #include "scumble/nearest.h"
 #include "stage/framing.h"
 #include "stage/light.h"
@@ -34,14 +35,15 @@ std::vector<std::string> objectNames(const scene::SceneData& scene, const Geomet
                     : node.name.empty() ? "node " + std::to_string(names.size() + 1)
                                         : node.name);
   names.push_back(options.ground ? "Ground" : "");
-  names.push_back(options.ocean.isThere ? "Ocean" : "");
+  for (const PlannedFeature& planned : options.features)
+    names.push_back(planned.plan ? planned.feature->material() : "");
   return names;
 }
 
-// Views that hang on nodes, where waves move those.
-std::vector<View> ridden(std::vector<View> views, const SceneMotion& motion) {
+// Views that hang on nodes, where features move those.
+std::vector<View> carried(std::vector<View> views, const SceneMotion& motion) {
   for (View& view : views)
-    if (view.node >= 0) view.worldToEye *= glm::inverse(motion.riding(size_t(view.node)));
+    if (view.node >= 0) view.worldToEye *= glm::inverse(motion.movedBy(size_t(view.node)));
   return views;
 }
 
@@ -135,9 +137,11 @@ Status Renderer::Impl::begin(const Request& request) {
     // The scene, as the look has it, and what its views are drawn with.
     knobs.evaluate(now);
     GeometryOptions geometry;
-    geometry.ocean = oceanShape(scene.data(), now);
+    geometry.features = plannedFeatures(scene.data(), now);
     geometry.ground = hasGround(scene.data(), now, background != nullptr) && !options.transparent;
-    geometry.ground &= !geometry.ocean.isThere || knobs.scene<GroundParams>().mode == 1;
+    for (const PlannedFeature& planned : geometry.features)
+      if (planned.plan && planned.plan->replacesGround)
+        geometry.ground &= knobs.scene<GroundParams>().mode == 1;
     geometry.shadowWarp = knobs.scene<LightParams>().shadowWarp;
     std::vector<KnobTable::Material> materials;
     for (const scene::Material& material : scene.data().materials) materials.push_back({material.name, {}});
@@ -178,11 +182,11 @@ Status Renderer::Impl::begin(const Request& request) {
       sceneOnGpu.posePrevious(options.previousScene.empty() ? scene.data() : options.previousScene.data(),
                               look, previousKnobs, previousTime);
     }
-    const std::vector<View> seenFrom = ridden(views, sceneOnGpu.motion());
+    const std::vector<View> seenFrom = carried(views, sceneOnGpu.motion());
     std::vector<View> seenBefore;
     if (needsPrevious)
-      seenBefore =
-          ridden(options.previousViews.empty() ? views : options.previousViews, *sceneOnGpu.previousMotion());
+      seenBefore = carried(options.previousViews.empty() ? views : options.previousViews,
+                           *sceneOnGpu.previousMotion());
 
     // What all views see alike.
     std::vector<float> inflations, margins;
@@ -270,7 +274,7 @@ void Renderer::Impl::latch(const Request& request, const SceneMotion& motion, co
     device->log(LogLevel::warning, "the newest views are not used: " + problem);
     return;
   }
-  const std::vector<View> now = ridden(views, motion);
+  const std::vector<View> now = carried(views, motion);
   for (const Begun::Part& part : frame.parts) {
     std::vector<shared::ViewUniforms> uniforms;
     const bool hasPrevious = !request.options.previousViews.empty();

@@ -20,8 +20,6 @@
 #include "passes/limit/limit.h"
 #include "passes/limit/limit_knobs.h"
 #include "passes/matte/matte.h"
-#include "passes/ocean/ocean.h"
-#include "passes/ocean/ocean_knobs.h"
 #include "passes/order/order.h"
 #include "passes/plain/plain.h"
 #include "passes/shadow_map/shadow_map.h"
@@ -30,6 +28,7 @@
 #include "passes/surface/surface_knobs.h"
 #include "passes/warp/warp.h"
 #include "passes/warp/warp_knobs.h"
+#include "renderer/feature_list.h"
 #include "stage/animation_params.h"
 #include "stage/camera.h"
 #include "stage/light.h"
@@ -40,21 +39,24 @@ namespace scumble {
 namespace look {
 
 const std::vector<const ParamBlock*>& ownBlocks() {
-  static const std::vector<const ParamBlock*> blocks{
-      &stage::LightParams::block(),       &passes::ShadowMapParams::block(),
-      &stage::PaletteParams::block(),     &stage::LitParams::block(),
-      &stage::ShadowedParams::block(),    &passes::SurfaceParams::block(),
-      &passes::BlurParams::block(),       &passes::FinalShadowParams::block(),
-      &passes::TextureParams::block(),    &frame::TextureMetaTextureParams::block(),
-      &passes::WarpParams::block(),       &frame::WarpMetaTextureParams::block(),
-      &passes::BreakupParams::block(),    &frame::BreakupMetaTextureParams::block(),
-      &passes::BackgroundParams::block(), &stage::GroundParams::block(),
-      &passes::VolumeParams::block(),     &passes::GradeParams::block(),
-      &passes::LimitParams::block(),      &passes::FinalColorParams::block(),
-      &stage::AnimationParams::block(),   &stage::PlayParams::block(),
-      &world::OceanParams::block(),       &world::DecorationParams::block(),
-      &passes::OceanPaintParams::block(), &frame::OceanMetaTextureParams::block(),
-      &world::FloatParams::block(),       &stage::CameraParams::block()};
+  static const std::vector<const ParamBlock*> blocks = [] {
+    std::vector<const ParamBlock*> all{
+        &stage::LightParams::block(),       &passes::ShadowMapParams::block(),
+        &stage::PaletteParams::block(),     &stage::LitParams::block(),
+        &stage::ShadowedParams::block(),    &passes::SurfaceParams::block(),
+        &passes::BlurParams::block(),       &passes::FinalShadowParams::block(),
+        &passes::TextureParams::block(),    &frame::TextureMetaTextureParams::block(),
+        &passes::WarpParams::block(),       &frame::WarpMetaTextureParams::block(),
+        &passes::BreakupParams::block(),    &frame::BreakupMetaTextureParams::block(),
+        &passes::BackgroundParams::block(), &stage::GroundParams::block(),
+        &passes::VolumeParams::block(),     &passes::GradeParams::block(),
+        &passes::LimitParams::block(),      &passes::FinalColorParams::block(),
+        &stage::AnimationParams::block(),   &stage::PlayParams::block()};
+    for (const frame::FeatureParts& parts : renderer::features())
+      all.insert(all.end(), parts.blocks.begin(), parts.blocks.end());
+    all.push_back(&stage::CameraParams::block());
+    return all;
+  }();
   return blocks;
 }
 
@@ -84,6 +86,16 @@ std::vector<std::unique_ptr<Pass>> PassList::makeAll() const {
   return passes;
 }
 
+namespace {
+
+// Their passes, where what they come after is there.
+void addFeatures(PassList& list) {
+  for (const FeatureParts& parts : features())
+    for (const FeatureParts::PlacedPass& pass : parts.passes) list.insertAfter(pass.after, pass.make);
+}
+
+}  // namespace
+
 PassList standardPasses() {
   PassList list;
   list.append(passes::makeDeform);
@@ -91,7 +103,6 @@ PassList standardPasses() {
   list.append(passes::makeOrder);
   list.append(passes::makeShadowMap);
   list.append(passes::makeWarp);
-  list.append(passes::makeOcean);
   for (const Layer layer : kLayers) list.append([=] { return passes::makeSurface(layer); });
   list.append(passes::makeBlur);
   list.append(passes::makeFinalShadow);
@@ -101,6 +112,7 @@ PassList standardPasses() {
   list.append(passes::makeFinalColor);
   list.append(passes::makeFacts);
   list.append(passes::makeMatte);
+  addFeatures(list);
   return list;
 }
 
@@ -110,6 +122,7 @@ PassList plainPasses() {
   list.append(passes::makeCull);
   list.append(passes::makeOrder);
   list.append(passes::makePlain);
+  addFeatures(list);
   return list;
 }
 

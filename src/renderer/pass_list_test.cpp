@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <set>
 #include <string>
 
@@ -15,65 +14,21 @@
 #include "passes/final_color/final_color_knobs.h"
 #include "passes/final_shadow/final_shadow_knobs.h"
 #include "passes/limit/limit_knobs.h"
-#include "passes/ocean/ocean_knobs.h"
 #include "passes/shadow_map/shadow_map_knobs.h"
 #include "passes/surface/surface_knobs.h"
 #include "passes/warp/warp_knobs.h"
+#include "renderer/feature_list.h"
 #include "scumble/renderer.h"
 #include "stage/animation_params.h"
 #include "stage/camera.h"
 #include "stage/light.h"
 #include "stage/palette.h"
-#include "world/ocean.h"
+#include "tests/support/row_defaults.h"
 
 namespace scumble::renderer {
 namespace {
 
-using look::ParamKind;
-
-template <class T>
-T read(const void* base, size_t offset) {
-  T value;
-  std::memcpy(&value, static_cast<const char*>(base) + offset, sizeof(T));
-  return value;
-}
-
-template <class Params>
-void expectRowsDefaults(std::set<const look::ParamBlock*>& seen) {
-  const look::ParamBlock& block = Params::block();
-  seen.insert(&block);
-  EXPECT_EQ(block.structSize, sizeof(Params));
-  const Params fresh, whole = look::LookData{}.get<Params>(),
-                      single = look::LookData{}.getForMaterial<Params>("Sail");
-  size_t expectedOffset = 0;
-  for (const look::ParamRow& row : block.rows) {
-    const std::string name = std::string(block.path) + "." + row.name;
-    // Scalar layout without gaps, which is what GLSL sees.
-    EXPECT_EQ(row.offset, expectedOffset) << name;
-    expectedOffset += row.kind == ParamKind::color || row.kind == ParamKind::triple ? 12 : 4;
-    for (const Params* params : {&fresh, &whole, &single}) switch (row.kind) {
-        case ParamKind::number:
-          EXPECT_EQ(read<float>(params, row.offset), float(row.defaultValue)) << name;
-          break;
-        case ParamKind::integer:
-        case ParamKind::choice:
-        case ParamKind::picture:
-        case ParamKind::name:
-          EXPECT_EQ(read<int32_t>(params, row.offset), int32_t(row.defaultValue)) << name;
-          break;
-        case ParamKind::toggle:
-          EXPECT_EQ(read<uint32_t>(params, row.offset), uint32_t(row.defaultValue)) << name;
-          break;
-        case ParamKind::triple:
-          EXPECT_EQ(read<glm::vec3>(params, row.offset), glm::vec3(float(row.defaultValue))) << name;
-          break;
-        case ParamKind::color:
-          EXPECT_EQ(look::srgbFromLinear(read<glm::vec3>(params, row.offset)), uint32_t(row.defaultValue))
-              << name;
-      }
-  }
-  EXPECT_EQ(expectedOffset, sizeof(Params)) << block.path;
-}
+using test::expectRowsDefaults;
 
 TEST(PassList, structsStartWithTheirRowsDefaults) {
   std::set<const look::ParamBlock*> seen;
@@ -100,11 +55,8 @@ TEST(PassList, structsStartWithTheirRowsDefaults) {
   expectRowsDefaults<CameraParams>(seen);
   expectRowsDefaults<passes::VolumeParams>(seen);
   expectRowsDefaults<passes::GradeParams>(seen);
-  expectRowsDefaults<OceanParams>(seen);
-  expectRowsDefaults<DecorationParams>(seen);
-  expectRowsDefaults<passes::OceanPaintParams>(seen);
-  expectRowsDefaults<OceanMetaTextureParams>(seen);
-  expectRowsDefaults<FloatParams>(seen);
+  // Features test their own.
+  for (const frame::FeatureParts& parts : features()) seen.insert(parts.blocks.begin(), parts.blocks.end());
   for (const look::ParamBlock* block : look::allBlocks())
     EXPECT_TRUE(seen.count(block)) << block->path << ": a new block of knobs; add its struct to this test";
   EXPECT_EQ(look::allBlocks().size(), seen.size())

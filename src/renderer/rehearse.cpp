@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
+#include "renderer/feature_list.h"
 #include "renderer/impl.h"
-#include "world/ocean.h"
 
 namespace scumble {
 
@@ -102,12 +102,18 @@ Status Renderer::Impl::prepare(const Request& request, Rehearsal extent) {
   // A frame with settings besides; whether it has compiled anything. Where there is another sea, or none any
   // more, it is another scene.
   const scene::SceneData& scene = request.scene.data();
-  const bool hasOcean = world::oceanShape(scene, request.look.at(request.time)).isThere;
+  const auto whichFeatures = [&](const look::LookData& look) {
+    std::vector<bool> there;
+    for (const world::PlannedFeature& planned : plannedFeatures(scene, look.at(request.time)))
+      there.push_back(bool(planned.plan));
+    return there;
+  };
+  const std::vector<bool> features = whichFeatures(request.look);
   bool hasCompiled = false;
   const auto rehearse = [&](std::initializer_list<look::Assignment> settings, double part) -> Status {
     look::LookData look = request.look;
     look.assignments.insert(look.assignments.end(), settings);
-    if (world::oceanShape(scene, look.at(request.time)).isThere != hasOcean) return Done{};
+    if (whichFeatures(look) != features) return Done{};
     Request changed{request.scene, look, request.time, request.views, request.options};
     changed.isRehearsal = true;
     changed.progressFrom = changed.progressTo = part;

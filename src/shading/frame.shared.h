@@ -61,14 +61,10 @@ struct ObjectData {
   uint influences;        // joints a vertex: 0 (rigid), 4 or 8
   uint firstJoint;        // in the joint matrices
   uint firstMorphWeight;  // in the morph weights
-  uint water;             // kWaves ...; 0: it is no water
-  uint decoration;        // which one in OceanField, where it is one
+  uint kind, detail;      // what it is to the feature that it belongs to; 0 where it belongs to none
   vec2 patternShift;      // added to pattern coordinates
   uint wraps;  // whether pattern coordinates close on themselves after one unit: 1 along u, 2 along v
 };
-
-// ObjectData::water: waves move it; flat water beyond them; a wake, ripples or a splash.
-const uint kWaves = 1, kFlat = 2, kDecoration = 3;
 
 // A chunk of vertices for `deform`: up to kDeformChunk vertices of one object.
 const int kDeformChunk = 256;

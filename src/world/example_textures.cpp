@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/stroke_maps.h"
 #include "base/tileable_noise.h"
-#include "ocean/maps.h"
 #include "world/mipmaps.h"
 
 namespace scumble::world {
@@ -47,8 +47,8 @@ Pixels pixelsOf(const look::LookData& look, look::Picture picture) {
 }  // namespace
 
 Pixels builtInExample(int index) {
-  if (index == 3) return ocean::dither();
-  if (index == 4) return ocean::foam();
+  if (index == 3) return seaStrokes();
+  if (index == 4) return foamStrokes();
   if (index == 1) {
     // Lying, as `orient` wants them.
     const std::vector<uint8_t> standing = knifeMarks();

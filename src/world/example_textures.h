@@ -15,7 +15,7 @@ namespace scumble::world {
 //            not wavy; blue: palette-knife marks
 //   strokes  the marks alone, grey, lying along u
 //   paper    grain, grey
-//   sea      red, green, blue: three patterns of brush strokes of water, lying along u
+//   sea      red, green, blue: three patterns of brush strokes as of a sea, lying along u
 //   foam     the amount of foam at which a place is covered, grey
 constexpr uint32_t kBuiltInSize = 256;  // texels; one texel a pixel at the default size
 Pixels builtInExample(int index);

@@ -56,55 +56,12 @@ float largestScale(const glm::mat4& m) {
   return std::max({glm::length(glm::vec3(m[0])), glm::length(glm::vec3(m[1])), glm::length(glm::vec3(m[2]))});
 }
 
-enum MadeKind { kGround, kOceanTile, kOceanRing, kOceanDecoration };
-
-void addOcean(const scene::SceneData& scene, const OceanShape& shape, uint32_t material, MadePrimitives& made,
-              Geometry& geometry) {
-  GeometryItem item;
-  item.node = GeometryItem::kNoNode;
-  item.material = material;
-  item.id = uint32_t(scene.nodes.size() + 2);  // as Frame::objects has them
-  item.casts = false;
-  const auto use = [&](const scene::Primitive& primitive) {
-    item.primitive = &primitive, item.extent = &primitive.extent;
-  };
-  item.water = Water::waves;
-  for (int z = 0; z < shape.tiles; ++z)
-    for (int x = 0; x < shape.tiles; ++x) {
-      const OceanTile tile = oceanTileAt(shape, x, z);
-      const auto& [negativeX, positiveX, negativeZ, positiveZ] = tile.beside;
-      use(made.get({kOceanTile, double(shape.grid), double(shape.tile), double(tile.stride),
-                    double(negativeX), double(positiveX), double(negativeZ), double(positiveZ)},
-                   [&] { return makeOceanTile(shape, tile); }));
-      const glm::vec2 corner = glm::vec2(shape.firstPoint() + glm::ivec2(x, z) * shape.grid) * shape.cell();
-      item.instance = glm::translate(glm::mat4(1.0f), shape.origin + glm::vec3(corner.x, 0, corner.y));
-      item.model = item.instance;
-      item.patternShift = corner / kWaterPerPattern;
-      item.reach = scene::posedBounds(*item.extent, item.model, {}, {});
-      geometry.items.push_back(item);
-    }
-  use(made.get({kOceanRing, double(shape.falseHorizon), double(shape.horizon)},
-               [&] { return makeOceanRing(shape); }));
-  item.water = Water::flat;
-  item.instance = item.model = glm::translate(glm::mat4(1.0f), shape.origin);
-  item.patternShift = glm::vec2(0.0f);
-  item.reach = scene::posedBounds(*item.extent, item.model, {}, {});
-  geometry.items.push_back(item);
-  item.water = Water::decoration;
-  item.instance = item.model = glm::mat4(1.0f);
-  item.patternShift = -glm::vec2(shape.origin.x, shape.origin.z) / kWaterPerPattern;
-  for (const int kind : shape.decorations) {
-    use(made.get({kOceanDecoration, double(kind)}, [&] { return makeOceanDecoration(kind); }));
-    geometry.items.push_back(item);
-    ++item.decoration;
-  }
-}
-
 void addGround(const scene::SceneData& scene, uint32_t material, MadePrimitives& made, Geometry& geometry) {
   GeometryItem item;
   const scene::Bounds& bounds = geometry.bounds;
-  item.primitive = &made.get({kGround, double(bounds.empty), bounds.min.x, bounds.min.y, bounds.min.z,
-                              bounds.max.x, bounds.max.y, bounds.max.z},
+  item.primitive = &made.get("ground",
+                             {double(bounds.empty), bounds.min.x, bounds.min.y, bounds.min.z, bounds.max.x,
+                              bounds.max.y, bounds.max.z},
                              [&] { return makeGround(bounds); });
   item.node = GeometryItem::kNoNode;
   item.material = material;
@@ -131,9 +88,9 @@ float longestEdge(float shadowWarp) {
   return std::sqrt(8 * tolerance / curvature);
 }
 
-const scene::Primitive& MadePrimitives::get(const std::vector<double>& key,
+const scene::Primitive& MadePrimitives::get(const std::string& kind, const std::vector<double>& key,
                                             const std::function<scene::Primitive()>& make) {
-  Entry& entry = made_[key];
+  Entry& entry = made_[{kind, key}];
   if (!entry.primitive) {
     entry.primitive = std::make_unique<scene::Primitive>(make());
     entry.primitive->extent = scene::extentOf(*entry.primitive);
@@ -164,7 +121,7 @@ void MadePrimitives::sweep() {
 }
 
 Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& options, int groundMaterial,
-                         int oceanMaterial, MadePrimitives& made) {
+                         const std::vector<int>& featureMaterials, MadePrimitives& made) {
   Geometry geometry;
   geometry.bounds = scene::playedBounds(scene, options.clips);
   const std::vector<glm::mat4> world = scene::worldMatrices(scene);
@@ -172,9 +129,13 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
   // One item for each primitive of each node, and for each of its instances.
   const std::vector<bool> shown = scene::shownNodes(scene);
   const std::vector<glm::mat4> one{glm::mat4(1.0f)};
+  std::vector<bool> isReplaced(scene.nodes.size(), false);
+  for (const PlannedFeature& planned : options.features)
+    if (planned.plan && planned.plan->replacedNode >= 0)
+      isReplaced[size_t(planned.plan->replacedNode)] = true;
   for (size_t n = 0; n < scene.nodes.size(); ++n) {
     const scene::Node& node = scene.nodes[n];
-    if (node.mesh < 0 || int(n) == options.ocean.node) continue;
+    if (node.mesh < 0 || isReplaced[n]) continue;
     for (const scene::Primitive& primitive : scene.meshes[size_t(node.mesh)]->primitives) {
       if (primitive.indices.empty()) continue;
       GeometryItem item;
@@ -225,7 +186,16 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
   for (GeometryItem& item : geometry.items)
     if (const auto it = split.find(item.primitive); it != split.end()) item.primitive = it->second;
 
-  if (oceanMaterial >= 0) addOcean(scene, options.ocean, uint32_t(oceanMaterial), made, geometry);
+  for (size_t f = 0; f < options.features.size(); ++f) {
+    if (featureMaterials[f] < 0) continue;
+    GeometryItem item;
+    item.node = GeometryItem::kNoNode;
+    item.material = uint32_t(featureMaterials[f]);
+    item.id = uint32_t(scene.nodes.size() + 2 + f);  // as Frame::objects has them
+    item.casts = false;
+    item.feature = int(f);
+    options.features[f].plan->addItems(item, made, geometry);
+  }
   if (groundMaterial >= 0) addGround(scene, uint32_t(groundMaterial), made, geometry);
   return geometry;
 }

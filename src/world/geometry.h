@@ -10,7 +10,7 @@
 #include "scene/posed_bounds.h"
 #include "shading/frame.shared.h"
 #include "stage/node_settings.h"
-#include "world/ocean.h"
+#include "world/feature.h"
 
 namespace scumble::world {
 
@@ -23,15 +23,8 @@ struct GeometryOptions {
   std::vector<bool> casts;  // by material: whether it casts shadows
   std::vector<int> clips;   // those that play at any time: they tell what space the scene takes up
   NodeSettings nodes;
-  OceanShape ocean;
+  std::vector<PlannedFeature> features;  // all that there are
   bool operator==(const GeometryOptions&) const = default;
-};
-
-enum class Water : uint8_t {
-  none,
-  waves = shared::kWaves,
-  flat = shared::kFlat,
-  decoration = shared::kDecoration
 };
 
 struct GeometryItem {
@@ -45,20 +38,22 @@ struct GeometryItem {
   uint32_t id = 0;    // whole number from 1, one a node
   bool casts = true;  // shadows
   bool shown = true;
-  Water water = Water::none;
-  uint32_t decoration = 0;       // which one
-  glm::vec2 patternShift{0.0f};  // added to pattern coordinates
+  int feature = -1;                 // index of the one that it belongs to
+  uint32_t kind = 0, detail = 0;    // what they are is the feature's own
+  bool isWrittenByFeature = false;  // its final vertices; else `deform` writes them
+  glm::vec2 patternShift{0.0f};     // added to pattern coordinates
   const scene::PrimitiveExtent* extent = nullptr;
   scene::Bounds reach;  // in the world: where clips take it, as far as is known before
   static constexpr size_t kNoNode = ~size_t(0);
 };
 
-// Primitives that a scene does not have: subdivided ones, the ground, water. What is asked for again is the
-// same object, so that nobody takes it for a new one.
+// Primitives that a scene does not have: subdivided ones, the ground, those of features. What is asked for
+// again is the same object, so that nobody takes it for a new one.
 class MadePrimitives {
  public:
-  // What is made for a key, numbers that say all about it.
-  const scene::Primitive& get(const std::vector<double>& key, const std::function<scene::Primitive()>& make);
+  // What is made for a kind and a key, numbers that say all about it.
+  const scene::Primitive& get(const std::string& kind, const std::vector<double>& key,
+                              const std::function<scene::Primitive()>& make);
   // What a primitive of the scene becomes.
   const scene::Primitive& splitOf(const scene::Primitive& source, scene::Primitive&& result);
   // Forgets what was not asked for since the last time.
@@ -69,7 +64,7 @@ class MadePrimitives {
     std::unique_ptr<scene::Primitive> primitive;
     bool isUsed = false;
   };
-  std::map<std::vector<double>, Entry> made_;
+  std::map<std::pair<std::string, std::vector<double>>, Entry> made_;
   std::map<const scene::Primitive*, Entry> split_;
   std::vector<std::unique_ptr<scene::Primitive>> replaced_;  // until the next sweep
 };
@@ -80,9 +75,9 @@ struct Geometry {
   scene::Bounds bounds;  // of all that clips do, without the ground
 };
 
-// `groundMaterial`, `oceanMaterial`: their indices, or -1 where there is none.
+// `groundMaterial`, `featureMaterials`: their indices, or -1 where there is none.
 Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& options, int groundMaterial,
-                         int oceanMaterial, MadePrimitives& made);
+                         const std::vector<int>& featureMaterials, MadePrimitives& made);
 
 // Where a ground lies under a scene that takes up so much.
 float groundHeight(const scene::Bounds& bounds);

@@ -65,7 +65,7 @@ SceneMotion::SceneMotion(gpu::Device& device, const scene::SceneData& scene,
   objects_ = bufferOf<shared::ObjectData>(device, placed.size());
   joints_ = bufferOf<glm::mat4>(device, layout_.joints);
   morphWeights_ = bufferOf<float>(device, layout_.weights);
-  moved_ = bufferOf<uint32_t>(device, chunkCount_);
+  movedChunks_ = bufferOf<uint32_t>(device, chunkCount_);
   std::copy(placed.begin(), placed.end(), objects_.as<shared::ObjectData>());
 }
 
@@ -106,14 +106,14 @@ bool SceneMotion::follow(const scene::SceneData& scene, const std::vector<shared
   auto* const now = objects_.as<shared::ObjectData>();
   for (size_t i = 0; i < placed.size(); ++i) {
     shared::ObjectData& object = placed[i];
-    // Who reads joints or weights from elsewhere now, or is another kind of water, moves.
+    // Who reads joints or weights from elsewhere now, or is something else to its feature, moves.
     if (object.firstJoint != now[i].firstJoint || object.firstMorphWeight != now[i].firstMorphWeight ||
-        object.influences != now[i].influences || object.water != now[i].water ||
-        object.decoration != now[i].decoration)
+        object.influences != now[i].influences || object.kind != now[i].kind ||
+        object.detail != now[i].detail)
       touched_[i] = 1;
     object.model = now[i].model;
     object.normal = now[i].normal;
-    if (object.water != uint32_t(Water::none)) object.patternShift = now[i].patternShift;
+    if (moving_[i].feature >= 0) object.patternShift = now[i].patternShift;
   }
   std::copy(placed.begin(), placed.end(), now);
   followed_ = &scene;
@@ -122,10 +122,13 @@ bool SceneMotion::follow(const scene::SceneData& scene, const std::vector<shared
 }
 
 bool SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, double time,
-                       const OceanWaves* waves) {
-  movedOfPage_.assign(geometry_.pages().size(), {});
+                       const FeatureMoments& features) {
+  writers_ = 1 + features.size();
+  moved_.assign(geometry_.pages().size() * writers_, {});
   const std::vector<scene::PlayedClip> clips = playedClips(scene, knobs.look());
-  const bool rests = clips.empty() && !waves && &scene == followed_;
+  const bool hasFeature =
+      std::any_of(features.begin(), features.end(), [](const auto& feature) { return bool(feature); });
+  const bool rests = clips.empty() && !hasFeature && &scene == followed_;
   if (rests && isAtRest_ && written_) return false;
   isAtRest_ = rests;
 
@@ -154,22 +157,22 @@ bool SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, do
   worldAsDrawn_ = usualPose != poses.end() ? usualPose->second.world : poseHeldFor(usual).world;
   world_ = scene::poseAt(scene, clips, time).world;
 
-  // What rides the waves is moved by them as the waves are now, however long poses are held.
-  riding_.clear();
-  if (waves && !waves->floating().empty()) {
-    riding_.resize(scene.nodes.size());
-    for (const FloatingNode& one : waves->floating())
-      riding_[one.node] = waves->riding(one.params, world_[one.node]);
+  // What features move is where they have it now, however long poses are held; and what hangs on it goes
+  // along.
+  movedBy_.assign(hasFeature ? scene.nodes.size() : 0, {});
+  for (const auto& feature : features)
+    if (feature) feature->moveNodes(scene, world_, movedBy_);
+  if (std::any_of(movedBy_.begin(), movedBy_.end(), [](const auto& moved) { return bool(moved); })) {
     for (size_t n = 0; n < scene.nodes.size(); ++n)
-      if (const int parent = scene.nodes[n].parent; parent >= 0 && riding_[size_t(parent)])
-        riding_[n] = riding_[size_t(parent)];
-    const auto ride = [&](std::vector<glm::mat4>& world) {
+      if (const int parent = scene.nodes[n].parent; parent >= 0 && movedBy_[size_t(parent)])
+        movedBy_[n] = movedBy_[size_t(parent)];
+    const auto move = [&](std::vector<glm::mat4>& world) {
       for (size_t n = 0; n < world.size(); ++n)
-        if (riding_[n]) world[n] = *riding_[n] * world[n];
+        if (movedBy_[n]) world[n] = *movedBy_[n] * world[n];
     };
-    for (auto& [frames, pose] : poses) ride(pose.world);
-    ride(world_);
-    ride(worldAsDrawn_);
+    for (auto& [frames, pose] : poses) move(pose.world);
+    move(world_);
+    move(worldAsDrawn_);
   }
 
   // Joints.
@@ -191,12 +194,15 @@ bool SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, do
         const glm::mat4& instance = instanceOf(scene, object);
         glm::mat4 model =
             object.node == MovingObject::kNoNode ? instance : pose.world[object.node] * instance;
-        if (object.water == Water::waves) model[3] += glm::vec4(waves->offset(), 0.0f);
-        if (object.water == Water::flat) model[3] += glm::vec4(waves->ringOffset(), 0.0f);
-        if (object.water != Water::none)
-          data.patternShift = object.water == Water::waves ? waves->tilePattern() : waves->ringPattern();
-        bool changes = object.water == Water::waves || object.water == Water::decoration || !written_ ||
-                       touched_[i] || (object.skin >= 0 && bends[layout_.skinUseOf[i]]);
+        const FeatureMoment* const feature =
+            object.feature >= 0 ? features[size_t(object.feature)].get() : nullptr;
+        if (feature) {
+          const FeatureMoment::Place place = feature->placeOf(object.kind);
+          model[3] += glm::vec4(place.offset, 0.0f);
+          data.patternShift = place.patternShift;
+        }
+        bool changes = object.isWrittenByFeature || !written_ || touched_[i] ||
+                       (object.skin >= 0 && bends[layout_.skinUseOf[i]]);
         if (replace(&data.model, &model, 1) || !written_) {
           const glm::mat3 linear(model);
           mirrored_[i] = object.skin < 0 && glm::determinant(linear) < 0;
@@ -216,44 +222,36 @@ bool SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, do
           joints = {joints_.as<glm::mat4>() + data.firstJoint,
                     scene.skins[size_t(object.skin)].joints.size()};
         bounds_[i] = scene::posedBounds(*object.extent, model, joints, weights);
-        if (object.water == Water::waves) {
-          bounds_[i].min -= waves->reach();
-          bounds_[i].max += waves->reach();
-        }
-        if (object.water == Water::decoration) bounds_[i] = waves->decorationBounds(object.decoration);
+        if (feature) bounds_[i] = feature->boundsOf(object.kind, object.detail, bounds_[i]);
       });
   written_ = true;
   std::fill(touched_.begin(), touched_.end(), uint8_t(0));
 
-  // What is to be written: page by page, where first all is counted that is in each.
-  std::vector<bool> isDry(moving_.size());  // neither water nor after it
-  bool isBefore = true;
+  // What is to be written: by page and writer, where first all is counted that is of each.
   const auto forEachMoved = [&](auto&& visit) {
-    for (size_t i = 0; i < moving_.size(); ++i)
-      for (uint32_t c = 0; moves[i] && c < moving_[i].chunkCount; ++c)
-        visit(i, moving_[i].firstChunk + c, movedOfPage_[geometry_.pageOfChunk()[moving_[i].firstChunk + c]]);
+    for (size_t i = 0; i < moving_.size(); ++i) {
+      const MovingObject& object = moving_[i];
+      const size_t writer = object.isWrittenByFeature ? size_t(object.feature + 1) : 0;
+      for (uint32_t c = 0; moves[i] && c < object.chunkCount; ++c) {
+        const uint32_t chunk = object.firstChunk + c;
+        visit(chunk, moved_[geometry_.pageOfChunk()[chunk] * writers_ + writer]);
+      }
+    }
   };
-  for (size_t i = 0; i < moving_.size(); ++i) {
-    isBefore &= moving_[i].water == Water::none;
-    isDry[i] = isBefore;
-  }
-  forEachMoved([](size_t, uint32_t, Moved& page) { ++page.count; });
+  forEachMoved([](uint32_t, Moved& part) { ++part.count; });
   uint32_t next = 0;
-  for (Moved& page : movedOfPage_) {
-    page.first = next;
-    next += page.count;
-    page.count = 0;
+  for (Moved& part : moved_) {
+    part.first = next;
+    next += part.count;
+    part.count = 0;
   }
-  auto* const moved = moved_.as<uint32_t>();
-  forEachMoved([&](size_t i, uint32_t chunk, Moved& page) {
-    moved[page.first + page.count++] = chunk;
-    if (isDry[i]) page.beforeWater = page.count;
-  });
+  auto* const chunks = movedChunks_.as<uint32_t>();
+  forEachMoved([&](uint32_t chunk, Moved& part) { chunks[part.first + part.count++] = chunk; });
   return true;
 }
 
 void SceneMotion::addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) {
-  for (gpu::PerFrameBuffer* buffer : {&objects_, &joints_, &morphWeights_, &moved_})
+  for (gpu::PerFrameBuffer* buffer : {&objects_, &joints_, &morphWeights_, &movedChunks_})
     uploads.push_back(buffer);
 }
 

@@ -24,8 +24,9 @@ struct MovingObject {
   uint32_t firstChunk = 0, chunkCount = 0;  // of its vertices
   const scene::PrimitiveExtent* extent = nullptr;
   bool morphs = false;
-  Water water = Water::none;
-  uint32_t decoration = 0;
+  int feature = -1;  // index of the one that it belongs to
+  uint32_t kind = 0, detail = 0;
+  bool isWrittenByFeature = false;
   static constexpr size_t kNoNode = GeometryItem::kNoNode;
 };
 
@@ -42,10 +43,10 @@ class SceneMotion {
   // An object's vertices at rest are others.
   void touch(size_t object) { touched_[object] = 1; }
 
-  // The pose at a time, in seconds; the knobs are those of that time. `waves`: those of that time,
-  // where there is an ocean. `scene`: the one that it follows, or as it was at that time, with the same
-  // nodes. False where all is as it was.
-  bool pose(const scene::SceneData& scene, const KnobTable& knobs, double time, const OceanWaves* waves);
+  // The pose at a time, in seconds; the knobs are those of that time, and so are the features. `scene`: the
+  // one that it follows, or as it was at that time, with the same nodes. False where all is as it was.
+  bool pose(const scene::SceneData& scene, const KnobTable& knobs, double time,
+            const FeatureMoments& features);
 
   // World bounds of each object in the pose.
   const std::vector<scene::Bounds>& bounds() const { return bounds_; }
@@ -63,24 +64,25 @@ class SceneMotion {
   // with it.
   const std::vector<glm::mat4>& worldAsDrawn() const { return worldAsDrawn_; }
 
-  // What waves move a node by, from where it is without them.
-  glm::mat4 riding(size_t node) const {
-    return riding_.empty() || !riding_[node] ? glm::mat4(1.0f) : *riding_[node];
+  // What features move a node by, from where it is without them.
+  glm::mat4 movedBy(size_t node) const {
+    return movedBy_.empty() || !movedBy_[node] ? glm::mat4(1.0f) : *movedBy_[node];
   }
 
   // Chunks of vertices whose final ones are out of date, in moved(); the next pose starts from these being
-  // written. By page: those that are no water come first, after them there may be anything.
+  // written. Of a page, and of who writes them: kDeform, or a feature's index.
+  static constexpr int kDeform = -1;
   struct Moved {
-    uint32_t first = 0, beforeWater = 0, count = 0;
+    uint32_t first = 0, count = 0;
   };
-  const std::vector<Moved>& movedOfPage() const { return movedOfPage_; }
+  Moved moved(size_t page, int writer) const { return moved_[page * writers_ + size_t(writer + 1)]; }
   // Forgets what was written before: everything has moved.
   void touchAll() { written_ = isAtRest_ = false; }
 
   VkBuffer objects() const { return objects_.handle(); }
   VkBuffer joints() const { return joints_.handle(); }
   VkBuffer morphWeights() const { return morphWeights_.handle(); }
-  VkBuffer moved() const { return moved_.handle(); }
+  VkBuffer moved() const { return movedChunks_.handle(); }
   void addUploads(std::vector<gpu::PerFrameBuffer*>& uploads);
 
  private:
@@ -101,12 +103,13 @@ class SceneMotion {
   Layout layout_;
   const GeometryOnGpu& geometry_;
   uint32_t chunkCount_;
-  gpu::PerFrameBuffer objects_, joints_, morphWeights_, moved_;
+  gpu::PerFrameBuffer objects_, joints_, morphWeights_, movedChunks_;
   std::vector<scene::Bounds> bounds_;
   std::vector<uint8_t> mirrored_, touched_;
   std::vector<glm::mat4> world_, worldAsDrawn_;
-  std::vector<std::optional<glm::mat4>> riding_;  // by node; empty: nothing rides
-  std::vector<Moved> movedOfPage_;
+  std::vector<std::optional<glm::mat4>> movedBy_;  // by node; empty: features move nothing
+  size_t writers_ = 1;
+  std::vector<Moved> moved_;  // by page, then by writer
   const scene::SceneData* followed_;
   bool written_ = false, isAtRest_ = false;
 };

@@ -6,7 +6,6 @@
 #include <tuple>
 
 #include "world/geometry.h"
-#include "world/ocean_travel.h"
 
 namespace scumble::world {
 
@@ -51,7 +50,7 @@ SceneOnGpu::Changes SceneOnGpu::update(const scene::SceneData& scene, const Geom
                                        const std::function<void()>& settle) {
   Changes changes;
   const auto kindsOfMaterials = [&] {
-    return std::tuple(materialNames_.size(), groundMaterial_, oceanMaterial_);
+    return std::tuple(materialNames_.size(), groundMaterial_, featureMaterials_);
   };
   const auto materialsBefore = kindsOfMaterials();
   data_ = &scene;
@@ -59,7 +58,7 @@ SceneOnGpu::Changes SceneOnGpu::update(const scene::SceneData& scene, const Geom
 
   // What is drawn, and with which materials.
   listMaterials();
-  Geometry geometry = collectGeometry(scene, options, groundMaterial_, oceanMaterial_, made_);
+  Geometry geometry = collectGeometry(scene, options, groundMaterial_, featureMaterials_, made_);
   bounds_ = geometry.bounds;
   separateMaterials(geometry);
   changes.materials = kindsOfMaterials() != materialsBefore;
@@ -75,17 +74,8 @@ SceneOnGpu::Changes SceneOnGpu::update(const scene::SceneData& scene, const Geom
     changes.buffers = true;
   }
 
-  // The water, and what moves.
-  if (options.ocean.isThere && waves_ && waves_->fits(options.ocean)) {
-    waves_->follow(scene, options.ocean);
-    if (previousWaves_) previousWaves_->follow(scene, options.ocean);
-  } else if (options.ocean.isThere || waves_) {
-    settle();
-    waves_.reset(), previousWaves_.reset();
-    if (options.ocean.isThere) waves_.emplace(device_, scene, options.ocean);
-    if (waves_ && previousMotion_) previousWaves_.emplace(device_, scene, options.ocean);
-    changes.buffers = true;
-  }
+  // What moves.
+  changes.buffers |= followFeatures(settle);
   changes.buffers |= listDraws(geometry, settle);
   changes.buffers |= followMotion(otherPlaces, settle);
 
@@ -100,7 +90,7 @@ SceneOnGpu::Changes SceneOnGpu::update(const scene::SceneData& scene, const Geom
 void SceneOnGpu::listMaterials() {
   materialNames_.clear();
   materialUses_.clear();
-  groundMaterial_ = oceanMaterial_ = -1;
+  groundMaterial_ = -1;
   for (const scene::Material& material : data_->materials) {
     materialUses_.push_back({int(materialNames_.size())});
     materialNames_.push_back(material.name);
@@ -111,7 +101,9 @@ void SceneOnGpu::listMaterials() {
     return int(materialNames_.size()) - 1;
   };
   if (options_.ground) groundMaterial_ = add("Ground");
-  if (options_.ocean.isThere) oceanMaterial_ = add("Ocean");
+  featureMaterials_.clear();
+  for (const PlannedFeature& planned : options_.features)
+    featureMaterials_.push_back(planned.plan ? add(planned.feature->material()) : -1);
 }
 
 void SceneOnGpu::separateMaterials(Geometry& geometry) {
@@ -163,8 +155,8 @@ bool SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>
     object.material = item.material;
     object.id = item.id;
     object.wraps = uint32_t(primitive.wrapsU) + 2 * uint32_t(primitive.wrapsV);
-    object.water = uint32_t(item.water);
-    object.decoration = item.decoration;
+    object.kind = item.kind;
+    object.detail = item.detail;
     object.influences = item.skin >= 0 ? uint32_t(primitive.influences) : 0;
     objects_.push_back(object);
 
@@ -174,8 +166,10 @@ bool SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>
     moving.instance = item.instance;
     moving.skin = item.skin;
     moving.mesh = item.node == GeometryItem::kNoNode ? -1 : data_->nodes[item.node].mesh;
-    moving.water = item.water;
-    moving.decoration = item.decoration;
+    moving.feature = item.feature;
+    moving.kind = item.kind;
+    moving.detail = item.detail;
+    moving.isWrittenByFeature = item.isWrittenByFeature;
     moving.material = item.material;
     moving.extent = item.extent;
     moving.morphs = place.morphs;
@@ -211,6 +205,40 @@ bool SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>
   return draws_.update(device_, std::move(draws), settle) || otherTriangles;
 }
 
+bool SceneOnGpu::followFeatures(const std::function<void()>& settle) {
+  bool renamed = false;
+  const auto follow = [&](FeatureMoments& moments) {
+    moments.resize(options_.features.size());
+    for (size_t f = 0; f < moments.size(); ++f) {
+      const FeaturePlan* const plan = options_.features[f].plan.get();
+      if (!plan && !moments[f]) continue;
+      if (plan && moments[f] && moments[f]->follow(*data_, *plan)) continue;
+      settle();
+      moments[f] = plan ? plan->makeMoment(device_, *data_) : nullptr;
+      renamed = true;
+    }
+  };
+  follow(features_);
+  if (previousMotion_) follow(previousFeatures_);
+  return renamed;
+}
+
+std::optional<SceneOnGpu::FeatureHere> SceneOnGpu::feature(const std::string& name) const {
+  for (size_t f = 0; f < options_.features.size(); ++f) {
+    const PlannedFeature& planned = options_.features[f];
+    if (planned.plan && planned.feature->name() == name)
+      return FeatureHere{int(f), uint32_t(featureMaterials_[f]), planned.plan.get(), features_[f].get(),
+                         f < previousFeatures_.size() ? previousFeatures_[f].get() : nullptr};
+  }
+  return std::nullopt;
+}
+
+const FeaturePlan* SceneOnGpu::planOf(size_t material) const {
+  for (size_t f = 0; f < featureMaterials_.size(); ++f)
+    if (featureMaterials_[f] == int(material)) return options_.features[f].plan.get();
+  return nullptr;
+}
+
 bool SceneOnGpu::followMotion(bool otherPlaces, const std::function<void()>& settle) {
   bool renamed = false;
   for (std::optional<SceneMotion>* motion : {&motion_, &previousMotion_}) {
@@ -227,8 +255,9 @@ bool SceneOnGpu::followMotion(bool otherPlaces, const std::function<void()>& set
 }
 
 void SceneOnGpu::pose(const look::LookData& look, const KnobTable& now, double time) {
-  if (waves_) waves_->pose(now.look(), time, travelledBy(look));
-  if (!motion_->pose(*data_, now, time, waves()) && arePlaced_) return;
+  for (const auto& feature : features_)
+    if (feature) feature->pose(look, now, time, nullptr);
+  if (!motion_->pose(*data_, now, time, features_) && arePlaced_) return;
   arePlaced_ = true;
   draws_.place(motion_->bounds(), motion_->mirrored());
   casters_.clear();
@@ -243,8 +272,9 @@ void SceneOnGpu::look(const Viewers& viewers) {
 
 void SceneOnGpu::posePrevious(const scene::SceneData& scene, const look::LookData& look,
                               const KnobTable& then, double time) {
-  if (previousWaves_) previousWaves_->pose(then.look(), time, travelledBy(look), waves());
-  previousMotion_->pose(scene, then, time, previousWaves());
+  for (size_t f = 0; f < previousFeatures_.size(); ++f)
+    if (previousFeatures_[f]) previousFeatures_[f]->pose(look, then, time, features_[f].get());
+  previousMotion_->pose(scene, then, time, previousFeatures_);
 }
 
 void SceneOnGpu::forgetPoses() {
@@ -256,7 +286,8 @@ void SceneOnGpu::forgetPoses() {
 void SceneOnGpu::keepPrevious() {
   if (previousMotion_) return;
   previousPositions_ = positionBuffer(device_, geometry_.vertexCount());
-  if (waves_) previousWaves_.emplace(device_, *data_, options_.ocean);
+  for (const PlannedFeature& planned : options_.features)
+    previousFeatures_.push_back(planned.plan ? planned.plan->makeMoment(device_, *data_) : nullptr);
   previousMotion_.emplace(device_, *data_, moving_, objects_, geometry_);
 }
 
@@ -265,8 +296,9 @@ void SceneOnGpu::addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) {
   draws_.addUploads(uploads);
   if (previousMotion_) previousMotion_->addUploads(uploads);
   transparent_.addUploads(uploads);
-  if (waves_) waves_->addUploads(uploads);
-  if (previousWaves_) previousWaves_->addUploads(uploads);
+  for (const FeatureMoments* const moments : {&features_, &previousFeatures_})
+    for (const auto& feature : *moments)
+      if (feature) feature->addUploads(uploads);
   uploads.push_back(&materialData_);
 }
 

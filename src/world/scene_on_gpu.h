@@ -43,7 +43,7 @@ class SceneOnGpu {
   // What has become another, of all that others keep.
   struct Changes {
     bool buffers = false;    // names that passes have bound
-    bool materials = false;  // how many there are, and which are the ground's and the ocean's
+    bool materials = false;  // how many there are, and which are the ground's and features'
     // What was written to the device.
     uint32_t writtenPrimitives = 0, writtenTextures = 0, writtenMaterials = 0;
   };
@@ -72,10 +72,16 @@ class SceneOnGpu {
   // Whether vertex colours or textures vary this material's colour anywhere.
   bool isVaried(size_t material) const { return isVaried_[material]; }
   int groundMaterial() const { return groundMaterial_; }
-  int oceanMaterial() const { return oceanMaterial_; }
-  // The ocean's waves; null where there is none.
-  const OceanWaves* waves() const { return waves_ ? &*waves_ : nullptr; }
-  const OceanWaves* previousWaves() const { return previousWaves_ ? &*previousWaves_ : nullptr; }
+  // A feature that is there; null where it is not. `index`: its own among all that there are.
+  struct FeatureHere {
+    int index;
+    uint32_t material;
+    const FeaturePlan* plan;
+    const FeatureMoment *moment, *previous;  // previous: null before keepPrevious()
+  };
+  std::optional<FeatureHere> feature(const std::string& name) const;
+  // The plan of the feature whose material it is; null: it is no feature's.
+  const FeaturePlan* planOf(size_t material) const;
   const SceneColors& colors() const { return colors_; }
   // Boxes of what casts shadows, world: what each reaches at any time, as far as is known before, so that
   // what depends on it stays from frame to frame; and in the frame's pose.
@@ -142,6 +148,8 @@ class SceneOnGpu {
   void separateMaterials(Geometry& geometry);
   // True where buffers have other names.
   bool listDraws(const Geometry& geometry, const std::function<void()>& settle);
+  // True where buffers have other names.
+  bool followFeatures(const std::function<void()>& settle);
   // True where the buffers have other names.
   bool followMotion(bool otherPlaces, const std::function<void()>& settle);
   // How many were written.
@@ -171,7 +179,8 @@ class SceneOnGpu {
   MadePrimitives made_;
   std::vector<std::string> materialNames_;
   std::vector<MaterialUse> materialUses_;
-  int groundMaterial_ = -1, oceanMaterial_ = -1;
+  int groundMaterial_ = -1;
+  std::vector<int> featureMaterials_;  // by feature; -1: it is not there
   DrawList draws_;
   bool arePlaced_ = false;            // draws_ and casters_, in the last pose
   std::vector<scene::Bounds> reach_;  // by draw, world: at any time as far as is known before
@@ -189,7 +198,7 @@ class SceneOnGpu {
   std::vector<shared::ObjectData> objects_;  // without what moves
   std::vector<MovingObject> moving_;
   TransparentTriangles transparent_;
-  std::optional<OceanWaves> waves_, previousWaves_;
+  FeatureMoments features_, previousFeatures_;  // the latter empty before keepPrevious()
   std::optional<SceneMotion> motion_, previousMotion_;
   gpu::PerFrameBuffer materialData_;
   gpu::SetLayout materialLayout_;

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "features/ocean/ocean.h"
 #include "scene/scene_data.h"
 #include "scumble/view.h"
 #include "tests/support/animated_scene.h"
 #include "tests/support/aov.h"
 #include "tests/support/render_test.h"
 #include "tests/support/test_device.h"
-#include "world/ocean.h"
 
 namespace scumble {
 namespace {
@@ -298,13 +298,13 @@ TEST(AfloatFar, ridingEndsWithoutAStep) {
   gpu::DeviceOptions options;
   options.choice = testDevice();
   const std::unique_ptr<gpu::Device> device = std::move(gpu::Device::create(options)).value();
-  world::OceanShape shape;
+  ocean::OceanShape shape;
   shape.isThere = true;
   shape.origin = {3, 1, -2};
   const scene::SceneData none;
-  world::OceanWaves waves(*device, none, shape);
+  ocean::OceanWaves waves(*device, none, shape);
   waves.pose(quietLook({{"ocean.wind", "20"}}).data().at(0), 2.5, [](double) { return glm::dvec2(4, 9); });
-  world::FloatParams params;
+  ocean::FloatParams params;
   const auto riding = [&](float away) {
     return waves.riding(params, glm::translate(glm::mat4(1.0f), shape.origin + glm::vec3(away, 0, 0)));
   };

@@ -302,11 +302,11 @@ TEST(DecorationSettings, areChecked) {
   };
   EXPECT_EQ(found(look, Finding::Kind::noSuchNode), std::vector<std::string>{"decorations.D.water.node"});
 
-  EXPECT_TRUE(found(look, Finding::Kind::noOcean).empty());
+  EXPECT_TRUE(found(look, Finding::Kind::notThere).empty());
   ASSERT_TRUE(look.set("ocean.mode", "off").ok());
-  EXPECT_EQ(found(look, Finding::Kind::noOcean),
+  EXPECT_EQ(found(look, Finding::Kind::notThere),
             (std::vector<std::string>{"decorations", "ocean", "ocean.paint"}));
-  EXPECT_TRUE(found(*Look::load("storm"), Finding::Kind::noOcean).empty()) << "it is for many scenes";
+  EXPECT_TRUE(found(*Look::load("storm"), Finding::Kind::notThere).empty()) << "it is for many scenes";
 }
 
 }  // namespace

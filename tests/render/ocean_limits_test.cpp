@@ -4,12 +4,12 @@
 #include <iostream>
 #include <set>
 
+#include "features/ocean/ocean.h"
 #include "shading/frame.shared.h"
 #include "tests/support/aov.h"
 #include "tests/support/render_test.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/test_device.h"
-#include "world/ocean.h"
 
 namespace scumble {
 namespace {
@@ -38,11 +38,11 @@ uint64_t bytesWith(const Knobs& knobs) {
 
 // What deform writes for the ocean, which is not loaded.
 uint64_t finalVertexBytes() {
-  const world::OceanShape shape;
-  uint64_t vertices = world::makeOceanRing(shape).vertexCount();
+  const ocean::OceanShape shape;
+  uint64_t vertices = ocean::makeOceanRing(shape).vertexCount();
   for (int z = 0; z < shape.tiles; ++z)
     for (int x = 0; x < shape.tiles; ++x)
-      vertices += world::makeOceanTile(shape, world::oceanTileAt(shape, x, z)).vertexCount();
+      vertices += ocean::makeOceanTile(shape, ocean::oceanTileAt(shape, x, z)).vertexCount();
   return vertices * (sizeof(shared::VertexCore) + sizeof(shared::VertexFrame));
 }
 
@@ -65,10 +65,10 @@ TEST(OceanLimits, whatItLoadsIsBelowFourMebibytes) {
 
 // Tiles of a ring share meshes, as far as finer ones do not lie beside them.
 TEST(OceanLimits, tilesShareMeshes) {
-  const world::OceanShape shape;
-  std::set<world::OceanTile> tiles;
+  const ocean::OceanShape shape;
+  std::set<ocean::OceanTile> tiles;
   for (int z = 0; z < shape.tiles; ++z)
-    for (int x = 0; x < shape.tiles; ++x) tiles.insert(world::oceanTileAt(shape, x, z));
+    for (int x = 0; x < shape.tiles; ++x) tiles.insert(ocean::oceanTileAt(shape, x, z));
   EXPECT_EQ(tiles.size(), 1u + 5u + 5u);
 }
 

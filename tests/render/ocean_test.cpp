@@ -1,6 +1,6 @@
 // The ocean as it is drawn: when there is one, its mesh against the waves on the CPU, what rides it, and what
 // its settings make of its colours.
-#include "world/ocean.h"
+#include "features/ocean/ocean.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,13 +42,13 @@ AnimatedScene harbour(const std::string& oceanName = "", const glm::vec3& box = 
 
 // The waves as the CPU has them, from the same settings.
 struct Sea {
-  world::OceanShape shape;
+  ocean::OceanShape shape;
   ocean::WaveField field;
   glm::dvec2 travelled{0.0};
 
   Sea(const Scene& scene, const Look& look, double time)
-      : shape(world::oceanShape(scene.data(), look.data())) {
-    const world::OceanParams p = look.data().get<world::OceanParams>();
+      : shape(ocean::oceanShape(scene.data(), look.data())) {
+    const ocean::OceanParams p = look.data().get<ocean::OceanParams>();
     ocean::Spectrum s;
     s.grid = p.grid, s.tile = double(p.tile);
     s.kind = p.spectrum == 0 ? ocean::Spectrum::phillips : ocean::Spectrum::jonswap;

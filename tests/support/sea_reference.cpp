@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "ocean/spectrum.h"
+#include "features/ocean/waves/spectrum.h"
 
 namespace scumble::test {
 

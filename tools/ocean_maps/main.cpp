@@ -4,7 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "ocean/maps.h"
+#include "base/stroke_maps.h"
+#include "features/ocean/waves/maps.h"
 #include "scumble/image.h"
 
 namespace {
@@ -31,8 +32,7 @@ bool write(const std::filesystem::path& path, const Pixels& pixels) {
 }
 
 bool writeAll(const std::filesystem::path& folder) {
-  if (!write(folder / "dither.png", ocean::dither()) || !write(folder / "foam.png", ocean::foam()))
-    return false;
+  if (!write(folder / "dither.png", seaStrokes()) || !write(folder / "foam.png", foamStrokes())) return false;
   for (const ocean::Mood mood : ocean::kMoods) {
     const std::string name = ocean::nameOf(mood);
     if (!write(folder / ("bathic-" + name + ".png"), ocean::bathic(mood)) ||

@@ -11,9 +11,9 @@
 #include "frame/transparent_step.h"
 #include "passes/surface/surface.shared.h"
 #include "shaders/surface_frag.h"
-#include "shaders/surface_ocean_frag.h"
 #include "shaders/surface_painted_frag.h"
 #include "shaders/surface_painted_vert.h"
+#include "shaders/surface_prepainted_frag.h"
 #include "shaders/surface_transparent_frag.h"
 #include "shaders/surface_transparent_painted_frag.h"
 #include "shaders/surface_transparent_painted_vert.h"
@@ -44,9 +44,9 @@ class Surface : public Pass {
     frame.step(name(), [this](VkCommandBuffer commands) { record(commands); });
     GeometryStep::use(frame);
     shadowMap_ = frame.use(frame.get(kShadowMap), gpu::Use::sampledByFragment);
-    for (size_t i = 0; i < ocean_.size(); ++i) {
-      const Role& role = i == 0 ? kOceanLit : kOceanShadowed;
-      if (frame.has(role)) ocean_[i] = frame.use(frame.get(role), gpu::Use::sampledByFragment);
+    for (size_t i = 0; i < prepainted_.size(); ++i) {
+      const Role& role = i == 0 ? kPrepaintedLit : kPrepaintedShadowed;
+      if (frame.has(role)) prepainted_[i] = frame.use(frame.get(role), gpu::Use::sampledByFragment);
     }
     hasBlended_ = !isBehind_ && frame.has(kTransparentOrder);
     if (hasBlended_) frame.use(frame.get(kTransparentOrder), gpu::Use::indexBuffer);
@@ -97,7 +97,7 @@ class Surface : public Pass {
     desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor;
     desc.paintedVertex = {shaders::surface_painted_vert};
     desc.paintedFragment = {shaders::surface_painted_frag};
-    desc.oceanFragment = {shaders::surface_ocean_frag};
+    desc.prepaintedFragment = {shaders::surface_prepainted_frag};
     desc.paintedInputs = desc.inputs | kDPdu | kDPdv | kPatternUv;
     desc.colorFormats.assign(colors_.size(), kBytes);
     desc.samples = samples_;
@@ -116,14 +116,15 @@ class Surface : public Pass {
     gpu::SamplerDesc compare;
     compare.compareLess = true;
     const VkSampler exact = frame_->samplers().get({VK_FILTER_NEAREST});
-    // The first layer does not look at what is before it, nor does anything but the ocean at its colours.
+    // The first layer does not look at what is before it, nor does anything but what is prepainted at those
+    // colours.
     const auto orAny = [&](gpu::Handle image) { return resources.image(image ? image : shadowMap_).view(); };
     for (size_t m = 0; m < sets_.size(); ++m) {
       sets_.rewriteTexture(m, shared::kSurfaceShadowMap, resources.image(shadowMap_).view(),
                            frame_->samplers().get(compare));
       sets_.rewriteTexture(m, shared::kSurfaceFirstDepth, orAny(firstDepth_), exact);
-      for (uint32_t i = 0; i < ocean_.size(); ++i)
-        sets_.rewriteTexture(m, shared::kSurfaceOceanLit + i, orAny(ocean_[i]), exact);
+      for (uint32_t i = 0; i < prepainted_.size(); ++i)
+        sets_.rewriteTexture(m, shared::kSurfacePrepaintedLit + i, orAny(prepainted_[i]), exact);
       if (hasBlended_)
         blendedSets_.rewriteTexture(m, shared::kSurfaceShadowMap, resources.image(shadowMap_).view(),
                                     frame_->samplers().get(compare));
@@ -147,8 +148,8 @@ class Surface : public Pass {
                                                 input.uniforms.pixelScale, patternShift(input.seed));
       painted_.write(m, {use.meta.uniforms(), texture.amount});
       MaterialVariant variant;
-      if (int(m) == input.scene.oceanMaterial()) {
-        variant.isOcean = true;
+      if (const FeaturePlan* const plan = input.scene.planOf(m); plan && plan->isPrepainted) {
+        variant.isPrepainted = true;
       } else {
         variant.sets = input.scene.colorSets(m);
         variant.isPainted = texture.amount > 0;
@@ -222,7 +223,7 @@ class Surface : public Pass {
   Layer layer_;
   bool isBehind_;
   gpu::Handle shadowMap_, firstDepth_;
-  std::array<gpu::Handle, 2> ocean_;
+  std::array<gpu::Handle, 2> prepainted_;
   std::array<DrawnImage, std::size(kAovs)> colors_;
   DrawnImage depth_;
   uint32_t samples_ = 1;

@@ -88,9 +88,9 @@ vec3 paint(vec3 over, vec3 root) {
 }
 #endif
 
-#ifdef OCEAN
-layout(set = 2, binding = kSurfaceOceanLit) uniform sampler2DArray oceanLit;
-layout(set = 2, binding = kSurfaceOceanShadowed) uniform sampler2DArray oceanShadowed;
+#ifdef PREPAINTED
+layout(set = 2, binding = kSurfacePrepaintedLit) uniform sampler2DArray prepaintedLit;
+layout(set = 2, binding = kSurfacePrepaintedShadowed) uniform sampler2DArray prepaintedShadowed;
 #endif
 
 void main() {
@@ -118,21 +118,21 @@ void main() {
   vec3 shadowed = mix(material.constantShadowedDown, material.constantShadowedUp, up);
   float lens = material.constantLens;
   float alpha = material.baseColor.a;
-#ifdef OCEAN
-  // Painted already, once a pixel whose middle is water; at the sea's edges that may be a pixel beside this one.
+#ifdef PREPAINTED
+  // Painted already, once a pixel whose middle it is; at its edges that may be a pixel beside this one.
   ivec3 here = ivec3(gl_FragCoord.xy, viewIndex());
-  vec4 water = texelFetch(oceanLit, here, 0);
-  for (bool isEdge = water.a == 0.0; isEdge; isEdge = false) {
+  vec4 painting = texelFetch(prepaintedLit, here, 0);
+  for (bool isEdge = painting.a == 0.0; isEdge; isEdge = false) {
     const ivec2 kBeside[] = ivec2[](ivec2(0, 1), ivec2(1, 0), ivec2(-1, 0), ivec2(0, -1), ivec2(1, 1), ivec2(-1, 1),
                                     ivec2(1, -1), ivec2(-1, -1));
-    for (int i = 0; i < 8 && water.a == 0.0; ++i) {
+    for (int i = 0; i < 8 && painting.a == 0.0; ++i) {
       ivec3 beside = ivec3(clamp(here.xy + kBeside[i], ivec2(0), ivec2(frame.imageSize) - 1), here.z);
-      water = texelFetch(oceanLit, beside, 0);
-      if (water.a != 0.0) here = beside;
+      painting = texelFetch(prepaintedLit, beside, 0);
+      if (painting.a != 0.0) here = beside;
     }
   }
-  lit = water.rgb;
-  shadowed = texelFetch(oceanShadowed, here, 0).rgb;
+  lit = painting.rgb;
+  shadowed = texelFetch(prepaintedShadowed, here, 0).rgb;
 #else
 #if defined(PAINTED) && defined(TRANSPARENT)
   vec3 over = paintedTexture();  // mip levels need neighbours

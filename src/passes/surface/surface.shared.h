@@ -21,7 +21,7 @@ struct LightParams {
 
 // Bindings of set 2.
 const int kSurfaceKnobs = 0, kSurfacePainted = 1, kSurfaceLight = 2, kSurfaceShadowMap = 3,
-          kSurfaceExample = 4, kSurfaceInverse = 5, kSurfaceFirstDepth = 6, kSurfaceOceanLit = 7,
-          kSurfaceOceanShadowed = 8;
+          kSurfaceExample = 4, kSurfaceInverse = 5, kSurfaceFirstDepth = 6, kSurfacePrepaintedLit = 7,
+          kSurfacePrepaintedShadowed = 8;
 SHARED_END
 #endif

@@ -111,9 +111,9 @@ class Warp : public Pass {
       const float inflation = params.inflationUnit == 0
                                   ? params.inflation * pixelScale
                                   : params.inflation * 0.01f * input.uniforms.imageSize.y;
-      // The sea's horizon is a quiet line.
-      const float distance = int(m) == input.scene.oceanMaterial()
-                                 ? std::max(params.distance, 1 / input.scene.options().ocean.falseHorizon)
+      const world::FeaturePlan* const plan = input.scene.planOf(m);
+      const float distance = plan && plan->quietDistance > 0
+                                 ? std::max(params.distance, 1 / plan->quietDistance)
                                  : params.distance;
       variants.push_back({.tangents = tangentOptions(metaParams, input.uniforms), .options = distance > 0});
       materials_.write(m, {params.amount * pixelScale, inflation, distance, float(index + 1)});

@@ -1,0 +1,57 @@
+// The waves of a moment, as deform and the surface pass read them.
+#ifndef SCUMBLE_OCEAN_SHARED_H
+#define SCUMBLE_OCEAN_SHARED_H
+#include "../../shading/shared_types.h"
+
+SHARED_BEGIN
+
+// ObjectData::kind: waves move it; flat water beyond them; a wake, ripples or a splash, of which
+// ObjectData::detail says which one in OceanField.
+const uint kWaves = 1, kFlat = 2, kDecoration = 3;
+
+const float kWaterPerPattern = 10.0f;  // metres for one unit of pattern coordinates
+
+// A point of the tile's grid.
+struct OceanPoint {
+  vec3 displacement;  // metres
+  float jacobian;     // of the horizontal displacement: 1 in calm, less where crests are drawn together
+  vec3 normal;
+};
+
+// What lies on the water: a wake, ripples or a splash (paper 000, section 6.2).
+// Places are metres from the middle of calm water, along x and z, where the surface would be without waves.
+const int kWake = 0, kRipples = 1, kSplash = 2;
+const int kMaxDecorations = 16, kDecorationPoints = 26;
+struct WaterDecoration {
+  int kind;
+  int count;                     // of points
+  float amount;                  // from 0 to 1
+  float foam, height;            // factors
+  float lasts;                   // seconds
+  vec2 center;                   // a circle around all that it draws
+  float reach;                   // its radius, metres
+  float hull, halfBeam, spread;  // of a wake: metres, metres, tangent
+  float rise;                    // of its waves, metres
+  float radius, crests;          // of ripples and splashes
+  // Of a wake, from the bow back along its path: x, z, metres behind the bow, how much there is. Of the
+  // others, each time that they have begun: x, z, seconds ago, a number from 0 to 1 of its own.
+  vec4 points[kDecorationPoints];
+};
+
+struct OceanField {
+  ivec2 first;               // the grid point at which the mesh's corner point of the middle tile is
+  ivec2 travelled;           // points by which the water has slid, from 0 to the grid
+  int grid;                  // points along a tile
+  float cell;                // metres between them
+  vec3 origin;               // middle of calm water, world
+  float fadeStart, fadeEnd;  // metres from there: waves are whole, and gone
+  float sink;                // how far water that has no waves lies below
+  float relief;  // metres of height that count as one in the colours: waves' deviation, and a little
+  vec2 within;   // metres by which the mesh lies before its points: less than a cell
+  float push;    // how far the mesh is pushed down below decorations, metres
+  int decorationCount;
+  WaterDecoration decorations[kMaxDecorations];
+};
+
+SHARED_END
+#endif

@@ -1,8 +1,0 @@
-#ifndef SCUMBLE_DEFORM_SHARED_H
-#define SCUMBLE_DEFORM_SHARED_H
-#include "../../shading/shared_types.h"
-
-SHARED_BEGIN
-const int kDeformThreads = 64;
-SHARED_END
-#endif

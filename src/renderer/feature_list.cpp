@@ -1,0 +1,32 @@
+#include "renderer/feature_list.h"
+
+// Of each feature's folder, by its name.
+#define FEATURE(name)                \
+  namespace scumble::name {          \
+  frame::FeatureParts makeFeature(); \
+  }
+#include "feature_names.inc"
+#undef FEATURE
+
+namespace scumble::renderer {
+
+const std::vector<frame::FeatureParts>& features() {
+  static const std::vector<frame::FeatureParts> all = [] {
+    std::vector<frame::FeatureParts> made;
+#define FEATURE(name) made.push_back(name::makeFeature());
+#include "feature_names.inc"
+#undef FEATURE
+    return made;
+  }();
+  return all;
+}
+
+std::vector<world::PlannedFeature> plannedFeatures(const scene::SceneData& scene,
+                                                   const look::LookData& look) {
+  std::vector<world::PlannedFeature> planned;
+  for (const frame::FeatureParts& parts : features())
+    planned.push_back({parts.feature.get(), parts.feature->plan(scene, look)});
+  return planned;
+}
+
+}  // namespace scumble::renderer

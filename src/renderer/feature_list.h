@@ -1,0 +1,16 @@
+// The features that the program was built with: the folders under src/features but for those that were left
+// out (cmake -DSCUMBLE_WITHOUT=NAME;NAME).
+#pragma once
+
+#include <vector>
+
+#include "frame/feature_parts.h"
+
+namespace scumble::renderer {
+
+const std::vector<frame::FeatureParts>& features();
+
+// What each of them builds for a scene under a look, which is one at a time.
+std::vector<world::PlannedFeature> plannedFeatures(const scene::SceneData& scene, const look::LookData& look);
+
+}  // namespace scumble::renderer
