@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "frame/pass.h"
+#include "scene/extras.h"
 #include "world/feature.h"
 
 namespace scumble::frame {
@@ -19,6 +20,7 @@ struct FeatureParts {
   };
   std::vector<PlacedPass> passes;
   std::vector<const look::ParamBlock*> blocks;  // of knobs
+  std::vector<scene::ExtraRule> extras;         // what nodes may say to it
 };
 
 }  // namespace scumble::frame

@@ -100,61 +100,6 @@ TEST(Scene, setsOfColoursFromExtras) {
     EXPECT_EQ(imagesUnder(broken, broken), std::tuple(std::string(), std::string(), repeat, 1)) << broken;
 }
 
-TEST(Scene, oceansAndWhatFloatsFromExtras) {
-  TestGltf g = quad();
-  const auto read = [&](const Json& extras) {
-    g.json["nodes"][0]["extras"] = extras;
-    return loaded(g);
-  };
-  const auto nodeOf = [](const Scene& scene) { return scene.data().nodes[0]; };
-  for (const Json& silent :
-       {Json(nullptr), Json::object(), Json("text"), Json::array({1}), Json({{"other", 1}})}) {
-    const Scene scene = read(silent);
-    EXPECT_FALSE(nodeOf(scene).isOcean || nodeOf(scene).floats) << silent;
-    EXPECT_TRUE(scene.warnings().empty()) << silent;
-  }
-  EXPECT_EQ(nodeOf(read({{"scumble_ocean", true}})).isOcean, true);
-  EXPECT_EQ(nodeOf(read({{"scumble_ocean", 1}})).isOcean, true);
-  EXPECT_EQ(nodeOf(read({{"scumble_ocean", false}})).isOcean, false);
-  EXPECT_FALSE(nodeOf(read({{"scumble_float", false}})).floats);
-  ASSERT_TRUE(nodeOf(read({{"scumble_float", true}})).floats);
-  const Floats some = *nodeOf(read({{"scumble_float", {{"length", 4.5}}}})).floats,
-               all = *nodeOf(read({{"scumble_float", {{"length", 0}, {"beam", 1000}, {"bow", "z"}}}})).floats;
-  EXPECT_EQ(some.length, 4.5f);
-  EXPECT_FALSE(some.beam || some.bowAlongZ);
-  EXPECT_EQ(all.length, 0.0f);
-  EXPECT_EQ(all.beam, 1000.0f);
-  EXPECT_TRUE(all.bowAlongZ);
-  // What is broken is left out, and said once.
-  for (const Json& broken :
-       {Json("yes"), Json(2), Json(-1), Json(0.5), Json(nullptr), Json::array(), Json::object()}) {
-    const Scene scene = read({{"scumble_ocean", broken}});
-    EXPECT_FALSE(nodeOf(scene).isOcean) << broken;
-    ASSERT_EQ(scene.warnings().size(), 1u) << broken;
-    EXPECT_NE(scene.warnings()[0].find("nodes[0].extras.scumble_ocean"), std::string::npos);
-    if (broken.is_object()) continue;
-    const Scene other = read({{"scumble_float", broken}});
-    EXPECT_FALSE(nodeOf(other).floats) << broken;
-    ASSERT_EQ(other.warnings().size(), 1u) << broken;
-    EXPECT_NE(other.warnings()[0].find("nodes[0].extras.scumble_float"), std::string::npos);
-  }
-  for (const auto& [key, value] : {std::pair<const char*, Json>{"length", "long"},
-                                   {"length", -0.1},
-                                   {"beam", 1001},
-                                   {"beam", nullptr},
-                                   {"bow", "y"},
-                                   {"bow", 1},
-                                   {"lenght", 3}}) {
-    const Scene scene = read({{"scumble_float", {{key, value}}}});
-    ASSERT_TRUE(nodeOf(scene).floats) << key;
-    EXPECT_FALSE(nodeOf(scene).floats->length || nodeOf(scene).floats->beam ||
-                 nodeOf(scene).floats->bowAlongZ);
-    ASSERT_EQ(scene.warnings().size(), 1u) << key;
-    EXPECT_NE(scene.warnings()[0].find(std::string("nodes[0].extras.scumble_float.") + key),
-              std::string::npos);
-  }
-}
-
 TEST(Scene, tooManyLightsAreSaid) {
   TestGltf g = quad();
   g.json["extensionsUsed"] = {"KHR_lights_punctual"};

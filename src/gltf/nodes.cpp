@@ -3,6 +3,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "gltf/import.h"
+#include "scene/extras.h"
 #include "scene/prepare_mesh.h"
 
 namespace scumble::gltf {
@@ -193,51 +194,15 @@ int optionalIndex(const Import& import, const JsonView& json, const char* key, s
   }
 }
 
-// Modelling programs write 0 and 1 as well. Absent: it is neither.
-std::optional<bool> flagOf(const Json& json) {
-  if (json.is_boolean()) return json.get<bool>();
-  if (json.is_number() && (json.get<double>() == 0 || json.get<double>() == 1))
-    return json.get<double>() == 1;
-  return std::nullopt;
-}
-
-std::optional<Floats> floatsOf(const Json& json, const std::string& path, ImportWarnings& warnings) {
-  if (const std::optional<bool> flag = flagOf(json)) return *flag ? std::optional(Floats()) : std::nullopt;
-  if (!json.is_object()) {
-    warnings.add(path, "what floats is ignored: it is neither true nor an object");
-    return std::nullopt;
-  }
-  constexpr double kLongest = 1000;  // as the knobs have it
-  Floats floats;
-  for (const auto& [key, value] : json.items()) {
-    if (key == "length" || key == "beam") {
-      const double metres = value.is_number() ? value.get<double>() : -1;
-      if (metres >= 0 && metres <= kLongest)
-        (key == "length" ? floats.length : floats.beam) = float(metres);
-      else
-        warnings.add(path + "." + key, "a size of what floats is ignored: it is no number from 0 to 1000");
-    } else if (key == "bow") {
-      if (value == "x" || value == "z")
-        floats.bowAlongZ = value == "z";
-      else
-        warnings.add(path + "." + key, "a bow is ignored: it is neither \"x\" nor \"z\"");
-    } else {
-      warnings.add(path + "." + key, "is ignored: what floats has length, beam and bow");
-    }
-  }
-  return floats;
-}
-
 void readExtras(const JsonView& json, Node& node, ImportWarnings& warnings) {
   const auto extras = json.json().find("extras");
   if (extras == json.json().end() || !extras->is_object()) return;
-  if (const auto found = extras->find("scumble_ocean"); found != extras->end()) {
-    node.isOcean = flagOf(*found);
-    if (!node.isOcean)
-      warnings.add(json.pathOf("extras.scumble_ocean"), "is ignored: it is neither true nor false");
-  }
-  if (const auto found = extras->find("scumble_float"); found != extras->end())
-    node.floats = floatsOf(*found, json.pathOf("extras.scumble_float"), warnings);
+  for (const ExtraRule& rule : extraRules())
+    if (const auto found = extras->find(rule.key); found != extras->end()) {
+      node.extras[rule.key] = std::make_shared<const Json>(*found);
+      for (const auto& [path, text] : rule.problemsOf(*found))
+        warnings.add(json.pathOf(std::string("extras.") + rule.key) + path, text);
+    }
 }
 
 }  // namespace

@@ -25,7 +25,9 @@ class OnDevice : public ::testing::Test {
     device_ = std::move(*made);
   }
   void TearDown() override {
-    if (device_) EXPECT_EQ(device_->validationMessages(), 0);
+    if (device_) {
+      EXPECT_EQ(device_->validationMessages(), 0);
+    }
   }
 
   // What `record` makes of numbers in buffers of the device: copied there before it, and back after it.

@@ -8,7 +8,23 @@
 #include "feature_names.inc"
 #undef FEATURE
 
-namespace scumble::renderer {
+namespace scumble {
+
+namespace scene {
+
+const std::vector<ExtraRule>& extraRules() {
+  static const std::vector<ExtraRule> all = [] {
+    std::vector<ExtraRule> rules;
+    for (const frame::FeatureParts& parts : renderer::features())
+      rules.insert(rules.end(), parts.extras.begin(), parts.extras.end());
+    return rules;
+  }();
+  return all;
+}
+
+}  // namespace scene
+
+namespace renderer {
 
 const std::vector<frame::FeatureParts>& features() {
   static const std::vector<frame::FeatureParts> all = [] {
@@ -29,4 +45,5 @@ std::vector<world::PlannedFeature> plannedFeatures(const scene::SceneData& scene
   return planned;
 }
 
-}  // namespace scumble::renderer
+}  // namespace renderer
+}  // namespace scumble

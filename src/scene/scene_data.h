@@ -7,7 +7,9 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <map>
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -138,12 +140,6 @@ struct Transform {
   glm::mat4 matrix() const;
 };
 
-// What a node says of how it rides the ocean's waves (docs/sea.md); what is absent is the look's to say.
-struct Floats {
-  std::optional<float> length, beam;  // metres
-  bool bowAlongZ = false;             // else along x
-};
-
 struct Node {
   std::string name;
   int parent = -1;  // always smaller than the node's own index: nodes are sorted, parents first
@@ -153,9 +149,10 @@ struct Node {
   int mesh = -1, camera = -1, light = -1, skin = -1;
   std::vector<glm::mat4> instances;  // EXT_mesh_gpu_instancing; empty: drawn once
   std::vector<float> morphWeights;   // of this node; empty: the mesh's defaults
-  // From extras: whether it stands for the ocean (absent: its name decides), and that it rides the waves.
-  std::optional<bool> isOcean;
-  std::optional<Floats> floats;
+  // What it says to features (scene/extras.h), by name, as the file has it; and what metres there are to be
+  // multiplied by, since the scene has been placed in another size.
+  std::map<std::string, std::shared_ptr<const nlohmann::json>> extras;
+  float extrasScale = 1;
   // Whether its mesh is drawn, and those of all nodes below it. What is not takes up no space either.
   bool visible = true;
 };

@@ -234,9 +234,7 @@ std::shared_ptr<SceneData> placeScenes(std::vector<PlacedScene>& scenes, Placeme
       Node& own = all->nodes[n];
       if (own.parent < 0) own.parent = int(carrier[i]);
       // What is written in metres is of the scene's own size.
-      if (own.floats)
-        for (std::optional<float>* metres : {&own.floats->length, &own.floats->beam})
-          if (*metres) **metres *= scales[i];
+      own.extrasScale *= scales[i];
     }
     for (size_t c = cameras; c < all->cameras.size(); ++c)
       for (float* metres : {&all->cameras[c].halfHeight, &all->cameras[c].near, &all->cameras[c].far})

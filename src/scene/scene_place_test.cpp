@@ -23,7 +23,6 @@ Scene boat(const std::string& deck = "Deck") {
   g.json["nodes"][0]["translation"] = {0, 2, 0};
   g.json["nodes"].push_back({{"name", "Hull"}, {"children", {0}}, {"translation", {10, 0, 0}}});
   g.json["scenes"][0]["nodes"] = {1};
-  g.json["nodes"][1]["extras"] = {{"scumble_float", {{"length", 4}, {"beam", 2}}}};
   return loaded(g);
 }
 
@@ -83,9 +82,7 @@ TEST(ScenePlace, offsetTurnAndScale) {
   expectClose(originOf(turned, "Deck"), {0, 10, 2});
   // What is written in metres goes along.
   const Node& hull = placed.data().nodes[size_t(findNode(placed.data(), "Hull"))];
-  ASSERT_TRUE(hull.floats.has_value());
-  EXPECT_FLOAT_EQ(*hull.floats->length, 8);
-  EXPECT_FLOAT_EQ(*hull.floats->beam, 4);
+  EXPECT_FLOAT_EQ(hull.extrasScale, 2);
   const Camera camera = mustPlace({{dog(), "dog", {}, {}, 3}}).data().cameras[0];
   EXPECT_FLOAT_EQ(camera.halfHeight, 3);
   EXPECT_FLOAT_EQ(camera.near, 1.5f);
@@ -137,8 +134,7 @@ TEST(ScenePlace, theNodesOwnAxesAndScaleDoNotCount) {
   EXPECT_FLOAT_EQ(eye.far, 10);
   const Scene towed = mustPlace({{boat("Raft"), "raft", {}, {}, 3, "Deck"}, {ship, "ship", {}, {}, 2}});
   const Node& hull = towed.data().nodes[size_t(findNode(towed.data(), "Hull"))];
-  ASSERT_TRUE(hull.floats.has_value());
-  EXPECT_FLOAT_EQ(*hull.floats->length, 4 * 3 * 2);
+  EXPECT_FLOAT_EQ(hull.extrasScale, 3 * 2);
   g.json["nodes"][0]["scale"] = {1, 0, 1};
   const Result<Scene> flat = Scene::place({{loaded(g), "ship"}, {dog(), "dog", {}, {}, 1, "Deck"}});
   ASSERT_FALSE(flat.ok());

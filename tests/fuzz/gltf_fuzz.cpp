@@ -17,10 +17,17 @@
 #include <string>
 #include <vector>
 
+#include "features/ocean/extras.h"
 #include "scene/posed_bounds.h"
 #include "scene/scene_data.h"
 #include "scumble/scene.h"
 #include "tests/support/test_gltf.h"
+
+// The list of features is not linked; what nodes may say to one of them is.
+const std::vector<scumble::scene::ExtraRule>& scumble::scene::extraRules() {
+  static const std::vector<ExtraRule> rules = ocean::extraRules();
+  return rules;
+}
 
 namespace {
 
@@ -74,8 +81,8 @@ void check(const SceneData& scene) {
     require(
         node.morphWeights.empty() || node.morphWeights.size() == scene.meshes[node.mesh]->morphWeights.size(),
         "morph weights");
-    if (node.floats)
-      for (const std::optional<float>& size : {node.floats->length, node.floats->beam})
+    if (const std::optional<ocean::Floats> floats = ocean::floatsOf(node))
+      for (const std::optional<float>& size : {floats->length, floats->beam})
         require(!size || (*size >= 0 && *size <= 1000), "sizes of what floats");
   }
   for (const Material& m : scene.materials)

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "scumble/look.h"
 
@@ -187,7 +188,8 @@ TEST(Decorations, whatRidesHasAWake) {
   EXPECT_EQ(rides[0].params.length, 7);
   EXPECT_TRUE(decorations({{"nodes.Boat.float.rides", "on"}, {"nodes.Boat.float.wake", "off"}}).empty());
   // The scene says it: then with every look, unless that declares one of its own.
-  scene.nodes[1].floats.emplace().beam = 3;
+  scene.nodes[1].extras["scumble_float"] =
+      std::make_shared<const nlohmann::json>(nlohmann::json{{"beam", 3}});
   ASSERT_EQ(decorations({}).size(), 1u);
   EXPECT_EQ(decorations({})[0].params.beam, 3);
   EXPECT_TRUE(decorations({{"nodes.Boat.float.rides", "off"}}).empty());

@@ -1,5 +1,6 @@
 // What the program knows of the ocean.
 #include "features/ocean/deform/ocean_deform.h"
+#include "features/ocean/extras.h"
 #include "features/ocean/ocean.h"
 #include "features/ocean/paint/ocean.h"
 #include "features/ocean/paint/ocean_knobs.h"
@@ -29,7 +30,8 @@ frame::FeatureParts makeFeature() {
   return {std::make_unique<OceanFeature>(),
           {{"deform", makeOceanDeform}, {"warp", makeOcean}},
           {&OceanParams::block(), &DecorationParams::block(), &OceanPaintParams::block(),
-           &OceanMetaTextureParams::block(), &FloatParams::block()}};
+           &OceanMetaTextureParams::block(), &FloatParams::block()},
+          extraRules()};
 }
 
 }  // namespace scumble::ocean

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "features/ocean/extras.h"
 #include "scene/animation.h"
 #include "stage/playing.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 // What its extras say, else whether it is called "Ocean", also with what Blender appends to a second one.
 bool standsForOcean(const scene::Node& node) {
-  if (node.isOcean) return *node.isOcean;
+  if (const std::optional<bool> says = saysOcean(node)) return *says;
   std::string start = node.name.substr(0, node.name.find('.'));
   std::transform(start.begin(), start.end(), start.begin(), [](char c) { return char(std::tolower(c)); });
   return start == "ocean";
