@@ -46,7 +46,8 @@ TABLE = {
     "tests": ["*"],
 }
 
-TEST_FILE = re.compile(r"_test\.cpp$")
+# Tests, and the references that several of a room compare with.
+TEST_FILE = re.compile(r"(_test\.cpp|_reference\.(cpp|h))$")
 TEST_ALSO = ["tests/support"]
 
 # Libraries by the first part of an angle include; a room that is not listed may use any.

@@ -103,7 +103,7 @@ struct Frame {
   std::vector<Layer> layers;
   // What the numbers of objects mean in the AOVs `id` and `cryptomatte`, where one of them was asked for:
   // number n is entry n - 1. One entry a node (its number, "node 12", where it has no name; empty where it
-  // shows nothing), then "Ground" and "Ocean", empty where none is drawn.
+  // shows nothing), then "Ground" and the materials of features, empty where none is drawn.
   std::vector<std::string> objects;
   FrameStats stats;
 };

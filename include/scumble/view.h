@@ -21,7 +21,7 @@ struct View {
   // Eye to clip space in Vulkan's convention: y down, depth reversed (1 at the near plane, 0 far away). May
   // be off-centre. There is no default: the identity is refused.
   glm::mat4 eyeToClip{1.0f};
-  // The scene's node that the view hangs on: where the ocean's waves move that, the view goes with it, and
+  // The scene's node that the view hangs on: where a feature (the sea) moves that, the view goes with it, and
   // worldToEye is from where it is without them. -1: none.
   int node = -1;
   // Pixels, 1 to 16384; 0, 0: as RenderOptions says for all.
@@ -60,8 +60,8 @@ enum class Stereo { mono, stereo };
 
 // One view, or the left and the right one (ipd metres apart, parallel axes), at a time in seconds: a pure
 // function of what it is given. A camera of the scene goes where the clips that the look plays take it, held
-// by nothing, and names its node, so that it rides the ocean's waves where that does. The look's camera and a
-// turntable go with the node that they look at as clips take it, and waves do not shake them. Orbits and
+// by nothing, and names its node, so that it rides the sea where that does. The look's camera and a
+// turntable go with the node that they look at as clips take it, and the sea does not shake them. Orbits and
 // framings see what the scene takes up while the clips play. `ipd` is 0 to a million. Fails with
 // ErrorKind::usage for an unknown camera, numbers out of range, and a viewpoint that sees nothing (eye on the
 // target).

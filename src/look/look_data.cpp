@@ -10,6 +10,7 @@
 
 #include "base/color_text.h"
 #include "base/usage.h"
+#include "look/absent_groups.h"
 #include "scumble/nearest.h"
 
 namespace scumble::look {
@@ -202,6 +203,9 @@ Result<KnobRef> findKnob(const std::string& path, Targets targets) {
         return usage("'" + path + "' is a group of knobs", "give values to knobs in it, like '" + here + "'");
       if (block->targets & targets) known.push_back(here);
     }
+  if (const std::string feature = absentFeatureOf(path); !feature.empty())
+    return usage("this program was built without '" + path + "'",
+                 "use one with the feature '" + feature + "' (cmake -DSCUMBLE_WITHOUT)");
   const std::string suggestion = suggestionFor(path, known);
   return usage("there is no knob '" + path + "'",
                suggestion.empty() ? "`scumble params` lists them all" : "did you mean '" + suggestion + "'?");

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
+#include "look/absent_groups.h"
 #include "look/look_source.h"
 #include "look/look_text.h"
 #include "look/read_value.h"
@@ -61,6 +63,7 @@ class Reader {
         out_.description = value.get<std::string>();
         continue;
       }
+      if (isAbsent(key, key)) continue;
       const Section* section = findSection(key);
       if (Status good = checkKey(key, key); !good) return good;
       Status status = section ? readSection(*section, value) : readGroup(value, key, "", nullptr, key);
@@ -71,6 +74,16 @@ class Reader {
 
  private:
   JsonPlace place(const std::string& path) const { return {file_, path}; }
+
+  // What a program with all features would know is left out, and that is said once: looks serve both.
+  bool isAbsent(const std::string& key, const std::string& path) {
+    const std::string feature = absentFeatureOf(key);
+    if (feature.empty()) return false;
+    if (!absent_.insert(key).second) return true;
+    const Error left = place(path).fail("is left out: this program was built without '" + feature + "'", "");
+    out_.warnings.push_back(left.message());
+    return true;
+  }
 
   // A key is one word of a knob's path, as the schema has it.
   Status checkKey(const std::string& key, const std::string& path) const {
@@ -116,6 +129,7 @@ class Reader {
         return place(jsonPath).fail("there is no knob so deep inside", "`scumble params` lists them all");
       for (const auto& [key, child] : value.items()) {
         if (Status good = checkKey(key, jsonPath + "." + key); !good) return good;
+        if (knobPath.empty() && isAbsent(key, jsonPath + "." + key)) continue;
         Status status = readGroup(child, knobPath.empty() ? key : knobPath + "." + key, pattern, section,
                                   jsonPath + "." + key);
         if (!status) return status;
@@ -151,6 +165,7 @@ class Reader {
   LookData& out_;
   const LookChain& chain_;
   const std::string& file_;
+  std::set<std::string> absent_;  // of which has been said that they are left out
 };
 
 }  // namespace

@@ -336,7 +336,7 @@ TEST(Look, misspelledKnobsAreSuggested) {
     without.erase(path.size() - 2, 1);
     doubled.insert(path.size() - 1, 1, 'q');
     for (const std::string& slip : {without, doubled}) {
-      // As near to another knob: "ocean.tils" is also a slip for "ocean.tile".
+      // As near to another knob: a number and its plural may both be knobs.
       const std::vector<Row> rows = allRows();
       if (std::any_of(rows.begin(), rows.end(), [&](const Row& other) {
             const std::string name = other.path();

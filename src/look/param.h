@@ -31,7 +31,7 @@ struct ParamRow {
 };
 
 // What a setting holds for: the whole scene, or the materials, nodes or clips whose names match a pattern, or
-// the colorizers and the decorations of water that looks themselves declare.
+// the colorizers and decorations that looks themselves declare.
 enum Target : uint32_t {
   kScene = 1,
   kMaterials = 2,

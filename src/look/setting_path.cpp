@@ -53,11 +53,23 @@ std::string listed(Targets targets) {
   return text;
 }
 
+namespace {
+
+std::string exampleOf(const Section& section) {
+  const std::string begin = section.example;
+  if (!begin.ends_with('.')) return begin;
+  for (const ParamBlock* const block : allBlocks())
+    if (block->targets & section.target) return begin + block->path + "." + block->rows.front().name;
+  return begin + "GROUP.KNOB";
+}
+
+}  // namespace
+
 Result<Assignment> parseSettingPath(const std::string& path) {
   const size_t end = path.find('.');
   const Section* section = end == std::string::npos ? nullptr : findSection(path.substr(0, end));
   if (!section) return assignmentTo(path, "", nullptr);
-  const std::string rest = path.substr(end + 1), advice = std::string("write it like ") + section->example;
+  const std::string rest = path.substr(end + 1), advice = "write it like " + exampleOf(*section);
   if (rest.empty() || rest[0] == '.') return usage("'" + path + "' names no " + section->one, advice);
   for (size_t dot = rest.rfind('.'); dot != std::string::npos && dot > 0; dot = rest.rfind('.', dot - 1))
     if (isKnob(rest.substr(dot + 1))) return assignmentTo(rest.substr(dot + 1), rest.substr(0, dot), section);

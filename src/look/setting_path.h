@@ -8,7 +8,10 @@ namespace scumble::look {
 // A section of a look for settings that hold only for what a pattern of names matches.
 struct Section {
   Target target;
-  const char *name, *one, *example;  // of a setting in it, for advice
+  const char *name, *one;
+  // Of a setting in it, for advice; one that ends with a dot goes on with the first knob that the section
+  // has.
+  const char* example;
   size_t most = 0;  // how many names it may declare; 0: it declares none, they are the scene's
 };
 inline constexpr Section kSections[] = {
@@ -16,7 +19,7 @@ inline constexpr Section kSections[] = {
     {kNodes, "nodes", "node", "nodes.Gull*.animation.hold"},
     {kClips, "clips", "clip", "clips.Walk.play.weight"},
     {kColorizers, "colorizers", "colorizer", "colorizers.Glow.volume.density", 64},
-    {kDecorations, "decorations", "decoration", "decorations.Wake.water.node", 16}};
+    {kDecorations, "decorations", "decoration", "decorations.Wake.", 16}};
 
 // The section of this name, or nullptr.
 const Section* findSection(const std::string& name);

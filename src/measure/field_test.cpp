@@ -40,10 +40,10 @@ TEST(SampleAt, pixelCentresGiveTheFieldItself) {
   EXPECT_EQ(sampled.validCount(), noise.pixelCount());
 }
 
-TEST(SampleAt, wavesBetweenPixelsKeepTheirShape) {
+TEST(SampleAt, sinesBetweenPixelsKeepTheirShape) {
   for (const double frequency : {0.05, 0.15, 0.25}) {
-    const Field sampled = sampleAt(waves(32, frequency), shifted(32, 0.5f)),
-                expected = waves(32, frequency, -0.5);
+    const Field sampled = sampleAt(sines(32, frequency), shifted(32, 0.5f)),
+                expected = sines(32, frequency, -0.5);
     ASSERT_GT(sampled.validCount(), 500u);
     for (size_t pixel = 0; pixel < sampled.pixelCount(); ++pixel)
       if (sampled.valid[pixel]) {
@@ -53,7 +53,7 @@ TEST(SampleAt, wavesBetweenPixelsKeepTheirShape) {
 }
 
 TEST(SampleAt, needsAllPixelsAround) {
-  Field flat = waves(16, 0);
+  Field flat = sines(16, 0);
   flat.valid[8 * 16 + 8] = 0;
   const Field sampled = sampleAt(flat, shifted(16, 0.5f));
   for (int x = 0; x < 16; ++x) {

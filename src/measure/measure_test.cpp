@@ -97,7 +97,7 @@ WallPainter* MeasuredWalls::painter = nullptr;
 Result<Measurements>* MeasuredWalls::measured = nullptr;
 std::pair<int, int> MeasuredWalls::progress;
 
-// Lanczos resampling of these waves is exact to some thousandths of their height.
+// Lanczos resampling of these sines is exact to some thousandths of their height.
 constexpr double kResampling = 0.005;
 
 const std::string kAttached[] = {"metatexture", "object", "fractal"};
@@ -163,7 +163,7 @@ TEST_F(MeasuredWalls, whatSticksHasNoWarpErrorAlsoWhereTheCameraRolls) {
   }
 }
 
-TEST_F(MeasuredWalls, whatLiesOnTheScreenHasTheErrorOfItsWaves) {
+TEST_F(MeasuredWalls, whatLiesOnTheScreenHasTheErrorOfItsSines) {
   const TemporalError& error = mode("screen").temporal;
   const PerField found[] = {error.dolly, error.orbit, error.roll, error.object};
   const std::vector<Drawn> all = steps();
@@ -190,7 +190,7 @@ TEST_F(MeasuredWalls, theMeanIsThatOfTheFourMotions) {
   EXPECT_DOUBLE_EQ(error.mean().marks, 40);
 }
 
-TEST_F(MeasuredWalls, frequencyOverTheZoomIsThatOfTheWaves) {
+TEST_F(MeasuredWalls, frequencyOverTheZoomIsThatOfTheSines) {
   EXPECT_NEAR((*measured)->exampleFrequency.vectors / 0.09, 1, 0.02);
   EXPECT_NEAR((*measured)->exampleFrequency.marks / 0.06, 1, 0.02);
   const struct {
@@ -268,7 +268,7 @@ TEST_F(MeasuredWalls, stereoIsWhatDiffersBetweenTheEyes) {
   }
 }
 
-// Shares of pairs of levels a distance apart, the four directions together, of waves whose place is anywhere.
+// Shares of pairs of levels a distance apart, the four directions together, of sines whose place is anywhere.
 std::vector<double> sharesOf(const Pattern& pattern, const Pattern& example, int distance) {
   constexpr int kLevels = 16, kPlaces = 90;
   std::vector<double> shares(kLevels * kLevels);

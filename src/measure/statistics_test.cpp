@@ -17,7 +17,7 @@ TEST(Spread, isTheStandardDeviation) {
   const Field noise = whiteNoise(128, 3), some = masked(noise, 40);
   EXPECT_NEAR(spread({&noise, 1}), 1, 0.02);
   EXPECT_NEAR(spread({&some, 1}), 1, 0.03);
-  const Field flat = waves(16, 0);
+  const Field flat = sines(16, 0);
   EXPECT_EQ(spread({&flat, 1}), 0);
   EXPECT_EQ(spread({}), 0);
 }
@@ -37,9 +37,9 @@ TEST(Difference, isZeroForTheSameAndOneForUnrelatedFields) {
   EXPECT_NEAR(difference(a, b).rms, std::numbers::sqrt2, 0.03);
 }
 
-TEST(Difference, ofAShiftedWaveIsKnown) {
-  // cos and its shift by a fifth of a period differ by 2 sin(pi / 5) sin(...); waves along y do not change.
-  const Field a = waves(100, 0.05), b = waves(100, 0.05, 4);
+TEST(Difference, ofAShiftedSineIsKnown) {
+  // cos and its shift by a fifth of a period differ by 2 sin(pi / 5) sin(...); sines along y do not change.
+  const Field a = sines(100, 0.05), b = sines(100, 0.05, 4);
   EXPECT_NEAR(difference(a, b).rms, std::numbers::sqrt2 * std::sin(std::numbers::pi / 5), 1e-4);
 }
 
@@ -53,22 +53,22 @@ TEST(Difference, countsWhatIsValidInBoth) {
   EXPECT_EQ(difference(a, masked(b, -1)).pixels, 0u);
 }
 
-TEST(DominantFrequency, ofWavesIsTheirs) {
+TEST(DominantFrequency, ofSinesIsTheirs) {
   for (const double frequency : {0.01, 0.02, 0.1, 0.2}) {
-    const Field wave = fieldFrom(400, 400, [&](double x, double y) {
+    const Field sine = fieldFrom(400, 400, [&](double x, double y) {
       const double turn = 2 * std::numbers::pi * frequency;
       return std::cos(turn * x) * std::cos(turn * y);
     });
-    EXPECT_NEAR(frequencyOf(wave) / frequency, 1, 0.05) << frequency;
+    EXPECT_NEAR(frequencyOf(sine) / frequency, 1, 0.05) << frequency;
   }
 }
 
 TEST(DominantFrequency, isThatOfTheMeanLag) {
   // Lags of 1 / (6 f): 10 pixels along x, 2.5 along y.
-  const Field wave = fieldFrom(240, 240, [](double x, double y) {
+  const Field sine = fieldFrom(240, 240, [](double x, double y) {
     return std::cos(2 * std::numbers::pi * x / 60) * std::cos(2 * std::numbers::pi * y / 15);
   });
-  EXPECT_NEAR(frequencyOf(wave) * 6 * (10 + 2.5) / 2, 1, 0.03);
+  EXPECT_NEAR(frequencyOf(sine) * 6 * (10 + 2.5) / 2, 1, 0.03);
 }
 
 TEST(DominantFrequency, ofWhiteNoiseIsAQuarter) {
@@ -100,7 +100,7 @@ TEST(DominantFrequency, followsMagnification) {
 }
 
 TEST(DominantFrequency, isThatOfSurfacesAndNotOfTheirEdges) {
-  // Stripes of two surfaces, each with waves of its own.
+  // Stripes of two surfaces, each with sines of its own.
   const auto stripe = [](double x) { return int(x / 5) % 2; };
   Field striped = fieldFrom(200, 200, [&](double x, double y) {
     return std::cos(0.2 * x + 2 * stripe(x)) * std::cos(0.2 * y + 2 * stripe(x));
@@ -113,7 +113,7 @@ TEST(DominantFrequency, isThatOfSurfacesAndNotOfTheirEdges) {
 }
 
 TEST(DominantFrequency, isNoneWhereNothingVaries) {
-  EXPECT_EQ(frequencyOf(waves(32, 0)), 0);
+  EXPECT_EQ(frequencyOf(sines(32, 0)), 0);
   EXPECT_EQ(frequencyOf(masked(whiteNoise(32, 1), -1)), 0);
   EXPECT_EQ(dominantFrequency({}), 0);
 }

@@ -20,8 +20,8 @@ Field fieldFrom(int width, int height, const ValueAt& valueAt) {
   return field;
 }
 
-// The same wave along x and along y, `frequency` cycles a pixel; its standard deviation is 1.
-inline Field waves(int size, double frequency, double shiftX = 0) {
+// The same sine along x and along y, `frequency` cycles a pixel; its standard deviation is 1.
+inline Field sines(int size, double frequency, double shiftX = 0) {
   return fieldFrom(size, size, [&](double x, double y) {
     const double turn = 2 * std::numbers::pi * frequency;
     return std::cos(turn * (x - shiftX)) + std::cos(turn * y);

@@ -1,8 +1,14 @@
-# Writes OUT, rows of a C++ table: names and texts of FILES (looks).
+# Writes OUT, rows of a C++ table: names and texts of FILES (looks), without the keys of WITHOUT.
 set(rows "")
 foreach(file ${FILES})
   get_filename_component(name ${file} NAME_WE)
   file(READ ${file} text)
+  foreach(key ${WITHOUT})
+    string(JSON there ERROR_VARIABLE isMissing TYPE "${text}" ${key})
+    if(NOT isMissing)
+      string(JSON text REMOVE "${text}" ${key})
+    endif()
+  endforeach()
   string(APPEND rows "{\"${name}\", R\"LOOK(${text})LOOK\"},\n")
 endforeach()
 file(WRITE ${OUT} "${rows}")

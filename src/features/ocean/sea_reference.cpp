@@ -1,4 +1,4 @@
-#include "tests/support/sea_reference.h"
+#include "features/ocean/sea_reference.h"
 
 #include <algorithm>
 #include <cmath>
