@@ -127,7 +127,8 @@ TEST_F(Sameness, aPairIsTwoViews) {
 TEST_F(Sameness, aPairWithoutDistanceIsOneView) {
   NOT_WITH_SANITIZERS();
   const Scene scene = richScene().load();
-  const Look look = quietLook({{"final.bloom", "1"}, {"texture.amount", "0.5"}, {"ocean.mode", "on"}});
+  const Look look =
+      quietLook(thoseThere({{"final.bloom", "1"}, {"texture.amount", "0.5"}, {"ocean.mode", "on"}}));
   const auto views =
       viewsFrom(scene, {{2, 2.5f, 6}, {0, 0.8f, 0}, 40, 0, 0.0f}, kWidth, kHeight, Stereo::stereo);
   const RenderOptions options = sized(kWidth, kHeight, Renderer::aovNames(), 4);

@@ -236,7 +236,8 @@ TEST_P(Edited, changesLeaveNothingBehind) {
        }}};
   const std::vector<Look> looks = {
       Look(), quietLook({{"nodes.Box.palette.saturation", "0.2"}, {"light.shadowWarp", "4"}}),
-      quietLook({{"ocean.mode", "on"}, {"ocean.level", "0.3"}, {"ocean.tiles", "1"}, {"ocean.grid", "16"}})};
+      quietLook(thoseThere(
+          {{"ocean.mode", "on"}, {"ocean.level", "0.3"}, {"ocean.tiles", "1"}, {"ocean.grid", "16"}}))};
   for (int round = 0; round < 3; ++round) {
     for (auto& [what, change] : changes) {
       const Status done = change();

@@ -1,6 +1,8 @@
 #include "tests/support/render_test.h"
 
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
+#include <iterator>
 #include <stdexcept>
 
 #include "look/look_data.h"
@@ -68,6 +70,17 @@ std::string settingOf(const Look& look, const std::string& path) {
   if (!knob) throw std::runtime_error(knob.error().message());
   const look::Assignment* setting = look.data().settingOf(*knob->block, knob->row->name);
   return look::formatValue(*knob->row, setting ? setting->value.number : knob->row->defaultValue);
+}
+
+bool hasKnob(const std::string& path) {
+  return look::isKnob(path);
+}
+
+Knobs thoseThere(const Knobs& knobs) {
+  Knobs there;
+  std::copy_if(knobs.begin(), knobs.end(), std::back_inserter(there),
+               [](const auto& knob) { return hasKnob(knob.first); });
+  return there;
 }
 
 Look quietLook(const Knobs& knobs) {

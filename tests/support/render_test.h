@@ -44,6 +44,10 @@ std::string stereoName(const ::testing::TestParamInfo<Stereo>& info);
 // Settings by their paths, as Look::set takes them.
 using Knobs = std::vector<std::pair<std::string, std::string>>;
 
+// Those of them that the program has: features may have been left out of it.
+Knobs thoseThere(const Knobs& knobs);
+bool hasKnob(const std::string& path);
+
 // A look without what tests of single passes do not want: no ground, a background of the look's own colours,
 // no air, no bloom. Then the given knobs.
 Look quietLook(const Knobs& knobs = {});

@@ -34,5 +34,6 @@ install(FILES ${CMAKE_BINARY_DIR}/scumbleConfig.cmake ${CMAKE_BINARY_DIR}/scumbl
 # without the tests.
 if(SCUMBLE_TESTS)
   add_custom_target(demo)
-  add_dependencies(demo ${programs} demo_scene henry_room ocean_maps)
+  get_property(of_features GLOBAL PROPERTY SCUMBLE_DEMO_PROGRAMS)
+  add_dependencies(demo ${programs} demo_scene henry_room ${of_features})
 endif()

@@ -1,0 +1,50 @@
+#!/usr/bin/env python3
+"""Nothing outside of a feature's folder names it: not its words, in whatever case, in the library or the program.
+
+    features_test.py [ROOT]
+
+Its looks, tests of the whole, bench and pages may.
+"""
+import re
+import sys
+from pathlib import Path
+
+# By feature: parts of words.
+WORDS = {"ocean": re.compile(r"ocean|water|wave", re.IGNORECASE)}
+FOLDERS = ["include", "src", "apps", "tools/cmake", "CMakeLists.txt"]
+
+
+def files_in(root):
+    for folder in FOLDERS:
+        path = root / folder
+        yield from ([path] if path.is_file() else sorted(each for each in path.rglob("*") if each.is_file()))
+
+
+def problems(root):
+    seen = 0
+    for path in files_in(root):
+        name = path.relative_to(root).as_posix()
+        try:
+            lines = path.read_text(encoding="utf-8").splitlines()
+        except UnicodeDecodeError:
+            continue
+        seen += 1
+        for feature, words in WORDS.items():
+            if name.startswith(f"src/features/{feature}/"):
+                continue
+            for number, line in enumerate(lines, 1):
+                if words.search(line):
+                    yield f"{name}:{number}: names the feature '{feature}': {line.strip()}"
+    if seen < 300:
+        yield f"{root}: only {seen} files were found"
+
+
+def main():
+    root = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).resolve().parent.parent
+    found = list(problems(root))
+    print("\n".join(found) or "features: nothing outside of their folders names them")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
