@@ -56,7 +56,7 @@ std::string listed(Targets targets) {
 namespace {
 
 std::string exampleOf(const Section& section) {
-  const std::string begin = section.example;
+  std::string begin = section.example;
   if (!begin.ends_with('.')) return begin;
   for (const ParamBlock* const block : allBlocks())
     if (block->targets & section.target) return begin + block->path + "." + block->rows.front().name;

@@ -8,6 +8,7 @@
 #include "gpu/prefix_sum.h"
 #include "passes/cull/cull.shared.h"
 #include "shaders/cull_comp.h"
+#include "shading/geometry_constants.shared.h"
 
 namespace scumble::passes {
 

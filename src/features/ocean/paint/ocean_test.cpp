@@ -7,7 +7,9 @@
 #include <numbers>
 #include <optional>
 
+#include "base/stroke_maps.h"
 #include "features/ocean/paint/ocean_knobs.h"
+#include "features/ocean/sea_reference.h"
 #include "features/ocean/waves/maps.h"
 #include "scumble/image.h"
 #include "tests/support/aov.h"
@@ -15,7 +17,6 @@
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
 #include "tests/support/sanitized.h"
-#include "features/ocean/sea_reference.h"
 #include "tests/support/test_device.h"
 
 namespace scumble::ocean {
