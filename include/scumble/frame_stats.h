@@ -26,6 +26,7 @@ struct FrameStats {
   // parts of meshes, textures, materials' links to textures. Without changes of the scene 0 once they are
   // there, whatever moves.
   uint32_t writtenPrimitives = 0, writtenTextures = 0, writtenMaterials = 0;
+  // What the scene has to draw, whether a view sees it or not; the device is told in fewer calls.
   uint64_t triangles = 0, drawCalls = 0;
   uint64_t deviceBytes = 0, uploadedBytes = 0;
   // Of the frame's own images, those that live at different times in the same memory; and what they would

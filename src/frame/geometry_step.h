@@ -61,8 +61,8 @@ class GeometryStep {
   void refresh() {
     if (statesVersion_ != scene_->draws().statesVersion()) makePipelines();
   }
-  // Draws opaque, then masked, then blended surfaces: by pipeline and material, of each the nearest first.
-  // `passSets`: set 2, one for all or one for each material; null for none.
+  // Draws opaque, then masked, then blended surfaces: by pipeline and material, of each the nearest first
+  // (casters as they lie). `passSets`: set 2, one for all or one for each material; null for none.
   void draw(VkCommandBuffer commands, const gpu::DescriptorSets* passSets, uint32_t firstView) const;
 
  private:

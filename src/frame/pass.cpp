@@ -21,7 +21,7 @@ UniformSlice UniformMemory::slice(uint64_t bytes) {
 
 void UniformMemory::addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) {
   for (gpu::PerFrameBuffer& block : blocks_) {
-    block.contents();  // slices are written at any time
+    block.markWritten();  // slices are, at any time
     uploads.push_back(&block);
   }
 }

@@ -31,17 +31,18 @@ class Submission {
   bool underWay_ = false;
 };
 
-// A buffer that the CPU writes anew for each frame while the device may still read an earlier one's contents.
+// A buffer that the CPU may write for each frame while the device still reads an earlier one's contents. One
+// thread at a time uses it.
 class PerFrameBuffer {
  public:
   PerFrameBuffer() = default;
   PerFrameBuffer(Device& device, uint64_t size, VkBufferUsageFlags usage);
   VkBuffer handle() const { return onDevice_.handle(); }
   uint64_t size() const { return onDevice_.size(); }
-  // The CPU's own copy, which stays as it is from frame to frame; null for a buffer that was not made.
-  // Whoever asks for it in order to write makes the next upload copy it.
+  // The CPU's own copy, which stays as it is from frame to frame; null for a buffer that was not made. To ask
+  // for it as something that can be written is to write it: the next upload copies it.
   std::byte* contents() {
-    isWritten_ = true;
+    markWritten();
     return contents_.data();
   }
   template <class T>
@@ -52,6 +53,8 @@ class PerFrameBuffer {
   const T* as() const {
     return reinterpret_cast<const T*>(contents_.data());
   }
+  // Was written by a pointer from before; or what was recorded of it was not sent.
+  void markWritten() { isWritten_ = true; }
   // Records the copy of contents() as they are now, where they were written since the last one; `frame` is
   // below kFramesInFlight, and its last turn is over. Callers put recordUploads() around all of them.
   void upload(VkCommandBuffer commands, uint32_t frame);

@@ -1,6 +1,5 @@
 #include "look/absent_groups.h"
 
-#include <array>
 #include <utility>
 
 namespace scumble::look {

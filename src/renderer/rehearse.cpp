@@ -99,8 +99,8 @@ Status Renderer::Impl::prepare(const Request& request, Rehearsal extent) {
   }
   if (isWhole) return Done{};
 
-  // A frame with settings besides; whether it has compiled anything. Where there is another sea, or none any
-  // more, it is another scene.
+  // A frame with settings besides; whether it has compiled anything. Where features come or go, it is another
+  // scene.
   const scene::SceneData& scene = request.scene.data();
   const auto whichFeatures = [&](const look::LookData& look) {
     std::vector<bool> there;

@@ -1,5 +1,5 @@
-// All views of a frame at once, for what is decided once for all of them: what can be seen, and in which
-// order it is drawn.
+// All views of a frame at once, for what is decided once for all of them: which blended surfaces can be seen,
+// and how far they are. (Of the others each group of views finds its own, on the device.)
 #pragma once
 
 #include <glm/glm.hpp>

@@ -46,8 +46,6 @@ class DrawList {
   bool update(gpu::Device& device, std::vector<Draw> draws, const std::function<void()>& settle);
   // Where objects are, and whether they are mirrored; both by object.
   void place(const std::vector<scene::Bounds>& bounds, const std::vector<uint8_t>& mirrored);
-  // It is not on its way to the device after all.
-  void forget() { commands_.contents(), places_.contents(); }
 
   const std::vector<Draw>& draws() const { return draws_; }
   const std::vector<DrawBucket>& buckets() const { return buckets_; }

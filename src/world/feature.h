@@ -35,8 +35,9 @@ class FeatureMoment {
   virtual void pose(const look::LookData& look, const KnobTable& now, double time,
                     const FeatureMoment* present) = 0;
 
-  // By node, what it is moved by, from where it is without that; whoever has moved it already keeps it.
-  // `world`: all nodes' matrices.
+  // By node, what it is moved by, from where it is without that; a node that another feature has moved
+  // already is left alone. What hangs on a node that is moved goes along with that one, and is not moved by
+  // itself. `world`: all nodes' matrices.
   virtual void moveNodes(const scene::SceneData&, std::span<const glm::mat4> /*world*/,
                          std::vector<std::optional<glm::mat4>>& /*moved*/) const {}
 
@@ -46,7 +47,7 @@ class FeatureMoment {
     glm::vec2 patternShift{0.0f};  // added to pattern coordinates
   };
   virtual Place placeOf(uint32_t /*kind*/) const { return {}; }
-  // What one takes up; `posed`: what it would if only its matrix moved it.
+  // What one takes up, asked for in each pose; `posed`: what it would if only its matrix moved it.
   virtual scene::Bounds boundsOf(uint32_t /*kind*/, uint32_t /*detail*/, const scene::Bounds& posed) const {
     return posed;
   }
@@ -65,7 +66,8 @@ class FeaturePlan {
   int replacedNode = -1;
   // Without it there may be a ground; with it there is one where the look says so.
   bool replacesGround = false;
-  // A pass of its own paints its surfaces, once a pixel (kPrepaintedLit, kPrepaintedShadowed).
+  // A pass of its own paints its surfaces, once a pixel (kPrepaintedLit, kPrepaintedShadowed). One feature of
+  // a frame may: there is one pair of these.
   bool isPrepainted = false;
   // Metres at which its edges are torn half as much as near by, at most; 0: as the look has it.
   float quietDistance = 0;

@@ -51,7 +51,8 @@ struct GeometryItem {
 // again is the same object, so that nobody takes it for a new one.
 class MadePrimitives {
  public:
-  // What is made for a kind and a key, numbers that say all about it.
+  // What is made for a kind, whose name begins with that of the feature, and a key, numbers that say all
+  // about it.
   const scene::Primitive& get(const std::string& kind, const std::vector<double>& key,
                               const std::function<scene::Primitive()>& make);
   // What a primitive of the scene becomes.

@@ -67,6 +67,7 @@ SceneMotion::SceneMotion(gpu::Device& device, const scene::SceneData& scene,
   morphWeights_ = bufferOf<float>(device, layout_.weights);
   movedChunks_ = bufferOf<uint32_t>(device, chunkCount_);
   std::copy(placed.begin(), placed.end(), objects_.as<shared::ObjectData>());
+  for (const MovingObject& object : moving_) writerOf_.push_back(writerOf(object));
 }
 
 SceneMotion::Layout SceneMotion::layOut(const scene::SceneData& scene,
@@ -109,8 +110,9 @@ bool SceneMotion::follow(const scene::SceneData& scene, const std::vector<shared
     // Who reads joints or weights from elsewhere now, or is something else to its feature, moves.
     if (object.firstJoint != now[i].firstJoint || object.firstMorphWeight != now[i].firstMorphWeight ||
         object.influences != now[i].influences || object.kind != now[i].kind ||
-        object.detail != now[i].detail)
+        object.detail != now[i].detail || writerOf(moving_[i]) != writerOf_[i])
       touched_[i] = 1;
+    writerOf_[i] = writerOf(moving_[i]);
     object.model = now[i].model;
     object.normal = now[i].normal;
     if (moving_[i].feature >= 0) object.patternShift = now[i].patternShift;
@@ -184,13 +186,16 @@ bool SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, do
     bends[i] = replace(joints_.as<glm::mat4>() + use.firstJoint, matrices.data(), matrices.size());
   }
 
-  // Objects.
+  // Objects. The buffers are asked for once: who asks marks them.
   std::vector<uint8_t> moves(moving_.size());
+  auto* const objectData = objects_.as<shared::ObjectData>();
+  auto* const morphWeights = morphWeights_.as<float>();
+  const glm::mat4* const joints = joints_.as<glm::mat4>();
   scene::parallelFor(
       moving_.size(), moving_.size() < kManyObjects ? 1 : scene::threadCount(0), [&](size_t i) {
         const MovingObject& object = moving_[i];
         const scene::Pose& pose = *poseOf[object.material];
-        shared::ObjectData& data = objects_.as<shared::ObjectData>()[i];
+        shared::ObjectData& data = objectData[i];
         const glm::mat4& instance = instanceOf(scene, object);
         glm::mat4 model =
             object.node == MovingObject::kNoNode ? instance : pose.world[object.node] * instance;
@@ -212,16 +217,14 @@ bool SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, do
         std::span<const float> weights;
         if (object.morphs) {
           weights = pose.morphWeights[object.node];
-          changes |=
-              replace(morphWeights_.as<float>() + data.firstMorphWeight, weights.data(), weights.size());
+          changes |= replace(morphWeights + data.firstMorphWeight, weights.data(), weights.size());
         }
         moves[i] = changes;
-        if (!changes) return;
-        std::span<const glm::mat4> joints;
+        if (!changes && !feature) return;
+        std::span<const glm::mat4> ownJoints;
         if (object.skin >= 0)
-          joints = {joints_.as<glm::mat4>() + data.firstJoint,
-                    scene.skins[size_t(object.skin)].joints.size()};
-        bounds_[i] = scene::posedBounds(*object.extent, model, joints, weights);
+          ownJoints = {joints + data.firstJoint, scene.skins[size_t(object.skin)].joints.size()};
+        bounds_[i] = scene::posedBounds(*object.extent, model, ownJoints, weights);
         if (feature) bounds_[i] = feature->boundsOf(object.kind, object.detail, bounds_[i]);
       });
   written_ = true;
@@ -231,7 +234,7 @@ bool SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, do
   const auto forEachMoved = [&](auto&& visit) {
     for (size_t i = 0; i < moving_.size(); ++i) {
       const MovingObject& object = moving_[i];
-      const size_t writer = object.isWrittenByFeature ? size_t(object.feature + 1) : 0;
+      const size_t writer = size_t(writerOf(object) + 1);
       for (uint32_t c = 0; moves[i] && c < object.chunkCount; ++c) {
         const uint32_t chunk = object.firstChunk + c;
         visit(chunk, moved_[geometry_.pageOfChunk()[chunk] * writers_ + writer]);

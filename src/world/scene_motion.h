@@ -97,6 +97,10 @@ class SceneMotion {
     std::vector<uint32_t> skinUseOf;  // by object
     size_t joints = 0, weights = 0;
   };
+  // Who writes an object's vertices.
+  static int writerOf(const MovingObject& object) {
+    return object.isWrittenByFeature ? object.feature : kDeform;
+  }
   Layout layOut(const scene::SceneData& scene, std::vector<shared::ObjectData>& objects) const;
 
   const std::vector<MovingObject>& moving_;
@@ -106,6 +110,7 @@ class SceneMotion {
   gpu::PerFrameBuffer objects_, joints_, morphWeights_, movedChunks_;
   std::vector<scene::Bounds> bounds_;
   std::vector<uint8_t> mirrored_, touched_;
+  std::vector<int> writerOf_;  // by object: who writes its vertices
   std::vector<glm::mat4> world_, worldAsDrawn_;
   std::vector<std::optional<glm::mat4>> movedBy_;  // by node; empty: features move nothing
   size_t writers_ = 1;

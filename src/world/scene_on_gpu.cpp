@@ -280,14 +280,19 @@ void SceneOnGpu::posePrevious(const scene::SceneData& scene, const look::LookDat
 void SceneOnGpu::forgetPoses() {
   motion_->touchAll();
   if (previousMotion_) previousMotion_->touchAll();
-  draws_.forget();
+  std::vector<gpu::PerFrameBuffer*> uploads;
+  addUploads(uploads);
+  for (gpu::PerFrameBuffer* const buffer : uploads) buffer->markWritten();
 }
 
 void SceneOnGpu::keepPrevious() {
   if (previousMotion_) return;
-  previousPositions_ = positionBuffer(device_, geometry_.vertexCount());
+  // All of it or nothing: each may not fit.
+  FeatureMoments features;
   for (const PlannedFeature& planned : options_.features)
-    previousFeatures_.push_back(planned.plan ? planned.plan->makeMoment(device_, *data_) : nullptr);
+    features.push_back(planned.plan ? planned.plan->makeMoment(device_, *data_) : nullptr);
+  previousPositions_ = positionBuffer(device_, geometry_.vertexCount());
+  previousFeatures_ = std::move(features);
   previousMotion_.emplace(device_, *data_, moving_, objects_, geometry_);
 }
 

@@ -61,11 +61,11 @@ class SceneOnGpu {
   const scene::SceneData& data() const { return *data_; }
   // What is shown.
   const DrawList& draws() const { return draws_; }
-  // Materials by index: the scene's, then (with a ground) the ground's, then those of nodes for which the
-  // look sets something.
+  // Materials by index: the scene's, then (with a ground) the ground's, then those of features, then those of
+  // nodes for which the look sets something.
   size_t materialCount() const { return materialNames_.size(); }
   const std::string& materialName(size_t material) const { return materialNames_[material]; }
-  // What the scene has for it; glTF's default material for the ground.
+  // What the scene has for it; glTF's default material for the ground and for features.
   const scene::Material& material(size_t material) const;
   // What their knobs follow from, in the same order, under a look that these options come from at any time.
   std::vector<KnobTable::Material> knobSubjects() const;
@@ -157,7 +157,7 @@ class SceneOnGpu {
   void measureColors(const Geometry& geometry);
 
   struct MaterialUse {
-    int base;               // in the scene; -1 for the ground
+    int base;               // in the scene; -1 for the ground and features
     uint32_t settings = 0;  // in NodeSettings::lists
     SetTexture lit{}, shadowed{};
   };

@@ -1,5 +1,5 @@
 // Wakes, ripples and splashes (paper 000, section 6.2): those that a look declares, and where they are on the
-// water at a moment. What they look like there: shading/water.glsl.
+// water at a moment. What they look like there: features/ocean/water.glsl.
 #pragma once
 
 #include <optional>
@@ -31,8 +31,8 @@ struct Decoration {
 std::vector<Decoration> decorationsOf(const scene::SceneData& scene, const look::LookData& look,
                                       std::span<const FloatingNode> floating);
 
-// Its positions and triangles, in the coordinates that decorationPlace (shading/water.glsl) lays on the
-// water.
+// Its positions and triangles, in the coordinates that decorationPlace (features/ocean/water.glsl) lays on
+// the water.
 scene::Primitive makeDecorationMesh(int kind);
 
 // One for each; without points where it draws nothing. A pure function of its arguments: a wake lies along

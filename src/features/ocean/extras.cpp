@@ -19,35 +19,27 @@ std::optional<bool> flagOf(const Json& json) {
   return std::nullopt;
 }
 
-// `problems` may be null.
-std::optional<Floats> readFloats(const Json& json, Problems* problems) {
-  const auto report = [&](const std::string& path, const char* text) {
-    if (problems) problems->push_back({path, text});
-  };
-  if (const std::optional<bool> flag = flagOf(json)) return *flag ? std::optional(Floats()) : std::nullopt;
-  if (!json.is_object()) {
-    report("", "what floats is ignored: it is neither true nor an object");
-    return std::nullopt;
-  }
+// Metres; none: it is no size.
+std::optional<float> sizeOf(const Json& value) {
   constexpr double kLongest = 1000;  // as the knobs have it
-  Floats floats;
+  const double metres = value.is_number() ? value.get<double>() : -1;
+  return metres >= 0 && metres <= kLongest ? std::optional(float(metres)) : std::nullopt;
+}
+
+Problems problemsOfFloats(const Json& json) {
+  if (flagOf(json)) return {};
+  if (!json.is_object()) return {{"", "what floats is ignored: it is neither true nor an object"}};
+  Problems problems;
   for (const auto& [key, value] : json.items()) {
-    if (key == "length" || key == "beam") {
-      const double metres = value.is_number() ? value.get<double>() : -1;
-      if (metres >= 0 && metres <= kLongest)
-        (key == "length" ? floats.length : floats.beam) = float(metres);
-      else
-        report("." + key, "a size of what floats is ignored: it is no number from 0 to 1000");
-    } else if (key == "bow") {
-      if (value == "x" || value == "z")
-        floats.bowAlongZ = value == "z";
-      else
-        report("." + key, "a bow is ignored: it is neither \"x\" nor \"z\"");
-    } else {
-      report("." + key, "is ignored: what floats has length, beam and bow");
-    }
+    const bool isSize = key == "length" || key == "beam";
+    if (isSize && !sizeOf(value))
+      problems.push_back({"." + key, "a size of what floats is ignored: it is no number from 0 to 1000"});
+    else if (key == "bow" && value != "x" && value != "z")
+      problems.push_back({"." + key, "a bow is ignored: it is neither \"x\" nor \"z\""});
+    else if (!isSize && key != "bow")
+      problems.push_back({"." + key, "is ignored: what floats has length, beam and bow"});
   }
-  return floats;
+  return problems;
 }
 
 const Json* find(const scene::Node& node, const char* key) {
@@ -63,12 +55,18 @@ std::optional<bool> saysOcean(const scene::Node& node) {
 }
 
 std::optional<Floats> floatsOf(const scene::Node& node) {
+  // Asked for in each frame: whatever else a hostile file has in there is not gone through.
   const Json* const json = find(node, kFloatKey);
-  std::optional<Floats> floats = json ? readFloats(*json, nullptr) : std::nullopt;
-  if (floats)
-    for (std::optional<float>* metres : {&floats->length, &floats->beam})
-      if (*metres) **metres *= node.extrasScale;
-  return floats;
+  if (!json) return std::nullopt;
+  if (const std::optional<bool> flag = flagOf(*json)) return *flag ? std::optional(Floats()) : std::nullopt;
+  if (!json->is_object()) return std::nullopt;
+  const auto size = [&](const char* key) -> std::optional<float> {
+    const auto found = json->find(key);
+    const std::optional<float> metres = found != json->end() ? sizeOf(*found) : std::nullopt;
+    return metres ? std::optional(*metres * node.extrasScale) : std::nullopt;
+  };
+  const auto bow = json->find("bow");
+  return Floats{size("length"), size("beam"), bow != json->end() && *bow == "z"};
 }
 
 std::vector<scene::ExtraRule> extraRules() {
@@ -76,11 +74,7 @@ std::vector<scene::ExtraRule> extraRules() {
            [](const Json& json) {
              return flagOf(json) ? Problems() : Problems{{"", "is ignored: it is neither true nor false"}};
            }},
-          {kFloatKey, [](const Json& json) {
-             Problems problems;
-             readFloats(json, &problems);
-             return problems;
-           }}};
+          {kFloatKey, problemsOfFloats}};
 }
 
 }  // namespace scumble::ocean

@@ -43,7 +43,7 @@ OceanShape oceanShape(const scene::SceneData& scene, const look::LookData& look)
 
 using shared::kWaterPerPattern;
 
-// A tile with its corner at the origin. The middle one has all points, and is split as src/ocean/surface.h
+// A tile with its corner at the origin. The middle one has all points, and is split as waves/surface.h
 // says; each ring of tiles around it every second point of the one before, since small triangles far away
 // cost much and show nothing.
 struct OceanTile {

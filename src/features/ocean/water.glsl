@@ -11,7 +11,7 @@ OceanPoint oceanPoint(ivec2 at) {
   return points[at.y * field.grid + at.x];
 }
 
-// On the triangles that the ocean's finest mesh has (src/ocean/surface.h).
+// On the triangles that the ocean's finest mesh has (features/ocean/waves/surface.h).
 OceanPoint wavesAt(vec2 place) {
   vec2 at = (place + field.within) / field.cell;
   ivec2 corner = ivec2(floor(at)) + field.travelled;

@@ -69,7 +69,7 @@ class BeaconPlan : public FeaturePlan {
   }
   void addItems(const GeometryItem& common, MadePrimitives& made, Geometry& geometry) const override {
     GeometryItem item = common;
-    item.primitive = &made.get("beacon", {}, makeBeacon);
+    item.primitive = &made.get("sample beacon", {}, makeBeacon);
     item.extent = &item.primitive->extent;
     item.casts = true;
     item.instance = item.model = glm::scale(glm::translate(glm::mat4(1.0f), place_), glm::vec3(size_));

@@ -1,5 +1,5 @@
 // The maps that the ocean is painted with (paper 000, figure 19), in device memory: those that ship, painted
-// by src/ocean, and pictures that a look names.
+// by features/ocean/waves, and pictures that a look names.
 #pragma once
 
 #include <deque>
