@@ -6,7 +6,7 @@
 
 Tables of numbers in docs/bench.md and docs/measure.md stand below `<!-- table NAME -->` and are made from
 bench/results; every result says when, of what revision and on what machine it was measured. Lines "May include" are those
-of tools/include_table.py; tables of passes name all of src/passes; what is counted or listed is what is there.
+of tools/include_table.py; tables of passes name all of src/passes and those of features; what is counted or listed is what is there.
 """
 import json
 import re
@@ -299,6 +299,11 @@ def check_lists(root):
     named = first_cells((docs / "passes.md").read_text(encoding="utf-8"))
     for name in sorted(folders(root / "src" / "passes") - named):
         yield f"docs/passes.md: no table has the pass {name}"
+    for path in sorted((root / "src" / "features").rglob("*.cpp")):
+        text = path.read_text(encoding="utf-8")
+        passes = re.findall(r'name\(\) const override \{ return "([^"]+)"', text) if "public Pass" in text else []
+        for name in sorted(set(passes) - named):
+            yield f"docs/passes.md: no table has the pass {name} of {path.relative_to(root)}"
     built = re.search(r"foreach\(pass ([^)]*)\)", (root / "src" / "passes" / "CMakeLists.txt").read_text()).group(1).split()
     for name in sorted(set(built) ^ folders(root / "src" / "passes")):
         yield f"src/passes/CMakeLists.txt and the folders differ: {name}"
