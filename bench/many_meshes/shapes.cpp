@@ -209,7 +209,7 @@ Mesh makeTree(const std::string& name, size_t triangles, Random& random) {
   mesh.tube({{0, -0.1f, 0}, {0.03f, 0.4f, 0}, {0, 0.9f, 0.03f}}, {0.13f, 0.10f, 0.07f}, 8);
   const Lumps lumps(random, random.between(3.0f, 4.5f));
   const float tall = random.between(0.8f, 1.5f), wide = random.between(0.62f, 0.85f);
-  const Grid crown = ball(triangles - 48, [&](glm::vec3 d) {
+  const Grid crown = ball(triangles - std::min<size_t>(triangles, 48), [&](glm::vec3 d) {
     const glm::vec3 p = d * (1.0f + 0.22f * lumps(d));
     return glm::vec3(p.x * wide, 0.55f + tall * 0.9f + p.y * tall * 0.8f, p.z * wide);
   });
