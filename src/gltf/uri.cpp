@@ -8,6 +8,8 @@
 
 namespace scumble::gltf {
 
+using namespace scene;
+
 namespace {
 
 std::string shortened(std::string_view text) {

@@ -14,6 +14,8 @@
 
 namespace scumble::gltf {
 
+using namespace scene;
+
 namespace {
 
 using WorldJson = nlohmann::ordered_json;

@@ -7,6 +7,8 @@
 
 #include "passes/colorize/colorize.shared.h"
 #include "passes/colorize/colorize_knobs.h"
+#include "scene/scene_data.h"
+#include "shading/frame.shared.h"
 
 namespace scumble::passes {
 
