@@ -5,7 +5,7 @@
 
 #include "base/tileable_noise.h"
 
-namespace scumble {
+namespace scumble::brush {
 
 namespace {
 
@@ -114,4 +114,4 @@ std::vector<uint8_t> shrink(const Board& board) {
   return texels;
 }
 
-}  // namespace scumble
+}  // namespace scumble::brush

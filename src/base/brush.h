@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace scumble {
+namespace scumble::brush {
 
 constexpr int kTexels = 256;  // an edge of the finished map
 constexpr int kSamplesPerTexel = 3;
@@ -67,4 +67,4 @@ void simplify(Board& board, BrushSize brush);
 // A texel is the mean of its samples.
 std::vector<uint8_t> shrink(const Board& board);
 
-}  // namespace scumble
+}  // namespace scumble::brush

@@ -9,6 +9,8 @@
 
 namespace scumble {
 
+using namespace brush;
+
 namespace {
 
 class Dice {

@@ -75,10 +75,10 @@ void PrefixSum::record(VkCommandBuffer commands, uint32_t count) const {
 
 // An even number of digits, so that the last one goes back to where the first one came from.
 RadixSort::RadixSort(Device& device, uint32_t most, uint32_t keyBits)
-    : digitCount_(2 * blocksOf(std::min(keyBits, 32u), 2 * kDigitBits)) {
+    : most_(std::max(1u, most)), digitCount_(2 * blocksOf(std::min(keyBits, 32u), 2 * kDigitBits)) {
   for (Buffer& buffer : keys_) buffer = numbers(device, most);
   for (Buffer& buffer : values_) buffer = numbers(device, most);
-  const uint32_t digits = kDigits * blocksOf(std::max(1u, most), kSortBlock);
+  const uint32_t digits = kDigits * blocksOf(most_, kSortBlock);
   digits_ = numbers(device, digits);
   sum_ = PrefixSum(device, digits_, digits);
   const SetLayout layout = storageBuffers(device, 5);

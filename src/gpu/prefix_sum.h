@@ -3,6 +3,7 @@
 // are the same on every device, however many threads it has.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "gpu/pipeline.h"
@@ -38,16 +39,19 @@ class RadixSort {
   // sorted.
   const Buffer& keys() const { return keys_[0]; }
   const Buffer& values() const { return values_[0]; }
+  // How many pairs there is room for; 0 before it is made.
+  uint32_t most() const { return most_; }
 
   // Records the sort of the first `count` pairs. Reads what compute shaders have written before; what comes
   // after needs a barrier of its own.
   void record(VkCommandBuffer commands, uint32_t count) const;
 
  private:
-  uint32_t digitCount_ = 0;
+  uint32_t most_ = 0, digitCount_ = 0;
   Pipeline counts_, scatters_, whole_;
   DescriptorSets sets_;  // from the first buffers to the second ones, and back
-  Buffer keys_[2], values_[2], digits_;
+  std::array<Buffer, 2> keys_, values_;
+  Buffer digits_;
   PrefixSum sum_;
 };
 

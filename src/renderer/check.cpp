@@ -84,9 +84,10 @@ void findNodes(const scene::SceneData& scene, const look::LookData& look, Findin
       for (const look::ParamRow& row : block->rows) {
         if (row.kind != look::ParamKind::name) continue;
         if (block->targets & look::kScene) check(*block, row, look::kScene, "");
-        for (const look::Target target : {look::kColorizers, look::kDecorations})
-          if (block->targets & target)
-            for (const std::string& name : now.declared(target)) check(*block, row, target, name);
+        for (const look::Section& section : look::kSections)
+          if (section.most > 0 && block->targets & section.target)
+            for (const std::string& name : now.declared(section.target))
+              check(*block, row, section.target, name);
       }
   }
 }

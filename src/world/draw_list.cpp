@@ -7,7 +7,7 @@ namespace scumble::world {
 
 bool DrawList::update(gpu::Device& device, std::vector<Draw> draws, const std::function<void()>& settle) {
   draws_ = std::move(draws);
-  mirrored_.assign(draws_.size(), 0);
+  mirrored_.resize(draws_.size(), 0);  // mostly as before; place() knows
   const bool grows = !commands_.handle() || draws_.size() > room_;
   if (grows) {
     settle();
@@ -31,14 +31,14 @@ void DrawList::sortIntoBuckets() {
     return state;
   };
   // How many there are of each.
-  std::map<DrawState, uint32_t> counts;
+  std::map<DrawState, uint32_t> counts, bucketOf;
   for (size_t d = 0; d < draws_.size(); ++d) ++counts[stateOf(d)];
   std::vector<DrawBucket> buckets;
-  std::map<DrawState, uint32_t> next;
+  std::vector<uint32_t> next;  // free command, by bucket
   for (const auto& [state, count] : counts) {
-    const uint32_t first = buckets.empty() ? 0 : buckets.back().first + buckets.back().count;
-    buckets.push_back({state, first, count});
-    next[state] = first;
+    bucketOf[state] = uint32_t(buckets.size());
+    next.push_back(buckets.empty() ? 0 : buckets.back().first + buckets.back().count);
+    buckets.push_back({state, next.back(), count});
   }
   const auto haveSameState = [](const DrawBucket& a, const DrawBucket& b) { return a.state == b.state; };
   if (!std::equal(buckets.begin(), buckets.end(), buckets_.begin(), buckets_.end(), haveSameState))
@@ -48,10 +48,13 @@ void DrawList::sortIntoBuckets() {
   // Each to its place, in their order.
   commandOf_.resize(draws_.size());
   auto* const commands = commands_.as<shared::DrawCommand>();
+  auto* const places = places_.as<shared::DrawPlace>();
   for (size_t d = 0; d < draws_.size(); ++d) {
     const Draw& draw = draws_[d];
-    commandOf_[d] = next[stateOf(d)]++;
+    const uint32_t bucket = bucketOf[stateOf(d)];
+    commandOf_[d] = next[bucket]++;
     commands[commandOf_[d]] = {draw.indexCount, 1, draw.firstIndex, draw.vertexOffset, draw.object};
+    places[commandOf_[d]].bucket = bucket;
   }
 }
 
@@ -66,11 +69,10 @@ void DrawList::place(const std::vector<scene::Bounds>& bounds, const std::vector
   auto* const places = places_.as<shared::DrawPlace>();
   for (size_t d = 0; d < draws_.size(); ++d) {
     const scene::Bounds& box = bounds[draws_[d].object];
-    places[commandOf_[d]] = {box.empty ? glm::vec3(1.0f) : box.min, box.empty ? glm::vec3(-1.0f) : box.max,
-                             0};
+    shared::DrawPlace& place = places[commandOf_[d]];
+    place.low = box.empty ? glm::vec3(1.0f) : box.min;
+    place.high = box.empty ? glm::vec3(-1.0f) : box.max;
   }
-  for (uint32_t b = 0; b < buckets_.size(); ++b)
-    for (uint32_t i = 0; i < buckets_[b].count; ++i) places[buckets_[b].first + i].bucket = b;
 }
 
 void DrawList::addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) {

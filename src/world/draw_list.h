@@ -41,8 +41,9 @@ struct DrawBucket {
 
 class DrawList {
  public:
-  // All draws that there are, as if none was mirrored. Where there is more room for them than before, the
-  // buffers have other names, which is told by true, and `settle` is called before the old ones go.
+  // All draws that there are; place() comes after it, and finds out which are mirrored. Where there is more
+  // room for them than before, the buffers have other names, which is told by true, and `settle` is called
+  // before the old ones go.
   bool update(gpu::Device& device, std::vector<Draw> draws, const std::function<void()>& settle);
   // Where objects are, and whether they are mirrored; both by object.
   void place(const std::vector<scene::Bounds>& bounds, const std::vector<uint8_t>& mirrored);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <optional>
 
 #include "gpu/dispatch.h"
 #include "gpu/prefix_sum.h"
@@ -46,12 +45,9 @@ class Cull : public Pass {
 
   void bind(const gpu::GraphResources&) override {
     const DrawList& list = frame_->scene().draws();
-    if (!sort_ || sorts_ < list.room()) {
-      sorts_ = list.room();
-      sort_.emplace(frame_->device(), sorts_);
-    }
-    const VkBuffer buffers[] = {list.commands(), list.places(), sort_->keys().handle(),
-                                sort_->values().handle(), list.seen()};
+    if (sort_.most() < list.room()) sort_ = gpu::RadixSort(frame_->device(), list.room());
+    const VkBuffer buffers[] = {list.commands(), list.places(), sort_.keys().handle(),
+                                sort_.values().handle(), list.seen()};
     for (uint32_t i = 0; i < std::size(buffers); ++i) set_.writeBuffer(0, 1 + i, buffers[i]);
   }
 
@@ -76,7 +72,7 @@ class Cull : public Pass {
       gpu::dispatch(commands, (count + shared::kCullThreads - 1) / shared::kCullThreads);
     };
     run(keys_);
-    sort_->record(commands, count);
+    sort_.record(commands, count);
     run(gather_);
   }
 
@@ -85,8 +81,7 @@ class Cull : public Pass {
   gpu::SetLayout layout_;
   gpu::DescriptorSets set_;
   gpu::Pipeline keys_, gather_;
-  std::optional<gpu::RadixSort> sort_;
-  uint32_t sorts_ = 0;  // draws that it has room for
+  gpu::RadixSort sort_;
 };
 
 }  // namespace

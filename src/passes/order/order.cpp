@@ -1,7 +1,6 @@
 #include "passes/order/order.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "gpu/dispatch.h"
 #include "gpu/prefix_sum.h"
@@ -48,13 +47,11 @@ class Order : public Pass {
 
   void bind(const gpu::GraphResources&) override {
     const TransparentTriangles& triangles = frame_->scene().transparent();
-    if (!sort_ || sorts_ < triangles.count()) {
-      sorts_ = triangles.count();
-      sort_.emplace(frame_->device(), sorts_);
-    }
+    if (sort_.most() < std::max(1u, triangles.count()))
+      sort_ = gpu::RadixSort(frame_->device(), triangles.count());
     const VkBuffer buffers[] = {
-        triangles.triangles(),  triangles.parts(),        frame_->scene().geometry().finalCore().handle(),
-        sort_->keys().handle(), sort_->values().handle(), triangles.indices()};
+        triangles.triangles(), triangles.parts(),       frame_->scene().geometry().finalCore().handle(),
+        sort_.keys().handle(), sort_.values().handle(), triangles.indices()};
     for (uint32_t i = 0; i < std::size(buffers); ++i) set_.writeBuffer(0, i, buffers[i]);
   }
 
@@ -71,7 +68,7 @@ class Order : public Pass {
       gpu::dispatch(commands, (count + shared::kOrderThreads - 1) / shared::kOrderThreads);
     };
     run(keys_);
-    sort_->record(commands, count);
+    sort_.record(commands, count);
     run(gather_);
   }
 
@@ -79,8 +76,7 @@ class Order : public Pass {
   gpu::SetLayout layout_;
   gpu::DescriptorSets set_;
   gpu::Pipeline keys_, gather_;
-  std::optional<gpu::RadixSort> sort_;
-  uint32_t sorts_ = 0;  // triangles that it has room for
+  gpu::RadixSort sort_;
 };
 
 }  // namespace

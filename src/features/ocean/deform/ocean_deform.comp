@@ -4,8 +4,8 @@
 #include "../../../shading/deform.glsl"
 #include "../ocean.shared.h"
 
-// kWaves: all but decorations; kDecoration: these alone. In one shader each would pay for the other, since CPU drivers
-// execute both sides of an `if`.
+// Which objects: kWaves or kDecoration. In one shader each would pay for the other, since CPU drivers execute both sides
+// of an `if`.
 layout(constant_id = 1) const uint kWater = 0;
 
 layout(set = 2, binding = 0, scalar) readonly buffer Waves { OceanField field; OceanPoint points[]; };
