@@ -87,13 +87,14 @@ void SceneArguments::addTo(CLI::App& command) {
   command.add_flag("--allow-outside", allowOutside, "Let paths in the scene lead out of its folder");
 }
 
-Result<Scene> SceneArguments::load(bool quiet) const {
+Result<Scene> SceneArguments::load(bool quiet, bool keepsVertices) const {
   SceneOptions options;
   if (sceneNumber.value_or(0) < 0)
     return usage("there is no scene " + std::to_string(*sceneNumber),
                  "--scene counts a file's scenes from 0");
   options.scene = sceneNumber.value_or(-1);
   options.allowOutside = allowOutside;
+  options.keepsVertices = keepsVertices;
   std::vector<Scene> scenes;
   std::set<std::string> warned;
   for (const std::string& file : files) {

@@ -16,8 +16,8 @@ struct SceneArguments {
   std::optional<int> sceneNumber;
 
   void addTo(CLI::App& command);
-  // All files in one world, at their places; warnings go to stderr.
-  Result<Scene> load(bool quiet) const;
+  // All files in one world, at their places; warnings go to stderr. `keepsVertices`: SceneOptions has it.
+  Result<Scene> load(bool quiet, bool keepsVertices = true) const;
 };
 
 struct LookArguments {

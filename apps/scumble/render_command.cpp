@@ -279,7 +279,9 @@ int run(RenderArguments args) {
   // Look and scene.
   Result<Look> look = loadLook(args, *background);
   if (!look) return fail(look.error());
-  const Result<Scene> scene = args.scene.load(args.quiet);
+  // One renderer draws it, with one look.
+  constexpr bool kKeepsVertices = false;
+  const Result<Scene> scene = args.scene.load(args.quiet, kKeepsVertices);
   if (!scene) return fail(scene.error());
   for (const std::vector<std::string>& read : {look->files(), scene->files()})
     if (const Status status = files.addInputs(read); !status) return fail(status.error());

@@ -19,8 +19,13 @@ struct SceneData;
 struct SceneOptions {
   int scene = -1;             // which of the file's scenes; -1: its default one
   bool allowOutside = false;  // whether URIs may lead out of the scene's folder upwards
-  int threads = 0;            // for decoding; 0: as many as the machine has
-  Progress progress = {};     // of load() and loadFromMemory(); of a world, file by file
+  // False: vertices are dropped from memory as soon as they are on the device of a renderer that draws the
+  // scene with a look without tracks, and no other thread may use the scene meanwhile. From then on only that
+  // renderer draws it, as long as the look asks for the same triangles; other frames, and scenes that share
+  // its meshes, end in ErrorKind::usage.
+  bool keepsVertices = true;
+  int threads = 0;         // for decoding; 0: as many as the machine has
+  Progress progress = {};  // of load() and loadFromMemory(); of a world, file by file
 };
 
 // What loading took, in milliseconds of wall clock.

@@ -24,6 +24,10 @@ FileBytes::~FileBytes() {
   if (data_) munmap(const_cast<uint8_t*>(data_), size_);
 }
 
+void FileBytes::forget() const {
+  if (data_) madvise(const_cast<uint8_t*>(data_), size_, MADV_DONTNEED);
+}
+
 bool FileBytes::open(const std::string& path, std::string& problem) {
   if (path.find('\0') != std::string::npos) {
     problem = "its name holds the character NUL";

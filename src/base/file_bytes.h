@@ -21,6 +21,8 @@ class FileBytes {
   bool open(const std::string& path, std::string& problem);
 
   Bytes bytes() const { return {data_, size_}; }
+  // Lets go of the memory that what was read takes; it is read from the file again where it is needed again.
+  void forget() const;
 
  private:
   const uint8_t* data_ = nullptr;

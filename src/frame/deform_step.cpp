@@ -50,7 +50,7 @@ void DeformStep::bind() {
     part(geometry.finalCore(), page.firstFinal, sizeof(shared::VertexCore));
     part(geometry.finalFrame(), page.firstFinal, sizeof(shared::VertexFrame));
     part(scene.previousPositions(), page.firstFinal, sizeof(glm::vec3));
-    part(geometry.surface(), page.firstFinal, sizeof(shared::VertexSurface));
+    part(geometry.patternUv(), page.firstFinal, sizeof(glm::vec2));
   }
 }
 

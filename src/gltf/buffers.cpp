@@ -6,8 +6,10 @@
 
 namespace scumble::gltf {
 
-Buffers::Buffers(const Document& document, std::string folder, bool allowOutside, ImportBudget& budget)
+Buffers::Buffers(const Document& document, const FileBytes* file, std::string folder, bool allowOutside,
+                 ImportBudget& budget)
     : document_(document),
+      file_(file),
       folder_(std::move(folder)),
       allowOutside_(allowOutside),
       budget_(budget),
@@ -58,6 +60,14 @@ void Buffers::load(size_t i, Buffer& buffer) {
          "copy or export the scene again");
   buffer.bytes = bytes.first(length);
   buffer.loaded = true;
+}
+
+void Buffers::forgetFiles() {
+  if (file_) file_->forget();
+  for (Buffer& buffer : buffers_) {
+    const std::lock_guard lock(buffer.mutex);
+    buffer.holder.file.forget();
+  }
 }
 
 // The bytes that "buffer", "byteOffset" and "byteLength" describe: a view's own or its compressed ones.

@@ -20,7 +20,9 @@ using namespace scene;
 
 class Buffers {
  public:
-  Buffers(const Document& document, std::string folder, bool allowOutside, ImportBudget& budget);
+  // `file`: where the document lies; null: in memory that is somebody else's.
+  Buffers(const Document& document, const FileBytes* file, std::string folder, bool allowOutside,
+          ImportBudget& budget);
 
   // Bytes of buffers[i], exactly its byteLength. Fails when they cannot be had.
   Bytes buffer(size_t i);
@@ -28,6 +30,8 @@ class Buffers {
   // Bytes of bufferViews[i], decompressed where EXT_meshopt_compression says so.
   Bytes view(size_t i);
   size_t viewStride(size_t i) const;  // 0: not given
+  // Lets go of the memory of files that have been read; whoever has spans of them keeps these.
+  void forgetFiles();
   size_t viewCount() const { return views_.size(); }
 
   // The files that URIs name, used or not; none where the folder is empty. Fails when any is remote or leads
@@ -60,6 +64,7 @@ class Buffers {
   std::vector<uint8_t> decodeMeshopt(const JsonView& view, const JsonView& compression);
 
   const Document& document_;
+  const FileBytes* file_;
   std::string folder_;
   bool allowOutside_;
   ImportBudget& budget_;

@@ -30,16 +30,19 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-std::shared_ptr<SceneData> import(Bytes bytes, const std::string& name, const std::string& folder,
-                                  const SceneOptions& options, SceneTimings& timings) {
+// `file`: what the bytes are part of; null: of somebody else's memory.
+std::shared_ptr<SceneData> import(Bytes bytes, const FileBytes* file, const std::string& name,
+                                  const std::string& folder, const SceneOptions& options,
+                                  SceneTimings& timings) {
   Stopwatch watch;
   auto data = std::make_shared<SceneData>();
   data->name = std::filesystem::path(name).stem().string();
+  data->keepsVertices = options.keepsVertices;
   ImportWarnings warnings;
   ImportBudget budget;
   budget.addBacking(bytes.size());
   const Document document(bytes, warnings);
-  Buffers buffers(document, folder, options.allowOutside, budget);
+  Buffers buffers(document, file, folder, options.allowOutside, budget);
   data->files = buffers.files();
   Accessors accessors(document, buffers, budget);
   ImportProgress progress(options.progress);
@@ -73,6 +76,27 @@ Error internalError(const std::string& name, const std::string& what) {
   return Error{ErrorKind::internal, name, 0, {}, "the importer failed: " + what, "please report this file"};
 }
 
+// The same, with what fails as an error.
+Result<std::shared_ptr<SceneData>> tryImport(Bytes bytes, const FileBytes* file, const std::string& name,
+                                             const std::string& folder, const SceneOptions& options,
+                                             SceneTimings& timings) {
+  if (options.scene < -1)
+    return Error{
+        ErrorKind::usage,           name, 0, {}, "there is no scene " + std::to_string(options.scene),
+        "scenes are counted from 0"};
+  try {
+    return import(bytes, file, name, folder, options, timings);
+  } catch (ImportFailure& failure) {
+    failure.error.file = name;
+    return failure.error;
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorKind::unusableFile, name, 0, {}, "needs more memory than there is",
+                 "use a smaller scene"};
+  } catch (const std::exception& error) {
+    return internalError(name, error.what());
+  }
+}
+
 }  // namespace
 
 void gltf::ImportProgress::expect(size_t count, double part) {
@@ -99,8 +123,11 @@ Result<Scene> Scene::load(const std::string& path, const SceneOptions& options) 
     const double read = watch.lap();
     std::string folder = std::filesystem::path(path).parent_path().string();
     if (folder.empty()) folder += '.';
-    Result<Scene> scene = loadFromMemory(file.bytes().data(), file.bytes().size(), path, folder, options);
-    if (scene) scene->timings_.read = read;
+    Scene scene;
+    auto data = tryImport(file.bytes(), &file, path, folder, options, scene.timings_);
+    if (!data) return data.error();
+    scene.data_ = std::move(data).value();
+    scene.timings_.read = read;
     return scene;
   } catch (const std::exception& error) {
     return internalError(path, error.what());
@@ -109,23 +136,12 @@ Result<Scene> Scene::load(const std::string& path, const SceneOptions& options) 
 
 Result<Scene> Scene::loadFromMemory(const void* bytes, size_t size, const std::string& name,
                                     const std::string& folder, const SceneOptions& options) {
-  if (options.scene < -1)
-    return Error{
-        ErrorKind::usage,           name, 0, {}, "there is no scene " + std::to_string(options.scene),
-        "scenes are counted from 0"};
-  try {
-    Scene scene;
-    scene.data_ = import({static_cast<const uint8_t*>(bytes), size}, name, folder, options, scene.timings_);
-    return scene;
-  } catch (ImportFailure& failure) {
-    failure.error.file = name;
-    return failure.error;
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorKind::unusableFile, name, 0, {}, "needs more memory than there is",
-                 "use a smaller scene"};
-  } catch (const std::exception& error) {
-    return internalError(name, error.what());
-  }
+  Scene scene;
+  auto data =
+      tryImport({static_cast<const uint8_t*>(bytes), size}, nullptr, name, folder, options, scene.timings_);
+  if (!data) return data.error();
+  scene.data_ = std::move(data).value();
+  return scene;
 }
 
 }  // namespace scumble

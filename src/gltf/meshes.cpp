@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "gltf/import.h"
@@ -52,13 +53,17 @@ void readMeshes(const Import& import, const Maps& maps, SceneData& scene) {
     for (size_t k = 0; k < primitives.size(); ++k) tasks.push_back({index, k, primitives.at(k), {}});
   }
 
-  // Triangles, whole ones.
+  // Triangles, whole ones. The file's memory goes as they come, lest there be two of all.
+  constexpr size_t kForgottenVertices = 1 << 18;
+  std::atomic<size_t> vertices = 0;
   import.progress.expect(tasks.size(), 0.4);
   parallelFor(tasks.size(), import.threads, [&](size_t i) {
     Task& task = tasks[i];
     Primitive& primitive = scene.meshes[task.mesh].own().primitives[task.primitive];
     primitive = readPrimitive(import, task.json, task.warnings);
     if (!primitive.indices.empty()) cleanPrimitive(primitive, task.json.path(), task.warnings);
+    const size_t count = primitive.vertexCount(), before = vertices.fetch_add(count);
+    if (before / kForgottenVertices != (before + count) / kForgottenVertices) import.buffers.forgetFiles();
     import.progress.step();
   });
   for (const Task& task : tasks) import.warnings.merge(task.warnings);

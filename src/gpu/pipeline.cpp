@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <map>
+#include <set>
 
 namespace scumble::gpu {
 
@@ -192,9 +193,14 @@ void make(Device& device, const GraphicsPipelineDesc& desc, PipelineStore::Made&
   }
 
   // Fixed functions.
+  std::set<uint32_t> used;
+  for (const VkVertexInputAttributeDescription& attribute : desc.vertexAttributes)
+    used.insert(attribute.binding);
+  std::vector<VkVertexInputBindingDescription> bindings;
+  for (const uint32_t binding : used) bindings.push_back({binding, 0, VK_VERTEX_INPUT_RATE_VERTEX});
   VkPipelineVertexInputStateCreateInfo vertexInput{VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
-  vertexInput.vertexBindingDescriptionCount = uint32_t(desc.vertexBindings.size());
-  vertexInput.pVertexBindingDescriptions = desc.vertexBindings.data();
+  vertexInput.vertexBindingDescriptionCount = uint32_t(bindings.size());
+  vertexInput.pVertexBindingDescriptions = bindings.data();
   vertexInput.vertexAttributeDescriptionCount = uint32_t(desc.vertexAttributes.size());
   vertexInput.pVertexAttributeDescriptions = desc.vertexAttributes.data();
   VkPipelineInputAssemblyStateCreateInfo assembly{
@@ -227,6 +233,7 @@ void make(Device& device, const GraphicsPipelineDesc& desc, PipelineStore::Made&
   blend.attachmentCount = uint32_t(targets.size());
   blend.pAttachments = targets.data();
   std::vector<VkDynamicState> dynamic{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
+  if (!bindings.empty()) dynamic.push_back(VK_DYNAMIC_STATE_VERTEX_INPUT_BINDING_STRIDE);
   if (desc.dynamicCulling)
     dynamic.insert(dynamic.end(), {VK_DYNAMIC_STATE_CULL_MODE, VK_DYNAMIC_STATE_FRONT_FACE});
   VkPipelineDynamicStateCreateInfo dynamicState{VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO};
@@ -273,9 +280,6 @@ Pipeline::Pipeline(Device& device, const ComputePipelineDesc& desc)
 Pipeline::Pipeline(Device& device, const GraphicsPipelineDesc& desc) {
   KeyWriter writer;
   writer.number(bindPoint_).shader(desc.vertex).shader(desc.fragment).numbers(desc.constants);
-  writer.number(desc.vertexBindings.size());
-  for (const VkVertexInputBindingDescription& binding : desc.vertexBindings)
-    writer.number(binding.binding).number(binding.stride).number(binding.inputRate);
   writer.number(desc.vertexAttributes.size());
   for (const VkVertexInputAttributeDescription& attribute : desc.vertexAttributes)
     writer.number(attribute.location)

@@ -75,8 +75,7 @@ enum class Blend : uint8_t { none, over };
 struct GraphicsPipelineDesc {
   Shader vertex, fragment;          // no fragment shader: depth only
   std::vector<uint32_t> constants;  // specialisation constants 0, 1, ... of both shaders
-  std::vector<VkVertexInputBindingDescription> vertexBindings;
-  std::vector<VkVertexInputAttributeDescription> vertexAttributes;
+  std::vector<VkVertexInputAttributeDescription> vertexAttributes;  // strides come with the buffers
   std::vector<VkFormat> colorFormats;
   Blend blend = Blend::none;                   // of all targets
   VkFormat depthFormat = VK_FORMAT_UNDEFINED;  // undefined: no depth test

@@ -154,7 +154,11 @@ Status Renderer::Impl::begin(const Request& request) {
       if (aov->namesObjects &&
           std::find(options.aovs.begin(), options.aovs.end(), aov->name) != options.aovs.end())
         next.frame.objects = objectNames(scene.data(), geometry);
-    Resident& resident = useScene(scene, geometry, stats);
+    if (!canUse(scene, geometry))
+      return usage("the scene's vertices have been dropped, and this frame needs them",
+                   "load it with SceneOptions::keepsVertices");
+    const bool drops = !scene.data().keepsVertices && !look.isAnimated() && !request.isRehearsal;
+    Resident& resident = useScene(scene, geometry, drops, stats);
     const glm::uvec2 frameSize = largestOf(groups);
     const glm::uvec2 texels =
         background ? Backdrop::sizeFor(*background, frameSize.x, frameSize.y) : glm::uvec2(0);

@@ -112,8 +112,11 @@ struct Renderer::Impl {
   Error cancelled();
 
  private:
-  // The scene to draw, first of the residents, as it is now.
-  renderer::Resident& useScene(const Scene& wanted, const world::GeometryOptions& options, FrameStats& stats);
+  // False where the scene's vertices are needed, and have been dropped.
+  bool canUse(const Scene& wanted, const world::GeometryOptions& options) const;
+  // The scene to draw, first of the residents, as it is now. `drops`: as SceneOnGpu::update() has it.
+  renderer::Resident& useScene(const Scene& wanted, const world::GeometryOptions& options, bool drops,
+                               FrameStats& stats);
   // Takes off the device what was drawn longest ago, but for so many scenes, while there is too much.
   void keepBudget(size_t least);
   // Texels of pictures behind everything; none: there is no such picture.

@@ -2,13 +2,21 @@
 #include <algorithm>
 
 #include "renderer/impl.h"
+#include "scene/drop_vertices.h"
 
 namespace scumble {
 
 using namespace frame;
 using namespace renderer;
 
-Resident& Renderer::Impl::useScene(const Scene& wanted, const GeometryOptions& options, FrameStats& stats) {
+bool Renderer::Impl::canUse(const Scene& wanted, const GeometryOptions& options) const {
+  return !scene::hasDroppedVertices(wanted.data()) ||
+         std::any_of(residents.begin(), residents.end(),
+                     [&](const Resident& resident) { return resident.onGpu.isOf(wanted.data(), options); });
+}
+
+Resident& Renderer::Impl::useScene(const Scene& wanted, const GeometryOptions& options, bool drops,
+                                   FrameStats& stats) {
   const auto found = std::find_if(residents.begin(), residents.end(), [&](const Resident& resident) {
     const scene::SceneData &is = resident.scene.data(), &becomes = wanted.data();
     return &is == &becomes || (is.family != 0 && is.family == becomes.family);
@@ -21,9 +29,13 @@ Resident& Renderer::Impl::useScene(const Scene& wanted, const GeometryOptions& o
     residents.emplace_front(*device, *samplers, wanted);
   }
   Resident& resident = residents.front();
-  if (resident.onGpu.isOf(wanted.data(), options)) return resident;
+  if (resident.onGpu.isOf(wanted.data(), options)) {
+    if (drops) resident.onGpu.dropVertices();
+    return resident;
+  }
   try {
-    const SceneOnGpu::Changes changes = resident.onGpu.update(wanted.data(), options, [&] { fetchAll(); });
+    const SceneOnGpu::Changes changes =
+        resident.onGpu.update(wanted.data(), options, drops, [&] { fetchAll(); });
     resident.scene = wanted;
     stats.writtenPrimitives = changes.writtenPrimitives;
     stats.writtenTextures = changes.writtenTextures;

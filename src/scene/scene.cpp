@@ -39,7 +39,7 @@ SceneSummary Scene::summary() const {
     s.primitives += mesh.primitives.size();
     s.morphTargets += mesh.morphWeights.size();
     for (const Primitive& p : mesh.primitives) {
-      s.triangles += p.indices.size() / 3;
+      s.triangles += p.indexCount() / 3;
       s.vertices += p.vertexCount();
     }
   }

@@ -38,6 +38,7 @@ void appendScene(SceneData& all, const SceneData& one, size_t firstNode, const A
   const size_t cameras = all.cameras.size(), lights = all.lights.size(), skins = all.skins.size(),
                clips = all.clips.size();
   const Appended at = shared ? *shared : Appended{all.images.size(), all.materials.size(), all.meshes.size()};
+  all.keepsVertices |= one.keepsVertices;
   if (!shared) {
     append(all.images, one.images);
     append(all.materials, one.materials);
@@ -92,6 +93,7 @@ Scene Scene::combine(const std::vector<Scene>& scenes) {
   Scene combined;
   if (scenes.size() == 1 && scenes[0].data_) return scenes[0];
   auto data = std::make_shared<scene::SceneData>();
+  data->keepsVertices = false;  // unless one of them does
   for (const Scene& one : scenes) {
     if (!one.data_) continue;
     if (data->name.empty()) data->name = one.data_->name;

@@ -3,6 +3,7 @@
 // unless a name says sRGB. Every index in here has been checked; every number is finite.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -123,7 +124,11 @@ struct Primitive {
   bool generatedUvs = false, generatedNormals = false;
   PrimitiveExtent extent;  // extentOf() it
 
-  size_t vertexCount() const { return positions.size(); }
+  // What it had, where its vertices have been dropped (drop_vertices.h); else 0.
+  size_t droppedVertices = 0, droppedIndices = 0;
+
+  size_t vertexCount() const { return std::max(positions.size(), droppedVertices); }
+  size_t indexCount() const { return std::max(indices.size(), droppedIndices); }
   const std::vector<glm::vec2>& patternCoordinates() const { return patternUv.empty() ? uv0 : patternUv; }
 };
 
@@ -212,6 +217,7 @@ struct SceneData {
   // Scenes of one family are one that changes (SceneEditor): nodes, meshes and materials of one are those of
   // the others too, as far as both have them. 0: nobody's.
   uint64_t family = 0;
+  bool keepsVertices = true;  // SceneOptions::keepsVertices
   std::vector<Shared<Image>> images;
   std::vector<Material> materials;  // index 0 is glTF's default material
   std::vector<Shared<Mesh>> meshes;

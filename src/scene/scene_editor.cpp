@@ -86,6 +86,7 @@ SceneEditor::SceneEditor(const Scene& scene) : SceneEditor() {
   if (scene.empty()) return;
   const uint64_t family = edited_->data.family;
   edited_->data = scene.data();
+  edited_->data.keepsVertices = true;
   edited_->data.family = family;
 }
 

@@ -189,6 +189,7 @@ std::shared_ptr<SceneData> placeScenes(std::vector<PlacedScene>& scenes, Placeme
 
   // Nodes lie in that order, parents before children; all else as given.
   auto all = std::make_shared<SceneData>();
+  all->keepsVertices = false;  // unless one of them does
   std::vector<size_t> carrier(scenes.size());
   std::vector<float> scales(scenes.size(), 1.0f);
   size_t nodes = 0;

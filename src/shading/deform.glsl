@@ -22,7 +22,7 @@ layout(set = 1, binding = 9, scalar) readonly buffer Morphs { MorphDisplacement 
 layout(set = 1, binding = 10, scalar) writeonly buffer FinalCore { VertexCore finalCore[]; };
 layout(set = 1, binding = 11, scalar) writeonly buffer FinalFrame { VertexFrame finalFrame[]; };
 layout(set = 1, binding = 12, scalar) writeonly buffer PreviousPosition { vec3 previousPosition[]; };
-layout(set = 1, binding = 13, scalar) writeonly buffer Surface { VertexSurface surface[]; };
+layout(set = 1, binding = 13, scalar) writeonly buffer PatternUvs { vec2 patternUvs[]; };
 
 layout(push_constant, scalar) uniform Push { uint firstMoved, movedCount; };
 

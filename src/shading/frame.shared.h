@@ -98,10 +98,8 @@ struct MorphDisplacement {
   uint target;
   vec3 position, normal, smoothNormal, dPdu, dPdv;
 };
-// What never deforms.
-struct VertexSurface {
-  vec2 uv0, uv1;
-  vec2 patternUv;
+// What few vertices have, and never deforms.
+struct VertexTint {
   uint color;       // unorm8 RGBA, linear
   float warpScale;  // factor on the amount of the warp
 };

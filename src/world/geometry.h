@@ -42,6 +42,7 @@ struct GeometryItem {
   uint32_t kind = 0, detail = 0;    // what they are is the feature's own
   bool isWrittenByFeature = false;  // its final vertices; else `deform` writes them
   glm::vec2 patternShift{0.0f};     // added to pattern coordinates
+  bool dropsVertices = false;       // of the primitive, as soon as they are on the device
   const scene::PrimitiveExtent* extent = nullptr;
   scene::Bounds reach;  // in the world: where clips take it, as far as is known before
   static constexpr size_t kNoNode = ~size_t(0);

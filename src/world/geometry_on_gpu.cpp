@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 
+#include "scene/drop_vertices.h"
 #include "scene/parallel.h"
 
 namespace scumble::world {
@@ -16,6 +17,8 @@ constexpr VkBufferUsageFlags kVertex = VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
 
 // Vertices: of any stream so many take a multiple of the largest alignment that a device may ask for.
 constexpr uint32_t kPageAlignment = 64;
+
+constexpr shared::VertexTint kNoTint{0xFFFFFFFFu, 1.0f};
 
 uint32_t encodeNormal(glm::vec3 n) {
   n /= std::max(std::abs(n.x) + std::abs(n.y) + std::abs(n.z), 1e-20f);
@@ -70,13 +73,21 @@ void writeSkin(const scene::Primitive& primitive, shared::VertexSkin* skin) {
   }
 }
 
-void writeSurface(const scene::Primitive& primitive, const glm::vec2& shift, shared::VertexSurface* surface) {
+// Where what never deforms goes; null: no vertex has its own.
+struct SurfaceStreams {
+  glm::vec2 *uv0 = nullptr, *uv1 = nullptr, *patternUv = nullptr;
+  shared::VertexTint* tint = nullptr;
+};
+
+void writeSurface(const scene::Primitive& primitive, const glm::vec2& shift, const SurfaceStreams& to) {
   for (size_t v = 0; v < primitive.vertexCount(); ++v) {
-    uint32_t color = 0xFFFFFFFFu;
-    if (!primitive.colors.empty()) std::memcpy(&color, &primitive.colors[v], 4);
-    surface[v] = {primitive.uv0[v], primitive.uv1.empty() ? primitive.uv0[v] : primitive.uv1[v],
-                  primitive.patternCoordinates()[v] + shift, color,
-                  primitive.warpScales.empty() ? 1.0f : primitive.warpScales[v]};
+    to.uv0[v] = primitive.uv0[v];
+    if (to.uv1) to.uv1[v] = primitive.uv1.empty() ? primitive.uv0[v] : primitive.uv1[v];
+    if (to.patternUv) to.patternUv[v] = primitive.patternCoordinates()[v] + shift;
+    if (!to.tint) continue;
+    to.tint[v] = kNoTint;
+    if (!primitive.colors.empty()) std::memcpy(&to.tint[v].color, &primitive.colors[v], 4);
+    if (!primitive.warpScales.empty()) to.tint[v].warpScale = primitive.warpScales[v];
   }
 }
 
@@ -117,9 +128,14 @@ GeometryOnGpu::Plan GeometryOnGpu::planOf(const std::vector<GeometryItem>& items
       added.indexCount = uint32_t(primitive.indices.size());
       added.influences = primitive.influences;
       if (!primitive.morphTargets.empty()) added.morph = 0;
+      added.drops = item.dropsVertices;
     }
     plan.restOf.push_back(rest->second);
     plan.shifts.push_back(item.patternShift);
+    plan.streams.uv1 |= !primitive.uv1.empty();
+    plan.streams.patternUv |=
+        !primitive.patternUv.empty() || item.patternShift != glm::vec2(0.0f) || item.isWrittenByFeature;
+    plan.streams.tint |= !primitive.colors.empty() || !primitive.warpScales.empty();
   }
   return plan;
 }
@@ -129,7 +145,7 @@ bool GeometryOnGpu::update(gpu::Device& device, gpu::Uploader& uploader,
   rewritten_.clear();
   written_ = 0;
   Plan plan = planOf(items);
-  bool fits = vertexCount_ > 0 && plan.restOf == plan_.restOf;
+  bool fits = vertexCount_ > 0 && plan.restOf == plan_.restOf && plan.streams == plan_.streams;
   for (size_t r = 0; fits && r < plan.rests.size(); ++r)
     fits = plan.rests[r].primitive == plan_.rests[r].primitive || plan.rests[r].isLaidAs(plan_.rests[r]);
   if (fits) {
@@ -166,10 +182,16 @@ void GeometryOnGpu::rewrite(gpu::Uploader& uploader, const Plan& plan, const std
     if (!isNew[plan.restOf[i]] && plan.shifts[i] == plan_.shifts[i]) continue;
     settle();
     plan_.shifts[i] = plan.shifts[i];
-    if (rest.vertexCount > 0)
-      writeSurface(
-          *rest.primitive, plan.shifts[i],
-          placeIn<shared::VertexSurface>(uploader, surface_, places_[i].firstVertex, rest.vertexCount));
+    if (rest.vertexCount == 0) continue;
+    const auto place = [&]<class T>(gpu::Buffer& buffer, T*& to) {
+      to = placeIn<T>(uploader, buffer, places_[i].firstVertex, rest.vertexCount);
+    };
+    SurfaceStreams to;
+    place(uv0_, to.uv0);
+    if (plan_.streams.uv1) place(uv1_, to.uv1);
+    if (plan_.streams.patternUv) place(patternUv_, to.patternUv);
+    if (plan_.streams.tint) place(tint_, to.tint);
+    writeSurface(*rest.primitive, plan.shifts[i], to);
   }
 }
 
@@ -199,7 +221,7 @@ void GeometryOnGpu::build(gpu::Device& device, gpu::Uploader& uploader, Plan& pl
     throw gpu::VulkanError{"the scene's vertices", VK_ERROR_OUT_OF_DEVICE_MEMORY};
   // So many that each stream begins where storage buffers may; a chunk may reach into the next page.
   constexpr uint64_t kLargestVertex =
-      std::max({sizeof(shared::VertexCore), sizeof(shared::VertexFrame), sizeof(shared::VertexSurface)});
+      std::max({sizeof(shared::VertexCore), sizeof(shared::VertexFrame), sizeof(glm::vec3)});
   pageVertices_ =
       uint32_t(std::min<uint64_t>(range / kLargestVertex, 1u << 31) / kPageAlignment * kPageAlignment);
   const uint32_t step =
@@ -209,22 +231,19 @@ void GeometryOnGpu::build(gpu::Device& device, gpu::Uploader& uploader, Plan& pl
   bytes_ = 0;
   vertexCount_ = 0;
   for (gpu::Buffer* buffer : {&chunks_, &restCore_, &restFrame_, &restSkin_, &morphStarts_, &morphs_,
-                              &finalCore_, &finalFrame_, &surface_, &indices_})
+                              &finalCore_, &finalFrame_, &uv0_, &uv1_, &patternUv_, &tint_, &indices_})
     *buffer = {};
   auto core = reserve<shared::VertexCore>(uploader, restVertices, kStorage, bytes_);
   auto around = reserve<shared::VertexFrame>(uploader, restVertices, kStorage, bytes_);
   auto skins = reserve<shared::VertexSkin>(uploader, skinEntries, kStorage, bytes_);
-  auto surface = reserve<shared::VertexSurface>(uploader, finalVertices, kStorage | kVertex, bytes_);
+  auto uv0 = reserve<glm::vec2>(uploader, finalVertices, kStorage | kVertex, bytes_);
+  Stream<glm::vec2> uv1, patternUv;
+  if (plan.streams.uv1) uv1 = reserve<glm::vec2>(uploader, finalVertices, kVertex, bytes_);
+  if (plan.streams.patternUv)
+    patternUv = reserve<glm::vec2>(uploader, finalVertices, kStorage | kVertex, bytes_);
+  auto tint = reserve<shared::VertexTint>(uploader, plan.streams.tint ? finalVertices : 1, kVertex, bytes_);
+  *tint.data = kNoTint;
   auto indices = reserve<uint32_t>(uploader, indexCount, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, bytes_);
-
-  scene::parallelFor(plan.rests.size(), scene::threadCount(0), [&](size_t r) {
-    const Rest& rest = plan.rests[r];
-    writeCore(*rest.primitive, core.data + rest.vertex);
-    writeFrame(*rest.primitive, around.data + rest.vertex);
-    writeSkin(*rest.primitive, skins.data + rest.skin);
-    std::copy(rest.primitive->indices.begin(), rest.primitive->indices.end(), indices.data + rest.index);
-  });
-  written_ = uint32_t(plan.rests.size());
 
   // Items, and deform's work.
   std::vector<shared::DeformChunk> chunks;
@@ -253,10 +272,24 @@ void GeometryOnGpu::build(gpu::Device& device, gpu::Uploader& uploader, Plan& pl
     finalVertex += rest.vertexCount;
     place.chunkCount = uint32_t(chunks.size()) - place.firstChunk;
   }
-  scene::parallelFor(plan.restOf.size(), scene::threadCount(0), [&](size_t i) {
-    writeSurface(*plan.rests[plan.restOf[i]].primitive, plan.shifts[i],
-                 surface.data + places_[i].firstVertex);
+  // Vertices.
+  std::vector<std::vector<uint32_t>> itemsOf(plan.rests.size());
+  for (uint32_t i = 0; i < plan.restOf.size(); ++i) itemsOf[plan.restOf[i]].push_back(i);
+  scene::parallelFor(plan.rests.size(), scene::threadCount(0), [&](size_t r) {
+    const Rest& rest = plan.rests[r];
+    writeCore(*rest.primitive, core.data + rest.vertex);
+    writeFrame(*rest.primitive, around.data + rest.vertex);
+    writeSkin(*rest.primitive, skins.data + rest.skin);
+    std::copy(rest.primitive->indices.begin(), rest.primitive->indices.end(), indices.data + rest.index);
+    for (const uint32_t i : itemsOf[r]) {
+      const auto from = [&](auto* data) { return data ? data + places_[i].firstVertex : nullptr; };
+      writeSurface(*rest.primitive, plan.shifts[i],
+                   {from(uv0.data), from(uv1.data), from(patternUv.data),
+                    plan.streams.tint ? from(tint.data) : nullptr});
+    }
+    if (rest.drops) scene::dropVertices(*rest.primitive);
   });
+  written_ = uint32_t(plan.rests.size());
 
   const auto upload = [&](const auto& array) {
     auto stream = reserve<std::remove_cvref_t<decltype(array[0])>>(uploader, array.size(), kStorage, bytes_);
@@ -269,7 +302,10 @@ void GeometryOnGpu::build(gpu::Device& device, gpu::Uploader& uploader, Plan& pl
   restCore_ = std::move(core.buffer);
   restFrame_ = std::move(around.buffer);
   restSkin_ = std::move(skins.buffer);
-  surface_ = std::move(surface.buffer);
+  uv0_ = std::move(uv0.buffer);
+  uv1_ = std::move(uv1.buffer);
+  patternUv_ = std::move(patternUv.buffer);
+  tint_ = std::move(tint.buffer);
   indices_ = std::move(indices.buffer);
   vertexCount_ = std::max(1u, finalVertex);
   finalCore_ = gpu::Buffer(device, vertexCount_ * sizeof(shared::VertexCore), kStorage | kVertex,

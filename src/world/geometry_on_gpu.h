@@ -56,7 +56,13 @@ class GeometryOnGpu {
   const gpu::Buffer& morphs() const { return morphs_; }
   const gpu::Buffer& finalCore() const { return finalCore_; }
   const gpu::Buffer& finalFrame() const { return finalFrame_; }
-  const gpu::Buffer& surface() const { return surface_; }
+  // Streams that nobody has their own of are others': uv0 serves for them.
+  const gpu::Buffer& uv0() const { return uv0_; }
+  const gpu::Buffer& uv1() const { return plan_.streams.uv1 ? uv1_ : uv0_; }
+  const gpu::Buffer& patternUv() const { return plan_.streams.patternUv ? patternUv_ : uv0_; }
+  const gpu::Buffer& tint() const { return tint_; }
+  // Bytes from one vertex's to the next one's; 0: all have the same.
+  uint32_t tintStride() const { return plan_.streams.tint ? sizeof(shared::VertexTint) : 0; }
   const gpu::Buffer& indices() const { return indices_; }
 
  private:
@@ -67,12 +73,19 @@ class GeometryOnGpu {
     uint32_t morph = shared::kNoMorph;  // first entry in the list of where displacements begin
     uint32_t vertexCount = 0, indexCount = 0;
     int influences = 0;
+    bool drops = false;  // the primitive's own vertices
     bool isLaidAs(const Rest& other) const {
       return vertexCount == other.vertexCount && indexCount == other.indexCount &&
              influences == other.influences && morph == shared::kNoMorph && other.morph == shared::kNoMorph;
     }
   };
+  // Those of which some vertices have their own.
+  struct Streams {
+    bool uv1 = false, patternUv = false, tint = false;
+    bool operator==(const Streams&) const = default;
+  };
   struct Plan {
+    Streams streams;
     std::vector<Rest> rests;        // of primitives, each once
     std::vector<uint32_t> restOf;   // by item
     std::vector<glm::vec2> shifts;  // of pattern coordinates, by item
@@ -88,8 +101,8 @@ class GeometryOnGpu {
   std::vector<uint32_t> pageOfChunk_;
   uint32_t pageVertices_ = 0, vertexCount_ = 0, written_ = 0;
   uint64_t bytes_ = 0;
-  gpu::Buffer chunks_, restCore_, restFrame_, restSkin_, morphStarts_, morphs_, finalCore_, finalFrame_,
-      surface_, indices_;
+  gpu::Buffer chunks_, restCore_, restFrame_, restSkin_, morphStarts_, morphs_, finalCore_, finalFrame_, uv0_,
+      uv1_, patternUv_, tint_, indices_;
 };
 
 }  // namespace scumble::world

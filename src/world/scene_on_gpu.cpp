@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "scene/drop_vertices.h"
 #include "world/geometry.h"
 
 namespace scumble::world {
@@ -47,7 +48,7 @@ gpu::Buffer positionBuffer(gpu::Device& device, uint64_t count) {
 }  // namespace
 
 SceneOnGpu::Changes SceneOnGpu::update(const scene::SceneData& scene, const GeometryOptions& options,
-                                       const std::function<void()>& settle) {
+                                       bool drops, const std::function<void()>& settle) {
   Changes changes;
   const auto kindsOfMaterials = [&] {
     return std::tuple(materialNames_.size(), groundMaterial_, featureMaterials_);
@@ -62,6 +63,11 @@ SceneOnGpu::Changes SceneOnGpu::update(const scene::SceneData& scene, const Geom
   bounds_ = geometry.bounds;
   separateMaterials(geometry);
   changes.materials = kindsOfMaterials() != materialsBefore;
+  measureParts(geometry);
+  // Triangles of blended surfaces are listed later.
+  for (GeometryItem& item : geometry.items)
+    item.dropsVertices = drops && scene::canDropVertices(*item.primitive) &&
+                         alphaMode(material(item.material)) != AlphaMode::blend;
 
   // Vertices, where they are others; then images.
   gpu::Uploader uploader(device_);
@@ -84,7 +90,14 @@ SceneOnGpu::Changes SceneOnGpu::update(const scene::SceneData& scene, const Geom
   changes.writtenPrimitives = geometry_.written();
   changes.writtenTextures = textures_.uploaded();
   made_.sweep();
+  if (drops) dropVertices();
   return changes;
+}
+
+void SceneOnGpu::dropVertices() const {
+  for (const scene::Mesh& mesh : data_->meshes)
+    for (const scene::Primitive& primitive : mesh.primitives)
+      if (scene::canDropVertices(primitive)) scene::dropVertices(primitive);
 }
 
 void SceneOnGpu::listMaterials() {
@@ -183,7 +196,7 @@ bool SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>
     if (!item.shown) continue;
     Draw draw;
     draw.firstIndex = place.firstIndex;
-    draw.indexCount = uint32_t(primitive.indices.size());
+    draw.indexCount = uint32_t(primitive.indexCount());
     draw.vertexOffset = int32_t(place.firstVertex);
     draw.object = uint32_t(i);
     draw.state.material = item.material;
@@ -383,11 +396,9 @@ void SceneOnGpu::setMaterial(size_t material, const shared::MaterialData& data) 
   std::memcpy(materialData_.contents() + material * kMaterialStride, &data, sizeof(data));
 }
 
-void SceneOnGpu::measureColors(const Geometry& geometry) {
-  // Mean over the scene's surface, by the area of up to so many triangles of each item.
+void SceneOnGpu::measureParts(const Geometry& geometry) {
+  // By the area of up to so many triangles of each item.
   constexpr size_t kTriangles = 64;
-  glm::dvec3 sum(0.0);
-  double total = 0;
   colorParts_.resize(geometry.items.size());
   for (size_t i = 0; i < geometry.items.size(); ++i) {
     const GeometryItem& item = geometry.items[i];
@@ -397,28 +408,35 @@ void SceneOnGpu::measureColors(const Geometry& geometry) {
       continue;
     }
     const scene::Primitive& primitive = *item.primitive;
-    const scene::Material& material = this->material(item.material);
     const glm::mat3 linear(item.model);
+    if (part.primitive == &primitive && part.linear == linear) continue;
+    part = {&primitive, linear};
+    const size_t triangles = primitive.indices.size() / 3, step = std::max<size_t>(1, triangles / kTriangles);
+    for (size_t t = 0; t < triangles; t += step) {
+      const uint32_t* v = &primitive.indices[3 * t];
+      const glm::dvec3 normal =
+          glm::cross(glm::dvec3(linear * (primitive.positions[v[1]] - primitive.positions[v[0]])),
+                     glm::dvec3(linear * (primitive.positions[v[2]] - primitive.positions[v[0]])));
+      const double area = glm::length(normal) * double(step);
+      if (!std::isfinite(area)) continue;
+      part.sum += primitive.colors.empty() ? glm::dvec3(area)
+                                           : area * glm::sqrt(glm::dvec3(primitive.colors[v[0]]) / 255.0);
+      part.area += area;
+    }
+  }
+}
+
+void SceneOnGpu::measureColors(const Geometry& geometry) {
+  // Mean over the scene's surface.
+  glm::dvec3 sum(0.0);
+  double total = 0;
+  for (size_t i = 0; i < geometry.items.size(); ++i) {
+    if (!colorParts_[i].primitive) continue;
+    const scene::Material& material = this->material(geometry.items[i].material);
     glm::vec3 root = glm::sqrt(glm::clamp(glm::vec3(material.baseColor), 0.0f, 1.0f));
     if (material.baseColorTexture.image >= 0) root *= textures_.meanRootRgb(material.baseColorTexture.image);
-    if (part.primitive != &primitive || part.linear != linear) {
-      part = {&primitive, linear};
-      const size_t triangles = primitive.indices.size() / 3,
-                   step = std::max<size_t>(1, triangles / kTriangles);
-      for (size_t t = 0; t < triangles; t += step) {
-        const uint32_t* v = &primitive.indices[3 * t];
-        const glm::dvec3 normal =
-            glm::cross(glm::dvec3(linear * (primitive.positions[v[1]] - primitive.positions[v[0]])),
-                       glm::dvec3(linear * (primitive.positions[v[2]] - primitive.positions[v[0]])));
-        const double area = glm::length(normal) * double(step);
-        if (!std::isfinite(area)) continue;
-        part.sum += primitive.colors.empty() ? glm::dvec3(area)
-                                             : area * glm::sqrt(glm::dvec3(primitive.colors[v[0]]) / 255.0);
-        part.area += area;
-      }
-    }
-    sum += part.sum * glm::dvec3(root);
-    total += part.area;
+    sum += colorParts_[i].sum * glm::dvec3(root);
+    total += colorParts_[i].area;
   }
   colors_ = {};
   if (total > 0) colors_.meanRootRgb = glm::vec3(sum / total);

@@ -47,11 +47,14 @@ class SceneOnGpu {
     // What was written to the device.
     uint32_t writtenPrimitives = 0, writtenTextures = 0, writtenMaterials = 0;
   };
-  // Brings it up to date; `scene` stays until the next update is over. Calls `settle`, maybe more than once,
-  // before it changes anything that frames under way read. Throws gpu::VulkanError when it does not fit, and
-  // is good for nothing then.
-  Changes update(const scene::SceneData& scene, const GeometryOptions& options,
+  // Brings it up to date; `scene` stays until the next update is over. `drops`: nobody needs its vertices any
+  // more when they are on the device, and there is no other update for this scene. Calls `settle`, maybe more
+  // than once, before it changes anything that frames under way read. Throws gpu::VulkanError when it does
+  // not fit, and is good for nothing then.
+  Changes update(const scene::SceneData& scene, const GeometryOptions& options, bool drops,
                  const std::function<void()>& settle);
+  // The same where it is up to date.
+  void dropVertices() const;
   bool isOf(const scene::SceneData& scene, const GeometryOptions& options) const {
     return data_ == &scene && options_ == options;
   }
@@ -154,6 +157,7 @@ class SceneOnGpu {
   bool followMotion(bool otherPlaces, const std::function<void()>& settle);
   // How many were written.
   uint32_t writeMaterials(bool otherTextures, const std::function<void()>& settle);
+  void measureParts(const Geometry& geometry);
   void measureColors(const Geometry& geometry);
 
   struct MaterialUse {

@@ -7,6 +7,7 @@ Every call that draws runs under the validation layers. Scenes are made here, or
 """
 import base64
 import json
+import math
 import os
 import re
 import resource
@@ -16,6 +17,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from array import array
 from pathlib import Path
 
 sys.dont_write_bytecode = True
@@ -443,6 +445,69 @@ class Rendering(Program):
     def test_demo_scene(self):
         self.good("render", str(shared / "demo.glb"), "-o", "a.png", "--camera", "Sailor", *SMALL)
         self.assertEqual(self.new_files(), {"a.png"})
+
+
+class Memory(Program):
+    """A large scene, 56 bytes a vertex in its file."""
+    SIDE, MESHES = 40, 600
+
+    def put_scene(self):
+        side = self.SIDE
+        positions, normals, uvs, indices = array("f"), array("f"), array("f"), array("I")
+        for y in range(side):
+            for x in range(side):
+                positions.extend((x / side, 0.05 * math.sin(0.2 * x) * math.cos(0.17 * y), y / side))
+                normals.extend((0, 1, 0))
+                uvs.extend((x / side, y / side))
+        for y in range(side - 1):
+            for x in range(side - 1):
+                a = y * side + x
+                indices.extend((a, a + side, a + 1, a + 1, a + side, a + side + 1))
+        parts = [each.tobytes() for each in (positions, normals, uvs, indices)]
+        each = sum(map(len, parts))
+        views, accessors, meshes, nodes = [], [], [], []
+        kinds = [("VEC3", 5126, side**2), ("VEC3", 5126, side**2), ("VEC2", 5126, side**2), ("SCALAR", 5125, len(indices))]
+        for m in range(self.MESHES):
+            offset = m * each
+            for part, (kind, component, count) in zip(parts, kinds):
+                accessors.append({"bufferView": len(views), "componentType": component, "count": count, "type": kind})
+                views.append({"buffer": 0, "byteOffset": offset, "byteLength": len(part)})
+                offset += len(part)
+            accessors[4 * m].update(min=[0, -0.05, 0], max=[1, 0.05, 1])
+            attributes = {"POSITION": 4 * m, "NORMAL": 4 * m + 1, "TEXCOORD_0": 4 * m + 2}
+            meshes.append({"primitives": [{"attributes": attributes, "indices": 4 * m + 3}]})
+            nodes.append({"mesh": m, "translation": [m % 8, 0, m // 8]})
+        nodes.append({"name": "Away", "camera": 0, "translation": [0, 50, 0], "rotation": [0.7071068, 0, 0, 0.7071068]})
+        with open(self.folder / "large.bin", "wb") as file:
+            for _ in range(self.MESHES):
+                file.writelines(parts)
+        self.put("large.gltf", json.dumps({
+            "asset": {"version": "2.0"}, "scenes": [{"nodes": list(range(self.MESHES + 1))}], "nodes": nodes, "meshes": meshes,
+            "cameras": [{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1}}],
+            "accessors": accessors, "bufferViews": views, "buffers": [{"uri": "large.bin", "byteLength": self.MESHES * each}]}))
+        return self.MESHES * each
+
+    def peak(self, *args):
+        """Of a call, in bytes."""
+        process = subprocess.Popen([scumble, *args], cwd=self.folder, stdout=subprocess.DEVNULL)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        self.same(process.returncode, DONE)
+        return 1024 * usage.ru_maxrss
+
+    def test_a_file_and_its_scene_are_not_in_memory_at_once(self):
+        size = self.put_scene()
+        more = self.peak("info", "large.gltf") - self.peak("info", "box.gltf")
+        self.assertLess(more, 2.2 * size)
+        self.assertGreater(more, 1.2 * size, "else this measures something else")
+
+    def test_a_still_scene_is_in_memory_once(self):
+        size = self.put_scene()
+        # Nothing of it is in sight or casts shadows: what a driver keeps of triangles that it draws is its own.
+        how = ["-o", "a.png", "--size", "32x18", "--set", "shadowMap.cast=false"]
+        more = self.peak("render", "large.gltf", "--camera", "Away", *how) - self.peak("render", "box.gltf", *how)
+        self.assertLess(more, 2.5 * size)
+        self.assertGreater(more, 1.2 * size, "else this measures something else")
 
 
 class Looks(Program):

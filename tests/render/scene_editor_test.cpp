@@ -255,6 +255,35 @@ TEST_P(Edited, changesLeaveNothingBehind) {
   }
 }
 
+// A mesh of the same size may have what no vertex of the scene had before, and lose it again.
+TEST_P(Edited, whatVerticesHaveComesAndGoes) {
+  Village v;
+  ASSERT_TRUE(
+      v.editor.setMaterial(v.red, {.name = "Red", .baseColorTexture = {.texture = v.checker, .uvSet = 1}})
+          .ok());
+  const TestMesh box = boxMesh({-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f});
+  const size_t count = box.positions.size();
+  std::vector<glm::vec2> uv1;
+  for (const glm::vec2& uv : box.uvs) uv1.push_back(0.3f + 0.2f * uv);
+  const std::vector<glm::vec2> onePoint(count, glm::vec2(0.5f));  // patterns need coordinates of their own
+  const std::vector<glm::u8vec4> colors(count, {40, 200, 90, 255});
+  const std::vector<float> warpScales(count, 4.0f);
+  const MeshPart plain = partOf(box, v.red);
+  std::vector<std::pair<const char*, MeshPart>> parts(6, {"plain", plain});
+  parts[1].first = "second coordinates", parts[1].second.uv1 = uv1;
+  parts[2].first = "colours", parts[2].second.colors = colors;
+  parts[3].first = "factors", parts[3].second.warpScales = warpScales;
+  parts[4].first = "pattern coordinates", parts[4].second.uv0 = onePoint;
+  (void)drawn(must(v.editor.scene()));
+  for (const auto& [what, part] : parts) {
+    ASSERT_TRUE(v.editor.setMesh(v.box, {part}).ok());
+    const Scene now = must(v.editor.scene());
+    const std::vector<std::string> seen = {"warp"};
+    const Frame followed = drawn(now, Look(), seen);
+    expectSame(followed, drawn(must(SceneEditor(now).scene()), Look(), seen), what);
+  }
+}
+
 // What is hidden is as if it were not there.
 TEST_P(Edited, hiddenIsNotThere) {
   Village with, without;

@@ -54,7 +54,7 @@ void main() {
       vec2 slopes = -normal.xz / max(normal.y, 0.2);
       around.dPdu = vec3(kWaterPerPattern, kWaterPerPattern * slopes.x, 0.0);
       around.dPdv = vec3(0.0, kWaterPerPattern * slopes.y, kWaterPerPattern);
-      if (!kPositionsOnly) surface[chunk.finalVertex + i].patternUv = place / kWaterPerPattern;
+      if (!kPositionsOnly) patternUvs[chunk.finalVertex + i] = place / kWaterPerPattern;
     }
     if (kPositionsOnly) {
       previousPosition[chunk.finalVertex + i] = core.position;

@@ -1,0 +1,150 @@
+// Scenes whose vertices are on the device alone (SceneOptions::keepsVertices): the same pictures, and an
+// answer where the vertices would be needed.
+#include "scene/scene_data.h"
+#include "scumble/scene_editor.h"
+#include "tests/support/aov.h"
+#include "tests/support/render_test.h"
+#include "tests/support/test_device.h"
+
+namespace scumble {
+namespace {
+
+using namespace test;
+
+class DroppedVertices : public BothEyes {
+ protected:
+  static constexpr uint32_t kWidth = 64, kHeight = 48;
+
+  // Plain, coloured, blended, instanced, skinned and moving things.
+  static TestScene everything() {
+    TestScene s;
+    const int plain = s.material(TestScene::colored("Plain", {0.7f, 0.5f, 0.3f, 1}));
+    Json glass = TestScene::colored("Glass", {0.2f, 0.5f, 0.8f, 0.5f});
+    glass["alphaMode"] = "BLEND";
+    const int blended = s.material(glass);
+    TestMesh colored;
+    append(colored, sphereMesh({-1, 0, 0}, 0.5f, 12), {0.9f, 0.2f, 0.1f, 1});
+    colored.warpScales.assign(colored.positions.size(), 0.5f);
+    s.add(colored, plain);
+    s.add(sphereMesh({0.8f, 0.2f, 0.6f}, 0.4f, 12), blended);
+    s.addInstances(boxMesh({-0.2f, -0.2f, -0.2f}, {0.2f, 0.2f, 0.2f}), plain,
+                   {{0, 0.8f, 0}, {0.5f, -0.6f, 0}}, {glm::quat(1, 0, 0, 0), glm::quat(1, 0, 0, 0)},
+                   {{1, 1, 1}, {1, 2, 1}});
+    TestMesh bar = boxMesh({-0.1f, -0.5f, -0.1f}, {0.1f, 0.5f, 0.1f});
+    bar.joints.assign(bar.positions.size(), {0, 1, 0, 0});
+    bar.weights.assign(bar.positions.size(), {0.5f, 0.5f, 0, 0});
+    const glm::mat4 one(1.0f);
+    s.addSkinned(bar, plain, {one, one}, {one, one});
+    s.add(boxMesh({-0.3f, -0.3f, -1.3f}, {0.3f, 0.3f, -0.7f}), plain);
+    s.clip("Go", {0, 1}, {{0, 0, 0}, {0.5f, 0.3f, 0}});
+    return s;
+  }
+  static Scene load(const TestScene& test, bool keepsVertices) {
+    SceneOptions options;
+    options.keepsVertices = keepsVertices;
+    const std::string text = test.text();
+    Result<Scene> scene = Scene::loadFromMemory(text.data(), text.size(), "test.gltf", "", options);
+    EXPECT_TRUE(scene);
+    return std::move(scene).value();
+  }
+  static std::vector<View> views(const Scene& scene) {
+    return viewsFrom(scene, {{0.5f, 0.8f, 4}}, kWidth, kHeight, GetParam());
+  }
+  static RenderOptions options() { return sized(kWidth, kHeight, Renderer::aovNames()); }
+  static Look animated() {
+    Result<Look> look = Look::fromJson(R"({"light": {"shadowWarp": {"keys": [[0, 0], [1, 2]]}}})", "a.json");
+    EXPECT_TRUE(look);
+    return std::move(look).value();
+  }
+  static Frame frameAt(const Scene& scene, const Look& look, double time, const RenderOptions& options) {
+    return renderer().render(scene, look, time, views(scene), options).value();
+  }
+  static Result<Frame> tryToDraw(Renderer& with, const Scene& scene, const Look& look = {}) {
+    return with.render(scene, look, 0, views(scene), options());
+  }
+  // How many primitives hold memory for vertices, of those that need not.
+  static int holding(const Scene& scene) {
+    int count = 0;
+    for (const scene::Mesh& mesh : scene.data().meshes)
+      for (const scene::Primitive& p : mesh.primitives)
+        count +=
+            p.influences == 0 && (p.positions.capacity() > 0 || p.normals.capacity() > 0 ||
+                                  p.smoothNormals.capacity() > 0 || p.uv0.capacity() > 0 ||
+                                  p.dPdu.capacity() > 0 || p.dPdv.capacity() > 0 || p.indices.capacity() > 0);
+    return count;
+  }
+  static void expectRefused(const Result<Frame>& frame) {
+    ASSERT_FALSE(frame);
+    EXPECT_EQ(frame.error().kind, ErrorKind::usage);
+    EXPECT_NE(frame.error().problem.find("vertices have been dropped"), std::string::npos)
+        << frame.error().problem;
+  }
+};
+INSTANTIATE_BOTH_EYES(DroppedVertices);
+
+TEST_P(DroppedVertices, changeNoPicture) {
+  const TestScene test = everything();
+  const Scene kept = load(test, true), dropped = load(test, false);
+  EXPECT_EQ(holding(dropped), holding(kept));
+  Look other;
+  ASSERT_TRUE(other.set("shadow.threshold", "0.3"));
+  RenderOptions options = DroppedVertices::options();
+  for (const Look& look : {Look(), other})
+    for (const double time : {0.0, 0.4, 0.9}) {
+      options.previousTime = time - 0.04;
+      const Frame wanted = frameAt(kept, look, time, options), is = frameAt(dropped, look, time, options);
+      ASSERT_EQ(is.layers.size(), wanted.layers.size());
+      for (size_t l = 0; l < is.layers.size(); ++l)
+        for (size_t v = 0; v < is.layers[l].views.size(); ++v)
+          EXPECT_TRUE(sameBytes(is.layers[l].views[v], wanted.layers[l].views[v]))
+              << is.layers[l].name << " at " << time;
+      EXPECT_EQ(holding(dropped), 0);
+    }
+  EXPECT_EQ(holding(kept), 4);
+  // What it was is still told.
+  const SceneSummary is = dropped.summary(), was = kept.summary();
+  EXPECT_EQ(is.triangles, was.triangles);
+  EXPECT_EQ(is.vertices, was.vertices);
+}
+
+TEST_P(DroppedVertices, areMissedWhereTheyAreNeeded) {
+  const Scene scene = load(everything(), false);
+  ASSERT_TRUE(tryToDraw(renderer(), scene));
+  expectRefused(tryToDraw(otherRenderer(), scene));
+  Look warped;
+  ASSERT_TRUE(warped.set("light.shadowWarp", "2"));
+  expectRefused(tryToDraw(renderer(), scene, warped));
+  SceneEditor editor(scene);
+  const Result<Scene> edited = editor.scene();
+  ASSERT_TRUE(edited);
+  expectRefused(tryToDraw(renderer(), *edited));
+  expectRefused(tryToDraw(renderer(), Scene::combine({scene, load(everything(), true)})));
+  // Nothing has become worse by that.
+  EXPECT_TRUE(tryToDraw(renderer(), scene));
+}
+
+TEST_P(DroppedVertices, stayWhereALookMoves) {
+  const Scene scene = load(everything(), false);
+  const int all = holding(scene);
+  ASSERT_TRUE(tryToDraw(renderer(), scene, animated()));
+  EXPECT_EQ(holding(scene), all);
+  // A rehearsal leaves them too.
+  ASSERT_TRUE(otherRenderer().prepare(scene, Look(), views(scene), options()));
+  EXPECT_EQ(holding(scene), all);
+  ASSERT_TRUE(tryToDraw(otherRenderer(), scene));
+  EXPECT_EQ(holding(scene), 0);
+}
+
+TEST_P(DroppedVertices, ofAWorldAreDroppedWhereAllOfItsScenesDropThem) {
+  const TestScene test = everything();
+  const Scene some = Scene::combine({load(test, false), load(test, true)}),
+              all = Scene::combine({load(test, false), load(test, false)});
+  const int each = holding(some);
+  ASSERT_TRUE(tryToDraw(renderer(), some));
+  ASSERT_TRUE(tryToDraw(renderer(), all));
+  EXPECT_EQ(holding(some), each);
+  EXPECT_EQ(holding(all), 0);
+}
+
+}  // namespace
+}  // namespace scumble
