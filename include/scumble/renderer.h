@@ -53,7 +53,8 @@ struct RendererOptions {
   ImagePassKind imagePasses = ImagePassKind::automatic;  // how image passes run; automatic measures nothing,
                                                          // it chooses by the kind of device (docs/gpu.md)
   // Bytes of device memory up to which scenes that were drawn stay on the device, ready to be drawn again
-  // beside others; the one drawn last always does.
+  // beside others; the one drawn last always does, and so do those whose vertices are nowhere else
+  // (SceneOptions::keepsVertices).
   uint64_t sceneBudget = uint64_t(1) << 29;
   // Empty: messages of the validation layers go to stderr, and others nowhere.
   Log log;

@@ -19,13 +19,15 @@ struct SceneData;
 struct SceneOptions {
   int scene = -1;             // which of the file's scenes; -1: its default one
   bool allowOutside = false;  // whether URIs may lead out of the scene's folder upwards
-  // False: vertices are dropped from memory as soon as they are on the device of a renderer that draws the
-  // scene with a look without tracks, and no other thread may use the scene meanwhile. From then on only that
-  // renderer draws it, as long as the look asks for the same triangles; other frames, and scenes that share
-  // its meshes, end in ErrorKind::usage.
+  int threads = 0;            // for decoding; 0: as many as the machine has
+  Progress progress = {};     // of load() and loadFromMemory(); of a world, file by file
+  // False: vertices, but for those of skinned and morphed meshes, are dropped from memory as they reach the
+  // device of the renderer that draws the scene first with a look without tracks. Meanwhile no other thread
+  // may use the scene, nor one that shares its meshes. From then on that renderer alone draws it, where look
+  // and options agree about ground, features, clips, settings of nodes, who casts shadows and
+  // light.shadowWarp; what else needs the vertices (other frames, prepare(), scenes that share its meshes)
+  // ends in ErrorKind::usage. After a frame that failed the scene may have to be loaded again.
   bool keepsVertices = true;
-  int threads = 0;         // for decoding; 0: as many as the machine has
-  Progress progress = {};  // of load() and loadFromMemory(); of a world, file by file
 };
 
 // What loading took, in milliseconds of wall clock.
@@ -50,7 +52,8 @@ struct SceneSummary {
 
 struct PlacedScene;
 
-// An immutable scene; copies are cheap and share the data. May be used from several threads.
+// An immutable scene (but SceneOptions::keepsVertices); copies are cheap and share the data. May be used from
+// several threads.
 class SCUMBLE_API Scene {
  public:
   // Reads .gltf or .glb, or a world: a .json that lists such files with their places (docs/scene.md). Fails
@@ -85,6 +88,7 @@ class SCUMBLE_API Scene {
 
  private:
   friend class SceneEditor;
+  friend struct RendererAccess;
   std::shared_ptr<const scene::SceneData> data_;
   SceneTimings timings_;
 };

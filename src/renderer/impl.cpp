@@ -156,7 +156,7 @@ Status Renderer::Impl::begin(const Request& request) {
         next.frame.objects = objectNames(scene.data(), geometry);
     if (!canUse(scene, geometry))
       return usage("the scene's vertices have been dropped, and this frame needs them",
-                   "load it with SceneOptions::keepsVertices");
+                   "load the scene again, where need be with SceneOptions::keepsVertices");
     const bool drops = !scene.data().keepsVertices && !look.isAnimated() && !request.isRehearsal;
     Resident& resident = useScene(scene, geometry, drops, stats);
     const glm::uvec2 frameSize = largestOf(groups);

@@ -166,6 +166,8 @@ class Renderer::Turn {
 // What other parts of the public face know of a renderer.
 struct RendererAccess {
   static gpu::Device& device(const Renderer& renderer) { return *renderer.impl_->device; }
+  // Whether anybody but who asks can still want to draw it.
+  static bool isHeldElsewhere(const Scene& scene) { return scene.data_.use_count() > 1; }
   static Status begin(Renderer& renderer, const renderer::Request& request);
   static Result<Frame> render(Renderer& renderer, const renderer::Request& request);
   static std::unique_ptr<Renderer> create(std::unique_ptr<gpu::Device> device,

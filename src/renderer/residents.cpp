@@ -55,9 +55,15 @@ Resident& Renderer::Impl::useScene(const Scene& wanted, const GeometryOptions& o
 }
 
 void Renderer::Impl::keepBudget(size_t least) {
-  while (residents.size() > least && device->memory().bytesInUse() > sceneBudget) {
+  auto last = residents.end();
+  while (std::distance(residents.begin(), last) > ptrdiff_t(least) &&
+         device->memory().bytesInUse() > sceneBudget) {
+    --last;
+    // Nobody else has vertices that were dropped.
+    if (scene::hasDroppedVertices(last->scene.data()) && RendererAccess::isHeldElsewhere(last->scene))
+      continue;
     fetchAll();
-    residents.pop_back();
+    last = residents.erase(last);
   }
 }
 

@@ -10,8 +10,8 @@ namespace scumble::scene {
 // morphed one tell where it is in each frame.
 bool canDropVertices(const Primitive& primitive);
 
-// Gives them back to the system. Nobody else may read the primitive meanwhile, nor its vertices ever after:
-// all scenes that share it have lost them.
+// Frees them, and gives the heap's free pages back to the system from time to time (glibc). Nobody else may
+// read the primitive meanwhile, nor its vertices ever after: all scenes that share it have lost them.
 void dropVertices(const Primitive& primitive);
 
 // Whether some have been dropped, so that no device can be given them any more.

@@ -63,13 +63,17 @@ Bounds skinnedBox(const Mesh& mesh, const Skin& skin, const std::vector<glm::mat
                   const Bounds& morphedOwn) {
   const std::vector<glm::mat4> joints = jointMatrices(skin, world);
   Bounds bounds;
-  for (const Primitive& p : mesh.primitives)
+  for (const Primitive& p : mesh.primitives) {
+    if (p.influences == 0) {
+      bounds.add(p.extent.box);
+      continue;
+    }
     for (size_t i = 0; i < p.vertexCount(); ++i) {
-      const glm::vec3 position =
-          p.influences == 0 ? p.positions[i] : skinnedPosition(p, i, p.positions[i], joints);
+      const glm::vec3 position = skinnedPosition(p, i, p.positions[i], joints);
       if (!isDrawable(position)) return Bounds();
       bounds.add(position);
     }
+  }
   // Rotations may turn a displacement anywhere: its largest reach counts in all directions.
   const glm::vec3 low = own.min - morphedOwn.min, high = morphedOwn.max - own.max;
   const glm::vec3 growth(glm::length(glm::max(low, high)));
@@ -80,7 +84,7 @@ Bounds skinnedBox(const Mesh& mesh, const Skin& skin, const std::vector<glm::mat
 
 size_t trianglesOf(const Mesh& mesh) {
   size_t triangles = 0;
-  for (const Primitive& p : mesh.primitives) triangles += p.indices.size() / 3;
+  for (const Primitive& p : mesh.primitives) triangles += p.indexCount() / 3;
   return triangles;
 }
 

@@ -145,7 +145,7 @@ bool GeometryOnGpu::update(gpu::Device& device, gpu::Uploader& uploader,
   rewritten_.clear();
   written_ = 0;
   Plan plan = planOf(items);
-  bool fits = vertexCount_ > 0 && plan.restOf == plan_.restOf && plan.streams == plan_.streams;
+  bool fits = vertexCount_ > 0 && plan.restOf == plan_.restOf && plan_.streams.holds(plan.streams);
   for (size_t r = 0; fits && r < plan.rests.size(); ++r)
     fits = plan.rests[r].primitive == plan_.rests[r].primitive || plan.rests[r].isLaidAs(plan_.rests[r]);
   if (fits) {

@@ -56,7 +56,7 @@ class GeometryOnGpu {
   const gpu::Buffer& morphs() const { return morphs_; }
   const gpu::Buffer& finalCore() const { return finalCore_; }
   const gpu::Buffer& finalFrame() const { return finalFrame_; }
-  // Streams that nobody has their own of are others': uv0 serves for them.
+  // Where no vertex has its own, uv0 serves for the other two.
   const gpu::Buffer& uv0() const { return uv0_; }
   const gpu::Buffer& uv1() const { return plan_.streams.uv1 ? uv1_ : uv0_; }
   const gpu::Buffer& patternUv() const { return plan_.streams.patternUv ? patternUv_ : uv0_; }
@@ -82,7 +82,9 @@ class GeometryOnGpu {
   // Those of which some vertices have their own.
   struct Streams {
     bool uv1 = false, patternUv = false, tint = false;
-    bool operator==(const Streams&) const = default;
+    bool holds(const Streams& other) const {
+      return uv1 >= other.uv1 && patternUv >= other.patternUv && tint >= other.tint;
+    }
   };
   struct Plan {
     Streams streams;

@@ -64,9 +64,10 @@ SceneOnGpu::Changes SceneOnGpu::update(const scene::SceneData& scene, const Geom
   separateMaterials(geometry);
   changes.materials = kindsOfMaterials() != materialsBefore;
   measureParts(geometry);
-  // Triangles of blended surfaces are listed later.
+  // Triangles of blended surfaces are listed later; what is made_ is kept there.
   for (GeometryItem& item : geometry.items)
-    item.dropsVertices = drops && scene::canDropVertices(*item.primitive) &&
+    item.dropsVertices = drops && item.node != GeometryItem::kNoNode &&
+                         scene::canDropVertices(*item.primitive) &&
                          alphaMode(material(item.material)) != AlphaMode::blend;
 
   // Vertices, where they are others; then images.

@@ -448,7 +448,7 @@ class Rendering(Program):
 
 
 class Memory(Program):
-    """A large scene, 56 bytes a vertex in its file."""
+    """A large scene, 55 bytes a vertex in its file."""
     SIDE, MESHES = 40, 600
 
     def put_scene(self):

@@ -123,6 +123,70 @@ TEST_P(DroppedVertices, areMissedWhereTheyAreNeeded) {
   EXPECT_TRUE(tryToDraw(renderer(), scene));
 }
 
+// A mesh of which a part follows joints and another does not tells where it is by both.
+TEST_P(DroppedVertices, ofAPartOfASkinnedMeshAreNotMissed) {
+  TestScene test = everything();
+  Json& meshes = test.json()["meshes"];
+  for (Json& mesh : meshes)
+    if (mesh["primitives"][0]["attributes"].contains("JOINTS_0"))
+      mesh["primitives"].push_back(meshes[0]["primitives"][0]);
+  const Scene scene = load(test, false);
+  SceneEditor editor(scene);
+  ASSERT_TRUE(tryToDraw(renderer(), scene));
+  Result<Scene> placed = Scene::place({{scene}, {load(test, true)}});
+  ASSERT_TRUE(placed);
+  expectRefused(tryToDraw(renderer(), *placed));
+  const auto node = editor.addNode({.name = "More"});
+  ASSERT_TRUE(node);
+  const Result<Scene> edited = editor.scene();
+  ASSERT_TRUE(edited);
+  EXPECT_EQ(edited->data().bounds.min, scene.data().bounds.min);
+  EXPECT_EQ(edited->data().bounds.max, scene.data().bounds.max);
+  expectRefused(tryToDraw(renderer(), *edited));
+}
+
+// What a renderer adds by itself, it may need again: nothing else of these scenes has been dropped.
+TEST_P(DroppedVertices, areNeverThoseOfTheGround) {
+  TestScene test;
+  TestMesh bar = boxMesh({-0.1f, -0.5f, -0.1f}, {0.1f, 0.5f, 0.1f});
+  bar.joints.assign(bar.positions.size(), {0, 0, 0, 0});
+  bar.weights.assign(bar.positions.size(), {1, 0, 0, 0});
+  test.addSkinned(bar, test.material(TestScene::colored("Bar", {0.5f, 0.5f, 0.5f, 1})), {glm::mat4(1.0f)},
+                  {glm::mat4(1.0f)});
+  const Scene scene = load(test, false), kept = load(test, true);
+  // With a sea, all vertices are written anew.
+  for (const Knobs& sea : {Knobs(), thoseThere({{"ocean.mode", "on"}}), Knobs()}) {
+    Look look;
+    ASSERT_TRUE(look.set("ground.mode", "on"));
+    for (const auto& [path, value] : sea) ASSERT_TRUE(look.set(path, value));
+    const Frame is = frameAt(scene, look, 0, options()), wanted = frameAt(kept, look, 0, options());
+    for (size_t l = 0; l < is.layers.size(); ++l)
+      for (size_t v = 0; v < is.layers[l].views.size(); ++v)
+        EXPECT_TRUE(sameBytes(is.layers[l].views[v], wanted.layers[l].views[v])) << is.layers[l].name;
+  }
+}
+
+// Memory for scenes that might be drawn again is no reason to lose one that could not.
+TEST_P(DroppedVertices, areNotTakenOffTheDeviceBeforeTheirScene) {
+  RendererOptions small;
+  small.device = testDevice();
+  small.sceneBudget = 1;
+  Result<std::unique_ptr<Renderer>> own = Renderer::create(small);
+  ASSERT_TRUE(own) << own.error().message();
+  const Scene other = stillLife().load();
+  uint64_t alone = 0;
+  for (int i = 0; i < 3; ++i) {
+    // Those that nobody holds any more go.
+    const Scene scene = load(everything(), false);
+    ASSERT_TRUE(tryToDraw(**own, scene));
+    ASSERT_TRUE(tryToDraw(**own, other));
+    const Result<Frame> again = tryToDraw(**own, scene);
+    ASSERT_TRUE(again) << again.error().message();
+    if (i == 0) alone = again->stats.deviceBytes;
+    EXPECT_LE(again->stats.deviceBytes, alone + alone / 10);
+  }
+}
+
 TEST_P(DroppedVertices, stayWhereALookMoves) {
   const Scene scene = load(everything(), false);
   const int all = holding(scene);
