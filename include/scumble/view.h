@@ -38,7 +38,7 @@ SCUMBLE_API glm::mat4 orthographicProjection(float halfHeight, float aspect, flo
 
 // Where the camera stands, as the caller says it. The first that is given counts: eye and target, turntable,
 // orbit, camera; then the look's camera (its knobs `camera`, of which any may have a track); then the scene's
-// first camera, and else a framing of everything.
+// first camera, and else a framing of everything: two thirds of the frame's height or width.
 struct Viewpoint {
   std::string camera;  // name or number of a scene's camera; empty: the first
   bool orbit = false;  // around the scene's centre

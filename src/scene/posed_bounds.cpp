@@ -31,6 +31,19 @@ void grow(Bounds& box, const std::vector<Bounds>& targets, std::span<const float
   }
 }
 
+// The boxes that a primitive consists of, each with what places it in the world: its own, or those of its
+// joints.
+template <class Visit>
+void forEachBox(const PrimitiveExtent& extent, const glm::mat4& model, std::span<const glm::mat4> joints,
+                std::span<const float> morphWeights, Visit&& visit) {
+  const auto grown = [&](Bounds box) {
+    grow(box, extent.targets, morphWeights);
+    return box;
+  };
+  if (joints.empty()) return visit(grown(extent.box), model);
+  for (const PrimitiveExtent::Joint& joint : extent.joints) visit(grown(joint.box), joints[joint.joint]);
+}
+
 glm::vec3 morphedPosition(const Primitive& primitive, size_t v, const std::vector<float>& weights) {
   glm::vec3 position = primitive.positions[v];
   for (size_t t = 0; t < primitive.morphTargets.size() && t < weights.size(); ++t)
@@ -70,6 +83,83 @@ void addPrimitive(Bounds& bounds, const Primitive& primitive, const Node& node, 
 
 }  // namespace
 
+std::vector<glm::vec3> outermostOf(std::span<const glm::vec3> points, int directions) {
+  if (points.empty()) return {};
+  // Neighbours in a list mostly are neighbours: most blocks cannot have the outermost one.
+  constexpr size_t kBlock = 64;
+  std::vector<Bounds> blocks((points.size() + kBlock - 1) / kBlock);
+  for (size_t i = 0; i < points.size(); ++i) blocks[i / kBlock].add(points[i]);
+  // As if the box of all were a cube, so that points of what is long or flat are spread as well.
+  Bounds all;
+  for (const Bounds& block : blocks) all.add(block);
+  const glm::vec3 size = glm::max(all.max - all.min, glm::vec3(1e-6f * std::max(all.radius(), 1e-30f)));
+  std::vector<size_t> found;
+  for (int k = 0; k < directions; ++k) {
+    // Equal steps in height, each turned on by the golden angle.
+    const float height = (2 * float(k) + 1) / float(directions) - 1, around = 2.3999632f * float(k);
+    const float side = std::sqrt(1 - height * height);
+    const glm::vec3 direction = glm::vec3(side * std::cos(around), height, side * std::sin(around)) / size;
+    size_t farthest = 0;
+    float most = glm::dot(points[0], direction);
+    for (size_t b = 0; b < blocks.size(); ++b) {
+      const glm::vec3 corner = glm::max(direction * blocks[b].min, direction * blocks[b].max);
+      if (corner.x + corner.y + corner.z <= most) continue;
+      for (size_t i = b * kBlock; i < std::min(points.size(), (b + 1) * kBlock); ++i)
+        if (const float along = glm::dot(points[i], direction); along > most) most = along, farthest = i;
+    }
+    found.push_back(farthest);
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  std::vector<glm::vec3> outermost;
+  outermost.reserve(found.size());
+  for (const size_t i : found) outermost.push_back(points[i]);
+  return outermost;
+}
+
+std::vector<glm::vec3> playedOutline(const SceneData& scene, std::span<const int> clips) {
+  constexpr int kDirections = 200;
+  constexpr size_t kMost = 8192;  // at a time
+  const std::vector<bool> shown = shownNodes(scene);
+  std::vector<glm::vec3> points;
+  const auto add = [&](const glm::vec3& p) {
+    if (points.size() == kMost) points = outermostOf(points, kDirections);
+    if (isDrawable(p)) points.push_back(p);
+  };
+  forEachPose(scene, clips, [&](const Pose& pose) {
+    std::vector<std::vector<glm::mat4>> joints;
+    for (const Skin& skin : scene.skins) joints.push_back(jointMatrices(skin, pose.world));
+    for (size_t n = 0; n < scene.nodes.size(); ++n) {
+      const Node& node = scene.nodes[n];
+      if (node.mesh < 0 || !shown[n]) continue;
+      const Mesh& mesh = scene.meshes[size_t(node.mesh)];
+      for (const Primitive& primitive : mesh.primitives) {
+        const bool isSkinned = node.skin >= 0 && primitive.influences > 0;
+        const auto place = [&](const glm::mat4& model) {
+          if (!isSkinned && primitive.morphTargets.empty()) {
+            for (size_t i = 0; i < primitive.extent.outermostCount; ++i)
+              add(glm::vec3(model * glm::vec4(primitive.extent.outermost[i], 1.0f)));
+            return;
+          }
+          const std::span<const glm::mat4> none;
+          forEachBox(primitive.extent, model,
+                     isSkinned ? std::span<const glm::mat4>(joints[size_t(node.skin)]) : none,
+                     pose.morphWeights[n], [&](const Bounds& box, const glm::mat4& matrix) {
+                       for (int corner = 0; !box.empty && corner < 8; ++corner)
+                         add(glm::vec3(matrix * glm::vec4(corner & 1 ? box.max.x : box.min.x,
+                                                          corner & 2 ? box.max.y : box.min.y,
+                                                          corner & 4 ? box.max.z : box.min.z, 1.0f)));
+                     });
+        };
+        if (node.instances.empty() || isSkinned) place(pose.world[n]);
+        for (const glm::mat4& instance : node.instances)
+          if (!isSkinned) place(pose.world[n] * instance);
+      }
+    }
+  });
+  return outermostOf(points, kDirections);
+}
+
 std::vector<glm::mat4> jointMatrices(const Skin& skin, const std::vector<glm::mat4>& world) {
   std::vector<glm::mat4> matrices;
   matrices.reserve(skin.joints.size());
@@ -91,6 +181,11 @@ glm::vec3 skinnedPosition(const Primitive& primitive, size_t v, const glm::vec3&
 PrimitiveExtent extentOf(const Primitive& primitive) {
   PrimitiveExtent extent;
   extent.box = boxOf(primitive.positions);
+  if (primitive.influences == 0 && primitive.morphTargets.empty()) {
+    const std::vector<glm::vec3> outermost = outermostOf(primitive.positions, int(extent.outermost.size()));
+    std::copy(outermost.begin(), outermost.end(), extent.outermost.begin());
+    extent.outermostCount = outermost.size();
+  }
   std::map<uint16_t, Bounds> joints;
   const size_t n = size_t(primitive.influences);
   for (size_t i = 0; i < primitive.weights.size(); ++i)
@@ -113,17 +208,8 @@ PrimitiveExtent extentOf(const Primitive& primitive) {
 Bounds posedBounds(const PrimitiveExtent& extent, const glm::mat4& model, std::span<const glm::mat4> joints,
                    std::span<const float> morphWeights) {
   Bounds bounds;
-  if (joints.empty()) {
-    Bounds box = extent.box;
-    grow(box, extent.targets, morphWeights);
-    addBox(bounds, box, model);
-    return bounds;
-  }
-  for (const PrimitiveExtent::Joint& joint : extent.joints) {
-    Bounds box = joint.box;
-    grow(box, extent.targets, morphWeights);
-    addBox(bounds, box, joints[joint.joint]);
-  }
+  forEachBox(extent, model, joints, morphWeights,
+             [&](const Bounds& box, const glm::mat4& matrix) { addBox(bounds, box, matrix); });
   return bounds;
 }
 

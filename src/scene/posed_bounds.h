@@ -31,4 +31,11 @@ void forEachPose(const SceneData& scene, std::span<const int> clips,
 // themselves: close, and up to a little too small. Without clips: the scene's own bounds.
 Bounds playedBounds(const SceneData& scene, std::span<const int> clips);
 
+// The outermost ones of points, along so many directions that are spread over all sides; each once.
+std::vector<glm::vec3> outermostOf(std::span<const glm::vec3> points, int directions);
+
+// The outermost points of all that is shown, world, at any time of these clips: of what bends, corners of its
+// boxes. Empty where nothing is shown.
+std::vector<glm::vec3> playedOutline(const SceneData& scene, std::span<const int> clips);
+
 }  // namespace scumble::scene

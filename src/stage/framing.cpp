@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "stage/camera.h"
 
@@ -10,8 +11,25 @@ namespace scumble::stage {
 using scene::SceneData;
 
 namespace {
-constexpr float kFill = 0.82f;  // of the frame that the subject may take
-constexpr int kSides = 72;      // from which a subject that is seen all around is looked at
+constexpr float kFill = 2.0f / 3;  // of the frame's height or width, that the subject takes
+constexpr int kSides = 72;         // from which a subject that is seen all around is looked at
+
+// A direction's own axes, and half of what is seen at a distance of one, as far as it may be filled.
+struct Window {
+  glm::vec3 right, above, towards;
+  glm::vec2 tangent;
+
+  Window(const glm::vec3& direction, float verticalFov, float aspect) : towards(direction) {
+    const glm::vec3 up = std::abs(direction.y) > 0.999f ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0);
+    right = glm::normalize(glm::cross(up, direction));
+    above = glm::cross(direction, right);
+    tangent = std::tan(0.5f * verticalFov) * kFill * glm::vec2(aspect, 1.0f);
+  }
+  // Right, above, and towards the eye.
+  glm::vec3 operator()(const glm::vec3& p) const {
+    return {glm::dot(p, right), glm::dot(p, above), glm::dot(p, towards)};
+  }
+};
 }  // namespace
 
 int cameraNode(const SceneData& scene, size_t camera) {
@@ -34,29 +52,64 @@ glm::vec3 defaultEyeDirection(const SceneData& scene) {
   return orbitDirection(CameraParams().azimuth, CameraParams().elevation);
 }
 
-float framingDistance(const scene::Bounds& bounds, const glm::vec3& direction, float verticalFov,
-                      float aspect) {
-  const glm::vec3 up = std::abs(direction.y) > 0.999f ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0);
-  const glm::vec3 right = glm::normalize(glm::cross(up, direction)), above = glm::cross(direction, right);
-  const float tanY = std::tan(0.5f * verticalFov) * kFill, tanX = tanY * aspect;
-  const glm::vec3 half = 0.5f * (bounds.max - bounds.min);
-  float distance = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::vec3 p(corner & 1 ? half.x : -half.x, corner & 2 ? half.y : -half.y,
-                      corner & 4 ? half.z : -half.z);
-    const float depth = glm::dot(p, direction);
-    distance = std::max(
-        {distance, std::abs(glm::dot(p, right)) / tanX + depth, std::abs(glm::dot(p, above)) / tanY + depth});
+Framing framingOf(std::span<const glm::vec3> points, const glm::vec3& direction, float verticalFov,
+                  float aspect) {
+  if (points.empty()) return {glm::vec3(0.0f), 1.0f};
+  scene::Bounds bounds;
+  for (const glm::vec3& p : points) bounds.add(p);
+  const Window window(direction, verticalFov, aspect);
+  std::vector<glm::vec3> seen;
+  for (const glm::vec3& p : points) seen.push_back(window(p - bounds.center()));
+
+  // A point at (x, z) is inside of the frame around c where |x - c| <= tangent (distance - z); the least
+  // distance has one at either side of the frame. Nobody stands among them, however wide the lens.
+  float distance = 1e-6f;
+  for (const glm::vec3& p : seen) distance = std::max(distance, p.z + 0.1f * bounds.radius());
+  for (int axis = 0; axis < 2; ++axis) {
+    float low = -std::numeric_limits<float>::infinity(), high = low;
+    for (const glm::vec3& p : seen) {
+      low = std::max(low, p.z - p[axis] / window.tangent[axis]);
+      high = std::max(high, p.z + p[axis] / window.tangent[axis]);
+    }
+    distance = std::max(distance, 0.5f * (low + high));
   }
-  return std::max(distance, 1e-6f);
+  // What takes less than the frame's other direction is in its middle as well.
+  glm::vec3 target = bounds.center();
+  for (int axis = 0; axis < 2; ++axis) {
+    float low = -bounds.radius(), high = bounds.radius();
+    for (int i = 0; i < 32; ++i) {
+      const float middle = 0.5f * (low + high);
+      float left = 0, right = 0;
+      for (const glm::vec3& p : seen) {
+        const float place = (p[axis] - middle) / std::max(distance - p.z, 1e-6f * distance);
+        left = std::max(left, -place), right = std::max(right, place);
+      }
+      (right > left ? low : high) = middle;
+    }
+    target += 0.5f * (low + high) * (axis == 0 ? window.right : window.above);
+  }
+  return {target, distance};
 }
 
-float framingDistanceAllAround(const scene::Bounds& bounds, float elevation, float verticalFov,
-                               float aspect) {
+float framingDistance(std::span<const glm::vec3> points, const glm::vec3& target, const glm::vec3& direction,
+                      float verticalFov, float aspect) {
+  const Window window(direction, verticalFov, aspect);
+  float distance = 1e-6f;
+  for (const glm::vec3& point : points) {
+    const glm::vec3 p = window(point - target);
+    distance =
+        std::max({distance, std::abs(p.x) / window.tangent.x + p.z, std::abs(p.y) / window.tangent.y + p.z});
+  }
+  return distance;
+}
+
+float framingDistanceAllAround(std::span<const glm::vec3> points, const glm::vec3& target, float elevation,
+                               float verticalFov, float aspect) {
   float distance = 0;
   for (int side = 0; side < kSides; ++side)
-    distance = std::max(distance, framingDistance(bounds, orbitDirection(360.0f * side / kSides, elevation),
-                                                  verticalFov, aspect));
+    distance = std::max(
+        distance, framingDistance(points, target, orbitDirection(360.0f * float(side) / kSides, elevation),
+                                  verticalFov, aspect));
   return distance;
 }
 

@@ -1,6 +1,8 @@
 // Where a scene is seen from when nobody says.
 #pragma once
 
+#include <span>
+
 #include "scene/scene_data.h"
 
 namespace scumble::stage {
@@ -15,12 +17,22 @@ glm::vec3 defaultEyeDirection(const scene::SceneData& scene);
 // Direction for an azimuth and elevation in degrees (see Viewpoint).
 glm::vec3 orbitDirection(float azimuth, float elevation);
 
-// Distance from the centre of `bounds` at which all of it is seen, with air around it. Angles in radians.
-float framingDistance(const scene::Bounds& bounds, const glm::vec3& direction, float verticalFov,
-                      float aspect);
+// Where one stands to see points: looking at `target` from so far away, they take two thirds of the frame's
+// height or width. Angles in radians.
+struct Framing {
+  glm::vec3 target{0.0f};
+  float distance = 0;
+};
+// In the middle of the frame.
+Framing framingOf(std::span<const glm::vec3> points, const glm::vec3& direction, float verticalFov,
+                  float aspect);
 
-// The least distance at which all of it is seen from every azimuth, so that it stays while one goes around.
-// The elevation is in degrees.
-float framingDistanceAllAround(const scene::Bounds& bounds, float elevation, float verticalFov, float aspect);
+// Around a target that is given: none of the points reaches farther from the frame's middle.
+float framingDistance(std::span<const glm::vec3> points, const glm::vec3& target, const glm::vec3& direction,
+                      float verticalFov, float aspect);
+
+// The same from every azimuth, so that it stays while one goes around. The elevation is in degrees.
+float framingDistanceAllAround(std::span<const glm::vec3> points, const glm::vec3& target, float elevation,
+                               float verticalFov, float aspect);
 
 }  // namespace scumble::stage

@@ -4,10 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <random>
 
+#include "scene/posed_bounds.h"
 #include "scumble/view.h"
 #include "stage/seen_views.h"
 #include "tests/support/loaded_test_gltf.h"
+#include "tests/support/test_scene.h"
 
 namespace scumble {
 namespace {
@@ -76,7 +80,8 @@ Extent extentOf(const View& view, const Bounds& bounds) {
 
 // -- Framing
 
-// Everything is seen with air around it, and is not lost in the middle of the frame.
+// Everything is seen with air around it, and is not lost in the middle of the frame: two thirds of its height
+// or width, whatever the proportions; through wide lenses less, where one would stand in it.
 TEST(Framing, holdsEverythingWithAirAround) {
   const glm::vec3 sizes[] = {{1, 1, 1},         {100, 1, 1}, {1, 100, 1},
                              {1, 1, 100},       {50, 0, 50}, {0.001f, 0.002f, 0.001f},
@@ -94,18 +99,82 @@ TEST(Framing, holdsEverythingWithAirAround) {
           const View view = mustSee(scene, viewpoint, aspect)[0];
           const Extent extent = extentOf(view, scene.data().bounds);
           EXPECT_TRUE(extent.inFront) << size.x << " " << size.y << " " << size.z << " aspect " << aspect;
-          EXPECT_LT(std::max(extent.x, extent.y), 0.88f)
-              << size.x << " " << size.y << " " << size.z << " aspect " << aspect;
-          EXPECT_GT(std::max(extent.x, extent.y), 0.5f)
-              << size.x << " " << size.y << " " << size.z << " aspect " << aspect;
+          EXPECT_LT(std::max(extent.x, extent.y), 0.67f)
+              << size.x << " " << size.y << " " << size.z << " aspect " << aspect << " fov " << fov;
+          EXPECT_GT(std::max(extent.x, extent.y), fov < 50 && aspect < 4 ? 0.66f : 0.15f)
+              << size.x << " " << size.y << " " << size.z << " aspect " << aspect << " fov " << fov;
         }
   }
 }
 
+// Not its box, but what is seen: round, slim and flat things, in pieces, many, bent ones. All of it lies in
+// the middle.
+TEST(Framing, whatIsSeenTakesTwoThirdsAndLiesInTheMiddle) {
+  const glm::mat4 one(1.0f);
+  const auto scaled = [&](const glm::vec3& by) { return glm::scale(one, by); };
+  std::vector<std::pair<const char*, test::TestScene>> scenes(6);
+  for (auto& [what, scene] : scenes) scene.material(test::TestScene::colored("Grey", {0.5f, 0.5f, 0.5f, 1}));
+  const test::TestMesh ball = test::sphereMesh({0, 0, 0}, 1, 24);
+  scenes[0].first = "round", scenes[0].second.add(ball, 0);
+  scenes[1].first = "slim", scenes[1].second.add(ball, 0, scaled({0.1f, 3, 0.1f}));
+  scenes[2].first = "flat", scenes[2].second.add(ball, 0, scaled({4, 0.1f, 4}));
+  scenes[3].first = "pieces", scenes[3].second.add(ball, 0);
+  scenes[3].second.add(ball, 0, glm::translate(one, {6, 1, 0}) * scaled(glm::vec3(0.2f)));
+  scenes[4].first = "instances";
+  scenes[4].second.addInstances(ball, 0, {{0, 0, 0}, {3, 0, 0}, {0, 5, 2}}, {3, glm::quat(1, 0, 0, 0)},
+                                {3, glm::vec3(1)});
+  test::TestMesh bent = ball;
+  bent.joints.assign(ball.positions.size(), {0, 0, 0, 0});
+  bent.weights.assign(ball.positions.size(), {1, 0, 0, 0});
+  scenes[5].first = "bent",
+  scenes[5].second.addSkinned(bent, 0, {glm::translate(one, {3, 4, 5}) * scaled({1, 2, 1})}, {one});
+  for (const auto& [what, test] : scenes) {
+    const Scene scene = test.load();
+    for (const float aspect : {0.6f, 16.0f / 9}) {
+      const View view = mustSee(scene, {}, aspect)[0];
+      glm::vec2 low(1e9f), high(-1e9f);
+      for (const test::WorldTriangle& triangle : test.triangles())
+        for (const glm::dvec3& p : triangle.positions) {
+          const glm::vec2 ndc(ndcOf(view, p));
+          low = glm::min(low, ndc), high = glm::max(high, ndc);
+        }
+      const glm::vec2 size = 0.5f * (high - low), middle = 0.5f * (high + low);
+      // Boxes of joints are larger than what they hold.
+      EXPECT_NEAR(std::max(size.x, size.y), 0.667f, scenes[5].first == what ? 0.12f : 0.04f)
+          << what << " aspect " << aspect;
+      EXPECT_LT(glm::length(middle), scenes[5].first == what ? 0.08f : 0.03f) << what << " aspect " << aspect;
+    }
+  }
+}
+
+// However few they are, they reach nearly as far as all.
+TEST(Framing, outermostPointsAreOfThePoints) {
+  std::mt19937 random(5);
+  std::normal_distribution<float> far;
+  for (const glm::vec3& stretch : {glm::vec3(1), glm::vec3(100, 1, 0.01f), glm::vec3(1, 1, 0)}) {
+    std::vector<glm::vec3> points;
+    for (int i = 0; i < 3000; ++i)
+      points.push_back(stretch * glm::vec3(far(random), far(random), far(random)));
+    const std::vector<glm::vec3> few = scene::outermostOf(points, 200);
+    EXPECT_LE(few.size(), 200u);
+    for (const glm::vec3& p : few) EXPECT_NE(std::find(points.begin(), points.end(), p), points.end());
+    const auto reach = [](const std::vector<glm::vec3>& of, const glm::vec3& direction) {
+      float most = -1e9f;
+      for (const glm::vec3& p : of) most = std::max(most, glm::dot(p, direction));
+      return most;
+    };
+    for (int i = 0; i < 100; ++i) {
+      const glm::vec3 direction(far(random), far(random), far(random));
+      EXPECT_GE(reach(few, direction), 0.93f * reach(points, direction));
+    }
+  }
+  EXPECT_TRUE(scene::outermostOf({}, 200).empty());
+}
+
 TEST(Framing, aPointHasADistanceToo) {
-  Bounds point;
-  point.add({1, 1, 1});
-  EXPECT_GT(stage::framingDistance(point, {0, 0, 1}, 0.6f, 1.5f), 0);
+  const glm::vec3 point(1, 1, 1);
+  EXPECT_GT(stage::framingDistance({&point, 1}, point, {0, 0, 1}, 0.6f, 1.5f), 0);
+  EXPECT_GT(stage::framingOf({&point, 1}, {0, 0, 1}, 0.6f, 1.5f).distance, 0);
 }
 
 TEST(Framing, theDefaultIsAThreeQuarterViewFromAbove) {

@@ -132,6 +132,11 @@ Result<View> fromEye(const Shot& shot, const glm::vec3& eye, const glm::vec3& ta
   return lookAt(shot, eye, target, 1e-3f * radius);
 }
 
+// What there is to be seen, as points.
+std::vector<glm::vec3> outlineOf(const Shot& shot) {
+  return scene::playedOutline(shot.scene, everPlayed(shot.scene, shot.look));
+}
+
 // What the look's camera looks at.
 glm::vec3 targetOf(const Shot& shot, const scene::Bounds& bounds) {
   const glm::vec3 shift = shot.camera.shift;
@@ -155,7 +160,8 @@ Result<View> fromLookOrbit(const Shot& shot, const scene::Bounds& bounds, float 
                                      : shot.camera.distance > 0 ? std::optional(shot.camera.distance)
                                                                 : std::nullopt;
   const float distance =
-      radii ? *radii * radius : framingDistanceAllAround(bounds, elevation, shot.fov, shot.aspect);
+      radii ? *radii * radius
+            : framingDistanceAllAround(outlineOf(shot), bounds.center(), elevation, shot.fov, shot.aspect);
   const glm::vec3 target = targetOf(shot, bounds);
   const float around = float(std::remainder(azimuth, 360.0));
   return lookAt(shot, target + distance * orbitDirection(around, elevation), target, 1e-3f * radius, around);
@@ -165,18 +171,27 @@ Result<View> fromHand(const Shot& shot, const scene::Bounds& bounds, float radiu
   const glm::vec3 target = shot.viewpoint.target.value_or(bounds.center());
   const glm::vec3 direction = defaultEyeDirection(shot.scene);
   const glm::vec3 eye = shot.viewpoint.eye.value_or(
-      target + framingDistance(bounds, direction, shot.fov, shot.aspect) * direction);
+      target + framingDistance(outlineOf(shot), target, direction, shot.fov, shot.aspect) * direction);
   return fromEye(shot, eye, target, radius);
 }
 
-// Around the scene's centre; without an orbit by hand, the framing that serves where nobody says anything.
+// Around the scene's centre.
 Result<View> fromOrbit(const Shot& shot, const scene::Bounds& bounds, float radius) {
   const Viewpoint& by = shot.viewpoint;
-  const float azimuth = by.orbit ? by.azimuth : CameraParams().azimuth;
-  const glm::vec3 direction = orbitDirection(azimuth, by.orbit ? by.elevation : CameraParams().elevation);
-  const float distance =
-      by.distance ? *by.distance * radius : framingDistance(bounds, direction, shot.fov, shot.aspect);
-  return lookAt(shot, bounds.center() + distance * direction, bounds.center(), 1e-3f * radius, azimuth);
+  const glm::vec3 direction = orbitDirection(by.azimuth, by.elevation), center = bounds.center();
+  const float distance = by.distance
+                             ? *by.distance * radius
+                             : framingDistance(outlineOf(shot), center, direction, shot.fov, shot.aspect);
+  return lookAt(shot, center + distance * direction, center, 1e-3f * radius, by.azimuth);
+}
+
+// Where nobody says anything.
+Result<View> fromFraming(const Shot& shot, float radius) {
+  const glm::vec3 direction = orbitDirection(CameraParams().azimuth, CameraParams().elevation);
+  const Framing framing = framingOf(outlineOf(shot), direction, shot.fov, shot.aspect);
+  const float distance = shot.viewpoint.distance ? *shot.viewpoint.distance * radius : framing.distance;
+  return lookAt(shot, framing.target + distance * direction, framing.target, 1e-3f * radius,
+                CameraParams().azimuth);
 }
 
 Result<View> fromSceneCamera(const Shot& shot, size_t index) {
@@ -223,7 +238,8 @@ Result<View> viewFrom(const Shot& shot, Standpoint standpoint) {
   if (standpoint == Standpoint::lookEye)
     return fromEye(shot, shot.camera.eye, targetOf(shot, bounds), radius);
   if (standpoint == Standpoint::lookOrbit) return fromLookOrbit(shot, bounds, radius);
-  return fromOrbit(shot, bounds, radius);
+  if (standpoint == Standpoint::orbitByHand) return fromOrbit(shot, bounds, radius);
+  return fromFraming(shot, radius);
 }
 
 }  // namespace
