@@ -90,11 +90,11 @@ struct PrimitiveExtent {
   };
   std::vector<Joint> joints;    // of skinned primitives
   std::vector<Bounds> targets;  // by morph target: displacements
-  // Its outermost vertices, in mesh space, where nothing bends it: nearer to what an eye sees than the box is.
-  // In place: what lies between large arrays for good keeps their memory from being given back.
+  // Its outermost vertices, in mesh space, where nothing bends it: nearer to what an eye sees than the box
+  // is. In place: what lies between large arrays for good keeps their memory from being given back.
   std::array<glm::vec3, 48> outermost{};
   size_t outermostCount = 0;
-  float longestEdge2 = 0;       // the square of its length, metres
+  float longestEdge2 = 0;  // the square of its length, metres
 };
 
 // Triangles with one material. All non-empty vertex arrays have vertexCount() entries.
