@@ -187,6 +187,12 @@ void PictureArguments::addTo(CLI::App& command) {
       "--camera", camera,
       "A camera of the scene, by name or number (default: the look's camera, else the scene's first, else a "
       "framing of everything)");
+  command
+      .add_option(
+          "--frame", frame,
+          "Frame this node and what hangs below it (a name or pattern) instead of everything; --orbit, "
+          "--turntable and --eye then look at it as well")
+      ->type_name("NODE");
   command.add_option("--orbit", orbit, "Degrees around the scene's centre, and the distance in scene radii")
       ->type_name("AZ,EL[,DIST]");
   command.add_option("--eye", eye, "Where the camera stands, metres")->type_name("X,Y,Z");
@@ -260,7 +266,12 @@ Result<Viewpoint> PictureArguments::viewpoint() const {
         return usage(
             std::string(ways[i].first) + " and " + ways[j].first + " both say where the camera stands",
             "give one of them");
+  if (!frame.empty() && (!camera.empty() || !target.empty()))
+    return usage(
+        "--frame and " + std::string(camera.empty() ? "--target" : "--camera") + " both say what is seen",
+        "give one of them");
   Viewpoint viewpoint;
+  viewpoint.frame = frame;
   viewpoint.turntable = turntable;
   viewpoint.camera = camera;
   viewpoint.roll = roll;

@@ -39,7 +39,7 @@ struct LookArguments {
 };
 
 struct PictureArguments {
-  std::string camera, orbit, eye, target, size = "1280x720", stereo;
+  std::string camera, frame, orbit, eye, target, size = "1280x720", stereo;
   std::optional<float> roll, fov;
   std::optional<double> turntable;  // seconds
   int samples = 4;

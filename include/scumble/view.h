@@ -41,6 +41,9 @@ SCUMBLE_API glm::mat4 orthographicProjection(float halfHeight, float aspect, flo
 // first camera, and else a framing of everything: two thirds of the frame's height or width.
 struct Viewpoint {
   std::string camera;  // name or number of a scene's camera; empty: the first
+  // Nodes by name ("boat/Deck" of a world) or pattern: they and what hangs below them are what is framed and
+  // gone around, instead of everything. Counts before cameras of look and scene.
+  std::string frame = {};
   bool orbit = false;  // around the scene's centre
   // Degrees: azimuth 0 looks at the scene's front (+Z), growing to its left (+X), up to a hundred turns;
   // elevation -90 to 90.
@@ -63,8 +66,8 @@ enum class Stereo { mono, stereo };
 // by nothing, and names its node, so that it rides the sea where that does. The look's camera and a
 // turntable go with the node that they look at as clips take it, and the sea does not shake them. Orbits and
 // framings see what the scene takes up while the clips play. `ipd` is 0 to a million. Fails with
-// ErrorKind::usage for an unknown camera, numbers out of range, and a viewpoint that sees nothing (eye on the
-// target).
+// ErrorKind::usage for an unknown camera or node, numbers out of range, and a viewpoint that sees nothing
+// (eye on the target, nodes without meshes).
 SCUMBLE_API Result<std::vector<View>> makeViews(const Scene& scene, const Viewpoint& viewpoint, float aspect,
                                                 Stereo stereo = Stereo::mono, float ipd = 0.063f,
                                                 const Look& look = Look(), double time = 0);

@@ -117,10 +117,10 @@ std::vector<glm::vec3> outermostOf(std::span<const glm::vec3> points, int direct
   return outermost;
 }
 
-std::vector<glm::vec3> playedOutline(const SceneData& scene, std::span<const int> clips) {
+std::vector<glm::vec3> playedOutline(const SceneData& scene, const std::vector<bool>& nodes,
+                                     std::span<const int> clips) {
   constexpr int kDirections = 200;
   constexpr size_t kMost = 8192;  // at a time
-  const std::vector<bool> shown = shownNodes(scene);
   std::vector<glm::vec3> points;
   const auto add = [&](const glm::vec3& p) {
     if (points.size() == kMost) points = outermostOf(points, kDirections);
@@ -131,7 +131,7 @@ std::vector<glm::vec3> playedOutline(const SceneData& scene, std::span<const int
     for (const Skin& skin : scene.skins) joints.push_back(jointMatrices(skin, pose.world));
     for (size_t n = 0; n < scene.nodes.size(); ++n) {
       const Node& node = scene.nodes[n];
-      if (node.mesh < 0 || !shown[n]) continue;
+      if (node.mesh < 0 || !nodes[n]) continue;
       const Mesh& mesh = scene.meshes[size_t(node.mesh)];
       for (const Primitive& primitive : mesh.primitives) {
         const bool isSkinned = node.skin >= 0 && primitive.influences > 0;

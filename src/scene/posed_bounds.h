@@ -34,8 +34,9 @@ Bounds playedBounds(const SceneData& scene, std::span<const int> clips);
 // The outermost ones of points, along so many directions that are spread over all sides; each once.
 std::vector<glm::vec3> outermostOf(std::span<const glm::vec3> points, int directions);
 
-// The outermost points of all that is shown, world, at any time of these clips: of what bends, corners of its
-// boxes. Empty where nothing is shown.
-std::vector<glm::vec3> playedOutline(const SceneData& scene, std::span<const int> clips);
+// The outermost points of these nodes' meshes, world, at any time of these clips: of what bends, corners of
+// its boxes. Empty where they have none.
+std::vector<glm::vec3> playedOutline(const SceneData& scene, const std::vector<bool>& nodes,
+                                     std::span<const int> clips);
 
 }  // namespace scumble::scene

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
+#include <tuple>
 
 #include "scene/posed_bounds.h"
 #include "scumble/view.h"
@@ -144,6 +145,74 @@ TEST(Framing, whatIsSeenTakesTwoThirdsAndLiesInTheMiddle) {
           << what << " aspect " << aspect;
       EXPECT_LT(glm::length(middle), scenes[5].first == what ? 0.08f : 0.03f) << what << " aspect " << aspect;
     }
+  }
+}
+
+// A house with a door on a wide hill, and a camera that looks elsewhere.
+Scene hillWithHouse() {
+  TestGltf g = boxScene({-500, -20, -500}, {500, 0, 500});
+  g.json["nodes"][0]["name"] = "Hill";
+  g.json["nodes"].push_back(
+      {{"name", "House"}, {"mesh", 0}, {"translation", {40, 5, 3}}, {"scale", {0.006, 0.2, 0.006}}});
+  g.json["nodes"].push_back(
+      {{"name", "Door"}, {"mesh", 0}, {"translation", {500, 0, 0}}, {"scale", {0.02, 0.5, 0.2}}});
+  g.json["nodes"].push_back({{"name", "Lamp"}, {"camera", 0}, {"translation", {0, 9, 0}}});
+  g.json["nodes"][1]["children"] = {2};
+  g.json["scenes"][0]["nodes"] = {0, 1, 3};
+  g.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.25}}}}};
+  return loaded(g);
+}
+
+// The box that a node of it is in the world.
+Bounds boxOf(const Scene& scene, const std::string& name) {
+  const scene::SceneData& data = scene.data();
+  const size_t node = size_t(std::find_if(data.nodes.begin(), data.nodes.end(),
+                                          [&](const scene::Node& n) { return n.name == name; }) -
+                             data.nodes.begin());
+  const glm::mat4 world = scene::worldMatrices(data)[node];
+  Bounds box;
+  box.add(glm::vec3(world * glm::vec4(-500, -20, -500, 1)));
+  box.add(glm::vec3(world * glm::vec4(500, 0, 500, 1)));
+  return box;
+}
+
+TEST(Framing, framesTheNodesThatAreNamed) {
+  const Scene scene = hillWithHouse();
+  Bounds house = boxOf(scene, "House");
+  house.add(boxOf(scene, "Door"));
+  const std::tuple<const char*, Bounds> cases[] = {{"Door", boxOf(scene, "Door")},
+                                                   {"House", house},  // with what hangs below it
+                                                   {"Do*", boxOf(scene, "Door")},
+                                                   {"House/Door", boxOf(scene, "Door")},
+                                                   {"H*", scene.data().bounds}};
+  for (const auto& [name, box] : cases) {
+    Viewpoint viewpoint;
+    viewpoint.frame = name;
+    const Extent extent = extentOf(mustSee(scene, viewpoint)[0], box);
+    EXPECT_NEAR(std::max(extent.x, extent.y), 0.667f, 0.01f) << name;
+    EXPECT_TRUE(extent.inFront);
+    EXPECT_FALSE(viewsMove(scene, viewpoint, Look()));
+    // What goes around it, or looks at it from a place, does so too.
+    viewpoint.orbit = true, viewpoint.azimuth = 90, viewpoint.distance = 3;
+    expectClose(eyeOf(mustSee(scene, viewpoint)[0]), box.center() + glm::vec3(3 * box.radius(), 0, 0),
+                2e-3f * box.radius());
+    viewpoint = {};
+    viewpoint.frame = name;
+    viewpoint.eye = glm::vec3(0, 700, 0);
+    expectClose(axisOf(mustSee(scene, viewpoint)[0]), glm::normalize(box.center() - *viewpoint.eye), 1e-3f);
+  }
+}
+
+TEST(Framing, nodesThatCannotBeSeenAreUsageErrors) {
+  const Scene scene = hillWithHouse();
+  for (const auto& [name, problem] :
+       {std::pair("Dor", "no node 'Dor'"), std::pair("Lamp", "nothing is to be seen")}) {
+    Viewpoint viewpoint;
+    viewpoint.frame = name;
+    const auto views = makeViews(scene, viewpoint, 1);
+    ASSERT_FALSE(views.ok()) << name;
+    EXPECT_EQ(views.error().kind, ErrorKind::usage);
+    EXPECT_NE(views.error().message().find(problem), std::string::npos) << views.error().message();
   }
 }
 

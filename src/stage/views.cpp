@@ -96,6 +96,7 @@ Standpoint standpointOf(const SceneData& scene, const Viewpoint& viewpoint, cons
   if (viewpoint.eye || viewpoint.target) return Standpoint::byHand;
   if (viewpoint.turntable) return Standpoint::lookOrbit;
   if (viewpoint.orbit) return Standpoint::orbitByHand;
+  if (!viewpoint.frame.empty()) return Standpoint::framing;
   if (!viewpoint.camera.empty()) return Standpoint::sceneCamera;
   return ofLook(look, camera, !scene.cameras.empty());
 }
@@ -109,6 +110,7 @@ struct Shot {
   const CameraParams& camera;     // of the moment
   const double time;              // seconds
   const float fov, roll, aspect;  // radians, degrees
+  std::vector<bool> framed = {};  // nodes: what there is to be seen
 };
 
 // `azimuth`: what turns upright where it cannot be told from the direction, in degrees.
@@ -134,7 +136,35 @@ Result<View> fromEye(const Shot& shot, const glm::vec3& eye, const glm::vec3& ta
 
 // What there is to be seen, as points.
 std::vector<glm::vec3> outlineOf(const Shot& shot) {
-  return scene::playedOutline(shot.scene, everPlayed(shot.scene, shot.look));
+  return scene::playedOutline(shot.scene, shot.framed, everPlayed(shot.scene, shot.look));
+}
+
+scene::Bounds boundsOf(const Shot& shot) {
+  if (shot.viewpoint.frame.empty()) return scene::playedBounds(shot.scene, everPlayed(shot.scene, shot.look));
+  scene::Bounds bounds;
+  for (const glm::vec3& p : outlineOf(shot)) bounds.add(p);
+  return bounds;
+}
+
+// Nodes that are shown; where the caller names some, those of them that they are or hang below.
+Result<std::vector<bool>> framedNodes(const SceneData& scene, const std::string& name) {
+  std::vector<bool> shown = scene::shownNodes(scene);
+  if (name.empty()) return shown;
+  const int found = scene::findNode(scene, name);
+  std::vector<bool> isNamed(scene.nodes.size());
+  bool isThere = false, isSeen = false;
+  for (size_t n = 0; n < scene.nodes.size(); ++n) {
+    const scene::Node& node = scene.nodes[n];
+    isNamed[n] = int(n) == found || look::matches(name, node.name) ||
+                 (node.parent >= 0 && isNamed[size_t(node.parent)]);
+    isThere |= isNamed[n];
+    shown[n] = shown[n] && isNamed[n];
+    isSeen |= shown[n] && node.mesh >= 0;
+  }
+  if (!isThere) return usage("the scene has no node '" + name + "'", "`scumble info` lists its nodes");
+  if (!isSeen)
+    return usage("nothing is to be seen of the node '" + name + "'", "name one with a mesh, or above one");
+  return shown;
 }
 
 // What the look's camera looks at.
@@ -232,7 +262,7 @@ Result<View> viewFrom(const Shot& shot, Standpoint standpoint) {
     return usage("the scene has no camera '" + name + "'",
                  names.empty() ? "it has none at all; use --orbit" : "it has: " + names);
   }
-  const scene::Bounds bounds = scene::playedBounds(scene, everPlayed(scene, shot.look));
+  const scene::Bounds bounds = boundsOf(shot);
   const float radius = std::max(bounds.radius(), 1e-6f);
   if (standpoint == Standpoint::byHand) return fromHand(shot, bounds, radius);
   if (standpoint == Standpoint::lookEye)
@@ -257,9 +287,13 @@ Result<std::vector<View>> makeViews(const Scene& scene, const Viewpoint& viewpoi
   if (viewpoint.turntable && !(*viewpoint.turntable > 0 && std::isfinite(*viewpoint.turntable)))
     return usage("a turn takes no such time", "give it in seconds, above 0");
 
-  const Shot shot{scene.data(), viewpoint, look.data(), now,
-                  camera,       time,      fov,         viewpoint.roll.value_or(camera.roll),
-                  aspect};
+  Result<std::vector<bool>> framed = framedNodes(scene.data(), viewpoint.frame);
+  if (!framed) return framed.error();
+  const Shot shot{scene.data(), viewpoint,
+                  look.data(),  now,
+                  camera,       time,
+                  fov,          viewpoint.roll.value_or(camera.roll),
+                  aspect,       std::move(framed).value()};
   const Result<View> made = viewFrom(shot, standpointOf(scene.data(), viewpoint, look.data(), camera));
   if (!made) return made.error();
   if (stereo == Stereo::mono) return std::vector<View>{*made};
