@@ -389,6 +389,7 @@ class Rendering(Program):
         far, both, everything = ((self.folder / name).read_bytes() for name in ("far.png", "both.png", "all.png"))
         self.different(far, everything)
         self.same(both, everything)
+        self.before = self.files()
         self.bad(USAGE, "render", "two.gltf", "-o", "x.png", "--frame", "Near", *TINY, says="Near")
         self.bad(USAGE, "render", "two.gltf", "-o", "x.png", "--frame", "Far", "--target", "1,2,3", *TINY, says="--target")
 
