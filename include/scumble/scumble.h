@@ -170,7 +170,6 @@ typedef struct scumble_viewpoint {
   int32_t has_eye;          /* else eye and target mean nothing */
   float eye[3], target[3];  /* metres */
   float vertical_fov;       /* degrees; 0: as look and scene say */
-  const char* frame;        /* nodes to frame instead of everything, by name or pattern; null: everything */
 } scumble_viewpoint;
 SCUMBLE_API void scumble_viewpoint_default(scumble_viewpoint* viewpoint);
 

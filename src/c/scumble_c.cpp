@@ -440,7 +440,6 @@ scumble_status scumble_make_views(const scumble_scene* scene, const scumble_look
       return misuse("scene, look, viewpoint, views or count are null");
     Viewpoint from;
     from.camera = textOf(viewpoint->camera);
-    from.frame = textOf(viewpoint->frame);
     from.orbit = viewpoint->has_orbit != 0;
     from.azimuth = viewpoint->azimuth, from.elevation = viewpoint->elevation;
     if (viewpoint->distance != 0) from.distance = viewpoint->distance;
