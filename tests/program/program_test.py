@@ -462,8 +462,8 @@ class Rendering(Program):
 
 
 class Memory(Program):
-    """Large scenes, 55 bytes a vertex in their files."""
-    SIDE = 40
+    """Large scenes, 56 bytes a vertex in their files."""
+    SIDE = 127
 
     def put_scene(self, count):
         """Its size, as COUNT.gltf."""
@@ -511,18 +511,18 @@ class Memory(Program):
         return 1024 * usage.ru_maxrss
 
     def test_a_file_and_its_scene_are_not_in_memory_at_once(self):
-        sizes = [self.put_scene(count) for count in (600, 1200)]
+        sizes = [self.put_scene(count) for count in (60, 120)]
         # A process that begins another one is counted with it: both are larger than this one.
-        peaks = [self.peak("info", name) for name in ("600.gltf", "1200.gltf")]
+        peaks = [self.peak("info", name) for name in ("60.gltf", "120.gltf")]
         size, more = (pair[1] - pair[0] for pair in (sizes, peaks))
         self.assertLess(more, 2.2 * size)
         self.assertGreater(more, 1.2 * size, "else this measures something else")
 
     def test_a_still_scene_is_in_memory_once(self):
-        size = self.put_scene(600)
+        size = self.put_scene(60)
         # Nothing of it is in sight or casts shadows: what a driver keeps of triangles that it draws is its own.
         how = ["-o", "a.png", "--size", "32x18", "--set", "shadowMap.cast=false"]
-        more = self.peak("render", "600.gltf", "--camera", "Away", *how) - self.peak("render", "box.gltf", *how)
+        more = self.peak("render", "60.gltf", "--camera", "Away", *how) - self.peak("render", "box.gltf", *how)
         self.assertLess(more, 2.5 * size)
         self.assertGreater(more, 1.2 * size, "else this measures something else")
 
