@@ -154,11 +154,12 @@ Status Renderer::Impl::begin(const Request& request) {
       if (aov->namesObjects &&
           std::find(options.aovs.begin(), options.aovs.end(), aov->name) != options.aovs.end())
         next.frame.objects = objectNames(scene.data(), geometry);
-    if (!canUse(scene, geometry))
+    const bool drops = !scene.data().keepsVertices && !look.isAnimated() && !request.isRehearsal;
+    Resident* const used = useScene(scene, geometry, drops, stats);
+    if (!used)
       return usage("the scene's vertices have been dropped, and this frame needs them",
                    "load the scene again, where need be with SceneOptions::keepsVertices");
-    const bool drops = !scene.data().keepsVertices && !look.isAnimated() && !request.isRehearsal;
-    Resident& resident = useScene(scene, geometry, drops, stats);
+    Resident& resident = *used;
     const glm::uvec2 frameSize = largestOf(groups);
     const glm::uvec2 texels =
         background ? Backdrop::sizeFor(*background, frameSize.x, frameSize.y) : glm::uvec2(0);

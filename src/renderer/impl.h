@@ -112,10 +112,9 @@ struct Renderer::Impl {
   Error cancelled();
 
  private:
-  // False where the scene's vertices are needed, and have been dropped.
-  bool canUse(const Scene& wanted, const world::GeometryOptions& options) const;
-  // The scene to draw, first of the residents, as it is now. `drops`: as SceneOnGpu::update() has it.
-  renderer::Resident& useScene(const Scene& wanted, const world::GeometryOptions& options, bool drops,
+  // The scene to draw, first of the residents, as it is now. `drops`: as SceneOnGpu::update() has it. Null,
+  // and nothing is done, where the scene's vertices are needed and have been dropped.
+  renderer::Resident* useScene(const Scene& wanted, const world::GeometryOptions& options, bool drops,
                                FrameStats& stats);
   // Takes off the device what was drawn longest ago, but for so many scenes, while there is too much.
   void keepBudget(size_t least);

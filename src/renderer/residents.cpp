@@ -9,18 +9,14 @@ namespace scumble {
 using namespace frame;
 using namespace renderer;
 
-bool Renderer::Impl::canUse(const Scene& wanted, const GeometryOptions& options) const {
-  return !scene::hasDroppedVertices(wanted.data()) ||
-         std::any_of(residents.begin(), residents.end(),
-                     [&](const Resident& resident) { return resident.onGpu.isOf(wanted.data(), options); });
-}
-
-Resident& Renderer::Impl::useScene(const Scene& wanted, const GeometryOptions& options, bool drops,
+Resident* Renderer::Impl::useScene(const Scene& wanted, const GeometryOptions& options, bool drops,
                                    FrameStats& stats) {
   const auto found = std::find_if(residents.begin(), residents.end(), [&](const Resident& resident) {
     const scene::SceneData &is = resident.scene.data(), &becomes = wanted.data();
     return &is == &becomes || (is.family != 0 && is.family == becomes.family);
   });
+  const bool isThere = found != residents.end() && found->onGpu.isOf(wanted.data(), options);
+  if (!isThere && scene::hasDroppedVertices(wanted.data())) return nullptr;
   if (found != residents.end()) {
     residents.splice(residents.begin(), residents, found);
   } else {
@@ -29,9 +25,9 @@ Resident& Renderer::Impl::useScene(const Scene& wanted, const GeometryOptions& o
     residents.emplace_front(*device, *samplers, wanted);
   }
   Resident& resident = residents.front();
-  if (resident.onGpu.isOf(wanted.data(), options)) {
+  if (isThere) {
     if (drops) resident.onGpu.dropVertices();
-    return resident;
+    return &resident;
   }
   try {
     const SceneOnGpu::Changes changes =
@@ -51,7 +47,7 @@ Resident& Renderer::Impl::useScene(const Scene& wanted, const GeometryOptions& o
     abandon();
     throw;
   }
-  return resident;
+  return &resident;
 }
 
 void Renderer::Impl::keepBudget(size_t least) {

@@ -29,12 +29,8 @@ void giveBack(size_t bytes) {
 
 }  // namespace
 
-bool canDropVertices(const Primitive& primitive) {
-  return primitive.influences == 0 && primitive.morphTargets.empty();
-}
-
 void dropVertices(const Primitive& primitive) {
-  if (primitive.droppedVertices > 0) return;
+  if (primitive.influences > 0 || !primitive.morphTargets.empty() || primitive.droppedVertices > 0) return;
   // Meshes are made to be changed, and shared as what nobody changes (base/shared.h).
   Primitive& p = const_cast<Primitive&>(primitive);
   p.droppedVertices = p.vertexCount(), p.droppedIndices = p.indices.size();

@@ -6,12 +6,9 @@
 
 namespace scumble::scene {
 
-// Whether the primitive can be drawn without its vertices once they are on the device: those of a skinned or
-// morphed one tell where it is in each frame.
-bool canDropVertices(const Primitive& primitive);
-
-// Frees them, and gives the heap's free pages back to the system from time to time (glibc). Nobody else may
-// read the primitive meanwhile, nor its vertices ever after: all scenes that share it have lost them.
+// Those of a skinned or morphed primitive stay: they tell where it is in each frame. Frees others, and gives
+// the heap's free pages back to the system from time to time (glibc). Nobody else may read the primitive
+// meanwhile, nor its vertices ever after: all scenes that share it have lost them.
 void dropVertices(const Primitive& primitive);
 
 // Whether some have been dropped, so that no device can be given them any more.

@@ -55,30 +55,42 @@ glm::vec3 morphedPosition(const Primitive& primitive, size_t v, const std::vecto
 // Of so many vertices, spread over the primitive: boxes of more differ by little.
 constexpr size_t kSampledVertices = 1024;
 
-void addPrimitive(Bounds& bounds, const Primitive& primitive, const Node& node, const glm::mat4& world,
-                  const std::vector<float>& weights, const std::vector<glm::mat4>& joints) {
-  const Bounds& box = primitive.extent.box;
-  const bool skinned = node.skin >= 0 && primitive.influences > 0;
-  const bool morphs = !primitive.morphTargets.empty();
-  if (!skinned && !morphs) {
-    if (node.instances.empty()) addBox(bounds, box, world);
-    for (const glm::mat4& instance : node.instances) addBox(bounds, box, world * instance);
-    return;
-  }
+// `joints`: empty for what is not skinned, which `model` places.
+void addPrimitive(Bounds& bounds, const Primitive& primitive, const glm::mat4& model,
+                  std::span<const glm::mat4> joints, const std::vector<float>& weights) {
+  if (joints.empty() && primitive.morphTargets.empty()) return addBox(bounds, primitive.extent.box, model);
   const size_t step = std::max<size_t>(1, primitive.vertexCount() / kSampledVertices);
   for (size_t v = 0; v < primitive.vertexCount(); v += step) {
     const glm::vec3 own = morphedPosition(primitive, v, weights);
-    const auto addPoint = [&](const glm::vec3& p) {
-      if (isDrawable(p)) bounds.add(p);
-    };
-    if (skinned)
-      addPoint(skinnedPosition(primitive, v, own, joints));
-    else if (node.instances.empty())
-      addPoint(glm::vec3(world * glm::vec4(own, 1.0f)));
-    else
-      for (const glm::mat4& instance : node.instances)
-        addPoint(glm::vec3(world * instance * glm::vec4(own, 1.0f)));
+    const glm::vec3 placed =
+        joints.empty() ? glm::vec3(model * glm::vec4(own, 1.0f)) : skinnedPosition(primitive, v, own, joints);
+    if (isDrawable(placed)) bounds.add(placed);
   }
+}
+
+// The primitives of these nodes, at any time of these clips: visit(primitive, model, joints, morph weights),
+// once for each instance.
+template <class Visit>
+void forEachPlayed(const SceneData& scene, const std::vector<bool>& nodes, std::span<const int> clips,
+                   Visit&& visit) {
+  const std::span<const glm::mat4> none;
+  forEachPose(scene, clips, [&](const Pose& pose, std::span<const std::vector<glm::mat4>> joints) {
+    for (size_t n = 0; n < scene.nodes.size(); ++n) {
+      const Node& node = scene.nodes[n];
+      if (node.mesh < 0 || !nodes[n]) continue;
+      const Mesh& mesh = scene.meshes[size_t(node.mesh)];
+      for (const Primitive& primitive : mesh.primitives) {
+        const std::vector<float>& weights = pose.morphWeights[n];
+        if (node.skin >= 0 && primitive.influences > 0)
+          visit(primitive, pose.world[n], std::span(joints[size_t(node.skin)]), weights);
+        else if (node.instances.empty())
+          visit(primitive, pose.world[n], none, weights);
+        else
+          for (const glm::mat4& instance : node.instances)
+            visit(primitive, pose.world[n] * instance, none, weights);
+      }
+    }
+  });
 }
 
 }  // namespace
@@ -126,37 +138,20 @@ std::vector<glm::vec3> playedOutline(const SceneData& scene, const std::vector<b
     if (points.size() == kMost) points = outermostOf(points, kDirections);
     if (isDrawable(p)) points.push_back(p);
   };
-  forEachPose(scene, clips, [&](const Pose& pose) {
-    std::vector<std::vector<glm::mat4>> joints;
-    for (const Skin& skin : scene.skins) joints.push_back(jointMatrices(skin, pose.world));
-    for (size_t n = 0; n < scene.nodes.size(); ++n) {
-      const Node& node = scene.nodes[n];
-      if (node.mesh < 0 || !nodes[n]) continue;
-      const Mesh& mesh = scene.meshes[size_t(node.mesh)];
-      for (const Primitive& primitive : mesh.primitives) {
-        const bool isSkinned = node.skin >= 0 && primitive.influences > 0;
-        const auto place = [&](const glm::mat4& model) {
-          if (!isSkinned && primitive.morphTargets.empty()) {
-            for (size_t i = 0; i < primitive.extent.outermostCount; ++i)
-              add(glm::vec3(model * glm::vec4(primitive.extent.outermost[i], 1.0f)));
-            return;
-          }
-          const std::span<const glm::mat4> none;
-          forEachBox(primitive.extent, model,
-                     isSkinned ? std::span<const glm::mat4>(joints[size_t(node.skin)]) : none,
-                     pose.morphWeights[n], [&](const Bounds& box, const glm::mat4& matrix) {
-                       for (int corner = 0; !box.empty && corner < 8; ++corner)
-                         add(glm::vec3(matrix * glm::vec4(corner & 1 ? box.max.x : box.min.x,
-                                                          corner & 2 ? box.max.y : box.min.y,
-                                                          corner & 4 ? box.max.z : box.min.z, 1.0f)));
-                     });
-        };
-        if (node.instances.empty() || isSkinned) place(pose.world[n]);
-        for (const glm::mat4& instance : node.instances)
-          if (!isSkinned) place(pose.world[n] * instance);
-      }
-    }
-  });
+  forEachPlayed(scene, nodes, clips,
+                [&](const Primitive& primitive, const glm::mat4& model, std::span<const glm::mat4> joints,
+                    const std::vector<float>& weights) {
+                  const PrimitiveExtent& extent = primitive.extent;
+                  if (joints.empty() && primitive.morphTargets.empty()) {
+                    for (size_t i = 0; i < extent.outermostCount; ++i)
+                      add(glm::vec3(model * glm::vec4(extent.outermost[i], 1.0f)));
+                    return;
+                  }
+                  forEachBox(extent, model, joints, weights, [&](const Bounds& box, const glm::mat4& matrix) {
+                    for (int corner = 0; !box.empty && corner < 8; ++corner)
+                      add(glm::vec3(matrix * glm::vec4(box.corner(corner), 1.0f)));
+                  });
+                });
   return outermostOf(points, kDirections);
 }
 
@@ -213,9 +208,15 @@ Bounds posedBounds(const PrimitiveExtent& extent, const glm::mat4& model, std::s
   return bounds;
 }
 
-void forEachPose(const SceneData& scene, std::span<const int> clips,
-                 const std::function<void(const Pose&)>& body) {
-  if (clips.empty()) body(poseAt(scene, {}, 0));
+void forEachPose(
+    const SceneData& scene, std::span<const int> clips,
+    const std::function<void(const Pose&, std::span<const std::vector<glm::mat4>> joints)>& body) {
+  const auto visit = [&](const Pose& pose) {
+    std::vector<std::vector<glm::mat4>> joints;
+    for (const Skin& skin : scene.skins) joints.push_back(jointMatrices(skin, pose.world));
+    body(pose, joints);
+  };
+  if (clips.empty()) visit(poseAt(scene, {}, 0));
   for (const int index : clips) {
     PlayedClip played;
     played.clip = index;
@@ -223,26 +224,17 @@ void forEachPose(const SceneData& scene, std::span<const int> clips,
     const int samples = int(std::clamp(std::ceil(6 * duration), 1.0, 12.0));
     // Not quite the end, which would be the beginning again.
     for (int i = 0; i <= samples; ++i)
-      body(poseAt(scene, {&played, 1}, std::min(duration * i / samples, duration * 0.9999)));
+      visit(poseAt(scene, {&played, 1}, std::min(duration * i / samples, duration * 0.9999)));
   }
 }
 
 Bounds playedBounds(const SceneData& scene, std::span<const int> clips) {
   if (clips.empty()) return scene.bounds;
-  const std::vector<bool> shown = shownNodes(scene);
   Bounds bounds;
-  forEachPose(scene, clips, [&](const Pose& pose) {
-    std::vector<std::vector<glm::mat4>> joints;
-    for (const Skin& skin : scene.skins) joints.push_back(jointMatrices(skin, pose.world));
-    for (size_t n = 0; n < scene.nodes.size(); ++n) {
-      const Node& node = scene.nodes[n];
-      if (node.mesh < 0 || !shown[n]) continue;
-      const Mesh& mesh = scene.meshes[size_t(node.mesh)];
-      for (const Primitive& primitive : mesh.primitives)
-        addPrimitive(bounds, primitive, node, pose.world[n], pose.morphWeights[n],
-                     node.skin >= 0 ? joints[size_t(node.skin)] : std::vector<glm::mat4>());
-    }
-  });
+  forEachPlayed(
+      scene, shownNodes(scene), clips,
+      [&](const Primitive& primitive, const glm::mat4& model, std::span<const glm::mat4> joints,
+          const std::vector<float>& weights) { addPrimitive(bounds, primitive, model, joints, weights); });
   return bounds.empty ? scene.bounds : bounds;
 }
 

@@ -23,9 +23,11 @@ PrimitiveExtent extentOf(const Primitive& primitive);
 Bounds posedBounds(const PrimitiveExtent& extent, const glm::mat4& model, std::span<const glm::mat4> joints,
                    std::span<const float> morphWeights);
 
-// Poses from all over each of the clips, one clip at a time; without clips, the rest pose.
-void forEachPose(const SceneData& scene, std::span<const int> clips,
-                 const std::function<void(const Pose&)>& body);
+// Poses from all over each of the clips, one clip at a time; without clips, the rest pose. `joints`: the
+// jointMatrices() of each skin.
+void forEachPose(
+    const SceneData& scene, std::span<const int> clips,
+    const std::function<void(const Pose&, std::span<const std::vector<glm::mat4>> joints)>& body);
 
 // What the whole scene takes up while each of the clips plays, found at some times of it from the vertices
 // themselves: close, and up to a little too small. Without clips: the scene's own bounds.

@@ -43,14 +43,10 @@ Bounds morphed(const MeshBox& mesh, const std::vector<float>& weights) {
   return bounds;
 }
 
-glm::vec3 corner(const Bounds& box, int i) {
-  return {i & 1 ? box.max.x : box.min.x, i & 2 ? box.max.y : box.min.y, i & 4 ? box.max.z : box.min.z};
-}
-
 bool addBox(const Bounds& box, const glm::mat4& matrix, Bounds& bounds) {
   glm::vec3 corners[8];
   for (int i = 0; i < 8; ++i) {
-    corners[i] = glm::vec3(matrix * glm::vec4(corner(box, i), 1.0f));
+    corners[i] = glm::vec3(matrix * glm::vec4(box.corner(i), 1.0f));
     if (!isDrawable(corners[i])) return false;
   }
   for (const glm::vec3& c : corners) bounds.add(c);

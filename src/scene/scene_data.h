@@ -78,6 +78,10 @@ struct Bounds {
   void add(const glm::vec3& p);
   void add(const Bounds& other);
   glm::vec3 center() const { return 0.5f * (min + max); }
+  // One of eight; a bit of `i` an axis.
+  glm::vec3 corner(int i) const {
+    return {i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z};
+  }
   float radius() const { return empty ? 1.0f : 0.5f * glm::length(max - min); }
 };
 

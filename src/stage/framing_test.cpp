@@ -69,9 +69,7 @@ struct Extent {
 Extent extentOf(const View& view, const Bounds& bounds) {
   Extent extent;
   for (int corner = 0; corner < 8; ++corner) {
-    const glm::vec3 p(corner & 1 ? bounds.max.x : bounds.min.x, corner & 2 ? bounds.max.y : bounds.min.y,
-                      corner & 4 ? bounds.max.z : bounds.min.z);
-    const glm::vec3 ndc = ndcOf(view, p);
+    const glm::vec3 ndc = ndcOf(view, bounds.corner(corner));
     extent.x = std::max(extent.x, std::abs(ndc.x));
     extent.y = std::max(extent.y, std::abs(ndc.y));
     extent.inFront &= ndc.z > 0 && ndc.z < 1;

@@ -157,13 +157,11 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
   }
 
   // Where clips take them.
-  scene::forEachPose(scene, options.clips, [&](const scene::Pose& pose) {
-    std::vector<std::vector<glm::mat4>> joints;
-    for (const scene::Skin& skin : scene.skins) joints.push_back(scene::jointMatrices(skin, pose.world));
+  const std::span<const glm::mat4> none;
+  scene::forEachPose(scene, options.clips, [&](const scene::Pose& pose, auto joints) {
     for (GeometryItem& item : geometry.items)
       item.reach.add(scene::posedBounds(*item.extent, pose.world[item.node] * item.instance,
-                                        item.skin >= 0 ? std::span<const glm::mat4>(joints[size_t(item.skin)])
-                                                       : std::span<const glm::mat4>(),
+                                        item.skin >= 0 ? std::span(joints[size_t(item.skin)]) : none,
                                         pose.morphWeights[item.node]));
   });
 

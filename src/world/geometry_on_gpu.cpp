@@ -220,8 +220,7 @@ void GeometryOnGpu::build(gpu::Device& device, gpu::Uploader& uploader, Plan& pl
   if (largest > range || std::max({restVertices, finalVertices, indexCount}) > (1ull << 31))
     throw gpu::VulkanError{"the scene's vertices", VK_ERROR_OUT_OF_DEVICE_MEMORY};
   // So many that each stream begins where storage buffers may; a chunk may reach into the next page.
-  constexpr uint64_t kLargestVertex =
-      std::max({sizeof(shared::VertexCore), sizeof(shared::VertexFrame), sizeof(glm::vec3)});
+  constexpr uint64_t kLargestVertex = std::max(sizeof(shared::VertexCore), sizeof(shared::VertexFrame));
   pageVertices_ =
       uint32_t(std::min<uint64_t>(range / kLargestVertex, 1u << 31) / kPageAlignment * kPageAlignment);
   const uint32_t step =

@@ -66,9 +66,8 @@ SceneOnGpu::Changes SceneOnGpu::update(const scene::SceneData& scene, const Geom
   measureParts(geometry);
   // Triangles of blended surfaces are listed later; what is made_ is kept there.
   for (GeometryItem& item : geometry.items)
-    item.dropsVertices = drops && item.node != GeometryItem::kNoNode &&
-                         scene::canDropVertices(*item.primitive) &&
-                         alphaMode(material(item.material)) != AlphaMode::blend;
+    item.dropsVertices =
+        drops && item.node != GeometryItem::kNoNode && alphaMode(material(item.material)) != AlphaMode::blend;
 
   // Vertices, where they are others; then images.
   gpu::Uploader uploader(device_);
@@ -97,8 +96,7 @@ SceneOnGpu::Changes SceneOnGpu::update(const scene::SceneData& scene, const Geom
 
 void SceneOnGpu::dropVertices() const {
   for (const scene::Mesh& mesh : data_->meshes)
-    for (const scene::Primitive& primitive : mesh.primitives)
-      if (scene::canDropVertices(primitive)) scene::dropVertices(primitive);
+    for (const scene::Primitive& primitive : mesh.primitives) scene::dropVertices(primitive);
 }
 
 void SceneOnGpu::listMaterials() {

@@ -642,13 +642,6 @@ class Purity : public AnimationDrawn {
     while (renderer().finish()) ADD_FAILURE() << "a frame was left under way";
     AnimationDrawn::TearDown();
   }
-  static void expectSame(const Frame& a, const Frame& b, const std::string& what) {
-    ASSERT_EQ(a.layers.size(), b.layers.size()) << what;
-    for (size_t i = 0; i < a.layers.size(); ++i)
-      for (size_t v = 0; v < a.layers[i].views.size(); ++v)
-        EXPECT_TRUE(sameBytes(a.layers[i].views[v], b.layers[i].views.at(v)))
-            << what << ": layer '" << a.layers[i].name << "', view " << v;
-  }
 };
 INSTANTIATE_BOTH_EYES(Purity);
 

@@ -52,10 +52,7 @@ TEST_P(Pages, drawTheSameWhateverTheDeviceBinds) {
                         b = paged->render(scene, look, time, views, options);
     ASSERT_TRUE(a.ok()) << a.error().message();
     ASSERT_TRUE(b.ok()) << b.error().message();
-    for (size_t l = 0; l < a->layers.size(); ++l)
-      for (size_t v = 0; v < viewCount(); ++v)
-        EXPECT_TRUE(sameBytes(a->layers[l].views[v], b->layers[l].views[v]))
-            << a->layers[l].name << " at " << time;
+    expectSame(*a, *b, "at " + std::to_string(time));
   }
   EXPECT_EQ(paged->validationMessages(), 0);
 }

@@ -18,17 +18,6 @@ std::vector<std::string> perViewAovs() {
   return names;
 }
 
-void expectSame(const Frame& a, const Frame& b) {
-  ASSERT_EQ(a.layers.size(), b.layers.size());
-  for (size_t i = 0; i < a.layers.size(); ++i) {
-    EXPECT_EQ(a.layers[i].name, b.layers[i].name);
-    ASSERT_EQ(a.layers[i].views.size(), b.layers[i].views.size());
-    for (size_t v = 0; v < a.layers[i].views.size(); ++v)
-      EXPECT_TRUE(sameBytes(a.layers[i].views[v], b.layers[i].views[v]))
-          << "layer '" << a.layers[i].name << "', view " << v;
-  }
-}
-
 // What stillLife() lacks: textures, holes, panes.
 TestScene richScene() {
   TestScene s = stillLife();

@@ -94,13 +94,6 @@ class Edited : public BothEyes {
   static Frame drawn(const Scene& scene, const Look& look = Look(), std::vector<std::string> aovs = {}) {
     return draw(scene, look, views(scene), sized(kWidth, kHeight, std::move(aovs)));
   }
-  static void expectSame(const Frame& a, const Frame& b, const std::string& what) {
-    ASSERT_EQ(a.layers.size(), b.layers.size());
-    for (size_t i = 0; i < a.layers.size(); ++i)
-      for (size_t v = 0; v < a.layers[i].views.size(); ++v)
-        EXPECT_TRUE(sameBytes(a.layers[i].views[v], b.layers[i].views[v]))
-            << what << ": layer '" << a.layers[i].name << "', view " << v;
-  }
   static std::vector<std::string> allAovs() { return Renderer::aovNames(); }
 };
 INSTANTIATE_BOTH_EYES(Edited);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "look/look_data.h"
+#include "tests/support/aov.h"
 #include "tests/support/test_device.h"
 
 namespace scumble::test {
@@ -109,6 +110,17 @@ View parallelView(float halfHeight, float aspect) {
   view.worldToEye = glm::translate(glm::mat4(1.0f), glm::vec3(0, 0, -5));
   view.eyeToClip = orthographicProjection(halfHeight, aspect, 0.1f, 20);
   return view;
+}
+
+void expectSame(const Frame& a, const Frame& b, const std::string& what) {
+  ASSERT_EQ(a.layers.size(), b.layers.size()) << what;
+  for (size_t i = 0; i < a.layers.size(); ++i) {
+    EXPECT_EQ(a.layers[i].name, b.layers[i].name) << what;
+    ASSERT_EQ(a.layers[i].views.size(), b.layers[i].views.size()) << what;
+    for (size_t v = 0; v < a.layers[i].views.size(); ++v)
+      EXPECT_TRUE(sameBytes(a.layers[i].views[v], b.layers[i].views[v]))
+          << what << ": layer '" << a.layers[i].name << "', view " << v;
+  }
 }
 
 RenderOptions sized(uint32_t width, uint32_t height, std::vector<std::string> aovs, uint32_t samples) {

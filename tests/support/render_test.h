@@ -41,6 +41,9 @@ std::string stereoName(const ::testing::TestParamInfo<Stereo>& info);
                            ::testing::Values(::scumble::Stereo::mono, ::scumble::Stereo::stereo), \
                            ::scumble::test::stereoName)
 
+// That two frames have the same layers and views, to the byte.
+void expectSame(const Frame& a, const Frame& b, const std::string& what = "");
+
 // Settings by their paths, as Look::set takes them.
 using Knobs = std::vector<std::pair<std::string, std::string>>;
 
