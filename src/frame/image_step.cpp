@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "shaders/fullscreen_vert.h"
+#include "shaders/tiles_vert.h"
 
 namespace scumble::frame {
 
@@ -19,6 +20,7 @@ std::vector<gpu::Handle> ImageStep::declare(FrameBuilder& frame, ImageStepDesc d
     frame.use(input.image, compute_ ? gpu::Use::sampledByCompute : gpu::Use::sampledByFragment);
     read.push_back(input.image);
   }
+  if (desc_.tiles) tiles_.declare(frame, desc_.tiles, compute_);
   for (gpu::Handle& output : desc_.outputs)
     output = frame.use(output, compute_ ? gpu::Use::storageImageWrite : gpu::Use::colorTarget);
   return desc_.outputs;
@@ -44,6 +46,7 @@ void ImageStep::create(FrameBuilder& frame) {
   inputSets_ = gpu::DescriptorSets(device, inputLayout_, desc_.maxJobs);
   for (uint32_t job = 0; job < desc_.maxJobs; ++job)
     inputSets_.writeBuffer(job, 0, uniforms_.buffer, uniforms_.offset + job * uniformStride_, uniformStride_);
+  if (tiles_) tiles_.create(frame);
   if (compute_) {
     const std::vector<gpu::Binding> written(desc_.outputs.size(), {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, stage});
     outputLayout_ = gpu::SetLayout(device, written);
@@ -61,6 +64,7 @@ void ImageStep::bind(const gpu::GraphResources& resources) {
       inputSets_.rewriteTexture(job, input.binding, resources.image(input.image).view(),
                                 frame_->samplers().get(sampler));
   }
+  if (tiles_) tiles_.bind(resources);
   if (compute_)
     for (uint32_t i = 0; i < desc_.outputs.size(); ++i)
       outputSet_.writeStorageImage(0, i, resources.image(desc_.outputs[i]).view());
@@ -74,15 +78,18 @@ void ImageStep::setJobs(const std::vector<Job>& jobs) {
     for (const Texture& texture : jobs[job].textures)
       inputSets_.writeTexture(job, texture.binding, texture.image->view(),
                               frame_->samplers().get(texture.sampler));
-    jobs_.push_back(&pipelineFor(jobs[job].constants));
+    assert((tiles_ || !jobs[job].where.mask) && "which tiles?");
+    assert(!(jobs[job].where.value & ~jobs[job].where.mask) && "no tile is like that");
+    jobs_.push_back({&pipelineFor(jobs[job]), jobs[job].where});
   }
 }
 
-const gpu::Pipeline& ImageStep::pipelineFor(const std::vector<uint32_t>& constants) {
-  gpu::Pipeline& pipeline = pipelines_[constants];
+const gpu::Pipeline& ImageStep::pipelineFor(const Job& job) {
+  const bool onTiles = job.where.mask != 0;
+  gpu::Pipeline& pipeline = pipelines_[{job.constants, onTiles && !compute_}];
   if (pipeline) return pipeline;
   // Constant 3 is every shader's number of views (src/shading/frame.glsl).
-  std::vector<uint32_t> all = constants;
+  std::vector<uint32_t> all = job.constants;
   all.resize(3);
   all.push_back(configuration_.viewCount);
   if (compute_) {
@@ -90,16 +97,21 @@ const gpu::Pipeline& ImageStep::pipelineFor(const std::vector<uint32_t>& constan
     desc.shader = desc_.shader.compute;
     desc.constants = std::move(all);
     desc.sets = {frame_->frameLayout().handle(), inputLayout_.handle(), outputLayout_.handle()};
+    if (tiles_) {
+      desc.sets.push_back(tiles_.layout().handle());
+      desc.pushConstantBytes = sizeof(shared::TileRule);
+    }
     pipeline = gpu::Pipeline(frame_->device(), desc);
   } else {
     gpu::GraphicsPipelineDesc desc;
-    desc.vertex = {shaders::fullscreen_vert};
+    desc.vertex = onTiles ? gpu::Shader{shaders::tiles_vert} : gpu::Shader{shaders::fullscreen_vert};
     desc.fragment = desc_.shader.fragment;
     desc.constants = std::move(all);
     for (const gpu::Handle output : desc_.outputs) desc.colorFormats.push_back(frame_->shape(output).format);
     desc.viewMask = configuration_.views().mask();
-    desc.pushConstantBytes = 4;
+    desc.pushConstantBytes = onTiles ? sizeof(shared::TileRule) : 4;
     desc.sets = {frame_->frameLayout().handle(), inputLayout_.handle()};
+    if (onTiles) desc.sets.push_back(tiles_.layout().handle());
     pipeline = gpu::Pipeline(frame_->device(), desc);
   }
   return pipeline;
@@ -107,18 +119,25 @@ const gpu::Pipeline& ImageStep::pipelineFor(const std::vector<uint32_t>& constan
 
 void ImageStep::record(VkCommandBuffer commands) const {
   const gpu::Image& first = resources_->image(desc_.outputs.front());
-  const uint32_t width = first.desc().width, height = first.desc().height;
+  const glm::uvec2 size(first.desc().width, first.desc().height);
+  const gpu::ImageShape& shape = frame_->shape(desc_.outputs.front());
   const auto bind = [&](size_t job) {
-    jobs_[job]->bind(commands);
-    jobs_[job]->bindSet(commands, 0, frame_->frameSet());
-    jobs_[job]->bindSet(commands, 1, inputSets_[job]);
+    jobs_[job].pipeline->bind(commands);
+    jobs_[job].pipeline->bindSet(commands, 0, frame_->frameSet());
+    jobs_[job].pipeline->bindSet(commands, 1, inputSets_[job]);
+  };
+  const auto bindTiles = [&](size_t job, uint32_t set, uint32_t firstView) {
+    jobs_[job].pipeline->bindSet(commands, set, tiles_.set());
+    jobs_[job].pipeline->pushAll(commands,
+                                 tiles_.rule(jobs_[job].where, firstView, size, {shape.overX, shape.overY}));
   };
   if (compute_) {
     // Jobs write different pixels, so that nothing need wait between them.
     for (size_t job = 0; job < jobs_.size(); ++job) {
       bind(job);
-      jobs_[job]->bindSet(commands, 2, outputSet_[0]);
-      vkCmdDispatch(commands, (width + 7) / 8, (height + 7) / 8, first.desc().layers);
+      jobs_[job].pipeline->bindSet(commands, 2, outputSet_[0]);
+      if (tiles_) bindTiles(job, 3, 0);
+      vkCmdDispatch(commands, (size.x + 7) / 8, (size.y + 7) / 8, first.desc().layers);
     }
     return;
   }
@@ -128,8 +147,13 @@ void ImageStep::record(VkCommandBuffer commands) const {
   gpu::drawViews(commands, configuration_.views(), targets, nullptr, [&](uint32_t firstView) {
     for (size_t job = 0; job < jobs_.size(); ++job) {
       bind(job);
-      jobs_[job]->push(commands, firstView);
-      vkCmdDraw(commands, 3, 1, 0, 0);
+      if (jobs_[job].where.mask) {
+        bindTiles(job, 2, firstView);
+        vkCmdDraw(commands, tiles_.vertexCount(), 1, 0, 0);
+      } else {
+        jobs_[job].pipeline->push(commands, firstView);
+        vkCmdDraw(commands, 3, 1, 0, 0);
+      }
     }
   });
 }

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "frame/pass.h"
+#include "frame/tile_flags.h"
 
 namespace scumble::frame {
 
@@ -25,6 +26,7 @@ struct ImageStepDesc {
   ImageShader shader;
   std::vector<Input> inputs;
   std::vector<uint32_t> textures;    // bindings of what is none of the frame's images
+  gpu::Handle tiles{};               // flags (shading/tiles.shared.h), for shaders with SHADES_TILES
   std::vector<gpu::Handle> outputs;  // one image, or two of one size for shaders with SHADES_TWO
   uint64_t uniformBytes = 0;         // of the block for each job; 0 where the shader has none
   std::vector<uint32_t> constants;   // specialisation constants 0 to 2 of a step without jobs of its own
@@ -39,11 +41,13 @@ class ImageStep {
     const gpu::Image* image = nullptr;
     gpu::SamplerDesc sampler{};
   };
-  // One run of the shader over the whole picture. Most steps have one job; where several share the pixels
-  // among them, the shader has SHADES_SOME (src/shading/image_pass.glsl).
+  // One run of the shader over the picture, or some of its tiles. Most steps have one job; where several
+  // share the pixels of a tile among them, the shader has SHADES_SOME (src/shading/image_pass.glsl). A tile
+  // on which none runs keeps whatever lay in that memory.
   struct Job {
     std::vector<uint32_t> constants;  // specialisation constants 0 to 2
     std::vector<Texture> textures;    // all that were declared
+    TileChoice where{};               // it runs
   };
   // Gives what the outputs hold then.
   std::vector<gpu::Handle> declare(FrameBuilder& frame, ImageStepDesc desc);
@@ -57,7 +61,7 @@ class ImageStep {
   }
 
  private:
-  const gpu::Pipeline& pipelineFor(const std::vector<uint32_t>& constants);
+  const gpu::Pipeline& pipelineFor(const Job& job);
   void record(VkCommandBuffer commands) const;
 
   ImageStepDesc desc_;
@@ -69,8 +73,13 @@ class ImageStep {
   const gpu::GraphResources* resources_ = nullptr;
   gpu::SetLayout inputLayout_, outputLayout_;
   gpu::DescriptorSets inputSets_, outputSet_;
-  std::map<std::vector<uint32_t>, gpu::Pipeline> pipelines_;
-  std::vector<const gpu::Pipeline*> jobs_;
+  TileFlags tiles_;
+  std::map<std::pair<std::vector<uint32_t>, bool>, gpu::Pipeline> pipelines_;  // whether on some tiles
+  struct RecordedJob {
+    const gpu::Pipeline* pipeline;
+    TileChoice where;
+  };
+  std::vector<RecordedJob> jobs_;
 };
 
 }  // namespace scumble::frame

@@ -31,13 +31,4 @@ class MaterialBlocks {
   UniformSlice slice_, rows_;
 };
 
-// The same for a pass that reads its knobs as they are.
-template <class Params>
-class MaterialParams : public MaterialBlocks<Params> {
- public:
-  void update(const FrameInput& input) const {
-    for (size_t m = 0; m < input.scene.materialCount(); ++m) this->write(m, input.knobs.of<Params>(m));
-  }
-};
-
 }  // namespace scumble::frame

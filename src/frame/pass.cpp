@@ -34,7 +34,7 @@ void UniformMemory::amend(const UniformSlice& slice, uint32_t frame) {
 FrameBuilder::FrameBuilder(gpu::Device& device, gpu::Samplers& samplers, ExampleTextures& examples,
                            const Configuration& configuration, const SceneOnGpu& scene,
                            const gpu::SetLayout& frameLayout, VkDescriptorSet frameSet,
-                           UniformMemory& uniforms)
+                           UniformMemory& uniforms, std::vector<std::string> asked)
     : device_(device),
       samplers_(samplers),
       examples_(examples),
@@ -42,7 +42,8 @@ FrameBuilder::FrameBuilder(gpu::Device& device, gpu::Samplers& samplers, Example
       scene_(scene),
       frameLayout_(frameLayout),
       frameSet_(frameSet),
-      uniforms_(uniforms) {
+      uniforms_(uniforms),
+      asked_(std::move(asked)) {
   // What has not moved keeps the vertices that an earlier frame wrote.
   give(kVertices, graph_.importBuffer(kVertices.name));
   give(kPreviousVertices, graph_.importBuffer(kPreviousVertices.name));
@@ -62,6 +63,10 @@ gpu::Handle FrameBuilder::get(const Role& role, Layer layer) const {
 
 bool FrameBuilder::has(const Role& role, Layer layer) const {
   return find(role, layer) != nullptr;
+}
+
+bool FrameBuilder::isAsked(const Aov& aov) const {
+  return std::find(asked_.begin(), asked_.end(), aov.name) != asked_.end();
 }
 
 void FrameBuilder::give(const Role& role, gpu::Handle handle, Layer layer) {

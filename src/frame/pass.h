@@ -90,7 +90,7 @@ class FrameBuilder {
  public:
   FrameBuilder(gpu::Device& device, gpu::Samplers& samplers, ExampleTextures& examples,
                const Configuration& configuration, const SceneOnGpu& scene, const gpu::SetLayout& frameLayout,
-               VkDescriptorSet frameSet, UniformMemory& uniforms);
+               VkDescriptorSet frameSet, UniformMemory& uniforms, std::vector<std::string> asked);
 
   gpu::Device& device() { return device_; }
   gpu::Samplers& samplers() { return samplers_; }
@@ -105,6 +105,8 @@ class FrameBuilder {
   // What has a role now. It must have been given.
   gpu::Handle get(const Role& role, Layer layer = Layer::first) const;
   bool has(const Role& role, Layer layer = Layer::first) const;
+  // Whether somebody saves an AOV: it is then made in full, also where the picture does not need it.
+  bool isAsked(const Aov& aov) const;
   // From here on `handle` has the role.
   void give(const Role& role, gpu::Handle handle, Layer layer = Layer::first);
   // Images and buffers of the pass's own; what comes back is empty until a step writes it.
@@ -153,6 +155,7 @@ class FrameBuilder {
   const gpu::SetLayout& frameLayout_;
   VkDescriptorSet frameSet_;
   UniformMemory& uniforms_;
+  std::vector<std::string> asked_;  // names of AOVs
   gpu::FrameGraph graph_;
   std::vector<Record> records_;         // by step
   std::vector<const Pass*> declarers_;  // by step

@@ -27,14 +27,16 @@ inline constexpr Role kDrawList{"draw list"};
 inline constexpr Role kTransparentOrder{"transparent order"};
 
 inline constexpr Role kShadowMap{"shadow map"};  // depth from the light in sigmoid-warped light space
-// R, G: warp vector in pixels (x right, y down); B: breakup marks; A: eye depth of the inflated surface, or
-// 0.
+// In tiles that are marked. R, G: warp vector in pixels (x right, y down); B: breakup marks, where the tile
+// is shaded; A: eye depth of the inflated surface, or 0.
 inline constexpr Role kWarp{"warp"};
+inline constexpr Role kInflatedDepth{"inflated depth"};  // the depth buffer of those
 // R: Lambert x cast shadow; G: lens; B: breakup, where it may act; A: coverage.
 inline constexpr Role kShadow{"shadow"};
 // Square root of the linear colour in full light, and in shadow; A: coverage. Square roots need no more than
 // 8 bits, and cost drivers less than sRGB.
 inline constexpr Role kLit{"lit"}, kShadowed{"shadowed"};
+inline constexpr Role kTiles{"tiles"};  // flags of tiles (shading/tiles.shared.h)
 inline constexpr Role kDepth{"depth"};  // depth buffer of the surfaces
 // Square root of the colours of prepainted materials (world/feature.h); once a pixel, wherever they are first
 // or not. A: 0 where there are none.

@@ -114,6 +114,11 @@ class Pipeline {
     vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_ALL, 0, uint32_t(constants.size() * 4),
                        constants.begin());
   }
+  // All of them, as the shader's block has them.
+  template <class Block>
+  void pushAll(VkCommandBuffer commands, const Block& block) const {
+    vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_ALL, 0, sizeof(Block), &block);
+  }
   explicit operator bool() const { return pipeline_ != VK_NULL_HANDLE; }
 
  private:

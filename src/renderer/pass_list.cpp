@@ -26,6 +26,7 @@
 #include "passes/shadow_map/shadow_map_knobs.h"
 #include "passes/surface/surface.h"
 #include "passes/surface/surface_knobs.h"
+#include "passes/tiles/tiles.h"
 #include "passes/warp/warp.h"
 #include "passes/warp/warp_knobs.h"
 #include "renderer/feature_list.h"
@@ -102,8 +103,9 @@ PassList standardPasses() {
   list.append(passes::makeCull);
   list.append(passes::makeOrder);
   list.append(passes::makeShadowMap);
-  list.append(passes::makeWarp);
   for (const Layer layer : kLayers) list.append([=] { return passes::makeSurface(layer); });
+  list.append(passes::makeTiles);
+  list.append(passes::makeWarp);
   list.append(passes::makeBlur);
   list.append(passes::makeFinalShadow);
   for (const Layer layer : kLayers) list.append([=] { return passes::makeColor(layer); });

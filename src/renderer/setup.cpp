@@ -28,8 +28,10 @@ Setup::Setup(gpu::Device& device, gpu::Samplers& samplers, ExampleTextures& exam
   frameSet_.writeBuffer(0, 2, lightSlice_.buffer, lightSlice_.offset, lightSlice_.size);
 
   // Passes declare what they read and write.
+  std::vector<std::string> asked = key.aovs;
+  for (const TargetKey& target : key.targets) asked.push_back(target.aov);
   builder_.emplace(device, samplers, examples, key.configuration, scene, frameLayout_, frameSet_[0],
-                   uniforms_);
+                   uniforms_, std::move(asked));
   passes_ = passes.makeAll();
   assert(passes_.size() == key.variants.size());
   for (size_t i = 0; i < passes_.size(); ++i) builder_->declare(*passes_[i], key.variants[i]);

@@ -2,7 +2,8 @@
 // shader or, with SCUMBLE_COMPUTE defined, a compute shader; the build compiles both. A pass that writes another format
 // than rgba16f defines OUTPUT_FORMAT; one whose jobs share the pixels among them defines SHADES_SOME and
 // bool shades(ivec2 pixel, int layer); one that writes two images defines SHADES_TWO, and instead of shade()
-// void shadeTwo(ivec2 pixel, int layer, out vec4 first, out vec4 second).
+// void shadeTwo(ivec2 pixel, int layer, out vec4 first, out vec4 second). One that runs on some tiles (tiles.shared.h)
+// defines SHADES_TILES.
 #ifndef SHADES_SOME
 bool shades(ivec2 pixel, int layer) { return true; }
 #endif
@@ -17,10 +18,18 @@ layout(set = 2, binding = 0, OUTPUT_FORMAT) writeonly uniform image2DArray outpu
 #ifdef SHADES_TWO
 layout(set = 2, binding = 1, OUTPUT_FORMAT) writeonly uniform image2DArray secondImage;
 #endif
+#ifdef SHADES_TILES
+#include "tiles.glsl"
+layout(set = 3, binding = 0) uniform sampler2DArray tiles;
+#endif
 
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
   int layer = int(gl_GlobalInvocationID.z);
+#ifdef SHADES_TILES
+  ivec2 tile = min(ivec2(vec2(pixel) * rule.pixels) / kTileSize, textureSize(tiles, 0).xy - 1);
+  if (!runsOn(texelFetch(tiles, ivec3(tile, layer), 0))) return;
+#endif
   // What lies beyond the picture's edge works along, since pixels may need each other.
   bool isInside = all(lessThan(pixel, imageSize(outputImage).xy));
   pixel = min(pixel, imageSize(outputImage).xy - 1);

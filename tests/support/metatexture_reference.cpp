@@ -65,6 +65,15 @@ MetaTextureReference::Result MetaTextureReference::at(const glm::dvec2& uv, cons
         std::log2(base);
     const double share = level == 0 ? 1 - between : between;
     result.exponent += share * e;
+    double finest = 0;  // by going around
+    for (int i = 0; i < 720; ++i) {
+      const double angle = i * 3.14159265358979 / 720;
+      const glm::dvec2 way(std::cos(angle), std::sin(angle));
+      const double u = std::pow(base, e.x) * size * glm::dot(gu, way),
+                   v = std::pow(base, e.y) * size * height * glm::dot(gv, way);
+      finest = std::max(finest, u * u + v * v);
+    }
+    result.fineness += share * finest;
     const glm::dvec2 whole = glm::floor(e), b(beta(e.x - whole.x), beta(e.y - whole.y));
     for (int j = 0; j < 2; ++j)
       for (int i = 0; i < 2; ++i) {
@@ -104,6 +113,7 @@ MetaTextureReference::Result MetaTextureReference::at(const glm::dvec2& uv, cons
     sum += copy.share * texture.sample(copy.at);
     result.variance += copy.share * copy.share;
   }
+  result.fineness = std::sqrt(result.fineness);
   result.value = mean + (sum - mean) / (contrast ? std::sqrt(result.variance) : 1.0);
   return result;
 }

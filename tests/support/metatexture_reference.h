@@ -37,6 +37,8 @@ struct MetaTextureReference {
     glm::dvec4 value;
     glm::dvec2 exponent;  // between both levels of skew
     double q, variance;
+    // How many times finer than its size it comes out, in the direction in which that is the most.
+    double fineness;
     std::vector<Copy> copies;
   };
   // gradU, gradV: of u and v on the screen, per pixel. `wraps`: whether u and v close on themselves after one

@@ -28,7 +28,7 @@ class OceanFeature : public Feature {
 
 frame::FeatureParts makeFeature() {
   return {std::make_unique<OceanFeature>(),
-          {{"deform", makeOceanDeform}, {"warp", makeOcean}},
+          {{"deform", makeOceanDeform}, {"shadow-map", makeOcean}},
           {&OceanParams::block(), &DecorationParams::block(), &OceanPaintParams::block(),
            &OceanMetaTextureParams::block(), &FloatParams::block()},
           extraRules()};

@@ -7,12 +7,25 @@
 #include "frame/image_step.h"
 #include "passes/blur/blur.shared.h"
 #include "passes/blur/blur_knobs.h"
+#include "passes/final_shadow/final_shadow_knobs.h"
+#include "passes/surface/surface_knobs.h"
 #include "shaders/blur_image_comp.h"
 #include "shaders/blur_image_frag.h"
 
 namespace scumble::passes {
 
 using namespace frame;
+
+namespace {
+
+constexpr uint32_t kFraction = 4;  // of the size, in which the blur lies
+
+// A Gaussian ends there, in texels.
+int farthestTap(float sigma) {
+  return std::min(int(std::ceil(2.0f * sigma)), shared::kMaxBlurTaps / 2 - 1);
+}
+
+}  // namespace
 
 BlurPlan planBlur(float radius) {
   // Going to a quarter filters with a standard deviation of two source texels, which is enough against
@@ -25,6 +38,13 @@ BlurPlan planBlur(float radius) {
   else
     plan.amount = sigma / kQuarterSigma;
   return plan;
+}
+
+float blurReach(float radius) {
+  const BlurPlan plan = planBlur(radius);
+  // The texels around a pixel, and what they are made from.
+  return 2 * kFraction + float(farthestTap(plan.fullSigma)) * kFraction +
+         float(farthestTap(plan.quarterSigma));
 }
 
 float depthSharpness(float depthEdge) {
@@ -41,7 +61,7 @@ std::pair<shared::BlurStep, uint32_t> makeStep(bool vertical, int factor, float 
   step.scale = glm::ivec2(1) + step.axis * (factor - 1);
   step.factor = factor;
   const float center = 0.5f * float(factor - 1);
-  const int reach = std::min(int(std::ceil(2.0f * sigma)), shared::kMaxBlurTaps / 2 - 1);
+  const int reach = farthestTap(sigma);
   step.firstTap = int(std::ceil(center)) - reach;
   const int taps = int(std::floor(center)) + reach - step.firstTap + 1;
   for (int i = 0; i < taps; ++i) {
@@ -57,6 +77,7 @@ class Blur : public Pass {
   std::span<const Aov> aovs() const override { return kAovs; }
 
   void declare(FrameBuilder& frame, uint32_t) override {
+    isAsked_ = frame.isAsked(kAovs[0]);
     const ImageShader shader{{shaders::blur_image_frag}, {shaders::blur_image_comp}};
     gpu::Handle blurred = frame.get(kShadow);
     for (size_t i = 0; i < steps_.size(); ++i) {
@@ -67,6 +88,7 @@ class Blur : public Pass {
           frame, {.name = name(),
                   .shader = shader,
                   .inputs = {{shared::kBlurSource, blurred}, {shared::kBlurDepth, frame.get(kDepth)}},
+                  .tiles = frame.get(kTiles),
                   .outputs = {next},
                   .uniformBytes = sizeof(shared::BlurStep),
                   .constants = {uint32_t(i == 0), 1}})[0];
@@ -84,12 +106,16 @@ class Blur : public Pass {
 
   void update(const FrameInput& input) override {
     const BlurParams params = input.knobs.scene<BlurParams>();
+    // Bloom takes blurred light from anywhere.
+    const bool everywhere = isAsked_ || mayGlow(input.look, input.scene.data()) ||
+                            !isPlainApartFromEdges(input.knobs.scene<FinalShadowParams>());
+    const uint32_t flag = everywhere ? 0 : shared::kTileBlurred;
     const BlurPlan plan = planBlur(params.radius * input.uniforms.pixelScale);
     for (size_t i = 0; i < steps_.size(); ++i) {
       auto [step, taps] =
           makeStep(i % 2 == 1, i < 2 ? int(kFraction) : 1, i < 2 ? plan.quarterSigma : plan.fullSigma);
       step.depthSharpness = depthSharpness(params.depthEdge);
-      steps_[i].setJobs({{{uint32_t(i == 0), taps}, {}}});
+      steps_[i].setJobs({{{uint32_t(i == 0), taps}, {}, {flag, flag}}});
       steps_[i].update(step);
     }
   }
@@ -97,10 +123,10 @@ class Blur : public Pass {
  private:
   // Two channels under coverage; the third one is depth.
   static constexpr Aov kAovs[] = {{.name = "blur", .premultiplied = 2}};
-  static constexpr uint32_t kFraction = 4;
 
   // To a quarter along x and along y; then blur along x and y.
   std::array<ImageStep, 4> steps_;
+  bool isAsked_ = false;
 };
 
 }  // namespace

@@ -44,4 +44,5 @@ vec4 shade(ivec2 pixel, int layer) {
   return vec4(sum.rg, ownDepth, sum.a);
 }
 
+#define SHADES_TILES
 #include "../../shading/image_pass.glsl"

@@ -20,6 +20,9 @@ struct BlurPlan {
 // `radius`: twice the standard deviation wanted, in pixels of the full size.
 BlurPlan planBlur(float radius);
 
+// How far blurred light comes from at the most, in pixels, for that radius.
+float blurReach(float radius);
+
 // How quickly taps lose their weight with relative depth, for a depth edge that is that large; 0 for none.
 float depthSharpness(float depthEdge);
 

@@ -15,6 +15,12 @@ namespace scumble::passes {
 
 using namespace frame;
 
+glm::vec2 airDistances(const BackgroundParams& params, const shared::FrameUniforms& frame) {
+  const float center = glm::length(frame.sceneCenter - frame.viewer);
+  return center +
+         frame.sceneRadius * glm::vec2(params.airStart, std::max(params.airEnd, params.airStart + 1e-3f));
+}
+
 namespace {
 
 class Color : public Pass {
@@ -31,8 +37,10 @@ class Color : public Pass {
                                          {shared::kColorLit, frame.get(kLit, layer_)},
                                          {shared::kColorShadowed, frame.get(kShadowed, layer_)},
                                          {shared::kColorDepth, frame.get(kDepth, layer_)}},
+                              .tiles = frame.get(kTiles),
                               .outputs = {frame.image(name(), {.format = kHalves})},
-                              .uniformBytes = sizeof(shared::ColorUniforms)})[0];
+                              .uniformBytes = sizeof(shared::ColorUniforms),
+                              .maxJobs = 4})[0];
     frame.give(kPicture, picture, layer_);
     if (layer_ == Layer::first) frame.offer(kAovs[0], {picture});
   }
@@ -51,19 +59,25 @@ class Color : public Pass {
       uniforms.zenith = colors.zenith;
     }
     uniforms.height = std::sin(glm::radians(params.height));
-    const float radius = input.uniforms.sceneRadius;
-    // From the middle of all eyes, so that the air is the same in each.
-    const float center = glm::length(input.uniforms.sceneCenter - input.uniforms.viewer);
-    uniforms.airStart = center + params.airStart * radius;
-    uniforms.airEnd = center + std::max(params.airEnd, params.airStart + 1e-3f) * radius;
+    const glm::vec2 air = airDistances(params, input.uniforms);
+    uniforms.airStart = air.x, uniforms.airEnd = air.y;
     uniforms.transparent = input.transparent;
     const FinalShadowParams shadow = input.knobs.scene<FinalShadowParams>();
+    uniforms.deepGlow = deepGlow(shadow);
     uniforms.glowColor = shadow.glowColor;
     // What lies behind has light without a blur, and no glow.
     uniforms.glowColorAmount = layer_ == Layer::first ? shadow.glowColorAmount : 0;
     // Several steps are mixed in equal parts of value, not of light.
     uniforms.mixesValues = shadow.steps > 1;
-    step_.update(uniforms);
+    using namespace shared;
+    std::vector<ImageStep::Job> jobs{{{kPartAll}, {}}};
+    if (layer_ == Layer::first && isPlainApartFromEdges(shadow))
+      jobs = {{{kPartAll}, {}, {kTileCovered | kTilePlain, kTileCovered}},
+              {{kPartSky}, {}, {kTileCovered, 0}},
+              {{kPartLit}, {}, {kTilePlain | kTileLit, kTilePlain | kTileLit}},
+              {{kPartDark}, {}, {kTilePlain | kTileLit, kTilePlain}}};
+    step_.setJobs(jobs);
+    for (size_t job = 0; job < jobs.size(); ++job) step_.update(uniforms, job);
   }
 
  private:

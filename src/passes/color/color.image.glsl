@@ -4,6 +4,7 @@
 #include "../../shading/frame.glsl"
 #include "color.shared.h"
 
+layout(constant_id = 0) const int kPart = 0;  // kPartAll ...
 layout(set = 1, binding = 0, scalar) uniform Block { ColorUniforms u; };
 layout(set = 1, binding = kColorLight) uniform sampler2DArray finalShadow;
 layout(set = 1, binding = kColorLit) uniform sampler2DArray lit;
@@ -20,8 +21,13 @@ vec3 sky(vec2 ndc, int layer) {
 
 vec4 shade(ivec2 pixel, int layer) {
   ivec3 at = ivec3(pixel, layer);
-  vec4 shadow = texelFetch(finalShadow, at, 0);
-  vec4 litRoot = texelFetch(lit, at, 0), shadowedRoot = texelFetch(shadowed, at, 0);
+  vec3 beyond = sky((vec2(pixel) + 0.5) / frame.imageSize * 2.0 - 1.0, layer) * (1.0 - u.transparent);
+  if (kPart == kPartSky) return vec4(beyond, 1.0 - u.transparent);
+  vec4 litRoot = texelFetch(lit, at, 0);
+  if (kPart == kPartLit) return vec4(litRoot.rgb * litRoot.rgb, 1.0);
+  vec4 shadowedRoot = texelFetch(shadowed, at, 0);
+  vec4 shadow = vec4(u.deepGlow, 0.0, u.deepGlow, 1.0);
+  if (kPart != kPartDark) shadow = texelFetch(finalShadow, at, 0);
   // Resolved colours are premultiplied by their coverage.
   float coverage = litRoot.a, whole = 1.0 / max(coverage, 1e-3);
   litRoot *= whole;
@@ -34,12 +40,14 @@ vec4 shade(ivec2 pixel, int layer) {
   // Blue is the part of the light that is inner glow: another colour takes the place of the lit one there.
   color += shadow.b * u.glowColorAmount * (u.glowColor - litColor);
 
+  if (kPart == kPartDark) return vec4(color, 1.0);
+
   float distance = eyeDepth(texelFetch(depth, at, 0).r, layer);
   color = mix(color, u.horizon, u.knobs.air * smoothstep(u.airStart, u.airEnd, distance)) * coverage;
 
-  float open = (1.0 - coverage) * (1.0 - u.transparent);
-  color += sky((vec2(pixel) + 0.5) / frame.imageSize * 2.0 - 1.0, layer) * open;
-  return vec4(color, coverage + open);
+  float open = 1.0 - coverage;
+  return vec4(color + beyond * open, coverage + open * (1.0 - u.transparent));
 }
 
+#define SHADES_TILES
 #include "../../shading/image_pass.glsl"

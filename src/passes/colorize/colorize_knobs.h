@@ -2,6 +2,7 @@
 #pragma once
 
 #include "look/look_data.h"
+#include "scene/scene_data.h"
 
 namespace scumble::passes {
 
@@ -26,5 +27,9 @@ enum VolumeShape : int {
   kVolumeHalfSpace,
   kVolumeScene
 };
+
+// Whether a colorizer that the look declares may change any colour: not where it grades nothing, or in the
+// space of a node that is not there.
+bool mayGrade(const look::LookData& look, const std::string& colorizer, const scene::SceneData& scene);
 
 }  // namespace scumble::passes

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "scene/find_node.h"
 
@@ -15,13 +14,10 @@ bool isIdentity(const GradeParams& grade) {
          grade.gamma.value == glm::vec3(1.0f) && grade.saturation == 1;
 }
 
-// The world matrix of the space that a volume is in; nothing where there is no such node.
-std::optional<glm::dmat4> spaceOf(const std::string& node, const scene::SceneData& scene,
-                                  const std::vector<glm::mat4>& worlds) {
-  if (node.empty()) return glm::dmat4(1.0);
-  const int found = scene::findNode(scene, node);
-  if (found >= 0) return glm::dmat4(worlds[size_t(found)]);
-  return std::nullopt;
+// The world matrix of the space that a volume is in: a node's, or the world itself.
+glm::dmat4 spaceOf(const std::string& node, const scene::SceneData& scene,
+                   const std::vector<glm::mat4>& worlds) {
+  return node.empty() ? glm::dmat4(1.0) : glm::dmat4(worlds[size_t(scene::findNode(scene, node))]);
 }
 
 glm::dmat3 turnedBy(const glm::dvec3& degrees) {
@@ -93,17 +89,23 @@ shared::SightLines sightLines(const shared::ViewUniforms& view) {
   return lines;
 }
 
+bool mayGrade(const look::LookData& look, const std::string& colorizer, const scene::SceneData& scene) {
+  const VolumeParams volume = look.getFor<VolumeParams>(look::kColorizers, colorizer);
+  const std::string& node = look.text(volume.node);
+  return volume.density != 0 && !isIdentity(look.getFor<GradeParams>(look::kColorizers, colorizer)) &&
+         (node.empty() || scene::findNode(scene, node) >= 0);
+}
+
 std::vector<PlacedColorizer> placeColorizers(const look::LookData& look, const scene::SceneData& scene,
                                              const std::vector<glm::mat4>& worlds,
                                              const shared::FrameUniforms& uniforms) {
   std::vector<PlacedColorizer> placed;
   for (const std::string& name : look.declared(look::kColorizers)) {
+    if (!mayGrade(look, name, scene)) continue;
     const VolumeParams volume = look.getFor<VolumeParams>(look::kColorizers, name);
     const GradeParams grade = look.getFor<GradeParams>(look::kColorizers, name);
-    const std::optional<glm::dmat4> space = spaceOf(look.text(volume.node), scene, worlds);
-    if (volume.density == 0 || isIdentity(grade) || !space) continue;
-
-    const glm::dmat4 fromUnit = unitToWorld(volume, *space), toUnit = glm::inverse(fromUnit);
+    const glm::dmat4 fromUnit = unitToWorld(volume, spaceOf(look.text(volume.node), scene, worlds)),
+                     toUnit = glm::inverse(fromUnit);
     bool isFinite = true;
     for (int i = 0; i < 16; ++i) isFinite &= std::isfinite(float(toUnit[i / 4][i % 4]));
     if (!isFinite || glm::determinant(glm::dmat3(fromUnit)) == 0) continue;

@@ -51,8 +51,8 @@ vec2 backdropPlace(ivec2 pixel, vec2 torn, int layer) {
   float rise = dot(up, vec3(side * (1.0 - parallel), -1.0));
   float start = VIEW_FIELD(eye, layer).y + dot(up.xy, side * parallel);
   float ground = (u.backdrop.groundHeight - start) / rise;
-  float surface = texelFetch(warp, ivec3(pixel, layer), 0).a;
-  return abs(surface - ground) < 0.01 * surface ? own : torn;
+  float surface = eyeDepth(texelFetch(inflated, ivec3(pixel, layer), 0).r, layer);
+  return abs(surface - ground) < 0.01 * min(surface, 60000.0) ? own : torn;
 }
 
 // How much of the pixel is the picture in the shadow on the ground, where the ground is all that is there. The slots'

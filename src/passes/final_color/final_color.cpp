@@ -5,6 +5,7 @@
 #include "passes/final_color/final_color.shared.h"
 #include "passes/final_color/final_color_knobs.h"
 #include "passes/surface/surface_knobs.h"
+#include "passes/warp/warp_knobs.h"
 #include "shaders/final_color_image_comp.h"
 #include "shaders/final_color_image_frag.h"
 
@@ -29,31 +30,39 @@ class FinalColor : public Pass {
  public:
   const char* name() const override { return "final-color"; }
   std::span<const Aov> aovs() const override { return kAovs; }
-  uint32_t variant(const scene::SceneData&, const look::LookData& look) const override {
-    return look.get<FinalColorParams>().ripple == shared::kRippleLayered;
+  uint32_t variant(const scene::SceneData& scene, const look::LookData& look) const override {
+    const FinalColorParams params = look.get<FinalColorParams>();
+    const bool tears = mayTear(look);
+    return (tears ? kTears : 0) | (tears && params.ripple == shared::kRippleLayered ? kLayered : 0) |
+           (params.bloom > 0 && mayGlow(look, scene) ? kBlooms : 0);
   }
 
-  void declare(FrameBuilder& frame, uint32_t isLayered) override {
-    // Where there are no layers, anything stands for them.
-    const auto behind = [&](const Role& role) {
-      return frame.get(role, isLayered ? Layer::behind : Layer::first);
+  void declare(FrameBuilder& frame, uint32_t variant) override {
+    variant_ = variant;
+    // Anything stands for what is not looked at.
+    const auto only = [&](Variant part, const Role& role, Layer layer = Layer::first) {
+      return variant & part ? frame.get(role, layer) : frame.get(kPicture);
     };
+    const auto behind = [&](const Role& role) { return only(kLayered, role, Layer::behind); };
     const gpu::Handle picture = step_.declare(
         frame, {.name = name(),
                 .shader = {{shaders::final_color_image_frag}, {shaders::final_color_image_comp}},
                 .inputs = {{shared::kFinalColorColor, frame.get(kPicture), true},
-                           {shared::kFinalColorWarp, frame.get(kWarp)},
+                           {shared::kFinalColorWarp, only(kTears, kWarp), true},
                            {shared::kFinalColorDepth, frame.get(kDepth)},
-                           {shared::kFinalColorBlurred, frame.get(kBlur), true},
+                           {shared::kFinalColorBlurred, only(kBlooms, kBlur), true},
                            {shared::kFinalColorBehind, behind(kPicture)},
                            {shared::kFinalColorBehindDepth, behind(kDepth)},
                            {shared::kFinalColorLight, frame.get(kLight)},
                            {shared::kFinalColorLit, frame.get(kLit)},
                            {shared::kFinalColorBehindLight, behind(kLight)},
-                           {shared::kFinalColorBehindLit, behind(kLit)}},
+                           {shared::kFinalColorBehindLit, behind(kLit)},
+                           {shared::kFinalColorInflated, only(kTears, kInflatedDepth)}},
                 .textures = {shared::kFinalColorBackdrop, shared::kFinalColorTear},
+                .tiles = frame.get(kTiles),
                 .outputs = {frame.image(name(), {.format = kHalves})},
-                .uniformBytes = sizeof(shared::FinalColorUniforms)})[0];
+                .uniformBytes = sizeof(shared::FinalColorUniforms),
+                .maxJobs = 2})[0];
     frame.give(kPicture, picture);
     frame.offer(kAovs[0], {picture});
   }
@@ -79,19 +88,34 @@ class FinalColor : public Pass {
       uniforms.backdrop.tearShift = patternShift(input.seed);
       picture = input.backdrop->image;
     }
-    const uint32_t ripple = uint32_t(params.ripple);
-    step_.setJobs({{{mayGlow(input.look, input.scene.data()), ripple, backdropFeatures(input.backdrop)},
-                    {{shared::kFinalColorBackdrop, picture, kPictureSampler},
-                     {shared::kFinalColorTear, &example.image, ExampleTextures::kSampler}}}});
+    const uint32_t ripple = variant_ & kLayered                     ? shared::kRippleLayered
+                            : params.ripple == shared::kRipplePaper ? shared::kRipplePaper
+                                                                    : shared::kRippleDepthAware;
+    const uint32_t glows = variant_ & kBlooms ? shared::kFinalColorGlows : 0;
+    const std::vector<ImageStep::Texture> textures{
+        {shared::kFinalColorBackdrop, picture, kPictureSampler},
+        {shared::kFinalColorTear, &example.image, ExampleTextures::kSampler}};
+    const uint32_t backdrop = backdropFeatures(input.backdrop);
+    std::vector<ImageStep::Job> jobs{{{glows, ripple, backdrop}, textures}};
+    if (variant_ & kTears) {
+      jobs[0].where = {shared::kTileTorn, 0};
+      jobs.push_back({{glows | shared::kFinalColorTorn, ripple, backdrop},
+                      textures,
+                      {shared::kTileTorn, shared::kTileTorn}});
+    }
+    step_.setJobs(jobs);
     step_.update(uniforms);
+    step_.update(uniforms, 1);
   }
 
  private:
+  enum Variant : uint32_t { kTears = 1, kLayered = 2, kBlooms = 4 };
   static constexpr gpu::SamplerDesc kPictureSampler{VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                                     VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, true};
 
   static constexpr Aov kAovs[] = {{.name = "final-color", .isColor = true, .premultiplied = 3}};
 
+  uint32_t variant_ = 0;
   ImageStep step_;
   ExampleTextures* examples_ = nullptr;
 };

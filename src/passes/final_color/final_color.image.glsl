@@ -8,12 +8,13 @@
 #include "../../shading/luminance.shared.h"
 #include "final_color.shared.h"
 
-layout(constant_id = 0) const int kGlows = 1;     // whether anything in the scene acts on the lens
+layout(constant_id = 0) const int kOptions = 3;   // kFinalColorGlows, kFinalColorTorn
 layout(constant_id = 1) const int kRipple = 0;    // of displacement.shared.h; layered: there is what lies behind
 layout(constant_id = 2) const int kBackdrop = 0;  // kBackdropIsThere ...; 0: there is no picture behind everything
 const bool kLayered = kRipple == kRippleLayered;
 layout(set = 1, binding = 0, scalar) uniform Block { FinalColorUniforms u; };
 layout(set = 1, binding = kFinalColorColor) uniform sampler2DArray color;
+layout(set = 1, binding = kFinalColorInflated) uniform sampler2DArray inflated;
 layout(set = 1, binding = kFinalColorWarp) uniform sampler2DArray warp;
 layout(set = 1, binding = kFinalColorDepth) uniform sampler2DArray depth;
 layout(set = 1, binding = kFinalColorBlurred) uniform sampler2DArray blurred;
@@ -27,21 +28,35 @@ layout(set = 1, binding = kFinalColorBackdrop) uniform sampler2D backdrop;
 layout(set = 1, binding = kFinalColorTear) uniform sampler2D tear;
 #include "backdrop.glsl"
 
+// A colour from a place, or from behind the pixel, over the picture behind everything.
+vec4 withBackdrop(vec4 result, bool isBehind, ivec2 pixel, vec2 place, int layer) {
+  float matte = isBehind ? matteShadowBehind(pixel, layer) : matteShadow(place, layer);
+  float nearest = texelFetch(depth, ivec3(ivec2(place), layer), 0).r;
+  if (isBehind) nearest = texelFetch(behindDepth, ivec3(pixel, layer), 0).r;
+  vec2 at = backdropPlace(pixel, isBehind ? vec2(pixel) + 0.5 : place, layer);
+  return overBackdrop(result, matte, eyeDepth(nearest, layer), at);
+}
+
 vec4 shade(ivec2 pixel, int layer) {
-  Place place = displaced(u.displacement, kRipple, warp, depth, behindDepth, pixel, layer);
-  vec4 result = textureLod(color, vec3(place.at / frame.imageSize, layer), 0.0);
-  bool isBehind = kLayered && place.isBehind;
-  if (isBehind) result = texelFetch(behind, ivec3(pixel, layer), 0);
-  if (kBackdrop != 0) {
-    float matte = isBehind ? matteShadowBehind(pixel, layer) : matteShadow(place.at, layer);
-    float nearest = texelFetch(depth, ivec3(ivec2(place.at), layer), 0).r;
-    if (isBehind) nearest = texelFetch(behindDepth, ivec3(pixel, layer), 0).r;
-    vec2 at = backdropPlace(pixel, isBehind ? vec2(pixel) + 0.5 : place.at, layer);
-    result = overBackdrop(result, matte, eyeDepth(nearest, layer), at);
-  }
   vec2 own = vec2(pixel) + 0.5;
-  if (kGlows != 0) result.rgb += u.bloom * textureLod(blurred, vec3(own / frame.imageSize, layer), 0.0).g * result.a;
+  vec4 result = vec4(0.0);
+  if ((kOptions & kFinalColorTorn) == 0) {
+    result = texelFetch(color, ivec3(pixel, layer), 0);
+    if (kBackdrop != 0) result = withBackdrop(result, false, pixel, own, layer);
+  } else {
+    Places places = displaced(u.displacement, kRipple, warp, inflated, depth, behindDepth, pixel, layer);
+    for (int i = 0; i < kPlaces; ++i) {
+      vec4 there = textureLod(color, vec3(places.at[i] / frame.imageSize, layer), 0.0);
+      bool isBehind = kLayered && places.isBehind[i];
+      if (isBehind) there = texelFetch(behind, ivec3(pixel, layer), 0);
+      if (kBackdrop != 0) there = withBackdrop(there, isBehind, pixel, places.at[i], layer);
+      result += there / float(kPlaces);
+    }
+  }
+  if ((kOptions & kFinalColorGlows) != 0)
+    result.rgb += u.bloom * textureLod(blurred, vec3(own / frame.imageSize, layer), 0.0).g * result.a;
   return result;
 }
 
+#define SHADES_TILES
 #include "../../shading/image_pass.glsl"

@@ -8,7 +8,11 @@ SHARED_BEGIN
 const int kFinalColorColor = 1, kFinalColorWarp = 2, kFinalColorDepth = 3, kFinalColorBlurred = 4,
           kFinalColorBehind = 5, kFinalColorBehindDepth = 6, kFinalColorLight = 7, kFinalColorLit = 8,
           kFinalColorBehindLight = 9, kFinalColorBehindLit = 10, kFinalColorBackdrop = 11,
-          kFinalColorTear = 12;
+          kFinalColorTear = 12, kFinalColorInflated = 13;
+
+// Specialisation constant 0.
+const int kFinalColorGlows = 1;  // anything in the scene acts on the lens
+const int kFinalColorTorn = 2;   // else each pixel keeps its own colour
 
 struct FinalColorUniforms {
   vec3 bloom;  // colour times amount

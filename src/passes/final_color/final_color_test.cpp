@@ -5,6 +5,7 @@
 
 #include "passes/final_color/final_color_knobs.h"
 #include "tests/support/aov.h"
+#include "tests/support/displaced.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
 
@@ -16,13 +17,6 @@ using namespace test;
 class FinalColorTest : public BothEyes {
  protected:
   static constexpr int kWidth = 160, kHeight = 120;
-
-  // Where a pixel is fetched from, as the shader's floats have it.
-  static glm::vec2 displaced(const Frame& frame, size_t view, int x, int y) {
-    const glm::dvec4 warp = texel(aov(frame, "warp", view), x, y);
-    const glm::vec2 size(kWidth, kHeight);
-    return glm::clamp(glm::vec2(x, y) + 0.5f + glm::vec2(warp), glm::vec2(0.5f), size - 0.5f);
-  }
 };
 INSTANTIATE_BOTH_EYES(FinalColorTest);
 
@@ -46,35 +40,46 @@ TEST_P(FinalColorTest, equalsItsReference) {
         size_t undecided = 0, kept = 0, moved = 0, wrong = 0;
         for (int y = 0; y < kHeight; ++y)
           for (int x = 0; x < kWidth; ++x) {
-            const glm::dvec4 vector = texel(aov(frame, "warp", v), x, y);
-            glm::vec2 at = displaced(frame, v, x, y);
-            if (aware && vector.w > 0) {
+            const double surface = texel(aov(frame, "warp", v), x, y).w;
+            std::array<glm::dvec2, 4> places = displacedPlaces(aov(frame, "warp", v), x, y);
+            const std::array<glm::dvec2, 4> vectors = partVectors(aov(frame, "warp", v), x, y);
+            const glm::dvec2 middle = glm::dvec2(x, y) + 0.5;
+            bool isUndecided = false;
+            for (size_t i = 0; i < 4 && aware && surface > 0; ++i) {
+              glm::dvec2& at = places[i];
               // By inverse distances, which planes have linear on the screen.
               const auto inverse = [](const Image& image, int i, int j, int channel) {
                 return 1 / texel(image, i, j)[channel];
               };
               const Image &depth = aov(frame, "depth", v), &inflated = aov(frame, "warp", v);
-              const double own = inverse(depth, x, y, 0), there = inverse(depth, int(at.x), int(at.y), 0);
+              const double own = inverse(depth, x, y, 0);
               const auto gentler = [&](int dx, int dy) {
-                const double here = 1 / vector.w;
+                const double here = 1 / surface;
                 return std::min(std::abs(here - inverse(inflated, x - dx, y - dy, 3)),
                                 std::abs(here - inverse(inflated, x + dx, y + dy, 3)));
               };
               const double slope = gentler(1, 0) + gentler(0, 1),
                            fall = std::min(2 * slope * 30 * kHeight / 1080.0,
-                                           1 / vector.w - 1 / (1.15 * vector.w)),
-                           rise = slope * (glm::length(glm::dvec2(vector)) + 1.5);
-              const double beyond = 1 / (1.01 * vector.w), before = 1 / (0.97 * vector.w) + rise;
+                                           1 / surface - 1 / (1.15 * surface)),
+                           rise = slope * (glm::length(vectors[i]) + 1.5);
+              const double beyond = 1 / (1.01 * surface), before = 1 / (0.97 * surface) + rise;
               // Float depths that are this close compare either way.
-              const auto isClose = [](double a, double b) { return std::abs(a - b) < 1e-3 * (a + b); };
-              if (isClose(own + fall, beyond) || isClose(there + fall, beyond) || isClose(there, before)) {
-                ++undecided;
-                continue;
+              const auto isClose = [](double a, double b) { return std::abs(a - b) < 4e-3 * (a + b); };
+              isUndecided |= isClose(own + fall, beyond);
+              // So are places beside the border of two texels.
+              int keeping = 0;
+              for (int beside = 0; beside < 4; ++beside) {
+                const double there = inverse(depth, int(at.x + 0.02 * ((beside & 1) * 2 - 1)),
+                                             int(at.y + 0.02 * ((beside >> 1) * 2 - 1)), 0);
+                isUndecided |= isClose(there + fall, beyond) || isClose(there, before);
+                keeping += (std::max(own, there) + fall < beyond) || there > before;
               }
-              if ((std::max(own, there) + fall < beyond) || there > before)
-                at = glm::vec2(x, y) + 0.5f, ++kept;
+              isUndecided |= keeping % 4 != 0;
+              if (keeping > 0) at = middle, ++kept;
             }
-            moved += at != glm::vec2(x, y) + 0.5f;
+            undecided += isUndecided;
+            if (isUndecided) continue;
+            moved += places[0] != middle;
             // Bilinear, premultiplied; `spread` is how far the four texels differ.
             const auto bilinear = [&](const auto& fetch, const glm::dvec2& where, glm::dvec4& spread) {
               const glm::dvec2 corner = glm::floor(where), f = where - corner;
@@ -84,10 +89,13 @@ TEST_P(FinalColorTest, equalsItsReference) {
               spread = glm::max(glm::max(a, b), glm::max(c, d)) - glm::min(glm::min(a, b), glm::min(c, d));
               return glm::mix(glm::mix(a, b, f.x), glm::mix(c, d, f.x), f.y);
             };
-            glm::dvec4 spread, blurSpread;
+            glm::dvec4 spread(0.0), blurSpread, e(0.0);
             const Image& color = aov(frame, "color", v);
-            glm::dvec4 e =
-                bilinear([&](int i, int j) { return texel(color, i, j); }, glm::dvec2(at) - 0.5, spread);
+            for (const glm::dvec2& at : places) {
+              glm::dvec4 ofPlace;
+              e += 0.25 * bilinear([&](int i, int j) { return texel(color, i, j); }, at - 0.5, ofPlace);
+              spread = glm::max(spread, ofPlace);
+            }
             const glm::dvec4 glow = bilinear(
                 [&](int i, int j) {
                   const glm::dvec4 b = blur.clamped(i, j);
@@ -153,10 +161,12 @@ TEST_P(FinalColorTest, rippleKeepsOffTheBackground) {
             torn[aware] += (texel(id, x, y).x == 2) != (shown.x > 0.3 && shown.y < 0.3);
             if (texel(id, x, y).x != 1) continue;
             // Outside the displaced silhouette: what the pixel fetches is board on all sides.
-            const glm::vec2 at = displaced(with, v, x, y) - 0.5f;
             bool onBoard = true;
-            for (int i = 0; i < 4; ++i)
-              onBoard &= texel(id, int(std::floor(at.x)) + (i & 1), int(std::floor(at.y)) + (i >> 1)).x == 1;
+            for (const glm::dvec2& place : displacedPlaces(aov(with, "warp", v), x, y))
+              for (int i = 0; i < 4; ++i)
+                onBoard &= texel(id, int(std::floor(place.x - 0.5)) + (i & 1),
+                                 int(std::floor(place.y - 0.5)) + (i >> 1))
+                               .x == 1;
             if (!onBoard) continue;
             ++outside;
             for (int c = 0; c < 3; ++c)
@@ -266,7 +276,7 @@ TEST_P(FinalColorTest, layeredShowsWhatLiesBehind) {
           ++torn;
           off += std::abs(a.y - b.y) > 0.1;
         }
-    EXPECT_GT(torn, 60u);
+    EXPECT_GT(torn, 25u);
     wrong[layered] = double(off) / double(torn);
   }
   EXPECT_GT(wrong[0], 0.2) << "stripes come along";

@@ -38,6 +38,11 @@ float glowReach(float width, float begin) {
   return std::max(1 - light(low - width * (low + kEnd)) / begin, 1e-3f);
 }
 
+float deepGlow(const FinalShadowParams& params) {
+  const float reach = glowReach(params.glowWidth, stepThresholds(params).darkest);
+  return std::round(255 * params.innerGlow * std::min(1 / reach, 1.0f)) / 255;
+}
+
 namespace {
 
 class FinalShadow : public Pass {
@@ -45,16 +50,30 @@ class FinalShadow : public Pass {
   const char* name() const override { return "final-shadow"; }
   std::span<const Aov> aovs() const override { return kAovs; }
 
-  void declare(FrameBuilder& frame, uint32_t) override {
+  uint32_t variant(const scene::SceneData&, const look::LookData& look) const override {
+    const FinalShadowParams params = look.get<FinalShadowParams>();
+    return (params.indication > 0 || params.dither > 0 ? kMarks : 0) |
+           (look.get<BlurParams>().radius > 0 ? kBlurs : 0);
+  }
+
+  void declare(FrameBuilder& frame, uint32_t variant) override {
+    variant_ = variant;
+    // Anything stands for what is not looked at.
+    const auto only = [&](Variant part, const Role& role) {
+      return frame.get(variant & part ? role : kShadow);
+    };
     const gpu::Handle light = step_.declare(
         frame, {.name = name(),
                 .shader = {{shaders::final_shadow_image_frag}, {shaders::final_shadow_image_comp}},
-                .inputs = {{shared::kFinalShadowBlurred, frame.get(kBlur)},
+                .inputs = {{shared::kFinalShadowBlurred, only(kBlurs, kBlur)},
                            {shared::kFinalShadowShadow, frame.get(kShadow)},
                            {shared::kFinalShadowDepth, frame.get(kDepth)},
-                           {shared::kFinalShadowWarp, frame.get(kWarp)}},
+                           {shared::kFinalShadowWarp, only(kMarks, kWarp)}},
+                .tiles = frame.get(kTiles),
                 .outputs = {frame.image(name(), {.format = kBytes})},
-                .uniformBytes = sizeof(shared::FinalShadowUniforms)})[0];
+                .uniformBytes = sizeof(shared::FinalShadowUniforms),
+                .maxJobs = 2})[0];
+    isAsked_ = frame.isAsked(kAovs[0]);
     frame.give(kLight, light);
     frame.offer(kAovs[0], {light});
   }
@@ -74,17 +93,33 @@ class FinalShadow : public Pass {
     uniforms.darkestEdge = steps.darkest;
     uniforms.brightestEdge = uniforms.stepThresholds[params.steps - 1];
     uniforms.glowReach = glowReach(params.glowWidth, steps.darkest);
-    step_.setJobs({{{uint32_t(params.indicationSteps)}, {}}});
     const BlurParams blur = input.knobs.scene<BlurParams>();
     uniforms.blurAmount = planBlur(blur.radius * input.uniforms.pixelScale).amount;
     uniforms.depthSharpness = depthSharpness(blur.depthEdge);
+    using namespace shared;
+    const uint32_t light = (variant_ & kBlurs ? kLightBlurred : 0) |
+                           (uniforms.blurAmount < 1 ? kLightSharp : 0) |
+                           (variant_ & kMarks ? kLightMarks : 0);
+    const uint32_t indications = uint32_t(params.indicationSteps);
+    std::vector<ImageStep::Job> jobs{{{indications, 1, light}, {}}};
+    if (isPlainApartFromEdges(params)) {
+      // Plain tiles are read by nobody, unless there is a picture behind everything to lie in the shadow.
+      const uint32_t read = input.backdrop || isAsked_ ? 0 : kTilePlain;
+      jobs = {{{indications, 1, light}, {}, {kTileShaded, kTileShaded}},
+              {{indications, 0, light}, {}, {kTileShaded | read, 0}}};
+    }
+    step_.setJobs(jobs);
     step_.update(uniforms);
+    step_.update(uniforms, 1);
   }
 
  private:
+  enum Variant : uint32_t { kMarks = 1, kBlurs = 2 };
   static constexpr Aov kAovs[] = {{.name = "final-shadow"}};
 
   ImageStep step_;
+  uint32_t variant_ = 0;
+  bool isAsked_ = false;
 };
 
 }  // namespace

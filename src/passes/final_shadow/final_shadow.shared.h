@@ -17,6 +17,9 @@ struct FinalShadowParams {
 // Bindings of set 1.
 const int kFinalShadowBlurred = 1, kFinalShadowShadow = 2, kFinalShadowDepth = 3, kFinalShadowWarp = 4;
 
+// Specialisation constant 2: what the light is made of.
+const int kLightBlurred = 1, kLightSharp = 2, kLightMarks = 4;
+
 struct FinalShadowUniforms {
   FinalShadowParams knobs;
   // Of each edge between light and shadow: the amount of light, and its share of the way (0 where there are

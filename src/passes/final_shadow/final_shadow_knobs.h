@@ -21,4 +21,13 @@ StepThresholds stepThresholds(const FinalShadowParams& params);
 // light beside a straight edge at `width` of the way from that edge to where the blurred light ends.
 float glowReach(float width, float begin);
 
+// What is left of the light deep in the dark, where the blurred light ends: that of the glow, as the pass
+// `final_shadow` stores it.
+float deepGlow(const FinalShadowParams& params);
+
+// Whether light and shadow are themselves wherever no edge of theirs is near. A dither reaches everywhere.
+inline bool isPlainApartFromEdges(const FinalShadowParams& params) {
+  return params.dither <= 0;
+}
+
 }  // namespace scumble::passes

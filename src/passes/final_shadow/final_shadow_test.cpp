@@ -87,7 +87,19 @@ class FinalShadowTest : public BothEyes {
     // Threshold: as wide as the slope needs for `softness` pixels.
     const glm::dvec2 slope = 0.25 * glm::dvec2(glm::mix(lights[1] - lights[0], lights[3] - lights[2], f.y),
                                                glm::mix(lights[2] - lights[0], lights[3] - lights[1], f.x));
-    const double width = std::max({0.5 * k.softness * glm::length(slope), 1e-3, 0.05 * k.dither});
+    double steepness = glm::length(slope);
+    if (amount < 1) {
+      // The part that is not blurred has its own slope, on the steeper side.
+      const auto step = [&](int dx, int dy) {
+        const int i = std::clamp(x + dx, 0, kWidth - 1), j = std::clamp(y + dy, 0, kHeight - 1);
+        const glm::dvec4 there = texel(aov(frame, "shadow", view), i, j);
+        return there.w > 0 ? std::abs(there.x - own.x) : 0.0;
+      };
+      steepness = glm::mix(
+          glm::length(glm::dvec2(std::max(step(-1, 0), step(1, 0)), std::max(step(0, -1), step(0, 1)))),
+          steepness, amount);
+    }
+    const double width = std::max({0.5 * k.softness * steepness, 1e-3, 0.05 * k.dither});
     const double dithered = light - k.dither * (0.5 - marks);
     const std::vector<double> edges = edgesOf(k);
     double lit = 0;

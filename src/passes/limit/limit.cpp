@@ -40,9 +40,12 @@ class Limit : public Pass {
   const char* name() const override { return "limit"; }
   std::span<const Aov> aovs() const override { return kAovs; }
   uint32_t variant(const scene::SceneData&, const look::LookData& look) const override {
-    return !paletteColors(look.get<LimitParams>()).empty();
+    const LimitParams params = look.get<LimitParams>();
+    if (paletteColors(params).empty()) return 0;
+    return std::max(params.dither, params.skyDither) > 0 ? 2 : 1;
   }
 
+  // 1: colours are limited; 2: by marks as well.
   void declare(FrameBuilder& frame, uint32_t isLimited) override {
     gpu::Handle picture = frame.get(kPicture, layer_);
     if (isLimited) {
@@ -51,7 +54,7 @@ class Limit : public Pass {
           limit_.declare(frame, {.name = name(),
                                  .shader = {{shaders::limit_image_frag}, {shaders::limit_image_comp}},
                                  .inputs = {{shared::kLimitColor, picture},
-                                            {shared::kLimitWarp, frame.get(kWarp)},
+                                            {shared::kLimitWarp, frame.get(isLimited == 2 ? kWarp : kDepth)},
                                             {shared::kLimitDepth, frame.get(kDepth)}},
                                  .textures = {shared::kLimitStrokes},
                                  .outputs = {frame.image(of + "limited", {.format = kHalves})},

@@ -6,6 +6,7 @@
 #include "passes/final_color/final_color_knobs.h"
 #include "passes/matte/matte.shared.h"
 #include "passes/surface/surface_knobs.h"
+#include "passes/warp/warp_knobs.h"
 #include "shaders/matte_image_comp.h"
 #include "shaders/matte_image_frag.h"
 #include "shaders/matte_samples_image_comp.h"
@@ -32,10 +33,13 @@ class Matte : public Pass {
   const char* name() const override { return "matte"; }
   std::span<const Aov> aovs() const override { return kAovs; }
   uint32_t variant(const scene::SceneData&, const look::LookData& look) const override {
-    return look.get<FinalColorParams>().ripple == shared::kRippleLayered;
+    const bool tears = mayTear(look);
+    return tears + (tears && look.get<FinalColorParams>().ripple == shared::kRippleLayered);
   }
 
-  void declare(FrameBuilder& frame, uint32_t isLayered) override {
+  // 1: something may be torn; 2: and shows what lies behind.
+  void declare(FrameBuilder& frame, uint32_t variant) override {
+    const bool isLayered = variant == 2;
     configuration_ = frame.configuration();
     isLayered_ = isLayered;
     firstDepth_ = frame.get(kDepth);
@@ -50,8 +54,10 @@ class Matte : public Pass {
         {.name = name(),
          .shader = configuration_.samples > 1 ? four : one,
          .inputs = {{shared::kMatteObjects, first_.objects},
-                    {shared::kMatteWarp, frame.get(kWarp)},
+                    {shared::kMatteWarp, frame.get(variant ? kWarp : kLit), true},
                     {shared::kMatteDepth, firstDepth_},
+                    {shared::kMatteInflated, variant ? frame.get(kInflatedDepth) : firstDepth_},
+                    {shared::kMatteTiles, frame.get(kTiles)},
                     {shared::kMatteBehind, isLayered_ ? behind_.objects : firstDepth_},
                     {shared::kMatteBehindDepth, isLayered_ ? frame.get(kDepth, Layer::behind) : firstDepth_}},
          .outputs = {frame.image("cryptomatte", {.format = kFloats}),
@@ -84,8 +90,12 @@ class Matte : public Pass {
     first_.step.refresh();
     if (isLayered_) behind_.step.refresh();
     for (size_t m = 0; m < input.scene.materialCount(); ++m)
-      materials_.write(m, {input.knobs.of<SurfaceParams>(m).simplify});
-    image_.setJobs({{{uint32_t(input.knobs.scene<FinalColorParams>().ripple)}, {}}});
+      materials_.write(m, {mipBias(input.knobs.of<SurfaceParams>(m).simplify, input.uniforms.pixelScale)});
+    const bool isPaper = input.knobs.scene<FinalColorParams>().ripple == shared::kRipplePaper;
+    image_.setJobs({{{uint32_t(isLayered_ ? shared::kRippleLayered
+                               : isPaper  ? shared::kRipplePaper
+                                          : shared::kRippleDepthAware)},
+                     {}}});
     image_.update(shared::MatteUniforms{{input.inflation}});
   }
 

@@ -6,18 +6,21 @@
 #define SHADES_TWO
 #include "../../shading/displacement.glsl"
 #include "../../shading/frame.glsl"
+#include "../../shading/tiles.shared.h"
 #include "matte.shared.h"
 
 layout(constant_id = 0) const int kRipple = 0;  // of displacement.shared.h; layered: there are objects behind
 layout(set = 1, binding = 0, scalar) uniform Block { MatteUniforms u; };
 #ifdef MULTISAMPLED
 layout(set = 1, binding = kMatteObjects) uniform sampler2DMSArray objects4;  // the frame's four samples
-const int kGroups = 4;
+const int kGroups = 4 * kPlaces;  // of four samples
 #else
 layout(set = 1, binding = kMatteObjects) uniform sampler2DArray objects1;
-const int kGroups = 1;
+const int kGroups = kPlaces;  // of four texels
 #endif
 layout(set = 1, binding = kMatteWarp) uniform sampler2DArray warp;
+layout(set = 1, binding = kMatteInflated) uniform sampler2DArray inflated;
+layout(set = 1, binding = kMatteTiles) uniform sampler2DArray tiles;
 layout(set = 1, binding = kMatteDepth) uniform sampler2DArray depth;
 layout(set = 1, binding = kMatteBehind) uniform sampler2DArray behind;
 layout(set = 1, binding = kMatteBehindDepth) uniform sampler2DArray behindDepth;
@@ -25,30 +28,40 @@ layout(set = 1, binding = kMatteBehindDepth) uniform sampler2DArray behindDepth;
 const float kNone = 1e30;  // after all objects' numbers
 
 void shadeTwo(ivec2 pixel, int layer, out vec4 first, out vec4 second) {
-  Place place = displaced(u.displacement, kRipple, warp, depth, behindDepth, pixel, layer);
-  // Weights in steps of 1/256, as Vulkan asks of filters: all sums are exact then, in whatever order, and what is covered
-  // wholly is so by exactly 1.
-  vec2 low = floor(place.at - 0.5);
-  vec2 f = round((place.at - 0.5 - low) * 256.0) / 256.0;
-  ivec2 last = ivec2(frame.imageSize) - 1, a = clamp(ivec2(low), ivec2(0), last), d = min(ivec2(low) + 1, last);
-  vec4 texelWeights = vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y);
+  uint flags = uint(texelFetch(tiles, ivec3(pixel / kTileSize, layer), 0).r * 255.0 + 0.5);
+  Places places = undisplaced(pixel);
+  if ((flags & kTileTorn) != 0u)
+    places = displaced(u.displacement, kRipple, warp, inflated, depth, behindDepth, pixel, layer);
+  ivec2 last = ivec2(frame.imageSize) - 1;
   vec4 numbers[kGroups], weights[kGroups];
+  for (int i = 0; i < kPlaces; ++i) {
+    // Weights in steps of 1/256, as Vulkan asks of filters: all sums are exact then, in whatever order, and what is
+    // covered wholly is so by exactly 1.
+    vec2 low = floor(places.at[i] - 0.5);
+    vec2 f = round((places.at[i] - 0.5 - low) * 256.0) / 256.0;
+    ivec2 a = clamp(ivec2(low), ivec2(0), last), d = min(ivec2(low) + 1, last);
+    vec4 texelWeights =
+        vec4((1.0 - f.x) * (1.0 - f.y), f.x * (1.0 - f.y), (1.0 - f.x) * f.y, f.x * f.y) / float(kPlaces);
+    bool isBehind = kRipple == kRippleLayered && places.isBehind[i];
+    vec4 hidden = vec4(texelFetch(behind, ivec3(pixel, layer), 0).r);
 #ifdef MULTISAMPLED
 #define SAMPLES(x, y)                                                                                         \
   vec4(texelFetch(objects4, ivec3(x, y, layer), 0).r, texelFetch(objects4, ivec3(x, y, layer), 1).r,          \
        texelFetch(objects4, ivec3(x, y, layer), 2).r, texelFetch(objects4, ivec3(x, y, layer), 3).r)
-  numbers[0] = SAMPLES(a.x, a.y);
-  numbers[1] = SAMPLES(d.x, a.y);
-  numbers[2] = SAMPLES(a.x, d.y);
-  numbers[3] = SAMPLES(d.x, d.y);
-  for (int g = 0; g < kGroups; ++g) weights[g] = vec4(0.25 * texelWeights[g]);
+    numbers[4 * i + 0] = SAMPLES(a.x, a.y);
+    numbers[4 * i + 1] = SAMPLES(d.x, a.y);
+    numbers[4 * i + 2] = SAMPLES(a.x, d.y);
+    numbers[4 * i + 3] = SAMPLES(d.x, d.y);
+    for (int g = 0; g < 4; ++g) {
+      weights[4 * i + g] = vec4(0.25 * texelWeights[g]);
+      if (isBehind) numbers[4 * i + g] = hidden;
+    }
 #else
-  numbers[0] = vec4(texelFetch(objects1, ivec3(a, layer), 0).r, texelFetch(objects1, ivec3(d.x, a.y, layer), 0).r,
-                    texelFetch(objects1, ivec3(a.x, d.y, layer), 0).r, texelFetch(objects1, ivec3(d, layer), 0).r);
-  weights[0] = texelWeights;
+    numbers[i] = vec4(texelFetch(objects1, ivec3(a, layer), 0).r, texelFetch(objects1, ivec3(d.x, a.y, layer), 0).r,
+                      texelFetch(objects1, ivec3(a.x, d.y, layer), 0).r, texelFetch(objects1, ivec3(d, layer), 0).r);
+    weights[i] = texelWeights;
+    if (isBehind) numbers[i] = hidden;
 #endif
-  if (kRipple == kRippleLayered && place.isBehind) {
-    for (int g = 0; g < kGroups; ++g) numbers[g] = vec4(texelFetch(behind, ivec3(pixel, layer), 0).r);
   }
   for (int g = 0; g < kGroups; ++g) {
     bvec4 counts = greaterThan(numbers[g] * weights[g], vec4(0.0));

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "tests/support/aov.h"
+#include "tests/support/displaced.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
 
@@ -128,18 +129,16 @@ TEST_P(MatteTest, ranksOfInterpolatedSamples) {
       size_t many = 0, wrong = 0;
       for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
-          const glm::vec2 size(kWidth, kHeight), own = glm::vec2(x, y) + 0.5f;
-          const glm::dvec2 at(
-              glm::clamp(own + glm::vec2(texel(aov(torn, "warp", v), x, y)), glm::vec2(0.5f), size - 0.5f) -
-              0.5f);
-          const glm::dvec2 low = glm::floor(at), f = at - low;
           Coverages expected;
-          for (int i = 0; i < 4; ++i) {
-            const double weight = (i & 1 ? f.x : 1 - f.x) * (i >> 1 ? f.y : 1 - f.y);
-            const glm::ivec2 there =
-                glm::min(glm::ivec2(low) + glm::ivec2(i & 1, i >> 1), glm::ivec2(kWidth - 1, kHeight - 1));
-            for (const auto& [number, coverage] : listed(aov(still, "cryptomatte", v), there.x, there.y))
-              expected[number] += weight * coverage;
+          for (const glm::dvec2& place : displacedPlaces(aov(torn, "warp", v), x, y)) {
+            const glm::dvec2 low = glm::floor(place - 0.5), f = place - 0.5 - low;
+            for (int i = 0; i < 4; ++i) {
+              const double weight = 0.25 * (i & 1 ? f.x : 1 - f.x) * (i >> 1 ? f.y : 1 - f.y);
+              const glm::ivec2 there =
+                  glm::min(glm::ivec2(low) + glm::ivec2(i & 1, i >> 1), glm::ivec2(kWidth - 1, kHeight - 1));
+              for (const auto& [number, coverage] : listed(aov(still, "cryptomatte", v), there.x, there.y))
+                expected[number] += weight * coverage;
+            }
           }
           std::vector<double> greatest;
           for (const auto& [number, coverage] : expected) greatest.push_back(coverage);

@@ -133,13 +133,15 @@ class Surface : public Pass {
   }
 
   void update(const FrameInput& input) override {
-    params_.update(input);
     light_.write(input.knobs.scene<LightParams>());
 
     std::vector<MaterialVariant> variants;
     std::vector<std::tuple<const gpu::Image*, const gpu::Image*, VkSampler>> paintings;  // each once
     std::vector<uint32_t> paintingOf;
     for (size_t m = 0; m < input.scene.materialCount(); ++m) {
+      SurfaceParams params = input.knobs.of<SurfaceParams>(m);
+      params.simplify = mipBias(params.simplify, input.uniforms.pixelScale);
+      params_.write(m, params);
       const TextureParams texture = input.knobs.of<TextureParams>(m);
       auto metaParams = sameRows(input.knobs.of<TextureMetaTextureParams>(m));
       // What is not painted needs no texture of its own.
@@ -229,7 +231,7 @@ class Surface : public Pass {
   uint32_t samples_ = 1;
   Configuration configuration_;
   UniformSlice light_;
-  MaterialParams<SurfaceParams> params_;
+  MaterialBlocks<SurfaceParams> params_;
   MaterialBlocks<PaintedMaterial> painted_;
   FrameBuilder* frame_ = nullptr;
   const gpu::GraphResources* resources_ = nullptr;
@@ -243,6 +245,10 @@ class Surface : public Pass {
 };
 
 }  // namespace
+
+float mipBias(float simplify, float pixelScale) {
+  return std::max(simplify + std::log2(pixelScale), 0.0f);
+}
 
 bool mayGlow(const look::LookData& look, const scene::SceneData& scene) {
   const auto sets = [](const look::Assignment& a) {

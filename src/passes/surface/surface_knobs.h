@@ -19,6 +19,10 @@ namespace scumble::passes {
 #define PARAMS_TARGETS kScene | kMaterials
 #include "look/define_params.h"
 
+// surface.simplify in mip levels of a picture that is `pixelScale` times as high as 1080 lines: what is left
+// out has the same size in all of them.
+float mipBias(float simplify, float pixelScale);
+
 // Whether anything may act on the lens at any time.
 bool mayGlow(const look::LookData& look, const scene::SceneData& scene);
 

@@ -270,7 +270,7 @@ TEST_P(PosedWarpTest, gradientsAndVectorsOfAffinePoses) {
   reference.skewLevels = 2;
   for (size_t v = 0; v < seen.size(); ++v) {
     const auto hits = rasterised(onScreen(surface, seen[v], kWidth, kHeight, kStay), kWidth, kHeight);
-    size_t turned[2] = {};
+    size_t turned[2] = {}, shallower = 0;
     Difference uvs(1e-4), gradients(1e-4), exponents(1e-4), vectors(0.05);
     atSamePixels(frame, v, hits, surface, 100, [&](int x, int y, const auto& hit) {
       const SurfaceTriangle& triangle = surface[hit.surface];
@@ -292,7 +292,9 @@ TEST_P(PosedWarpTest, gradientsAndVectorsOfAffinePoses) {
       // Section 4.3: turned by the gradient of u, by its other way where the mapping shows its back.
       const glm::dvec2 axis = glm::normalize(g.u) * (turn < 0 ? -1.0 : 1.0),
                        free = 2.0 * glm::dvec2(shown.value - reference.mean),
-                       w = free * std::min(1.0, 2.0 / glm::length(free));
+                       w = free * std::min(1.0, 2.0 / glm::length(free)) *
+                           std::min(1.0, 1.5 / shown.fineness);  // finer is shallower
+      shallower += shown.fineness > 1.5;
       const glm::dvec2 warp(texel(aov(frame, "warp", v), x, y));
       vectors.add(warp.x / (kAmount * scale), axis.x * w.x - axis.y * w.y);
       vectors.add(warp.y / (kAmount * scale), axis.y * w.x + axis.x * w.y);
@@ -300,6 +302,7 @@ TEST_P(PosedWarpTest, gradientsAndVectorsOfAffinePoses) {
     });
     EXPECT_GT(turned[0], 500u) << "mirrored ones";
     EXPECT_GT(turned[1], 500u);
+    EXPECT_GT(shallower, 50u);
     // Floats; edges between faces are where rasterisers have them, to 1/256 pixel.
     EXPECT_LT(uvs.beyondPart(), 2e-3) << uvs.text();
     EXPECT_LT(gradients.beyondPart(), 2e-3) << gradients.text();

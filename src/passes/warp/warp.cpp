@@ -8,6 +8,8 @@
 #include "frame/image_step.h"
 #include "frame/material_params.h"
 #include "frame/metatexture.h"
+#include "passes/final_shadow/final_shadow_knobs.h"
+#include "passes/limit/limit_knobs.h"
 #include "passes/warp/warp.shared.h"
 #include "passes/warp/warp_knobs.h"
 #include "shaders/warp_image_comp.h"
@@ -51,23 +53,27 @@ class Warp : public Pass {
   std::span<const Aov> aovs() const override { return kAovs; }
 
   void declare(FrameBuilder& frame, uint32_t) override {
-    frame.step("warp", [this](VkCommandBuffer commands) { record(commands); });
+    isAsked_ = frame.isAsked(kAovs[0]);
+    gpu::Handle depth = mask_.declare(frame, name(), "warp depth", {shared::kTileMarked, 0});
+    frame.step(name(), [this](VkCommandBuffer commands) { record(commands); });
     GeometryStep::use(frame);
     pattern_.declare(frame, "warp pattern", kPatternFormat);
     knobs_.declare(frame, "warp knobs", kKnobsFormat);
-    depth_.declare(frame, "warp depth", kDepthFormat);
+    depth_ = depth = frame.use(depth, gpu::Use::depthTarget);
+    frame.give(kInflatedDepth, depth);
 
-    const gpu::Handle warp =
-        image_.declare(frame, {.name = name(),
-                               .shader = {{shaders::warp_image_frag}, {shaders::warp_image_comp}},
-                               .inputs = {{shared::kWarpPattern, pattern_.image()},
-                                          {shared::kWarpKnobs, knobs_.image()},
-                                          {shared::kWarpDepth, depth_.image()}},
-                               .textures = {shared::kWarpFieldExample, shared::kWarpFieldInverse,
-                                            shared::kWarpMarksExample, shared::kWarpMarksInverse},
-                               .outputs = {frame.image(name(), {.format = kHalves})},
-                               .uniformBytes = sizeof(SetupUniforms),
-                               .maxJobs = uint32_t(std::max<size_t>(1, frame.scene().materialCount()))})[0];
+    const gpu::Handle warp = image_.declare(
+        frame, {.name = name(),
+                .shader = {{shaders::warp_image_frag}, {shaders::warp_image_comp}},
+                .inputs = {{shared::kWarpPattern, pattern_.image()},
+                           {shared::kWarpKnobs, knobs_.image()},
+                           {shared::kWarpDepth, depth}},
+                .textures = {shared::kWarpFieldExample, shared::kWarpFieldInverse, shared::kWarpMarksExample,
+                             shared::kWarpMarksInverse},
+                .tiles = frame.get(kTiles),
+                .outputs = {frame.image(name(), {.format = kHalves})},
+                .uniformBytes = sizeof(SetupUniforms),
+                .maxJobs = 2 * uint32_t(std::max<size_t>(1, frame.scene().materialCount()))})[0];
     frame.give(kWarp, warp);
     frame.offer(kAovs[0], {warp});
   }
@@ -90,11 +96,13 @@ class Warp : public Pass {
     desc.passLayout = &layout_;
     desc.materialStrides = {materials_.kStride};
     step_.create(frame, desc);
+    mask_.create(frame);
     image_.create(frame);
     examples_ = &frame.examples();
   }
   void bind(const gpu::GraphResources& resources) override {
     resources_ = &resources;
+    mask_.bind(resources);
     image_.bind(resources);
   }
 
@@ -120,21 +128,36 @@ class Warp : public Pass {
     }
     step_.specialise(0, std::move(variants));
 
+    const MarksUse marks = marksUse(input.knobs);
+    const bool everywhere = isAsked_ || marks == MarksUse::everywhere;
+    mask_.setWhole(everywhere);
     std::vector<ImageStep::Job> jobs;
     for (size_t i = 0; i < setups.size(); ++i) {
       const WarpSetup& setup = setups[i];
-      image_.update(SetupUniforms{setup.field.meta.uniforms(), setup.marks.meta.uniforms(), float(i + 1),
-                                  setup.marksAmount, glm::vec2(setup.field.example->statistics.mean),
-                                  setup.marks.example->statistics.mean.b},
-                    i);
-      const uint32_t needs =
-          (setup.isApart() ? shared::kWarpApart : 0) | (setups.size() > 1 ? shared::kWarpSeveral : 0);
-      jobs.push_back(
-          {{needs, setup.field.meta.features(), setup.marks.meta.features()},
-           {{shared::kWarpFieldExample, &setup.field.image(), setup.field.sampler()},
-            {shared::kWarpFieldInverse, &setup.field.inverse(), ExampleTextures::kInverseSampler},
-            {shared::kWarpMarksExample, &setup.marks.image(), setup.marks.sampler()},
-            {shared::kWarpMarksInverse, &setup.marks.inverse(), ExampleTextures::kInverseSampler}}});
+      const auto add = [&](uint32_t needs, TileChoice where) {
+        image_.update(SetupUniforms{setup.field.meta.uniforms(), setup.marks.meta.uniforms(), float(i + 1),
+                                    setup.marksAmount, glm::vec2(setup.field.example->statistics.mean),
+                                    setup.marks.example->statistics.mean.b},
+                      jobs.size());
+        needs |= (setup.isApart() ? shared::kWarpApart : 0) | (setups.size() > 1 ? shared::kWarpSeveral : 0);
+        jobs.push_back(
+            {{needs, setup.field.meta.features(), setup.marks.meta.features()},
+             {{shared::kWarpFieldExample, &setup.field.image(), setup.field.sampler()},
+              {shared::kWarpFieldInverse, &setup.field.inverse(), ExampleTextures::kInverseSampler},
+              {shared::kWarpMarksExample, &setup.marks.image(), setup.marks.sampler()},
+              {shared::kWarpMarksInverse, &setup.marks.inverse(), ExampleTextures::kInverseSampler}},
+             where});
+      };
+      // Marks that are not the vectors' own cost as much as these; they are made where they count.
+      using namespace shared;
+      if (everywhere) {
+        add(kWarpVectors | kWarpMarks, {});
+      } else if (!setup.isApart()) {
+        add(kWarpVectors | kWarpMarks, {kTileMarked, kTileMarked});
+      } else {
+        add(kWarpVectors | kWarpMarks, {kTileMarked | kTileShaded, kTileMarked | kTileShaded});
+        add(kWarpVectors, {kTileMarked | kTileShaded, kTileMarked});
+      }
     }
     image_.setJobs(jobs);
   }
@@ -161,12 +184,15 @@ class Warp : public Pass {
 
   void record(VkCommandBuffer commands) const {
     const gpu::Target colors[] = {pattern_.target(*resources_), knobs_.target(*resources_)};
-    const gpu::Target depth = depth_.target(*resources_);
+    const gpu::Target depth{&resources_->image(depth_), nullptr, {}, gpu::Target::Before::kept};
     gpu::drawViews(commands, configuration_.views(), colors, &depth,
                    [&](uint32_t firstView) { step_.draw(commands, &sets_, firstView); });
   }
 
-  DrawnImage pattern_, knobs_, depth_;
+  bool isAsked_ = false;
+  TileMask mask_;
+  DrawnImage pattern_, knobs_;
+  gpu::Handle depth_{};
   const gpu::GraphResources* resources_ = nullptr;
   Configuration configuration_;
   MaterialBlocks<WarpMaterial> materials_;
@@ -181,6 +207,23 @@ class Warp : public Pass {
 
 float inflationPixels(const WarpParams& params, float imageHeight) {
   return params.inflation * imageHeight / (params.inflationUnit == 0 ? 1080.0f : 100.0f);
+}
+
+bool mayTear(const look::LookData& look) {
+  const auto tears = [](const look::Assignment& a) {
+    return a.block == &WarpParams::block() && std::string_view(a.row->name) == "amount" &&
+           !a.pattern.empty() && a.value.number > 0;
+  };
+  return look.get<WarpParams>().amount > 0 ||
+         std::any_of(look.assignments.begin(), look.assignments.end(), tears);
+}
+
+MarksUse marksUse(const stage::KnobTable& knobs) {
+  const FinalShadowParams shadow = knobs.scene<FinalShadowParams>();
+  const LimitParams limit = knobs.scene<LimitParams>();
+  const bool limits = !paletteColors(limit).empty() && std::max(limit.dither, limit.skyDither) > 0;
+  if (shadow.dither > 0 || limits) return MarksUse::everywhere;
+  return shadow.indication > 0 ? MarksUse::shaded : MarksUse::none;
 }
 
 int boilDrawing(const WarpParams& params, double time) {

@@ -2,8 +2,9 @@
 // Warp vectors and breakup marks, attached to the surface by MetaTexture (paper 000, section 4), for the pixels of one
 // setup: materials that share a texture and its knobs.
 // Out: R, G: vector in pixels (x right, y down); B: breakup marks in [0, 1]; A: eye depth of the inflated surface, 0 where
-// there is none.
+// there is none. Vectors and marks are 0 where they are not asked for.
 #extension GL_GOOGLE_include_directive : require
+#include "../../shading/displacement.shared.h"
 #include "../../shading/frame.glsl"
 #include "../../shading/metatexture.glsl"
 #include "warp.shared.h"
@@ -44,22 +45,30 @@ vec4 shade(ivec2 pixel, int layer) {
   vec2 uv = uintBitsToFloat(packed.xy), dSdu = unpackBfloat(packed.z), dSdv = unpackBfloat(packed.w);
   float wrapping = knob.g - 4.0 * floor(0.25 * knob.g);
   vec2 wraps = vec2(mod(wrapping, 2.0), floor(0.5 * wrapping));
-  MetaTextureChoice chosen;
-  vec4 value = valueOf(u.field, kFieldFeatures, fieldExample, fieldInverse, uv, dSdu, dSdv, wraps, vec2(pixel) + 0.5, chosen);
-  vec2 vector = (value.xy - u.fieldMean) * 2.0;
-  vector *= min(kFarthestTear * inversesqrt(max(dot(vector, vector), 1e-12)), 1.0);
-  float marks = value.b;
-  if ((kNeeds & kWarpApart) != 0) {
-    MetaTextureChoice other;
-    marks = valueOf(u.marks, kMarksFeatures, marksExample, marksInverse, uv, dSdu, dSdv, wraps, vec2(pixel) + 0.5, other).b;
+  MetaTextureChoice chosen, chosenForMarks;
+  vec4 value = vec4(0.0);
+  vec2 vector = vec2(0.0);
+  float marks = 0.0;
+  if ((kNeeds & (kWarpVectors | kWarpApart)) != kWarpApart)
+    value = valueOf(u.field, kFieldFeatures, fieldExample, fieldInverse, uv, dSdu, dSdv, wraps, vec2(pixel) + 0.5, chosen);
+  if ((kNeeds & kWarpMarks) != 0) {
+    marks = value.b;
+    if ((kNeeds & kWarpApart) != 0)
+      marks = valueOf(u.marks, kMarksFeatures, marksExample, marksInverse, uv, dSdu, dSdv, wraps, vec2(pixel) + 0.5,
+                      chosenForMarks).b;
+    marks = clamp((marks - u.marksMean) * u.marksAmount + u.marksMean, 0.0, 1.0);
   }
-  marks = clamp((marks - u.marksMean) * u.marksAmount + u.marksMean, 0.0, 1.0);
-
-  // Camera roll (section 4.3): the frame of reference follows the gradient of u, so the pattern sticks to the surface.
-  // Its direction is across dS/dv, on the side that does not change where a mapping is mirrored along u.
-  float lengthV = length(dSdv);
-  vec2 axis = lengthV > 0.0 && (kFieldFeatures & 3) != 2 ? vec2(dSdv.y, -dSdv.x) / lengthV : vec2(1.0, 0.0);
-  vector = vec2(axis.x * vector.x - axis.y * vector.y, axis.y * vector.x + axis.x * vector.y) * knob.r;
+  if ((kNeeds & kWarpVectors) != 0) {
+    vector = (value.xy - u.fieldMean) * 2.0;
+    vector *= min(kFarthestTear * inversesqrt(max(dot(vector, vector), 1e-12)), 1.0);
+    // What is finer than the texture should be is shallower by as much, so that no tear is steeper than others.
+    if ((kFieldFeatures & 3) == 0) vector *= min(1.5 / metaTextureFineness(u.field, chosen), 1.0);
+    // Camera roll (section 4.3): the frame of reference follows the gradient of u, so the pattern sticks to the surface.
+    // Its direction is across dS/dv, on the side that does not change where a mapping is mirrored along u.
+    float lengthV = length(dSdv);
+    vec2 axis = lengthV > 0.0 && (kFieldFeatures & 3) != 2 ? vec2(dSdv.y, -dSdv.x) / lengthV : vec2(1.0, 0.0);
+    vector = vec2(axis.x * vector.x - axis.y * vector.y, axis.y * vector.x + axis.x * vector.y) * knob.r;
+  }
   float far = min(eyeDepth(texelFetch(depth, at, 0).r, layer), 60000.0);
   return knob.g > 0.0 ? vec4(vector, marks, far) : vec4(0.0);
 }
@@ -71,4 +80,5 @@ bool shades(ivec2 pixel, int layer) {
   return setup == u.setup || (setup == 0.0 && u.setup == 1.0);
 }
 
+#define SHADES_TILES
 #include "../../shading/image_pass.glsl"

@@ -3,15 +3,14 @@
 #include "../../shading/shared_types.h"
 
 SHARED_BEGIN
-// Bindings of set 1 of the image step.
+// Bindings of set 1 of the image steps.
 const int kWarpPattern = 1, kWarpKnobs = 2, kWarpDepth = 3, kWarpFieldExample = 4, kWarpFieldInverse = 5,
           kWarpMarksExample = 6, kWarpMarksInverse = 7;
 
-// Specialisation constant 0 of the image step: what its setup needs, so that others do not pay for it.
-const int kWarpApart = 1;    // the breakup map is not in the blue channel of the same texture
-const int kWarpSeveral = 2;  // there are other setups: most pixels are another's
-// No vector is longer than this times the amount; of those of the examples that are built in, one in a
-// thousand would be.
-const float kFarthestTear = 2.0;
+// Specialisation constant 0 of the image steps: what is asked of them, so that nobody pays for more.
+const int kWarpVectors = 1;
+const int kWarpMarks = 2;
+const int kWarpApart = 4;    // marks are not in the blue channel of the vectors' texture
+const int kWarpSeveral = 8;  // there are other setups: most pixels are another's
 SHARED_END
 #endif

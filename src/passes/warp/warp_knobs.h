@@ -2,6 +2,7 @@
 #pragma once
 
 #include "look/look_data.h"
+#include "stage/knob_table.h"
 
 namespace scumble::passes {
 
@@ -23,5 +24,12 @@ float inflationPixels(const WarpParams& params, float imageHeight);
 // The drawing that line boil shows at a time, from 0: it changes on the grid of 24 frames a second only,
 // however often the picture is drawn (FORMULAS 11).
 int boilDrawing(const WarpParams& params, double time);
+
+// Whether anything may be torn.
+bool mayTear(const look::LookData& look);
+
+// Where breakup marks count: in edges of light and shadow that are indicated, or everywhere.
+enum class MarksUse : uint8_t { none, shaded, everywhere };
+MarksUse marksUse(const stage::KnobTable& knobs);
 
 }  // namespace scumble::passes

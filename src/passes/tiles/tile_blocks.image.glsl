@@ -1,0 +1,23 @@
+#version 460
+// Blocks of tiles besides, so that what runs on all of one is drawn at once.
+// Out: R: a tile's flags; G, B: those that all tiles of its block have, and those that any has.
+#extension GL_GOOGLE_include_directive : require
+#include "../../shading/tiles.shared.h"
+#include "tile_steps.shared.h"
+
+layout(set = 1, binding = kTileOwnFlags) uniform sampler2DArray ownFlags;
+
+vec4 shade(ivec2 tile, int layer) {
+  ivec2 last = textureSize(ownFlags, 0).xy - 1, first = tile - tile % kTileBlock;
+  uint every = 255u, any = 0u;
+  for (int i = 0; i < kTileBlock * kTileBlock; ++i) {
+    ivec2 at = min(first + ivec2(i % kTileBlock, i / kTileBlock), last);
+    uint flags = uint(texelFetch(ownFlags, ivec3(at, layer), 0).r * 255.0 + 0.5);
+    every &= flags;
+    any |= flags;
+  }
+  return vec4(texelFetch(ownFlags, ivec3(tile, layer), 0).r, vec2(every, any) / 255.0, 0.0);
+}
+
+#define OUTPUT_FORMAT rgba8
+#include "../../shading/image_pass.glsl"

@@ -1,0 +1,11 @@
+// Whether a job runs on a tile, by the tile's flags.
+#ifndef SCUMBLE_TILES_GLSL
+#define SCUMBLE_TILES_GLSL
+#extension GL_EXT_scalar_block_layout : require
+#include "tiles.shared.h"
+
+layout(push_constant, scalar) uniform TileBlock { TileRule rule; };
+
+// `texel`: of an image of flags.
+bool runsOn(vec4 texel) { return (uint(texel.r * 255.0 + 0.5) & rule.mask) == rule.value; }
+#endif
