@@ -41,10 +41,10 @@ inline constexpr Role kDepth{"depth"};  // depth buffer of the surfaces
 // Square root of the colours of prepainted materials (world/feature.h); once a pixel, wherever they are first
 // or not. A: 0 where there are none.
 inline constexpr Role kPrepaintedLit{"prepainted lit"}, kPrepaintedShadowed{"prepainted shadowed"};
-inline constexpr Role kBlur{
-    "blur"};  // R, G, A: the shadow's, blurred, at a quarter of the size; B: eye depth
+// R, G, A: the shadow's, blurred, at a quarter of the size; B: eye depth. In tiles that are blurred.
+inline constexpr Role kBlur{"blur"};
 // R: light after threshold and inner glow; G: lens; B: the glow's part of it; A: coverage. Behind the first
-// surfaces: the shadow as it is.
+// surfaces: the shadow as it is. Not in plain tiles, unless there is a picture behind everything.
 inline constexpr Role kLight{"light"};
 // The picture so far: each pass that works on it takes the present one and gives the next.
 inline constexpr Role kPicture{"picture"};

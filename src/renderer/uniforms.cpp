@@ -196,6 +196,11 @@ shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const K
   }
   // What is unlit is to look as its author painted it.
   if (material.unlit) lit = painted;
+  // Planes are the rule's; what somebody has chosen stays as it is.
+  const bool hasPlanes = lit.side == ColorRule::lit && material.emissive == glm::vec3(0.0f);
+  const PlaneTints planes = planeTints(hasPlanes ? palette.planes : 0, scene.colors());
+  data.planeSky = glm::sqrt(planes.sky);
+  data.planeTurned = glm::sqrt(planes.turned);
 
   const bool isPainted = knobs.of<passes::TextureParams>(index).amount > 0;
   data.lit = identityColorMap();

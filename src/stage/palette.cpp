@@ -175,6 +175,14 @@ bool hasGround(const scene::SceneData& scene, const look::LookData& look, bool o
   return size.y > 0.12f * std::max(size.x, size.z);
 }
 
+PlaneTints planeTints(float planes, const SceneColors& colors) {
+  // Roots that are less than a twelfth apart are one colour, a quarter several.
+  const float many = glm::smoothstep(0.08f, 0.25f, colors.variety);
+  const float amount = planes * (1 - many);
+  return {glm::vec3(1.0f) + amount * glm::vec3(0.03f, 0.07f, 0.13f),
+          glm::max(glm::vec3(1.0f) - amount * glm::vec3(0.13f, 0.18f, 0.24f), 0.0f)};
+}
+
 BackgroundColors automaticBackground(const SceneColors& colors) {
   const glm::dvec3 scene = oklabFromLinear(glm::dvec3(colors.meanRootRgb * colors.meanRootRgb));
   // Light scenes stand before a middle value and cool air; all others before a light value, warm cream unless

@@ -84,7 +84,15 @@ bool hasGround(const scene::SceneData& scene, const look::LookData& look, bool o
 // What the automatic choices of colours need to know of a scene.
 struct SceneColors {
   glm::vec3 meanRootRgb{0.5f};  // square root of linear RGB, averaged over the surface
+  float variety = 0;            // its standard deviation there
 };
+
+// Of colours in the light, for planes that face the sky and such as turn away from the light, against those that
+// face the light: factors. `planes`: the knob; a scene of many colours has less of it.
+struct PlaneTints {
+  glm::vec3 sky{1.0f}, turned{1.0f};
+};
+PlaneTints planeTints(float planes, const SceneColors& colors);
 
 struct BackgroundColors {
   glm::vec3 horizon, zenith, ground;  // linear

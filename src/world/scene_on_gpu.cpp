@@ -418,27 +418,35 @@ void SceneOnGpu::measureParts(const Geometry& geometry) {
                      glm::dvec3(linear * (primitive.positions[v[2]] - primitive.positions[v[0]])));
       const double area = glm::length(normal) * double(step);
       if (!std::isfinite(area)) continue;
-      part.sum += primitive.colors.empty() ? glm::dvec3(area)
-                                           : area * glm::sqrt(glm::dvec3(primitive.colors[v[0]]) / 255.0);
+      const glm::dvec3 color =
+          primitive.colors.empty() ? glm::dvec3(1.0) : glm::dvec3(primitive.colors[v[0]]) / 255.0;
+      part.sum += area * glm::sqrt(color);
+      part.squares += area * color;
       part.area += area;
     }
   }
 }
 
 void SceneOnGpu::measureColors(const Geometry& geometry) {
-  // Mean over the scene's surface.
-  glm::dvec3 sum(0.0);
+  // Mean and deviation over the scene's surface.
+  glm::dvec3 sum(0.0), squares(0.0);
   double total = 0;
   for (size_t i = 0; i < geometry.items.size(); ++i) {
     if (!colorParts_[i].primitive) continue;
     const scene::Material& material = this->material(geometry.items[i].material);
-    glm::vec3 root = glm::sqrt(glm::clamp(glm::vec3(material.baseColor), 0.0f, 1.0f));
-    if (material.baseColorTexture.image >= 0) root *= textures_.meanRootRgb(material.baseColorTexture.image);
-    sum += colorParts_[i].sum * glm::dvec3(root);
+    const glm::vec3 base = glm::clamp(glm::vec3(material.baseColor), 0.0f, 1.0f);
+    const RootMoments texture = material.baseColorTexture.image >= 0
+                                    ? textures_.rootMoments(material.baseColorTexture.image)
+                                    : RootMoments();
+    sum += colorParts_[i].sum * glm::dvec3(glm::sqrt(base) * texture.mean);
+    squares += colorParts_[i].squares * glm::dvec3(base * texture.square);
     total += colorParts_[i].area;
   }
   colors_ = {};
-  if (total > 0) colors_.meanRootRgb = glm::vec3(sum / total);
+  if (!(total > 0)) return;
+  const glm::dvec3 mean = sum / total, variance = glm::max(squares / total - mean * mean, 0.0);
+  colors_.meanRootRgb = glm::vec3(mean);
+  colors_.variety = float(std::sqrt(variance.r + variance.g + variance.b));
 }
 
 }  // namespace scumble::world

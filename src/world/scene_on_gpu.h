@@ -172,7 +172,7 @@ class SceneOnGpu {
   struct ColorPart {
     const scene::Primitive* primitive = nullptr;
     glm::mat3 linear{0.0f};
-    glm::dvec3 sum{0.0};
+    glm::dvec3 sum{0.0}, squares{0.0};
     double area = 0;
   };
 

@@ -71,7 +71,8 @@ class Color : public Pass {
     uniforms.mixesValues = shadow.steps > 1;
     using namespace shared;
     std::vector<ImageStep::Job> jobs{{{kPartAll}, {}}};
-    if (layer_ == Layer::first && isPlainApartFromEdges(shadow))
+    // Before a picture the ground covers pixels and has no colour.
+    if (layer_ == Layer::first && isPlainApartFromEdges(shadow) && !input.backdrop)
       jobs = {{{kPartAll}, {}, {kTileCovered | kTilePlain, kTileCovered}},
               {{kPartSky}, {}, {kTileCovered, 0}},
               {{kPartLit}, {}, {kTilePlain | kTileLit, kTilePlain | kTileLit}},

@@ -182,7 +182,8 @@ TEST_P(MaterialTest, samplersAreTheFiles) {
       EXPECT_NEAR(linear.at("lit", v, middle)[c], mean[c], 0.16);
       EXPECT_NEAR(linear.at("lit", v, texel)[c], kTexels[0][c], 0.16);
     }
-    expectRoots(levels.at("lit", v, texel), mean, 2);
+    // A small picture leaves out less: nearly all the way down.
+    expectRoots(levels.at("lit", v, texel), mean, 14);
   }
 }
 

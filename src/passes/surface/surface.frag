@@ -112,9 +112,12 @@ void main() {
 #endif
   vec2 facing = isFront ? inFacing : -inFacing;
   float up = 0.5 + 0.5 * facing.y;
+  // Planes of one colour in the light: those that face it, such as turn away, and those that face the sky.
+  vec3 plane = mix(material.planeTurned, vec3(1.0), smoothstep(0.15, 0.6, facing.x));
+  plane = mix(plane, material.planeSky, smoothstep(0.6, 0.95, facing.y));
 
   // Square roots of the colours in light and in shadow, and what acts on the lens.
-  vec3 lit = material.constantLit;
+  vec3 lit = min(material.constantLit * plane, vec3(1.0));
   vec3 shadowed = mix(material.constantShadowedDown, material.constantShadowedUp, up);
   float lens = material.constantLens;
   float alpha = material.baseColor.a;
@@ -172,6 +175,7 @@ void main() {
     else
       shadowed = mix(shadowed, own, material.hasShadowedColor) * tint;
     shadowed = mix(shadowed, lit, material.unlit);
+    lit = min(lit * plane, vec3(1.0));
     lit = sqrt(lit * lit + emissive);
     shadowed = sqrt(shadowed * shadowed + emissive);
     lens = dot(emissive, kLuminance);

@@ -20,9 +20,10 @@ uint found(float a) { return uint(a * 255.0 + 0.5); }
 vec4 shade(ivec2 tile, int layer) {
   ivec2 last = textureSize(mostOfTiles, 0).xy - 1;
   const uint kEdge = kFoundNotLit | kFoundNotDark;
-  uint near = 0u, far = 0u, beside = 0u;
+  uint near = 0u, far = 0u, beside = 0u, around = 0u;
   vec3 least = vec3(1.0), most = vec3(0.0);
-  const int reach = max(kBlurredReach, kTearReach);
+  // The blur moves edges of light as far as it reaches, and tears move them on.
+  const int kMovedReach = kShadedReach + kTearReach, reach = max(kBlurredReach, kMovedReach);
   const bool hasMarks = (uint(kWanted) & kWantsMarks) != 0u;
   for (int y = -reach; y <= reach; ++y)
     for (int x = -reach; x <= reach; ++x) {
@@ -32,6 +33,7 @@ vec4 shade(ivec2 tile, int layer) {
       uint bits = found(there.a);
       near |= away <= kShadedReach ? bits : 0u;
       far |= away <= kBlurredReach ? bits : 0u;
+      around |= away <= kMovedReach ? bits : 0u;
       if (away <= kTearReach) {
         beside |= bits;
         least = min(least, texelFetch(leastOfTiles, at, 0).rgb);
@@ -49,7 +51,8 @@ vec4 shade(ivec2 tile, int layer) {
   if (!isShaded && (own & (kFoundOpen | kFoundFar)) == 0u) flags |= kTilePlain;
   if ((own & kFoundNotDark) != 0u) flags |= kTileLit;
   if ((far & kEdge) == kEdge || (hasMarks && (far & kFoundIndicated) != 0u)) flags |= kTileBlurred;
-  bool isEdge = (uint(kWanted) & (kTearsAll | kTearsEverywhere)) != 0u || differs || (beside & (kFoundOpen | kFoundFar)) != 0u || (near & kEdge) == kEdge || (beside & kFoundIndicated) != 0u;
+  bool isEdge = (uint(kWanted) & (kTearsAll | kTearsEverywhere)) != 0u || differs || (beside & (kFoundOpen | kFoundFar)) != 0u || (around & kEdge) == kEdge ||
+                (beside & kFoundIndicated) != 0u;
   bool isNear = (uint(kWanted) & kTearsEverywhere) != 0u || (beside & kFoundCovered) != 0u;
   if ((uint(kWanted) & kWantsTears) != 0u && isNear && isEdge) flags |= kTileTorn;
   return vec4(float(flags) / 255.0, 0.0, 0.0, 0.0);

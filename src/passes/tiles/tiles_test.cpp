@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "tests/support/aov.h"
 #include "tests/support/render_test.h"
@@ -109,6 +110,48 @@ TEST_P(TilesTest, noTearIsMissed) {
       for (size_t v = 0; v < viewCount(); ++v) EXPECT_LE(mostInRoots(some, all, v), 3.0 / 255);
     }
   }
+}
+
+// A shadow thinner than a tile, which the blur moves and tears move on.
+TEST_P(TilesTest, noTornShadowIsMissed) {
+  TestScene s;
+  const int plain = s.material(TestScene::colored("Plain", {0.6f, 0.6f, 0.5f, 1}));
+  s.add(gridMesh({-20, 0, 20}, {40, 0, 0}, {0, 0, -40}), plain);
+  s.add(boxMesh({-0.05f, 0, -0.05f}, {0.05f, 3, 0.05f}), plain);
+  s.light({-0.9f, 0.6f, 0.1f});
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0, 6, 1.5f}, {1, 0, 0}}, kWidth, kHeight, GetParam());
+  for (const auto& [radius, threshold] :
+       {std::pair{"0", "0.5"}, {"9", "0.95"}, {"128", "0.97"}, {"40", "0.03"}}) {
+    const Knobs knobs{{"warp.amount", "64"}, {"blur.radius", radius}, {"shadow.threshold", threshold}};
+    const RenderOptions options = sized(kWidth, kHeight, {}, 4);
+    const Frame some = draw(scene, quietLook(knobs), views, options),
+                all = draw(scene, quietLook(withFarGrade(knobs)), views, options);
+    for (size_t v = 0; v < viewCount(); ++v)
+      EXPECT_LE(mostInRoots(some, all, v), 3.0 / 255) << radius << ", " << threshold;
+  }
+}
+
+// Light and shadow are what they are where no tile is plain, as with a dither that nobody sees: also over a
+// picture, for which the ground has no colour of its own.
+TEST_P(TilesTest, plainTilesAreAsTheOthers) {
+  const Scene scene = stillLife().load();
+  const auto views = viewsFrom(scene, {{2, 2.5f, 6}, {0, 0.8f, 0}}, kWidth, kHeight, GetParam());
+  auto picture =
+      std::make_shared<Image>(Image{8, 8, {"R", "G", "B", "A"}, std::vector<float>(8 * 8 * 4, 0.4f)});
+  for (size_t i = 3; i < picture->pixels.size(); i += 4) picture->pixels[i] = 1;
+  for (const bool overPicture : {false, true})
+    for (const char* steps : {"1", "3"}) {
+      const Knobs knobs{{"ground.mode", "on"}, {"shadow.steps", steps}, {"shadow.indication", "0"}};
+      Knobs dithered = knobs;
+      dithered.emplace_back("shadow.dither", "1e-6");
+      RenderOptions options = sized(kWidth, kHeight, {}, 4);
+      if (overPicture) options.background = picture;
+      const Frame some = draw(scene, quietLook(knobs), views, options),
+                  all = draw(scene, quietLook(dithered), views, options);
+      for (size_t v = 0; v < viewCount(); ++v)
+        EXPECT_LE(mostInRoots(some, all, v), 2.0 / 255) << (overPicture ? "over a picture" : "");
+    }
 }
 
 // What a knob switches off is not in the frame, and costs nothing.

@@ -123,7 +123,9 @@ class Warp : public Pass {
       const float distance = plan && plan->quietDistance > 0
                                  ? std::max(params.distance, 1 / plan->quietDistance)
                                  : params.distance;
-      variants.push_back({.tangents = tangentOptions(metaParams, input.uniforms), .options = distance > 0});
+      const uint32_t options =
+          (distance > 0 ? shared::kWarpFades : 0) | (setup.field.meta.mode == 0 ? shared::kWarpFollows : 0);
+      variants.push_back({.tangents = tangentOptions(metaParams, input.uniforms), .options = options});
       materials_.write(m, {params.amount * pixelScale, inflation, distance, float(index + 1)});
     }
     step_.specialise(0, std::move(variants));

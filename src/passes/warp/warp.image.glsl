@@ -62,7 +62,10 @@ vec4 shade(ivec2 pixel, int layer) {
     vector = (value.xy - u.fieldMean) * 2.0;
     vector *= min(kFarthestTear * inversesqrt(max(dot(vector, vector), 1e-12)), 1.0);
     // What is finer than the texture should be is shallower by as much, so that no tear is steeper than others.
-    if ((kFieldFeatures & 3) == 0) vector *= min(1.5 / metaTextureFineness(u.field, chosen), 1.0);
+    if ((kFieldFeatures & 3) == 0) {
+      float finer = metaTextureFineness(u.field, chosen);
+      vector *= finer > 1.5 ? 1.5 / finer : 1.0;
+    }
     // Camera roll (section 4.3): the frame of reference follows the gradient of u, so the pattern sticks to the surface.
     // Its direction is across dS/dv, on the side that does not change where a mapping is mirrored along u.
     float lengthV = length(dSdv);

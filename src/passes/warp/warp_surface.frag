@@ -17,7 +17,7 @@
 
 layout(constant_id = kAlphaModeId) const int kAlphaMode = 0;
 layout(constant_id = kTangentsId) const int kTangents = 0;
-layout(constant_id = kMaterialId) const int kFadesAway = 0;  // far things are torn less
+layout(constant_id = kMaterialId) const int kOptions = 0;  // kWarpFades, kWarpFollows
 
 layout(location = 0) in vec3 inUvScale;
 layout(location = 1) in vec3 inTangentU;
@@ -42,13 +42,15 @@ void main() {
   outPattern = uvec4(floatBitsToUint(inUvScale.xy), packBfloat(dSdu), packBfloat(dSdv));
   // Paper 000, eq. 26; FORMULAS 12: the distance has a scale.
   float amount = warp.amount * inUvScale.z;
-  if (kFadesAway != 0) {
+  if ((kOptions & kWarpFades) != 0) {
     float far = warp.distance * eyeDepth(gl_FragCoord.z, viewIndex());
     amount /= 1.0 + far * far;
   }
   // Tangents are a vertex's, and smooth; the mapping is each triangle's own. Where it runs faster than they say, the
   // pattern is finer than it should be; it is shallower there by as much, so that no tear is steeper than others.
-  float finer = largestStretch(mat2(dSdu * byX.x + dSdv * byX.y, dSdu * byY.x + dSdv * byY.y));
-  amount *= min(1.5 / finer, 1.0);
+  if ((kOptions & kWarpFollows) != 0) {
+    float finer = largestStretch(mat2(dSdu * byX.x + dSdv * byX.y, dSdu * byY.x + dSdv * byY.y));
+    if (finer > 1.5) amount *= 1.5 / finer;
+  }
   outKnobs = vec2(amount, inCode);
 }
