@@ -126,7 +126,8 @@ const std::map<std::string, std::string> kUnseen = {
     {"breakup.metatexture.gradients", "marks lie by the tangents that warp.metatexture chooses"},
     {"breakup.metatexture.radial", "marks lie by the tangents that warp.metatexture chooses"},
     {"ocean.metatexture.orient",
-     "seen along -z, strokes of the sea run across the foreshortening as they are"}};
+     "seen along -z, strokes of the sea run across the foreshortening as they are"},
+    {"palette.planes", "a scene of many colours has none of it"}};
 
 class KnobSweep : public BothEyes {};
 INSTANTIATE_BOTH_EYES(KnobSweep);
