@@ -75,7 +75,7 @@ const std::pair<std::string, Knobs> kNeeds[] = {
     {"play.repeat", {{"clips.*.play.start", "2.5"}}},
     {"sample.", {{"sample.shown", "on"}}},
     {"shadow.glow", {{"shadow.innerGlow", "1"}, {"shadow.glowColorAmount", "1"}}},
-    {"shadow.indicationSteps", {{"blur.radius", "128"}, {"shadow.indication", "1"}, {"breakup.amount", "4"}}},
+    {"shadow.indicationSteps", {{"shadow.softness", "0.25"}}},
     {"shadow.indication",
      {{"blur.radius", "128"},
       {"shadow.indication", "1"},
