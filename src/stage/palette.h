@@ -87,8 +87,8 @@ struct SceneColors {
   float variety = 0;            // its standard deviation there
 };
 
-// Of colours in the light, for planes that face the sky and such as turn away from the light, against those that
-// face the light: factors. `planes`: the knob; a scene of many colours has less of it.
+// Of colours in the light, for planes that face the sky and such as turn away from the light, against those
+// that face the light: factors. `planes`: the knob; a scene of many colours has less of it.
 struct PlaneTints {
   glm::vec3 sky{1.0f}, turned{1.0f};
 };
