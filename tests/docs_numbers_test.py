@@ -123,17 +123,25 @@ def coherence(name):
         yield ["vectors", *MODES]
         modes = load(root, f"coherence-{name}")["modes"]
         for row, of in MEASURED:
-            yield [row, *(f"{of(modes[mode]):.3f}" for mode in MODES)]
+            # Less is better; the least is in bold.
+            numbers = [of(modes[mode]) for mode in MODES]
+            yield [row, *(f"**{n:.3f}**" if n == min(numbers) else f"{n:.3f}" for n in numbers)]
 
     return table
 
 
+def rival_of(target):
+    """Whom it is against, where that differs from scene to scene."""
+    return f" of `{target['meaning'].rsplit(' ', 1)[1]}`" if "best rival" in target["name"] else ""
+
+
 def targets(root):
-    yield ["scene", "covers", "frequency (1.00)", "contrast (0.05)", "warp error (0.33)", "stereo (0.20)"]
+    yield ["scene", "covers", "frequency (1.00)", "contrast (0.05)", "warp error (0.33)", "stereo (0.20)",
+           "warp error, best rival (1.10)", "stereo, best rival (1.10)"]
     for name in COHERENCE:
         r = load(root, f"coherence-{name}")
         yield [scene_name(r), f"{100 * r['visible']:.0f} %",
-               *(f"{t['value']:.2f}{'' if t['kept'] else ', missed'}" for t in r["targets"])]
+               *(f"{t['value']:.2f}{rival_of(t)}{'' if t['kept'] else ', missed'}" for t in r["targets"])]
 
 
 COHERENCE = ["suzanne", "sail-ship", "toycar", "demo"]

@@ -26,6 +26,7 @@ struct BenchArguments {
   int runs = 9;
   double time = 0;  // seconds
   bool moving = false;
+  double bandwidth = 1000;  // of the GPU that is planned for, gigabytes a second
 };
 
 constexpr double kFramesASecond = 24;  // of what moves
@@ -46,6 +47,8 @@ double median(std::vector<double> values) {
 int run(const BenchArguments& args) {
   // Check everything that can be checked before anything is drawn.
   if (args.runs < 1 || args.runs > 1000) return failUsage("--runs is out of range", "use 1 to 1000");
+  if (!(args.bandwidth >= 1 && args.bandwidth <= 1e6))
+    return failUsage("--bandwidth is out of range", "use 1 to 1000000 gigabytes a second");
   const std::vector<double> times = timesOf(args);
   if (!(std::abs(times.front()) < Renderer::kMaxTime && std::abs(times.back()) < Renderer::kMaxTime))
     return failUsage("--time is out of range", "use a time within a million seconds");
@@ -77,6 +80,8 @@ int run(const BenchArguments& args) {
   // Paint and yardstick in turns.
   std::vector<double> frame, plainFrame, ratios;
   std::map<std::string, std::vector<double>> passes;
+  std::map<std::string, PassTime> traffic;  // of the last frame: its images are those of all
+  uint64_t bytes = 0, fetches = 0;
   std::vector<std::string> order;
   uint64_t triangles = 0;
   // The first turn compiles pipelines and is not counted.
@@ -97,12 +102,16 @@ int run(const BenchArguments& args) {
     if (i == 0) continue;
     // The yardstick is its draw alone: deform is the painter's own work.
     double once = 0, all = 0;
+    bytes = fetches = 0;
     for (const PassTime& pass : drawn->stats.passes)
       if (pass.name == "plain") once = pass.milliseconds;
     for (const PassTime& pass : painted->stats.passes) {
       if (pass.name == "readback") continue;
       if (!passes.count(pass.name)) order.push_back(pass.name);
       passes[pass.name].push_back(pass.milliseconds);
+      traffic[pass.name] = pass;
+      bytes += pass.bytesRead + pass.bytesWritten;
+      fetches += pass.fetches;
       all += pass.milliseconds;
     }
     frame.push_back(all);
@@ -114,7 +123,13 @@ int run(const BenchArguments& args) {
   // Medians and spreads, as JSON and as text.
   nlohmann::json passReport = nlohmann::json::array();
   for (const std::string& name : order)
-    passReport.push_back({{"name", name}, {"milliseconds", median(passes[name])}});
+    passReport.push_back({{"name", name},
+                          {"milliseconds", median(passes[name])},
+                          {"fetches", traffic[name].fetches},
+                          {"bytesRead", traffic[name].bytesRead},
+                          {"bytesWritten", traffic[name].bytesWritten}});
+  const double pixels = double(options->width) * options->height * double(still->size());
+  const double planned = double(bytes) / (args.bandwidth * 1e6);
   // One time where nothing moves.
   const std::vector<double> counted(times.begin() + 1, args.moving ? times.end() : times.begin() + 2);
   const auto spread = [](const std::vector<double>& values) {
@@ -136,6 +151,10 @@ int run(const BenchArguments& args) {
                               {"frameMilliseconds", median(frame)},
                               {"yardstickMilliseconds", median(plainFrame)},
                               {"ratio", median(ratios)},
+                              {"imageBytes", bytes},
+                              {"fetches", fetches},
+                              {"bandwidth", args.bandwidth},
+                              {"plannedMilliseconds", planned},
                               {"spread",
                                {{"frameMilliseconds", spread(frame)},
                                 {"yardstickMilliseconds", spread(plainFrame)},
@@ -150,9 +169,14 @@ int run(const BenchArguments& args) {
     else
       std::printf("still: at %g s\n", args.time);
     for (const std::string& name : order)
-      std::printf("  %-14s %9.2f ms\n", name.c_str(), median(passes[name]));
+      std::printf("  %-14s %9.2f ms %8.1f bytes a pixel read %8.1f written %8.1f fetches\n", name.c_str(),
+                  median(passes[name]), double(traffic[name].bytesRead) / pixels,
+                  double(traffic[name].bytesWritten) / pixels, double(traffic[name].fetches) / pixels);
     std::printf("  %-14s %9.2f ms\n  %-14s %9.2f ms\n  %-14s %9.2f\n", "frame", median(frame), "yardstick",
                 median(plainFrame), "ratio", median(ratios));
+    std::printf(
+        "  %-14s %9.1f bytes a pixel: %.3f ms at %g GB/s, without vertices and textures; %.1f fetches\n",
+        "images", double(bytes) / pixels, planned, args.bandwidth, double(fetches) / pixels);
   }
   if (const Status status = args.json.give(report); !status) return fail(status.error());
   return kDone;
@@ -174,6 +198,11 @@ void addBench(CLI::App& program, int& exitCode) {
       "--moving", args->moving,
       "Each frame is a twenty-fourth of a second later, as in films, so that what moves is posed "
       "anew (default: all frames are at one time)");
+  command
+      ->add_option(
+          "--bandwidth", args->bandwidth,
+          "Gigabytes a second of a GPU to plan for: what a frame's images take to be read and written")
+      ->capture_default_str();
   args->json.addTo(*command);
   command->footer("Example: scumble bench boat.glb --samples 1 --json boat.json");
   command->callback([args, &exitCode] { exitCode = run(*args); });

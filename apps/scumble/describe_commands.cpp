@@ -52,6 +52,7 @@ nlohmann::json reportOf(const Scene& scene) {
           {"extensionsUsed", s.extensionsUsed},
           {"extensionsNotSupported", s.extensionsNotSupported},
           {"bounds", {{"min", s.min}, {"max", s.max}}},
+          {"surroundings", s.surroundings},
           {"warnings", scene.warnings()}};
 }
 
@@ -79,6 +80,9 @@ int info(const SceneArguments& args, const JsonOption& json) {
     print(fmt::format("not supported: {}\n", joined(s.extensionsNotSupported)));
   print(fmt::format("bounds      {:g} {:g} {:g} to {:g} {:g} {:g} metres\n", s.min[0], s.min[1], s.min[2],
                     s.max[0], s.max[1], s.max[2]));
+  if (!s.surroundings.empty())
+    print(fmt::format("not framed  {}: far larger than what stands on it (--frame NODE chooses)\n",
+                      shortened(s.surroundings)));
   return kDone;
 }
 

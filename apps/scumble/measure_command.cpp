@@ -1,6 +1,7 @@
 // scumble measure: coherence in numbers, for MetaTexture and its rivals.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -51,17 +52,17 @@ const FieldRow kFieldRows[] = {
 };
 
 void printRow(const std::string& name, const Measurements& measured, const MeasureOf& numberOf,
-              const char* format = "{:14.3f}") {
+              const char* format = "{:14.3f}", const std::string& last = "") {
   std::string line = fmt::format("  {:29}", name);
   for (const ModeMeasurements& mode : measured.modes)
     line += fmt::format(fmt::runtime(format), numberOf(mode));
-  std::puts(line.c_str());
+  std::puts((last.empty() ? line : line + "  " + last).c_str());
 }
 
-void printHead(const std::string& name, const Measurements& measured) {
+void printHead(const std::string& name, const Measurements& measured, const std::string& last = "") {
   std::string line = fmt::format("\n{:31}", name);
   for (const ModeMeasurements& mode : measured.modes) line += fmt::format("{:>14}", mode.mode);
-  std::puts(line.c_str());
+  std::puts((last.empty() ? line : line + "  " + last).c_str());
 }
 
 std::string zoomText(double zoom) {
@@ -72,11 +73,16 @@ void printTable(const Measurements& measured, const std::string& heading) {
   std::puts(heading.c_str());
   const std::pair<const char*, double PerField::*> fields[] = {{"warp vectors", &PerField::vectors},
                                                                {"breakup marks", &PerField::marks}};
+  // Of each of these numbers less is better; who has the least stands behind them.
   for (const auto& [name, member] : fields) {
-    printHead(name, measured);
-    for (const FieldRow& row : kFieldRows)
-      printRow(row.name, measured,
-               [&, number = member](const ModeMeasurements& m) { return row.of(m).*number; });
+    printHead(name, measured, "best");
+    for (const FieldRow& row : kFieldRows) {
+      const auto numberOf = [&, number = member](const ModeMeasurements& m) { return row.of(m).*number; };
+      const auto best =
+          std::min_element(measured.modes.begin(), measured.modes.end(),
+                           [&](const auto& a, const auto& b) { return numberOf(a) < numberOf(b); });
+      printRow(row.name, measured, numberOf, "{:14.3f}", best->mode);
+    }
   }
   printHead("pictures, rms in stereo", measured);
   printRow(

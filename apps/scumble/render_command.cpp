@@ -62,7 +62,11 @@ std::optional<std::pair<int, int>> parseFrames(const std::string& text) {
 nlohmann::json statsJson(const FrameStats& stats) {
   nlohmann::json passes = nlohmann::json::array();
   for (const PassTime& pass : stats.passes)
-    passes.push_back({{"name", pass.name}, {"milliseconds", pass.milliseconds}});
+    passes.push_back({{"name", pass.name},
+                      {"milliseconds", pass.milliseconds},
+                      {"bytesRead", pass.bytesRead},
+                      {"fetches", pass.fetches},
+                      {"bytesWritten", pass.bytesWritten}});
   return {{"passes", passes},
           {"gpuMilliseconds", stats.gpuMilliseconds},
           {"cpuMilliseconds", stats.cpuMilliseconds},

@@ -11,6 +11,12 @@ namespace scumble {
 struct PassTime {
   std::string name;
   double milliseconds = 0;  // on the GPU
+  // Of the frame's images that it reads and writes, each once and as a whole: what goes to and from memory
+  // where caches hold what is near, and no tile is left out. Vertices and textures are not counted.
+  uint64_t bytesRead = 0, bytesWritten = 0;
+  // Texels that image passes take where they do all that they can, which on tiles is seldom; a filter takes
+  // four.
+  uint64_t fetches = 0;
 };
 
 struct FrameStats {

@@ -73,14 +73,16 @@ struct Measurements {
   std::vector<ModeMeasurements> modes;  // metatexture first
   PerField exampleFrequency;            // of the flat example, cycles a pixel
   double visible = 0;                   // part of the framing that the scene covers
-  double tiles = 0;  // copies a unit of uv that mode `object` was given: MetaTexture's at zoom 1
+  double tiles = 0;  // copies a unit of uv that MetaTexture lays at zoom 1, on the average over what is seen
   double ipd = 0;    // metres
   std::vector<MeasureTarget> targets;
 };
 
 // Measures MetaTexture and its three rivals (ordinary mapping, screen space, summed octaves) in one scene, as
-// `look` sets them. Of the look, these are set otherwise: no ground, and for the fields warp.inflation 0,
-// warp.distance 0 and warp.amount 64. Renders some 400 frames. The same call gives the same numbers.
+// `look` sets them; the rivals as their authors have them (docs/measure.md). Of the look, these are set
+// otherwise: no ground, and for the fields warp.inflation 0, warp.distance 0 and warp.amount 64. What
+// features draw is not measured, nor is what is not torn at all. Renders some 400 frames. The same call gives
+// the same numbers.
 //
 // Uses the renderer as a call of render() does: from one thread at a time.
 //

@@ -48,6 +48,9 @@ struct SceneSummary {
   std::vector<Clip> clips;
   std::vector<std::string> extensionsUsed, extensionsNotSupported;
   double min[3] = {0, 0, 0}, max[3] = {0, 0, 0};  // world bounds, metres
+  // Nodes that do not decide the framing: low, and far larger than all that stands on them (docs/stage.md).
+  // Those without a name by their number.
+  std::vector<std::string> surroundings;
 };
 
 struct PlacedScene;

@@ -42,13 +42,15 @@ SCUMBLE_API glm::mat4 orthographicProjection(float halfHeight, float aspect, flo
 struct Viewpoint {
   std::string camera;  // name or number of a scene's camera; empty: the first
   // Nodes by name ("boat/Deck" of a world) or pattern: they and what hangs below them are what is framed and
-  // gone around, instead of everything. Counts before cameras of look and scene.
+  // gone around, instead of everything but SceneSummary::surroundings. Counts before cameras of look and
+  // scene.
   std::string frame = {};
   bool orbit = false;  // around the scene's centre
   // Degrees: azimuth 0 looks at the scene's front (+Z), growing to its left (+X), up to a hundred turns;
   // elevation -90 to 90.
   float azimuth = 0, elevation = 0;
-  std::optional<float> distance;  // in scene radii, above 0 up to a million; default: everything in the frame
+  // In radii of what is framed, above 0 up to a million; default: all of it in the frame.
+  std::optional<float> distance;
   // Goes once around in so many seconds, above 0, the azimuth growing: around what the look's camera looks at
   // (the scene's centre where it says nothing), from the orbit above where that is given, else from that of
   // the look. Where neither has a distance, everything is in the frame all the way.

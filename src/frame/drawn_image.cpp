@@ -14,8 +14,9 @@ void DrawnImage::declare(FrameBuilder& frame, const std::string& name, VkFormat 
   image_ = frame.use(image_, isDepth ? gpu::Use::depthResolveTarget : gpu::Use::resolveTarget);
 }
 
-gpu::Target DrawnImage::target(const gpu::GraphResources& resources, VkClearValue clear) const {
-  return {&resources.image(samples_), samples_ == image_ ? nullptr : &resources.image(image_), clear};
+gpu::Target DrawnImage::target(const gpu::GraphResources& resources, VkClearValue clear,
+                               gpu::Target::Before before) const {
+  return {&resources.image(samples_), samples_ == image_ ? nullptr : &resources.image(image_), clear, before};
 }
 
 }  // namespace scumble::frame

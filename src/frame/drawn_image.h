@@ -12,7 +12,8 @@ class DrawnImage {
   void declare(FrameBuilder& frame, const std::string& name, VkFormat format, uint32_t samples = 1);
   gpu::Handle image() const { return image_; }      // one sample a pixel
   gpu::Handle samples() const { return samples_; }  // the same where there is but one
-  gpu::Target target(const gpu::GraphResources& resources, VkClearValue clear = {}) const;
+  gpu::Target target(const gpu::GraphResources& resources, VkClearValue clear = {},
+                     gpu::Target::Before before = gpu::Target::Before::cleared) const;
 
  private:
   gpu::Handle image_, samples_;

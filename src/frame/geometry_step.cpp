@@ -93,8 +93,10 @@ void GeometryStep::draw(VkCommandBuffer commands, const gpu::DescriptorSets* pas
                         uint32_t firstView) const {
   const SceneOnGpu& scene = *scene_;
   // What all draws read. Casters count wherever they are.
-  const VkBuffer draws =
-      desc_.what == GeometryStepDesc::What::casters ? scene.draws().commands() : scene.draws().seen();
+  const DrawList& list = scene.draws();
+  const VkBuffer draws = desc_.what == GeometryStepDesc::What::casters ? list.casters()
+                         : desc_.what == GeometryStepDesc::What::torn  ? list.torn()
+                                                                       : list.seen();
   bindVertices(commands, scene);
   vkCmdBindIndexBuffer(commands, scene.geometry().indices().handle(), 0, VK_INDEX_TYPE_UINT32);
 
@@ -105,7 +107,7 @@ void GeometryStep::draw(VkCommandBuffer commands, const gpu::DescriptorSets* pas
   std::vector<uint32_t> offsetsOfMaterial(desc_.materialStrides.size());
   for (const Chosen& chosen : chosen_) {
     const gpu::Pipeline& pipeline = *chosen.pipeline;
-    const DrawBucket& bucket = scene.draws().buckets()[chosen.bucket];
+    const DrawBucket& bucket = list.buckets()[chosen.bucket];
     const DrawState& state = bucket.state;
     if (bound != &pipeline) {
       pipeline.bind(commands);

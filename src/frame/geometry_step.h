@@ -10,8 +10,9 @@
 namespace scumble::frame {
 
 struct GeometryStepDesc {
-  // Which draws: those that are visible, or those that cast shadows.
-  enum class What : uint8_t { visible, casters };
+  // Which draws: those that are visible, with the detail of surfaces or of what tears them; or those that
+  // cast shadows.
+  enum class What : uint8_t { visible, torn, casters };
   What what = What::visible;
   std::optional<uint32_t> onlyMaterial;  // nothing but what has this one
   gpu::Shader vertex, fragment;
@@ -48,7 +49,7 @@ struct MaterialVariant {
 
 class GeometryStep {
  public:
-  // What the step that draws them uses, while a pass declares: all but casters.
+  // What the step that draws them uses, while a pass declares.
   static void use(FrameBuilder& frame) {
     frame.use(frame.get(kVertices), gpu::Use::vertexBuffer);
     frame.use(frame.get(kDrawList), gpu::Use::indirectBuffer);

@@ -14,6 +14,7 @@ std::vector<gpu::Handle> ImageStep::declare(FrameBuilder& frame, ImageStepDesc d
   configuration_ = frame.configuration();
   compute_ = configuration_.computeImagePasses;
   frame.step(desc_.name, [this](VkCommandBuffer commands) { record(commands); });
+  frame.countFetches(desc_.outputs[0], desc_.fetches);
   std::vector<gpu::Handle> read;
   for (const ImageStepDesc::Input& input : desc_.inputs) {
     if (std::find(read.begin(), read.end(), input.image) != read.end()) continue;

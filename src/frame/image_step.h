@@ -28,8 +28,10 @@ struct ImageStepDesc {
   std::vector<uint32_t> textures;    // bindings of what is none of the frame's images
   gpu::Handle tiles{};               // flags (shading/tiles.shared.h), for shaders with SHADES_TILES
   std::vector<gpu::Handle> outputs;  // one image, or two of one size for shaders with SHADES_TWO
-  uint64_t uniformBytes = 0;         // of the block for each job; 0 where the shader has none
-  std::vector<uint32_t> constants;   // specialisation constants 0 to 2 of a step without jobs of its own
+  // Texels that one of the output takes in the dearest job, with the usual knobs; a filter takes four.
+  uint32_t fetches = 0;
+  uint64_t uniformBytes = 0;        // of the block for each job; 0 where the shader has none
+  std::vector<uint32_t> constants;  // specialisation constants 0 to 2 of a step without jobs of its own
   uint32_t maxJobs = 1;
 };
 

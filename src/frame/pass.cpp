@@ -79,7 +79,15 @@ void FrameBuilder::give(const Role& role, gpu::Handle handle, Layer layer) {
 void FrameBuilder::step(const std::string& name, Record record) {
   graph_.addStep(name);
   records_.push_back(std::move(record));
+  fetches_.emplace_back();
   declarers_.push_back(declaring_);
+}
+
+uint64_t FrameBuilder::fetchesOf(size_t step, const gpu::ImageShape::Frame& frame) const {
+  const Fetches& fetches = fetches_[step];
+  if (fetches.perTexel == 0) return 0;
+  const gpu::ImageDesc desc = shape(fetches.image).at(frame);
+  return uint64_t(desc.width) * desc.height * desc.layers * fetches.perTexel;
 }
 
 void FrameBuilder::offer(const Aov& aov, std::vector<gpu::Handle> images) {

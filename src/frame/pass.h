@@ -36,6 +36,7 @@ struct Configuration {
   uint32_t samples = 1, viewCount = 1;
   bool computeImagePasses = false;
   gpu::ViewDrawing viewDrawing = gpu::ViewDrawing::together;
+  bool hasBackdrop = false;  // there is a picture behind everything
   bool operator==(const Configuration&) const = default;
 
   gpu::Views views() const { return {viewCount, viewDrawing}; }
@@ -113,11 +114,17 @@ class FrameBuilder {
   gpu::Handle image(std::string name, const gpu::ImageShape& shape) {
     return graph_.addImage(std::move(name), shape);
   }
+  // One that stays from frame to frame as it was left, until bind() is called.
+  gpu::Handle keptImage(std::string name, const gpu::ImageShape& shape) {
+    return graph_.addKeptImage(std::move(name), shape);
+  }
   gpu::Handle buffer(std::string name, uint64_t bytes) { return graph_.addBuffer(std::move(name), bytes); }
   // The next step; `record` is called for each frame, where what it writes is needed.
   void step(const std::string& name, Record record);
   // What that step does with a handle (gpu::FrameGraph::use): the version that it has from then on.
   gpu::Handle use(gpu::Handle handle, gpu::Use use) { return graph_.use(handle, use); }
+  // How many texels the step takes for each one of an image that it writes: a part of its cost.
+  void countFetches(gpu::Handle image, uint32_t perTexel) { fetches_.back() = {image, perTexel}; }
   // Lets users save images, of one size and format, as one of the pass's aovs().
   void offer(const Aov& aov, std::vector<gpu::Handle> images);
   const gpu::ImageShape& shape(gpu::Handle image) const { return graph_.shape(image); }
@@ -130,6 +137,8 @@ class FrameBuilder {
   gpu::FrameGraph& graph() { return graph_; }
   const gpu::FrameGraph& graph() const { return graph_; }
   const std::vector<Record>& records() const { return records_; }
+  // Of a step, in all.
+  uint64_t fetchesOf(size_t step, const gpu::ImageShape::Frame& frame) const;
   // What was offered under a name; null: nothing.
   struct Offer {
     const Aov* aov;
@@ -157,7 +166,12 @@ class FrameBuilder {
   UniformMemory& uniforms_;
   std::vector<std::string> asked_;  // names of AOVs
   gpu::FrameGraph graph_;
-  std::vector<Record> records_;         // by step
+  std::vector<Record> records_;  // by step
+  struct Fetches {
+    gpu::Handle image{};
+    uint32_t perTexel = 0;
+  };
+  std::vector<Fetches> fetches_;        // by step
   std::vector<const Pass*> declarers_;  // by step
   const Pass* declaring_ = nullptr;
   std::vector<Given> given_;

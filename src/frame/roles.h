@@ -21,6 +21,8 @@ inline constexpr Role kVertices{"vertices"}, kPreviousVertices{"previous vertice
 
 // Which draws the views see: commands by bucket (world/draw_list.h).
 inline constexpr Role kDrawList{"draw list"};
+// How far each object lies inside of itself, as it is drawn: a number for each, metres.
+inline constexpr Role kSunken{"sunken"};
 
 // Indices of the triangles of blended surfaces, in the order in which they are composited; only where there
 // are any.
@@ -36,6 +38,9 @@ inline constexpr Role kShadow{"shadow"};
 // Square root of the linear colour in full light, and in shadow; A: coverage. Square roots need no more than
 // 8 bits, and cost drivers less than sRGB.
 inline constexpr Role kLit{"lit"}, kShadowed{"shadowed"};
+// Samples of those and of the depth buffer, where a pixel has several; nothing is premultiplied there.
+inline constexpr Role kShadowSamples{"shadow samples"}, kLitSamples{"lit samples"},
+    kShadowedSamples{"shadowed samples"}, kDepthSamples{"depth samples"};
 inline constexpr Role kTiles{"tiles"};  // flags of tiles (shading/tiles.shared.h)
 inline constexpr Role kDepth{"depth"};  // depth buffer of the surfaces
 // Square root of the colours of prepainted materials (world/feature.h); once a pixel, wherever they are first
@@ -46,6 +51,15 @@ inline constexpr Role kBlur{"blur"};
 // R: light after threshold and inner glow; G: lens; B: the glow's part of it; A: coverage. Behind the first
 // surfaces: the shadow as it is. Not in plain tiles, unless there is a picture behind everything.
 inline constexpr Role kLight{"light"};
+// R, G, B, A: that light of each of a pixel's four samples; where there are several.
+inline constexpr Role kSampleLight{"sample light"};
+// Colours of the first surfaces and the sky: the picture before anything else is done to it.
+inline constexpr Role kSurfaceColors{"surface colors"};
+// The same after what changes colours smoothly, so that samples of a pixel change as the pixel does.
+inline constexpr Role kGradedColors{"graded colors"};
+// The picture, where the colours of its pixels are means of single samples, those of kDepthSamples and
+// others.
+inline constexpr Role kSampledPicture{"sampled picture"};
 // The picture so far: each pass that works on it takes the present one and gives the next.
 inline constexpr Role kPicture{"picture"};
 

@@ -51,6 +51,7 @@ void TileMask::create(FrameBuilder& frame) {
   desc.depthFormat = kDepthFormat;
   desc.viewMask = views_.mask();
   desc.pushConstantBytes = sizeof(shared::TileRule);
+  // tiles.vert reads set 2 alone; what stands for the others is never bound.
   desc.sets = {frame.frameLayout().handle(), frame.frameLayout().handle(), flags_.layout().handle()};
   pipeline_ = gpu::Pipeline(frame.device(), desc);
 }

@@ -6,6 +6,7 @@
 
 #include "gltf/import.h"
 #include "gltf/world_file.h"
+#include "scene/clearance.h"
 #include "scene/parallel.h"
 #include "scene/scene_bounds.h"
 #include "scumble/scene.h"
@@ -61,6 +62,7 @@ std::shared_ptr<SceneData> import(Bytes bytes, const FileBytes* file, const std:
   readClips(import, maps, *data);
   placeScene(*data, warnings);
   requireMeshes(*data);
+  keepLevelsApart(*data);
   timings.geometry = watch.lap();
 
   readMaterials(import, *data);

@@ -4,6 +4,7 @@
 
 #include "gltf/import.h"
 #include "gltf/primitive.h"
+#include "scene/levels.h"
 #include "scene/parallel.h"
 #include "scene/prepare_mesh.h"
 
@@ -89,7 +90,9 @@ void readMeshes(const Import& import, const Maps& maps, SceneData& scene) {
   import.progress.expect(finishing.size(), 0.6);
   parallelFor(finishing.size(), import.threads, [&](size_t i) {
     const auto [mesh, primitive] = finishing[i];
-    finishPrimitive(scene.meshes[mesh].own().primitives[primitive], radii[mesh]);
+    Primitive& finished = scene.meshes[mesh].own().primitives[primitive];
+    finishPrimitive(finished, radii[mesh]);
+    makeLevels(finished);
     import.progress.step();
   });
 }

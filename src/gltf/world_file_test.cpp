@@ -11,12 +11,10 @@
 namespace scumble {
 namespace {
 
-using namespace scene;
-
 class WorldFile : public testing::Test, protected TestFolder {
  protected:
   WorldFile() {
-    TestGltf g;
+    scene::TestGltf g;
     g.addQuad();
     g.json["nodes"][0]["name"] = "Plank";
     put("boat.gltf", g.gltf());
@@ -32,10 +30,10 @@ TEST_F(WorldFile, listsScenesWithTheirPlaces) {
           { "file": "boat.gltf" },
           { "file": "boat.gltf", "name": "raft", "at": [0, 0, 4], "turn": [0, 180, 0], "scene": 0 } ] })"));
   ASSERT_TRUE(scene.ok()) << scene.error().message();
-  const SceneData& data = scene->data();
-  const auto world = worldMatrices(data);
+  const scene::SceneData& data = scene->data();
+  const auto world = scene::worldMatrices(data);
   const auto at = [&](const char* node, const glm::vec4& point) {
-    return glm::vec3(world[size_t(findNode(data, node))] * point);
+    return glm::vec3(world[size_t(scene::findNode(data, node))] * point);
   };
   EXPECT_LT(glm::length(at("dog/Plank", {0, 0, 0, 1}) - glm::vec3(0, 1, 4)), 1e-5f);
   EXPECT_LT(glm::length(at("dog/Plank", {1, 0, 0, 0}) - glm::vec3(0, 0, 0.5f)), 1e-5f);
@@ -46,10 +44,11 @@ TEST_F(WorldFile, listsScenesWithTheirPlaces) {
       R"({"scenes": [{"file": "world.json", "at": [9, 0, 0]}, {"file": "boat.gltf", "on": "world/boat/Plank"}]})");
   const Result<Scene> harbour = Scene::load(file("harbour.json"));
   ASSERT_TRUE(harbour.ok()) << harbour.error().message();
-  EXPECT_LT(glm::length(glm::vec3(worldMatrices(
-                            harbour->data())[size_t(findNode(harbour->data(), "world/boat/Plank"))][3]) -
-                        glm::vec3(9, 0, 0)),
-            1e-5f);
+  EXPECT_LT(
+      glm::length(glm::vec3(scene::worldMatrices(
+                      harbour->data())[size_t(scene::findNode(harbour->data(), "world/boat/Plank"))][3]) -
+                  glm::vec3(9, 0, 0)),
+      1e-5f);
 }
 
 TEST_F(WorldFile, aFileIsReadOnce) {
@@ -131,7 +130,7 @@ TEST_F(WorldFile, aBombOfWorldsIsDefused) {
 
 // A glTF may be called .json.
 TEST_F(WorldFile, aGltfByAnotherName) {
-  TestGltf g;
+  scene::TestGltf g;
   g.addQuad();
   EXPECT_TRUE(Scene::load(put("quad.json", g.gltf())).ok());
 }

@@ -117,6 +117,11 @@ Handle FrameGraph::addImage(std::string name, const ImageShape& shape) {
   return {uint32_t(resources_.size() - 1), 0};
 }
 
+Handle FrameGraph::addKeptImage(std::string name, const ImageShape& shape) {
+  resources_.push_back({.name = std::move(name), .isKept = true, .shape = shape});
+  return {uint32_t(resources_.size() - 1), 0};
+}
+
 Handle FrameGraph::addBuffer(std::string name, uint64_t bytes) {
   resources_.push_back({.name = std::move(name), .isImage = false, .bytes = bytes});
   return {uint32_t(resources_.size() - 1), 0};
@@ -158,6 +163,21 @@ Handle FrameGraph::use(Handle handle, Use use) {
   if (info.writes) handle.version = ++resource.versions;
   uses.push_back({handle, use});
   return handle;
+}
+
+FrameGraph::Traffic FrameGraph::trafficOf(size_t step, const ImageShape::Frame& frame) const {
+  Traffic traffic;
+  for (const StepUse& use : steps_[step].uses) {
+    const Resource& resource = resources_[use.handle.resource];
+    if (!resource.isImage) continue;
+    const ImageDesc desc = resource.shape.at(frame);
+    const uint64_t bytes =
+        uint64_t(desc.width) * desc.height * desc.layers * desc.samples * bytesPerPixel(desc.format);
+    const bool writes = useInfo(use.use).writes;
+    if (writes) traffic.written += bytes;
+    if (!writes || use.handle.version > 1) traffic.read += bytes;
+  }
+  return traffic;
 }
 
 FrameGraph::Needs FrameGraph::needsOf(std::span<const Handle> wanted) const {
@@ -213,7 +233,7 @@ std::vector<std::vector<Barrier>> FrameGraph::planBarriers(
       State& state = states[r];
       const Resource& resource = resources_[r];
       state.isFresh = true;
-      if (!resource.isImported) state.layout = VK_IMAGE_LAYOUT_UNDEFINED;
+      if (!resource.isImported && !resource.isKept) state.layout = VK_IMAGE_LAYOUT_UNDEFINED;
       if (resource.before)
         state = {resource.before->stages, 0, resource.before->access, 0, resource.before->layout};
     }
@@ -289,6 +309,8 @@ const char* nameOf(VkFormat format) {
       return "rg32f";
     case VK_FORMAT_R32_SFLOAT:
       return "r32f";
+    case VK_FORMAT_R32_UINT:
+      return "r32u";
     case VK_FORMAT_R32G32B32A32_UINT:
       return "rgba32u";
     case VK_FORMAT_D32_SFLOAT:
@@ -338,7 +360,8 @@ std::string FrameGraph::toDot(const Needs& needs, const ImageShape::Frame& frame
     }
     versions += "  " + nodeOf(handle) + " [label=" + quoted(label) +
                 ", shape=" + (resource.isImage ? "ellipse" : "cylinder") +
-                (resource.isImported ? ", style=bold" : "") + (isNeeded ? "" : kGrey) + "];\n";
+                (resource.isImported || resource.isKept ? ", style=bold" : "") + (isNeeded ? "" : kGrey) +
+                "];\n";
   };
   // Steps, with what they read and write.
   for (size_t s = 0; s < steps_.size(); ++s) {

@@ -98,6 +98,9 @@ class FrameGraph {
   // Images and buffers that live within a frame.
   Handle addImage(std::string name, const ImageShape& shape);
   Handle addBuffer(std::string name, uint64_t bytes);
+  // An image that holds at the beginning of a frame what the last one has left in it; a step that writes it
+  // may leave it as it is.
+  Handle addKeptImage(std::string name, const ImageShape& shape);
   // Those that live longer. `before` and `after`: how they are used outside. Without `before` they are as the
   // last frame has left them. With `after` they are handed on, so that what is written to them is always
   // wanted; without it they wait for the next frame.
@@ -115,7 +118,7 @@ class FrameGraph {
 
   struct Resource {
     std::string name;
-    bool isImage = true, isImported = false;
+    bool isImage = true, isImported = false, isKept = false;
     ImageShape shape;    // of an image
     uint64_t bytes = 0;  // of a buffer that is the graph's
     std::optional<Outside> before, after;
@@ -149,10 +152,18 @@ class FrameGraph {
 
   // Barriers before each needed step (of the others none), and last those after all of them. The first use in
   // a frame waits for the last use in the frame before, and discards the contents of what lives within a
-  // frame. `sharing`: for each resource those others that lie in the same memory at other times of the frame;
-  // empty: none does.
+  // frame alone. `sharing`: for each resource those others that lie in the same memory at other times of the
+  // frame; empty: none does.
   std::vector<std::vector<Barrier>> planBarriers(
       const Needs& needs, const std::vector<std::vector<uint32_t>>& sharing = {}) const;
+
+  // Bytes of the images that a step reads and writes, each once and as a whole: what goes to and from memory
+  // where caches hold what is near, and no tile is left out. Samples count; what a write continues is read.
+  struct Traffic {
+    uint64_t read = 0, written = 0;
+    bool operator==(const Traffic&) const = default;
+  };
+  Traffic trafficOf(size_t step, const ImageShape::Frame& frame) const;
 
   // For Graphviz: steps are boxes, versions of images and buffers are ellipses; what is not needed is grey.
   std::string toDot(const Needs& needs, const ImageShape::Frame& frame) const;

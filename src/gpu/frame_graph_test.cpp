@@ -312,6 +312,22 @@ TEST(FrameGraph, whatLivesLongerKeepsItsContents) {
   EXPECT_EQ(find(plan[0], image)->sourceAccess, VK_ACCESS_2_TRANSFER_WRITE_BIT);
 }
 
+// Of the graph's own, one that is kept alone.
+TEST(FrameGraph, whatIsKeptIsAsTheFrameBeforeHasLeftIt) {
+  FrameGraph graph;
+  Handle kept = graph.addKeptImage("kept", kImage), other = graph.addImage("other", kImage),
+         result = graph.addImage("result", kImage);
+  addStep(graph, "draw", {{kept, Use::colorTarget}, {other, Use::copyTarget}});
+  addStep(graph, "use",
+          {{kept, Use::sampledByFragment}, {other, Use::sampledByFragment}, {result, Use::colorTarget}});
+  const FrameGraph::Needs needs = graph.needsOf(std::vector{result});
+  ASSERT_TRUE(needs.steps[0]);
+  const auto plan = graph.planBarriers(needs);
+  EXPECT_EQ(find(plan[0], kept)->oldLayout, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+  EXPECT_EQ(find(plan[0], kept)->newLayout, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+  EXPECT_EQ(find(plan[0], other)->oldLayout, VK_IMAGE_LAYOUT_UNDEFINED);
+}
+
 TEST(FrameGraph, sizesFollowTheFrame) {
   const ImageShape::Frame frame{1281, 721, 2};
   ImageDesc desc = ImageShape{.format = kImage.format}.at(frame);
@@ -328,6 +344,28 @@ TEST(FrameGraph, sizesFollowTheFrame) {
   EXPECT_EQ(desc.height, 1024u);
   EXPECT_EQ(desc.layers, 1u);
   EXPECT_EQ(desc.samples, 4u);
+}
+
+TEST(FrameGraph, trafficIsOfWholeImages) {
+  FrameGraph graph;
+  // 10 x 6 pixels, two views: 120 of the frame's size, 15 a view at a half.
+  Handle color = graph.addImage("color", {.format = VK_FORMAT_R16G16B16A16_SFLOAT, .samples = 4}),
+         resolved = graph.addImage("resolved", {.format = VK_FORMAT_R16G16B16A16_SFLOAT}),
+         half = graph.addImage("half", {.format = VK_FORMAT_R8G8B8A8_UNORM, .overX = 2, .overY = 2}),
+         map = graph.addImage("map",
+                              {.format = VK_FORMAT_D32_SFLOAT, .width = 7, .height = 3, .perView = false}),
+         buffer = graph.addBuffer("buffer", 1000);
+  const ImageShape::Frame frame{10, 6, 2};
+  addStep(graph, "map", {{map, Use::depthTarget}});
+  addStep(graph, "draw",
+          {{map, Use::sampledByFragment},
+           {color, Use::colorTarget},
+           {resolved, Use::resolveTarget},
+           {buffer, Use::storageBufferWrite}});
+  addStep(graph, "shrink", {{resolved, Use::sampledByFragment}, {half, Use::colorTarget}});
+  addStep(graph, "over", {{half, Use::colorTarget}});
+  const FrameGraph::Traffic expected[] = {{0, 84}, {84, 120 * 8 * 4 + 120 * 8}, {960, 120}, {120, 120}};
+  for (size_t step = 0; step < 4; ++step) EXPECT_EQ(graph.trafficOf(step, frame), expected[step]) << step;
 }
 
 TEST(FrameGraph, theDumpShowsEveryStepAndVersion) {

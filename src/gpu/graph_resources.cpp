@@ -60,6 +60,11 @@ void GraphResources::resize(const ImageShape::Frame& frame) {
   for (uint32_t r = 0; r < resources.size(); ++r) {
     const FrameGraph::Needs::Life& life = needs_.lives[r];
     if (!resources[r].isImage || resources[r].isImported || !life.isUsed) continue;
+    if (resources[r].isKept) {
+      images_[r] = Image(device_, resources[r].shape.at(frame), life.imageUsage);
+      bytes_ += images_[r].needs().size, bytesUnshared_ += images_[r].needs().size;
+      continue;
+    }
     images_[r] = Image::unplaced(device_, resources[r].shape.at(frame), life.imageUsage);
     const VkMemoryRequirements needs = images_[r].needs();
     needed[r] = {needs.size, needs.alignment, life.first, life.last};
@@ -95,6 +100,23 @@ void GraphResources::resize(const ImageShape::Frame& frame) {
         buffers_[r] = Buffer(device_, resources[r].bytes, needs_.lives[r].bufferUsage, MemoryKind::device);
   }
   barriers_ = graph_.planBarriers(needs_, sharing);
+  beginKept();
+}
+
+void GraphResources::beginKept() {
+  // As if a frame had been before.
+  std::vector<Barrier> first;
+  for (uint32_t r = 0; r < images_.size(); ++r) {
+    if (!graph_.resources()[r].isKept || !needs_.lives[r].isUsed) continue;
+    for (const Barrier& barrier : barriers_[needs_.lives[r].first])
+      if (barrier.resource == r)
+        first.push_back({r, VK_PIPELINE_STAGE_2_NONE, barrier.sourceStages, VK_ACCESS_2_NONE,
+                         VK_ACCESS_2_NONE, VK_IMAGE_LAYOUT_UNDEFINED, barrier.oldLayout});
+  }
+  if (!first.empty())
+    device_.runOnce([&](VkCommandBuffer commands) {
+      recordBarriers(commands, first, [&](uint32_t resource) { return imageOf(resource); });
+    });
 }
 
 }  // namespace scumble::gpu

@@ -1,5 +1,5 @@
 // The images and buffers of a frame graph, in memory that those share which live at different times of a
-// frame.
+// frame, and no longer.
 #pragma once
 
 #include <vector>
@@ -30,7 +30,8 @@ class GraphResources {
   GraphResources(const GraphResources&) = delete;
   GraphResources& operator=(const GraphResources&) = delete;
 
-  // Makes all for another size of the frame; nothing may be under way.
+  // Makes all for another size of the frame, so that nothing is left in kept images; nothing may be under
+  // way.
   void resize(const ImageShape::Frame& frame);
   // The image that stands for one which was imported, until the next one does.
   void import(Handle handle, const Image* image) { imported_[handle.resource] = image; }
@@ -50,6 +51,7 @@ class GraphResources {
 
  private:
   void release();
+  void beginKept();
 
   Device& device_;
   const FrameGraph& graph_;

@@ -190,13 +190,20 @@ bool isDepthFormat(VkFormat format) {
 
 uint32_t bytesPerPixel(VkFormat format) {
   switch (format) {
+    case VK_FORMAT_D16_UNORM:
+      return 2;
     case VK_FORMAT_R8G8B8A8_UNORM:
     case VK_FORMAT_R8G8B8A8_SRGB:
+    case VK_FORMAT_B8G8R8A8_UNORM:
+    case VK_FORMAT_B8G8R8A8_SRGB:
     case VK_FORMAT_D32_SFLOAT:
+    case VK_FORMAT_R32_UINT:
     case VK_FORMAT_R32_SFLOAT:
       return 4;
+    case VK_FORMAT_R32G32_SFLOAT:
     case VK_FORMAT_R16G16B16A16_SFLOAT:
       return 8;
+    case VK_FORMAT_R32G32B32A32_UINT:
     case VK_FORMAT_R32G32B32A32_SFLOAT:
       return 16;
     default:

@@ -16,7 +16,8 @@ void beginRendering(VkCommandBuffer commands, uint32_t firstLayer, uint32_t mask
     info.imageView = target.image->viewFrom(firstLayer);
     info.imageLayout = layout;
     info.loadOp = kLoad[size_t(target.before)];
-    info.storeOp = target.resolve ? VK_ATTACHMENT_STORE_OP_DONT_CARE : VK_ATTACHMENT_STORE_OP_STORE;
+    info.storeOp = target.resolve && !target.keepsSamples ? VK_ATTACHMENT_STORE_OP_DONT_CARE
+                                                          : VK_ATTACHMENT_STORE_OP_STORE;
     info.clearValue = target.clear;
     if (target.resolve) {
       info.resolveMode = resolveMode;

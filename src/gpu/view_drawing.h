@@ -28,6 +28,7 @@ struct Target {
     undefined,
     kept
   } before = Before::cleared;  // what is in it to begin with
+  bool keepsSamples = false;   // they are read later, besides what they are resolved into
 };
 
 // Begins rendering into targets of one size, calls `draw` with the number of the first view that it draws,

@@ -142,6 +142,8 @@ Status Renderer::Impl::begin(const Request& request) {
     for (const PlannedFeature& planned : geometry.features)
       if (planned.plan && planned.plan->replacesGround)
         geometry.ground &= knobs.scene<GroundParams>().mode == 1;
+    // Over a picture only shadows are seen of it.
+    geometry.groundStrokes = geometry.ground && !background && knobs.scene<GroundParams>().strokes > 0;
     geometry.shadowWarp = knobs.scene<LightParams>().shadowWarp;
     std::vector<KnobTable::Material> materials;
     for (const scene::Material& material : scene.data().materials) materials.push_back({material.name, {}});

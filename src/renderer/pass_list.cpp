@@ -11,6 +11,7 @@
 #include "passes/colorize/colorize.h"
 #include "passes/colorize/colorize_knobs.h"
 #include "passes/cull/cull.h"
+#include "passes/cull/cull_knobs.h"
 #include "passes/deform/deform.h"
 #include "passes/facts/facts.h"
 #include "passes/final_color/final_color.h"
@@ -52,7 +53,8 @@ const std::vector<const ParamBlock*>& ownBlocks() {
         &passes::BackgroundParams::block(), &stage::GroundParams::block(),
         &passes::VolumeParams::block(),     &passes::GradeParams::block(),
         &passes::LimitParams::block(),      &passes::FinalColorParams::block(),
-        &stage::AnimationParams::block(),   &stage::PlayParams::block()};
+        &passes::LevelsParams::block(),     &stage::AnimationParams::block(),
+        &stage::PlayParams::block()};
     for (const frame::FeatureParts& parts : renderer::features())
       all.insert(all.end(), parts.blocks.begin(), parts.blocks.end());
     all.push_back(&stage::CameraParams::block());
@@ -121,7 +123,7 @@ PassList standardPasses() {
 PassList plainPasses() {
   PassList list;
   list.append(passes::makeDeform);
-  list.append(passes::makeCull);
+  list.append(passes::makeCullOfWholes);
   list.append(passes::makeOrder);
   list.append(passes::makePlain);
   addFeatures(list);

@@ -11,6 +11,7 @@
 #include "passes/blur/blur_knobs.h"
 #include "passes/color/color_knobs.h"
 #include "passes/colorize/colorize_knobs.h"
+#include "passes/cull/cull_knobs.h"
 #include "passes/final_color/final_color_knobs.h"
 #include "passes/final_shadow/final_shadow_knobs.h"
 #include "passes/limit/limit_knobs.h"
@@ -45,6 +46,7 @@ TEST(PassList, structsStartWithTheirRowsDefaults) {
   expectRowsDefaults<passes::BackgroundParams>(seen);
   expectRowsDefaults<passes::FinalColorParams>(seen);
   expectRowsDefaults<passes::LimitParams>(seen);
+  expectRowsDefaults<passes::LevelsParams>(seen);
   expectRowsDefaults<passes::TextureParams>(seen);
   expectRowsDefaults<passes::BreakupParams>(seen);
   expectRowsDefaults<WarpMetaTextureParams>(seen);

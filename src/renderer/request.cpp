@@ -112,6 +112,7 @@ SetupKey Renderer::Impl::keyOf(const Request& request, const look::LookData& now
   key.configuration.computeImagePasses =
       imagePasses == ImagePassKind::compute ||
       (imagePasses == ImagePassKind::automatic && device->prefersCompute());
+  key.configuration.hasBackdrop = backgroundOf(request) != nullptr;
   key.plain = request.isYardstick;
   key.readsBack = !request.delivery;
   key.aovs = request.options.aovs;

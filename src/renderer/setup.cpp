@@ -182,10 +182,11 @@ void Setup::readTimes(uint32_t slot, FrameStats& stats) const {
   for (size_t i = 0; i < steps_.size(); ++i) {
     const std::string& name = builder_->graph().steps()[steps_[i]].name;
     const double time = double(stamps[i + 1] - stamps[i]) * unit;
-    if (!stats.passes.empty() && stats.passes.back().name == name)
-      stats.passes.back().milliseconds += time;
-    else
-      stats.passes.push_back({name, time});
+    if (stats.passes.empty() || stats.passes.back().name != name) stats.passes.push_back({name});
+    const gpu::FrameGraph::Traffic traffic = builder_->graph().trafficOf(steps_[i], frameSize());
+    PassTime& pass = stats.passes.back();
+    pass.milliseconds += time, pass.bytesRead += traffic.read, pass.bytesWritten += traffic.written;
+    pass.fetches += builder_->fetchesOf(steps_[i], frameSize());
   }
   stats.gpuMilliseconds += double(stamps.back() - stamps.front()) * unit;
 }

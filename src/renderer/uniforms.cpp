@@ -11,6 +11,7 @@
 #include "shading/luminance.shared.h"
 #include "stage/light.h"
 #include "stage/palette.h"
+#include "world/ground.h"
 
 namespace scumble::renderer {
 
@@ -87,7 +88,7 @@ PaletteParams ofChosenLight(PaletteParams palette) {
 
 ChosenSets chosenSets(const SceneOnGpu& scene, size_t index, const KnobTable& knobs, LookTextures& textures) {
   // A texture for all of a scene is not meant for the quiet ground under it.
-  if (int(index) == scene.groundMaterial()) return {};
+  if (scene.groundTone(index) >= 0) return {};
   const scene::Material& material = scene.material(index);
   const auto choose = [&](look::Picture picture, const scene::TextureUse& own) -> std::optional<SetTexture> {
     if (picture.index < 0) return textures.get(knobs.look(), picture);
@@ -150,7 +151,7 @@ float largestInflation(const SceneOnGpu& scene, const KnobTable& knobs, float im
 
 shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const KnobTable& knobs,
                                   bool overPicture, ColorMaps& maps) {
-  const bool isGround = int(index) == scene.groundMaterial();
+  const int tone = scene.groundTone(index);
   const scene::Material& material = scene.material(index);
   const PaletteParams palette = knobs.of<PaletteParams>(index);
   const uint8_t sets = scene.colorSets(index);
@@ -172,11 +173,13 @@ shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const K
   ColorRule lit{ColorRule::lit, palette, litGrade}, shadowed{ColorRule::shadowed, palette, shadowedGrade};
   const ColorRule painted{ColorRule::painted, {}, litGrade};
   glm::dvec3 base = glm::clamp(glm::dvec3(material.baseColor), 0.0, 1.0);
-  if (isGround) {
+  if (tone >= 0) {
     // The ground belongs to the background, not to the scene's palette.
-    const glm::vec3 ground = knobs.scene<passes::BackgroundParams>().mode == 0
-                                 ? automaticBackground(scene.colors()).ground
-                                 : glm::vec3(knobs.scene<GroundParams>().tint);
+    const GroundParams params = knobs.scene<GroundParams>();
+    const glm::vec3 own = knobs.scene<passes::BackgroundParams>().mode == 0
+                              ? automaticBackground(scene.colors()).ground
+                              : glm::vec3(params.tint);
+    const glm::vec3 ground = own * glm::pow(groundTone(tone, params.strokes), glm::vec3(2.0f));
     data.baseColor = glm::vec4(ground, 1.0f);
     base = glm::dvec3(ground);
     lit = painted;

@@ -29,13 +29,15 @@ class PositionTable {
   // a stored number to its position.
   template <class PositionOf>
   uint32_t findOrAdd(const glm::vec3& position, uint32_t number, const PositionOf& positionOf) {
-    return findOrAddIf(position, number, [&](uint32_t stored) { return positionOf(stored) == position; });
+    return findOrAddIf(position, 0, number, [&](uint32_t stored) { return positionOf(stored) == position; });
   }
 
-  // The same where more than the position tells vertices apart: `isSame` of a stored number.
+  // The same where more than the position tells vertices apart: `isSame` of a stored number. `more`:
+  // something that is equal where they are the same, so that thousands at one position need not all be
+  // compared.
   template <class IsSame>
-  uint32_t findOrAddIf(const glm::vec3& position, uint32_t number, const IsSame& isSame) {
-    for (size_t slot = hash(position) & mask_;; slot = (slot + 1) & mask_) {
+  uint32_t findOrAddIf(const glm::vec3& position, uint64_t more, uint32_t number, const IsSame& isSame) {
+    for (size_t slot = hash(position, more) & mask_;; slot = (slot + 1) & mask_) {
       if (slots_[slot] == kEmpty) {
         slots_[slot] = number;
         return number;
@@ -47,12 +49,13 @@ class PositionTable {
  private:
   static constexpr uint32_t kEmpty = 0xffffffffu;
 
-  static size_t hash(const glm::vec3& p) {
+  static size_t hash(const glm::vec3& p, uint64_t more) {
     // Adding zero turns -0 into +0, which compares equal.
     const uint64_t x = std::bit_cast<uint32_t>(p.x + 0.0f), y = std::bit_cast<uint32_t>(p.y + 0.0f),
                    z = std::bit_cast<uint32_t>(p.z + 0.0f);
     uint64_t h = (x << 32 | y) * 0x9e3779b97f4a7c15ull;
     h = (h ^ (h >> 29) ^ z) * 0xbf58476d1ce4e5b9ull;
+    h = (h ^ (h >> 32) ^ more) * 0x94d049bb133111ebull;
     return static_cast<size_t>(h ^ (h >> 32));
   }
 

@@ -1,5 +1,6 @@
 // The second half of prepare_mesh.h: texture coordinates and their tangent vectors.
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "scene/posed_bounds.h"
@@ -83,11 +84,20 @@ std::vector<uint32_t> samePlaces(const Primitive& p, float scale, const std::vec
                     whole(p.wrapsU ? std::round(d.x) : 0.0f, p.wrapsV ? std::round(d.y) : 0.0f);
     return glm::length(d - whole) < 1e-5f;
   };
+  // Of coordinates that are the same but for rounding: no borders of cells lie where coordinates like to be.
+  const auto cellOf = [](float t, bool wraps) {
+    constexpr float kCells = 4096, kShift = 0.377f;
+    const float cell = std::floor((wraps ? t - std::floor(t) : t) * kCells + kShift);
+    return std::bit_cast<uint32_t>((wraps && cell >= kCells ? 0.0f : cell) + 0.0f);
+  };
+  const auto cells = [&](uint32_t v) {
+    return uint64_t(cellOf(uv[v].x, p.wrapsU)) << 32 | cellOf(uv[v].y, p.wrapsV);
+  };
   const PositionGrid grid(0.5f * scale);
   PositionTable table(p.vertexCount());
   std::vector<uint32_t> first(p.vertexCount());
   for (uint32_t v = 0; v < first.size(); ++v)
-    first[v] = table.findOrAddIf(grid(p.positions[v]), v, [&](uint32_t stored) {
+    first[v] = table.findOrAddIf(grid(p.positions[v]), cells(v), v, [&](uint32_t stored) {
       return grid(p.positions[stored]) == grid(p.positions[v]) && sameUv(stored, v) &&
              (balance[stored] < 0.0f) == (balance[v] < 0.0f) &&
              glm::dot(p.normals[stored], p.normals[v]) > kCrease;

@@ -1,6 +1,7 @@
 #include "scumble/scene.h"
 
 #include "scene/scene_data.h"
+#include "scene/surroundings.h"
 
 namespace scumble {
 
@@ -56,6 +57,10 @@ SceneSummary Scene::summary() const {
     s.min[i] = data.bounds.min[i];
     s.max[i] = data.bounds.max[i];
   }
+  const std::vector<bool> around = surroundings(data);
+  for (size_t n = 0; n < around.size(); ++n)
+    if (around[n])
+      s.surroundings.push_back(data.nodes[n].name.empty() ? std::to_string(n) : data.nodes[n].name);
   return s;
 }
 

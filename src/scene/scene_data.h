@@ -83,6 +83,8 @@ struct Bounds {
     return {i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z};
   }
   float radius() const { return empty ? 1.0f : 0.5f * glm::length(max - min); }
+  // Wide and low, as what one stands on is.
+  bool isLow() const { return max.y - min.y <= 0.12f * glm::max(max.x - min.x, max.z - min.z); }
 };
 
 // What the box of a primitive in any pose is found from, without its vertices.
@@ -99,6 +101,17 @@ struct PrimitiveExtent {
   std::array<glm::vec3, 48> outermost{};
   size_t outermostCount = 0;
   float longestEdge2 = 0;  // the square of its length, metres
+};
+
+constexpr size_t kMaxLevels = 6;  // of detail, beside the whole
+
+// Fewer triangles of a primitive's vertices.
+struct DetailLevel {
+  uint32_t firstIndex = 0, indexCount = 0;  // in levelIndices
+  // How far what is drawn has moved from where the whole has it, how far textures have (by the file's own
+  // coordinates), and how far what casts shadows has: metres, in mesh space.
+  float error = 0, textureError = 0, shadowError = 0;
+  float longestEdge = 0;  // metres
 };
 
 // Triangles with one material. All non-empty vertex arrays have vertexCount() entries.
@@ -124,6 +137,9 @@ struct Primitive {
   std::vector<glm::vec3> dPdu, dPdv;
   std::vector<uint32_t> indices;  // three a triangle, each < vertexCount()
   int material = 0;               // index into SceneData::materials (index 0 exists always)
+  // From the finest to the coarsest (makeLevels); none for what bends and what was made to be changed.
+  std::vector<DetailLevel> levels;
+  std::vector<uint32_t> levelIndices;
   // Skinning: `influences` joints and weights a vertex (0, 4 or 8), vertex-major. Weights sum to one.
   int influences = 0;
   std::vector<uint16_t> joints;

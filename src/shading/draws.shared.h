@@ -12,10 +12,21 @@ struct DrawCommand {
   uint firstInstance;  // the object
 };
 
+const uint kTexturesColor = 1u, kTexturesCut = 2u;  // cut: holes
+
 // What decides whether a draw is seen, and when it comes: a box around it (world), and its bucket.
 struct DrawPlace {
   vec3 low, high;  // low.x above high.x: it is empty
   uint bucket;
+  uint firstLevel, levels;  // of its levels of detail, from the finest on
+  float scale;              // metres for each one of the mesh, at most
+  uint textures;            // what they do there: kTexturesColor, kTexturesCut
+};
+
+// Fewer triangles than its command has; lengths in mesh space.
+struct DrawLevel {
+  uint firstIndex, indexCount;
+  float error, textureError, shadowError, longestEdge;
 };
 
 SHARED_END

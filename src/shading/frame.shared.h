@@ -129,9 +129,8 @@ struct MaterialData {
   uint baseUvSet, emissiveUvSet;
   float unlit;            // 1: always in full light
   vec3 tintDown, tintUp;  // square roots of factors on colours in shadow, for faces that look down and up
-  vec3 planeSky,
-      planeTurned;  // the same on colours in light, for planes that face the sky, and such as turn away
-  float matte;      // 1: not seen itself; what is behind everything takes its shadows
+  vec3 planeSky, planeTurned;  // the same on colours in light, for planes that face the sky, or turn away
+  float matte;                 // 1: not seen itself; what is behind everything takes its shadows
 };
 
 SHARED_END

@@ -143,6 +143,12 @@ MetaTextureChoice metaTextureChoose(MetaTexture m, vec2 dSdu, vec2 dSdv, float a
 // The exponents between both levels of skew: continuous everywhere.
 vec2 metaTextureMeanExponent(MetaTextureChoice c) { return mix(c.exponent[0], c.exponent[1], c.skewBlend); }
 
+// The larger singular value, squared, of the matrix with these rows, or these columns.
+float metaTextureStretch(vec2 a, vec2 b) {
+  float aa = dot(a, a), bb = dot(b, b), ab = dot(a, b);
+  return 0.5 * (aa + bb + sqrt((aa - bb) * (aa - bb) + 4.0 * ab * ab));
+}
+
 // How many times finer than its size the texture comes out on the screen, in the direction in which that is the most: 1
 // where the skew is taken out wholly; more where levels leave some of it, without an end towards a silhouette.
 float metaTextureFineness(MetaTexture m, MetaTextureChoice c) {
@@ -150,9 +156,7 @@ float metaTextureFineness(MetaTexture m, MetaTextureChoice c) {
   for (int k = 0; k < 2; ++k) {
     vec2 psi = c.psi[k], scale = exp2(c.exponent[k] * log2(metaTextureBase(m))) * m.size;
     vec2 ofU = scale.x * (psi.x * c.gradU + psi.y * c.gradV), ofV = scale.y * (psi.y * c.gradU + psi.x * c.gradV);
-    float u = dot(ofU, ofU), v = dot(ofV, ofV), both = dot(ofU, ofV), apart = u - v;
-    float largest = 0.5 * (u + v + sqrt(apart * apart + 4.0 * both * both));  // of the singular values, squared
-    squares += (k == 0 ? 1.0 - c.skewBlend : c.skewBlend) * largest;
+    squares += (k == 0 ? 1.0 - c.skewBlend : c.skewBlend) * metaTextureStretch(ofU, ofV);
   }
   return sqrt(squares);
 }

@@ -14,7 +14,7 @@ void main() {
   // What is left out has no area.
   vec4 own = texelFetch(tiles, ivec3(tile, layer), 0);
   bool runs = runsOn(own);
-  uint every = uint(own.g * 255.0 + 0.5), any = uint(own.b * 255.0 + 0.5);
+  uint every = bitsOf(own.g), any = bitsOf(own.b);
   if ((every & rule.value) == rule.value && (any & rule.mask & ~rule.value) == 0u) {
     runs = all(equal(tile % kTileBlock, ivec2(0)));
     size = ivec2(kTileBlock);

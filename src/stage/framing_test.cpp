@@ -201,6 +201,49 @@ TEST(Framing, framesTheNodesThatAreNamed) {
   }
 }
 
+// What subjects stand on counts up to eight times their size; more of it does not take them away. It is
+// named.
+TEST(Framing, farLargerGroundsAreLeftOut) {
+  // A ball of radius 1 and, by case, low boxes: edges of the larger ones, and how many are left out.
+  struct Case {
+    const char* what;
+    std::vector<std::pair<float, float>> slabs;  // edge, height
+    size_t leftOut;
+  };
+  const float ball = std::sqrt(12.0f), edge = 8 * ball / std::sqrt(2.0f);
+  const Case cases[] = {{"small enough", {{0.98f * edge, 0.01f}}, 0},
+                        {"too large", {{1.02f * edge, 0.01f}}, 1},
+                        {"a kilometre", {{1000, 0.1f}}, 1},
+                        {"a plate on the way", {{15, 0.1f}, {100, 0.1f}}, 0},
+                        {"a plate, and far more", {{2, 0.1f}, {1000, 0.1f}, {2000, 1}}, 2},
+                        {"hills", {{1000, 150}}, 0}};
+  for (const Case& c : cases) {
+    test::TestScene made;
+    const int grey = made.material(test::TestScene::colored("Grey", {0.5f, 0.5f, 0.5f, 1}));
+    made.add(test::sphereMesh({0, 0, 0}, 1, 24), grey);
+    for (const auto& [size, height] : c.slabs)
+      made.add(test::boxMesh({-0.5f * size, -1 - height, -0.5f * size}, {0.5f * size, -1, 0.5f * size}),
+               grey);
+    const Scene scene = made.load();
+    const std::vector<std::string> named = scene.summary().surroundings;
+    EXPECT_EQ(named.size(), c.leftOut) << c.what;
+    // What is left fills the frame, whoever looks at it; named, all of it does.
+    for (const bool orbit : {false, true}) {
+      Viewpoint viewpoint;
+      viewpoint.orbit = orbit, viewpoint.elevation = 20;
+      const Extent seen = extentOf(mustSee(scene, viewpoint)[0], {{-1, -1, -1}, {1, 1, 1}, false});
+      if (c.leftOut > 0)
+        EXPECT_GT(std::max(seen.x, seen.y), 0.5f) << c.what;
+      else
+        EXPECT_LT(std::max(seen.x, seen.y), 0.4f) << c.what;
+    }
+  }
+}
+
+TEST(Framing, lowThingsAloneAreFramed) {
+  EXPECT_TRUE(loaded(boxScene({-500, -1, -500}, {500, 0, 500})).summary().surroundings.empty());
+}
+
 TEST(Framing, nodesThatCannotBeSeenAreUsageErrors) {
   const Scene scene = hillWithHouse();
   for (const auto& [name, problem] :

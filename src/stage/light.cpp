@@ -106,10 +106,11 @@ void setLightSpace(shared::FrameUniforms& uniforms, std::span<const scene::Bound
   uniforms.worldToLight = scale * glm::mat4(toLightAxes);
   uniforms.lightToWorldScale = {half.x, half.y, 2 * half.z};
   uniforms.shadowTexel = 2.0f / float(kShadowMapSize);
-  // A strength of nothing is a sigmoid's straight middle.
+  // A strength of nothing is a sigmoid's straight middle, wherever the viewer is: the map stays as it is.
   uniforms.shadowWarp = std::max(params.shadowWarp, 1e-3f);
   const glm::vec3 focus(uniforms.worldToLight * glm::vec4(viewer, 1));
-  uniforms.shadowCenter = glm::clamp(glm::vec2(focus), -1.0f, 1.0f);
+  uniforms.shadowCenter =
+      params.shadowWarp > 0 ? glm::clamp(glm::vec2(focus), -1.0f, 1.0f) : glm::vec2(0.0f);
   const auto sigmoid = [](const glm::vec2& t) { return t / glm::sqrt(1.0f + t * t); };
   const glm::vec2 low = sigmoid(uniforms.shadowWarp * (-1.0f - uniforms.shadowCenter));
   const glm::vec2 high = sigmoid(uniforms.shadowWarp * (1.0f - uniforms.shadowCenter));

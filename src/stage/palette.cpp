@@ -170,9 +170,7 @@ bool hasGround(const scene::SceneData& scene, const look::LookData& look, bool o
   const int mode = look.get<GroundParams>().mode;
   if (mode != 0) return mode == 1;
   if (overPicture) return true;
-  // A scene that is wide and low brings its own ground.
-  const glm::vec3 size = scene.bounds.max - scene.bounds.min;
-  return size.y > 0.12f * std::max(size.x, size.z);
+  return !scene.bounds.isLow();  // such a scene brings its own
 }
 
 PlaneTints planeTints(float planes, const SceneColors& colors) {
@@ -183,15 +181,60 @@ PlaneTints planeTints(float planes, const SceneColors& colors) {
           glm::max(glm::vec3(1.0f) - amount * glm::vec3(0.13f, 0.18f, 0.24f), 0.0f)};
 }
 
+void SceneColorSum::add(const ColorSample& sample) {
+  const glm::dvec3 linear = sample.root * sample.root;
+  sum_ += sample.area * sample.root;
+  squares_ += sample.area * linear;
+  const double lightness = std::clamp(oklabFromLinear(linear).x, 0.0, 1.0);
+  values_[std::min(size_t(lightness * SceneColors::kValues), SceneColors::kValues - 1)] += sample.area;
+  area_ += sample.area;
+}
+
+SceneColors SceneColorSum::colors() const {
+  SceneColors colors;
+  if (!(area_ > 0)) return colors;
+  const glm::dvec3 mean = sum_ / area_, variance = glm::max(squares_ / area_ - mean * mean, 0.0);
+  colors.meanRootRgb = glm::vec3(mean);
+  colors.variety = float(std::sqrt(variance.r + variance.g + variance.b));
+  for (size_t i = 0; i < colors.values.size(); ++i) colors.values[i] = float(values_[i] / area_);
+  return colors;
+}
+
+namespace {
+
+// The lightness of a background that stands apart from the most of a scene, in the light and in shadow, and
+// is as near to `usual` as that allows. Of a form, about a third lies in shadow.
+double lightnessApart(const SceneColors& colors, double usual) {
+  const PaletteParams rule;
+  // A step of value is 0.1: less than one is lost, two are enough.
+  const auto apart = [](double from, double value) {
+    return glm::smoothstep(0.08, 0.2, std::abs(from - value));
+  };
+  double best = usual, most = -1;
+  for (double lightness = std::min(usual, 0.68); lightness < 0.915; lightness += 0.005) {
+    double score = -0.25 * std::abs(lightness - usual);
+    for (size_t i = 0; i < colors.values.size(); ++i) {
+      const double own = (double(i) + 0.5) / double(colors.values.size());
+      const double lit = rule.darkest + (rule.lightest - rule.darkest) * own, dark = rule.shadowValue * lit;
+      score += colors.values[i] * (2 * apart(lightness, lit) + apart(lightness, dark)) / 3;
+    }
+    if (score > most) most = score, best = lightness;
+  }
+  return best;
+}
+
+}  // namespace
+
 BackgroundColors automaticBackground(const SceneColors& colors) {
   const glm::dvec3 scene = oklabFromLinear(glm::dvec3(colors.meanRootRgb * colors.meanRootRgb));
   // Light scenes stand before a middle value and cool air; all others before a light value, warm cream unless
   // they are warm themselves. Two steps of value are about 0.2 of lightness.
-  const bool light = scene.x > 0.74;
-  const double lightness =
-      light ? std::clamp(scene.x - 0.21, 0.56, 0.70) : std::clamp(scene.x + 0.34, 0.84, 0.91);
+  const double usual =
+      scene.x > 0.74 ? std::clamp(scene.x - 0.21, 0.62, 0.70) : std::clamp(scene.x + 0.34, 0.84, 0.91);
+  const double lightness = lightnessApart(colors, usual);
+  const double middle = 1 - glm::smoothstep(0.70, 0.84, lightness);
   const double warmth = std::clamp((scene.y + scene.z) / 0.08, -1.0, 1.0);
-  const double coolness = light ? 0.80 + 0.20 * warmth : 0.38 + 0.40 * warmth;
+  const double coolness = glm::mix(0.38 + 0.40 * warmth, 0.80 + 0.20 * warmth, middle);
   const glm::dvec2 warm(0.018, 0.050), cool(-0.034, -0.044);
   const auto color = [&](double l, double mix) {
     const glm::dvec2 ab = glm::mix(warm, cool, glm::clamp(mix, 0.0, 1.0));

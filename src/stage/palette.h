@@ -3,6 +3,7 @@
 // (docs/palette.md).
 #pragma once
 
+#include <array>
 #include <functional>
 
 #include "look/look_data.h"
@@ -83,8 +84,27 @@ bool hasGround(const scene::SceneData& scene, const look::LookData& look, bool o
 
 // What the automatic choices of colours need to know of a scene.
 struct SceneColors {
-  glm::vec3 meanRootRgb{0.5f};  // square root of linear RGB, averaged over the surface
-  float variety = 0;            // its standard deviation there
+  // How many values are told apart, from black to white in OKLab lightness.
+  static constexpr size_t kValues = 16;
+  glm::vec3 meanRootRgb{0.5f};          // square root of linear RGB, averaged over the surface
+  float variety = 0;                    // its standard deviation there
+  std::array<float, kValues> values{};  // what part of the surface has each; all 0 where there is none
+};
+// A piece of a surface.
+struct ColorSample {
+  double area = 0;
+  glm::dvec3 root{0.0};  // square root of linear RGB
+};
+// Over any number of pieces.
+class SceneColorSum {
+ public:
+  void add(const ColorSample& sample);
+  SceneColors colors() const;
+
+ private:
+  glm::dvec3 sum_{0.0}, squares_{0.0};
+  std::array<double, SceneColors::kValues> values_{};
+  double area_ = 0;
 };
 
 // Of colours in the light, for planes that face the sky and such as turn away from the light, against those
@@ -97,7 +117,7 @@ PlaneTints planeTints(float planes, const SceneColors& colors);
 struct BackgroundColors {
   glm::vec3 horizon, zenith, ground;  // linear
 };
-// A quiet background, two steps of value away from the scene.
+// A quiet background, two steps of value away from as much of the scene as can be, in light and in shadow.
 BackgroundColors automaticBackground(const SceneColors& colors);
 
 }  // namespace scumble::stage

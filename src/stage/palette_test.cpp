@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/oklab.h"
 
@@ -265,9 +266,9 @@ double lightnessOf(const glm::vec3& linear) {
 }
 
 SceneColors sceneOf(const glm::dvec3& linear) {
-  SceneColors colors;
-  colors.meanRootRgb = glm::vec3(glm::sqrt(linear));
-  return colors;
+  SceneColorSum sum;
+  sum.add({1, glm::sqrt(linear)});
+  return sum.colors();
 }
 
 // "A background two steps away in value from the model": a step is 0.1 of OKLab lightness, and each of the
@@ -282,6 +283,44 @@ TEST(Background, standsTwoStepsOfValueAwayFromTheScene) {
       EXPECT_GT(std::abs(lightnessOf(part) - scene), 0.13)
           << "scene " << scene << " background " << lightnessOf(part);
   });
+}
+
+// Black and white at once, as pandas are: their mean stands apart from a light background, and the white does
+// not. What is a small part decides nothing where it costs the rest.
+TEST(Background, standsApartFromBothMassesOfAScene) {
+  const auto groundOf = [](std::initializer_list<std::pair<double, double>> parts) {
+    SceneColorSum sum;
+    for (const auto& [area, root] : parts) sum.add({area, glm::dvec3(root)});
+    return lightnessOf(automaticBackground(sum.colors()).ground);
+  };
+  const double white = lightnessOf(glm::vec3(litColor({}, glm::dvec3(0.9))));
+  const double black = lightnessOf(glm::vec3(litColor({}, glm::dvec3(0.01))));
+  EXPECT_GT(groundOf({{1, 0.3}}), 0.8) << "a dark scene by itself has a light ground";
+  for (const double part : {0.25, 0.5, 0.75}) {
+    const double ground = groundOf({{part, 0.95}, {1 - part, 0.1}});
+    EXPECT_GT(white - ground, 0.13) << part;
+    EXPECT_GT(ground - black, 0.2) << part;
+  }
+  EXPECT_NEAR(groundOf({{0.03, 0.95}, {0.97, 0.1}}), groundOf({{1, 0.1}}), 0.05);
+  // A value that lies near the usual background has another.
+  for (double root = 0.02; root < 1; root += 0.02) {
+    const double lit = lightnessOf(glm::vec3(litColor({}, glm::dvec3(root * root))));
+    EXPECT_GT(std::abs(groundOf({{1, root}}) - lit), 0.12) << root;
+  }
+}
+
+TEST(SceneColors, areMeanDeviationAndPartsByArea) {
+  SceneColorSum sum;
+  EXPECT_EQ(sum.colors().meanRootRgb, glm::vec3(0.5f)) << "nothing is grey";
+  EXPECT_EQ(sum.colors().variety, 0);
+  sum.add({3, glm::dvec3(1.0)});
+  sum.add({1, glm::dvec3(0.0)});
+  const SceneColors colors = sum.colors();
+  EXPECT_NEAR(colors.meanRootRgb.g, 0.75, 1e-6);
+  EXPECT_NEAR(colors.variety, std::sqrt(3 * 0.75 * 0.25), 1e-6);
+  EXPECT_FLOAT_EQ(colors.values.front(), 0.25f);
+  EXPECT_FLOAT_EQ(colors.values.back(), 0.75f);
+  EXPECT_FLOAT_EQ(std::accumulate(colors.values.begin(), colors.values.end(), 0.0f), 1.0f);
 }
 
 TEST(Background, isQuietAndNeitherBlackNorBurntOut) {

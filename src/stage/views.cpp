@@ -7,6 +7,7 @@
 #include "scene/find_node.h"
 #include "scene/posed_bounds.h"
 #include "scene/prepare_mesh.h"
+#include "scene/surroundings.h"
 #include "scumble/view.h"
 #include "stage/camera.h"
 #include "stage/framing.h"
@@ -111,6 +112,7 @@ struct Shot {
   const double time;              // seconds
   const float fov, roll, aspect;  // radians, degrees
   std::vector<bool> framed = {};  // nodes: what there is to be seen
+  bool isAll = true;              // of what is shown
 };
 
 // `azimuth`: what turns upright where it cannot be told from the direction, in degrees.
@@ -140,7 +142,7 @@ std::vector<glm::vec3> outlineOf(const Shot& shot) {
 }
 
 scene::Bounds boundsOf(const Shot& shot) {
-  if (shot.viewpoint.frame.empty()) return scene::playedBounds(shot.scene, everPlayed(shot.scene, shot.look));
+  if (shot.isAll) return scene::playedBounds(shot.scene, everPlayed(shot.scene, shot.look));
   scene::Bounds bounds;
   for (const glm::vec3& p : outlineOf(shot)) bounds.add(p);
   return bounds;
@@ -289,12 +291,24 @@ Result<std::vector<View>> makeViews(const Scene& scene, const Viewpoint& viewpoi
 
   Result<std::vector<bool>> framed = framedNodes(scene.data(), viewpoint.frame);
   if (!framed) return framed.error();
-  const Shot shot{scene.data(), viewpoint,
-                  look.data(),  now,
-                  camera,       time,
-                  fov,          viewpoint.roll.value_or(camera.roll),
-                  aspect,       std::move(framed).value()};
-  const Result<View> made = viewFrom(shot, standpointOf(scene.data(), viewpoint, look.data(), camera));
+  Shot shot{scene.data(),
+            viewpoint,
+            look.data(),
+            now,
+            camera,
+            time,
+            fov,
+            viewpoint.roll.value_or(camera.roll),
+            aspect,
+            std::move(framed).value(),
+            viewpoint.frame.empty()};
+  const Standpoint standpoint = standpointOf(scene.data(), viewpoint, look.data(), camera);
+  if (shot.isAll && standpoint != Standpoint::sceneCamera) {
+    const std::vector<bool> around = scene::surroundings(scene.data());
+    for (size_t n = 0; n < around.size(); ++n)
+      if (around[n]) shot.framed[n] = shot.isAll = false;
+  }
+  const Result<View> made = viewFrom(shot, standpoint);
   if (!made) return made.error();
   if (stereo == Stereo::mono) return std::vector<View>{*made};
   std::vector<View> eyes(2, *made);

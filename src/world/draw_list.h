@@ -32,6 +32,8 @@ struct Draw {
   uint32_t firstIndex = 0, indexCount = 0;
   int32_t vertexOffset = 0;
   uint32_t object = 0;
+  uint32_t firstLevel = 0, levels = 0;  // of those that the list is given
+  uint32_t textures = 0;                // shared::kTexturesColor ...
 };
 
 struct DrawBucket {
@@ -44,9 +46,11 @@ class DrawList {
   // All draws that there are; place() comes after it, and finds out which are mirrored. Where there is more
   // room for them than before, the buffers have other names, which is told by true, and `settle` is called
   // before the old ones go.
-  bool update(gpu::Device& device, std::vector<Draw> draws, const std::function<void()>& settle);
-  // Where objects are, and whether they are mirrored; both by object.
-  void place(const std::vector<scene::Bounds>& bounds, const std::vector<uint8_t>& mirrored);
+  bool update(gpu::Device& device, std::vector<Draw> draws, const std::vector<shared::DrawLevel>& levels,
+              size_t objects, const std::function<void()>& settle);
+  // Where objects are, whether they are mirrored, and how much larger than their meshes; all by object.
+  void place(const std::vector<scene::Bounds>& bounds, const std::vector<uint8_t>& mirrored,
+             const std::vector<float>& scales);
 
   const std::vector<Draw>& draws() const { return draws_; }
   const std::vector<DrawBucket>& buckets() const { return buckets_; }
@@ -56,13 +60,22 @@ class DrawList {
   // How many fit into the buffers.
   uint32_t room() const { return room_; }
 
-  // shared::DrawCommand, all with one instance, and shared::DrawPlace; both by bucket.
+  // shared::DrawCommand, all with one instance and all triangles, and shared::DrawPlace; both by bucket.
   VkBuffer commands() const { return commands_.handle(); }
   VkBuffer places() const { return places_.handle(); }
-  // shared::DrawCommand that the device writes: within each bucket those that are seen, then such as draw
-  // nothing. May be copied from.
+  VkBuffer levels() const { return levels_.handle(); }  // shared::DrawLevel
+  // shared::DrawCommand that the device writes, of the level of detail that a frame takes. Seen: within each
+  // bucket those that are seen, then such as draw nothing. Torn: the same, for the surface that tears edges.
+  // Casters: all, as commands() has them. May be copied from.
   VkBuffer seen() const { return seen_.handle(); }
-  uint64_t bytes() const { return commands_.size() + places_.size() + seen_.size(); }
+  VkBuffer torn() const { return torn_.handle(); }
+  VkBuffer casters() const { return casters_.handle(); }
+  // A float for each object: how far it lies inside of itself at most with the detail of seen(), metres.
+  VkBuffer sunken() const { return sunken_.handle(); }
+  uint64_t bytes() const {
+    return commands_.size() + places_.size() + levels_.size() + seen_.size() + torn_.size() +
+           casters_.size() + sunken_.size();
+  }
   void addUploads(std::vector<gpu::PerFrameBuffer*>& uploads);
 
  private:
@@ -72,9 +85,9 @@ class DrawList {
   std::vector<DrawBucket> buckets_;
   std::vector<uint32_t> commandOf_;  // by draw
   std::vector<uint8_t> mirrored_;    // by draw
-  uint32_t statesVersion_ = 0, room_ = 0;
-  gpu::PerFrameBuffer commands_, places_;
-  gpu::Buffer seen_;
+  uint32_t statesVersion_ = 0, room_ = 0, roomForLevels_ = 0, roomForObjects_ = 0;
+  gpu::PerFrameBuffer commands_, places_, levels_;
+  gpu::Buffer seen_, torn_, casters_, sunken_;
 };
 
 }  // namespace scumble::world

@@ -2,80 +2,46 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 #include <map>
 
+#include "scene/surroundings.h"
 #include "stage/light.h"
+#include "world/ground.h"
 #include "world/tessellate.h"
 
 namespace scumble::world {
 
 namespace {
 
+constexpr float kFlatGround = 0.02f;  // height by width
+
 constexpr size_t kMaxNewTriangles = 1 << 18;
 
-// A disc around and a little below the scene: rings that widen, so that it is fine near the scene and reaches
-// far.
-scene::Primitive makeGround(const scene::Bounds& bounds) {
-  constexpr int kSectors = 48, kRings = 9;
-  constexpr float kReach = 40.0f;  // scene radii
-  const float radius = std::max(bounds.radius(), 1e-6f);
-  const glm::vec3 center(bounds.center().x, groundHeight(bounds), bounds.center().z);
-  scene::Primitive ground;
-  const auto addVertex = [&](float x, float z) {
-    ground.positions.push_back(center + glm::vec3(x, 0, z));
-    ground.uv0.push_back(glm::vec2(x, z) / radius);
-  };
-  addVertex(0, 0);
-  for (int ring = 1; ring <= kRings; ++ring) {
-    const float r = radius * kReach * std::pow(float(ring) / kRings, 2.5f);
-    for (int s = 0; s < kSectors; ++s) {
-      const float angle = 6.2831853f * float(s) / kSectors;
-      addVertex(r * std::cos(angle), -r * std::sin(angle));
-    }
+void addGround(const scene::SceneData& scene, const std::vector<int>& materials, MadePrimitives& made,
+               Geometry& geometry) {
+  const scene::Bounds bounds = geometry.bounds;
+  for (int tone = 0; tone < int(materials.size()); ++tone) {
+    GeometryItem item;
+    item.primitive =
+        &made.get("ground",
+                  {double(bounds.empty), bounds.min.x, bounds.min.y, bounds.min.z, bounds.max.x, bounds.max.y,
+                   bounds.max.z, double(tone)},
+                  [&] { return tone == 0 ? makeGround(bounds) : makeGroundStrokes(bounds, tone); });
+    item.node = GeometryItem::kNoNode;
+    item.material = uint32_t(materials[size_t(tone)]);
+    item.extent = &item.primitive->extent;
+    item.id = uint32_t(scene.nodes.size() + 1);
+    item.casts = false;
+    item.reach = item.extent->box;
+    geometry.items.push_back(item);
   }
-  const auto at = [&](int ring, int s) {
-    return ring == 0 ? 0u : uint32_t(1 + (ring - 1) * kSectors + s % kSectors);
-  };
-  for (int ring = 0; ring < kRings; ++ring)
-    for (int s = 0; s < kSectors; ++s) {
-      ground.indices.insert(ground.indices.end(), {at(ring, s), at(ring + 1, s), at(ring + 1, s + 1)});
-      if (ring > 0)
-        ground.indices.insert(ground.indices.end(), {at(ring, s), at(ring + 1, s + 1), at(ring, s + 1)});
-    }
-  const size_t count = ground.vertexCount();
-  ground.normals.assign(count, {0, 1, 0});
-  ground.smoothNormals.assign(count, {0, 1, 0});
-  ground.dPdu.assign(count, {radius, 0, 0});
-  ground.dPdv.assign(count, {0, 0, radius});
-  return ground;
-}
-
-float largestScale(const glm::mat4& m) {
-  return std::max({glm::length(glm::vec3(m[0])), glm::length(glm::vec3(m[1])), glm::length(glm::vec3(m[2]))});
-}
-
-void addGround(const scene::SceneData& scene, uint32_t material, MadePrimitives& made, Geometry& geometry) {
-  GeometryItem item;
-  const scene::Bounds& bounds = geometry.bounds;
-  item.primitive = &made.get("ground",
-                             {double(bounds.empty), bounds.min.x, bounds.min.y, bounds.min.z, bounds.max.x,
-                              bounds.max.y, bounds.max.z},
-                             [&] { return makeGround(bounds); });
-  item.node = GeometryItem::kNoNode;
-  item.material = material;
-  item.extent = &item.primitive->extent;
-  item.id = uint32_t(scene.nodes.size() + 1);
-  item.casts = false;
-  item.reach = item.extent->box;
-  geometry.items.push_back(item);
 }
 
 }  // namespace
 
-float groundHeight(const scene::Bounds& bounds) {
-  return bounds.min.y - 0.002f * std::max(bounds.radius(), 1e-6f);
+float largestScale(const glm::mat3& m) {
+  return std::max({glm::length(m[0]), glm::length(m[1]), glm::length(m[2])});
 }
 
 float longestEdge(float shadowWarp) {
@@ -120,8 +86,9 @@ void MadePrimitives::sweep() {
   sweep(made_), sweep(split_);
 }
 
-Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& options, int groundMaterial,
-                         const std::vector<int>& featureMaterials, MadePrimitives& made) {
+Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& options,
+                         const std::vector<int>& groundMaterials, const std::vector<int>& featureMaterials,
+                         MadePrimitives& made) {
   Geometry geometry;
   geometry.bounds = scene::playedBounds(scene, options.clips);
   const std::vector<glm::mat4> world = scene::worldMatrices(scene);
@@ -165,6 +132,14 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
                                         pose.morphWeights[item.node]));
   });
 
+  // Flat grounds far larger than what stands on them would have the whole shadow map to themselves.
+  const std::vector<bool> around = scene::surroundings(scene);
+  for (GeometryItem& item : geometry.items) {
+    if (around.empty() || !around[item.node]) continue;
+    const glm::vec3 size = item.reach.max - item.reach.min;
+    if (size.y <= kFlatGround * std::max(size.x, size.z)) item.casts = false;
+  }
+
   // Split casters that are too long for the shadow map's sigmoid: by the largest scale at which a primitive
   // is drawn.
   std::map<const scene::Primitive*, float> scales;
@@ -173,10 +148,11 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
     if (!item.casts) continue;
     if (item.shown) casters.add(item.reach);
     float& scale = scales[item.primitive];
-    scale = std::max(scale, largestScale(item.model));
+    scale = std::max(scale, largestScale(glm::mat3(item.model)));
   }
   std::map<const scene::Primitive*, const scene::Primitive*> split;
   const float maxEdge = longestEdge(options.shadowWarp) * std::max(casters.radius(), 1e-6f);
+  geometry.longestCasterEdge = maxEdge;
   for (const auto& [primitive, scale] : scales)
     if (scale > 0)
       if (auto result = tessellate(*primitive, maxEdge / scale, kMaxNewTriangles))
@@ -194,7 +170,7 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
     item.feature = int(f);
     options.features[f].plan->addItems(item, made, geometry);
   }
-  if (groundMaterial >= 0) addGround(scene, uint32_t(groundMaterial), made, geometry);
+  addGround(scene, groundMaterials, made, geometry);
   return geometry;
 }
 

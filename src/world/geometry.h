@@ -19,9 +19,10 @@ using namespace stage;
 // What of the look goes into a scene's geometry.
 struct GeometryOptions {
   bool ground = false;
-  float shadowWarp = 0;     // strength of the shadow map's sigmoid, which long triangles cannot follow
-  std::vector<bool> casts;  // by material: whether it casts shadows
-  std::vector<int> clips;   // those that play at any time: they tell what space the scene takes up
+  bool groundStrokes = false;  // on it
+  float shadowWarp = 0;        // strength of the shadow map's sigmoid, which long triangles cannot follow
+  std::vector<bool> casts;     // by material: whether it casts shadows
+  std::vector<int> clips;      // those that play at any time: they tell what space the scene takes up
   NodeSettings nodes;
   std::vector<PlannedFeature> features;  // all that there are
   bool operator==(const GeometryOptions&) const = default;
@@ -74,15 +75,17 @@ class MadePrimitives {
 struct Geometry {
   // Also what is not shown, so that showing it changes nothing else.
   std::vector<GeometryItem> items;
-  scene::Bounds bounds;  // of all that clips do, without the ground
+  scene::Bounds bounds;         // of all that clips do, without the ground
+  float longestCasterEdge = 0;  // metres; longer ones have been split
 };
 
-// `groundMaterial`, `featureMaterials`: their indices, or -1 where there is none.
-Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& options, int groundMaterial,
-                         const std::vector<int>& featureMaterials, MadePrimitives& made);
+// `groundMaterials`: by tone, those that there are. `featureMaterials`: -1 where there is none.
+Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& options,
+                         const std::vector<int>& groundMaterials, const std::vector<int>& featureMaterials,
+                         MadePrimitives& made);
 
-// Where a ground lies under a scene that takes up so much.
-float groundHeight(const scene::Bounds& bounds);
+// How much longer a matrix makes what lies along an axis, at most.
+float largestScale(const glm::mat3& m);
 
 // Longest edge, as a part of the shadow map's half width, that a sigmoid of this strength bends by less than
 // a texel: an edge of length L strays from its curve by L^2 f'' / 8.

@@ -63,6 +63,12 @@ void writeFrame(const scene::Primitive& primitive, shared::VertexFrame* frame) {
     frame[v] = {primitive.dPdu[v], encodeNormal(primitive.smoothNormals[v]), primitive.dPdv[v]};
 }
 
+// All of it, then its levels.
+void writeIndices(const scene::Primitive& primitive, uint32_t* to) {
+  to = std::copy(primitive.indices.begin(), primitive.indices.end(), to);
+  std::copy(primitive.levelIndices.begin(), primitive.levelIndices.end(), to);
+}
+
 void writeSkin(const scene::Primitive& primitive, shared::VertexSkin* skin) {
   const size_t groups = primitive.vertexCount() * size_t(primitive.influences / 4);
   for (size_t g = 0; g < groups; ++g) {
@@ -125,7 +131,7 @@ GeometryOnGpu::Plan GeometryOnGpu::planOf(const std::vector<GeometryItem>& items
     if (isNew) {
       Rest& added = plan.rests.emplace_back(Rest{&primitive});
       added.vertexCount = uint32_t(primitive.vertexCount());
-      added.indexCount = uint32_t(primitive.indices.size());
+      added.indexCount = uint32_t(primitive.indices.size() + primitive.levelIndices.size());
       added.influences = primitive.influences;
       if (!primitive.morphTargets.empty()) added.morph = 0;
       added.drops = item.dropsVertices;
@@ -173,8 +179,7 @@ void GeometryOnGpu::rewrite(gpu::Uploader& uploader, const Plan& plan, const std
                placeIn<shared::VertexFrame>(uploader, restFrame_, rest.vertex, rest.vertexCount));
     if (const uint64_t entries = uint64_t(rest.vertexCount) * uint64_t(rest.influences / 4); entries > 0)
       writeSkin(*rest.primitive, placeIn<shared::VertexSkin>(uploader, restSkin_, rest.skin, entries));
-    std::copy(rest.primitive->indices.begin(), rest.primitive->indices.end(),
-              placeIn<uint32_t>(uploader, indices_, rest.index, rest.indexCount));
+    writeIndices(*rest.primitive, placeIn<uint32_t>(uploader, indices_, rest.index, rest.indexCount));
   }
   for (uint32_t i = 0; i < plan.restOf.size(); ++i) {
     const Rest& rest = plan_.rests[plan.restOf[i]];
@@ -279,7 +284,7 @@ void GeometryOnGpu::build(gpu::Device& device, gpu::Uploader& uploader, Plan& pl
     writeCore(*rest.primitive, core.data + rest.vertex);
     writeFrame(*rest.primitive, around.data + rest.vertex);
     writeSkin(*rest.primitive, skins.data + rest.skin);
-    std::copy(rest.primitive->indices.begin(), rest.primitive->indices.end(), indices.data + rest.index);
+    writeIndices(*rest.primitive, indices.data + rest.index);
     for (const uint32_t i : itemsOf[r]) {
       const auto from = [&](auto* data) { return data ? data + places_[i].firstVertex : nullptr; };
       writeSurface(*rest.primitive, plan.shifts[i],

@@ -58,6 +58,7 @@ SceneMotion::SceneMotion(gpu::Device& device, const scene::SceneData& scene,
       chunkCount_(geometry.chunkCount()),
       bounds_(moving.size()),
       mirrored_(moving.size(), 0),
+      scales_(moving.size(), 1.0f),
       touched_(moving.size(), 0),
       followed_(&scene) {
   std::vector<shared::ObjectData> placed = objects;
@@ -211,6 +212,7 @@ bool SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, do
         if (replace(&data.model, &model, 1) || !written_) {
           const glm::mat3 linear(model);
           mirrored_[i] = object.skin < 0 && glm::determinant(linear) < 0;
+          scales_[i] = largestScale(linear);
           data.normal = normalMatrix(linear, mirrored_[i]);
           changes |= object.skin < 0;
         }
@@ -222,13 +224,23 @@ bool SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, do
         moves[i] = changes;
         if (!changes && !feature) return;
         std::span<const glm::mat4> ownJoints;
-        if (object.skin >= 0)
+        if (object.skin >= 0) {
           ownJoints = {joints + data.firstJoint, scene.skins[size_t(object.skin)].joints.size()};
+          scales_[i] = 0;
+          for (const glm::mat4& joint : ownJoints)
+            scales_[i] = std::max(scales_[i], largestScale(glm::mat3(joint)));
+        }
         bounds_[i] = scene::posedBounds(*object.extent, model, ownJoints, weights);
         if (feature) bounds_[i] = feature->boundsOf(object.kind, object.detail, bounds_[i]);
       });
   written_ = true;
   std::fill(touched_.begin(), touched_.end(), uint8_t(0));
+
+  for (size_t i = 0; i < moving_.size(); ++i)
+    if (moves[i] && moving_[i].casts) {
+      ++castersVersion_;
+      break;
+    }
 
   // What is to be written: by page and writer, where first all is counted that is of each.
   const auto forEachMoved = [&](auto&& visit) {

@@ -24,7 +24,8 @@ struct MovingObject {
   uint32_t firstChunk = 0, chunkCount = 0;  // of its vertices
   const scene::PrimitiveExtent* extent = nullptr;
   bool morphs = false;
-  int feature = -1;  // index of the one that it belongs to
+  bool casts = false;  // shadows
+  int feature = -1;    // index of the one that it belongs to
   uint32_t kind = 0, detail = 0;
   bool isWrittenByFeature = false;
   static constexpr size_t kNoNode = GeometryItem::kNoNode;
@@ -52,6 +53,8 @@ class SceneMotion {
   const std::vector<scene::Bounds>& bounds() const { return bounds_; }
   // Whether triangles are turned inside out, by object.
   const std::vector<uint8_t>& mirrored() const { return mirrored_; }
+  // Metres for each one of the object's mesh, at most.
+  const std::vector<float>& scales() const { return scales_; }
   // Matrix of an object to the world in the pose, and of its joints: those of a skinned one go from where its
   // vertices are at rest to the world.
   const glm::mat4& model(size_t object) const { return objects_.as<shared::ObjectData>()[object].model; }
@@ -76,6 +79,8 @@ class SceneMotion {
     uint32_t first = 0, count = 0;
   };
   Moved moved(size_t page, int writer) const { return moved_[page * writers_ + size_t(writer + 1)]; }
+  // Counts up whenever what casts shadows has moved.
+  uint32_t castersVersion() const { return castersVersion_; }
   // Forgets what was written before: everything has moved.
   void touchAll() { written_ = isAtRest_ = false; }
 
@@ -109,13 +114,16 @@ class SceneMotion {
   uint32_t chunkCount_;
   gpu::PerFrameBuffer objects_, joints_, morphWeights_, movedChunks_;
   std::vector<scene::Bounds> bounds_;
-  std::vector<uint8_t> mirrored_, touched_;
+  std::vector<uint8_t> mirrored_;
+  std::vector<float> scales_;
+  std::vector<uint8_t> touched_;
   std::vector<int> writerOf_;  // by object: who writes its vertices
   std::vector<glm::mat4> world_, worldAsDrawn_;
   std::vector<std::optional<glm::mat4>> movedBy_;  // by node; empty: features move nothing
   size_t writers_ = 1;
   std::vector<Moved> moved_;  // by page, then by writer
   const scene::SceneData* followed_;
+  uint32_t castersVersion_ = 0;
   bool written_ = false, isAtRest_ = false;
 };
 

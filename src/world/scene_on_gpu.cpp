@@ -7,6 +7,7 @@
 
 #include "scene/drop_vertices.h"
 #include "world/geometry.h"
+#include "world/ground.h"
 
 namespace scumble::world {
 
@@ -50,8 +51,9 @@ gpu::Buffer positionBuffer(gpu::Device& device, uint64_t count) {
 SceneOnGpu::Changes SceneOnGpu::update(const scene::SceneData& scene, const GeometryOptions& options,
                                        bool drops, const std::function<void()>& settle) {
   Changes changes;
+  ++castersVersion_;
   const auto kindsOfMaterials = [&] {
-    return std::tuple(materialNames_.size(), groundMaterial_, featureMaterials_);
+    return std::tuple(materialNames_.size(), groundMaterials_, featureMaterials_);
   };
   const auto materialsBefore = kindsOfMaterials();
   data_ = &scene;
@@ -59,11 +61,12 @@ SceneOnGpu::Changes SceneOnGpu::update(const scene::SceneData& scene, const Geom
 
   // What is drawn, and with which materials.
   listMaterials();
-  Geometry geometry = collectGeometry(scene, options, groundMaterial_, featureMaterials_, made_);
-  bounds_ = geometry.bounds;
+  Geometry geometry = collectGeometry(scene, options, groundMaterials_, featureMaterials_, made_);
+  bounds_ = geometry.bounds, longestCasterEdge_ = geometry.longestCasterEdge;
   separateMaterials(geometry);
   changes.materials = kindsOfMaterials() != materialsBefore;
-  measureParts(geometry);
+  const auto materialOf = [this](size_t index) -> const scene::Material& { return material(index); };
+  surfaceColors_.look(geometry.items, materialOf, scene.images);
   // Triangles of blended surfaces are listed later; what is made_ is kept there.
   for (GeometryItem& item : geometry.items)
     item.dropsVertices =
@@ -85,7 +88,7 @@ SceneOnGpu::Changes SceneOnGpu::update(const scene::SceneData& scene, const Geom
   changes.buffers |= listDraws(geometry, settle);
   changes.buffers |= followMotion(otherPlaces, settle);
 
-  measureColors(geometry);
+  colors_ = surfaceColors_.colors(geometry.items, materialOf);
   changes.writtenMaterials = writeMaterials(otherTextures, settle);
   changes.writtenPrimitives = geometry_.written();
   changes.writtenTextures = textures_.uploaded();
@@ -102,7 +105,7 @@ void SceneOnGpu::dropVertices() const {
 void SceneOnGpu::listMaterials() {
   materialNames_.clear();
   materialUses_.clear();
-  groundMaterial_ = -1;
+  groundMaterials_.clear();
   for (const scene::Material& material : data_->materials) {
     materialUses_.push_back({int(materialNames_.size())});
     materialNames_.push_back(material.name);
@@ -112,7 +115,12 @@ void SceneOnGpu::listMaterials() {
     materialNames_.push_back(name);
     return int(materialNames_.size()) - 1;
   };
-  if (options_.ground) groundMaterial_ = add("Ground");
+  // What lies on top is drawn first.
+  if (options_.ground) groundMaterials_.resize(options_.groundStrokes ? kGroundTones : 1);
+  for (int tone = int(groundMaterials_.size()); tone-- > 0;) {
+    groundMaterials_[size_t(tone)] = add("Ground");
+    materialUses_.back().groundTone = tone;
+  }
   featureMaterials_.clear();
   for (const PlannedFeature& planned : options_.features)
     featureMaterials_.push_back(planned.plan ? add(planned.feature->material()) : -1);
@@ -155,6 +163,8 @@ bool SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>
   triangleCount_ = 0;
   wraps_ = false;
   std::vector<TransparentTriangles::Part> blended;
+  std::vector<shared::DrawLevel> levels;
+  std::map<const scene::Primitive*, uint32_t> levelsOf;  // the first one
   warpScaleOf_.assign(materialCount(), 1.0f);
   isVaried_.assign(materialCount(), false);
   for (size_t i = 0; i < geometry.items.size(); ++i) {
@@ -184,6 +194,7 @@ bool SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>
     moving.isWrittenByFeature = item.isWrittenByFeature;
     moving.material = item.material;
     moving.extent = item.extent;
+    moving.casts = item.casts;
     moving.morphs = place.morphs;
     moving.firstChunk = place.firstChunk;
     moving.chunkCount = place.chunkCount;
@@ -198,12 +209,20 @@ bool SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>
     draw.indexCount = uint32_t(primitive.indexCount());
     draw.vertexOffset = int32_t(place.firstVertex);
     draw.object = uint32_t(i);
+    const auto [known, isNew] = levelsOf.try_emplace(&primitive, uint32_t(levels.size()));
+    draw.firstLevel = known->second, draw.levels = uint32_t(primitive.levels.size());
+    for (const scene::DetailLevel& level : primitive.levels)
+      if (isNew)
+        levels.push_back({draw.firstIndex + draw.indexCount + level.firstIndex, level.indexCount, level.error,
+                          level.textureError, level.shadowError, level.longestEdge});
     draw.state.material = item.material;
     draw.state.alpha = alphaMode(material);
     draw.state.cullsBack = !material.doubleSided;
     draw.state.textured = material.baseColorTexture.image >= 0 || material.emissiveTexture.image >= 0;
     draw.state.varied = draw.state.textured || !primitive.colors.empty();
     draw.state.casts = item.casts;
+    if (draw.state.textured) draw.textures |= shared::kTexturesColor;
+    if (draw.state.textured && draw.state.alpha != AlphaMode::opaque) draw.textures |= shared::kTexturesCut;
     wraps_ |= primitive.wrapsU || primitive.wrapsV;
     if (draw.state.varied) isVaried_[item.material] = true;
     if (draw.state.alpha == AlphaMode::blend)
@@ -214,7 +233,7 @@ bool SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>
   }
   arePlaced_ = false;
   const bool otherTriangles = transparent_.update(device_, std::move(blended), settle);
-  return draws_.update(device_, std::move(draws), settle) || otherTriangles;
+  return draws_.update(device_, std::move(draws), levels, objects_.size(), settle) || otherTriangles;
 }
 
 bool SceneOnGpu::followFeatures(const std::function<void()>& settle) {
@@ -271,7 +290,7 @@ void SceneOnGpu::pose(const look::LookData& look, const KnobTable& now, double t
     if (feature) feature->pose(look, now, time, nullptr);
   if (!motion_->pose(*data_, now, time, features_) && arePlaced_) return;
   arePlaced_ = true;
-  draws_.place(motion_->bounds(), motion_->mirrored());
+  draws_.place(motion_->bounds(), motion_->mirrored(), motion_->scales());
   casters_.clear();
   for (size_t d = 0; d < draws_.count(); ++d)
     if (const Draw& draw = draws_.draws()[d]; draw.state.casts)
@@ -392,61 +411,9 @@ std::array<SetTexture, 4> SceneOnGpu::textures(size_t material) const {
 }
 
 void SceneOnGpu::setMaterial(size_t material, const shared::MaterialData& data) {
+  const bool hasHoles = alphaMode(this->material(material)) != AlphaMode::opaque;
+  if (hasHoles && std::memcmp(&materialData(material), &data, sizeof(data)) != 0) ++castersVersion_;
   std::memcpy(materialData_.contents() + material * kMaterialStride, &data, sizeof(data));
-}
-
-void SceneOnGpu::measureParts(const Geometry& geometry) {
-  // By the area of up to so many triangles of each item.
-  constexpr size_t kTriangles = 64;
-  colorParts_.resize(geometry.items.size());
-  for (size_t i = 0; i < geometry.items.size(); ++i) {
-    const GeometryItem& item = geometry.items[i];
-    ColorPart& part = colorParts_[i];
-    if (item.node == GeometryItem::kNoNode || !item.shown) {
-      part = {};
-      continue;
-    }
-    const scene::Primitive& primitive = *item.primitive;
-    const glm::mat3 linear(item.model);
-    if (part.primitive == &primitive && part.linear == linear) continue;
-    part = {&primitive, linear};
-    const size_t triangles = primitive.indices.size() / 3, step = std::max<size_t>(1, triangles / kTriangles);
-    for (size_t t = 0; t < triangles; t += step) {
-      const uint32_t* v = &primitive.indices[3 * t];
-      const glm::dvec3 normal =
-          glm::cross(glm::dvec3(linear * (primitive.positions[v[1]] - primitive.positions[v[0]])),
-                     glm::dvec3(linear * (primitive.positions[v[2]] - primitive.positions[v[0]])));
-      const double area = glm::length(normal) * double(step);
-      if (!std::isfinite(area)) continue;
-      const glm::dvec3 color =
-          primitive.colors.empty() ? glm::dvec3(1.0) : glm::dvec3(primitive.colors[v[0]]) / 255.0;
-      part.sum += area * glm::sqrt(color);
-      part.squares += area * color;
-      part.area += area;
-    }
-  }
-}
-
-void SceneOnGpu::measureColors(const Geometry& geometry) {
-  // Mean and deviation over the scene's surface.
-  glm::dvec3 sum(0.0), squares(0.0);
-  double total = 0;
-  for (size_t i = 0; i < geometry.items.size(); ++i) {
-    if (!colorParts_[i].primitive) continue;
-    const scene::Material& material = this->material(geometry.items[i].material);
-    const glm::vec3 base = glm::clamp(glm::vec3(material.baseColor), 0.0f, 1.0f);
-    const RootMoments texture = material.baseColorTexture.image >= 0
-                                    ? textures_.rootMoments(material.baseColorTexture.image)
-                                    : RootMoments();
-    sum += colorParts_[i].sum * glm::dvec3(glm::sqrt(base) * texture.mean);
-    squares += colorParts_[i].squares * glm::dvec3(base * texture.square);
-    total += colorParts_[i].area;
-  }
-  colors_ = {};
-  if (!(total > 0)) return;
-  const glm::dvec3 mean = sum / total, variance = glm::max(squares / total - mean * mean, 0.0);
-  colors_.meanRootRgb = glm::vec3(mean);
-  colors_.variety = float(std::sqrt(variance.r + variance.g + variance.b));
 }
 
 }  // namespace scumble::world

@@ -17,6 +17,7 @@
 #include "world/draw_list.h"
 #include "world/geometry_on_gpu.h"
 #include "world/scene_motion.h"
+#include "world/surface_colors.h"
 #include "world/textures_on_gpu.h"
 #include "world/transparent_triangles.h"
 
@@ -74,7 +75,10 @@ class SceneOnGpu {
   std::vector<KnobTable::Material> knobSubjects() const;
   // Whether vertex colours or textures vary this material's colour anywhere.
   bool isVaried(size_t material) const { return isVaried_[material]; }
-  int groundMaterial() const { return groundMaterial_; }
+  // Which tone of the ground it paints (world/ground.h); -1: none.
+  int groundTone(size_t material) const { return materialUses_[material].groundTone; }
+  // What the ground itself is painted with; -1: there is none.
+  int groundMaterial() const { return groundMaterials_.empty() ? -1 : groundMaterials_[0]; }
   // A feature that is there; null where it is not. `index`: its own among all that there are.
   struct FeatureHere {
     int index;
@@ -89,6 +93,8 @@ class SceneOnGpu {
   // Boxes of what casts shadows, world: what each reaches at any time, as far as is known before, so that
   // what depends on it stays from frame to frame; and in the frame's pose.
   const std::vector<scene::Bounds>& casters() const { return casters_; }
+  // Is another number whenever what casts shadows is another thing, elsewhere, or has other holes.
+  uint64_t castersVersion() const { return castersVersion_ + motion_->castersVersion(); }
 
   // Sets what moves to its place at a time (seconds). The look has its tracks; `now` are its knobs at that
   // time.
@@ -115,7 +121,8 @@ class SceneOnGpu {
   // The triangles of blended draws.
   const TransparentTriangles& transparent() const { return transparent_; }
   // What the scene takes up, whatever its clips do.
-  const scene::Bounds& bounds() const { return bounds_; }  // without the ground
+  const scene::Bounds& bounds() const { return bounds_; }         // without the ground
+  float longestCasterEdge() const { return longestCasterEdge_; }  // metres; longer ones have been split
   // Set 1 of geometry passes: a material's facts and its textures.
   const gpu::SetLayout& materialLayout() const { return materialLayout_; }
   VkDescriptorSet materialSet(uint32_t material) const { return materialSets_[material]; }
@@ -157,24 +164,16 @@ class SceneOnGpu {
   bool followMotion(bool otherPlaces, const std::function<void()>& settle);
   // How many were written.
   uint32_t writeMaterials(bool otherTextures, const std::function<void()>& settle);
-  void measureParts(const Geometry& geometry);
-  void measureColors(const Geometry& geometry);
 
   struct MaterialUse {
     int base;               // in the scene; -1 for the ground and features
     uint32_t settings = 0;  // in NodeSettings::lists
+    int groundTone = -1;
     SetTexture lit{}, shadowed{};
   };
 
   // Of a material's textures: which image, and how it is read.
   using TextureBindings = std::array<std::pair<int, gpu::SamplerDesc>, 2>;
-  // An item's part of the scene's surface, and of its vertices' colours there.
-  struct ColorPart {
-    const scene::Primitive* primitive = nullptr;
-    glm::mat3 linear{0.0f};
-    glm::dvec3 sum{0.0}, squares{0.0};
-    double area = 0;
-  };
 
   gpu::Device& device_;
   gpu::Samplers& samplers_;
@@ -183,19 +182,21 @@ class SceneOnGpu {
   MadePrimitives made_;
   std::vector<std::string> materialNames_;
   std::vector<MaterialUse> materialUses_;
-  int groundMaterial_ = -1;
+  std::vector<int> groundMaterials_;   // by tone
   std::vector<int> featureMaterials_;  // by feature; -1: it is not there
   DrawList draws_;
   bool arePlaced_ = false;            // draws_ and casters_, in the last pose
   std::vector<scene::Bounds> reach_;  // by draw, world: at any time as far as is known before
   std::vector<scene::Bounds> casters_;
   uint32_t texturesVersion_ = 0;
+  uint64_t castersVersion_ = 0;
   bool wraps_ = false;
   std::vector<float> warpScaleOf_;  // by material
   std::vector<bool> isVaried_;      // by material
+  SurfaceColors surfaceColors_;
   SceneColors colors_;
-  std::vector<ColorPart> colorParts_;  // by item
   scene::Bounds bounds_;
+  float longestCasterEdge_ = 0;
   GeometryOnGpu geometry_;
   TexturesOnGpu textures_;
   gpu::Buffer previousPositions_;

@@ -43,7 +43,10 @@ class Splitter {
     return changed;
   }
 
-  scene::Primitive take() { return std::move(out_); }
+  scene::Primitive take() {
+    out_.levels.clear(), out_.levelIndices.clear();  // their triangles are as long
+    return std::move(out_);
+  }
   size_t triangles() const { return out_.indices.size() / 3; }
 
  private:

@@ -8,27 +8,6 @@
 
 namespace scumble::world {
 
-namespace {
-
-// From a grid of its pixels.
-RootMoments momentsOf(const scene::Image& image) {
-  constexpr uint32_t kGrid = 16;
-  glm::vec3 sum(0.0f), squares(0.0f);
-  float weight = 1e-6f;
-  for (uint32_t i = 0; i < kGrid * kGrid; ++i) {
-    const uint32_t x = (2 * (i % kGrid) + 1) * image.width / (2 * kGrid);
-    const uint32_t y = (2 * (i / kGrid) + 1) * image.height / (2 * kGrid);
-    const uint8_t* p = &image.rgba[4 * (size_t(y) * image.width + x)];
-    const glm::vec3 root = glm::vec3(p[0], p[1], p[2]) / 255.0f;  // sRGB is close to a square root
-    sum += root * float(p[3]);
-    squares += root * root * float(p[3]);
-    weight += float(p[3]);
-  }
-  return {sum / weight, squares / weight};
-}
-
-}  // namespace
-
 bool TexturesOnGpu::update(gpu::Uploader& uploader, const std::vector<Shared<scene::Image>>& images,
                            const std::function<void()>& settle) {
   if (!white_.handle()) {
@@ -73,7 +52,6 @@ bool TexturesOnGpu::update(gpu::Uploader& uploader, const std::vector<Shared<sce
     auto texture = std::make_shared<Texture>();
     texture->of = fresh[i];
     texture->image = uploader.texture(levels, VK_FORMAT_R8G8B8A8_SRGB, image.width, image.height);
-    texture->roots = momentsOf(image);
     texture->bytes = 0;
     for (const auto& level : levels) texture->bytes += level.size();
     now[fresh[i].get()] = std::move(texture);

@@ -11,11 +11,6 @@
 
 namespace scumble::world {
 
-// Of the square root of linear RGB in a picture: the mean, and the mean of its squares.
-struct RootMoments {
-  glm::vec3 mean{1.0f}, square{1.0f};
-};
-
 class TexturesOnGpu {
  public:
   explicit TexturesOnGpu(gpu::Device& device) : device_(device) {}
@@ -28,8 +23,6 @@ class TexturesOnGpu {
 
   // By their index in the scene; -1: white.
   VkImageView view(int image) const;
-  // Weighted by alpha.
-  const RootMoments& rootMoments(int image) const { return textures_[size_t(image)]->roots; }
   // How many the last update() has uploaded, and the bytes of those that are there.
   uint32_t uploaded() const { return uploaded_; }
   uint64_t bytes() const;
@@ -38,7 +31,6 @@ class TexturesOnGpu {
   struct Texture {
     std::shared_ptr<const scene::Image> of;
     gpu::Image image;
-    RootMoments roots;
     uint64_t bytes;
   };
   gpu::Device& device_;

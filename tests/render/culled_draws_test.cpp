@@ -4,17 +4,15 @@
 // (passes/cull)
 
 #include <algorithm>
-#include <cstring>
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
 #include <random>
 #include <set>
 
-#include "renderer/pass_list.h"
 #include "scumble/scene_editor.h"
 #include "stage/visibility.h"
+#include "tests/support/draw_list_spy.h"
 #include "tests/support/render_test.h"
-#include "tests/support/test_device.h"
 
 namespace scumble {
 namespace {
@@ -22,78 +20,11 @@ namespace {
 using namespace test;
 using namespace frame;
 
-// What a frame's list was, and what it was made of.
-struct SeenList {
-  std::vector<shared::DrawCommand> commands;
-  std::vector<DrawBucket> buckets;
-  std::vector<Draw> draws;
-  std::vector<scene::Bounds> bounds;  // by object
-  std::vector<uint8_t> mirrored;      // by object
-  shared::FrameUniforms uniforms;
-  float inflation = 0;
-};
-
-// Copies the list to where the CPU can read it.
-class Spy : public Pass {
- public:
-  explicit Spy(SeenList& into) : into_(into) {}
-  const char* name() const override { return "spy"; }
-  void declare(FrameBuilder& frame, uint32_t) override {
-    const gpu::Handle copy = frame.graph().importBuffer(
-        "copy", {}, gpu::Outside{VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
-    frame.step("spy", [this](VkCommandBuffer commands) {
-      const VkBufferCopy all{0, 0, into_.draws.size() * sizeof(shared::DrawCommand)};
-      if (all.size > 0) vkCmdCopyBuffer(commands, frame_->scene().draws().seen(), copy_.handle(), 1, &all);
-    });
-    frame.use(frame.get(kDrawList), gpu::Use::copySource);
-    frame.use(copy, gpu::Use::copyTarget);
-  }
-  void create(FrameBuilder& frame) override { frame_ = &frame; }
-  void bind(const gpu::GraphResources&) override {
-    copy_ = gpu::Buffer(frame_->device(), frame_->scene().draws().room() * sizeof(shared::DrawCommand),
-                        VK_BUFFER_USAGE_TRANSFER_DST_BIT, gpu::MemoryKind::readback);
-  }
-  void update(const FrameInput& input) override {
-    const SceneOnGpu& scene = input.scene;
-    into_ = {{},
-             scene.draws().buckets(),
-             scene.draws().draws(),
-             scene.motion().bounds(),
-             scene.motion().mirrored(),
-             input.uniforms,
-             input.inflation};
-  }
-  void collect() {
-    into_.commands.resize(into_.draws.size());
-    if (copy_.handle())
-      std::memcpy(into_.commands.data(), copy_.mapped(), into_.commands.size() * sizeof(shared::DrawCommand));
-  }
-
- private:
-  SeenList& into_;
-  FrameBuilder* frame_ = nullptr;
-  gpu::Buffer copy_;
-};
-
 class CulledDraws : public BothEyes {
  protected:
   static constexpr uint32_t kWidth = 64, kHeight = 36;
 
   CulledDraws() {
-    RendererOptions options;
-    options.device = testDevice();
-    options.validation = true;
-    options.arrangePasses = [this](renderer::PassList& list) {
-      list.insertAfter("cull", [this] {
-        auto spy = std::make_unique<Spy>(list_);
-        spy_ = spy.get();
-        return spy;
-      });
-    };
-    auto made = Renderer::create(options);
-    if (!made) throw std::runtime_error(made.error().message());
-    renderer_ = std::move(*made);
-
     // Materials of all kinds; a mesh for each.
     const std::vector<glm::vec3> corners{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0.5f}};
     const std::vector<glm::u8vec4> colors(3, {200, 100, 50, 255});
@@ -108,11 +39,7 @@ class CulledDraws : public BothEyes {
       meshes_.push_back(take(editor_.addMesh({part})));
     }
   }
-  ~CulledDraws() override {
-    if (renderer_) {
-      EXPECT_EQ(renderer_->validationMessages(), 0);
-    }
-  }
+  ~CulledDraws() override { EXPECT_EQ(renderer_.validationMessages(), 0); }
 
   template <class T>
   static T take(Result<T> result) {
@@ -132,10 +59,9 @@ class CulledDraws : public BothEyes {
     }
   }
 
-  SeenList& draw(const std::vector<View>& views, const Look& look = quietLook()) {
-    take(renderer_->render(take(editor_.scene()), look, 0, views, sized(kWidth, kHeight)));
-    spy_->collect();
-    return list_;
+  const SeenList& draw(const std::vector<View>& views, const Look& look = quietLook()) {
+    renderer_.draw(take(editor_.scene()), look, views, sized(kWidth, kHeight));
+    return renderer_.list();
   }
   std::vector<View> aheadOf(const glm::vec3& eye, const glm::vec3& target) {
     return viewsFrom(take(editor_.scene()), {eye, target}, kWidth, kHeight, GetParam());
@@ -201,9 +127,7 @@ class CulledDraws : public BothEyes {
   std::vector<MeshId> meshes_;
   std::vector<NodeId> nodes_;
   std::mt19937 random_{7};
-  SeenList list_;
-  Spy* spy_ = nullptr;
-  std::unique_ptr<Renderer> renderer_;
+  RendererWithSpy renderer_;
 };
 INSTANTIATE_BOTH_EYES(CulledDraws);
 
@@ -217,7 +141,7 @@ TEST_P(CulledDraws, eachBucketHasThoseThatAreSeenTheNearestFirst) {
                                       {{0.3f, 0.2f, 0.1f}, {5, 1, 2}},
                                       {{-3, 8, -2}, {0, 0, -3}}}) {
       const size_t seen = check(draw(aheadOf(eye, target)), viewCount());
-      EXPECT_EQ(list_.draws.size(), all);
+      EXPECT_EQ(renderer_.list().draws.size(), all);
       EXPECT_GT(seen, all / 50);
     }
     EXPECT_LT(check(draw(aheadOf({0.3f, 0.2f, 0.1f}, {5, 1, 2})), viewCount()), all / 2);
@@ -225,7 +149,7 @@ TEST_P(CulledDraws, eachBucketHasThoseThatAreSeenTheNearestFirst) {
   }
   for (size_t i = 0; i < nodes_.size(); i += 3) ASSERT_TRUE(editor_.setVisible(nodes_[i], false).ok());
   EXPECT_GT(check(draw(aheadOf({0, 1, 20}, {0, 0, 0})), viewCount()), 100u);
-  EXPECT_EQ(list_.draws.size(), 3000u);
+  EXPECT_EQ(renderer_.list().draws.size(), 3000u);
   const size_t narrow = check(draw(aheadOf({0, 1, 14}, {0, 0, 0})), viewCount());
   const Look torn = quietLook({{"warp.inflationUnit", "percent"}, {"warp.inflation", "30"}});
   const size_t wide = check(draw(aheadOf({0, 1, 14}, {0, 0, 0}), torn), viewCount());
@@ -252,7 +176,7 @@ TEST_P(CulledDraws, followsWhatMovesAndIsMirrored) {
   const glm::mat4 inside = glm::scale(glm::mat4(1.0f), {1, -1, 1});
   for (const NodeId node : nodes_) ASSERT_TRUE(editor_.setTransform(node, inside).ok());
   EXPECT_EQ(check(draw(views), viewCount()), 40u);
-  for (const DrawBucket& bucket : list_.buckets) EXPECT_TRUE(bucket.state.mirrored);
+  for (const DrawBucket& bucket : renderer_.list().buckets) EXPECT_TRUE(bucket.state.mirrored);
   EXPECT_LT(before, 40u);
   // Nothing at all.
   for (const NodeId node : nodes_) ASSERT_TRUE(editor_.setVisible(node, false).ok());

@@ -16,4 +16,12 @@ std::array<glm::dvec2, 4> partVectors(const Image& warp, int x, int y);
 // interpolated.
 std::array<glm::dvec2, 4> displacedPlaces(const Image& warp, int x, int y);
 
+// Where samples lie in a pixel: Vulkan's standard locations of four.
+inline constexpr std::array<glm::dvec2, 4> kSampleLocations{
+    glm::dvec2(0.375, 0.125), {0.875, 0.375}, {0.125, 0.625}, {0.625, 0.875}};
+
+// Where the pixel has several samples: of each the place of the sample that it takes the colour of, which is
+// in the same quarter of a pixel as where it is moved to.
+std::array<glm::dvec2, 4> displacedSamples(const Image& warp, int x, int y);
+
 }  // namespace scumble::test

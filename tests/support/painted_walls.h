@@ -18,18 +18,25 @@ namespace scumble::measuring::test {
 constexpr double kPi = std::numbers::pi;
 
 struct Wall {
+  const char* material;
   double z, left, right, bottom, top;  // metres
+  std::array<double, 2> exponents;     // what MetaTexture chooses
 };
-constexpr std::array<Wall, 2> kWalls{{{0, -2.6, 2.6, -1.6, 1.6}, {2, -1.5, -0.9, -0.6, 0.6}}};
+constexpr std::array<Wall, 2> kWalls{
+    {{"Wall", 0, -2.6, 2.6, -1.6, 1.6, {2, 1}}, {"Board", 2, -1.5, -0.9, -0.6, 0.6, {4, 3}}}};
+constexpr double kUntorn = 1.45;    // metres: nothing is torn above that
+constexpr float kSeaNumber = 1000;  // of what stands below the walls, and is none of the scene's nodes
 constexpr double kEyeDistance = 6, kHalfFov = 20 * kPi / 180;  // from the wall's middle; vertically
 
 inline Scene wallScene() {
   scumble::test::TestScene scene;
-  for (const Wall& wall : kWalls)
+  for (const Wall& wall : kWalls) {
+    scumble::test::Json material = scumble::test::TestScene::unlit(wall.material, {1, 1, 1, 1});
     scene.add(scumble::test::gridMesh(glm::vec3(float(wall.left), float(wall.bottom), float(wall.z)),
                                       glm::vec3(float(wall.right - wall.left), 0, 0),
                                       glm::vec3(0, float(wall.top - wall.bottom), 0)),
-              -1);
+              scene.material(material));
+  }
   return scene.load();
 }
 
@@ -83,7 +90,7 @@ inline Pattern patternOf(const std::string& mode, bool marks, double zoom) {
                : Pattern{0.07 * std::exp2(octave - std::floor(octave + 0.25)), 1};
   if (mode == "object") return marks ? Pattern{0.025 / zoom, 0.9} : Pattern{0.03 / zoom, 1};
   if (mode == "screen") return {marks ? 0.06 : 0.09, 1};
-  return marks ? Pattern{0.05, 1} : Pattern{0.053 * std::pow(zoom, 1.0 / 6), zoom > 1.1 ? 0.5 : 1};
+  return marks ? Pattern{0.05, 1} : Pattern{0.075 * std::pow(zoom, 1.0 / 6), zoom > 1.1 ? 0.5 : 1};
 }
 
 // The vector (x right, y down) and the mark that waves have at a place given in pixels of the framing; half
@@ -138,6 +145,7 @@ struct Drawn {
   std::vector<std::string> aovs;
   uint32_t seed;
   bool isSheet;
+  std::array<bool, 2> tears{};  // by wall
 
   bool has(const char* aov) const {
     for (const std::string& name : aovs)
@@ -155,6 +163,9 @@ class WallPainter {
                      const RenderOptions& options) {
     calls.push_back({scumble::test::settingOf(look, "warp.metatexture.mode"), look, views,
                      options.previousViews, options.aovs, options.seed, scene.summary().triangles == 1});
+    for (size_t i = 0; i < kWalls.size(); ++i)
+      calls.back().tears[i] =
+          std::get<double>(*look.get(std::string("materials.") + kWalls[i].material + ".warp.amount")) > 0;
     Frame frame;
     std::vector<std::string> names{""};
     names.insert(names.end(), options.aovs.begin(), options.aovs.end());
@@ -182,7 +193,7 @@ class WallPainter {
         const glm::dvec4 value =
             seen.number ? valueOf(name, call, index, seen, place, size) : glm::dvec4(1e6, -1e6, 1e6, 0);
         for (int c = 0; c < 4; ++c) image.pixels.push_back(float(value[c]));
-        if (!seen.number && name == "id") *(image.pixels.end() - 4) = 0;
+        if (!seen.number && name == "id") *(image.pixels.end() - 4) = y > 0.9 * height ? kSeaNumber : 0;
       }
     return image;
   }
@@ -191,11 +202,18 @@ class WallPainter {
                             const glm::dvec2& place, const glm::dvec2& size) {
     const View& view = call.views[index];
     const double step = index == 1 ? 1 : 0;  // of what the right eye sees otherwise
-    if (name == "warp") return {paintAt(call.mode, view, seen, place, size, call.seed), seen.depth};
+    if (name == "warp") {
+      glm::dvec3 paint = paintAt(call.mode, view, seen, place, size, call.seed);
+      if (seen.point.y > kUntorn || !call.tears[size_t(seen.number - 1)]) paint.x = paint.y = 0;
+      return {paint, seen.depth};
+    }
     if (name == "position") return {seen.point, 0};
     if (name == "depth") return glm::dvec4(seen.depth);
     if (name == "id") return glm::dvec4(seen.number);
-    if (name == "metatexture") return {2, 1, 0, 1};
+    if (name == "metatexture") {
+      const std::array<double, 2>& exponents = kWalls[size_t(seen.number - 1)].exponents;
+      return {exponents[0], exponents[1], 0, 1};
+    }
     if (name == "motion") {
       const View& before = call.previous.empty() ? view : call.previous[index];
       return {place - placeIn(before, seen.point, size), 0, 0};

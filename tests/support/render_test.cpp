@@ -86,10 +86,8 @@ Knobs thoseThere(const Knobs& knobs) {
 
 Look quietLook(const Knobs& knobs) {
   Look look;
-  Knobs all{{"ground.mode", "off"},
-            {"background.mode", "look"},
-            {"background.air", "0"},
-            {"final.bloom", "0"},
+  Knobs all{{"ground.mode", "off"},      {"ground.strokes", "0"}, {"levels.error", "0"},
+            {"background.mode", "look"}, {"background.air", "0"}, {"final.bloom", "0"},
             {"palette.planes", "0"}};
   all.insert(all.end(), knobs.begin(), knobs.end());
   for (const auto& [path, value] : all)

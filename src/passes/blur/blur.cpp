@@ -90,6 +90,10 @@ class Blur : public Pass {
                   .inputs = {{shared::kBlurSource, blurred}, {shared::kBlurDepth, frame.get(kDepth)}},
                   .tiles = frame.get(kTiles),
                   .outputs = {next},
+                  // Eight taps to a quarter, then five; the first step takes depths besides.
+                  .fetches = i == 0   ? 17u
+                             : i == 1 ? 9u
+                                      : 6u,
                   .uniformBytes = sizeof(shared::BlurStep),
                   .constants = {uint32_t(i == 0), 1}})[0];
     }

@@ -30,9 +30,12 @@ class Colorize : public Pass {
            .shader = {{shaders::colorize_image_frag}, {shaders::colorize_image_comp}},
            .inputs = {{shared::kColorizeColor, picture}, {shared::kColorizeDepth, frame.get(kDepth, layer_)}},
            .outputs = {frame.image(name(), {.format = kHalves})},
+           .fetches = 2,
            .uniformBytes = sizeof(shared::ColorizeUniforms)})[0];
     frame.give(kPicture, picture, layer_);
-    if (layer_ == Layer::first) frame.offer(kAovs[0], {picture});
+    if (layer_ != Layer::first) return;
+    frame.give(kGradedColors, picture);
+    frame.offer(kAovs[0], {picture});
   }
   void create(FrameBuilder& frame) override { step_.create(frame); }
   void bind(const gpu::GraphResources& resources) override { step_.bind(resources); }

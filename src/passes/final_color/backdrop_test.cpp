@@ -110,7 +110,7 @@ TEST_P(BackdropTest, coversTheFrame) {
   for (const glm::uvec2 size : {glm::uvec2(400, 100), glm::uvec2(90, 320), glm::uvec2(999, 777)}) {
     RenderOptions options = sized(kWidth, kHeight, {"color"});
     options.background = picture(size.x, size.y, false);
-    const Look look = pictureLook({{"ground.mode", "off"}});
+    const Look look = pictureLook({{"ground.mode", "off"}, {"warp.amount", "0"}});
     const Frame frame = draw(scene, look, views, options);
     const double scale = std::min(size.x / double(kWidth), size.y / double(kHeight));
     for (size_t v = 0; v < viewCount(); ++v) {
@@ -171,7 +171,8 @@ TEST_P(BackdropTest, styleIsTheRuleInLight) {
   RenderOptions options = sized(kWidth, kHeight, {"color"});
   options.background = picture(kWidth, kHeight, true);
   const Frame frame =
-      draw(scene, pictureLook({{"ground.mode", "off"}, {"background.style", "0.5"}}), views, options);
+      draw(scene, pictureLook({{"ground.mode", "off"}, {"warp.amount", "0"}, {"background.style", "0.5"}}),
+           views, options);
   const FitReference rule([](const glm::dvec3& c) { return PaletteReference().lit(c); });
   Difference difference(2e-3);
   for (size_t v = 0; v < viewCount(); ++v)

@@ -2,12 +2,15 @@
 
 #include "frame/image_step.h"
 #include "frame/metatexture.h"
+#include "passes/color/color_knobs.h"
 #include "passes/final_color/final_color.shared.h"
 #include "passes/final_color/final_color_knobs.h"
 #include "passes/surface/surface_knobs.h"
 #include "passes/warp/warp_knobs.h"
 #include "shaders/final_color_image_comp.h"
 #include "shaders/final_color_image_frag.h"
+#include "shaders/final_color_samples_image_comp.h"
+#include "shaders/final_color_samples_image_frag.h"
 
 namespace scumble::passes {
 
@@ -39,31 +42,14 @@ class FinalColor : public Pass {
 
   void declare(FrameBuilder& frame, uint32_t variant) override {
     variant_ = variant;
-    // Anything stands for what is not looked at.
-    const auto only = [&](Variant part, const Role& role, Layer layer = Layer::first) {
-      return variant & part ? frame.get(role, layer) : frame.get(kPicture);
-    };
-    const auto behind = [&](const Role& role) { return only(kLayered, role, Layer::behind); };
-    const gpu::Handle picture = step_.declare(
-        frame, {.name = name(),
-                .shader = {{shaders::final_color_image_frag}, {shaders::final_color_image_comp}},
-                .inputs = {{shared::kFinalColorColor, frame.get(kPicture), true},
-                           {shared::kFinalColorWarp, only(kTears, kWarp), true},
-                           {shared::kFinalColorDepth, frame.get(kDepth)},
-                           {shared::kFinalColorBlurred, only(kBlooms, kBlur), true},
-                           {shared::kFinalColorBehind, behind(kPicture)},
-                           {shared::kFinalColorBehindDepth, behind(kDepth)},
-                           {shared::kFinalColorLight, frame.get(kLight)},
-                           {shared::kFinalColorLit, frame.get(kLit)},
-                           {shared::kFinalColorBehindLight, behind(kLight)},
-                           {shared::kFinalColorBehindLit, behind(kLit)},
-                           {shared::kFinalColorInflated, only(kTears, kInflatedDepth)}},
-                .textures = {shared::kFinalColorBackdrop, shared::kFinalColorTear},
-                .tiles = frame.get(kTiles),
-                .outputs = {frame.image(name(), {.format = kHalves})},
-                .uniformBytes = sizeof(shared::FinalColorUniforms),
-                .maxJobs = 2})[0];
+    samples_ = frame.configuration().samples;
+    // Where nothing but grades was done to the colours of surfaces, single samples of those can be taken.
+    isGraded_ = frame.get(kPicture) != frame.get(kSurfaceColors);
+    isSampled_ = samples_ > 1 && !frame.configuration().hasBackdrop &&
+                 (!isGraded_ || frame.get(kPicture) == frame.get(kGradedColors));
+    const gpu::Handle picture = isSampled_ ? declareSampled(frame) : declareTaken(frame);
     frame.give(kPicture, picture);
+    if (isSampled_) frame.give(kSampledPicture, picture);
     frame.offer(kAovs[0], {picture});
   }
   void create(FrameBuilder& frame) override {
@@ -73,6 +59,100 @@ class FinalColor : public Pass {
   void bind(const gpu::GraphResources& resources) override { step_.bind(resources); }
 
   void update(const FrameInput& input) override {
+    if (isSampled_)
+      updateSampled(input);
+    else
+      updateTaken(input);
+  }
+
+ private:
+  // Anything stands for what is not looked at.
+  gpu::Handle only(const FrameBuilder& frame, uint32_t part, const Role& role,
+                   Layer layer = Layer::first) const {
+    return variant_ & part ? frame.get(role, layer) : frame.get(kLit);
+  }
+
+  // Of single samples.
+  gpu::Handle declareSampled(FrameBuilder& frame) {
+    using namespace shared;
+    return step_.declare(
+        frame,
+        {.name = name(),
+         .shader = {{shaders::final_color_samples_image_frag}, {shaders::final_color_samples_image_comp}},
+         .inputs = {{kFinalColorColor, frame.get(kDepth)},
+                    {kFinalColorWarp, only(frame, kTears, kWarp), true},
+                    {kFinalColorDepth, frame.get(kDepthSamples)},
+                    {kFinalColorBlurred, only(frame, kBlooms, kBlur), true},
+                    {kFinalColorBehind, only(frame, kLayered, kPicture, Layer::behind)},
+                    {kFinalColorBehindDepth, only(frame, kLayered, kDepth, Layer::behind)},
+                    {kFinalColorLight, frame.get(kLight)},
+                    {kFinalColorLit, frame.get(kLit)},
+                    {kFinalColorInflated, only(frame, kTears, kInflatedDepth)},
+                    {kFinalColorShadowed, frame.get(kShadowed)},
+                    {kFinalColorSampleLight, frame.get(kSampleLight)},
+                    {kFinalColorLitSamples, frame.get(kLitSamples)},
+                    {kFinalColorShadowedSamples, frame.get(kShadowedSamples)},
+                    {kFinalColorGraded, frame.get(isGraded_ ? kGradedColors : kLit)},
+                    {kFinalColorUngraded, frame.get(isGraded_ ? kSurfaceColors : kLit)}},
+         .tiles = frame.get(kTiles),
+         .outputs = {frame.image(name(), {.format = kHalves})},
+         // Of a pixel: the inflated surface and depths around it, the warp; of each place: two depths, both
+         // colours, light.
+         .fetches = 8 + 8 + 17 + 4 * 5,
+         .uniformBytes = sizeof(SampledColorUniforms),
+         .maxJobs = 6})[0];
+  }
+
+  void updateSampled(const FrameInput& input) {
+    const FinalColorParams params = input.knobs.scene<FinalColorParams>();
+    const shared::SurfaceColors colors = surfaceColors(input, Layer::first);
+    const uint32_t glows = (variant_ & kBlooms ? shared::kFinalColorGlows : 0) |
+                           (colors.glowColorAmount > 0 ? shared::kFinalColorGlowColor : 0) |
+                           (isGraded_ ? shared::kFinalColorIsGraded : 0);
+    const uint32_t ripple = uint32_t(params.ripple);
+    const uint32_t torn = variant_ & kTears ? shared::kTileTorn : 0;
+    std::vector<ImageStep::Job> jobs;
+    if (isGraded_) {
+      jobs.push_back({{glows, ripple, 0}, {}, {torn, 0}});
+    } else {
+      for (const auto& [part, where] : colorParts(input, true))
+        jobs.push_back({{glows, ripple, uint32_t(part)}, {}, {where.mask | torn, where.value}});
+    }
+    if (torn) jobs.push_back({{glows | shared::kFinalColorTorn, ripple, 0}, {}, {torn, torn}});
+    step_.setJobs(jobs);
+    const shared::SampledColorUniforms uniforms{
+        params.bloom * glm::vec3(params.bloomTint), {input.inflation}, colors};
+    for (size_t job = 0; job < jobs.size(); ++job) step_.update(uniforms, job);
+  }
+
+  // Of the picture as it is.
+  gpu::Handle declareTaken(FrameBuilder& frame) {
+    const auto behind = [&](const Role& role) { return only(frame, kLayered, role, Layer::behind); };
+    return step_.declare(frame,
+                         {.name = name(),
+                          .shader = {{shaders::final_color_image_frag}, {shaders::final_color_image_comp}},
+                          .inputs = {{shared::kFinalColorColor, frame.get(kPicture), true},
+                                     {shared::kFinalColorWarp, only(frame, kTears, kWarp), true},
+                                     {shared::kFinalColorDepth, frame.get(kDepth)},
+                                     {shared::kFinalColorBlurred, only(frame, kBlooms, kBlur), true},
+                                     {shared::kFinalColorBehind, behind(kPicture)},
+                                     {shared::kFinalColorBehindDepth, behind(kDepth)},
+                                     {shared::kFinalColorLight, frame.get(kLight)},
+                                     {shared::kFinalColorLit, frame.get(kLit)},
+                                     {shared::kFinalColorBehindLight, behind(kLight)},
+                                     {shared::kFinalColorBehindLit, behind(kLit)},
+                                     {shared::kFinalColorInflated, only(frame, kTears, kInflatedDepth)}},
+                          .textures = {shared::kFinalColorBackdrop, shared::kFinalColorTear},
+                          .tiles = frame.get(kTiles),
+                          .outputs = {frame.image(name(), {.format = kHalves})},
+                          // Of a pixel: the inflated surface and depths around it, the warp; of each place:
+                          // depths and colours around it.
+                          .fetches = 8 + (samples_ > 1 ? 9 : 1) + 17 + 4 * 8,
+                          .uniformBytes = sizeof(shared::FinalColorUniforms),
+                          .maxJobs = 2})[0];
+  }
+
+  void updateTaken(const FrameInput& input) {
     const FinalColorParams params = input.knobs.scene<FinalColorParams>();
     shared::FinalColorUniforms uniforms{};
     uniforms.bloom = params.bloom * glm::vec3(params.bloomTint);
@@ -88,10 +168,9 @@ class FinalColor : public Pass {
       uniforms.backdrop.tearShift = patternShift(input.seed);
       picture = input.backdrop->image;
     }
-    const uint32_t ripple = variant_ & kLayered                     ? shared::kRippleLayered
-                            : params.ripple == shared::kRipplePaper ? shared::kRipplePaper
-                                                                    : shared::kRippleDepthAware;
+    const uint32_t ripple = uint32_t(params.ripple);
     const uint32_t glows = variant_ & kBlooms ? shared::kFinalColorGlows : 0;
+    const uint32_t torn = shared::kFinalColorTorn | (samples_ > 1 ? shared::kFinalColorMixes : 0);
     const std::vector<ImageStep::Texture> textures{
         {shared::kFinalColorBackdrop, picture, kPictureSampler},
         {shared::kFinalColorTear, &example.image, ExampleTextures::kSampler}};
@@ -99,23 +178,21 @@ class FinalColor : public Pass {
     std::vector<ImageStep::Job> jobs{{{glows, ripple, backdrop}, textures}};
     if (variant_ & kTears) {
       jobs[0].where = {shared::kTileTorn, 0};
-      jobs.push_back({{glows | shared::kFinalColorTorn, ripple, backdrop},
-                      textures,
-                      {shared::kTileTorn, shared::kTileTorn}});
+      jobs.push_back({{glows | torn, ripple, backdrop}, textures, {shared::kTileTorn, shared::kTileTorn}});
     }
     step_.setJobs(jobs);
     step_.update(uniforms);
     step_.update(uniforms, 1);
   }
 
- private:
-  enum Variant : uint32_t { kTears = 1, kLayered = 2, kBlooms = 4 };
+  static constexpr uint32_t kTears = 1, kLayered = 2, kBlooms = 4;  // variants
   static constexpr gpu::SamplerDesc kPictureSampler{VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                                     VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, true};
 
   static constexpr Aov kAovs[] = {{.name = "final-color", .isColor = true, .premultiplied = 3}};
 
-  uint32_t variant_ = 0;
+  uint32_t variant_ = 0, samples_ = 1;
+  bool isSampled_ = false, isGraded_ = false;
   ImageStep step_;
   ExampleTextures* examples_ = nullptr;
 };

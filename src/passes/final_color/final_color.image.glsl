@@ -8,7 +8,7 @@
 #include "../../shading/luminance.shared.h"
 #include "final_color.shared.h"
 
-layout(constant_id = 0) const int kOptions = 3;   // kFinalColorGlows, kFinalColorTorn
+layout(constant_id = 0) const int kOptions = 3;   // kFinalColorGlows, kFinalColorTorn, kFinalColorMixes
 layout(constant_id = 1) const int kRipple = 0;    // of displacement.shared.h; layered: there is what lies behind
 layout(constant_id = 2) const int kBackdrop = 0;  // kBackdropIsThere ...; 0: there is no picture behind everything
 const bool kLayered = kRipple == kRippleLayered;
@@ -44,7 +44,7 @@ vec4 shade(ivec2 pixel, int layer) {
     result = texelFetch(color, ivec3(pixel, layer), 0);
     if (kBackdrop != 0) result = withBackdrop(result, false, pixel, own, layer);
   } else {
-    Places places = displaced(u.displacement, kRipple, warp, inflated, depth, behindDepth, pixel, layer);
+    Places places = displaced(u.displacement, kRipple, (kOptions & kFinalColorMixes) != 0, warp, inflated, depth, behindDepth, pixel, layer);
     for (int i = 0; i < kPlaces; ++i) {
       vec4 there = textureLod(color, vec3(places.at[i] / frame.imageSize, layer), 0.0);
       bool isBehind = kLayered && places.isBehind[i];

@@ -9,6 +9,8 @@
 #include "passes/final_shadow/final_shadow_knobs.h"
 #include "shaders/final_shadow_image_comp.h"
 #include "shaders/final_shadow_image_frag.h"
+#include "shaders/final_shadow_samples_image_comp.h"
+#include "shaders/final_shadow_samples_image_frag.h"
 
 namespace scumble::passes {
 
@@ -51,31 +53,40 @@ class FinalShadow : public Pass {
   std::span<const Aov> aovs() const override { return kAovs; }
 
   uint32_t variant(const scene::SceneData&, const look::LookData& look) const override {
-    const FinalShadowParams params = look.get<FinalShadowParams>();
-    return (params.indication > 0 || params.dither > 0 ? kMarks : 0) |
+    return (shadesByMarks(look.get<FinalShadowParams>()) ? kMarks : 0) |
            (look.get<BlurParams>().radius > 0 ? kBlurs : 0);
   }
 
   void declare(FrameBuilder& frame, uint32_t variant) override {
     variant_ = variant;
     // Anything stands for what is not looked at.
-    const auto only = [&](Variant part, const Role& role) {
+    const auto only = [&](uint32_t part, const Role& role) {
       return frame.get(variant & part ? role : kShadow);
     };
-    const gpu::Handle light = step_.declare(
-        frame, {.name = name(),
-                .shader = {{shaders::final_shadow_image_frag}, {shaders::final_shadow_image_comp}},
-                .inputs = {{shared::kFinalShadowBlurred, only(kBlurs, kBlur)},
-                           {shared::kFinalShadowShadow, frame.get(kShadow)},
-                           {shared::kFinalShadowDepth, frame.get(kDepth)},
-                           {shared::kFinalShadowWarp, only(kMarks, kWarp)}},
-                .tiles = frame.get(kTiles),
-                .outputs = {frame.image(name(), {.format = kBytes})},
-                .uniformBytes = sizeof(shared::FinalShadowUniforms),
-                .maxJobs = 2})[0];
+    ImageStepDesc desc{.name = name(),
+                       .shader = {{shaders::final_shadow_image_frag}, {shaders::final_shadow_image_comp}},
+                       .inputs = {{shared::kFinalShadowBlurred, only(kBlurs, kBlur)},
+                                  {shared::kFinalShadowShadow, frame.get(kShadow)},
+                                  {shared::kFinalShadowDepth, frame.get(kDepth)},
+                                  {shared::kFinalShadowWarp, only(kMarks, kWarp)}},
+                       .tiles = frame.get(kTiles),
+                       .outputs = {frame.image(name(), {.format = kBytes})},
+                       .fetches = 3 + 4,
+                       .uniformBytes = sizeof(shared::FinalShadowUniforms),
+                       .maxJobs = 3};
+    hasSamples_ = frame.configuration().samples > 1;
+    if (hasSamples_) {
+      desc.shader = {{shaders::final_shadow_samples_image_frag}, {shaders::final_shadow_samples_image_comp}};
+      desc.inputs.push_back({shared::kFinalShadowSamples, frame.get(kShadowSamples)});
+      desc.inputs.push_back({shared::kFinalShadowDepthSamples, frame.get(kDepthSamples)});
+      desc.outputs.push_back(frame.image("sample light", {.format = kBytes}));
+      desc.fetches += 4 + 4;
+    }
+    const std::vector<gpu::Handle> light = step_.declare(frame, std::move(desc));
     isAsked_ = frame.isAsked(kAovs[0]);
-    frame.give(kLight, light);
-    frame.offer(kAovs[0], {light});
+    frame.give(kLight, light[0]);
+    if (hasSamples_) frame.give(kSampleLight, light[1]);
+    frame.offer(kAovs[0], {light[0]});
   }
   void create(FrameBuilder& frame) override { step_.create(frame); }
   void bind(const gpu::GraphResources& resources) override { step_.bind(resources); }
@@ -101,25 +112,29 @@ class FinalShadow : public Pass {
                            (uniforms.blurAmount < 1 ? kLightSharp : 0) |
                            (variant_ & kMarks ? kLightMarks : 0);
     const uint32_t indications = uint32_t(params.indicationSteps);
-    std::vector<ImageStep::Job> jobs{{{indications, 1, light}, {}}};
+    std::vector<ImageStep::Job> jobs;
+    uint32_t shaded = 0;
     if (isPlainApartFromEdges(params)) {
       // Plain tiles are read by nobody, unless there is a picture behind everything to lie in the shadow.
       const uint32_t read = input.backdrop || isAsked_ ? 0 : kTilePlain;
-      jobs = {{{indications, 1, light}, {}, {kTileShaded, kTileShaded}},
-              {{indications, 0, light}, {}, {kTileShaded | read, 0}}};
+      jobs = {{{indications, 0, light}, {}, {kTileShaded | read, 0}}};
+      shaded = kTileShaded;
     }
+    const uint32_t mixed = hasSamples_ ? kTileMixed : 0;
+    jobs.push_back({{indications, 1, light}, {}, {shaded | mixed, shaded}});
+    if (hasSamples_)
+      jobs.push_back({{indications, 1, light | kLightSeveral}, {}, {shaded | mixed, shaded | mixed}});
     step_.setJobs(jobs);
-    step_.update(uniforms);
-    step_.update(uniforms, 1);
+    for (size_t job = 0; job < jobs.size(); ++job) step_.update(uniforms, job);
   }
 
  private:
-  enum Variant : uint32_t { kMarks = 1, kBlurs = 2 };
+  static constexpr uint32_t kMarks = 1, kBlurs = 2;  // variants
   static constexpr Aov kAovs[] = {{.name = "final-shadow"}};
 
   ImageStep step_;
   uint32_t variant_ = 0;
-  bool isAsked_ = false;
+  bool isAsked_ = false, hasSamples_ = false;
 };
 
 }  // namespace

@@ -15,10 +15,12 @@ struct FinalShadowParams {
 #endif
 
 // Bindings of set 1.
-const int kFinalShadowBlurred = 1, kFinalShadowShadow = 2, kFinalShadowDepth = 3, kFinalShadowWarp = 4;
+const int kFinalShadowBlurred = 1, kFinalShadowShadow = 2, kFinalShadowDepth = 3, kFinalShadowWarp = 4,
+          kFinalShadowSamples = 5, kFinalShadowDepthSamples = 6;
 
 // Specialisation constant 2: what the light is made of.
 const int kLightBlurred = 1, kLightSharp = 2, kLightMarks = 4;
+const int kLightSeveral = 8;  // samples of a pixel may differ
 
 struct FinalShadowUniforms {
   FinalShadowParams knobs;

@@ -25,6 +25,11 @@ float glowReach(float width, float begin);
 // `final_shadow` stores it.
 float deepGlow(const FinalShadowParams& params);
 
+// Whether breakup marks count.
+inline bool shadesByMarks(const FinalShadowParams& params) {
+  return params.indication > 0 || params.dither > 0;
+}
+
 // Whether light and shadow are themselves wherever no edge of theirs is near. A dither reaches everywhere.
 inline bool isPlainApartFromEdges(const FinalShadowParams& params) {
   return params.dither <= 0;

@@ -257,30 +257,31 @@ TEST_P(FinalShadowTest, bandsAreFlatAndAsLargeAsTheirSharesOfTheLight) {
 TEST_P(FinalShadowTest, theGlowStaysInsideTheDark) {
   const Scene scene = stillLife().load();
   const auto views = viewsFrom(scene, {{2, 2.5f, 6}, {0, 0.8f, 0}}, kWidth, kHeight, GetParam());
-  for (const int count : {1, 3})
-    for (const double width : {0.05, 0.5, 1.0}) {
-      Knobs k;
-      k.bands = count, k.innerGlow = 0, k.glowWidth = width, k.indication = 0;
-      const Frame without = draw(scene, lookOf(k), views, sized(kWidth, kHeight, {"final-shadow"}, 4));
-      k.innerGlow = 1;
-      const Frame with = draw(scene, lookOf(k), views, sized(kWidth, kHeight, {"final-shadow"}, 4));
-      for (size_t v = 0; v < viewCount(); ++v) {
-        size_t glowing = 0;
-        for (int y = 0; y < kHeight; ++y)
-          for (int x = 0; x < kWidth; ++x) {
-            const glm::dvec4 before = texel(aov(without, "final-shadow", v), x, y);
-            const glm::dvec4 after = texel(aov(with, "final-shadow", v), x, y);
-            EXPECT_GE(after.x, before.x);
-            // At the middle of the darkest edge the light is half a step.
-            if (before.x > 0.51 / count) {
-              EXPECT_EQ(after.x, before.x) << x << ", " << y;
-              EXPECT_EQ(after.z, 0) << x << ", " << y;
-            }
-            glowing += after.z > 0.9;
+  for (const auto& [count, width, samples] :
+       {std::tuple(1, 0.05, 1u), {1, 0.5, 1u}, {1, 1.0, 4u}, {3, 0.05, 4u}, {3, 0.5, 1u}, {3, 1.0, 1u}}) {
+    Knobs k;
+    k.bands = count, k.innerGlow = 0, k.glowWidth = width, k.indication = 0;
+    const Frame without = draw(scene, lookOf(k), views, sized(kWidth, kHeight, {"final-shadow"}, samples));
+    k.innerGlow = 1;
+    const Frame with = draw(scene, lookOf(k), views, sized(kWidth, kHeight, {"final-shadow"}, samples));
+    for (size_t v = 0; v < viewCount(); ++v) {
+      size_t glowing = 0;
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+          const glm::dvec4 before = texel(aov(without, "final-shadow", v), x, y);
+          const glm::dvec4 after = texel(aov(with, "final-shadow", v), x, y);
+          EXPECT_GE(after.x, before.x);
+          // At the middle of the darkest edge the light is half a step. Of several samples some may lie in
+          // the dark.
+          if (before.x > (samples > 1 ? 0.999 : 0.51 / count)) {
+            EXPECT_EQ(after.x, before.x) << x << ", " << y;
+            EXPECT_EQ(after.z, 0) << x << ", " << y;
           }
-        EXPECT_GT(glowing, 20u) << "width " << width << ", " << count << " steps";
-      }
+          glowing += after.z > 0.9;
+        }
+      EXPECT_GT(glowing, 20u) << "width " << width << ", " << count << " steps";
     }
+  }
 }
 
 // Each of several edges is hard and as wide as asked for, and light only grows towards the light.

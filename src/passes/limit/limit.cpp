@@ -32,6 +32,10 @@ std::vector<glm::vec3> paletteColors(const LimitParams& params) {
   return colors;
 }
 
+bool limitsByMarks(const LimitParams& params) {
+  return std::max(params.dither, params.skyDither) > 0 && !paletteColors(params).empty();
+}
+
 namespace {
 
 class Limit : public Pass {
@@ -41,8 +45,7 @@ class Limit : public Pass {
   std::span<const Aov> aovs() const override { return kAovs; }
   uint32_t variant(const scene::SceneData&, const look::LookData& look) const override {
     const LimitParams params = look.get<LimitParams>();
-    if (paletteColors(params).empty()) return 0;
-    return std::max(params.dither, params.skyDither) > 0 ? 2 : 1;
+    return paletteColors(params).empty() ? 0 : limitsByMarks(params) ? 2 : 1;
   }
 
   // 1: colours are limited; 2: by marks as well.
@@ -58,6 +61,7 @@ class Limit : public Pass {
                                             {shared::kLimitDepth, frame.get(kDepth)}},
                                  .textures = {shared::kLimitStrokes},
                                  .outputs = {frame.image(of + "limited", {.format = kHalves})},
+                                 .fetches = 7 + 3 + 1 + 4,  // colours, warp, depth, strokes
                                  .uniformBytes = sizeof(shared::LimitUniforms)})[0];
       // What lies behind is not seen as it is, and needs no mending.
       if (layer_ == Layer::first)
@@ -65,7 +69,8 @@ class Limit : public Pass {
             frame, {.name = name(),
                     .shader = {{shaders::limit_mend_image_frag}, {shaders::limit_mend_image_comp}},
                     .inputs = {{shared::kMendColor, picture}, {shared::kMendLimited, limited}},
-                    .outputs = {frame.image(name(), {.format = kHalves})}})[0];
+                    .outputs = {frame.image(name(), {.format = kHalves})},
+                    .fetches = 8})[0];
       else
         picture = limited;
     }

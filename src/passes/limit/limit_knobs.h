@@ -19,6 +19,9 @@ enum LimitPalette : int { kLimitOff, kLimitLook, kFirstBuiltIn };
 // The colours that a look limits the picture to, linear; empty: it does not.
 std::vector<glm::vec3> paletteColors(const LimitParams& params);
 
+// Whether marks decide between two of them.
+bool limitsByMarks(const LimitParams& params);
+
 // The palettes that are built in, from kFirstBuiltIn on: sRGB, 0xRRGGBB.
 std::span<const uint32_t> builtInPalette(int palette);
 

@@ -9,6 +9,8 @@
 #include "passes/warp/warp_knobs.h"
 #include "shaders/matte_image_comp.h"
 #include "shaders/matte_image_frag.h"
+#include "shaders/matte_sampled_image_comp.h"
+#include "shaders/matte_sampled_image_frag.h"
 #include "shaders/matte_samples_image_comp.h"
 #include "shaders/matte_samples_image_frag.h"
 #include "shaders/matte_surface_frag.h"
@@ -39,9 +41,8 @@ class Matte : public Pass {
 
   // 1: something may be torn; 2: and shows what lies behind.
   void declare(FrameBuilder& frame, uint32_t variant) override {
-    const bool isLayered = variant == 2;
     configuration_ = frame.configuration();
-    isLayered_ = isLayered;
+    isLayered_ = variant == 2;
     firstDepth_ = frame.get(kDepth);
     declareLayer(frame, first_, configuration_.samples, "matte");
     if (isLayered_) declareLayer(frame, behind_, 1, "matte behind");
@@ -49,21 +50,26 @@ class Matte : public Pass {
     const ImageShader one{{shaders::matte_image_frag}, {shaders::matte_image_comp}},
         four{{shaders::matte_samples_image_frag}, {shaders::matte_samples_image_comp}};
     // Without layers the shader looks at none of what lies behind.
-    const std::vector<gpu::Handle> ranks = image_.declare(
-        frame,
-        {.name = name(),
-         .shader = configuration_.samples > 1 ? four : one,
-         .inputs = {{shared::kMatteObjects, first_.objects},
-                    {shared::kMatteWarp, frame.get(variant ? kWarp : kLit), true},
-                    {shared::kMatteDepth, firstDepth_},
-                    {shared::kMatteInflated, variant ? frame.get(kInflatedDepth) : firstDepth_},
-                    {shared::kMatteTiles, frame.get(kTiles)},
-                    {shared::kMatteBehind, isLayered_ ? behind_.objects : firstDepth_},
-                    {shared::kMatteBehindDepth, isLayered_ ? frame.get(kDepth, Layer::behind) : firstDepth_}},
-         .outputs = {frame.image("cryptomatte", {.format = kFloats}),
-                     frame.image("cryptomatte rest", {.format = kFloats})},
-         .uniformBytes = sizeof(shared::MatteUniforms)});
-    frame.offer(kAovs[0], ranks);
+    ImageStepDesc desc{
+        .name = name(),
+        .shader = configuration_.samples > 1 ? four : one,
+        .inputs = {{shared::kMatteObjects, first_.objects},
+                   {shared::kMatteWarp, frame.get(variant ? kWarp : kLit), true},
+                   {shared::kMatteDepth, firstDepth_},
+                   {shared::kMatteInflated, variant ? frame.get(kInflatedDepth) : firstDepth_},
+                   {shared::kMatteTiles, frame.get(kTiles)},
+                   {shared::kMatteBehind, isLayered_ ? behind_.objects : firstDepth_},
+                   {shared::kMatteBehindDepth, isLayered_ ? frame.get(kDepth, Layer::behind) : firstDepth_}},
+        .outputs = {frame.image("cryptomatte", {.format = kFloats}),
+                    frame.image("cryptomatte rest", {.format = kFloats})},
+        .fetches = 1 + 8 + 9 + 17 + 4 * (configuration_.samples > 1 ? 20u : 8u),
+        .uniformBytes = sizeof(shared::MatteUniforms)};
+    if (frame.has(kSampledPicture)) {
+      desc.shader = {{shaders::matte_sampled_image_frag}, {shaders::matte_sampled_image_comp}};
+      desc.fetches = 1 + 8 + 8 + 17 + 4 * 3;
+      desc.inputs.push_back({shared::kMatteDepthSamples, frame.get(kDepthSamples)});
+    }
+    frame.offer(kAovs[0], image_.declare(frame, std::move(desc)));
   }
 
   void create(FrameBuilder& frame) override {
@@ -91,11 +97,7 @@ class Matte : public Pass {
     if (isLayered_) behind_.step.refresh();
     for (size_t m = 0; m < input.scene.materialCount(); ++m)
       materials_.write(m, {mipBias(input.knobs.of<SurfaceParams>(m).simplify, input.uniforms.pixelScale)});
-    const bool isPaper = input.knobs.scene<FinalColorParams>().ripple == shared::kRipplePaper;
-    image_.setJobs({{{uint32_t(isLayered_ ? shared::kRippleLayered
-                               : isPaper  ? shared::kRipplePaper
-                                          : shared::kRippleDepthAware)},
-                     {}}});
+    image_.setJobs({{{uint32_t(input.knobs.scene<FinalColorParams>().ripple)}, {}}});
     image_.update(shared::MatteUniforms{{input.inflation}});
   }
 

@@ -1,9 +1,13 @@
 #version 460
-// Which objects make up a pixel of the picture, and how much of it each: the samples at the place that its colour comes
-// from, weighted as the filter there weights colours.
+// Which objects make up a pixel of the picture, and how much of it each: the samples at the places that its colour comes
+// from, weighted as the filter there weights colours; or (SAMPLED) those samples that it is the mean of.
 #extension GL_GOOGLE_include_directive : require
 #define OUTPUT_FORMAT rgba32f
 #define SHADES_TWO
+#ifdef SAMPLED
+#define MULTISAMPLED
+#endif
+#include "../../shading/byte_bits.glsl"
 #include "../../shading/displacement.glsl"
 #include "../../shading/frame.glsl"
 #include "../../shading/tiles.shared.h"
@@ -11,12 +15,18 @@
 
 layout(constant_id = 0) const int kRipple = 0;  // of displacement.shared.h; layered: there are objects behind
 layout(set = 1, binding = 0, scalar) uniform Block { MatteUniforms u; };
-#ifdef MULTISAMPLED
+#ifdef SAMPLED
+layout(set = 1, binding = kMatteObjects) uniform sampler2DMSArray objects4;  // the frame's four samples
+layout(set = 1, binding = kMatteDepthSamples) uniform sampler2DMSArray depthSamples;
+const int kGroups = 1;  // of four places
+#elif defined(MULTISAMPLED)
 layout(set = 1, binding = kMatteObjects) uniform sampler2DMSArray objects4;  // the frame's four samples
 const int kGroups = 4 * kPlaces;  // of four samples
+const bool kMixes = true;
 #else
 layout(set = 1, binding = kMatteObjects) uniform sampler2DArray objects1;
 const int kGroups = kPlaces;  // of four texels
+const bool kMixes = false;
 #endif
 layout(set = 1, binding = kMatteWarp) uniform sampler2DArray warp;
 layout(set = 1, binding = kMatteInflated) uniform sampler2DArray inflated;
@@ -28,12 +38,22 @@ layout(set = 1, binding = kMatteBehindDepth) uniform sampler2DArray behindDepth;
 const float kNone = 1e30;  // after all objects' numbers
 
 void shadeTwo(ivec2 pixel, int layer, out vec4 first, out vec4 second) {
-  uint flags = uint(texelFetch(tiles, ivec3(pixel / kTileSize, layer), 0).r * 255.0 + 0.5);
+  uint flags = bitsOf(texelFetch(tiles, ivec3(pixel / kTileSize, layer), 0).r);
+  vec4 numbers[kGroups], weights[kGroups];
+#ifdef SAMPLED
+  Places places = ownSamples(pixel);
+  if ((flags & kTileTorn) != 0u)
+    places = displacedSamples(u.displacement, kRipple, warp, inflated, depth, depthSamples, behindDepth, pixel, layer);
+  weights[0] = vec4(1.0 / float(kPlaces));
+  for (int i = 0; i < kPlaces; ++i) {
+    numbers[0][i] = texelFetch(objects4, ivec3(places.at[i], layer), sampleAt(places.at[i])).r;
+    if (kRipple == kRippleLayered && places.isBehind[i]) numbers[0][i] = texelFetch(behind, ivec3(pixel, layer), 0).r;
+  }
+#else
   Places places = undisplaced(pixel);
   if ((flags & kTileTorn) != 0u)
-    places = displaced(u.displacement, kRipple, warp, inflated, depth, behindDepth, pixel, layer);
+    places = displaced(u.displacement, kRipple, kMixes, warp, inflated, depth, behindDepth, pixel, layer);
   ivec2 last = ivec2(frame.imageSize) - 1;
-  vec4 numbers[kGroups], weights[kGroups];
   for (int i = 0; i < kPlaces; ++i) {
     // Weights in steps of 1/256, as Vulkan asks of filters: all sums are exact then, in whatever order, and what is
     // covered wholly is so by exactly 1.
@@ -63,6 +83,7 @@ void shadeTwo(ivec2 pixel, int layer, out vec4 first, out vec4 second) {
     if (isBehind) numbers[i] = hidden;
 #endif
   }
+#endif
   for (int g = 0; g < kGroups; ++g) {
     bvec4 counts = greaterThan(numbers[g] * weights[g], vec4(0.0));
     numbers[g] = mix(vec4(kNone), numbers[g], counts);

@@ -8,6 +8,7 @@
 #include "tests/support/displaced.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
+#include "tests/support/sanitized.h"
 
 namespace scumble::passes {
 namespace {
@@ -112,6 +113,7 @@ TEST_P(MatteTest, coverageIsThatOfTheFramesSamples) {
 // Bars thinner than a pixel, torn: the four greatest of all objects whose samples a pixel's colour comes
 // from.
 TEST_P(MatteTest, ranksOfInterpolatedSamples) {
+  NOT_WITH_SANITIZERS();
   TestScene s;
   const int material = s.material(TestScene::unlit("Bar", {0.5f, 0.5f, 0.5f, 1}));
   for (int i = -50; i < 50; ++i)
@@ -120,7 +122,7 @@ TEST_P(MatteTest, ranksOfInterpolatedSamples) {
   const Scene scene = s.load();
   const auto views = viewsFrom(scene, {{0, 0, 5}, {0, 0, 0}}, kWidth, kHeight, GetParam());
   for (const uint32_t samples : {1u, 4u}) {
-    // What is not torn lists all of its samples.
+    // What is not torn lists all that a pixel has.
     const Frame still = draw(scene, quietLook({{"warp.amount", "0"}, {"final.ripple", "paper"}}), views,
                              sized(kWidth, kHeight, {"cryptomatte"}, samples));
     const Frame torn = draw(scene, quietLook({{"warp.amount", "30"}, {"final.ripple", "paper"}}), views,
@@ -130,6 +132,19 @@ TEST_P(MatteTest, ranksOfInterpolatedSamples) {
       for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
           Coverages expected;
+          if (samples == 4) {
+            // Single samples, which rays find.
+            for (const glm::dvec2& place : displacedSamples(aov(torn, "warp", v), x, y)) {
+              const glm::ivec2 at(4.0 * place);
+              if (const auto hit =
+                      castRay(pixelRay(views[v], at.x, at.y, 4 * kWidth, 4 * kHeight), s.triangles()))
+                expected[hit->id] += 0.25;
+            }
+            const Coverages got = listed(aov(torn, "cryptomatte", v), x, y);
+            wrong += difference(got, expected) > 0;
+            many += got.size() > 2;
+            continue;
+          }
           for (const glm::dvec2& place : displacedPlaces(aov(torn, "warp", v), x, y)) {
             const glm::dvec2 low = glm::floor(place - 0.5), f = place - 0.5 - low;
             for (int i = 0; i < 4; ++i) {
@@ -153,7 +168,8 @@ TEST_P(MatteTest, ranksOfInterpolatedSamples) {
           for (uint32_t rank = 0; rank < 4; ++rank)
             wrong += std::abs(matte.at(uint32_t(x), uint32_t(y), 2 * rank + 1) - greatest[rank]) > kTolerance;
         }
-      EXPECT_EQ(wrong, 0u) << samples << " samples";
+      // Rays and samples right at an edge may be on either side of it.
+      EXPECT_LE(wrong, samples == 1 ? 0u : size_t(kWidth * kHeight / 100)) << samples << " samples";
       EXPECT_GE(many, samples == 1 ? 0u : 500u);
     }
   }

@@ -1,6 +1,9 @@
 #include "passes/shadow_map/shadow_map.h"
 
+#include <optional>
+
 #include "frame/geometry_step.h"
+#include "passes/cull/cull_knobs.h"
 #include "shaders/shadow_map_frag.h"
 #include "shaders/shadow_map_opaque_vert.h"
 #include "shaders/shadow_map_vert.h"
@@ -19,9 +22,9 @@ class ShadowMap : public Pass {
 
   void declare(FrameBuilder& frame, uint32_t) override {
     frame.step("shadow-map", [this](VkCommandBuffer commands) { record(commands); });
-    frame.use(frame.get(kVertices), gpu::Use::vertexBuffer);
+    GeometryStep::use(frame);
     map_ = frame.use(
-        frame.image(
+        frame.keptImage(
             "shadow-map",
             {.format = kDepthFormat, .width = kShadowMapSize, .height = kShadowMapSize, .perView = false}),
         gpu::Use::depthTarget);
@@ -39,11 +42,40 @@ class ShadowMap : public Pass {
     desc.what = GeometryStepDesc::What::casters;
     step_.create(frame, desc);
   }
-  void bind(const gpu::GraphResources& resources) override { resources_ = &resources; }
-  void update(const FrameInput&) override { step_.refresh(); }
+  void bind(const gpu::GraphResources& resources) override {
+    resources_ = &resources;
+    drawn_.reset();
+  }
+  void update(const FrameInput& input) override {
+    step_.refresh();
+    const shared::FrameUniforms& u = input.uniforms;
+    wanted_ = {input.scene.castersVersion(),
+               input.knobs.scene<LevelsParams>().error,
+               u.worldToLight,
+               u.shadowCenter,
+               u.shadowScale,
+               u.shadowEven,
+               u.shadowShift,
+               u.shadowWarp};
+  }
 
  private:
-  void record(VkCommandBuffer commands) const {
+  // All that the map is made from.
+  struct Content {
+    uint64_t casters;
+    float levels;
+    glm::mat4 worldToLight;
+    glm::vec2 center, scale;
+    float even;
+    glm::vec2 shift;
+    float warp;
+    bool operator==(const Content&) const = default;
+  };
+
+  // What the last frame has left there may be the same.
+  void record(VkCommandBuffer commands) {
+    if (drawn_ == wanted_) return;
+    drawn_ = wanted_;
     gpu::Target depth{&resources_->image(map_), nullptr, {}};
     depth.clear.depthStencil = {1.0f, 0};
     gpu::drawOnce(commands, depth, [&] { step_.draw(commands, nullptr, 0); });
@@ -52,6 +84,8 @@ class ShadowMap : public Pass {
   static constexpr Aov kAovs[] = {
       {.name = "shadow-map", .channels = {"R"}, .needsFloat = true, .isOnce = true}};
 
+  std::optional<Content> drawn_;
+  Content wanted_{};
   gpu::Handle map_;
   const gpu::GraphResources* resources_ = nullptr;
   GeometryStep step_;

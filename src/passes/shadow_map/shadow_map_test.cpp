@@ -249,5 +249,25 @@ TEST_P(ShadowMapTest, whatLiesBeyondAllCastersIsLitBesideTheirShadows) {
       }
 }
 
+// A plane of 600 metres does not take the map from the box that stands on it. (SwiftShader interpolates over
+// larger triangles by more than a texel off.)
+TEST_P(ShadowMapTest, largeGroundsLeaveTheMapToWhatStandsOnThem) {
+  TestScene test;
+  test.add(gridMesh({-300, 0, 300}, {600, 0, 0}, {0, 0, -600}),
+           test.material(TestScene::colored("Sand", {0.6f, 0.5f, 0.3f, 1})));
+  test.add(boxMesh({-0.5f, 1, -0.5f}, {0.5f, 1.4f, 0.5f}),
+           test.material(TestScene::colored("Stone", {0.6f, 0.6f, 0.6f, 1})));
+  test.light({0.001f, 1, 0});
+  const Scene scene = test.load();
+  const auto views = viewsFrom(scene, {{0, 1.5f, 5}, {0, 0, 0}}, 96, 72, GetParam());
+  const Frame frame = draw(scene, quietLook({}), views, sized(96, 72, {"shadow", "id"}));
+  for (size_t v = 0; v < viewCount(); ++v)
+    for (const double x : {-1.0, -0.6, -0.4, 0.0, 0.4, 0.6, 1.0}) {
+      const glm::ivec2 at(pixelOf(views[v], {x, 0, 0.4}, 96, 72));
+      ASSERT_EQ(texel(aov(frame, "id", v), at.x, at.y).x, 1);
+      EXPECT_NEAR(texel(aov(frame, "shadow", v), at.x, at.y).x, std::abs(x) > 0.5 ? 1 : 0, 0.01) << x;
+    }
+}
+
 }  // namespace
 }  // namespace scumble::passes

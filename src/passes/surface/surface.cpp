@@ -43,6 +43,7 @@ class Surface : public Pass {
     samples_ = isBehind_ ? 1 : configuration_.samples;
     frame.step(name(), [this](VkCommandBuffer commands) { record(commands); });
     GeometryStep::use(frame);
+    frame.use(frame.get(kSunken), gpu::Use::storageBufferReadByVertex);
     shadowMap_ = frame.use(frame.get(kShadowMap), gpu::Use::sampledByFragment);
     for (size_t i = 0; i < prepainted_.size(); ++i) {
       const Role& role = i == 0 ? kPrepaintedLit : kPrepaintedShadowed;
@@ -60,6 +61,11 @@ class Surface : public Pass {
     frame.give(kLit, colors_[1].image(), layer_);
     frame.give(kShadowed, colors_[2].image(), layer_);
     frame.give(kDepth, depth_.image(), layer_);
+    if (samples_ > 1) {
+      const Role* const samples[] = {&kShadowSamples, &kLitSamples, &kShadowedSamples};
+      for (size_t i = 0; i < colors_.size(); ++i) frame.give(*samples[i], colors_[i].samples());
+      frame.give(kDepthSamples, depth_.samples());
+    }
     // It is thresholded as it is.
     if (isBehind_) frame.give(kLight, colors_[0].image(), layer_);
     for (size_t i = 0; i < colors_.size() && !isBehind_; ++i) frame.offer(kAovs[i], {colors_[i].image()});
@@ -81,7 +87,8 @@ class Surface : public Pass {
                               {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
                               {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
                               {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
-                              {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT}});
+                              {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
+                              {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT}});
     // One set for each material, since each may have a texture of its own.
     const size_t materials = frame.scene().materialCount();
     sets_ = gpu::DescriptorSets(frame.device(), layout_, uint32_t(materials));
@@ -120,6 +127,7 @@ class Surface : public Pass {
     // colours.
     const auto orAny = [&](gpu::Handle image) { return resources.image(image ? image : shadowMap_).view(); };
     for (size_t m = 0; m < sets_.size(); ++m) {
+      sets_.writeBuffer(m, shared::kSurfaceSunken, frame_->scene().draws().sunken());
       sets_.rewriteTexture(m, shared::kSurfaceShadowMap, resources.image(shadowMap_).view(),
                            frame_->samplers().get(compare));
       sets_.rewriteTexture(m, shared::kSurfaceFirstDepth, orAny(firstDepth_), exact);
@@ -215,7 +223,9 @@ class Surface : public Pass {
   void record(VkCommandBuffer commands) const {
     std::array<gpu::Target, std::size(kAovs)> colors;
     for (size_t i = 0; i < colors.size(); ++i) colors[i] = colors_[i].target(*resources_);
-    const gpu::Target depth = depth_.target(*resources_);
+    gpu::Target depth = depth_.target(*resources_);
+    for (gpu::Target& color : colors) color.keepsSamples = true;
+    depth.keepsSamples = true;
     gpu::drawViews(commands, configuration_.views(), colors, &depth, [&](uint32_t firstView) {
       step_.draw(commands, &sets_, firstView);
       if (hasBlended_) blended_.draw(commands, &blendedSets_, firstView);

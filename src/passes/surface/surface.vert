@@ -9,6 +9,10 @@
 #include "../../shading/view_index.glsl"
 #include "surface.glsl"
 
+#ifndef TRANSPARENT
+layout(set = 2, binding = kSurfaceSunken, scalar) readonly buffer Sunken { float sunken[]; };  // metres, by object
+#endif
+
 layout(constant_id = kVariedId) const int kVaried = 0;    // colours vary: vertex colours or textures
 layout(constant_id = kTexturedId) const int kTextured = 0;
 layout(constant_id = kPassId) const int kOptions = 0;  // 2: there are point and spot lights
@@ -60,11 +64,16 @@ void main() {
   float lambert = dot(normal, frame.toLight);
 
   // Two and a half texels along the normal, on the side that the light can reach, keep a surface from shading itself
-  // wherever the map is coarse: one for what the sigmoid bends, the rest for the map's filter.
+  // wherever the map is coarse: one for what the sigmoid bends, the rest for the map's filter. What is drawn with fewer
+  // triangles than it casts shadows with may lie in its own.
   vec3 p = (frame.worldToLight * vec4(inPosition, 1.0)).xyz;
   vec2 texel = frame.shadowTexel * frame.lightToWorldScale.xy / lightSpaceMagnification(sigmoidArgument(p.xy));
   float coarse = max(texel.x, texel.y);
-  p += mat3(frame.worldToLight) * normal * (lambert < 0.0 ? -2.5 : 2.5) * coarse;
+  float lift = 2.5 * coarse;
+#ifndef TRANSPARENT
+  lift += sunken[index];
+#endif
+  p += mat3(frame.worldToLight) * normal * (lambert < 0.0 ? -lift : lift);
   outLightSpace = vec3(sigmoidArgument(p.xy), p.z - 0.5 * coarse / frame.lightToWorldScale.z);
 
   outFacing = vec2(lambert, normal.y);

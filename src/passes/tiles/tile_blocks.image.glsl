@@ -2,6 +2,7 @@
 // Blocks of tiles besides, so that what runs on all of one is drawn at once.
 // Out: R: a tile's flags; G, B: those that all tiles of its block have, and those that any has.
 #extension GL_GOOGLE_include_directive : require
+#include "../../shading/byte_bits.glsl"
 #include "../../shading/tiles.shared.h"
 #include "tile_steps.shared.h"
 
@@ -12,11 +13,11 @@ vec4 shade(ivec2 tile, int layer) {
   uint every = 255u, any = 0u;
   for (int i = 0; i < kTileBlock * kTileBlock; ++i) {
     ivec2 at = min(first + ivec2(i % kTileBlock, i / kTileBlock), last);
-    uint flags = uint(texelFetch(ownFlags, ivec3(at, layer), 0).r * 255.0 + 0.5);
+    uint flags = bitsOf(texelFetch(ownFlags, ivec3(at, layer), 0).r);
     every &= flags;
     any |= flags;
   }
-  return vec4(texelFetch(ownFlags, ivec3(tile, layer), 0).r, vec2(every, any) / 255.0, 0.0);
+  return vec4(texelFetch(ownFlags, ivec3(tile, layer), 0).r, channelOf(every), channelOf(any), 0.0);
 }
 
 #define OUTPUT_FORMAT rgba8

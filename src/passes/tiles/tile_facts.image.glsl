@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #define OUTPUT_FORMAT rgba8
 #define SHADES_TWO
+#include "../../shading/byte_bits.glsl"
 #include "../../shading/tiles.shared.h"
 #include "tile_steps.shared.h"
 
@@ -19,9 +20,9 @@ void shadeTwo(ivec2 tile, int layer, out vec4 least, out vec4 most) {
     vec4 row = texelFetch(mostOfRows, at, 0);
     least = min(least, texelFetch(leastOfRows, at, 0));
     most = max(most, row);
-    bits |= uint(row.a * 255.0 + 0.5);
+    bits |= bitsOf(row.a);
   }
-  most.a = float(bits) / 255.0;
+  most.a = channelOf(bits);
 }
 
 #include "../../shading/image_pass.glsl"

@@ -1,7 +1,7 @@
 #version 460
 // Flags of a tile, but for kTileMarked, from what lies in it and around it.
 #extension GL_GOOGLE_include_directive : require
-#extension GL_EXT_scalar_block_layout : require
+#include "../../shading/byte_bits.glsl"
 #include "../../shading/tiles.shared.h"
 #include "tile_steps.shared.h"
 
@@ -11,11 +11,8 @@ layout(constant_id = 0) const int kBlurReach = 0;  // 256 times as far as blurre
 layout(constant_id = 1) const int kTearReach = 0;  // as far as the warp moves colours, and surfaces are inflated
 layout(constant_id = 2) const int kWanted = 0;     // kWantsTears ...
 const int kShadedReach = kBlurReach / 256, kBlurredReach = kBlurReach % 256;
-layout(set = 1, binding = 0, scalar) uniform Block { TileColors u; };
 layout(set = 1, binding = kTileLeast) uniform sampler2DArray leastOfTiles;
 layout(set = 1, binding = kTileMost) uniform sampler2DArray mostOfTiles;
-
-uint found(float a) { return uint(a * 255.0 + 0.5); }
 
 vec4 shade(ivec2 tile, int layer) {
   ivec2 last = textureSize(mostOfTiles, 0).xy - 1;
@@ -24,13 +21,14 @@ vec4 shade(ivec2 tile, int layer) {
   vec3 least = vec3(1.0), most = vec3(0.0);
   // The blur moves edges of light as far as it reaches, and tears move them on.
   const int kMovedReach = kShadedReach + kTearReach, reach = max(kBlurredReach, kMovedReach);
-  const bool hasMarks = (uint(kWanted) & kWantsMarks) != 0u;
+  const bool hasMarks = (kWanted & kWantsMarks) != 0, hasTears = (kWanted & kWantsTears) != 0;
+  const bool tearsAll = (kWanted & kTearsAll) != 0, tearsEverywhere = (kWanted & kTearsEverywhere) != 0;
   for (int y = -reach; y <= reach; ++y)
     for (int x = -reach; x <= reach; ++x) {
       ivec3 at = ivec3(clamp(tile + ivec2(x, y), ivec2(0), last), layer);
       int away = max(abs(x), abs(y));
       vec4 there = texelFetch(mostOfTiles, at, 0);
-      uint bits = found(there.a);
+      uint bits = bitsOf(there.a);
       near |= away <= kShadedReach ? bits : 0u;
       far |= away <= kBlurredReach ? bits : 0u;
       around |= away <= kMovedReach ? bits : 0u;
@@ -40,22 +38,30 @@ vec4 shade(ivec2 tile, int layer) {
         most = max(most, there.rgb);
       }
     }
-  uint own = found(texelFetch(mostOfTiles, ivec3(tile, layer), 0).a);
+  vec4 ownMost = texelFetch(mostOfTiles, ivec3(tile, layer), 0);
+  uint own = bitsOf(ownMost.a);
   vec3 range = most - least;
-  bool isCovered = (own & kFoundCovered) != 0u, differs = max(range.r, max(range.g, range.b)) > u.least;
+  bool isCovered = (own & kFoundCovered) != 0u, differs = max(range.r, max(range.g, range.b)) > kSeenStep;
   bool isIndicated = hasMarks && (own & kFoundIndicated) != 0u;
   uint flags = 0u;
   if (isCovered) flags |= kTileCovered;
   bool isShaded = (near & kEdge) == kEdge || isIndicated;
   if (isCovered && isShaded) flags |= kTileShaded;
-  if (!isShaded && (own & (kFoundOpen | kFoundFar)) == 0u) flags |= kTilePlain;
+  // Colours were not compared where something else has told that there are edges.
+  vec3 ownRange = ownMost.rgb - texelFetch(leastOfTiles, ivec3(tile, layer), 0).rgb;
+  bool isMixed = (kWanted & kWantsMixed) != 0 && isCovered &&
+                 (max(ownRange.r, max(ownRange.g, ownRange.b)) > kSeenStep ||
+                  (own & (kFoundOpen | kFoundFar | kFoundIndicated)) != 0u || (own & kEdge) == kEdge);
+  if (isMixed) flags |= kTileMixed;
+  if (!isShaded && !isMixed && (own & (kFoundOpen | kFoundFar)) == 0u) flags |= kTilePlain;
   if ((own & kFoundNotDark) != 0u) flags |= kTileLit;
   if ((far & kEdge) == kEdge || (hasMarks && (far & kFoundIndicated) != 0u)) flags |= kTileBlurred;
-  bool isEdge = (uint(kWanted) & (kTearsAll | kTearsEverywhere)) != 0u || differs || (beside & (kFoundOpen | kFoundFar)) != 0u || (around & kEdge) == kEdge ||
-                (beside & kFoundIndicated) != 0u;
-  bool isNear = (uint(kWanted) & kTearsEverywhere) != 0u || (beside & kFoundCovered) != 0u;
-  if ((uint(kWanted) & kWantsTears) != 0u && isNear && isEdge) flags |= kTileTorn;
-  return vec4(float(flags) / 255.0, 0.0, 0.0, 0.0);
+  if (hasTears) {
+    bool isEdge = differs || (beside & (kFoundOpen | kFoundFar | kFoundIndicated)) != 0u || (around & kEdge) == kEdge;
+    bool isNear = (beside & kFoundCovered) != 0u;
+    if (tearsEverywhere || (isNear && (tearsAll || isEdge))) flags |= kTileTorn;
+  }
+  return vec4(channelOf(flags), 0.0, 0.0, 0.0);
 }
 
 #define OUTPUT_FORMAT rgba8

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 #define OUTPUT_FORMAT rgba8
 #define SHADES_TWO
+#include "../../shading/byte_bits.glsl"
 #include "../../shading/frame.glsl"
 #include "../../shading/tiles.shared.h"
 #include "tile_steps.shared.h"
@@ -46,7 +47,7 @@ void shadeTwo(ivec2 pixel, int layer, out vec4 least, out vec4 most) {
     least = min(least, color);
     most = max(most, color);
   }
-  most.a = float(bits) / 255.0;
+  most.a = channelOf(bits);
 }
 
 #include "../../shading/image_pass.glsl"

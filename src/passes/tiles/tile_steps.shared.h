@@ -14,14 +14,15 @@ const uint kFoundNotLit = 4u, kFoundNotDark = 8u, kFoundIndicated = 16u;
 const uint kFoundFar = 32u;  // in the air, which colours by distance
 
 // Bits of kWanted, a specialisation constant.
-const uint kWantsTears = 1u, kWantsMarks = 2u;  // there are any
-const uint kTearsAll = 4u;                      // wherever a surface is near
-const uint kTearsEverywhere = 8u;               // surfaces may be anywhere near
-const int kFarthestTile = 16;                   // that is looked at for tears
+const int kWantsTears = 1, kWantsMarks = 2;  // there are any
+const int kTearsAll = 4;                     // wherever a surface is near
+const int kTearsEverywhere = 8;              // surfaces may be anywhere near
+const int kWantsMixed = 16;                  // pixels have several samples
+const int kFarthestTile = 16;                // that is looked at for tears
 
-struct TileColors {
-  float least;  // difference of two colours' roots that counts
-};
+// Two colours whose roots differ by less look the same.
+const float kSeenStep = 2.5 / 255.0;
+
 struct TilePixels {
   float airStart;  // metres along the view axis
 };

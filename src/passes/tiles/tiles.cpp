@@ -49,6 +49,7 @@ class Tiles : public Pass {
   const char* name() const override { return "tiles"; }
 
   void declare(FrameBuilder& frame, uint32_t) override {
+    hasSamples_ = frame.configuration().samples > 1;
     constexpr gpu::ImageShape kRow{.format = kBytes, .overX = shared::kTileSize},
         kTile{.format = kBytes, .overX = shared::kTileSize, .overY = shared::kTileSize};
     const std::vector<gpu::Handle> rows = pixels_.declare(
@@ -59,28 +60,32 @@ class Tiles : public Pass {
                            {shared::kTileShadowedColor, frame.get(kShadowed)},
                            {shared::kTileDepth, frame.get(kDepth)}},
                 .outputs = {frame.image("tile rows, least", kRow), frame.image("tile rows, most", kRow)},
+                .fetches = 3 * shared::kTileSize,
                 .uniformBytes = sizeof(shared::TilePixels)});
     const std::vector<gpu::Handle> facts = facts_.declare(
         frame, {.name = name(),
                 .shader = {{shaders::tile_facts_image_frag}, {shaders::tile_facts_image_comp}},
                 .inputs = {{shared::kTileLeast, rows[0]}, {shared::kTileMost, rows[1]}},
-                .outputs = {frame.image("tiles, least", kTile), frame.image("tiles, most", kTile)}});
+                .outputs = {frame.image("tiles, least", kTile), frame.image("tiles, most", kTile)},
+                .fetches = 2 * shared::kTileSize});
     const gpu::Handle flags =
         flags_.declare(frame, {.name = name(),
                                .shader = {{shaders::tile_flags_image_frag}, {shaders::tile_flags_image_comp}},
                                .inputs = {{shared::kTileLeast, facts[0]}, {shared::kTileMost, facts[1]}},
                                .outputs = {frame.image("tile flags", kTile)},
-                               .uniformBytes = sizeof(shared::TileColors)})[0];
+                               .fetches = 9 * 9 + 3 * 3 + 2})[0];
     const gpu::Handle marked = marked_.declare(
         frame, {.name = name(),
                 .shader = {{shaders::tile_marked_image_frag}, {shaders::tile_marked_image_comp}},
                 .inputs = {{shared::kTileOwnFlags, flags}},
-                .outputs = {frame.image("marked tile flags", kTile)}})[0];
+                .outputs = {frame.image("marked tile flags", kTile)},
+                .fetches = 1 + 3 * 3})[0];
     frame.give(kTiles, blocks_.declare(frame, {.name = name(),
                                                .shader = {{shaders::tile_blocks_image_frag},
                                                           {shaders::tile_blocks_image_comp}},
                                                .inputs = {{shared::kTileOwnFlags, marked}},
-                                               .outputs = {frame.image(kTiles.name, kTile)}})[0]);
+                                               .outputs = {frame.image(kTiles.name, kTile)},
+                                               .fetches = 1 + shared::kTileBlock * shared::kTileBlock})[0]);
   }
   void create(FrameBuilder& frame) override {
     for (ImageStep* const step : steps_) step->create(frame);
@@ -100,19 +105,18 @@ class Tiles : public Pass {
     const int shaded = tilesOf(blurReach(input.knobs.scene<BlurParams>().radius * pixelScale)),
               torn = tilesOf(std::max(tear, input.inflation) + 1.5f), blurred = 2 * shaded;
     const bool isNear = torn <= shared::kFarthestTile;
-    const uint32_t wanted = (tear > 0 ? shared::kWantsTears : 0) |
-                            (marksUse(input.knobs) != MarksUse::none ? shared::kWantsMarks : 0) |
-                            (isChangedLater(input) ? shared::kTearsAll : 0) |
-                            (isNear ? 0 : shared::kTearsEverywhere);
+    const int wanted = (tear > 0 ? shared::kWantsTears : 0) |
+                       (marksUse(input.knobs) != MarksUse::none ? shared::kWantsMarks : 0) |
+                       (isChangedLater(input) ? shared::kTearsAll : 0) |
+                       (isNear ? 0 : shared::kTearsEverywhere) | (hasSamples_ ? shared::kWantsMixed : 0);
     const uint32_t reach = isNear ? uint32_t(torn) : 0;
-    flags_.setJobs({{{uint32_t(256 * shaded + blurred), reach, wanted}, {}}});
-    marked_.setJobs({{{reach, wanted}, {}}});
-    // Less than the eye can tell apart.
-    flags_.update(shared::TileColors{2.5f / 255});
+    flags_.setJobs({{{uint32_t(256 * shaded + blurred), reach, uint32_t(wanted)}, {}}});
+    marked_.setJobs({{{reach, uint32_t(wanted)}, {}}});
   }
 
  private:
   ImageStep pixels_, facts_, flags_, marked_, blocks_;
+  bool hasSamples_ = false;
   ImageStep* const steps_[5] = {&pixels_, &facts_, &flags_, &marked_, &blocks_};
 };
 

@@ -32,7 +32,8 @@ struct WarpMaterial {
 // Mirrors the block of warp.image.glsl.
 struct SetupUniforms {
   MetaTextureUniforms field, marks;
-  float setup, marksAmount;
+  uint32_t setup;
+  float marksAmount;
   glm::vec2 fieldMean;
   float marksMean;
 };
@@ -45,6 +46,34 @@ struct WarpSetup {
 
   // One evaluation serves both where the marks are the field's blue channel.
   bool isApart() const { return !(field == marks); }
+};
+
+// The jobs of an image step.
+class Jobs {
+ public:
+  Jobs(ImageStep& step, const std::vector<WarpSetup>& setups) : step_(step), setups_(setups) {}
+  // `needs`: kWarpVectors ...; nothing: zeros, whatever the setup.
+  void add(size_t index, uint32_t needs, TileChoice where) {
+    const WarpSetup& setup = setups_[index];
+    step_.update(SetupUniforms{setup.field.meta.uniforms(), setup.marks.meta.uniforms(), uint32_t(index + 1),
+                               setup.marksAmount, glm::vec2(setup.field.example->statistics.mean),
+                               setup.marks.example->statistics.mean.b},
+                 jobs_.size());
+    if (needs != 0)
+      needs |= (setup.isApart() ? shared::kWarpApart : 0) | (setups_.size() > 1 ? shared::kWarpSeveral : 0);
+    jobs_.push_back({{needs, setup.field.meta.features(), setup.marks.meta.features()},
+                     {{shared::kWarpFieldExample, &setup.field.image(), setup.field.sampler()},
+                      {shared::kWarpFieldInverse, &setup.field.inverse(), ExampleTextures::kInverseSampler},
+                      {shared::kWarpMarksExample, &setup.marks.image(), setup.marks.sampler()},
+                      {shared::kWarpMarksInverse, &setup.marks.inverse(), ExampleTextures::kInverseSampler}},
+                     where});
+  }
+  void finish() { step_.setJobs(jobs_); }
+
+ private:
+  ImageStep& step_;
+  const std::vector<WarpSetup>& setups_;
+  std::vector<ImageStep::Job> jobs_;
 };
 
 class Warp : public Pass {
@@ -62,20 +91,24 @@ class Warp : public Pass {
     depth_ = depth = frame.use(depth, gpu::Use::depthTarget);
     frame.give(kInflatedDepth, depth);
 
-    const gpu::Handle warp = image_.declare(
-        frame, {.name = name(),
-                .shader = {{shaders::warp_image_frag}, {shaders::warp_image_comp}},
-                .inputs = {{shared::kWarpPattern, pattern_.image()},
-                           {shared::kWarpKnobs, knobs_.image()},
-                           {shared::kWarpDepth, depth}},
-                .textures = {shared::kWarpFieldExample, shared::kWarpFieldInverse, shared::kWarpMarksExample,
-                             shared::kWarpMarksInverse},
-                .tiles = frame.get(kTiles),
-                .outputs = {frame.image(name(), {.format = kHalves})},
-                .uniformBytes = sizeof(SetupUniforms),
-                .maxJobs = 2 * uint32_t(std::max<size_t>(1, frame.scene().materialCount()))})[0];
-    frame.give(kWarp, warp);
-    frame.offer(kAovs[0], {warp});
+    const auto declareImage = [&](ImageStep& step, const std::string& image, uint32_t jobs) {
+      return step.declare(
+          frame, {.name = name(),
+                  .shader = {{shaders::warp_image_frag}, {shaders::warp_image_comp}},
+                  .inputs = {{shared::kWarpPattern, pattern_.image()},
+                             {shared::kWarpKnobs, knobs_.image()},
+                             {shared::kWarpDepth, depth}},
+                  .textures = {shared::kWarpFieldExample, shared::kWarpFieldInverse,
+                               shared::kWarpMarksExample, shared::kWarpMarksInverse},
+                  .tiles = frame.get(kTiles),
+                  .outputs = {frame.image(image, {.format = kHalves})},
+                  .fetches = 3 + 8 * 4,
+                  .uniformBytes = sizeof(SetupUniforms),
+                  .maxJobs = jobs * uint32_t(std::max<size_t>(1, frame.scene().materialCount()))})[0];
+    };
+    frame.give(kWarp, declareImage(image_, name(), kMostJobs));
+    // The picture looks at what it would look at anyway.
+    if (isAsked_) frame.offer(kAovs[0], {declareImage(saved_, "warp to be saved", 1)});
   }
 
   void create(FrameBuilder& frame) override {
@@ -87,6 +120,7 @@ class Warp : public Pass {
     materials_.bind(sets_, 0);
 
     GeometryStepDesc desc;
+    desc.what = GeometryStepDesc::What::torn;
     desc.vertex = {shaders::warp_surface_vert};
     desc.fragment = {shaders::warp_surface_frag};
     desc.inputs = kPosition | kUv0 | kUv1 | kColor | kDPdu | kSmoothNormal | kDPdv | kPatternUv | kWarpScale;
@@ -98,12 +132,14 @@ class Warp : public Pass {
     step_.create(frame, desc);
     mask_.create(frame);
     image_.create(frame);
+    if (isAsked_) saved_.create(frame);
     examples_ = &frame.examples();
   }
   void bind(const gpu::GraphResources& resources) override {
     resources_ = &resources;
     mask_.bind(resources);
     image_.bind(resources);
+    if (isAsked_) saved_.bind(resources);
   }
 
   void update(const FrameInput& input) override {
@@ -114,8 +150,9 @@ class Warp : public Pass {
       const WarpParams params = input.knobs.of<WarpParams>(m);
       const auto metaParams = input.knobs.of<WarpMetaTextureParams>(m);
       const WarpSetup setup = setupOf(input, m, params, metaParams);
-      const size_t index = size_t(std::find(setups.begin(), setups.end(), setup) - setups.begin());
-      if (index == setups.size()) setups.push_back(setup);
+      size_t index = size_t(std::find(setups.begin(), setups.end(), setup) - setups.begin());
+      if (index == setups.size() && index < shared::kMostWarpSetups) setups.push_back(setup);
+      index = std::min(index, setups.size() - 1);
       const float inflation = params.inflationUnit == 0
                                   ? params.inflation * pixelScale
                                   : params.inflation * 0.01f * input.uniforms.imageSize.y;
@@ -130,44 +167,38 @@ class Warp : public Pass {
     }
     step_.specialise(0, std::move(variants));
 
-    const MarksUse marks = marksUse(input.knobs);
-    const bool everywhere = isAsked_ || marks == MarksUse::everywhere;
-    mask_.setWhole(everywhere);
-    std::vector<ImageStep::Job> jobs;
+    const bool everywhere = marksUse(input.knobs) == MarksUse::everywhere;
+    mask_.setWhole(isAsked_ || everywhere);
+    Jobs jobs{image_, setups};
+    using namespace shared;
     for (size_t i = 0; i < setups.size(); ++i) {
-      const WarpSetup& setup = setups[i];
-      const auto add = [&](uint32_t needs, TileChoice where) {
-        image_.update(SetupUniforms{setup.field.meta.uniforms(), setup.marks.meta.uniforms(), float(i + 1),
-                                    setup.marksAmount, glm::vec2(setup.field.example->statistics.mean),
-                                    setup.marks.example->statistics.mean.b},
-                      jobs.size());
-        needs |= (setup.isApart() ? shared::kWarpApart : 0) | (setups.size() > 1 ? shared::kWarpSeveral : 0);
-        jobs.push_back(
-            {{needs, setup.field.meta.features(), setup.marks.meta.features()},
-             {{shared::kWarpFieldExample, &setup.field.image(), setup.field.sampler()},
-              {shared::kWarpFieldInverse, &setup.field.inverse(), ExampleTextures::kInverseSampler},
-              {shared::kWarpMarksExample, &setup.marks.image(), setup.marks.sampler()},
-              {shared::kWarpMarksInverse, &setup.marks.inverse(), ExampleTextures::kInverseSampler}},
-             where});
-      };
-      // Marks that are not the vectors' own cost as much as these; they are made where they count.
-      using namespace shared;
       if (everywhere) {
-        add(kWarpVectors | kWarpMarks, {});
-      } else if (!setup.isApart()) {
-        add(kWarpVectors | kWarpMarks, {kTileMarked, kTileMarked});
-      } else {
-        add(kWarpVectors | kWarpMarks, {kTileMarked | kTileShaded, kTileMarked | kTileShaded});
-        add(kWarpVectors, {kTileMarked | kTileShaded, kTileMarked});
+        jobs.add(i, kWarpVectors | kWarpMarks, {});
+        continue;
       }
+      // Vectors are looked at where something is torn, and marks where light turns into shadow. Marks that
+      // are not the vectors' own cost as much as these.
+      if (setups[i].isApart()) {
+        jobs.add(i, kWarpVectors | kWarpMarks, {kTileTorn | kTileShaded, kTileTorn | kTileShaded});
+        jobs.add(i, kWarpVectors, {kTileTorn | kTileShaded, kTileTorn});
+      } else {
+        jobs.add(i, kWarpVectors | kWarpMarks, {kTileTorn, kTileTorn});
+      }
+      jobs.add(i, kWarpMarks, {kTileTorn | kTileShaded, kTileShaded});
     }
-    image_.setJobs(jobs);
+    // Beside what is torn vectors are mixed in where nobody sees what they move.
+    if (!everywhere) jobs.add(0, 0, {kTileMarked | kTileTorn | kTileShaded, kTileMarked});
+    jobs.finish();
+    if (!isAsked_) return;
+    Jobs saved{saved_, setups};
+    for (size_t i = 0; i < setups.size(); ++i) saved.add(i, kWarpVectors | kWarpMarks, {});
+    saved.finish();
   }
 
  private:
   static constexpr Aov kAovs[] = {{.name = "warp"}};
-  static constexpr VkFormat kPatternFormat = VK_FORMAT_R32G32B32A32_UINT,
-                            kKnobsFormat = VK_FORMAT_R32G32_SFLOAT;
+  static constexpr uint32_t kMostJobs = 4;  // of a setup, counting what all have in common
+  static constexpr VkFormat kPatternFormat = VK_FORMAT_R32G32B32A32_UINT, kKnobsFormat = VK_FORMAT_R32_UINT;
 
   WarpSetup setupOf(const FrameInput& input, size_t material, const WarpParams& params,
                     const WarpMetaTextureParams& metaParams) const {
@@ -185,7 +216,9 @@ class Warp : public Pass {
   }
 
   void record(VkCommandBuffer commands) const {
-    const gpu::Target colors[] = {pattern_.target(*resources_), knobs_.target(*resources_)};
+    // Where nothing is, knobs are 0 and the pattern is not looked at.
+    const gpu::Target colors[] = {pattern_.target(*resources_, {}, gpu::Target::Before::undefined),
+                                  knobs_.target(*resources_)};
     const gpu::Target depth{&resources_->image(depth_), nullptr, {}, gpu::Target::Before::kept};
     gpu::drawViews(commands, configuration_.views(), colors, &depth,
                    [&](uint32_t firstView) { step_.draw(commands, &sets_, firstView); });
@@ -202,7 +235,7 @@ class Warp : public Pass {
   gpu::SetLayout layout_;
   gpu::DescriptorSets sets_;
   GeometryStep step_;
-  ImageStep image_;
+  ImageStep image_, saved_;
 };
 
 }  // namespace
@@ -222,10 +255,9 @@ bool mayTear(const look::LookData& look) {
 
 MarksUse marksUse(const stage::KnobTable& knobs) {
   const FinalShadowParams shadow = knobs.scene<FinalShadowParams>();
-  const LimitParams limit = knobs.scene<LimitParams>();
-  const bool limits = !paletteColors(limit).empty() && std::max(limit.dither, limit.skyDither) > 0;
-  if (shadow.dither > 0 || limits) return MarksUse::everywhere;
-  return shadow.indication > 0 ? MarksUse::shaded : MarksUse::none;
+  if (!isPlainApartFromEdges(shadow) || limitsByMarks(knobs.scene<LimitParams>()))
+    return MarksUse::everywhere;
+  return shadesByMarks(shadow) ? MarksUse::shaded : MarksUse::none;
 }
 
 int boilDrawing(const WarpParams& params, double time) {

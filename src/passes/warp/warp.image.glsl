@@ -15,14 +15,14 @@ layout(constant_id = 2) const int kMarksFeatures = 0;
 
 layout(set = 1, binding = 0, scalar) uniform Block {
   MetaTexture field, marks;
-  float setup;  // from 1; setup 1 also has the pixels where nothing is
+  uint setup;  // from 1; setup 1 also has the pixels where nothing is
   float marksAmount;
   // Of the examples themselves; where a Gaussian twin is blended, MetaTexture.mean is the twin's.
   vec2 fieldMean;
   float marksMean;
 } u;
 layout(set = 1, binding = kWarpPattern) uniform usampler2DArray pattern;
-layout(set = 1, binding = kWarpKnobs) uniform sampler2DArray knobs;
+layout(set = 1, binding = kWarpKnobs) uniform usampler2DArray knobs;
 layout(set = 1, binding = kWarpDepth) uniform sampler2DArray depth;
 layout(set = 1, binding = kWarpFieldExample) uniform sampler2D fieldExample;
 layout(set = 1, binding = kWarpFieldInverse) uniform sampler2D fieldInverse;
@@ -39,17 +39,18 @@ vec4 valueOf(MetaTexture m, int features, sampler2D example, sampler2D inverse, 
 }
 
 vec4 shade(ivec2 pixel, int layer) {
+  if (kNeeds == 0) return vec4(0.0);
   ivec3 at = ivec3(pixel, layer);
-  vec2 knob = texelFetch(knobs, at, 0).rg;
-  uvec4 packed = texelFetch(pattern, at, 0);
+  uint knob = texelFetch(knobs, at, 0).r;
+  // Anything is there where nothing is drawn.
+  uvec4 packed = knob != 0u ? texelFetch(pattern, at, 0) : uvec4(0u);
   vec2 uv = uintBitsToFloat(packed.xy), dSdu = unpackBfloat(packed.z), dSdv = unpackBfloat(packed.w);
-  float wrapping = knob.g - 4.0 * floor(0.25 * knob.g);
-  vec2 wraps = vec2(mod(wrapping, 2.0), floor(0.5 * wrapping));
+  vec2 wraps = vec2(uvec2(knob >> 16, knob >> 17) & 1u);
   MetaTextureChoice chosen, chosenForMarks;
   vec4 value = vec4(0.0);
   vec2 vector = vec2(0.0);
   float marks = 0.0;
-  if ((kNeeds & (kWarpVectors | kWarpApart)) != kWarpApart)
+  if ((kNeeds & kWarpVectors) != 0 || (kNeeds & kWarpApart) == 0)
     value = valueOf(u.field, kFieldFeatures, fieldExample, fieldInverse, uv, dSdu, dSdv, wraps, vec2(pixel) + 0.5, chosen);
   if ((kNeeds & kWarpMarks) != 0) {
     marks = value.b;
@@ -70,17 +71,17 @@ vec4 shade(ivec2 pixel, int layer) {
     // Its direction is across dS/dv, on the side that does not change where a mapping is mirrored along u.
     float lengthV = length(dSdv);
     vec2 axis = lengthV > 0.0 && (kFieldFeatures & 3) != 2 ? vec2(dSdv.y, -dSdv.x) / lengthV : vec2(1.0, 0.0);
-    vector = vec2(axis.x * vector.x - axis.y * vector.y, axis.y * vector.x + axis.x * vector.y) * knob.r;
+    vector = vec2(axis.x * vector.x - axis.y * vector.y, axis.y * vector.x + axis.x * vector.y) * unpackHalf2x16(knob).x;
   }
   float far = min(eyeDepth(texelFetch(depth, at, 0).r, layer), 60000.0);
-  return knob.g > 0.0 ? vec4(vector, marks, far) : vec4(0.0);
+  return knob != 0u ? vec4(vector, marks, far) : vec4(0.0);
 }
 
 #define SHADES_SOME
 bool shades(ivec2 pixel, int layer) {
   if ((kNeeds & kWarpSeveral) == 0) return true;
-  float setup = floor(0.25 * texelFetch(knobs, ivec3(pixel, layer), 0).g);
-  return setup == u.setup || (setup == 0.0 && u.setup == 1.0);
+  uint setup = texelFetch(knobs, ivec3(pixel, layer), 0).r >> 18;
+  return setup == u.setup || (setup == 0u && u.setup == 1u);
 }
 
 #define SHADES_TILES

@@ -4,8 +4,8 @@
 //
 // Target 0: bits of pattern u and v; dS/du and dS/dv in pixels per unit, each as two bfloat16 (a float's range, and a
 //           precision of 0.4 percent, which is less than a hundredth of a blend).
-// Target 1: R: amount in pixels; G: 4 times the number of the material's setup, plus how the mapping wraps (ObjectData);
-//           0 where nothing is.
+// Target 1: the amount in pixels, as a half in the low bits; in the high ones 4 times the number of the material's setup,
+//           plus how the mapping wraps (ObjectData). 0 where nothing is.
 #extension GL_GOOGLE_include_directive : require
 #include "../../shading/frame.glsl"
 #include "../../shading/material.glsl"
@@ -23,16 +23,10 @@ layout(location = 0) in vec3 inUvScale;
 layout(location = 1) in vec3 inTangentU;
 layout(location = 2) in vec3 inTangentV;
 layout(location = 3) in vec3 inBaseUvAlpha;
-layout(location = 4) flat in float inCode;
+layout(location = 4) flat in uint inCode;
 layout(location = 5) in vec3 inPoint;
 layout(location = 0) out uvec4 outPattern;
-layout(location = 1) out vec2 outKnobs;
-
-// The larger singular value of a matrix.
-float largestStretch(mat2 m) {
-  float a = dot(m[0], m[0]), b = dot(m[1], m[1]), c = dot(m[0], m[1]);
-  return sqrt(0.5 * (a + b + sqrt((a - b) * (a - b) + 4.0 * c * c)));
-}
+layout(location = 1) out uint outKnobs;
 
 void main() {
   vec2 byX = dFdx(inUvScale.xy), byY = dFdy(inUvScale.xy);
@@ -49,8 +43,8 @@ void main() {
   // Tangents are a vertex's, and smooth; the mapping is each triangle's own. Where it runs faster than they say, the
   // pattern is finer than it should be; it is shallower there by as much, so that no tear is steeper than others.
   if ((kOptions & kWarpFollows) != 0) {
-    float finer = largestStretch(mat2(dSdu * byX.x + dSdv * byX.y, dSdu * byY.x + dSdv * byY.y));
+    float finer = sqrt(metaTextureStretch(dSdu * byX.x + dSdv * byX.y, dSdu * byY.x + dSdv * byY.y));
     if (finer > 1.5) amount *= 1.5 / finer;
   }
-  outKnobs = vec2(amount, inCode);
+  outKnobs = packHalf2x16(vec2(amount, 0.0)) | inCode << 16;
 }

@@ -26,7 +26,7 @@ layout(location = 0) out vec3 outUvScale;    // pattern uv; the vertex's own sha
 layout(location = 1) out vec3 outTangentU;
 layout(location = 2) out vec3 outTangentV;
 layout(location = 3) out vec3 outBaseUvAlpha;
-layout(location = 4) flat out float outCode;  // as target 1 has it
+layout(location = 4) flat out uint outCode;  // the high bits of target 1
 layout(location = 5) out vec3 outPoint;
 
 void main() {
@@ -50,6 +50,6 @@ void main() {
   outTangentU = tangentToClip(tangentClip, inDPdu);
   outTangentV = tangentToClip(tangentClip, inDPdv);
   if (kViewCount > 1) outPoint = pointInTangentView(kTangents, worldToClip, inPosition);
-  outCode = 4.0 * warp.setup + float(objects[gl_InstanceIndex].wraps);
+  outCode = 4u * uint(warp.setup) + objects[gl_InstanceIndex].wraps;
   if (kAlphaMode != 0) outBaseUvAlpha = vec3(baseUv(inUv0, inUv1), inColor.a);
 }

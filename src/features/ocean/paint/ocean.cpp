@@ -53,6 +53,8 @@ class Ocean : public Pass {
                              shared::kOceanNextBathicBinding, shared::kOceanNextSkyBinding},
                 .outputs = {frame.image("ocean-lit", {.format = kHalves}),
                             frame.image("ocean-shadowed", {.format = kHalves})},
+                // The example's eight copies, foam, and colours of water and sky.
+                .fetches = 3 + 8 * 4 + 3 * 4,
                 .uniformBytes = sizeof(PaintUniforms)});
     frame.give(kPrepaintedLit, colors[0]);
     frame.give(kPrepaintedShadowed, colors[1]);

@@ -1,0 +1,67 @@
+#include "scene/surroundings.h"
+
+#include <algorithm>
+
+#include "scene/posed_bounds.h"
+
+namespace scumble::scene {
+
+namespace {
+
+constexpr float kFarLarger = 8.0f;  // radii
+
+Bounds boundsOf(const SceneData& scene, const Node& node, const Pose& pose,
+                std::span<const std::vector<glm::mat4>> joints) {
+  const size_t n = size_t(&node - scene.nodes.data());
+  Bounds bounds;
+  const Mesh& mesh = scene.meshes[size_t(node.mesh)];
+  for (const Primitive& primitive : mesh.primitives) {
+    const bool bends = node.skin >= 0 && primitive.influences > 0;
+    const std::span<const glm::mat4> own =
+        bends ? std::span<const glm::mat4>(joints[size_t(node.skin)]) : std::span<const glm::mat4>();
+    const auto place = [&](const glm::mat4& model) {
+      bounds.add(posedBounds(primitive.extent, model, own, pose.morphWeights[n]));
+    };
+    if (bends || node.instances.empty())
+      place(pose.world[n]);
+    else
+      for (const glm::mat4& instance : node.instances) place(pose.world[n] * instance);
+  }
+  return bounds;
+}
+
+}  // namespace
+
+std::vector<bool> surroundings(const SceneData& scene) {
+  struct Low {
+    size_t node;
+    Bounds bounds;
+  };
+  std::vector<Low> low;
+  Bounds subjects;
+  const std::vector<bool> shown = shownNodes(scene);
+  forEachPose(scene, {}, [&](const Pose& pose, std::span<const std::vector<glm::mat4>> joints) {
+    for (size_t n = 0; n < scene.nodes.size(); ++n) {
+      if (scene.nodes[n].mesh < 0 || !shown[n]) continue;
+      const Bounds bounds = boundsOf(scene, scene.nodes[n], pose, joints);
+      if (bounds.empty) continue;
+      if (bounds.isLow())
+        low.push_back({n, bounds});
+      else
+        subjects.add(bounds);
+    }
+  });
+  std::stable_sort(low.begin(), low.end(),
+                   [](const Low& a, const Low& b) { return a.bounds.radius() < b.bounds.radius(); });
+  for (size_t i = 0; i < low.size(); ++i) {
+    if (!subjects.empty && low[i].bounds.radius() > kFarLarger * subjects.radius()) {
+      std::vector<bool> found(scene.nodes.size());
+      for (; i < low.size(); ++i) found[low[i].node] = true;
+      return found;
+    }
+    subjects.add(low[i].bounds);
+  }
+  return {};
+}
+
+}  // namespace scumble::scene
