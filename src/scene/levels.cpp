@@ -14,8 +14,11 @@ namespace scumble::scene {
 namespace {
 
 constexpr size_t kFewTriangles = 256;  // which are drawn as they are
-constexpr float kWorthIt = 0.75f;      // of the triangles before: more are no level of their own
-constexpr size_t kSamples = 256;       // vertices, about, at which a level is compared with the whole
+// Of triangles, one of so many is left. The first level takes more memory than all others together, so it is
+// a longer step.
+constexpr size_t kFirstStep = 4, kStep = 3;
+constexpr float kWorthIt = 0.75f;  // of the triangles before: more are no level of their own
+constexpr size_t kSamples = 256;   // vertices, about, at which a level is compared with the whole
 // Squares of how many triangles have a vertex, in all, by corner: finding fewer triangles takes as long. A
 // sphere has 6.
 constexpr uint64_t kBusiest = 256;
@@ -26,8 +29,8 @@ constexpr float kUvStep = 1.0f / 4096, kNormalStep = 0.03f, kColorStep = 4.0f, k
 // The parts of a slide that count for light and for how much is torn: edges of tones are rounded and torn by
 // more than what is left.
 constexpr float kToneShare = 0.0625f;
-// Of a pattern's slide: its strokes are some sixteen pixels wide, and tear edges by four, so that a tear is another one
-// by a part of that.
+// Of a pattern's slide: its strokes are some sixteen pixels wide, and tear edges by four, so that a tear is
+// another one by a part of that.
 constexpr float kPatternShare = 0.125f;
 
 // How far along a triangle one would have to go for the difference that an attribute makes.
@@ -169,8 +172,9 @@ void makeLevels(Primitive& p) {
     float error = 0;
     now.resize(before.size());
     // Open borders stay: another primitive may go on there, and a crack would be torn wide.
+    const size_t wanted = before.size() / 3 / (p.levels.empty() ? kFirstStep : kStep) * 3;
     now.resize(meshopt_simplify(now.data(), before.data(), before.size(), &p.positions[0].x,
-                                p.positions.size(), sizeof(glm::vec3), before.size() / 6 * 3, 1.0f,
+                                p.positions.size(), sizeof(glm::vec3), wanted, 1.0f,
                                 meshopt_SimplifyLockBorder, &error));
     if (now.empty() || float(now.size()) > kWorthIt * float(before.size())) break;
     if (!follow(before, now, nearest)) break;
@@ -191,6 +195,7 @@ void makeLevels(Primitive& p) {
     p.levelIndices.insert(p.levelIndices.end(), now.begin(), now.end());
     before = now;
   }
+  p.levelIndices.shrink_to_fit();
 }
 
 }  // namespace scumble::scene

@@ -7,8 +7,9 @@
 
 namespace scumble::scene {
 
-// Fills `levels` and `levelIndices` of a primitive that is finished, with its extent: each level has half of
-// the triangles of the one before or some more, as many as there are to be had. None for what has few.
+// Fills `levels` and `levelIndices` of a primitive that is finished, with its extent: the first has a
+// quarter of the triangles, each other one a third of those of the one before, or some more where no more can
+// go. None for what has few.
 void makeLevels(Primitive& primitive);
 
 // How far what a primitive looks like has moved where these triangles of its vertices are drawn instead:

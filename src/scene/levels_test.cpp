@@ -252,10 +252,10 @@ TEST(DetailLevels, countWhatJointsAndTargetsDo) {
     });
   };
   EXPECT_LT(morphed([](const glm::vec3& at) { return 2 * at.x; }).back().error, 1e-3f);
-  const auto wave =
+  const auto bumps =
       morphed([](const glm::vec3& at) { return 0.2f * std::sin(12 * at.x) * std::sin(9 * at.y); });
-  EXPECT_GT(wave.back().error, 0.05f);
-  EXPECT_GT(wave.back().shadowError, 0.05f);
+  EXPECT_GT(bumps.back().error, 0.05f);
+  EXPECT_GT(bumps.back().shadowError, 0.05f);
 }
 
 TEST(DetailLevels, areForWhatHasMany) {

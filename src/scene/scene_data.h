@@ -137,7 +137,7 @@ struct Primitive {
   std::vector<glm::vec3> dPdu, dPdv;
   std::vector<uint32_t> indices;  // three a triangle, each < vertexCount()
   int material = 0;               // index into SceneData::materials (index 0 exists always)
-  // From the finest to the coarsest (makeLevels); none for what bends and what was made to be changed.
+  // From the finest to the coarsest (makeLevels); none for what was made to be changed.
   std::vector<DetailLevel> levels;
   std::vector<uint32_t> levelIndices;
   // Skinning: `influences` joints and weights a vertex (0, 4 or 8), vertex-major. Weights sum to one.

@@ -10,11 +10,11 @@ const int kTileBlock = 4;  // tiles
 // Flags of a tile, of the first surfaces. An image of flags, rgba8, has a texel a tile. R: the tile's
 // (byte_bits.glsl); G, B: those that all tiles of its block have, and those that any has.
 const uint kTileCovered = 1u;  // something is there
-const uint kTilePlain = 2u;  // everything is covered wholly, nothing is shaded, no air lies before it; where
-                             // pixels have several samples, nothing is mixed or marked either
-const uint kTileShaded = 4u;    // covered, and neither all in light nor all in shadow as far as blurred light
-                                // comes from; or indication may act
-const uint kTileLit = 8u;       // something is in light; where it is plain, everything
+const uint kTilePlain = 2u;   // everything is covered wholly, nothing is shaded, no air lies before it; where
+                              // pixels have several samples, nothing is mixed or marked either
+const uint kTileShaded = 4u;  // covered, and neither all in light nor all in shadow as far as blurred light
+                              // comes from; or indication may act
+const uint kTileLit = 8u;     // something is in light; where it is plain, everything
 const uint kTileBlurred = 16u;  // what is blurred here counts for a tile that is shaded
 const uint kTileTorn = 32u;     // colours may differ as far as the warp moves them
 const uint kTileMarked = 64u;   // the warp's pattern counts: for tears, or for marks

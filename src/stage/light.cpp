@@ -109,8 +109,7 @@ void setLightSpace(shared::FrameUniforms& uniforms, std::span<const scene::Bound
   // A strength of nothing is a sigmoid's straight middle, wherever the viewer is: the map stays as it is.
   uniforms.shadowWarp = std::max(params.shadowWarp, 1e-3f);
   const glm::vec3 focus(uniforms.worldToLight * glm::vec4(viewer, 1));
-  uniforms.shadowCenter =
-      params.shadowWarp > 0 ? glm::clamp(glm::vec2(focus), -1.0f, 1.0f) : glm::vec2(0.0f);
+  uniforms.shadowCenter = params.shadowWarp > 0 ? glm::clamp(glm::vec2(focus), -1.0f, 1.0f) : glm::vec2(0.0f);
   const auto sigmoid = [](const glm::vec2& t) { return t / glm::sqrt(1.0f + t * t); };
   const glm::vec2 low = sigmoid(uniforms.shadowWarp * (-1.0f - uniforms.shadowCenter));
   const glm::vec2 high = sigmoid(uniforms.shadowWarp * (1.0f - uniforms.shadowCenter));

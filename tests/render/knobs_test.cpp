@@ -84,6 +84,7 @@ const std::pair<std::string, Knobs> kNeeds[] = {
       {"breakup.amount", "4"},
       {"surface.indicationWidth", "1"},
       {"breakup.metatexture.size", "1000"}}},
+    {"final.ripple", {{"warp.amount", "64"}, {"warp.inflation", "64"}}},
     {"shadow.dither", {{"blur.radius", "128"}, {"breakup.amount", "4"}}},
     {"shadow.stepSpacing", {{"shadow.steps", "3"}}},
     {"shadowed.overlay", {{"shadowed.overlayAmount", "1"}}},

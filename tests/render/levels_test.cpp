@@ -98,7 +98,8 @@ TEST_P(Levels, haveTheFewestTrianglesThatMayBe) {
   RendererWithSpy renderer;
   const Scene scene = denseSpheres();
   std::map<uint32_t, const scene::Primitive*> byFirstIndex;
-  size_t coarse = 0, coarser = 0, casting = 0;
+  size_t coarse = 0, casting = 0;
+  uint64_t surface = 0, torn = 0;  // indices
   for (const double error : {0.5, 3.0})
     for (const float distance : {2.5f, 8.0f, 30.0f}) {
       renderer.draw(scene, withError(std::to_string(error)), from(scene, distance), sized(kWidth, kHeight));
@@ -156,7 +157,8 @@ TEST_P(Levels, haveTheFewestTrianglesThatMayBe) {
           EXPECT_EQ(chosen.indexCount, count) << error << " px at " << distance << " m, torn " << isTorn;
           EXPECT_EQ(chosen.firstIndex, first);
           EXPECT_EQ(chosen.firstInstance, draw.object);
-          (isTorn ? coarser : coarse) += count < draw.indexCount;
+          coarse += !isTorn && count < draw.indexCount;
+          (isTorn ? torn : surface) += count;
         }
       }
       for (size_t i = 0; i < list.casters.size(); ++i) {
@@ -165,7 +167,7 @@ TEST_P(Levels, haveTheFewestTrianglesThatMayBe) {
       }
     }
   EXPECT_GE(coarse, 10u);
-  EXPECT_GT(coarser, coarse);
+  EXPECT_LT(torn, surface);
   EXPECT_GE(casting, 1u);
   EXPECT_EQ(renderer.validationMessages(), 0);
 }
@@ -256,18 +258,18 @@ TEST_P(Levels, nothingPopsOnTheWay) {
   Frame before;
   uint64_t countBefore = 0;
   for (int i = 0; i < 32; ++i) {
-    const auto views = from(scene, 7 * std::pow(1.07f, float(i)));
+    const auto views = from(scene, 7 * std::pow(1.1f, float(i)));
     const auto drawn = [&](const std::string& error) {
       return renderer.draw(scene, painted(error), views, sized(kWidth, kHeight));
     };
     Frame frame = drawn("0.5");
     const uint64_t count = triangles(renderer.list().commands);
     const Frame whole = drawn("0");
-    // Two neighbours that are each so near to what is not simplified are twice as near to each other. A
-    // quarter of what half a pixel makes that all moves by, and nowhere as much as that.
+    // Two neighbours that are each so near to what is not simplified are twice as near to each other. Three
+    // tenths of what half a pixel makes that all moves by, and nowhere as much as that.
     const Frame aside = renderer.draw(scene, painted("0"), movedBy(views, 0.5f), sized(kWidth, kHeight));
     const film::Difference off = difference(frame, whole), half = difference(aside, whole);
-    EXPECT_LT(off.mean, 0.25 * half.mean) << i;
+    EXPECT_LT(off.mean, 0.3 * half.mean) << i;
     EXPECT_LT(off.tile, half.tile) << i;
     if (i > 0) {
       const film::Difference moved = difference(whole, before);

@@ -14,8 +14,8 @@ const int kWarpFollows = 2;  // the pattern follows the mapping, by MetaTexture
 // Specialisation constant 0 of the image step: what is asked of them, so that nobody pays for more.
 const int kWarpVectors = 1;
 const int kWarpMarks = 2;
-const int kWarpApart = 4;    // marks are not in the blue channel of the vectors' texture
-const int kWarpSeveral = 8;  // there are other setups: most pixels are another's
+const int kWarpApart = 4;             // marks are not in the blue channel of the vectors' texture
+const int kWarpSeveral = 8;           // there are other setups: most pixels are another's
 const uint kMostWarpSetups = 16383u;  // what comes after them takes the last one's
 SHARED_END
 #endif
