@@ -38,6 +38,7 @@ nlohmann::json reportOf(const Scene& scene) {
   for (const auto& clip : s.clips) clips.push_back({{"name", clip.name}, {"duration", clip.duration}});
   return {{"meshes", s.meshes},
           {"primitives", s.primitives},
+          {"ownPatterns", s.ownPatterns},
           {"triangles", s.triangles},
           {"vertices", s.vertices},
           {"nodes", s.nodes},
@@ -80,6 +81,10 @@ int info(const SceneArguments& args, const JsonOption& json) {
     print(fmt::format("not supported: {}\n", joined(s.extensionsNotSupported)));
   print(fmt::format("bounds      {:g} {:g} {:g} to {:g} {:g} {:g} metres\n", s.min[0], s.min[1], s.min[2],
                     s.max[0], s.max[1], s.max[2]));
+  if (s.ownPatterns > 0)
+    print(
+        fmt::format("patterns    {} of {} primitives have coordinates of their own (--pattern-coordinates)\n",
+                    s.ownPatterns, s.primitives));
   if (!s.surroundings.empty())
     print(fmt::format("not framed  {}: far larger than what stands on it (--frame NODE chooses)\n",
                       shortened(s.surroundings)));

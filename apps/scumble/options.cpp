@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 
 #include "placements.h"
 #include "report.h"
@@ -84,6 +85,13 @@ void SceneArguments::addTo(CLI::App& command) {
       ->allow_extra_args(false);
   command.add_option("--scene", sceneNumber,
                      "Which of the file's scenes, by number (default: the file's own choice)");
+  command
+      .add_option("--pattern-coordinates", patternCoordinates,
+                  "What torn edges and marks follow: the file's texture coordinates (file), such as are made "
+                  "from the "
+                  "shape (own), or the file's unless they are cut into pieces or very uneven (auto)")
+      ->type_name("auto|file|own")
+      ->capture_default_str();
   command.add_flag("--allow-outside", allowOutside, "Let paths in the scene lead out of its folder");
 }
 
@@ -94,6 +102,13 @@ Result<Scene> SceneArguments::load(bool quiet, bool keepsVertices) const {
                  "--scene counts a file's scenes from 0");
   options.scene = sceneNumber.value_or(-1);
   options.allowOutside = allowOutside;
+  const std::map<std::string, PatternCoordinates> kinds{{"auto", PatternCoordinates::automatic},
+                                                        {"file", PatternCoordinates::file},
+                                                        {"own", PatternCoordinates::own}};
+  const auto kind = kinds.find(patternCoordinates);
+  if (kind == kinds.end())
+    return usage("--pattern-coordinates " + patternCoordinates + " is unknown", "use auto, file or own");
+  options.patternCoordinates = kind->second;
   options.keepsVertices = keepsVertices;
   std::vector<Scene> scenes;
   std::set<std::string> warned;

@@ -14,6 +14,7 @@ struct SceneArguments {
   std::vector<std::string> files, places;
   bool allowOutside = false;
   std::optional<int> sceneNumber;
+  std::string patternCoordinates = "auto";
 
   void addTo(CLI::App& command);
   // All files in one world, at their places; warnings go to stderr. `keepsVertices`: SceneOptions has it.

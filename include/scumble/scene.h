@@ -16,11 +16,20 @@ namespace scene {
 struct SceneData;
 }
 
+// What the patterns that tear edges and mark the change of light follow over a surface.
+enum class PatternCoordinates : uint8_t {
+  automatic,  // the file's texture coordinates, unless they are an atlas of pieces or very uneven
+              // (docs/scene.md)
+  file,       // the file's texture coordinates, wherever they map a surface at all
+  own,        // coordinates made from the shape, which know no seams
+};
+
 struct SceneOptions {
   int scene = -1;             // which of the file's scenes; -1: its default one
   bool allowOutside = false;  // whether URIs may lead out of the scene's folder upwards
-  int threads = 0;            // for decoding; 0: as many as the machine has
-  Progress progress = {};     // of load() and loadFromMemory(); of a world, file by file
+  PatternCoordinates patternCoordinates = PatternCoordinates::automatic;
+  int threads = 0;         // for decoding; 0: as many as the machine has
+  Progress progress = {};  // of load() and loadFromMemory(); of a world, file by file
   // False: vertices, but for those of skinned and morphed meshes, are dropped from memory as they reach the
   // device of the renderer that draws the scene first with a look without tracks. Meanwhile no other thread
   // may use the scene, nor one that shares its meshes. From then on that renderer alone draws it, where look
@@ -43,6 +52,7 @@ struct SceneSummary {
   };
   size_t meshes = 0, primitives = 0, triangles = 0, vertices = 0, nodes = 0, materials = 0, images = 0,
          skins = 0, morphTargets = 0;
+  size_t ownPatterns = 0;  // primitives whose patterns do not follow the file's coordinates
   std::vector<std::string> cameras, lights, materialNames;
   std::vector<std::string> nodeNames;  // of those that have one, in the file's order
   std::vector<Clip> clips;

@@ -37,6 +37,7 @@ struct Import {
   ImportWarnings& warnings;
   ImportProgress& progress;
   int threads = 1;
+  PatternCoordinates patternCoordinates = PatternCoordinates::automatic;
 };
 
 // From the file's indices to ours; -1 where something is not part of the scene, or could not be used.

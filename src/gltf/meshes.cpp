@@ -91,7 +91,7 @@ void readMeshes(const Import& import, const Maps& maps, SceneData& scene) {
   parallelFor(finishing.size(), import.threads, [&](size_t i) {
     const auto [mesh, primitive] = finishing[i];
     Primitive& finished = scene.meshes[mesh].own().primitives[primitive];
-    finishPrimitive(finished, radii[mesh]);
+    finishPrimitive(finished, radii[mesh], import.patternCoordinates);
     makeLevels(finished);
     import.progress.step();
   });

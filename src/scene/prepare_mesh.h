@@ -12,6 +12,7 @@
 
 #include "scene/import_warnings.h"
 #include "scene/scene_data.h"
+#include "scumble/scene.h"
 
 namespace scumble::scene {
 
@@ -39,9 +40,10 @@ float boundingRadius(const Mesh& mesh);
 // positions are displaced.
 void finishMorphTargets(Primitive& primitive, const std::function<void(Primitive&)>& makeTangents);
 
-// Unit smooth normals; uv0 where there is none (one unit of uv is `radius` metres); dPdu and dPdv; all
-// that morph targets displace; the extent.
-void finishPrimitive(Primitive& primitive, float radius);
+// Unit smooth normals; uv0 where there is none (one unit of uv is `radius` metres); patternUv where patterns
+// do not follow uv0; dPdu and dPdv; all that morph targets displace; the extent.
+void finishPrimitive(Primitive& primitive, float radius,
+                     PatternCoordinates which = PatternCoordinates::automatic);
 
 // Keeps the given vertices only, in this order, in all arrays but the indices.
 void gatherVertices(Primitive& primitive, const std::vector<uint32_t>& source);

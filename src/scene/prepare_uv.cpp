@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 
+#include "scene/mapping_faults.h"
 #include "scene/posed_bounds.h"
 #include "scene/position_weld.h"
 #include "scene/prepare_mesh.h"
@@ -57,18 +58,11 @@ Mapping mappingOf(const Primitive& p, size_t i, float scale) {
   return mapping;
 }
 
-// Whether uv0 spreads (almost) all of the surface out.
-bool coversSurface(const Primitive& p, float scale) {
-  float all = 0.0f, mapped = 0.0f;
-  for (size_t i = 0; i + 2 < p.indices.size(); i += 3) {
-    const glm::vec3 &a = p.positions[p.indices[i]], &b = p.positions[p.indices[i + 1]],
-                    &c = p.positions[p.indices[i + 2]];
-    const float area = 0.5f * glm::length(glm::cross((b - a) * scale, (c - a) * scale));
-    if (!std::isfinite(area)) continue;
-    all += area;
-    mapped += mappingOf(p, i, scale).area;
-  }
-  return mapped >= 0.9f * all;
+bool followsUvs(const Primitive& p, float scale, PatternCoordinates which) {
+  if (which == PatternCoordinates::own) return false;
+  const MappingFaults faults = mappingFaults(p, scale);
+  // Where there is no mapping nothing can follow it.
+  return which == PatternCoordinates::file ? !faults.isMissing() : !faults.any();
 }
 
 // For each vertex the first one at its place on the surface: files split vertices where faces meet, or all of
@@ -171,7 +165,7 @@ void makeTangents(Primitive& p, float scale, std::vector<uint32_t>& first) {
 
 }  // namespace
 
-void finishPrimitive(Primitive& p, float radius) {
+void finishPrimitive(Primitive& p, float radius, PatternCoordinates which) {
   for (size_t i = 0; i < p.vertexCount(); ++i) {
     glm::vec3& normal = p.smoothNormals[i];
     const float length = glm::length(normal);
@@ -181,8 +175,9 @@ void finishPrimitive(Primitive& p, float radius) {
   if (p.uv0.empty() && p.vertexCount() > 0) {
     p.uv0 = boxProjection(p, scale);
     p.generatedUvs = true;
-  } else if (!coversSurface(p, scale)) {
+  } else if (!followsUvs(p, scale, which)) {
     p.patternUv = boxProjection(p, scale);
+    p.ownPattern = true;
     p.wrapsU = p.wrapsV = false;
   }
   std::vector<uint32_t> places;

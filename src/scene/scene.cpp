@@ -42,6 +42,7 @@ SceneSummary Scene::summary() const {
     for (const Primitive& p : mesh.primitives) {
       s.triangles += p.indexCount() / 3;
       s.vertices += p.vertexCount();
+      s.ownPatterns += p.generatedUvs || p.ownPattern;
     }
   }
   for (const Camera& camera : data.cameras) s.cameras.push_back(camera.name);

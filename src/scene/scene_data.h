@@ -145,7 +145,7 @@ struct Primitive {
   std::vector<uint16_t> joints;
   std::vector<float> weights;
   std::vector<MorphTarget> morphTargets;
-  bool generatedUvs = false, generatedNormals = false;
+  bool generatedUvs = false, generatedNormals = false, ownPattern = false;
   PrimitiveExtent extent;  // extentOf() it
 
   // What it had, where its vertices have been dropped (drop_vertices.h); else 0.
