@@ -23,6 +23,10 @@ constexpr uint32_t kSize = ProbePicture::kSize, kProbeLayers = 2;
 // What view_probe.vert and view_probe.frag draw, and what is there before.
 constexpr uint8_t kDrawn[kProbeLayers] = {51, 204}, kClear = 102;
 constexpr float kDrawnDepth[kProbeLayers] = {0.25f, 0.75f}, kClearDepth = 0.0625f;
+// What lies there before: none of these. Memory may hold what an earlier probe has drawn right, and what is never
+// written would pass for it.
+constexpr uint8_t kSpoilt = 17;
+constexpr float kSpoiltDepth = 0.5f;
 constexpr int kLongSide = 160;  // pixels: x + y along the shape's long side
 
 VkClearValue colorOf(uint8_t value) {
@@ -67,15 +71,22 @@ ProbePicture drawProbe(Device& device, ViewDrawing drawing, uint32_t samples) {
   // Images, as frames have them: many samples are drawn and resolved, one is drawn straight away.
   FrameGraph graph;
   std::vector<Handle> drawn, resolved;
-  graph.addStep("draw");
-  for (const VkFormat format : {VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_D32_SFLOAT}) {
-    const bool isDepth = isDepthFormat(format);
-    const Use draw = isDepth ? Use::depthTarget : Use::colorTarget;
-    drawn.push_back(graph.use(graph.addImage("drawn", {.format = format, .samples = samples}), draw));
-    resolved.push_back(samples == 1 ? drawn.back()
-                                    : graph.use(graph.addImage("resolved", {.format = format}),
-                                                isDepth ? Use::depthResolveTarget : Use::resolveTarget));
+  const VkFormat formats[] = {VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_D32_SFLOAT};
+  for (const VkFormat format : formats) {
+    drawn.push_back(graph.addImage("drawn", {.format = format, .samples = samples}));
+    if (samples > 1) resolved.push_back(graph.addImage("resolved", {.format = format}));
   }
+  for (const bool isSpoilt : {true, false}) {
+    graph.addStep(isSpoilt ? "spoil" : "draw");
+    for (size_t i = 0; i < std::size(formats); ++i) {
+      const bool isDepth = isDepthFormat(formats[i]);
+      const Use draw = isDepth ? Use::depthTarget : Use::colorTarget;
+      const Use resolve = isDepth ? Use::depthResolveTarget : Use::resolveTarget;
+      drawn[i] = graph.use(drawn[i], draw);
+      if (samples > 1) resolved[i] = graph.use(resolved[i], isSpoilt ? draw : resolve);
+    }
+  }
+  if (samples == 1) resolved = drawn;
   graph.addStep("read");
   for (const Handle image : resolved) graph.use(image, Use::copySource);
   graph.use(
@@ -93,20 +104,29 @@ ProbePicture drawProbe(Device& device, ViewDrawing drawing, uint32_t samples) {
   const Buffer readback(device, 3 * kProbeLayers * kLayerBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                         MemoryKind::readback);
   device.runOnce([&](VkCommandBuffer commands) {
-    recordBarriersOf(commands, 0);
     Target targets[3];
-    for (size_t i = 0; i < 3; ++i) {
-      targets[i].image = &images.image(drawn[i]);
-      targets[i].resolve = samples > 1 ? &images.image(resolved[i]) : nullptr;
-      targets[i].clear = colorOf(kClear);
+    const auto setTargets = [&](const std::vector<Handle>& to, uint8_t color, float depth) {
+      for (size_t i = 0; i < 3; ++i) targets[i] = {&images.image(to[i]), nullptr, colorOf(color)};
+      targets[2].clear.depthStencil = {depth, 0};
+    };
+    recordBarriersOf(commands, 0);
+    // Layer by layer and without a resolve, which no driver is known to get wrong.
+    for (const std::vector<Handle>* const to : {&drawn, samples > 1 ? &resolved : nullptr}) {
+      if (!to) continue;
+      setTargets(*to, kSpoilt, kSpoiltDepth);
+      drawViews(commands, {kProbeLayers, ViewDrawing::separately}, {targets, 2}, &targets[2],
+                [](uint32_t) {});
     }
-    targets[2].clear.depthStencil = {kClearDepth, 0};
+    recordBarriersOf(commands, 1);
+    setTargets(drawn, kClear, kClearDepth);
+    if (samples > 1)
+      for (size_t i = 0; i < 3; ++i) targets[i].resolve = &images.image(resolved[i]);
     drawViews(commands, views, {targets, 2}, &targets[2], [&](uint32_t firstView) {
       pipeline.bind(commands);
       pipeline.push(commands, firstView);
       vkCmdDraw(commands, 3, 1, 0, 0);
     });
-    recordBarriersOf(commands, 1);
+    recordBarriersOf(commands, 2);
     for (size_t i = 0; i < 3; ++i) {
       VkBufferImageCopy copy{};
       copy.bufferOffset = i * kProbeLayers * kLayerBytes;
@@ -116,7 +136,7 @@ ProbePicture drawProbe(Device& device, ViewDrawing drawing, uint32_t samples) {
       vkCmdCopyImageToBuffer(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                              readback.handle(), 1, &copy);
     }
-    recordBarriersOf(commands, 2);
+    recordBarriersOf(commands, 3);
   });
 
   // Both colours and the depth, layer by layer.

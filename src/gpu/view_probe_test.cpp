@@ -6,6 +6,7 @@
 
 #include "base/test_folder.h"
 #include "gpu/cache_file.h"
+#include "gpu/resources.h"
 #include "tests/support/test_device.h"
 
 namespace scumble::gpu {
@@ -75,6 +76,33 @@ TEST(ViewProbe, whatADeviceIsSaidToDrawRightItDrawsRight) {
       for (size_t i = 0; i < right.layers[layer].depth.size(); ++i)
         differing += drawn.layers[layer].byVertexShader[i] != right.layers[layer].byVertexShader[i];
       EXPECT_LE(differing, 2 * ProbePicture::kSize) << "layer " << layer << ": more than the edge";
+    }
+  }
+  EXPECT_EQ((*device)->validationMessages(), 0);
+}
+
+// What lies in memory from an earlier probe is no answer: asked again, after pictures that are right, a device says the
+// same of each way.
+TEST(ViewProbe, answersDoNotComeFromMemory) {
+  DeviceOptions options;
+  options.validation = true;
+  options.choice = test::testDevice();
+  const Result<std::unique_ptr<Device>> device = Device::create(options);
+  ASSERT_TRUE(device.ok()) << device.error().message();
+  // Something that keeps the block of memory from going back to the system, which would give it back empty.
+  const Image other(**device, {.format = VK_FORMAT_R8G8B8A8_UNORM, .width = 8, .height = 8},
+                    VK_IMAGE_USAGE_SAMPLED_BIT);
+  constexpr ViewDrawing kAll[] = {ViewDrawing::together, ViewDrawing::separately,
+                                  ViewDrawing::resolvedTogether};
+  for (const uint32_t samples : {1u, 4u}) {
+    if (samples == 4 && !(*device)->supports4Samples()) continue;
+    for (const ViewDrawing way : kAll) {
+      const bool first = isRight(drawProbe(**device, way, samples));
+      for (const ViewDrawing before : kAll) {
+        (void)drawProbe(**device, before, samples);
+        EXPECT_EQ(isRight(drawProbe(**device, way, samples)), first)
+            << samples << " samples, way " << int(way) << " after " << int(before);
+      }
     }
   }
   EXPECT_EQ((*device)->validationMessages(), 0);

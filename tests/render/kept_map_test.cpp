@@ -30,7 +30,7 @@ class KeptMap : public BothEyes {
               red = s.material(TestScene::colored("Red", {0.6f, 0.1f, 0.1f, 1}));
     s.add(gridMesh({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}), sand);
     s.add(gridMesh({-1, 1.5f, 1}, {1, 0, 0}, {0, 0, -1}), s.material(masked));
-    s.add(sphereMesh({1.5f, 1, 0}, 0.5f, 24), red);
+    s.add(sphereMesh({1.5f, 1, 0}, 0.5f, 64), red);
     s.add(sphereMesh({0, 0, 0}, 0.4f, 24), red);
     s.clip("Roll", {0, 1, 2}, {{0, 0, 0}, {0, 1, 1}, {0, 1, 1}});
     return s;
@@ -70,7 +70,7 @@ TEST_P(KeptMap, isThatOfWhoDrawsItAnew) {
       {"and stands", false, {}, 1.8},
       {"another light", true, {{"light.azimuth", "20"}}, 1.8},
       {"back", true, {}, 1.8},
-      {"other details", true, {{"levels.error", "9"}}, 1.8},
+      {"other details", true, {{"levels.error", "16"}}, 1.8},
       {"warped", true, warped, 1.8},
       {"warped, from elsewhere", true, warped, 1.8, far},
       {"holes", true, {}, 1.8, near, [&] { setCutoff(0.9f); }},
