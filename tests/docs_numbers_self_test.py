@@ -100,7 +100,7 @@ class Numbers(unittest.TestCase):
                                           ("README.md", "| `dusk` |", "| |", "dusk"),
                                           ("docs/stage.md", "| `palette.h` |", "| |", "palette.h"),
                                           ("docs/measure.md", "| `src/measure/field.h` |", "| |", "field.h"),
-                                          ("docs/metatexture.md", "`paper`, `sea`, `foam`)", "`paper`)", "foam"),
+                                          ("docs/metatexture.md", "`paper`, `sea`, `foam`, `nested`)", "`paper`)", "foam"),
                                           ("docs/house.md", "Henry's room, ", "", "henry")):
             with self.subTest(file=file):
                 self.change(file, before, after)

@@ -115,6 +115,7 @@ MEASURED = [("warp error, dolly", lambda m: m["temporal"]["dolly"]["vectors"]),
             ("contrast, from the example's", lambda m: m["contrastError"]["vectors"]),
             ("flatness error", lambda m: m["flatness"]["vectors"]),
             ("stereo difference", lambda m: m["stereo"]["warp"]["vectors"]),
+            ("marks that die in an octave", lambda m: m["marks"]["died"]),
             ("stereo, final-color", lambda m: m["stereo"]["final-color"])]
 
 

@@ -84,6 +84,9 @@ void printTable(const Measurements& measured, const std::string& heading) {
       printRow(row.name, measured, numberOf, "{:14.3f}", best->mode);
     }
   }
+  printHead("breakup marks, in an octave", measured);
+  printRow("born", measured, [](const ModeMeasurements& m) { return m.marks.born; });
+  printRow("died", measured, [](const ModeMeasurements& m) { return m.marks.died; });
   printHead("pictures, rms in stereo", measured);
   printRow(
       "final-shadow", measured, [](const ModeMeasurements& m) { return m.stereo.finalShadow; }, "{:14.4f}");
@@ -129,6 +132,7 @@ nlohmann::json toJson(const ModeMeasurements& mode) {
           {"contrastDeviation", toJson(mode.contrastDeviation)},
           {"contrastError", toJson(mode.contrastError)},
           {"flatness", toJson(mode.flatness)},
+          {"marks", {{"born", mode.marks.born}, {"died", mode.marks.died}}},
           {"stereo",
            {{"warp", toJson(mode.stereo.warp)},
             {"final-shadow", mode.stereo.finalShadow},

@@ -50,6 +50,14 @@ struct StereoDifference {
   double color = 0, finalColor = 0;
 };
 
+// What becomes of breakup marks while the picture is magnified to twice its size, from several zooms on. Marks are
+// what is a quarter of a deviation above the flat example's mean, over 12 pixels or more; one is there if any of
+// its middle is.
+struct MarkLives {
+  double born = 0;  // share of those there afterwards that were not there before
+  double died = 0;  // share of those there before that are not there afterwards
+};
+
 // One way to put the texture on the surface.
 struct ModeMeasurements {
   std::string mode;  // metatexture, object, screen or fractal: a value of warp.metatexture.mode
@@ -60,6 +68,7 @@ struct ModeMeasurements {
   PerField contrastError;       // greatest distance of the contrast from the flat example's
   PerField flatness;            // average co-occurrence error at zoom 1: 0 as the flat example, 1 different
   StereoDifference stereo;
+  MarkLives marks;
 };
 
 // What was promised of the vectors, and what was found.
@@ -81,7 +90,7 @@ struct Measurements {
 // Measures MetaTexture and its three rivals (ordinary mapping, screen space, summed octaves) in one scene, as
 // `look` sets them; the rivals as their authors have them (docs/measure.md). Of the look, these are set
 // otherwise: no ground, and for the fields warp.inflation 0, warp.distance 0 and warp.amount 64. What
-// features draw is not measured, nor is what is not torn at all. Renders some 400 frames. The same call gives
+// features draw is not measured, nor is what is not torn at all. Renders some 500 frames. The same call gives
 // the same numbers.
 //
 // Uses the renderer as a call of render() does: from one thread at a time.

@@ -50,14 +50,14 @@ struct MetaTexture {
   glm::vec4 mean{0.5f};
   glm::vec2 size{256.0f}, shift{0.0f};
   float base = 2, levelRotation = 0, blend = 1, skip = 0, lod = 0, skewLevels = 4, tiles = 1;
-  int mode = 0, skew = 0, orient = 0, contrast = 0, wrapping = 1;
+  int mode = 0, skew = 0, orient = 0, contrast = 0, wrapping = 1, nested = 0;
   bool operator==(const MetaTexture&) const = default;
 
   // A shader for which this is a specialisation constant has no branches by uniforms: such branches would be
   // executed both ways, or, where a driver makes a shader of its own for each value, fill the memory.
   uint32_t features() const {
     return uint32_t(mode | skew << 2 | contrast << 4 | (orient != 0) << 6 | (wrapping != 0) << 7 |
-                    (skip > 0) << 8 | (levelRotation != 0) << 9 | (base != 2) << 10);
+                    (skip > 0) << 8 | (levelRotation != 0) << 9 | (base != 2) << 10 | (nested != 0) << 11);
   }
   MetaTextureUniforms uniforms() const {
     return {mean, size, shift, base, levelRotation, blend, skip, lod, skewLevels, tiles, features()};

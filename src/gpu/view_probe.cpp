@@ -23,8 +23,8 @@ constexpr uint32_t kSize = ProbePicture::kSize, kProbeLayers = 2;
 // What view_probe.vert and view_probe.frag draw, and what is there before.
 constexpr uint8_t kDrawn[kProbeLayers] = {51, 204}, kClear = 102;
 constexpr float kDrawnDepth[kProbeLayers] = {0.25f, 0.75f}, kClearDepth = 0.0625f;
-// What lies there before: none of these. Memory may hold what an earlier probe has drawn right, and what is never
-// written would pass for it.
+// What lies there before: none of these. Memory may hold what an earlier probe has drawn right, and what is
+// never written would pass for it.
 constexpr uint8_t kSpoilt = 17;
 constexpr float kSpoiltDepth = 0.5f;
 constexpr int kLongSide = 160;  // pixels: x + y along the shape's long side

@@ -81,8 +81,8 @@ TEST(ViewProbe, whatADeviceIsSaidToDrawRightItDrawsRight) {
   EXPECT_EQ((*device)->validationMessages(), 0);
 }
 
-// What lies in memory from an earlier probe is no answer: asked again, after pictures that are right, a device says the
-// same of each way.
+// What lies in memory from an earlier probe is no answer: asked again, after pictures that are right, a
+// device says the same of each way.
 TEST(ViewProbe, answersDoNotComeFromMemory) {
   DeviceOptions options;
   options.validation = true;

@@ -13,6 +13,7 @@
 #include "measure/cooccurrence.h"
 #include "measure/field.h"
 #include "measure/magnify.h"
+#include "measure/mark_lives.h"
 #include "measure/measurer.h"
 #include "measure/reprojection.h"
 #include "measure/statistics.h"
@@ -46,6 +47,7 @@ int seedsAt(int i) {
   return std::clamp(int(std::lround(2 / zoomAt(i))), 4, 16);
 }
 
+constexpr int kMarkZooms = 6;  // in an octave
 constexpr float kAmount = 64;  // px at 1080 lines: the most that the knob takes
 constexpr int kExampleSeeds = 4;
 constexpr size_t kMostMaterials = 64;  // that ordinary mapping has a density of its own for
@@ -109,7 +111,8 @@ class Measurer {
     for (const char* mode : kModes) result_.modes.emplace_back().mode = mode;
     if (const Status status = findPlaces(); !status) return status.error();
     for (ModeMeasurements& mode : result_.modes)
-      for (const auto step : {&Measurer::measureMotion, &Measurer::measureZoom, &Measurer::measureStereo})
+      for (const auto step : {&Measurer::measureMotion, &Measurer::measureZoom, &Measurer::measureStereo,
+                              &Measurer::measureMarks})
         if (const Status status = (this->*step)(mode); !status) return status.error();
     compareWithTargets();
     return result_;
@@ -210,7 +213,7 @@ class Measurer {
     for (int i = 0; i < kZooms; ++i) zoomFrames += seedsAt(i);
     const int motionFrames = 1 + kMotions * kStepsAPath;
     return 1 + int(materials_.size()) + kExampleSeeds + motionFrames +
-           kModeCount * (motionFrames + zoomFrames + 2);
+           kModeCount * (motionFrames + zoomFrames + 2 + 2 * kMarkZooms);
   }
 
   Status frameScene() {
@@ -454,6 +457,34 @@ class Measurer {
     mode.stereo.finalShadow = differenceOf("final-shadow", 1);
     mode.stereo.color = differenceOf("color", 3);
     mode.stereo.finalColor = differenceOf("", 3);
+    return Done{};
+  }
+
+  Status measureMarks(ModeMeasurements& mode) {
+    const Result<Look> look = lookOf(mode.mode, true);
+    if (!look) return look.error();
+    // What stands out of the flat example.
+    double sum = 0, pixels = 0;
+    for (const Fields& sample : example_)
+      for (size_t pixel = 0; pixel < sample.marks.pixelCount(); ++pixel)
+        if (sample.marks.valid[pixel]) sum += double(*sample.marks.at(pixel)), ++pixels;
+    const auto level = float(sum / std::max(pixels, 1.0) + 0.25 * exampleSpread_.marks);
+    // From several zooms on, since scales change at some.
+    MarkCount all;
+    for (int i = 0; i < kMarkZooms; ++i) {
+      Field shown[2];
+      for (int k = 0; k < 2; ++k) {
+        const View view = magnified(view_, std::exp2(float(i) / kMarkZooms + float(k)), zoomCentre_);
+        const Result<Frame> frame = render(scene_, *look, {view}, {"warp", "id"});
+        if (!frame) return frame.error();
+        shown[k] = fieldsOf(*frame).marks;
+      }
+      const MarkCount count = countMarks(shown[0], shown[1], 2, zoomCentre_, level);
+      all.marksBefore += count.marksBefore, all.died += count.died;
+      all.marksAfter += count.marksAfter, all.born += count.born;
+    }
+    const auto share = [](size_t some, size_t of) { return of > 0 ? double(some) / double(of) : 0.0; };
+    mode.marks = {share(all.born, all.marksAfter), share(all.died, all.marksBefore)};
     return Done{};
   }
 

@@ -35,6 +35,7 @@ struct MetaTexture {
   // bit 8: skip is not 0
   // bit 9: levelRotation is not 0
   // bit 10: base is not 2
+  // bit 11: copies at all scales begin at one place
 };
 
 int metaTextureMode(MetaTexture m) { return m.features & 3; }
@@ -44,6 +45,7 @@ bool metaTextureOrients(MetaTexture m) { return (m.features & 64) != 0; }
 bool metaTextureWraps(MetaTexture m) { return (m.features & 128) != 0; }
 bool metaTextureSkips(MetaTexture m) { return (m.features & 256) != 0; }
 bool metaTextureTurns(MetaTexture m) { return (m.features & 512) != 0; }
+bool metaTextureNests(MetaTexture m) { return (m.features & 2048) != 0; }
 float metaTextureBase(MetaTexture m) { return (m.features & 1024) != 0 ? m.base : 2.0; }
 
 // The transforms chosen at one point. Arrays: the two neighbouring levels of skew.
@@ -208,13 +210,15 @@ void metaTextureCopies(MetaTexture m, vec2 uv, vec2 psi, vec2 level, vec2 wraps,
 }
 
 // Each copy starts elsewhere in the texture, at a place that depends on its level only. Otherwise all copies would show
-// the same near the origin of uv, and a blend of equals has more contrast than eq. 24 counts with.
+// the same near the origin of uv, and a blend of equals has more contrast than eq. 24 counts with. Nested copies begin at
+// one place, wherever it is: what one shows there, those at other scales do.
 vec4 metaTextureFetch(MetaTexture m, MetaTextureChoice c, sampler2D example, vec2 at, vec2 level, float skewLevel) {
   if (metaTextureTurns(m)) {
     float angle = 0.5 * (level.x + level.y) * m.levelRotation;
     at = vec2(cos(angle) * at.x - sin(angle) * at.y, sin(angle) * at.x + cos(angle) * at.y);
   }
-  at += m.shift + 0.618034 * level + skewLevel * vec2(0.3711, 0.7133);
+  vec2 ofSkew = m.shift + skewLevel * vec2(0.3711, 0.7133);
+  at += metaTextureNests(m) ? exp2(level * log2(metaTextureBase(m))) * ofSkew : ofSkew + 0.618034 * level;
   vec4 value = textureLod(example, at, m.lod);
   if (metaTextureOrients(m)) value = mix(value, textureLod(example, at.yx, m.lod), c.orientBlend);
   return value;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/nested_marks.h"
 #include "base/stroke_maps.h"
 #include "base/tileable_noise.h"
 #include "world/mipmaps.h"
@@ -49,6 +50,7 @@ Pixels pixelsOf(const look::LookData& look, look::Picture picture) {
 Pixels builtInExample(int index) {
   if (index == 3) return seaStrokes();
   if (index == 4) return foamStrokes();
+  if (index == 5) return nestedMarks();
   if (index == 1) {
     // Lying, as `orient` wants them.
     const std::vector<uint8_t> standing = knifeMarks();

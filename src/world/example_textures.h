@@ -10,7 +10,7 @@
 
 namespace scumble::world {
 
-// The built-in ones, in the order of the rows in .params files: "torn|strokes|paper|sea|foam".
+// The built-in ones, in the order of the rows in .params files: "torn|strokes|paper|sea|foam|nested".
 //   torn     red, green: two independent fields, rough down to a few texels, so that edges are torn and
 //            not wavy; blue: palette-knife marks
 //   strokes  the marks alone, grey, lying along u

@@ -71,7 +71,7 @@ class Pictures(Pattern):
                 self.bad(UNUSABLE, "render", "box.gltf", *look, says=("look.json", "texture.metatexture.example"))
 
     def test_a_slip_in_a_name_is_no_file(self):
-        self.bad(USAGE, "render", "box.gltf", "--set", "warp.metatexture.example=tron", says="torn|strokes|paper|sea|foam")
+        self.bad(USAGE, "render", "box.gltf", "--set", "warp.metatexture.example=tron", says="torn|strokes|paper|sea|foam|nested")
         self.bad(USAGE, "render", "box.gltf", "--set", "warp.metatexture.example=")
         self.bad(UNUSABLE, "render", "box.gltf", *self.look({"warp": {"metatexture": {"example": 1}}}), says="example")
 

@@ -9,6 +9,7 @@
 #include <glm/gtc/constants.hpp>
 #include <random>
 
+#include "base/nested_marks.h"
 #include "shaders/metatexture_probe_comp.h"
 #include "tests/support/aov.h"
 #include "tests/support/metatexture_reference.h"
@@ -110,7 +111,7 @@ class MetaTextureTest : public ::testing::Test {
     r.skew = m.skew == 0   ? MetaTextureReference::off
              : m.skew == 1 ? MetaTextureReference::approximate
                            : MetaTextureReference::exact;
-    r.contour = m.orient != 0, r.contrast = m.contrast != 0;
+    r.contour = m.orient != 0, r.contrast = m.contrast != 0, r.nested = m.nested != 0;
     r.shift = m.shift;
     return r;
   }
@@ -166,6 +167,7 @@ TEST_F(MetaTextureTest, equalsItsReference) {
     m.blend = round % 5 == 1 ? 0.4f : 1.0f;
     m.skip = round % 2 ? 0.1f : 0.0f;
     m.orient = round % 4 == 2;
+    m.nested = round % 8 >= 6;
     m.shift = {float(number(0, 1)), float(number(0, 1))};
     const bool specialised = m.base == 2 && m.levelRotation == 0 && m.orient == 0 && m.skip == 0;
     std::vector<Query> queries(512);
@@ -480,6 +482,40 @@ TEST_F(MetaTextureTest, orientationShowsTheContour) {
 }
 
 // The rivals are what they are said to be.
+// A zoom by four octaves, along u, along v and both: where there is a mark there is one ever after. Of copies
+// that begin anywhere most are lost.
+TEST_F(MetaTextureTest, nestedMarksAreNeverLost) {
+  constexpr int kExample = 5, kSteps = 33;
+  const std::vector<glm::dvec2> places = nestedPlaces();
+  const glm::dvec2 along[] = {{1, 0}, {0, 1}, {1, 1}};
+  for (const bool nested : {true, false}) {
+    MetaTexture m;
+    m.mean = meanOf(world::builtInExample(kExample));
+    m.contrast = frame::kContrastVariance;
+    m.nested = nested;
+    m.shift = {0.3137f, 0.7241f};
+    std::vector<Query> queries;
+    for (const glm::dvec2& place : places)
+      for (const glm::dvec2& way : along)
+        for (int step = 0; step < kSteps; ++step) {
+          Query& query = queries.emplace_back();
+          query.uv = place - glm::dvec2(m.shift);
+          const double octaves = 4.0 * step / (kSteps - 1);
+          setGradients(query, glm::dvec2(std::exp2(-octaves * way.x) / 256, 0),
+                       glm::dvec2(0, std::exp2(-octaves * way.y) / 256));
+        }
+    const std::vector<Answer> answers = ask(m, queries, kExample);
+    size_t lost = 0;
+    for (size_t i = 0; i < answers.size(); i += kSteps)
+      lost += std::any_of(answers.begin() + std::ptrdiff_t(i), answers.begin() + std::ptrdiff_t(i) + kSteps,
+                          [](const Answer& answer) { return answer.value.b < 0.47f; });
+    if (nested)
+      EXPECT_EQ(lost, 0u);
+    else
+      EXPECT_GT(lost, answers.size() / kSteps / 2);
+  }
+}
+
 TEST_F(MetaTextureTest, rivals) {
   const RepeatingTexture texture{world::builtInExample(0)};
   MetaTexture m;

@@ -97,8 +97,9 @@ MetaTextureReference::Result MetaTextureReference::at(const glm::dvec2& uv, cons
         at = {std::cos(angle) * at.x - std::sin(angle) * at.y,
               std::sin(angle) * at.x + std::cos(angle) * at.y};
         // Copies start at different places, so that they are independent.
-        at += shift + 0.618034 * (whole + glm::dvec2(i, j));
-        if (skew != off) at += (lower + level) * glm::dvec2(0.3711, 0.7133);
+        glm::dvec2 start = shift;
+        if (skew != off) start += (lower + level) * glm::dvec2(0.3711, 0.7133);
+        at += nested ? scale * start : start + 0.618034 * (whole + glm::dvec2(i, j));
         const double part = share * (i ? b.x : 1 - b.x) * (j ? b.y : 1 - b.y);
         for (const bool swapped : {false, true}) {
           const double orientShare = part * (swapped ? turned : 1 - turned);

@@ -25,7 +25,7 @@ struct MetaTextureReference {
   double base = 2, levelRotation = 0, blend = 1, skip = 0;  // ratio, radians a level
   int skewLevels = 4;
   enum { off, approximate, exact } skew = off;
-  bool contour = false, contrast = true;
+  bool contour = false, contrast = true, nested = false;
   glm::dvec2 shift{0.0};
 
   struct Copy {
