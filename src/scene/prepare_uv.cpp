@@ -2,30 +2,22 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include "scene/mapping_faults.h"
 #include "scene/posed_bounds.h"
 #include "scene/position_weld.h"
 #include "scene/prepare_mesh.h"
+#include "scene/unfolding.h"
 
 namespace scumble::scene {
 
 namespace {
 
-// A box projection without seams: the three axis projections, mixed by the smooth normal. Everything in it is
-// continuous over the surface, so the coordinates are too; where two faces of the box meet the texture is
-// stretched a little instead of torn.
-std::vector<glm::vec2> boxProjection(const Primitive& p, float scale) {
-  std::vector<glm::vec2> uvs(p.vertexCount());
-  for (size_t i = 0; i < p.vertexCount(); ++i) {
-    const glm::vec3 q = p.positions[i] * scale;
-    glm::vec3 w = p.smoothNormals[i] * p.smoothNormals[i];
-    w *= w;  // the fourth power keeps the faces of a box almost free of the others
-    w /= w.x + w.y + w.z;
-    uvs[i] = w.x * glm::vec2(q.z, q.y) + w.y * glm::vec2(q.x, q.z) + w.z * glm::vec2(q.x, q.y);
-  }
-  return uvs;
-}
+// Mappings by themselves: one seam around a ball is 0.89, and one along each limb is usual. What is denser or
+// coarser in all of a mesh's half is as bad as twice that.
+constexpr float kUsualCost = 1, kUnevenCost = 4;
+constexpr float kWorthLeaving = 0.75f;  // of the file's cost: less is no reason to leave it
 
 bool isFinite(const glm::vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -58,11 +50,30 @@ Mapping mappingOf(const Primitive& p, size_t i, float scale) {
   return mapping;
 }
 
-bool followsUvs(const Primitive& p, float scale, PatternCoordinates which) {
-  if (which == PatternCoordinates::own) return false;
+// The surface's own coordinates take the place of the file's, or stand beside them for patterns alone.
+void takeUnfolding(Primitive& p, Unfolding&& u) {
+  gatherVertices(p, u.source);
+  p.indices = std::move(u.indices);
+  (p.uv0.empty() ? p.uv0 : p.patternUv) = std::move(u.uvs);
+}
+
+// What is wrong with a mapping, in lengths of seams.
+float costOf(const MappingFaults& faults) {
+  return faults.seams + kUnevenCost * faults.uneven;
+}
+
+std::optional<Unfolding> ownMapping(const Primitive& p, float scale, PatternCoordinates which) {
+  if (which == PatternCoordinates::own || p.uv0.empty()) return unfold(p, scale);
   const MappingFaults faults = mappingFaults(p, scale);
   // Where there is no mapping nothing can follow it.
-  return which == PatternCoordinates::file ? !faults.isMissing() : !faults.any();
+  if (faults.isMissing()) return unfold(p, scale);
+  if (which == PatternCoordinates::file || costOf(faults) <= kUsualCost) return std::nullopt;
+  Unfolding own = unfold(p, scale);
+  Primitive laid;
+  for (const uint32_t v : own.source) laid.positions.push_back(p.positions[v]);
+  laid.indices = own.indices, laid.uv0 = own.uvs;
+  if (costOf(mappingFaults(laid, scale)) >= kWorthLeaving * costOf(faults)) return std::nullopt;
+  return own;
 }
 
 // For each vertex the first one at its place on the surface: files split vertices where faces meet, or all of
@@ -172,14 +183,12 @@ void finishPrimitive(Primitive& p, float radius, PatternCoordinates which) {
     normal = length > 1e-12f ? normal / length : p.normals[i];
   }
   const float scale = 1.0f / std::max(radius, 1e-20f);
-  if (p.uv0.empty() && p.vertexCount() > 0) {
-    p.uv0 = boxProjection(p, scale);
-    p.generatedUvs = true;
-  } else if (!followsUvs(p, scale, which)) {
-    p.patternUv = boxProjection(p, scale);
-    p.ownPattern = true;
-    p.wrapsU = p.wrapsV = false;
-  }
+  if (p.vertexCount() > 0)
+    if (std::optional<Unfolding> own = ownMapping(p, scale, which)) {
+      (p.uv0.empty() ? p.generatedUvs : p.ownPattern) = true;
+      takeUnfolding(p, std::move(*own));
+      p.wrapsU = p.wrapsV = false;
+    }
   std::vector<uint32_t> places;
   makeTangents(p, scale, places);
   finishMorphTargets(p, [&](Primitive& morphed) { makeTangents(morphed, scale, places); });

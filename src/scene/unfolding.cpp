@@ -1,0 +1,279 @@
+#include "scene/unfolding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <queue>
+
+#include "scene/position_weld.h"
+
+namespace scumble::scene {
+
+namespace {
+
+constexpr uint32_t kNone = 0xffffffffu;
+constexpr float kMostStretch = 4;
+constexpr float kSameCopy =
+    1.2f;  // of the side of a square as large as two of it: how far a triangle's corner may be off
+constexpr float kCreaseCost = 20;  // how much farther it is over an edge of 90 degrees
+constexpr int kRelaxations = 16;
+
+// Where a triangle's corners lie in its own plane: the first at the origin, the second on the axis x.
+struct Flat {
+  float length = 0;  // of the first edge
+  float along = 0;   // of the third corner, in lengths of that edge
+  float height = 0;
+  bool isSound() const { return length > 0 && std::isfinite(along) && std::isfinite(height); }
+};
+
+Flat flat(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+  const glm::vec3 edge = b - a, side = c - a;
+  const float squared = glm::dot(edge, edge);
+  Flat f;
+  f.length = std::sqrt(squared);
+  f.along = glm::dot(side, edge) / squared;
+  f.height = glm::length(side - f.along * edge);
+  return f;
+}
+
+// Whether such a triangle may lie so: not mirrored, and nowhere stretched or squeezed too much.
+bool mayLie(const Flat& f, const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
+  const glm::vec2 x = (b - a) / f.length, y = (c - a - f.along * (b - a)) / f.height;
+  const float det = x.x * y.y - x.y * y.x, sum = glm::dot(x, x) + glm::dot(y, y);
+  const float difference = std::sqrt(std::max(sum * sum - 4 * det * det, 0.0f));
+  return det > 0 && sum + difference < 2 * kMostStretch * kMostStretch &&
+         (sum - difference) * kMostStretch * kMostStretch > 2;
+}
+
+class Unfolder {
+ public:
+  Unfolder(const Primitive& p, float scale) : p_(p), count_(p.indices.size() / 3) {
+    findPlaces(scale);
+    findNeighbours();
+  }
+
+  Unfolding unfold() {
+    layAll();
+    for (int i = 0; i < kRelaxations; ++i) relax();
+    return result();
+  }
+
+ private:
+  // A place as it lies in a piece; the same place may lie in several, and in one several times.
+  struct Copy {
+    glm::vec2 uv;
+    uint32_t next;  // of the same place, or kNone
+    uint32_t piece;
+  };
+  // A half edge, by the number of the corner where it begins, over which a triangle could be laid.
+  struct Front {
+    float distance;
+    uint32_t half;
+    bool operator>(const Front& other) const {
+      return distance != other.distance ? distance > other.distance : half > other.half;
+    }
+  };
+
+  static uint32_t following(uint32_t half) { return half % 3 == 2 ? half - 2 : half + 1; }
+  const glm::vec3& at(uint32_t half) const { return positions_[place_[half]]; }
+  glm::vec2& uvOf(uint32_t half) { return copies_[copy_[half]].uv; }
+
+  void findPlaces(float scale) {
+    const PositionGrid grid(0.5f * scale);
+    PositionTable table(p_.vertexCount());
+    std::vector<uint32_t> ofVertex(p_.vertexCount());
+    for (uint32_t v = 0; v < ofVertex.size(); ++v)
+      ofVertex[v] = table.findOrAdd(grid(p_.positions[v]), v,
+                                    [&](uint32_t stored) { return grid(p_.positions[stored]); });
+    positions_.resize(p_.vertexCount());
+    for (size_t v = 0; v < positions_.size(); ++v) positions_[v] = p_.positions[v] * scale;
+    place_.resize(p_.indices.size());
+    for (size_t i = 0; i < place_.size(); ++i) place_[i] = ofVertex[p_.indices[i]];
+    normals_.resize(count_);
+    areas_.resize(count_);
+    for (uint32_t t = 0; t < count_; ++t) {
+      const glm::vec3 across = glm::cross(at(3 * t + 1) - at(3 * t), at(3 * t + 2) - at(3 * t));
+      const float length = glm::length(across);
+      areas_[t] = std::isfinite(length) ? 0.5f * length : 0.0f;
+      normals_[t] = areas_[t] > 0 ? across / length : glm::vec3(0.0f);
+    }
+  }
+
+  void findNeighbours() {
+    struct Edge {
+      uint64_t ends;
+      uint32_t half;
+      bool operator<(const Edge& other) const {
+        return ends != other.ends ? ends < other.ends : half < other.half;
+      }
+    };
+    std::vector<Edge> edges(place_.size());
+    for (uint32_t half = 0; half < edges.size(); ++half) {
+      const uint32_t a = place_[half], b = place_[following(half)];
+      edges[half] = {uint64_t(std::min(a, b)) << 32 | std::max(a, b), half};
+    }
+    std::sort(edges.begin(), edges.end());
+    twins_.assign(place_.size(), kNone);
+    for (size_t first = 0, last = 0; first < edges.size(); first = last) {
+      while (last < edges.size() && edges[last].ends == edges[first].ends) ++last;
+      const uint32_t one = edges[first].half, other = edges[last - 1].half;
+      if (last - first == 2 && place_[one] != place_[other]) twins_[one] = other, twins_[other] = one;
+    }
+  }
+
+  void layAll() {
+    std::vector<uint32_t> bySize(count_);
+    std::iota(bySize.begin(), bySize.end(), 0u);
+    std::stable_sort(bySize.begin(), bySize.end(),
+                     [&](uint32_t a, uint32_t b) { return areas_[a] > areas_[b]; });
+    copy_.assign(place_.size(), kNone);
+    firstCopy_.assign(p_.vertexCount(), kNone);
+    for (const uint32_t seed : bySize) {
+      if (copy_[3 * seed] != kNone) continue;
+      begin(seed);
+      while (!front_.empty()) {
+        const Front next = front_.top();
+        front_.pop();
+        if (copy_[next.half] == kNone && lay(next.half)) spread(next.half / 3, next.distance);
+      }
+      ++piece_;
+    }
+  }
+
+  uint32_t addCopy(uint32_t place, const glm::vec2& uv) {
+    copies_.push_back({uv, firstCopy_[place], piece_});
+    return firstCopy_[place] = uint32_t(copies_.size() - 1);
+  }
+
+  void begin(uint32_t t) {
+    // Upright where the surface is; what lies on the ground or on its back has u along x.
+    const glm::vec3& normal = normals_[t];
+    glm::vec3 along = glm::cross(glm::vec3(0, 1, 0), normal);
+    if (glm::length(along) < 0.1f) along = glm::vec3(1, 0, 0) - normal.x * normal;
+    along = glm::length(along) > 0 ? glm::normalize(along) : glm::vec3(1, 0, 0);
+    const glm::vec3 upward = glm::cross(normal, along);
+    // Pieces begin at different places of a pattern.
+    const glm::vec2 shift(glm::fract(0.618034f * float(piece_)), glm::fract(0.754878f * float(piece_)));
+    for (uint32_t half = 3 * t; half < 3 * t + 3; ++half) {
+      const glm::vec3 off = at(half) - at(3 * t);
+      const glm::vec2 uv(glm::dot(off, along), glm::dot(off, upward));
+      copy_[half] = addCopy(place_[half], shift + uv);
+    }
+    spread(t, 0);
+  }
+
+  void spread(uint32_t t, float distance) {
+    const auto middle = [&](uint32_t of) { return (at(3 * of) + at(3 * of + 1) + at(3 * of + 2)) / 3.0f; };
+    for (uint32_t half = 3 * t; half < 3 * t + 3; ++half) {
+      const uint32_t twin = twins_[half];
+      if (twin == kNone || copy_[twin] != kNone) continue;
+      const float turn = 1 - glm::dot(normals_[t], normals_[twin / 3]);
+      front_.push({distance + glm::distance(middle(t), middle(twin / 3)) * (1 + kCreaseCost * turn), twin});
+    }
+  }
+
+  // Lays the triangle of this half edge beside its twin's.
+  bool lay(uint32_t half) {
+    const uint32_t next = following(half), third = following(next);
+    const uint32_t copyA = copy_[following(twins_[half])], copyB = copy_[twins_[half]];
+    const Flat f = flat(at(half), at(next), at(third));
+    if (!f.isSound()) return false;
+    const glm::vec2 a = copies_[copyA].uv, b = copies_[copyB].uv, edge = b - a;
+    const float length = glm::length(edge);
+    if (!(length < kMostStretch * f.length && length * kMostStretch > f.length)) return false;
+    const glm::vec2 wanted = a + f.along * edge + f.height / length * glm::vec2(-edge.y, edge.x);
+    // The copy that lies there already, or one of its own.
+    uint32_t found = kNone;
+    float nearest = kSameCopy * std::sqrt(length * f.height);
+    const bool isThin = f.height < 1e-5f * f.length;
+    for (uint32_t c = firstCopy_[place_[third]]; c != kNone && copies_[c].piece == piece_;
+         c = copies_[c].next) {
+      const float away = glm::distance(copies_[c].uv, wanted);
+      if (away < nearest && (isThin || mayLie(f, a, b, copies_[c].uv))) found = c, nearest = away;
+    }
+    copy_[half] = copyA, copy_[next] = copyB;
+    copy_[third] = found != kNone ? found : addCopy(place_[third], wanted);
+    return true;
+  }
+
+  // Each triangle asks for its own form, as it lies, a little larger or smaller; corners lie in the middle of
+  // what is asked of them (shape matching; Mueller et al. 2005, "Meshless deformations").
+  void relax() {
+    std::vector<glm::vec3> sums(copies_.size(), glm::vec3(0.0f));
+    for (uint32_t t = 0; t < count_; ++t) {
+      const Flat f = flat(at(3 * t), at(3 * t + 1), at(3 * t + 2));
+      if (!f.isSound() || !(areas_[t] > 0)) continue;
+      glm::vec2 own[3] = {{0, 0}, {f.length, 0}, {f.along * f.length, f.height}};
+      const glm::vec2 ownMiddle = (own[0] + own[1] + own[2]) / 3.0f,
+                      middle = (uvOf(3 * t) + uvOf(3 * t + 1) + uvOf(3 * t + 2)) / 3.0f;
+      float real = 0, imaginary = 0, size = 0;
+      for (uint32_t k = 0; k < 3; ++k) {
+        own[k] -= ownMiddle;
+        const glm::vec2 lies = uvOf(3 * t + k) - middle;
+        real += glm::dot(own[k], lies), imaginary += own[k].x * lies.y - own[k].y * lies.x;
+        size += glm::dot(own[k], own[k]);
+      }
+      const float length = std::hypot(real, imaginary);
+      if (!(length > 0)) continue;
+      const float by = std::clamp(length / size, 0.7f, 1.4f) / length;
+      const glm::vec2 turn(by * real, by * imaginary);
+      for (uint32_t k = 0; k < 3; ++k) {
+        const glm::vec2 asked =
+            middle + glm::vec2(turn.x * own[k].x - turn.y * own[k].y, turn.y * own[k].x + turn.x * own[k].y);
+        sums[copy_[3 * t + k]] += areas_[t] * glm::vec3(asked, 1);
+      }
+    }
+    for (size_t c = 0; c < copies_.size(); ++c)
+      if (sums[c].z > 0) copies_[c].uv = glm::vec2(sums[c]) / sums[c].z;
+  }
+
+  // Vertices at their first copies; those of others are added.
+  Unfolding result() const {
+    struct Added {
+      uint32_t copy, vertex, next;
+    };
+    Unfolding u;
+    u.source.resize(p_.vertexCount());
+    std::iota(u.source.begin(), u.source.end(), 0u);
+    u.uvs.assign(p_.vertexCount(), glm::vec2(0.0f));
+    u.indices.resize(p_.indices.size());
+    std::vector<uint32_t> first(p_.vertexCount(), kNone);
+    std::vector<Added> added;
+    for (size_t i = 0; i < p_.indices.size(); ++i) {
+      const uint32_t v = p_.indices[i], copy = copy_[i];
+      uint32_t known = first[v];
+      while (known != kNone && added[known].copy != copy) known = added[known].next;
+      if (known == kNone) {
+        const bool isFirst = first[v] == kNone;
+        const uint32_t vertex = isFirst ? v : uint32_t(u.source.size());
+        if (!isFirst) u.source.push_back(v), u.uvs.emplace_back();
+        u.uvs[vertex] = copies_[copy].uv;
+        added.push_back({copy, vertex, first[v]});
+        known = first[v] = uint32_t(added.size() - 1);
+      }
+      u.indices[i] = added[known].vertex;
+    }
+    return u;
+  }
+
+  const Primitive& p_;
+  size_t count_;                      // triangles
+  std::vector<uint32_t> place_;       // by corner: the first vertex at its place
+  std::vector<glm::vec3> positions_;  // by place, size one
+  std::vector<uint32_t> twins_;       // by half edge
+  std::vector<glm::vec3> normals_;    // by triangle
+  std::vector<float> areas_;
+  std::vector<uint32_t> copy_;       // by corner; kNone where the triangle does not lie yet
+  std::vector<uint32_t> firstCopy_;  // by place
+  std::vector<Copy> copies_;
+  uint32_t piece_ = 0;
+  std::priority_queue<Front, std::vector<Front>, std::greater<>> front_;
+};
+
+}  // namespace
+
+Unfolding unfold(const Primitive& primitive, float scale) {
+  return Unfolder(primitive, scale).unfold();
+}
+
+}  // namespace scumble::scene

@@ -1,0 +1,30 @@
+// A surface laid flat, for patterns that are to run on over it: coordinates that know no file's packing.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "scene/scene_data.h"
+
+namespace scumble::scene {
+
+struct Unfolding {
+  // By vertex: which of the primitive's it is. The primitive's own come first; at seams there are more.
+  std::vector<uint32_t> source;
+  std::vector<uint32_t> indices;  // of these, as many as the primitive's
+  std::vector<glm::vec2> uvs;     // of these; one unit is 1 / `scale` metres, so long as nothing is stretched
+};
+
+// Pieces grow from their largest triangle outward, each triangle laid beside one that lies already, across
+// its edge; over creases later, so that pieces meet there. A piece ends where triangles would be stretched or
+// squeezed to more than 2.5 times, which a ball is at 117 degrees from where it began, and may lie over
+// itself: a pattern repeats anyway. Then all are relaxed towards their own shape. Nothing is mirrored. The
+// upright of a piece is the world's where it begins.
+//
+// Triangles meet at edges whose ends share places, whatever vertices they have; where more than two do, or
+// they turn different ways around, nothing goes on. Depends on nothing but the primitive and `scale`, which
+// brings the mesh to size one.
+Unfolding unfold(const Primitive& primitive, float scale);
+
+}  // namespace scumble::scene
