@@ -3,6 +3,9 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include "command_line.h"
 #include "commands.h"
@@ -74,6 +77,12 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   // A limit on the sizes of files is an output that cannot be written, also where it is printed.
   std::signal(SIGXFSZ, SIG_IGN);
+#ifdef __GLIBC__
+  // Scenes are read into arrays that come and go. Each goes back to the system, whatever has been freed
+  // before it: the heap would keep a tenth of a large scene's file, and more where threads wait for each
+  // other.
+  mallopt(M_MMAP_THRESHOLD, 128 * 1024);
+#endif
   const int exitCode = run(argc, argv);
   // What was printed counts as output too: a script that saves it must learn when it did not arrive.
   if (exitCode == app::kDone && (std::fflush(stdout) != 0 || std::ferror(stdout)))

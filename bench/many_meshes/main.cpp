@@ -1,16 +1,19 @@
-// many_meshes OUT.glb [--triangles N] [--meshes N]: writes the scene that the speed goals are measured on.
+// many_meshes OUT.glb [--spheres] [--triangles N] [--meshes N]: writes the scenes that the speed goals are
+// measured on.
 #include <cstdio>
 #include <cstdlib>
 #include <string>
 
 #include "harbour.h"
 #include "mesh_kit/glb_writer.h"
+#include "spheres.h"
 
 namespace {
 
 int usage() {
-  std::fprintf(stderr,
-               "usage: many_meshes OUT.glb [--triangles N] [--meshes N]   (default 800000 and 250)\n");
+  std::fprintf(
+      stderr,
+      "usage: many_meshes OUT.glb [--spheres] [--triangles N] [--meshes N]   (default 800000 and 250)\n");
   return 2;
 }
 
@@ -19,9 +22,12 @@ int usage() {
 int main(int argc, char** argv) {
   std::string path;
   size_t triangles = 800000, meshes = 250;
+  bool areSpheres = false;
   for (int i = 1; i < argc; ++i) {
     const std::string word = argv[i];
-    if (word == "--triangles" || word == "--meshes") {
+    if (word == "--spheres") {
+      areSpheres = true;
+    } else if (word == "--triangles" || word == "--meshes") {
       if (i + 1 >= argc) return usage();
       const long number = std::strtol(argv[++i], nullptr, 10);
       if (number < 2 || number > 100000000) return usage();
@@ -33,7 +39,8 @@ int main(int argc, char** argv) {
     }
   }
   if (path.empty()) return usage();
-  const meshkit::Document document = harbour::makeHarbour(triangles, meshes);
+  const meshkit::Document document =
+      areSpheres ? spheres::makeSpheres(triangles, meshes) : harbour::makeHarbour(triangles, meshes);
   const std::string problem = meshkit::writeGlb(document, path, "scumble many_meshes");
   if (!problem.empty()) {
     std::fprintf(stderr, "many_meshes: error: %s\n", problem.c_str());

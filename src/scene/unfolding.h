@@ -18,7 +18,7 @@ struct Unfolding {
 
 // Pieces grow from their largest triangle outward, each triangle laid beside one that lies already, across
 // its edge; over creases later, so that pieces meet there. A piece ends where triangles would be stretched or
-// squeezed to more than 2.5 times, which a ball is at 117 degrees from where it began, and may lie over
+// squeezed to more than four times, which a ball is at 140 degrees from where it began, and may lie over
 // itself: a pattern repeats anyway. Then all are relaxed towards their own shape. Nothing is mirrored. The
 // upright of a piece is the world's where it begins.
 //
