@@ -1,6 +1,7 @@
 #include "scene/landing.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace scumble::scene {
@@ -9,28 +10,31 @@ namespace {
 
 // Barycentric coordinates of the point of a triangle that is nearest to `p`.
 glm::vec3 nearestOf(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& p) {
-  const auto onEdge = [&](const glm::vec3& from, const glm::vec3& to) {
-    const glm::vec3 along = to - from;
-    const float length2 = glm::dot(along, along);
-    return length2 > 0 ? std::clamp(glm::dot(p - from, along) / length2, 0.0f, 1.0f) : 0.0f;
-  };
   const glm::vec3 ab = b - a, ac = c - a, ap = p - a;
   const float bb = glm::dot(ab, ab), bc = glm::dot(ab, ac), cc = glm::dot(ac, ac);
-  const float area2 = bb * cc - bc * bc;
+  const float pb = glm::dot(ap, ab), pc = glm::dot(ap, ac), area2 = bb * cc - bc * bc;
+  // Of a point that is not over the triangle, the nearest one lies on an edge beyond which that is.
+  bool isBeyond[3] = {true, true, true};
   if (area2 > 1e-12f * bb * cc) {
-    const float pb = glm::dot(ap, ab), pc = glm::dot(ap, ac);
     const float v = (cc * pb - bc * pc) / area2, w = (bb * pc - bc * pb) / area2;
     if (v >= 0 && w >= 0 && v + w <= 1) return {1 - v - w, v, w};
+    isBeyond[0] = w<0, isBeyond[1] = v + w> 1, isBeyond[2] = v < 0;
   }
-  const float s[3] = {onEdge(a, b), onEdge(b, c), onEdge(c, a)};
-  const glm::vec3 on[3] = {{1 - s[0], s[0], 0}, {0, 1 - s[1], s[1]}, {s[2], 0, 1 - s[2]}};
-  const auto distance2 = [&](const glm::vec3& w) {
-    const glm::vec3 d = w.x * a + w.y * b + w.z * c - p;
-    return glm::dot(d, d);
-  };
-  return *std::min_element(std::begin(on), std::end(on), [&](const glm::vec3& m, const glm::vec3& n) {
-    return distance2(m) < distance2(n);
-  });
+  const glm::vec3* const ends[] = {&a, &b, &c, &a};
+  glm::vec3 nearest(1, 0, 0);
+  float least = std::numeric_limits<float>::max();
+  for (int edge = 0; edge < 3; ++edge) {
+    if (!isBeyond[edge]) continue;
+    const glm::vec3 along = *ends[edge + 1] - *ends[edge], off = p - *ends[edge];
+    const float length2 = glm::dot(along, along);
+    const float s = length2 > 0 ? std::clamp(glm::dot(off, along) / length2, 0.0f, 1.0f) : 0.0f;
+    const glm::vec3 away = off - s * along;
+    if (!(glm::dot(away, away) < least)) continue;
+    least = glm::dot(away, away);
+    nearest = glm::vec3(0.0f);
+    nearest[edge] = 1 - s, nearest[(edge + 1) % 3] = s;
+  }
+  return nearest;
 }
 
 }  // namespace
