@@ -17,6 +17,7 @@ constexpr float kSameCopy =
     1.2f;  // of the side of a square as large as two of it: how far a triangle's corner may be off
 constexpr float kCreaseCost = 20;  // how much farther it is over an edge of 90 degrees
 constexpr int kRelaxations = 16;
+constexpr uint32_t kTries = 64;  // copies of a place that are compared: around it there may be thousands
 
 // Where a triangle's corners lie in its own plane: the first at the origin, the second on the axis x.
 struct Flat {
@@ -186,7 +187,8 @@ class Unfolder {
     uint32_t found = kNone;
     float nearest = kSameCopy * std::sqrt(length * f.height);
     const bool isThin = f.height < 1e-5f * f.length;
-    for (uint32_t c = firstCopy_[place_[third]]; c != kNone && copies_[c].piece == piece_;
+    uint32_t tries = kTries;
+    for (uint32_t c = firstCopy_[place_[third]]; tries-- > 0 && c != kNone && copies_[c].piece == piece_;
          c = copies_[c].next) {
       const float away = glm::distance(copies_[c].uv, wanted);
       if (away < nearest && (isThin || mayLie(f, a, b, copies_[c].uv))) found = c, nearest = away;
@@ -227,31 +229,34 @@ class Unfolder {
       if (sums[c].z > 0) copies_[c].uv = glm::vec2(sums[c]) / sums[c].z;
   }
 
-  // Vertices at their first copies; those of others are added.
+  // A vertex for each copy that has corners of it: the vertex itself for the first, others are added.
   Unfolding result() const {
-    struct Added {
-      uint32_t copy, vertex, next;
+    struct Use {
+      uint64_t vertexAndCopy;
+      uint32_t corner;
+      bool operator<(const Use& other) const {
+        return vertexAndCopy != other.vertexAndCopy ? vertexAndCopy < other.vertexAndCopy
+                                                    : corner < other.corner;
+      }
     };
+    std::vector<Use> uses(p_.indices.size());
+    for (uint32_t i = 0; i < uses.size(); ++i) uses[i] = {uint64_t(p_.indices[i]) << 32 | copy_[i], i};
+    std::sort(uses.begin(), uses.end());
     Unfolding u;
     u.source.resize(p_.vertexCount());
     std::iota(u.source.begin(), u.source.end(), 0u);
     u.uvs.assign(p_.vertexCount(), glm::vec2(0.0f));
     u.indices.resize(p_.indices.size());
-    std::vector<uint32_t> first(p_.vertexCount(), kNone);
-    std::vector<Added> added;
-    for (size_t i = 0; i < p_.indices.size(); ++i) {
-      const uint32_t v = p_.indices[i], copy = copy_[i];
-      uint32_t known = first[v];
-      while (known != kNone && added[known].copy != copy) known = added[known].next;
-      if (known == kNone) {
-        const bool isFirst = first[v] == kNone;
-        const uint32_t vertex = isFirst ? v : uint32_t(u.source.size());
-        if (!isFirst) u.source.push_back(v), u.uvs.emplace_back();
-        u.uvs[vertex] = copies_[copy].uv;
-        added.push_back({copy, vertex, first[v]});
-        known = first[v] = uint32_t(added.size() - 1);
-      }
-      u.indices[i] = added[known].vertex;
+    for (size_t i = 0; i < uses.size(); ++i) {
+      const uint32_t v = p_.indices[uses[i].corner];
+      const bool isNew = i == 0 || uses[i].vertexAndCopy != uses[i - 1].vertexAndCopy;
+      const bool isAdded = isNew && i > 0 && p_.indices[uses[i - 1].corner] == v;
+      if (isAdded) u.source.push_back(v), u.uvs.emplace_back();
+      const uint32_t vertex = isAdded ? uint32_t(u.source.size() - 1)
+                              : isNew ? v
+                                      : u.indices[uses[i - 1].corner];
+      u.uvs[vertex] = copies_[copy_[uses[i].corner]].uv;
+      u.indices[uses[i].corner] = vertex;
     }
     return u;
   }

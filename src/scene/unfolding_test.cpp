@@ -215,5 +215,28 @@ TEST(Unfolding, hostileMeshes) {
   EXPECT_TRUE(unfold(Primitive(), 1).indices.empty());
 }
 
+// A hundred thousand triangles at one place, with a vertex that they share or one each, whether they meet at
+// edges or not: in moments, not in minutes.
+TEST(Unfolding, manyTrianglesAtOnePlace) {
+  constexpr uint32_t kCount = 100000;
+  for (const bool sharesVertices : {false, true})
+    for (const bool meets : {false, true}) {
+      Primitive p;
+      p.positions.push_back({0, 1, 0});
+      for (uint32_t i = 0; i < kCount; ++i) {
+        const auto rim = [&](float part) {
+          const float angle = -kTurn * (float(i) + part) / kCount * (meets ? 1.0f : 0.9f);
+          return glm::vec3(100 * std::cos(angle), i % 2 ? 0.1f : 0.0f, 100 * std::sin(angle));
+        };
+        if (!sharesVertices) p.positions.push_back(p.positions[0]);
+        const uint32_t hub = sharesVertices ? 0 : uint32_t(p.positions.size() - 1);
+        const auto first = uint32_t(p.positions.size());
+        p.positions.push_back(rim(0)), p.positions.push_back(rim(meets ? 1.0f : 0.5f));
+        p.indices.insert(p.indices.end(), {hub, first, first + 1});
+      }
+      expectTheSameTriangles(p, unfold(p, 0.01f));
+    }
+}
+
 }  // namespace
 }  // namespace scumble::scene
