@@ -55,7 +55,7 @@ class Unfolder {
 
   Unfolding unfold() {
     layAll();
-    for (int i = 0; i < kRelaxations; ++i) relax();
+    relax();
     return result();
   }
 
@@ -75,9 +75,14 @@ class Unfolder {
     }
   };
 
+  // A triangle as it is, and where it lies.
+  struct Form {
+    Flat own;
+    uint32_t copies[3];
+  };
+
   static uint32_t following(uint32_t half) { return half % 3 == 2 ? half - 2 : half + 1; }
   const glm::vec3& at(uint32_t half) const { return positions_[place_[half]]; }
-  glm::vec2& uvOf(uint32_t half) { return copies_[copy_[half]].uv; }
 
   void findPlaces(float scale) {
     const PositionGrid grid(0.5f * scale);
@@ -163,7 +168,9 @@ class Unfolder {
     spread(t, 0);
   }
 
+  // Goes on from a triangle that has been laid.
   void spread(uint32_t t, float distance) {
+    laid_.push_back(t);
     const auto middle = [&](uint32_t of) { return (at(3 * of) + at(3 * of + 1) + at(3 * of + 2)) / 3.0f; };
     for (uint32_t half = 3 * t; half < 3 * t + 3; ++half) {
       const uint32_t twin = twins_[half];
@@ -201,32 +208,43 @@ class Unfolder {
   // Each triangle asks for its own form, as it lies, a little larger or smaller; corners lie in the middle of
   // what is asked of them (shape matching; Mueller et al. 2005, "Meshless deformations").
   void relax() {
-    std::vector<glm::vec3> sums(copies_.size(), glm::vec3(0.0f));
-    for (uint32_t t = 0; t < count_; ++t) {
-      const Flat f = flat(at(3 * t), at(3 * t + 1), at(3 * t + 2));
-      if (!f.isSound() || !(areas_[t] > 0)) continue;
-      glm::vec2 own[3] = {{0, 0}, {f.length, 0}, {f.along * f.length, f.height}};
-      const glm::vec2 ownMiddle = (own[0] + own[1] + own[2]) / 3.0f,
-                      middle = (uvOf(3 * t) + uvOf(3 * t + 1) + uvOf(3 * t + 2)) / 3.0f;
-      float real = 0, imaginary = 0, size = 0;
-      for (uint32_t k = 0; k < 3; ++k) {
-        own[k] -= ownMiddle;
-        const glm::vec2 lies = uvOf(3 * t + k) - middle;
-        real += glm::dot(own[k], lies), imaginary += own[k].x * lies.y - own[k].y * lies.x;
-        size += glm::dot(own[k], own[k]);
-      }
-      const float length = std::hypot(real, imaginary);
-      if (!(length > 0)) continue;
-      const float by = std::clamp(length / size, 0.7f, 1.4f) / length;
-      const glm::vec2 turn(by * real, by * imaginary);
-      for (uint32_t k = 0; k < 3; ++k) {
-        const glm::vec2 asked =
-            middle + glm::vec2(turn.x * own[k].x - turn.y * own[k].y, turn.y * own[k].x + turn.x * own[k].y);
-        sums[copy_[3 * t + k]] += areas_[t] * glm::vec3(asked, 1);
-      }
+    // In the order in which they were laid: what lies side by side is then side by side in memory as well.
+    std::vector<Form> forms;
+    for (const uint32_t t : laid_)
+      if (const Flat f = flat(at(3 * t), at(3 * t + 1), at(3 * t + 2)); f.isSound() && areas_[t] > 0)
+        forms.push_back({f, {copy_[3 * t], copy_[3 * t + 1], copy_[3 * t + 2]}});
+    std::vector<glm::vec3> sums(copies_.size());
+    for (int i = 0; i < kRelaxations; ++i) {
+      std::fill(sums.begin(), sums.end(), glm::vec3(0.0f));
+      for (const Form& form : forms) ask(form, sums);
+      for (size_t c = 0; c < copies_.size(); ++c)
+        if (sums[c].z > 0) copies_[c].uv = glm::vec2(sums[c]) / sums[c].z;
     }
-    for (size_t c = 0; c < copies_.size(); ++c)
-      if (sums[c].z > 0) copies_[c].uv = glm::vec2(sums[c]) / sums[c].z;
+  }
+
+  void ask(const Form& form, std::vector<glm::vec3>& sums) const {
+    const Flat& f = form.own;
+    const uint32_t* const copies = form.copies;
+    const glm::vec2 lies[3] = {copies_[copies[0]].uv, copies_[copies[1]].uv, copies_[copies[2]].uv};
+    glm::vec2 own[3] = {{0, 0}, {f.length, 0}, {f.along * f.length, f.height}};
+    const glm::vec2 ownMiddle = (own[0] + own[1] + own[2]) / 3.0f,
+                    middle = (lies[0] + lies[1] + lies[2]) / 3.0f;
+    float real = 0, imaginary = 0, size = 0;
+    for (int k = 0; k < 3; ++k) {
+      own[k] -= ownMiddle;
+      const glm::vec2 off = lies[k] - middle;
+      real += glm::dot(own[k], off), imaginary += own[k].x * off.y - own[k].y * off.x;
+      size += glm::dot(own[k], own[k]);
+    }
+    const float length = std::sqrt(real * real + imaginary * imaginary), area = f.length * f.height;
+    if (!(length > 0)) return;
+    const float by = std::clamp(length / size, 0.7f, 1.4f) / length;
+    const glm::vec2 turn(by * real, by * imaginary);
+    for (int k = 0; k < 3; ++k) {
+      const glm::vec2 asked =
+          middle + glm::vec2(turn.x * own[k].x - turn.y * own[k].y, turn.y * own[k].x + turn.x * own[k].y);
+      sums[copies[k]] += area * glm::vec3(asked, 1);
+    }
   }
 
   // A vertex for each copy that has corners of it: the vertex itself for the first, others are added.
@@ -271,6 +289,7 @@ class Unfolder {
   std::vector<uint32_t> copy_;       // by corner; kNone where the triangle does not lie yet
   std::vector<uint32_t> firstCopy_;  // by place
   std::vector<Copy> copies_;
+  std::vector<uint32_t> laid_;  // triangles, in order
   uint32_t piece_ = 0;
   std::priority_queue<Front, std::vector<Front>, std::greater<>> front_;
 };
