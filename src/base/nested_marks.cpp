@@ -99,7 +99,7 @@ Pixels nestedMarks() {
       return from + (to - from) * double(hash(number++) & 0xFFFF) / 65535.0;
     };
     // Its middle strays from its place by less than it reaches.
-    const glm::dvec2 middle = place + kRadii * glm::dvec2(random(-0.2, 0.2), random(-0.2, 0.2));
+    const glm::dvec2 middle = place + kRadii * glm::dvec2{random(-0.2, 0.2), random(-0.2, 0.2)};
     const double size = random(0.48, 0.68), slant = random(-0.25, 0.25);
     std::array<glm::dvec2, 4> lobes;  // depth and phase
     for (glm::dvec2& lobe : lobes) lobe = {random(0.02, 0.09), random(0, 6.2831853)};

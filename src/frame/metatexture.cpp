@@ -30,7 +30,7 @@ MetaTextureUse metaTextureUse(const WarpMetaTextureParams& params, uint32_t chan
   // Rivals are what they are elsewhere: their scales know no skew.
   m.skew = m.mode == 0 ? int(params.skew) : 0;
   m.orient = m.mode == 0 ? int(params.orient) : 0;
-  m.nested = int(params.nested);
+  m.nested = m.mode == 0 ? int(params.nested) : 0;
   m.mean = (m.contrast == kContrastHistogram ? example->gaussianStatistics : example->statistics).mean;
   const float width = params.size * pixelScale;
   m.size = {width, width * float(example->height) / float(example->width)};

@@ -67,8 +67,8 @@ Missing missing(const Field& here, const Field& there, double zoom, const glm::v
   Missing found;
   for (const Pixels& mark : wholeMarks(here, level)) {
     const glm::dvec2 heart = fixed + (heartOf(mark, here.width) - fixed) * zoom;
-    // Half as far as a disc of its area reaches, on the surface.
-    const double reach = std::max(0.5 * zoom * std::sqrt(double(mark.size()) / 3.14159265), 0.8);
+    // A quarter as far as a disc of its area reaches.
+    const double reach = std::max(0.25 * std::sqrt(double(mark.size()) / 3.14159265), 0.8);
     bool isSeen = true, isThere = false;
     for (int y = int(std::floor(heart.y - reach)); y <= int(std::floor(heart.y + reach)); ++y)
       for (int x = int(std::floor(heart.x - reach)); x <= int(std::floor(heart.x + reach)); ++x) {

@@ -8,7 +8,7 @@
 namespace scumble::measuring {
 
 // Marks are 12 pixels or more above `level` that touch each other; those at the border of what counts are
-// left out. One is there where a pixel near its middle, by up to half of its reach, is above `level`.
+// left out. One is there where a pixel at its middle, by up to a quarter of its reach, is above `level`.
 struct MarkCount {
   size_t marksBefore = 0, died = 0;  // of those, which are not there afterwards
   size_t marksAfter = 0, born = 0;   // of those, which were not there before

@@ -259,6 +259,8 @@ class Measurer {
 
     // The same by material: what shows vectors where no other has any.
     for (const std::string& material : materials_) {
+      // A name that is a pattern would mean others as well.
+      if (material.find_first_of("*?") != std::string::npos) continue;
       Result<Look> alone = lookOf("metatexture", true);
       if (!alone) return alone.error();
       if (const Status status = alone->set("materials.*.warp.amount", "0"); !status) return status.error();

@@ -35,7 +35,8 @@ void dropVertices(const Primitive& primitive) {
   Primitive& p = const_cast<Primitive&>(primitive);
   p.droppedVertices = p.vertexCount(), p.droppedIndices = p.indices.size();
   giveBack(drop(p.positions) + drop(p.normals) + drop(p.smoothNormals) + drop(p.uv0) + drop(p.uv1) +
-           drop(p.patternUv) + drop(p.dPdu) + drop(p.dPdv) + drop(p.indices) + drop(p.levelIndices));
+           drop(p.patternUv) + drop(p.dPdu) + drop(p.dPdv) + drop(p.indices) + drop(p.levelIndices) +
+           drop(p.addedFrom));
 }
 
 bool hasDroppedVertices(const SceneData& scene) {

@@ -173,7 +173,7 @@ MaterialDesc descOf(const Material& material) {
   return desc;
 }
 
-Mesh meshOf(const std::vector<MeshPart>& parts, const SceneData& scene) {
+Mesh meshOf(const std::vector<MeshPart>& parts, const SceneData& scene, const Mesh* before) {
   if (parts.empty()) fail("mesh", "it has no parts", "give one at least");
   Mesh mesh;
   ImportWarnings warnings;
@@ -185,8 +185,11 @@ Mesh meshOf(const std::vector<MeshPart>& parts, const SceneData& scene) {
   std::erase_if(mesh.primitives, [](const Primitive& p) { return p.indices.empty(); });
   weldSmoothNormals(mesh);
   const float radius = boundingRadius(mesh);
-  parallelFor(mesh.primitives.size(), mesh.primitives.size() > 1 ? threadCount(0) : 1,
-              [&](size_t p) { finishPrimitive(mesh.primitives[p], radius); });
+  parallelFor(mesh.primitives.size(), mesh.primitives.size() > 1 ? threadCount(0) : 1, [&](size_t p) {
+    const bool hasBefore = before && p < before->primitives.size();
+    finishPrimitive(mesh.primitives[p], radius, PatternCoordinates::automatic,
+                    hasBefore ? &before->primitives[p] : nullptr);
+  });
   return mesh;
 }
 

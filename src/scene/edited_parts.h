@@ -19,7 +19,8 @@ Image imageOf(const TextureDesc& texture);
 // `scene`: has the textures and materials that are named.
 Material materialOf(const MaterialDesc& given, const SceneData& scene);
 MaterialDesc descOf(const Material& material);
-Mesh meshOf(const std::vector<MeshPart>& parts, const SceneData& scene);
+// `before`: the mesh that it takes the place of, if any.
+Mesh meshOf(const std::vector<MeshPart>& parts, const SceneData& scene, const Mesh* before = nullptr);
 Light lightOf(const LightDesc& given);
 
 }  // namespace scumble::scene

@@ -40,7 +40,7 @@ float unevenShare(const std::vector<Face>& faces) {
   std::array<double, kBins> areas{};
   const auto binOf = [](const Face& face) {
     const float octaves = 0.5f * std::log2(std::abs(face.texels) / face.area);
-    return std::clamp(int(octaves * kOfAnOctave) + kBins / 2, 0, kBins - 1);
+    return int(std::clamp(octaves * kOfAnOctave + kBins / 2, 0.0f, float(kBins - 1)));
   };
   double all = 0;
   for (const Face& face : faces)

@@ -42,8 +42,12 @@ void finishMorphTargets(Primitive& primitive, const std::function<void(Primitive
 
 // Unit smooth normals; uv0 where there is none (one unit of uv is `radius` metres); patternUv where patterns
 // do not follow uv0; dPdu and dPdv; all that morph targets displace; the extent.
+//
+// `before`: what it takes the place of. If that has the same triangles and coordinates of a file, patterns
+// lie as they did there: on what a program bends from frame to frame they would jump else.
 void finishPrimitive(Primitive& primitive, float radius,
-                     PatternCoordinates which = PatternCoordinates::automatic);
+                     PatternCoordinates which = PatternCoordinates::automatic,
+                     const Primitive* before = nullptr);
 
 // Keeps the given vertices only, in this order, in all arrays but the indices.
 void gatherVertices(Primitive& primitive, const std::vector<uint32_t>& source);

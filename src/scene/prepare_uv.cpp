@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "scene/mapping_faults.h"
@@ -52,6 +53,7 @@ Mapping mappingOf(const Primitive& p, size_t i, float scale) {
 
 // The surface's own coordinates take the place of the file's, or stand beside them for patterns alone.
 void takeUnfolding(Primitive& p, Unfolding&& u) {
+  p.addedFrom.assign(u.source.begin() + std::ptrdiff_t(p.vertexCount()), u.source.end());
   gatherVertices(p, u.source);
   p.indices = std::move(u.indices);
   (p.uv0.empty() ? p.uv0 : p.patternUv) = std::move(u.uvs);
@@ -59,7 +61,28 @@ void takeUnfolding(Primitive& p, Unfolding&& u) {
 
 // What is wrong with a mapping, in lengths of seams.
 float costOf(const MappingFaults& faults) {
-  return faults.seams + kUnevenCost * faults.uneven;
+  return faults.seams + kUnevenCost * (faults.uneven + faults.unmapped);
+}
+
+// The same triangles on the same coordinates of a file, before vertices were added.
+bool isMadeFrom(const Primitive& p, const Primitive& before) {
+  const size_t count = before.positions.size() - before.addedFrom.size();
+  if (p.vertexCount() != count || before.indices.size() != p.indices.size()) return false;
+  for (size_t i = 0; i < p.indices.size(); ++i) {
+    const uint32_t v = before.indices[i];
+    if ((v < count ? v : before.addedFrom[v - count]) != p.indices[i]) return false;
+  }
+  return p.uv0.empty() ? before.generatedUvs
+                       : !before.generatedUvs && std::equal(p.uv0.begin(), p.uv0.end(), before.uv0.begin());
+}
+
+std::optional<Unfolding> ownMappingOf(const Primitive& before) {
+  if (!before.generatedUvs && !before.ownPattern) return std::nullopt;
+  Unfolding u{{}, before.indices, before.patternCoordinates()};
+  u.source.resize(before.positions.size() - before.addedFrom.size());
+  std::iota(u.source.begin(), u.source.end(), 0u);
+  u.source.insert(u.source.end(), before.addedFrom.begin(), before.addedFrom.end());
+  return u;
 }
 
 std::optional<Unfolding> ownMapping(const Primitive& p, float scale, PatternCoordinates which) {
@@ -176,7 +199,7 @@ void makeTangents(Primitive& p, float scale, std::vector<uint32_t>& first) {
 
 }  // namespace
 
-void finishPrimitive(Primitive& p, float radius, PatternCoordinates which) {
+void finishPrimitive(Primitive& p, float radius, PatternCoordinates which, const Primitive* before) {
   for (size_t i = 0; i < p.vertexCount(); ++i) {
     glm::vec3& normal = p.smoothNormals[i];
     const float length = glm::length(normal);
@@ -184,7 +207,8 @@ void finishPrimitive(Primitive& p, float radius, PatternCoordinates which) {
   }
   const float scale = 1.0f / std::max(radius, 1e-20f);
   if (p.vertexCount() > 0)
-    if (std::optional<Unfolding> own = ownMapping(p, scale, which)) {
+    if (std::optional<Unfolding> own =
+            before && isMadeFrom(p, *before) ? ownMappingOf(*before) : ownMapping(p, scale, which)) {
       (p.uv0.empty() ? p.generatedUvs : p.ownPattern) = true;
       takeUnfolding(p, std::move(*own));
       p.wrapsU = p.wrapsV = false;

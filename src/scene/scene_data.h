@@ -146,6 +146,8 @@ struct Primitive {
   std::vector<uint16_t> joints;
   std::vector<float> weights;
   std::vector<MorphTarget> morphTargets;
+  // Vertices that unfold() has added, the last ones: which of the others each of them is.
+  std::vector<uint32_t> addedFrom;
   bool generatedUvs = false, generatedNormals = false, ownPattern = false;
   PrimitiveExtent extent;  // extentOf() it
 

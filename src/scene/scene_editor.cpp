@@ -151,7 +151,8 @@ Status SceneEditor::setMesh(MeshId id, const std::vector<MeshPart>& parts) {
   if (!isPlain(edited_->data.meshes[size_t(id)]))
     return usage("mesh " + std::to_string(int(id)) + " has joints or morph targets", "add another one");
   return edited_->edit([&]() -> Status {
-    edited_->data.meshes[size_t(id)] = scene::meshOf(parts, edited_->data);
+    const scene::Mesh& before = edited_->data.meshes[size_t(id)];
+    edited_->data.meshes[size_t(id)] = scene::meshOf(parts, edited_->data, &before);
     return Done{};
   });
 }

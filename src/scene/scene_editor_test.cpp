@@ -28,6 +28,42 @@ std::string refusal(const Result<T>& result) {
   return result ? "" : refusal(Status(result.error()));
 }
 
+// A cloth that a program bends from frame to frame: its pattern stays where it was, and so do its vertices.
+TEST(SceneEditor, patternsStayOnWhatIsBent) {
+  SceneEditor editor("cloth");
+  constexpr uint32_t kSide = 16;
+  std::vector<uint32_t> indices;
+  for (uint32_t i = 0; i + kSide + 1 < kSide * kSide; ++i)
+    if (i % kSide != kSide - 1)
+      indices.insert(indices.end(), {i, i + 1, i + kSide + 1, i, i + kSide + 1, i + kSide});
+  const auto cloth = [&](float time) {
+    std::vector<glm::vec3> positions;
+    for (uint32_t i = 0; i < kSide * kSide; ++i) {
+      const glm::vec2 at = glm::vec2(i % kSide, i / kSide) / float(kSide - 1);
+      positions.push_back({at.x, at.y, 0.4f * std::sin(9 * at.x + time) * std::cos(7 * at.y - time)});
+    }
+    return positions;
+  };
+  const std::vector<glm::vec3> normals(kSide * kSide, {0, 0, 1});
+  const auto primitive = [&] { return editor.scene()->data().meshes[0]->primitives[0]; };
+  const std::vector<glm::vec3> first = cloth(0);
+  const MeshId mesh = *editor.addMesh({{.positions = first, .indices = indices, .normals = normals}});
+  ASSERT_TRUE(editor.addNode({.name = "cloth", .mesh = mesh}).ok());
+  const scene::Primitive before = primitive();
+  for (const float time : {0.1f, 0.7f, 2.0f}) {
+    const std::vector<glm::vec3> bent = cloth(time);
+    ASSERT_TRUE(editor.setMesh(mesh, {{.positions = bent, .indices = indices, .normals = normals}}).ok());
+    const scene::Primitive now = primitive();
+    EXPECT_EQ(now.uv0, before.uv0);
+    EXPECT_EQ(now.indices, before.indices);
+    EXPECT_NE(now.positions, before.positions);
+  }
+  // Other triangles have a mapping of their own.
+  std::swap(indices[0], indices[1]), std::swap(indices[1], indices[2]);
+  ASSERT_TRUE(editor.setMesh(mesh, {{.positions = first, .indices = indices, .normals = normals}}).ok());
+  EXPECT_NE(primitive().indices, before.indices);
+}
+
 TEST(SceneEditor, isASceneOfItsParts) {
   SceneEditor editor("parts");
   const MeshId mesh = *editor.addMesh({{.positions = kTriangle}});

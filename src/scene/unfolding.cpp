@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <queue>
 
@@ -17,7 +18,9 @@ constexpr float kSameCopy =
     1.2f;  // of the side of a square as large as two of it: how far a triangle's corner may be off
 constexpr float kCreaseCost = 20;  // how much farther it is over an edge of 90 degrees
 constexpr int kRelaxations = 16;
-constexpr uint32_t kTries = 64;  // copies of a place that are compared: around it there may be thousands
+constexpr int kRounds = 16;        // of taking back
+constexpr size_t kMostSides = 16;  // of an edge; where there are more nothing goes on
+constexpr uint32_t kTries = 64;    // copies of a place that are compared: around it there may be thousands
 
 // Where a triangle's corners lie in its own plane: the first at the origin, the second on the axis x.
 struct Flat {
@@ -35,6 +38,11 @@ Flat flat(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
   f.along = glm::dot(side, edge) / squared;
   f.height = glm::length(side - f.along * edge);
   return f;
+}
+
+// Of which nobody would see how it lies.
+bool isThin(const Flat& f) {
+  return f.height < 1e-5f * f.length;
 }
 
 // Whether such a triangle may lie so: not mirrored, and nowhere stretched or squeezed too much.
@@ -82,17 +90,23 @@ class Unfolder {
   };
 
   static uint32_t following(uint32_t half) { return half % 3 == 2 ? half - 2 : half + 1; }
-  const glm::vec3& at(uint32_t half) const { return positions_[place_[half]]; }
+  const glm::vec3& at(uint32_t half) const { return positions_[p_.indices[half]]; }
 
   void findPlaces(float scale) {
-    const PositionGrid grid(0.5f * scale);
+    positions_.resize(p_.vertexCount());
+    glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
+    for (size_t v = 0; v < positions_.size(); ++v) {
+      positions_[v] = p_.positions[v] * scale;
+      low = glm::min(low, positions_[v]), high = glm::max(high, positions_[v]);
+    }
+    const glm::vec3 extent = high - low;
+    size_ = std::max({extent.x, extent.y, extent.z, 1e-30f});
+    const PositionGrid grid(1 / size_);
     PositionTable table(p_.vertexCount());
     std::vector<uint32_t> ofVertex(p_.vertexCount());
     for (uint32_t v = 0; v < ofVertex.size(); ++v)
-      ofVertex[v] = table.findOrAdd(grid(p_.positions[v]), v,
-                                    [&](uint32_t stored) { return grid(p_.positions[stored]); });
-    positions_.resize(p_.vertexCount());
-    for (size_t v = 0; v < positions_.size(); ++v) positions_[v] = p_.positions[v] * scale;
+      ofVertex[v] =
+          table.findOrAdd(grid(positions_[v]), v, [&](uint32_t stored) { return grid(positions_[stored]); });
     place_.resize(p_.indices.size());
     for (size_t i = 0; i < place_.size(); ++i) place_[i] = ofVertex[p_.indices[i]];
     normals_.resize(count_);
@@ -105,6 +119,11 @@ class Unfolder {
     }
   }
 
+  bool isSliver(uint32_t t) const {
+    const uint32_t* const places = &place_[3 * t];
+    return places[0] == places[1] || places[1] == places[2] || places[2] == places[0];
+  }
+
   void findNeighbours() {
     struct Edge {
       uint64_t ends;
@@ -113,17 +132,32 @@ class Unfolder {
         return ends != other.ends ? ends < other.ends : half < other.half;
       }
     };
-    std::vector<Edge> edges(place_.size());
-    for (uint32_t half = 0; half < edges.size(); ++half) {
+    std::vector<Edge> edges;
+    edges.reserve(place_.size());
+    for (uint32_t half = 0; half < place_.size(); ++half) {
+      if (isSliver(half / 3)) continue;
       const uint32_t a = place_[half], b = place_[following(half)];
-      edges[half] = {uint64_t(std::min(a, b)) << 32 | std::max(a, b), half};
+      edges.push_back({uint64_t(std::min(a, b)) << 32 | std::max(a, b), half});
     }
     std::sort(edges.begin(), edges.end());
     twins_.assign(place_.size(), kNone);
     for (size_t first = 0, last = 0; first < edges.size(); first = last) {
       while (last < edges.size() && edges[last].ends == edges[first].ends) ++last;
-      const uint32_t one = edges[first].half, other = edges[last - 1].half;
-      if (last - first == 2 && place_[one] != place_[other]) twins_[one] = other, twins_[other] = one;
+      if (last - first > kMostSides) continue;
+      // Each with the one the other way around that is turned least: not with the back of what it lies on.
+      for (size_t i = first; i < last; ++i) {
+        const uint32_t one = edges[i].half;
+        if (twins_[one] != kNone) continue;
+        float least = -2;
+        uint32_t found = kNone;
+        for (size_t k = i + 1; k < last; ++k) {
+          const uint32_t other = edges[k].half;
+          if (twins_[other] != kNone || place_[one] == place_[other]) continue;
+          const float alike = glm::dot(normals_[one / 3], normals_[other / 3]);
+          if (alike > least) least = alike, found = other;
+        }
+        if (found != kNone) twins_[one] = found, twins_[found] = one;
+      }
     }
   }
 
@@ -135,7 +169,7 @@ class Unfolder {
     copy_.assign(place_.size(), kNone);
     firstCopy_.assign(p_.vertexCount(), kNone);
     for (const uint32_t seed : bySize) {
-      if (copy_[3 * seed] != kNone) continue;
+      if (copy_[3 * seed] != kNone || isSliver(seed)) continue;
       begin(seed);
       while (!front_.empty()) {
         const Front next = front_.top();
@@ -144,6 +178,11 @@ class Unfolder {
       }
       ++piece_;
     }
+    for (uint32_t half = 0; half < copy_.size(); ++half)
+      if (copy_[half] == kNone) {
+        const uint32_t lies = firstCopy_[place_[half]];
+        copy_[half] = lies != kNone ? lies : addCopy(place_[half], glm::vec2(0.0f));
+      }
   }
 
   uint32_t addCopy(uint32_t place, const glm::vec2& uv) {
@@ -158,8 +197,10 @@ class Unfolder {
     if (glm::length(along) < 0.1f) along = glm::vec3(1, 0, 0) - normal.x * normal;
     along = glm::length(along) > 0 ? glm::normalize(along) : glm::vec3(1, 0, 0);
     const glm::vec3 upward = glm::cross(normal, along);
-    // Pieces begin at different places of a pattern.
-    const glm::vec2 shift(glm::fract(0.618034f * float(piece_)), glm::fract(0.754878f * float(piece_)));
+    // Pieces begin at different places of a pattern, no farther apart than what keeps the digits of small
+    // ones.
+    const glm::vec2 shift =
+        size_ * glm::vec2(glm::fract(0.618034f * float(piece_)), glm::fract(0.754878f * float(piece_)));
     for (uint32_t half = 3 * t; half < 3 * t + 3; ++half) {
       const glm::vec3 off = at(half) - at(3 * t);
       const glm::vec2 uv(glm::dot(off, along), glm::dot(off, upward));
@@ -193,12 +234,11 @@ class Unfolder {
     // The copy that lies there already, or one of its own.
     uint32_t found = kNone;
     float nearest = kSameCopy * std::sqrt(length * f.height);
-    const bool isThin = f.height < 1e-5f * f.length;
     uint32_t tries = kTries;
     for (uint32_t c = firstCopy_[place_[third]]; tries-- > 0 && c != kNone && copies_[c].piece == piece_;
          c = copies_[c].next) {
       const float away = glm::distance(copies_[c].uv, wanted);
-      if (away < nearest && (isThin || mayLie(f, a, b, copies_[c].uv))) found = c, nearest = away;
+      if (away < nearest && (isThin(f) || mayLie(f, a, b, copies_[c].uv))) found = c, nearest = away;
     }
     copy_[half] = copyA, copy_[next] = copyB;
     copy_[third] = found != kNone ? found : addCopy(place_[third], wanted);
@@ -214,12 +254,36 @@ class Unfolder {
       if (const Flat f = flat(at(3 * t), at(3 * t + 1), at(3 * t + 2)); f.isSound() && areas_[t] > 0)
         forms.push_back({f, {copy_[3 * t], copy_[3 * t + 1], copy_[3 * t + 2]}});
     std::vector<glm::vec3> sums(copies_.size());
+    std::vector<glm::vec2> before(copies_.size());
     for (int i = 0; i < kRelaxations; ++i) {
       std::fill(sums.begin(), sums.end(), glm::vec3(0.0f));
       for (const Form& form : forms) ask(form, sums);
-      for (size_t c = 0; c < copies_.size(); ++c)
+      for (size_t c = 0; c < copies_.size(); ++c) {
+        before[c] = copies_[c].uv;
         if (sums[c].z > 0) copies_[c].uv = glm::vec2(sums[c]) / sums[c].z;
+      }
+      if (!takeBack(forms, before)) return;
     }
+  }
+
+  // Corners of triangles that may not lie so go back to where they were, until all may, as they did before.
+  // False where that has no end soon: then everything has gone back.
+  bool takeBack(const std::vector<Form>& forms, const std::vector<glm::vec2>& before) {
+    for (int round = 0; round < kRounds; ++round) {
+      bool any = false;
+      for (const Form& form : forms) {
+        const uint32_t* const c = form.copies;
+        if (isThin(form.own) || mayLie(form.own, copies_[c[0]].uv, copies_[c[1]].uv, copies_[c[2]].uv))
+          continue;
+        for (int k = 0; k < 3; ++k) {
+          any |= copies_[c[k]].uv != before[c[k]];
+          copies_[c[k]].uv = before[c[k]];
+        }
+      }
+      if (!any) return true;
+    }
+    for (size_t c = 0; c < copies_.size(); ++c) copies_[c].uv = before[c];
+    return false;
   }
 
   void ask(const Form& form, std::vector<glm::vec3>& sums) const {
@@ -282,7 +346,8 @@ class Unfolder {
   const Primitive& p_;
   size_t count_;                      // triangles
   std::vector<uint32_t> place_;       // by corner: the first vertex at its place
-  std::vector<glm::vec3> positions_;  // by place, size one
+  float size_ = 1;                    // of the primitive, in units of uv
+  std::vector<glm::vec3> positions_;  // by vertex, in units of uv
   std::vector<uint32_t> twins_;       // by half edge
   std::vector<glm::vec3> normals_;    // by triangle
   std::vector<float> areas_;

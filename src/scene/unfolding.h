@@ -19,12 +19,12 @@ struct Unfolding {
 // Pieces grow from their largest triangle outward, each triangle laid beside one that lies already, across
 // its edge; over creases later, so that pieces meet there. A piece ends where triangles would be stretched or
 // squeezed to more than four times, which a ball is at 140 degrees from where it began, and may lie over
-// itself: a pattern repeats anyway. Then all are relaxed towards their own shape. Nothing is mirrored. The
-// upright of a piece is the world's where it begins.
+// itself: a pattern repeats anyway. Then all are relaxed towards their own shape, within these bounds.
+// Nothing is mirrored. What is up in mesh space is up where a piece begins.
 //
-// Triangles meet at edges whose ends share places, whatever vertices they have; where more than two do, or
-// they turn different ways around, nothing goes on. Depends on nothing but the primitive and `scale`, which
-// brings the mesh to size one.
+// Triangles meet at edges whose ends share places, to 1 / 65536 of the primitive, whatever vertices they
+// have. Where more than two do, those go on that are turned least against each other. Triangles of which two
+// corners share a place lie wherever those beside them do. Depends on nothing but the primitive and `scale`.
 Unfolding unfold(const Primitive& primitive, float scale);
 
 }  // namespace scumble::scene

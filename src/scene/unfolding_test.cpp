@@ -185,6 +185,65 @@ TEST(Unfolding, verticesAreAddedAtSeamsAlone) {
   EXPECT_EQ(u.source.size(), p.vertexCount() + kAlong + 1);
 }
 
+// What bends everywhere, and much: nothing is mirrored, also after everything has been relaxed, and nothing
+// is stretched too much.
+TEST(Unfolding, boundsHoldWhateverTheForm) {
+  for (const int count : {12, 40}) {
+    const Primitive p = sheet(count, [](float s, float t) {
+      const float height = 0.5f * kTurn * t, r = 1 + 0.45f * std::sin(5 * kTurn * s) * std::sin(7 * height);
+      return r * glm::vec3(std::sin(height) * std::cos(-kTurn * s), 2.5f * std::cos(height),
+                           std::sin(height) * std::sin(-kTurn * s));
+    });
+    const Unfolding u = unfold(p, 0.4f);
+    expectTheSameTriangles(p, u);
+    const Stretch s = stretchOf(p, u, 0.4);
+    EXPECT_EQ(s.mirrored, 0u) << count;
+    EXPECT_LT(s.most, 4.01) << count;
+    EXPECT_GT(s.least, 0.249) << count;
+  }
+}
+
+// A grid whose cells share their vertices, in the plane z = 0; `heights` of its rows.
+Primitive strip(int across, const std::vector<float>& heights) {
+  Primitive p;
+  for (const float height : heights)
+    for (int i = 0; i <= across; ++i) p.positions.push_back({float(i), height, 0});
+  const auto row = uint32_t(across) + 1;
+  for (uint32_t j = 0; j + 1 < heights.size(); ++j)
+    for (uint32_t i = j * row; i + 1 < (j + 1) * row; ++i)
+      p.indices.insert(p.indices.end(), {i, i + 1, i + 1 + row, i, i + 1 + row, i + row});
+  return p;
+}
+
+// The back of a sheet, at the same places, goes on beyond its border, and neither is cut.
+TEST(Unfolding, sheetsOfTwoSidesAreNotCut) {
+  Primitive p = strip(10, {0, 1, 2, 3, 4});
+  const size_t once = p.indices.size();
+  for (size_t i = 0; i < once; i += 3)
+    p.indices.insert(p.indices.end(), {p.indices[i], p.indices[i + 2], p.indices[i + 1]});
+  const Unfolding u = unfold(p, 0.1f);
+  expectTheSameTriangles(p, u);
+  EXPECT_LE(u.source.size(), 2 * p.vertexCount());
+  EXPECT_NEAR(stretchOf(p, u, 0.1).least, 1, 1e-3);
+}
+
+// What is thinner than places are apart does not cut what lies on its sides.
+TEST(Unfolding, sliversDoNotCut) {
+  const Primitive p = strip(20, {0, 1, 1 + 1e-6f, 2});
+  const Unfolding u = unfold(p, 0.1f);
+  expectTheSameTriangles(p, u);
+  EXPECT_EQ(u.source.size(), p.vertexCount());
+}
+
+// Small things beside a large scale keep the digits of their coordinates.
+TEST(Unfolding, smallThingsKeepTheirForm) {
+  const Primitive p = ball(16);
+  const Stretch s = stretchOf(p, unfold(p, 1e-6f), 1e-6);
+  EXPECT_EQ(s.mirrored, 0u);
+  EXPECT_LT(s.most, 4.01);
+  EXPECT_GT(s.least, 0.249);
+}
+
 TEST(Unfolding, isTheSameEveryTime) {
   const Primitive p = ball(20);
   const Unfolding a = unfold(p, 1), b = unfold(p, 1);
