@@ -50,9 +50,9 @@ struct StereoDifference {
   double color = 0, finalColor = 0;
 };
 
-// What becomes of breakup marks while the picture is magnified to twice its size, from several zooms on. Marks are
-// what is a quarter of a deviation above the flat example's mean, over 12 pixels or more; one is there if any of
-// its middle is.
+// What becomes of breakup marks while the picture is magnified to twice its size, from several zooms on.
+// Marks are what is a quarter of a deviation above the flat example's mean, over 12 pixels or more; one is
+// there if any of its middle is.
 struct MarkLives {
   double born = 0;  // share of those there afterwards that were not there before
   double died = 0;  // share of those there before that are not there afterwards

@@ -47,7 +47,13 @@ std::shared_ptr<SceneData> import(Bytes bytes, const FileBytes* file, const std:
   data->files = buffers.files();
   Accessors accessors(document, buffers, budget);
   ImportProgress progress(options.progress);
-  const Import import{document, buffers, accessors, budget, warnings, progress, threadCount(options.threads),
+  const Import import{document,
+                      buffers,
+                      accessors,
+                      budget,
+                      warnings,
+                      progress,
+                      threadCount(options.threads),
                       options.patternCoordinates};
   progress.expect(1, 0.1);
   progress.step();

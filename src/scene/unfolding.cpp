@@ -12,7 +12,7 @@ namespace scumble::scene {
 
 namespace {
 
-constexpr uint32_t kNone = 0xffffffffu;
+constexpr uint32_t kUnlaid = 0xffffffffu;
 constexpr float kMostStretch = 4;
 constexpr float kSameCopy =
     1.2f;  // of the side of a square as large as two of it: how far a triangle's corner may be off
@@ -71,7 +71,7 @@ class Unfolder {
   // A place as it lies in a piece; the same place may lie in several, and in one several times.
   struct Copy {
     glm::vec2 uv;
-    uint32_t next;  // of the same place, or kNone
+    uint32_t next;  // of the same place, or kUnlaid
     uint32_t piece;
   };
   // A half edge, by the number of the corner where it begins, over which a triangle could be laid.
@@ -140,23 +140,23 @@ class Unfolder {
       edges.push_back({uint64_t(std::min(a, b)) << 32 | std::max(a, b), half});
     }
     std::sort(edges.begin(), edges.end());
-    twins_.assign(place_.size(), kNone);
+    twins_.assign(place_.size(), kUnlaid);
     for (size_t first = 0, last = 0; first < edges.size(); first = last) {
       while (last < edges.size() && edges[last].ends == edges[first].ends) ++last;
       if (last - first > kMostSides) continue;
       // Each with the one the other way around that is turned least: not with the back of what it lies on.
       for (size_t i = first; i < last; ++i) {
         const uint32_t one = edges[i].half;
-        if (twins_[one] != kNone) continue;
+        if (twins_[one] != kUnlaid) continue;
         float least = -2;
-        uint32_t found = kNone;
+        uint32_t found = kUnlaid;
         for (size_t k = i + 1; k < last; ++k) {
           const uint32_t other = edges[k].half;
-          if (twins_[other] != kNone || place_[one] == place_[other]) continue;
+          if (twins_[other] != kUnlaid || place_[one] == place_[other]) continue;
           const float alike = glm::dot(normals_[one / 3], normals_[other / 3]);
           if (alike > least) least = alike, found = other;
         }
-        if (found != kNone) twins_[one] = found, twins_[found] = one;
+        if (found != kUnlaid) twins_[one] = found, twins_[found] = one;
       }
     }
   }
@@ -166,22 +166,22 @@ class Unfolder {
     std::iota(bySize.begin(), bySize.end(), 0u);
     std::stable_sort(bySize.begin(), bySize.end(),
                      [&](uint32_t a, uint32_t b) { return areas_[a] > areas_[b]; });
-    copy_.assign(place_.size(), kNone);
-    firstCopy_.assign(p_.vertexCount(), kNone);
+    copy_.assign(place_.size(), kUnlaid);
+    firstCopy_.assign(p_.vertexCount(), kUnlaid);
     for (const uint32_t seed : bySize) {
-      if (copy_[3 * seed] != kNone || isSliver(seed)) continue;
+      if (copy_[3 * seed] != kUnlaid || isSliver(seed)) continue;
       begin(seed);
       while (!front_.empty()) {
         const Front next = front_.top();
         front_.pop();
-        if (copy_[next.half] == kNone && lay(next.half)) spread(next.half / 3, next.distance);
+        if (copy_[next.half] == kUnlaid && lay(next.half)) spread(next.half / 3, next.distance);
       }
       ++piece_;
     }
     for (uint32_t half = 0; half < copy_.size(); ++half)
-      if (copy_[half] == kNone) {
+      if (copy_[half] == kUnlaid) {
         const uint32_t lies = firstCopy_[place_[half]];
-        copy_[half] = lies != kNone ? lies : addCopy(place_[half], glm::vec2(0.0f));
+        copy_[half] = lies != kUnlaid ? lies : addCopy(place_[half], glm::vec2(0.0f));
       }
   }
 
@@ -215,7 +215,7 @@ class Unfolder {
     const auto middle = [&](uint32_t of) { return (at(3 * of) + at(3 * of + 1) + at(3 * of + 2)) / 3.0f; };
     for (uint32_t half = 3 * t; half < 3 * t + 3; ++half) {
       const uint32_t twin = twins_[half];
-      if (twin == kNone || copy_[twin] != kNone) continue;
+      if (twin == kUnlaid || copy_[twin] != kUnlaid) continue;
       const float turn = 1 - glm::dot(normals_[t], normals_[twin / 3]);
       front_.push({distance + glm::distance(middle(t), middle(twin / 3)) * (1 + kCreaseCost * turn), twin});
     }
@@ -232,16 +232,16 @@ class Unfolder {
     if (!(length < kMostStretch * f.length && length * kMostStretch > f.length)) return false;
     const glm::vec2 wanted = a + f.along * edge + f.height / length * glm::vec2(-edge.y, edge.x);
     // The copy that lies there already, or one of its own.
-    uint32_t found = kNone;
+    uint32_t found = kUnlaid;
     float nearest = kSameCopy * std::sqrt(length * f.height);
     uint32_t tries = kTries;
-    for (uint32_t c = firstCopy_[place_[third]]; tries-- > 0 && c != kNone && copies_[c].piece == piece_;
+    for (uint32_t c = firstCopy_[place_[third]]; tries-- > 0 && c != kUnlaid && copies_[c].piece == piece_;
          c = copies_[c].next) {
       const float away = glm::distance(copies_[c].uv, wanted);
       if (away < nearest && (isThin(f) || mayLie(f, a, b, copies_[c].uv))) found = c, nearest = away;
     }
     copy_[half] = copyA, copy_[next] = copyB;
-    copy_[third] = found != kNone ? found : addCopy(place_[third], wanted);
+    copy_[third] = found != kUnlaid ? found : addCopy(place_[third], wanted);
     return true;
   }
 
@@ -351,7 +351,7 @@ class Unfolder {
   std::vector<uint32_t> twins_;       // by half edge
   std::vector<glm::vec3> normals_;    // by triangle
   std::vector<float> areas_;
-  std::vector<uint32_t> copy_;       // by corner; kNone where the triangle does not lie yet
+  std::vector<uint32_t> copy_;       // by corner; kUnlaid where the triangle does not lie yet
   std::vector<uint32_t> firstCopy_;  // by place
   std::vector<Copy> copies_;
   std::vector<uint32_t> laid_;  // triangles, in order
