@@ -252,6 +252,7 @@ TEST_P(Levels, picturesLookTheSame) {
 // from where the camera is now, than with all triangles.
 TEST_P(Levels, nothingPopsOnTheWay) {
   NOT_WITH_SANITIZERS();
+  NEEDS_FINE_RASTER();
   const Scene scene = denseSpheres();
   RendererWithSpy renderer;
   int changes = 0;

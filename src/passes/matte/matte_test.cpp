@@ -114,6 +114,7 @@ TEST_P(MatteTest, coverageIsThatOfTheFramesSamples) {
 // from.
 TEST_P(MatteTest, ranksOfInterpolatedSamples) {
   NOT_WITH_SANITIZERS();
+  NEEDS_FINE_RASTER();
   TestScene s;
   const int material = s.material(TestScene::unlit("Bar", {0.5f, 0.5f, 0.5f, 1}));
   for (int i = -50; i < 50; ++i)
