@@ -1,4 +1,4 @@
-// Smooth balls on a level ground, which have fewer triangles the smaller they are seen.
+// Smooth balls, which need fewer triangles the smaller they are seen.
 #pragma once
 
 #include <cstddef>

@@ -111,12 +111,13 @@ ProbePicture drawProbe(Device& device, ViewDrawing drawing, uint32_t samples) {
     };
     recordBarriersOf(commands, 0);
     // Layer by layer and without a resolve, which no driver is known to get wrong.
-    for (const std::vector<Handle>* const to : {&drawn, samples > 1 ? &resolved : nullptr}) {
-      if (!to) continue;
-      setTargets(*to, kSpoilt, kSpoiltDepth);
+    const auto spoil = [&](const std::vector<Handle>& to) {
+      setTargets(to, kSpoilt, kSpoiltDepth);
       drawViews(commands, {kProbeLayers, ViewDrawing::separately}, {targets, 2}, &targets[2],
                 [](uint32_t) {});
-    }
+    };
+    spoil(drawn);
+    if (samples > 1) spoil(resolved);
     recordBarriersOf(commands, 1);
     setTargets(drawn, kClear, kClearDepth);
     if (samples > 1)

@@ -291,6 +291,7 @@ class Measurer {
     result_.exampleFrequency =
         perField([&](Field Fields::*member) { return dominantFrequency(membersOf(example_, member)); });
     exampleSpread_ = perField([&](Field Fields::*member) { return spread(membersOf(example_, member)); });
+    markLevel_ = float(meanOf(membersOf(example_, &Fields::marks))[0] + 0.25 * exampleSpread_.marks);
     return Done{};
   }
 
@@ -465,12 +466,6 @@ class Measurer {
   Status measureMarks(ModeMeasurements& mode) {
     const Result<Look> look = lookOf(mode.mode, true);
     if (!look) return look.error();
-    // What stands out of the flat example.
-    double sum = 0, pixels = 0;
-    for (const Fields& sample : example_)
-      for (size_t pixel = 0; pixel < sample.marks.pixelCount(); ++pixel)
-        if (sample.marks.valid[pixel]) sum += double(*sample.marks.at(pixel)), ++pixels;
-    const auto level = float(sum / std::max(pixels, 1.0) + 0.25 * exampleSpread_.marks);
     // From several zooms on, since scales change at some.
     MarkCount all;
     for (int i = 0; i < kMarkZooms; ++i) {
@@ -481,7 +476,7 @@ class Measurer {
         if (!frame) return frame.error();
         shown[k] = fieldsOf(*frame).marks;
       }
-      const MarkCount count = countMarks(shown[0], shown[1], 2, zoomCentre_, level);
+      const MarkCount count = countMarks(shown[0], shown[1], 2, zoomCentre_, markLevel_);
       all.marksBefore += count.marksBefore, all.died += count.died;
       all.marksAfter += count.marksAfter, all.born += count.born;
     }
@@ -539,6 +534,7 @@ class Measurer {
   glm::vec2 zoomCentre_{0.0f};
   std::vector<Fields> example_;
   PerField exampleSpread_;
+  float markLevel_ = 0;                               // what is above it is a mark
   std::array<std::vector<Places>, kMotions> places_;  // for each step of each motion
 };
 

@@ -6,10 +6,6 @@
 
 namespace scumble::measuring {
 
-namespace {
-
-constexpr size_t kFewestPairs = 24;  // of pixels, below which a correlation is chance
-
 std::vector<double> meanOf(std::span<const Field> fields) {
   std::vector<double> mean(fields.empty() ? 0 : size_t(fields[0].channels));
   size_t count = 0;
@@ -23,6 +19,10 @@ std::vector<double> meanOf(std::span<const Field> fields) {
   for (double& m : mean) m /= double(std::max<size_t>(count, 1));
   return mean;
 }
+
+namespace {
+
+constexpr size_t kFewestPairs = 24;  // of pixels, below which a correlation is chance
 
 // Correlation of pixels (stepX, stepY) apart; nothing known (-2) where there are too few of them.
 double correlation(std::span<const Field> fields, const std::vector<double>& mean, int stepX, int stepY) {

@@ -4,10 +4,14 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "measure/field.h"
 
 namespace scumble::measuring {
+
+// Of each channel; 0 where nothing is valid.
+std::vector<double> meanOf(std::span<const Field> fields);
 
 // Root of the summed variances of the channels; the mean is that of all fields. 0 where nothing is valid.
 double spread(std::span<const Field> fields);

@@ -18,7 +18,9 @@ glm::vec3 nearestOf(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, 
   if (area2 > 1e-12f * bb * cc) {
     const float v = (cc * pb - bc * pc) / area2, w = (bb * pc - bc * pb) / area2;
     if (v >= 0 && w >= 0 && v + w <= 1) return {1 - v - w, v, w};
-    isBeyond[0] = w<0, isBeyond[1] = v + w> 1, isBeyond[2] = v < 0;
+    isBeyond[0] = w < 0;
+    isBeyond[1] = v + w > 1;
+    isBeyond[2] = v < 0;
   }
   const glm::vec3* const ends[] = {&a, &b, &c, &a};
   glm::vec3 nearest(1, 0, 0);

@@ -67,15 +67,10 @@ struct Side {
 
 double seamLength(const Primitive& p, const std::vector<Face>& faces, float scale) {
   // Mappings break off where vertices were split, and turn back where triangles of both kinds meet.
-  const PositionGrid grid(0.5f * scale);
-  PositionTable table(p.vertexCount());
-  std::vector<uint32_t> place(p.vertexCount());
+  const std::vector<uint32_t> place = firstAtPlaces(p.positions, PositionGrid(0.5f * scale));
   std::vector<bool> isSplit(p.vertexCount()), hasPlain(p.vertexCount()), hasMirrored(p.vertexCount());
-  for (uint32_t v = 0; v < place.size(); ++v) {
-    place[v] =
-        table.findOrAdd(grid(p.positions[v]), v, [&](uint32_t stored) { return grid(p.positions[stored]); });
+  for (uint32_t v = 0; v < place.size(); ++v)
     if (place[v] != v) isSplit[place[v]] = true;
-  }
   for (size_t i = 0; i < p.indices.size(); ++i)
     if (const Face& face = faces[i / 3]; face.texels != 0)
       (face.texels < 0 ? hasMirrored : hasPlain)[place[p.indices[i]]] = true;

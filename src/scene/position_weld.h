@@ -63,4 +63,15 @@ class PositionTable {
   std::vector<uint32_t> slots_;
 };
 
+// By vertex, the first one at its place on the grid.
+inline std::vector<uint32_t> firstAtPlaces(const std::vector<glm::vec3>& positions,
+                                           const PositionGrid& grid) {
+  PositionTable table(positions.size());
+  std::vector<uint32_t> first(positions.size());
+  for (uint32_t v = 0; v < first.size(); ++v)
+    first[v] =
+        table.findOrAdd(grid(positions[v]), v, [&](uint32_t stored) { return grid(positions[stored]); });
+  return first;
+}
+
 }  // namespace scumble::scene

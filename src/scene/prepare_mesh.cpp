@@ -70,15 +70,9 @@ float inverseExtent(const std::vector<glm::vec3>& positions) {
 
 // representatives[v]: the first vertex at v's position. Empty when all positions differ.
 std::vector<uint32_t> findRepresentatives(const std::vector<glm::vec3>& positions) {
-  const PositionGrid grid(inverseExtent(positions));
-  std::vector<uint32_t> representatives(positions.size());
-  PositionTable table(positions.size());
-  const auto positionOf = [&](uint32_t i) { return grid(positions[i]); };
+  std::vector<uint32_t> representatives = firstAtPlaces(positions, PositionGrid(inverseExtent(positions)));
   bool anyShared = false;
-  for (uint32_t i = 0; i < positions.size(); ++i) {
-    representatives[i] = table.findOrAdd(grid(positions[i]), i, positionOf);
-    anyShared |= representatives[i] != i;
-  }
+  for (uint32_t i = 0; i < positions.size(); ++i) anyShared |= representatives[i] != i;
   if (!anyShared) representatives.clear();
   return representatives;
 }

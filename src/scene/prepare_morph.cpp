@@ -46,11 +46,7 @@ std::vector<glm::vec3> smoothChange(const Primitive& p, const std::vector<glm::v
 std::vector<uint32_t> firstAtPosition(const Primitive& p) {
   const PositionGrid grid(1.0f /
                           std::max(glm::length(boxOf(p.positions).max - boxOf(p.positions).min), 1e-30f));
-  PositionTable table(p.vertexCount());
-  const auto positionOf = [&](uint32_t v) { return grid(p.positions[v]); };
-  std::vector<uint32_t> first(p.vertexCount());
-  for (uint32_t v = 0; v < first.size(); ++v) first[v] = table.findOrAdd(grid(p.positions[v]), v, positionOf);
-  return first;
+  return firstAtPlaces(p.positions, grid);
 }
 
 }  // namespace

@@ -101,12 +101,7 @@ class Unfolder {
     }
     const glm::vec3 extent = high - low;
     size_ = std::max({extent.x, extent.y, extent.z, 1e-30f});
-    const PositionGrid grid(1 / size_);
-    PositionTable table(p_.vertexCount());
-    std::vector<uint32_t> ofVertex(p_.vertexCount());
-    for (uint32_t v = 0; v < ofVertex.size(); ++v)
-      ofVertex[v] =
-          table.findOrAdd(grid(positions_[v]), v, [&](uint32_t stored) { return grid(positions_[stored]); });
+    const std::vector<uint32_t> ofVertex = firstAtPlaces(positions_, PositionGrid(1 / size_));
     place_.resize(p_.indices.size());
     for (size_t i = 0; i < place_.size(); ++i) place_[i] = ofVertex[p_.indices[i]];
     normals_.resize(count_);

@@ -481,7 +481,6 @@ TEST_F(MetaTextureTest, orientationShowsTheContour) {
   }
 }
 
-// The rivals are what they are said to be.
 // A zoom by four octaves, along u, along v and both: where there is a mark there is one ever after. Of copies
 // that begin anywhere most are lost.
 TEST_F(MetaTextureTest, nestedMarksAreNeverLost) {
@@ -516,6 +515,7 @@ TEST_F(MetaTextureTest, nestedMarksAreNeverLost) {
   }
 }
 
+// The rivals are what they are said to be.
 TEST_F(MetaTextureTest, rivals) {
   const RepeatingTexture texture{world::builtInExample(0)};
   MetaTexture m;
