@@ -228,6 +228,12 @@ void make(Device& device, const GraphicsPipelineDesc& desc, PipelineStore::Made&
     target.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
     target.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
   }
+  if (desc.blend == Blend::greatest) {
+    target.blendEnable = VK_TRUE;
+    target.srcColorBlendFactor = target.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
+    target.srcAlphaBlendFactor = target.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+    target.colorBlendOp = target.alphaBlendOp = VK_BLEND_OP_MAX;
+  }
   const std::vector<VkPipelineColorBlendAttachmentState> targets(desc.colorFormats.size(), target);
   VkPipelineColorBlendStateCreateInfo blend{VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO};
   blend.attachmentCount = uint32_t(targets.size());

@@ -70,7 +70,8 @@ class DescriptorSets {
   std::vector<std::pair<VkImageView, VkSampler>> textures_;  // by set, then by binding
 };
 
-enum class Blend : uint8_t { none, over };
+// Of what is drawn and what is there: it lies over it, or the greater of both stays, channel by channel.
+enum class Blend : uint8_t { none, over, greatest };
 
 struct GraphicsPipelineDesc {
   Shader vertex, fragment;          // no fragment shader: depth only

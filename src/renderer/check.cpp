@@ -30,9 +30,11 @@ class Findings {
 
 void findNames(const scene::SceneData& scene, const look::LookData& look, bool isForScene, Findings& found) {
   const auto isOfFeature = [](const std::string& pattern) {
-    return std::any_of(
-        renderer::features().begin(), renderer::features().end(),
-        [&](const frame::FeatureParts& parts) { return look::matches(pattern, parts.feature->material()); });
+    return std::any_of(renderer::features().begin(), renderer::features().end(),
+                       [&](const frame::FeatureParts& parts) {
+                         const std::string material(parts.feature->material());
+                         return !material.empty() && look::matches(pattern, material);
+                       });
   };
   for (const look::Assignment& setting : look.assignments) {
     if (setting.target == look::kScene) continue;

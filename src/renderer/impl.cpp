@@ -36,7 +36,7 @@ std::vector<std::string> objectNames(const scene::SceneData& scene, const Geomet
                                         : node.name);
   names.push_back(options.ground ? "Ground" : "");
   for (const PlannedFeature& planned : options.features)
-    names.push_back(planned.plan ? planned.feature->material() : "");
+    names.emplace_back(planned.plan ? planned.feature->material() : "");
   return names;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gpu/frames_in_flight.h"
@@ -69,11 +70,15 @@ class FeaturePlan {
   // A pass of its own paints its surfaces, once a pixel (kPrepaintedLit, kPrepaintedShadowed). One feature of
   // a frame may: there is one pair of these.
   bool isPrepainted = false;
+  // It draws lines, from the edges of all that is drawn (SceneOnGpu::edges()).
+  bool needsEdges = false;
   // Metres at which its edges are torn half as much as near by, at most; 0: as the look has it.
   float quietDistance = 0;
 
-  // Adds what is drawn to `geometry`. `item` has all that its items have in common.
-  virtual void addItems(const GeometryItem& item, MadePrimitives& made, Geometry& geometry) const = 0;
+  // Adds what is drawn to `geometry`. `item` has all that its items have in common. Not asked of a feature
+  // without a material.
+  virtual void addItems(const GeometryItem& /*item*/, MadePrimitives& /*made*/,
+                        Geometry& /*geometry*/) const {}
   virtual std::unique_ptr<FeatureMoment> makeMoment(gpu::Device& device,
                                                     const scene::SceneData& scene) const = 0;
 };
@@ -83,8 +88,8 @@ class Feature {
   virtual ~Feature() = default;
   // As its folder is called.
   virtual const char* name() const = 0;
-  // By which looks know the material of what it draws, and AOVs its object.
-  virtual const char* material() const = 0;
+  // By which looks know the material of what it draws, and AOVs its object; empty where it draws no surfaces.
+  virtual std::string_view material() const = 0;
   // Null where the scene has no such thing under a look, which is one at a time.
   virtual std::shared_ptr<const FeaturePlan> plan(const scene::SceneData& scene,
                                                   const look::LookData& look) const = 0;

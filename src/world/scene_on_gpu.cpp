@@ -72,10 +72,20 @@ SceneOnGpu::Changes SceneOnGpu::update(const scene::SceneData& scene, const Geom
     item.dropsVertices =
         drops && item.node != GeometryItem::kNoNode && alphaMode(material(item.material)) != AlphaMode::blend;
 
-  // Vertices, where they are others; then images.
+  // Vertices, where they are others; then images. Edges are found while vertices are there.
+  const bool hasEdges = std::any_of(options.features.begin(), options.features.end(),
+                                    [](const PlannedFeature& f) { return f.plan && f.plan->needsEdges; });
+  if (hasEdges) edges_.find(geometry.items);
   gpu::Uploader uploader(device_);
   const bool otherPlaces = geometry_.update(device_, uploader, geometry.items, settle);
   const bool otherTextures = textures_.update(uploader, scene.images, settle);
+  if (hasEdges) {
+    changes.buffers |= edges_.update(uploader, geometry.items, geometry_.places(), settle);
+  } else if (edges_.chunkCount() > 0) {
+    settle();
+    edges_.clear();
+    changes.buffers = true;
+  }
   uploader.flush();
   if (otherTextures) ++texturesVersion_;
   if (otherPlaces) {
@@ -110,9 +120,9 @@ void SceneOnGpu::listMaterials() {
     materialUses_.push_back({int(materialNames_.size())});
     materialNames_.push_back(material.name);
   }
-  const auto add = [&](const char* name) {
+  const auto add = [&](std::string_view name) {
     materialUses_.push_back({-1});
-    materialNames_.push_back(name);
+    materialNames_.emplace_back(name);
     return int(materialNames_.size()) - 1;
   };
   // What lies on top is drawn first.
@@ -123,7 +133,8 @@ void SceneOnGpu::listMaterials() {
   }
   featureMaterials_.clear();
   for (const PlannedFeature& planned : options_.features)
-    featureMaterials_.push_back(planned.plan ? add(planned.feature->material()) : -1);
+    featureMaterials_.push_back(
+        planned.plan && !planned.feature->material().empty() ? add(planned.feature->material()) : -1);
 }
 
 void SceneOnGpu::separateMaterials(Geometry& geometry) {

@@ -13,7 +13,7 @@ namespace {
 class OceanFeature : public Feature {
  public:
   const char* name() const override { return kName; }
-  const char* material() const override { return "Ocean"; }
+  std::string_view material() const override { return "Ocean"; }
   std::shared_ptr<const FeaturePlan> plan(const scene::SceneData& scene,
                                           const look::LookData& look) const override {
     OceanShape shape = oceanShape(scene, look);

@@ -88,7 +88,7 @@ class BeaconPlan : public FeaturePlan {
 class Sample : public Feature {
  public:
   const char* name() const override { return "sample"; }
-  const char* material() const override { return "Beacon"; }
+  std::string_view material() const override { return "Beacon"; }
   std::shared_ptr<const FeaturePlan> plan(const scene::SceneData& scene,
                                           const look::LookData& look) const override {
     const SampleParams params = look.get<SampleParams>();

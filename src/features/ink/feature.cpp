@@ -1,0 +1,50 @@
+// What the program knows of ink.
+#include "features/ink/ink.h"
+#include "features/ink/ink_knobs.h"
+#include "frame/feature_parts.h"
+
+namespace scumble::ink {
+
+namespace {
+
+// It needs the edges, whatever is drawn of them.
+class InkPlan : public world::FeaturePlan {
+ public:
+  InkPlan() { needsEdges = true; }
+  bool equals(const world::FeaturePlan&) const override { return true; }
+  std::unique_ptr<world::FeatureMoment> makeMoment(gpu::Device&, const scene::SceneData&) const override {
+    return std::make_unique<InkMoment>();
+  }
+
+ private:
+  class InkMoment : public world::FeatureMoment {
+   public:
+    bool follow(const scene::SceneData&, const world::FeaturePlan&) override { return true; }
+    void pose(const look::LookData&, const KnobTable&, double, const world::FeatureMoment*) override {}
+  };
+};
+
+class InkFeature : public world::Feature {
+ public:
+  const char* name() const override { return kName; }
+  std::string_view material() const override { return ""; }
+  std::shared_ptr<const world::FeaturePlan> plan(const scene::SceneData&,
+                                                 const look::LookData& look) const override {
+    return mayShow(look) ? std::make_shared<InkPlan>() : nullptr;
+  }
+  Switch onOff() const override {
+    return {&InkParams::block(), "shown", "no lines are drawn; --set ink.shown=on draws them"};
+  }
+};
+
+}  // namespace
+
+frame::FeatureParts makeFeature() {
+  return {std::make_unique<InkFeature>(),
+          {{"surface", makeLines}, {"final-color", makeOver}},
+          {&InkParams::block(), &LineParams::block(), &SilhouetteParams::block(), &BoundaryParams::block(),
+           &MaterialBorderParams::block(), &CreaseParams::block(), &ColorBorderParams::block()},
+          {}};
+}
+
+}  // namespace scumble::ink

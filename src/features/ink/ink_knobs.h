@@ -1,0 +1,67 @@
+// Knobs of lines.
+#pragma once
+
+#include "look/look_data.h"
+
+namespace scumble::ink {
+
+#define PARAMS_STRUCT InkParams
+#define PARAMS_FILE "features/ink/ink.params"
+#define PARAMS_PATH "ink"
+#define PARAMS_TARGETS kScene
+#include "look/define_params.h"
+
+// Lines of one material.
+#define PARAMS_STRUCT LineParams
+#define PARAMS_FILE "features/ink/ink_line.params"
+#define PARAMS_PATH "ink.line"
+#define PARAMS_TARGETS kScene | kMaterials | kNodes
+#include "look/define_params.h"
+
+// Kinds of lines.
+#define INK_KIND_SHOWN 1
+#define INK_KIND_WIDTH 1.0
+#define PARAMS_STRUCT SilhouetteParams
+#define PARAMS_FILE "features/ink/ink_kind.params"
+#define PARAMS_PATH "ink.silhouettes"
+#define PARAMS_TARGETS kScene
+#include "look/define_params.h"
+#undef INK_KIND_WIDTH
+
+#define INK_KIND_WIDTH 0.5
+#define PARAMS_STRUCT CreaseParams
+#define PARAMS_FILE "features/ink/ink_kind.params"
+#define PARAMS_PATH "ink.creases"
+#define PARAMS_TARGETS kScene
+#include "look/define_params.h"
+
+#define PARAMS_STRUCT MaterialBorderParams
+#define PARAMS_FILE "features/ink/ink_kind.params"
+#define PARAMS_PATH "ink.materials"
+#define PARAMS_TARGETS kScene
+#include "look/define_params.h"
+#undef INK_KIND_SHOWN
+
+#define INK_KIND_SHOWN 0
+#define PARAMS_STRUCT ColorBorderParams
+#define PARAMS_FILE "features/ink/ink_kind.params"
+#define PARAMS_PATH "ink.colors"
+#define PARAMS_TARGETS kScene
+#include "look/define_params.h"
+#undef INK_KIND_SHOWN
+#undef INK_KIND_WIDTH
+
+#define INK_KIND_SHOWN 1
+#define INK_KIND_WIDTH 0.8
+#define PARAMS_STRUCT BoundaryParams
+#define PARAMS_FILE "features/ink/ink_kind.params"
+#define PARAMS_PATH "ink.boundaries"
+#define PARAMS_TARGETS kScene
+#include "look/define_params.h"
+#undef INK_KIND_SHOWN
+#undef INK_KIND_WIDTH
+
+// Whether a look draws lines at any time.
+bool mayShow(const look::LookData& look);
+
+}  // namespace scumble::ink

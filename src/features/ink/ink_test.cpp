@@ -1,0 +1,293 @@
+// Lines of edges: those that a CPU reference finds, where it has them; hidden ones are not seen, joints
+// close, widths follow the light, and what is switched off is not there.
+#include <cmath>
+#include <numbers>
+
+#include "features/ink/ink_reference.h"
+#include "tests/support/ray_cast.h"
+#include "tests/support/render_test.h"
+
+namespace scumble::ink {
+namespace {
+
+using namespace test;
+
+// Nothing but lines of one width, centred, whole at their ends and not torn.
+Knobs evenLines(const Knobs& more = {}) {
+  Knobs knobs{{"ink.shown", "on"},
+              {"ink.least", "27"},
+              {"ink.greatest", "27"},
+              {"ink.placement", "centred"},
+              {"ink.fade", "0"},
+              {"ink.outer", "1"},
+              {"warp.amount", "0"},
+              {"ink.creases.shown", "off"},
+              {"ink.materials.shown", "off"},
+              {"ink.boundaries.shown", "off"}};
+  knobs.insert(knobs.end(), more.begin(), more.end());
+  return knobs;
+}
+
+class Ink : public BothEyes {
+ protected:
+  static constexpr int kWidth = 160, kHeight = 120;
+  static constexpr double kRadius = 13.5 * kHeight / 1080;  // pixels: 1.5
+
+  static glm::dvec3 eyeOf(const View& view) {
+    return glm::dvec3(glm::inverse(glm::dmat4(view.worldToEye)) * glm::dvec4(0, 0, 0, 1));
+  }
+  Frame drawLines(const Scene& scene, const Knobs& knobs, const std::vector<View>& views) {
+    return draw(scene, quietLook(knobs), views, sized(kWidth, kHeight, {"ink"}));
+  }
+  static double ink(const Frame& frame, size_t view, const glm::dvec2& at) {
+    return texel(aov(frame, "ink", view), int(at.x), int(at.y)).w;
+  }
+  // That ink covers what it should, pixel by pixel.
+  void expectLines(const TestScene& s, const Knobs& knobs, const Stand& stand,
+                   const std::function<double(const ReferenceEdge&, const glm::dvec3& eye)>& radiusOf) {
+    const Scene scene = s.load();
+    const auto views = viewsFrom(scene, stand, kWidth, kHeight, GetParam());
+    const Frame frame = drawLines(scene, knobs, views);
+    const std::vector<ReferenceEdge> edges = referenceEdges(s.triangles());
+    for (size_t v = 0; v < viewCount(); ++v) {
+      const glm::dvec3 eye = eyeOf(views[v]);
+      const Texels expected = referenceLines(edges, views[v], kWidth, kHeight,
+                                             [&](const ReferenceEdge& edge) { return radiusOf(edge, eye); });
+      Difference coverage(0.03);
+      double drawn = 0;
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+          coverage.add(texel(aov(frame, "ink", v), x, y).w, expected.values[size_t(y * kWidth + x)].x);
+          drawn += expected.values[size_t(y * kWidth + x)].x;
+        }
+      EXPECT_GT(drawn, 200) << "view " << v;
+      EXPECT_LT(coverage.beyondPart(), 0.0005) << "view " << v << ": " << coverage.text();
+    }
+  }
+};
+INSTANTIATE_BOTH_EYES(Ink);
+
+TestScene oneThing(const TestMesh& mesh, const glm::mat4& matrix = glm::mat4(1.0f)) {
+  TestScene s;
+  s.add(mesh, s.material(TestScene::colored("Thing", {0.6f, 0.5f, 0.4f, 1})), matrix);
+  return s;
+}
+
+// Every vertex of these meshes is split; normals differ at the corners of the box.
+TEST_P(Ink, silhouettesAreThoseOfTheReference) {
+  const auto outline = [](const ReferenceEdge& edge, const glm::dvec3& eye) {
+    return edge.isSilhouette(eye) ? kRadius : 0;
+  };
+  expectLines(oneThing(boxMesh({-1, -0.8f, -0.6f}, {1, 0.7f, 0.9f})), evenLines(), {{2, 1.5f, 4}}, outline);
+  expectLines(oneThing(sphereMesh({0, 0, 0}, 1.2f, 20)), evenLines(), {{0.4f, 1.2f, 4.5f}}, outline);
+  // Turned inside out by its matrix.
+  expectLines(oneThing(boxMesh({-1, -0.8f, -0.6f}, {1, 0.7f, 0.9f}),
+                       glm::mat4({-1, 0, 0, 0}, {0, 0.8f, 0.1f, 0}, {0, 0, 1, 0}, {0.2f, 0, 0, 1})),
+              evenLines(), {{2, 1.5f, 4}}, outline);
+}
+
+TEST_P(Ink, creasesAreEdgesThatAreSharpAndSeen) {
+  const Knobs knobs = evenLines({{"ink.silhouettes.shown", "off"},
+                                 {"ink.creases.shown", "on"},
+                                 {"ink.creases.width", "1"},
+                                 {"ink.creaseAngle", "50"}});
+  const auto crease = [](const ReferenceEdge& edge, const glm::dvec3& eye) {
+    return edge.angle() > 50 && edge.isSeen(eye) ? kRadius : 0;
+  };
+  expectLines(oneThing(boxMesh({-1, -0.8f, -0.6f}, {1, 0.7f, 0.9f})), knobs, {{2, 1.5f, 4}}, crease);
+}
+
+TEST_P(Ink, openSurfacesEndInLines) {
+  const Knobs knobs = evenLines(
+      {{"ink.boundaries.shown", "on"}, {"ink.boundaries.width", "1"}, {"ink.silhouettes.shown", "off"}});
+  expectLines(oneThing(gridMesh({-1, -1, 0}, {2, 0, 0.5f}, {0.2f, 2, 0}, 5)), knobs, {{0.5f, 0.4f, 5}},
+              [](const ReferenceEdge& edge, const glm::dvec3&) { return edge.isOpen ? kRadius : 0; });
+}
+
+// Two primitives of one mesh, of two materials, share a border; it is neither an end nor a crease.
+TEST_P(Ink, bordersOfMaterialsAreLines) {
+  TestScene s;
+  s.add(gridMesh({-1, -1, 0}, {1, 0, 0}, {0, 2, 0}, 3),
+        s.material(TestScene::colored("Left", {0.6f, 0.5f, 0.4f, 1})));
+  s.add(gridMesh({0, -1, 0}, {1, 0, 0}, {0, 2, 0}, 3),
+        s.material(TestScene::colored("Right", {0.2f, 0.5f, 0.4f, 1})));
+  // Both primitives become those of the first mesh.
+  Json& json = s.json();
+  json["meshes"][0]["primitives"].push_back(json["meshes"][1]["primitives"][0]);
+  json["scenes"][0]["nodes"].erase(1);
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0.3f, 0.2f, 5}}, kWidth, kHeight, GetParam());
+  const Knobs shown{{"ink.materials.shown", "on"},
+                    {"ink.boundaries.shown", "on"},
+                    {"ink.materials.width", "1"},
+                    {"ink.boundaries.width", "1"}};
+  const Frame with = drawLines(scene, evenLines(shown), views),
+              without = drawLines(scene, evenLines({shown[1], shown[3]}), views);
+  for (size_t v = 0; v < viewCount(); ++v)
+    for (const double y : {-0.7, -0.2, 0.4}) {
+      const glm::dvec2 at = pixelOf(views[v], {0, y, 0}, kWidth, kHeight);
+      EXPECT_GT(ink(with, v, at), 0.9);
+      EXPECT_EQ(ink(without, v, at), 0.0);
+      EXPECT_GT(ink(without, v, pixelOf(views[v], {-1, y, 0}, kWidth, kHeight)), 0.9);
+    }
+}
+
+// Lines of a box that stands behind another one; both are far enough apart to say which.
+TEST_P(Ink, hiddenLinesAreNotSeen) {
+  TestScene s;
+  const int material = s.material(TestScene::colored("Thing", {0.6f, 0.5f, 0.4f, 1}));
+  s.add(boxMesh({-0.6f, -0.6f, 0}, {0.6f, 0.6f, 0.2f}), material);
+  s.add(boxMesh({-1.5f, -0.3f, -1.5f}, {1.5f, 0.3f, -1}), material);
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0, 0, 6}, {0, 0, 0}, 40, 0, 0.1f}, kWidth, kHeight, GetParam());
+  const Frame frame = drawLines(scene, evenLines({{"ink.creases.shown", "on"}}), views);
+  for (size_t v = 0; v < viewCount(); ++v) {
+    const auto at = [&](const glm::dvec3& world) {
+      return ink(frame, v, pixelOf(views[v], world, kWidth, kHeight));
+    };
+    for (const double x : {-1.2, -0.9, 0.9, 1.2}) EXPECT_GT(at({x, 0.3, -1}), 0.9) << x;
+    for (const double x : {-0.4, 0.0, 0.4}) EXPECT_EQ(at({x, 0.3, -1}), 0.0) << x;
+    for (const double x : {-0.4, 0.0, 0.4}) EXPECT_GT(at({x, 0.6, 0.2}), 0.9) << x;
+  }
+}
+
+// Bold lines outside of a ball: its outline is covered all around, from the ball on to the line's width.
+TEST_P(Ink, jointsOfExteriorLinesAreClosed) {
+  const TestScene s = oneThing(sphereMesh({0, 0, 0}, 1, 24));
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0, 0, 5}, {0, 0, 0}, 40, 0, 0.1f}, kWidth, kHeight, GetParam());
+  const Frame frame = drawLines(
+      scene, evenLines({{"ink.placement", "exterior"}, {"ink.least", "54"}, {"ink.greatest", "54"}}), views);
+  for (size_t v = 0; v < viewCount(); ++v) {
+    // Where surfaces end, along rays from the middle.
+    const glm::dvec2 middle = pixelOf(views[v], {0, 0, 0}, kWidth, kHeight);
+    for (int i = 0; i < 180; ++i) {
+      const double angle = i * std::numbers::pi / 90;
+      const glm::dvec2 along(std::cos(angle), std::sin(angle));
+      double edge = 0;
+      for (double r = 20; r < 55; r += 0.25) {
+        const glm::dvec2 at = middle + r * along;
+        if (castRay(pixelRay(views[v], int(at.x), int(at.y), kWidth, kHeight), s.triangles())) edge = r;
+      }
+      EXPECT_GT(ink(frame, v, middle + (edge + 1.5) * along), 0.95) << i;
+      EXPECT_GT(ink(frame, v, middle + (edge + 3.5) * along), 0.95) << i;
+      EXPECT_EQ(ink(frame, v, middle + (edge + 9) * along), 0) << i;
+      EXPECT_EQ(ink(frame, v, middle + (edge - 4) * along), 0) << i;
+    }
+  }
+}
+
+// FORMULAS 24: thin where light falls on it, bold where it turns away, and in between what a cosine says.
+TEST_P(Ink, widthsFollowTheLight) {
+  TestScene s = oneThing(sphereMesh({0, 0, 0}, 1, 64));
+  s.light({1, 0, 0});
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0, 0, 8}, {0, 0, 0}, 20, 0, 0.05f}, kWidth, kHeight, GetParam());
+  for (const char* weights : {"edge", "vertex", "tangent", "hybrid"}) {
+    const Frame frame = drawLines(
+        scene, evenLines({{"ink.weights", weights}, {"ink.least", "9"}, {"ink.greatest", "63"}}), views);
+    for (size_t v = 0; v < viewCount(); ++v) {
+      const glm::dvec2 middle = pixelOf(views[v], {0, 0, 0}, kWidth, kHeight);
+      for (int i = 0; i < 24; ++i) {
+        const double angle = i * std::numbers::pi / 12;
+        const glm::dvec2 along(std::cos(angle), std::sin(angle));
+        double width = 0;
+        for (double r = 25; r < 58; r += 0.05) width += 0.05 * ink(frame, v, middle + r * along);
+        const double expected = (36 - 27 * std::cos(angle)) * kHeight / 1080;
+        EXPECT_NEAR(width, expected, 0.15 * expected + 0.35) << weights << " " << i;
+      }
+    }
+  }
+}
+
+// A degree of what is seen stays one when a lens is exchanged, and a metre is one at any distance.
+TEST_P(Ink, unitsOfWidths) {
+  const TestScene s = oneThing(boxMesh({-1, -1, -0.1f}, {1, 1, 0.1f}));
+  const Scene scene = s.load();
+  const auto width = [&](const char* unit, const char* value, float distance, float fov) {
+    const auto views =
+        viewsFrom(scene, {{0, 0, distance}, {0, 0, 0}, fov, 0, 0.02f}, kWidth, kHeight, GetParam());
+    const Frame frame = drawLines(
+        scene, evenLines({{"ink.unit", unit}, {"ink.least", value}, {"ink.greatest", value}}), views);
+    // Across the upper edge.
+    const double x = pixelOf(views[0], {0, 1, 0.1}, kWidth, kHeight).x;
+    double sum = 0;
+    for (int y = 0; y < kHeight / 2; ++y) sum += ink(frame, 0, {x, y});
+    return sum;
+  };
+  const auto pixelsOfOne = [&](float fov) { return kHeight / 2 / std::tan(fov * std::numbers::pi / 360); };
+  EXPECT_NEAR(width("pixels", "36", 6, 40), 4, 0.1);
+  for (const float distance : {4.0f, 8.0f})
+    EXPECT_NEAR(width("metres", "0.2", distance, 40), 0.2 * pixelsOfOne(40) / (distance - 0.1), 0.15);
+  for (const float fov : {25.0f, 50.0f})
+    EXPECT_NEAR(width("degrees", "2", 7, fov), 2 * std::numbers::pi / 180 * pixelsOfOne(fov), 0.15);
+}
+
+// Both eyes may share one outline.
+TEST_F(RenderTest, cyclopeanOutlinesAreThoseOfOneEyeBetween) {
+  constexpr int kWidth = 160, kHeight = 120;
+  const TestScene s = oneThing(sphereMesh({0, 0, 0}, 1.2f, 16));
+  const Scene scene = s.load();
+  const Stand stand{{0.4f, 1.2f, 4.5f}, {0, 0, 0}, 40, 0, 0.6f};
+  const auto views = viewsFrom(scene, stand, kWidth, kHeight, Stereo::stereo);
+  const Frame frame =
+      draw(scene, quietLook(evenLines({{"ink.cyclopean", "on"}})), views, sized(kWidth, kHeight, {"ink"}));
+  const std::vector<ReferenceEdge> edges = referenceEdges(s.triangles());
+  for (size_t v = 0; v < 2; ++v) {
+    // Lines that are hidden for one eye are not drawn there: those that it sees are among the shared ones.
+    const Texels shared = referenceLines(edges, views[v], kWidth, kHeight, [&](const ReferenceEdge& edge) {
+      return edge.isSilhouette({0.4, 1.2, 4.5}) ? 1.5 : 0;
+    });
+    Difference beyond(0.03);
+    double drawn = 0;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        const double got = texel(aov(frame, "ink", v), x, y).w, most = shared.clamped(x, y).x;
+        drawn += got;
+        beyond.add(std::max(got - most, 0.0), 0);
+      }
+    EXPECT_GT(drawn, 200);
+    EXPECT_LT(beyond.beyondPart(), 0.0005) << beyond.text();
+  }
+}
+
+TEST_P(Ink, colorsAreOfMaterialAndKind) {
+  const TestScene s = oneThing(boxMesh({-1, -1, -1}, {1, 1, 1}));
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0, 0, 6}}, kWidth, kHeight, GetParam());
+  const auto colorWith = [&](const Knobs& knobs) {
+    const Frame frame = draw(scene, quietLook(evenLines(knobs)), views, sized(kWidth, kHeight));
+    const glm::dvec2 at = pixelOf(views[0], {0, 1, 1}, kWidth, kHeight);
+    return glm::dvec3(texel(aov(frame, ""), int(at.x), int(at.y)));
+  };
+  const auto expectNear = [](const glm::dvec3& got, const glm::dvec3& expected) {
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(got[c], expected[c], 0.012) << c;
+  };
+  expectNear(colorWith({{"ink.line.color", "#FF8000"}}), {1, 0.2159, 0});
+  expectNear(colorWith({{"materials.Thing.ink.line.color", "#0080FF"}}), {0, 0.2159, 1});
+  expectNear(colorWith({{"ink.silhouettes.color", "#FFFFFF"}, {"ink.silhouettes.colorAmount", "1"}}),
+             {1, 1, 1});
+}
+
+// What is not shown has no passes, and pictures without it are what they were, to the byte.
+TEST_P(Ink, costsNothingWhereItIsNot) {
+  const Scene scene = stillLife().load();
+  const auto views = viewsFrom(scene, {{0, 2, 8}, {0, 1, 0}}, kWidth, kHeight, GetParam());
+  const auto passesOf = [](const Frame& frame) {
+    size_t count = 0;
+    for (const PassTime& pass : frame.stats.passes) count += pass.name.starts_with("ink");
+    return count;
+  };
+  const Frame without = draw(scene, quietLook(), views, sized(kWidth, kHeight)),
+              with = draw(scene, quietLook({{"ink.shown", "on"}}), views, sized(kWidth, kHeight)),
+              again = draw(scene, quietLook(), views, sized(kWidth, kHeight)),
+              withAgain = draw(scene, quietLook({{"ink.shown", "on"}}), views, sized(kWidth, kHeight));
+  EXPECT_EQ(passesOf(without), 0u);
+  EXPECT_GT(passesOf(with), 0u);
+  expectSame(without, again);
+  expectSame(with, withAgain);
+  EXPECT_FALSE(sameBytes(aov(without, ""), aov(with, "")));
+}
+
+}  // namespace
+}  // namespace scumble::ink

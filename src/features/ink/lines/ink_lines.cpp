@@ -1,0 +1,165 @@
+// Draws lines of the edges of meshes.
+#include <algorithm>
+#include <cmath>
+
+#include "features/ink/ink.h"
+#include "features/ink/ink_knobs.h"
+#include "features/ink/lines/line_finder.h"
+#include "frame/drawn_image.h"
+#include "frame/material_params.h"
+#include "shaders/ink_line_frag.h"
+#include "shaders/ink_line_vert.h"
+#include "shading/geometry_constants.shared.h"
+
+namespace scumble::ink {
+
+using namespace frame;
+
+namespace {
+
+constexpr float kRadians = 3.14159265f / 180;
+
+template <class Params>
+shared::InkKind kindOf(const KnobTable& knobs) {
+  const Params p = knobs.scene<Params>();
+  return {uint32_t(p.shown && p.width > 0), p.width, glm::sqrt(p.color.linear), p.colorAmount};
+}
+
+// Where a view is seen from: a point, or (a parallel projection) a direction.
+glm::vec4 eyeOf(const shared::ViewUniforms& view) {
+  if (view.orthographic == 0) return glm::vec4(view.eye, 1);
+  const glm::mat4& m = view.worldToEye;
+  return glm::vec4(glm::normalize(glm::vec3(m[0][2], m[1][2], m[2][2])), 0);
+}
+
+shared::InkUniforms inkUniforms(const FrameInput& input, uint32_t views) {
+  const InkParams params = input.knobs.scene<InkParams>();
+  shared::InkUniforms u{};
+  for (uint32_t v = 0; v < 2; ++v) u.eyes[v] = eyeOf(input.uniforms.views[std::min(v, views - 1)]);
+  u.eyeCount = int(std::min(views, 2u));
+  if (params.cyclopean && views > 1) {
+    u.eyeCount = 1;
+    if (u.eyes[0].w != 0) u.eyes[0] = glm::vec4(input.uniforms.viewer, 1);
+  }
+  u.least = params.least, u.greatest = params.greatest;
+  u.unit = params.unit, u.weights = params.weights, u.placement = params.placement;
+  u.offset = params.offset;
+  u.cosSmooth = std::cos(params.smoothAngle * kRadians);
+  u.cosCrease = std::cos(params.creaseAngle * kRadians);
+  u.fade = params.fade;
+  u.outer = params.outer;
+  u.kinds[shared::kInkSilhouette] = kindOf<SilhouetteParams>(input.knobs);
+  u.kinds[shared::kInkBoundary] = kindOf<BoundaryParams>(input.knobs);
+  u.kinds[shared::kInkMaterial] = kindOf<MaterialBorderParams>(input.knobs);
+  u.kinds[shared::kInkCrease] = kindOf<CreaseParams>(input.knobs);
+  u.kinds[shared::kInkColor] = kindOf<ColorBorderParams>(input.knobs);
+  return u;
+}
+
+class Lines : public Pass {
+ public:
+  const char* name() const override { return "ink"; }
+  std::span<const Aov> aovs() const override { return kAovs; }
+  uint32_t variant(const scene::SceneData&, const look::LookData& look) const override {
+    return mayShow(look);
+  }
+
+  void declare(FrameBuilder& frame, uint32_t isShown) override {
+    if (!isShown) return;
+    configuration_ = frame.configuration();
+    frame.step("ink-lines", [this](VkCommandBuffer commands) { finder_.record(commands); });
+    frame.use(frame.get(kVertices), gpu::Use::storageBufferRead);
+    const gpu::Handle numbers =
+        frame.use(frame.graph().importBuffer("ink lines"), gpu::Use::storageBufferWrite);
+    const gpu::Handle command =
+        frame.use(frame.graph().importBuffer("ink draw"), gpu::Use::storageBufferWrite);
+
+    frame.step(name(), [this](VkCommandBuffer commands) { record(commands); });
+    frame.use(frame.get(kVertices), gpu::Use::storageBufferReadByVertex);
+    frame.use(numbers, gpu::Use::storageBufferReadByVertex);
+    frame.use(command, gpu::Use::indirectBuffer);
+    depth_ = frame.use(frame.get(kDepth), gpu::Use::sampledByFragment);
+    shadowed_ = frame.use(frame.get(kShadowed), gpu::Use::sampledByFragment);
+    strokes_.declare(frame, "ink", kBytes);
+    frame.give(kStrokes, strokes_.image());
+    frame.offer(kAovs[0], {strokes_.image()});
+  }
+
+  void create(FrameBuilder& frame) override {
+    frame_ = &frame;
+    uniforms_ = frame.uniform(sizeof(shared::InkUniforms));
+    lines_ = frame.uniform(frame.scene().materialCount() * sizeof(shared::InkLine));
+    finder_.create(frame, uniforms_);
+    layout_ = gpu::SetLayout(frame.device(),
+                             {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT},
+                              {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT},
+                              {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}});
+    set_ = gpu::DescriptorSets(frame.device(), layout_);
+    set_.writeBuffer(0, shared::kInkLines, lines_.buffer, lines_.offset, lines_.size);
+    gpu::GraphicsPipelineDesc desc;
+    desc.vertex = {shaders::ink_line_vert};
+    desc.fragment = {shaders::ink_line_frag};
+    desc.constants.resize(size_t(shared::kViewCountId) + 1);
+    desc.constants.back() = configuration_.viewCount;
+    desc.colorFormats = {kBytes};
+    desc.blend = gpu::Blend::greatest;
+    desc.viewMask = configuration_.views().mask();
+    desc.sets = {frame.frameLayout().handle(), finder_.layout().handle(), layout_.handle()};
+    desc.pushConstantBytes = 4;
+    pipeline_ = gpu::Pipeline(frame.device(), desc);
+  }
+
+  void bind(const gpu::GraphResources& resources) override {
+    resources_ = &resources;
+    finder_.bind();
+    const VkSampler exact = frame_->samplers().get({VK_FILTER_NEAREST});
+    set_.rewriteTexture(0, shared::kInkDepth, resources.image(depth_).view(), exact);
+    set_.rewriteTexture(0, shared::kInkShadowed, resources.image(shadowed_).view(), exact);
+  }
+
+  void update(const FrameInput& input) override {
+    uniforms_.write(inkUniforms(input, configuration_.viewCount));
+    const InkParams params = input.knobs.scene<InkParams>();
+    auto* const lines = reinterpret_cast<shared::InkLine*>(lines_.mapped);
+    for (size_t m = 0; m < input.scene.materialCount(); ++m) {
+      const LineParams line = input.knobs.of<LineParams>(m);
+      lines[m] = {params.shown ? line.width : 0, glm::sqrt(line.color.linear), line.ownColor,
+                  uint32_t(!input.scene.material(m).doubleSided)};
+    }
+  }
+
+ private:
+  void record(VkCommandBuffer commands) const {
+    const gpu::Target ink = strokes_.target(*resources_);
+    gpu::drawViews(commands, configuration_.views(), {&ink, 1}, nullptr, [&](uint32_t firstView) {
+      if (finder_.isEmpty()) return;
+      pipeline_.bind(commands);
+      pipeline_.bindSet(commands, 0, frame_->frameSet());
+      pipeline_.bindSet(commands, 1, finder_.set());
+      pipeline_.bindSet(commands, 2, set_[0]);
+      pipeline_.push(commands, firstView);
+      vkCmdDrawIndirect(commands, finder_.command(), 0, 1, 0);
+    });
+  }
+
+  static constexpr Aov kAovs[] = {{.name = "ink"}};
+
+  FrameBuilder* frame_ = nullptr;
+  Configuration configuration_;
+  UniformSlice uniforms_, lines_;
+  LineFinder finder_;
+  gpu::Handle depth_, shadowed_;
+  DrawnImage strokes_;
+  const gpu::GraphResources* resources_ = nullptr;
+  gpu::SetLayout layout_;
+  gpu::DescriptorSets set_;
+  gpu::Pipeline pipeline_;
+};
+
+}  // namespace
+
+std::unique_ptr<Pass> makeLines() {
+  return std::make_unique<Lines>();
+}
+
+}  // namespace scumble::ink

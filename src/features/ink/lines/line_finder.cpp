@@ -1,0 +1,82 @@
+#include "features/ink/lines/line_finder.h"
+
+#include <algorithm>
+
+#include "gpu/dispatch.h"
+#include "shaders/ink_find_comp.h"
+#include "shaders/ink_list_comp.h"
+#include "shading/geometry_constants.shared.h"
+
+namespace scumble::ink {
+
+static_assert(shared::kInkWordsOfChunk == shared::kInkThreads, "shaders go through words and bits alike");
+
+void LineFinder::create(frame::FrameBuilder& frame, const frame::UniformSlice& uniforms) {
+  frame_ = &frame;
+  std::vector<gpu::Binding> bindings(
+      shared::kInkBindings,
+      {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_VERTEX_BIT});
+  bindings[shared::kInkBlock].type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+  bindings[shared::kInkBlock].stages |= VK_SHADER_STAGE_FRAGMENT_BIT;
+  layout_ = gpu::SetLayout(frame.device(), std::move(bindings));
+  set_ = gpu::DescriptorSets(frame.device(), layout_);
+  set_.writeBuffer(0, shared::kInkBlock, uniforms.buffer, uniforms.offset, uniforms.size);
+  gpu::ComputePipelineDesc desc;
+  desc.sets = {frame.frameLayout().handle(), layout_.handle()};
+  desc.pushConstantBytes = 4;
+  desc.constants.resize(size_t(shared::kViewCountId) + 1);
+  desc.constants.back() = frame.configuration().viewCount;
+  desc.shader = {shaders::ink_find_comp};
+  find_ = gpu::Pipeline(frame.device(), desc);
+  desc.shader = {shaders::ink_list_comp};
+  list_ = gpu::Pipeline(frame.device(), desc);
+  command_ = gpu::Buffer(frame.device(), sizeof(VkDrawIndirectCommand),
+                         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+                             VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                         gpu::MemoryKind::device);
+  set_.writeBuffer(0, shared::kInkCommand, command_.handle());
+}
+
+void LineFinder::bind() {
+  const world::SceneOnGpu& scene = frame_->scene();
+  if (isEmpty()) return;
+  const uint32_t chunks = scene.edges().chunkCount();
+  if (chunks_ < chunks) {
+    chunks_ = chunks;
+    const auto make = [&](uint64_t numbers) {
+      return gpu::Buffer(frame_->device(), numbers * sizeof(uint32_t),
+                         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                         gpu::MemoryKind::device);
+    };
+    const uint32_t words = chunks * uint32_t(shared::kInkWordsOfChunk);
+    words_ = make(words);
+    sums_ = make(words + 1);
+    numbers_ = make(uint64_t(chunks) * shared::kEdgeChunk);
+    sum_ = gpu::PrefixSum(frame_->device(), sums_, words + 1);
+    set_.writeBuffer(0, shared::kInkWords, words_.handle());
+    set_.writeBuffer(0, shared::kInkSums, sums_.handle());
+    set_.writeBuffer(0, shared::kInkNumbers, numbers_.handle());
+  }
+  set_.writeBuffer(0, shared::kInkEdges, scene.edges().edges().handle());
+  set_.writeBuffer(0, shared::kInkChunks, scene.edges().chunks().handle());
+  set_.writeBuffer(0, shared::kInkVertices, scene.geometry().finalCore().handle());
+  set_.writeBuffer(0, shared::kInkFrames, scene.geometry().finalFrame().handle());
+}
+
+void LineFinder::record(VkCommandBuffer commands) const {
+  if (isEmpty()) return;
+  const uint32_t chunks = frame_->scene().edges().chunkCount();
+  const auto run = [&](const gpu::Pipeline& pipeline) {
+    gpu::computeBarrier(commands);
+    pipeline.bind(commands);
+    pipeline.bindSet(commands, 0, frame_->frameSet());
+    pipeline.bindSet(commands, 1, set_[0]);
+    pipeline.push(commands, chunks);
+    gpu::dispatch(commands, chunks);
+  };
+  run(find_);
+  sum_.record(commands, chunks * uint32_t(shared::kInkWordsOfChunk) + 1);
+  run(list_);
+}
+
+}  // namespace scumble::ink

@@ -1,0 +1,37 @@
+// Which edges are lines in a frame, found on the device: every edge is looked at once, what is found is
+// counted, and its numbers are listed in the order of edges, so that the same frame has the same bytes.
+#pragma once
+
+#include "features/ink/ink.shared.h"
+#include "frame/pass.h"
+#include "gpu/prefix_sum.h"
+
+namespace scumble::ink {
+
+class LineFinder {
+ public:
+  void create(frame::FrameBuilder& frame, const frame::UniformSlice& uniforms);
+  // Whenever the scene's buffers are others.
+  void bind();
+  // Whether there are no edges at all: nothing can be drawn then.
+  bool isEmpty() const { return frame_->scene().edges().chunkCount() == 0; }
+  // Finds them; what reads the set afterwards needs a barrier.
+  void record(VkCommandBuffer commands) const;
+  // What shaders that draw lines read (ink_edge.glsl), with how many vertices there are as an indirect draw.
+  const gpu::SetLayout& layout() const { return layout_; }
+  VkDescriptorSet set() const { return set_[0]; }
+  VkBuffer command() const { return command_.handle(); }
+  VkBuffer numbers() const { return numbers_.handle(); }
+
+ private:
+  frame::FrameBuilder* frame_ = nullptr;
+  gpu::SetLayout layout_;
+  gpu::DescriptorSets set_;
+  gpu::Pipeline find_, list_;
+  // A word of bits for 32 edges; how many are set in it, which become sums; numbers of edges that are lines.
+  uint32_t chunks_ = 0;  // that there is room for
+  gpu::Buffer words_, sums_, numbers_, command_;
+  gpu::PrefixSum sum_;
+};
+
+}  // namespace scumble::ink

@@ -1,0 +1,56 @@
+// Lays ink over the picture.
+#include "features/ink/ink.h"
+#include "features/ink/ink_knobs.h"
+#include "features/ink/over/ink_over.shared.h"
+#include "frame/image_step.h"
+#include "passes/warp/warp_knobs.h"
+#include "shaders/ink_over_image_comp.h"
+#include "shaders/ink_over_image_frag.h"
+
+namespace scumble::ink {
+
+using namespace frame;
+
+namespace {
+
+class Over : public Pass {
+ public:
+  const char* name() const override { return "ink-over"; }
+  uint32_t variant(const scene::SceneData&, const look::LookData& look) const override {
+    return mayShow(look) ? 1 + 2 * passes::mayTear(look) : 0;
+  }
+
+  void declare(FrameBuilder& frame, uint32_t variant) override {
+    if (!variant) return;
+    tears_ = variant & 2;
+    frame.give(
+        kPicture,
+        step_.declare(frame, {.name = name(),
+                              .shader = {{shaders::ink_over_image_frag}, {shaders::ink_over_image_comp}},
+                              .inputs = {{shared::kInkOverPicture, frame.get(kPicture)},
+                                         {shared::kInkOverStrokes, frame.get(kStrokes), true},
+                                         {shared::kInkOverWarp, frame.get(tears_ ? kWarp : kLit)},
+                                         {shared::kInkOverTiles, frame.get(kTiles)}},
+                              .outputs = {frame.image(name(), {.format = kHalves})},
+                              .fetches = 1 + 4 + 1 + 1,
+                              .uniformBytes = sizeof(shared::InkOverUniforms),
+                              .constants = {tears_}})[0]);
+  }
+  void create(FrameBuilder& frame) override { step_.create(frame); }
+  void bind(const gpu::GraphResources& resources) override { step_.bind(resources); }
+  void update(const FrameInput& input) override {
+    step_.update(shared::InkOverUniforms{input.knobs.scene<InkParams>().warp});
+  }
+
+ private:
+  ImageStep step_;
+  bool tears_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Pass> makeOver() {
+  return std::make_unique<Over>();
+}
+
+}  // namespace scumble::ink

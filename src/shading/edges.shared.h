@@ -1,0 +1,29 @@
+// The edges of what is drawn (world/edges_on_gpu.h).
+#ifndef SCUMBLE_EDGES_SHARED_H
+#define SCUMBLE_EDGES_SHARED_H
+#include "shared_types.h"
+
+SHARED_BEGIN
+
+// Final vertices, counted from where the chunk's begin. An edge goes from a to b along its left triangle.
+struct DrawnEdge {
+  uint a;  // the upper four bits: what it is besides, kEdgeMaterialBorder ...
+  uint b;
+  uint left;   // the left triangle's third vertex
+  uint right;  // the right one's; kNoEdgeSide: the surface ends here
+};
+const uint kNoEdgeSide = 0xFFFFFFFFu;
+const uint kEdgeVertexMask = 0x0FFFFFFFu;
+const uint kEdgeMaterialBorder = 0x10000000u, kEdgeColorBorder = 0x20000000u;
+
+// A run of edges of one object. A number of an edge among all that are drawn is that of its chunk times
+// kEdgeChunk, and its place in it.
+const int kEdgeChunk = 1024;
+struct EdgeChunk {
+  uint firstEdge, count;
+  uint firstVertex;  // of the final ones
+  uint object;
+};
+
+SHARED_END
+#endif

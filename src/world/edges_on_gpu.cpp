@@ -1,0 +1,148 @@
+#include "world/edges_on_gpu.h"
+
+#include <algorithm>
+#include <set>
+#include <tuple>
+
+#include "scene/parallel.h"
+
+namespace scumble::world {
+
+namespace {
+
+static_assert(scene::kMaterialBorder << 28 == shared::kEdgeMaterialBorder &&
+              scene::kColorBorder << 28 == shared::kEdgeColorBorder);
+
+shared::DrawnEdge drawn(const scene::MeshEdge& edge, uint32_t vertices) {
+  const bool isOpen = edge.right == scene::MeshEdge::kNone;
+  return {(edge.a + vertices) | edge.kinds << 28, edge.b + vertices, edge.left + vertices,
+          isOpen ? shared::kNoEdgeSide : edge.right + vertices};
+}
+
+}  // namespace
+
+std::vector<EdgesOnGpu::Group> EdgesOnGpu::groupsOf(const std::vector<GeometryItem>& items) {
+  std::vector<Group> groups;
+  std::map<std::pair<size_t, size_t>, size_t> groupOf;  // by node and instance
+  for (uint32_t i = 0; i < items.size(); ++i) {
+    // The ground has no outline, and features draw their own.
+    if (items[i].node == GeometryItem::kNoNode) continue;
+    const auto [found, isNew] = groupOf.try_emplace({items[i].node, items[i].instanceOfNode}, groups.size());
+    if (isNew) groups.emplace_back();
+    groups[found->second].push_back(i);
+  }
+  return groups;
+}
+
+std::vector<const scene::Primitive*> EdgesOnGpu::primitivesOf(const std::vector<GeometryItem>& items,
+                                                              const Group& group) const {
+  std::vector<const scene::Primitive*> primitives;
+  for (const uint32_t item : group) primitives.push_back(items[item].primitive);
+  return primitives;
+}
+
+void EdgesOnGpu::find(const std::vector<GeometryItem>& items) {
+  const std::vector<Group> groups = groupsOf(items);
+  std::set<const scene::Primitive*> used;
+  std::vector<const scene::Primitive*> missing;
+  for (const Group& group : groups)
+    for (const scene::Primitive* primitive : primitivesOf(items, group))
+      if (used.insert(primitive).second && !edgesOf_.contains(primitive)) missing.push_back(primitive);
+  std::erase_if(edgesOf_, [&](const auto& entry) { return !used.contains(entry.first); });
+  std::vector<std::vector<scene::MeshEdge>> found(missing.size());
+  scene::parallelFor(missing.size(), scene::threadCount(0),
+                     [&](size_t i) { found[i] = scene::edgesOf(*missing[i]); });
+  for (size_t i = 0; i < missing.size(); ++i) edgesOf_[missing[i]] = std::move(found[i]);
+
+  std::set<std::vector<const scene::Primitive*>> meshes;
+  for (const Group& group : groups)
+    if (group.size() > 1) meshes.insert(primitivesOf(items, group));
+  std::erase_if(sharedBy_, [&](const auto& entry) { return !meshes.contains(entry.first); });
+  for (const auto& primitives : meshes) {
+    const auto [entry, isNew] = sharedBy_.try_emplace(primitives);
+    if (!isNew) continue;
+    std::vector<const std::vector<scene::MeshEdge>*> edges;
+    for (const scene::Primitive* primitive : primitives) edges.push_back(&edgesOf_.at(primitive));
+    entry->second = scene::sharedEdges(primitives, edges);
+  }
+}
+
+bool EdgesOnGpu::update(gpu::Uploader& uploader, const std::vector<GeometryItem>& items,
+                        const std::vector<GeometryOnGpu::Place>& places,
+                        const std::function<void()>& settle) {
+  std::vector<Known> known;
+  for (size_t i = 0; i < items.size(); ++i)
+    known.push_back({items[i].primitive, places[i].firstVertex, items[i].shown});
+  if (edges_.handle() && known == known_) return false;
+  known_ = std::move(known);
+
+  std::vector<shared::DrawnEdge> edges;
+  std::vector<shared::EdgeChunk> chunks;
+  edgeCount_ = 0;
+  const auto addChunks = [&](uint32_t first, uint32_t count, uint32_t firstVertex, uint32_t object) {
+    edgeCount_ += count;
+    for (uint32_t e = 0; e < count; e += shared::kEdgeChunk)
+      chunks.push_back({first + e, std::min(count - e, uint32_t(shared::kEdgeChunk)), firstVertex, object});
+  };
+  struct Run {
+    uint32_t first = 0, count = 0;
+  };
+  // Of a primitive, but for edges at which it goes on in another one; those depend on the mesh.
+  std::map<std::tuple<const scene::Primitive*, const std::vector<scene::SharedEdge>*, uint32_t>, Run> runs;
+  for (const Group& group : groupsOf(items)) {
+    if (!items[group[0]].shown) continue;
+    const std::vector<scene::SharedEdge>* shared = nullptr;
+    if (group.size() > 1) shared = &sharedBy_.at(primitivesOf(items, group));
+    for (uint32_t p = 0; p < group.size(); ++p) {
+      const GeometryItem& item = items[group[p]];
+      const std::vector<scene::MeshEdge>& own = edgesOf_.at(item.primitive);
+      const auto [run, isNew] = runs.try_emplace({item.primitive, shared, shared ? p : 0});
+      if (isNew) {
+        run->second.first = uint32_t(edges.size());
+        std::vector<bool> isShared(own.size(), false);
+        if (shared)
+          for (const scene::SharedEdge& edge : *shared) {
+            if (edge.primitive == p) isShared[edge.edge] = true;
+            if (edge.otherPrimitive == p) isShared[edge.otherEdge] = true;
+          }
+        for (size_t e = 0; e < own.size(); ++e)
+          if (!isShared[e]) edges.push_back(drawn(own[e], 0));
+        run->second.count = uint32_t(edges.size()) - run->second.first;
+      }
+      addChunks(run->second.first, run->second.count, places[group[p]].firstVertex, group[p]);
+    }
+    // Those have vertices of two items.
+    if (!shared || shared->empty()) continue;
+    const uint32_t first = uint32_t(edges.size());
+    for (const scene::SharedEdge& between : *shared) {
+      const GeometryItem &item = items[group[between.primitive]],
+                         &other = items[group[between.otherPrimitive]];
+      const uint32_t vertices = places[group[between.primitive]].firstVertex,
+                     otherVertices = places[group[between.otherPrimitive]].firstVertex;
+      shared::DrawnEdge edge = drawn(edgesOf_.at(item.primitive)[between.edge], vertices);
+      edge.right = edgesOf_.at(other.primitive)[between.otherEdge].left + otherVertices;
+      if (item.material != other.material) edge.a |= shared::kEdgeMaterialBorder;
+      edges.push_back(edge);
+    }
+    addChunks(first, uint32_t(edges.size()) - first, 0, group[0]);
+  }
+
+  settle();
+  const auto upload = [&]<class T>(const std::vector<T>& array, gpu::Buffer& buffer) {
+    std::byte* target = nullptr;
+    buffer = {};
+    buffer = uploader.reserve(std::max<size_t>(1, array.size()) * sizeof(T),
+                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &target);
+    std::copy(array.begin(), array.end(), reinterpret_cast<T*>(target));
+  };
+  upload(edges, edges_);
+  upload(chunks, chunks_);
+  chunkCount_ = uint32_t(chunks.size());
+  return true;
+}
+
+void EdgesOnGpu::clear() {
+  *this = {};
+}
+
+}  // namespace scumble::world

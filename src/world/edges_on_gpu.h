@@ -1,0 +1,57 @@
+// The edges of all that is drawn, in device memory, for features that draw lines (FeaturePlan::needsEdges).
+// What instances share is there once.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "gpu/resources.h"
+#include "scene/mesh_edges.h"
+#include "shading/edges.shared.h"
+#include "world/geometry_on_gpu.h"
+
+namespace scumble::world {
+
+class EdgesOnGpu {
+ public:
+  // Finds the edges of primitives that are new, while their vertices are there. Primitives that are the same
+  // objects as before have the same edges.
+  void find(const std::vector<GeometryItem>& items);
+  // Brings the buffers up to date with what was found, and with where vertices are. True where they are
+  // others; `settle` is called before the old ones go.
+  bool update(gpu::Uploader& uploader, const std::vector<GeometryItem>& items,
+              const std::vector<GeometryOnGpu::Place>& places, const std::function<void()>& settle);
+  // Frees all of it.
+  void clear();
+
+  // How many runs of kEdgeChunk edges there are.
+  uint32_t chunkCount() const { return chunkCount_; }
+  uint64_t edgeCount() const { return edgeCount_; }
+  // shared::DrawnEdge, and shared::EdgeChunk.
+  const gpu::Buffer& edges() const { return edges_; }
+  const gpu::Buffer& chunks() const { return chunks_; }
+  uint64_t bytes() const { return edges_.size() + chunks_.size(); }
+
+ private:
+  // Items that are one mesh at one place.
+  using Group = std::vector<uint32_t>;
+  static std::vector<Group> groupsOf(const std::vector<GeometryItem>& items);
+  std::vector<const scene::Primitive*> primitivesOf(const std::vector<GeometryItem>& items,
+                                                    const Group& group) const;
+
+  std::map<const scene::Primitive*, std::vector<scene::MeshEdge>> edgesOf_;
+  std::map<std::vector<const scene::Primitive*>, std::vector<scene::SharedEdge>> sharedBy_;
+  struct Known {
+    const scene::Primitive* primitive;
+    uint32_t firstVertex;
+    bool shown;
+    bool operator==(const Known&) const = default;
+  };
+  std::vector<Known> known_;  // what the buffers were written for
+  uint32_t chunkCount_ = 0;
+  uint64_t edgeCount_ = 0;
+  gpu::Buffer edges_, chunks_;
+};
+
+}  // namespace scumble::world
