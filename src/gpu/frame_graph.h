@@ -22,6 +22,7 @@ enum class Use : uint8_t {
   // Images.
   sampledByVertex,
   sampledByFragment,
+  sampledByDraw,  // by both
   sampledByCompute,
   colorTarget,
   depthTarget,

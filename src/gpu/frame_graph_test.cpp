@@ -397,9 +397,10 @@ struct Memory {
 // two frames: every use must find its resource in the right layout, see the last write, and write only when
 // nobody is at it any more, nor at what else lies in its memory.
 TEST(FrameGraph, randomGraphsKeepVulkansRules) {
-  constexpr Use kImageUses[] = {Use::sampledByVertex,   Use::sampledByFragment, Use::sampledByCompute,
-                                Use::colorTarget,       Use::resolveTarget,     Use::copySource,
-                                Use::storageImageWrite, Use::copyTarget,        Use::storageImageReadWrite};
+  constexpr Use kImageUses[] = {Use::sampledByVertex,      Use::sampledByFragment, Use::sampledByDraw,
+                                Use::sampledByCompute,     Use::colorTarget,       Use::resolveTarget,
+                                Use::copySource,           Use::storageImageWrite, Use::copyTarget,
+                                Use::storageImageReadWrite};
   constexpr Use kBufferUses[] = {
       Use::storageBufferRead, Use::storageBufferWrite,     Use::vertexBuffer,
       Use::indexBuffer,       Use::indirectBuffer,         Use::copySource,

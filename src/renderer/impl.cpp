@@ -36,7 +36,8 @@ std::vector<std::string> objectNames(const scene::SceneData& scene, const Geomet
                                         : node.name);
   names.push_back(options.ground ? "Ground" : "");
   for (const PlannedFeature& planned : options.features)
-    names.emplace_back(planned.plan ? planned.feature->material() : "");
+    if (!planned.feature->material().empty())
+      names.emplace_back(planned.plan ? planned.feature->material() : "");
   return names;
 }
 

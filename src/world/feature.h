@@ -3,6 +3,7 @@
 // plans what it builds for a scene and a look, and what it has built follows from moment to moment.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -21,6 +22,7 @@ using namespace stage;
 
 struct Geometry;
 struct GeometryItem;
+struct GeometryPlace;
 class FeaturePlan;
 class MadePrimitives;
 
@@ -31,6 +33,14 @@ class FeatureMoment {
   // The scene, which stays until another one is followed, or the plan has become another. False, and nothing
   // is done, where that takes another moment; never for the plan that it was made for.
   virtual bool follow(const scene::SceneData& scene, const FeaturePlan& plan) = 0;
+  // Whatever it makes of the meshes of all that is drawn: what it needs of their vertices, which may be gone
+  // afterwards; then, with where they lie on the device, its own buffers. True where those are others;
+  // `settle` is called before the old ones go. Primitives that are the same objects as before have not changed.
+  virtual void find(const std::vector<GeometryItem>& /*items*/) {}
+  virtual bool place(gpu::Uploader& /*uploader*/, const std::vector<GeometryItem>& /*items*/,
+                     const std::vector<GeometryPlace>& /*places*/, const std::function<void()>& /*settle*/) {
+    return false;
+  }
   // A time, in seconds. `look` has its tracks; `now` are its knobs at that time. `present`: of a moment
   // before the frame's own that of the frame, whose vertices are followed back; else null.
   virtual void pose(const look::LookData& look, const KnobTable& now, double time,
@@ -70,8 +80,6 @@ class FeaturePlan {
   // A pass of its own paints its surfaces, once a pixel (kPrepaintedLit, kPrepaintedShadowed). One feature of
   // a frame may: there is one pair of these.
   bool isPrepainted = false;
-  // It draws lines, from the edges of all that is drawn (SceneOnGpu::edges()).
-  bool needsEdges = false;
   // Metres at which its edges are torn half as much as near by, at most; 0: as the look has it.
   float quietDistance = 0;
 

@@ -160,12 +160,15 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
   for (GeometryItem& item : geometry.items)
     if (const auto it = split.find(item.primitive); it != split.end()) item.primitive = it->second;
 
+  // Those that have objects are numbered whether or not they are there.
+  uint32_t id = uint32_t(scene.nodes.size() + 1);
   for (size_t f = 0; f < options.features.size(); ++f) {
+    if (!options.features[f].feature->material().empty()) ++id;
     if (featureMaterials[f] < 0) continue;
     GeometryItem item;
     item.node = GeometryItem::kNoNode;
     item.material = uint32_t(featureMaterials[f]);
-    item.id = uint32_t(scene.nodes.size() + 2 + f);  // as Frame::objects has them
+    item.id = id;  // as Frame::objects has them
     item.casts = false;
     item.feature = int(f);
     options.features[f].plan->addItems(item, made, geometry);

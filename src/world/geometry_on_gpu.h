@@ -17,15 +17,16 @@ struct VertexPage {
   auto operator<=>(const VertexPage&) const = default;
 };
 
+// Where an item's data lies.
+struct GeometryPlace {
+  uint32_t firstIndex = 0, firstVertex = 0;  // in GeometryOnGpu::indices(), in the final vertices
+  uint32_t firstChunk = 0, chunkCount = 0;   // in GeometryOnGpu::chunks()
+  bool morphs = false;
+};
+
 class GeometryOnGpu {
  public:
-  // Where an item's data lies.
-  struct Place {
-    uint32_t firstIndex = 0, firstVertex = 0;  // in indices(), in the final vertices
-    uint32_t firstChunk = 0, chunkCount = 0;   // in chunks()
-    bool morphs = false;
-  };
-
+  using Place = GeometryPlace;
   // Brings the buffers up to date. Primitives that are the same objects as before are taken to have the same
   // vertices; those of before must still be alive. True where all buffers are others; else those that are new
   // were written in place. Calls `settle` before it changes anything that frames under way read, and ends

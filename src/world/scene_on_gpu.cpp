@@ -72,20 +72,15 @@ SceneOnGpu::Changes SceneOnGpu::update(const scene::SceneData& scene, const Geom
     item.dropsVertices =
         drops && item.node != GeometryItem::kNoNode && alphaMode(material(item.material)) != AlphaMode::blend;
 
-  // Vertices, where they are others; then images. Edges are found while vertices are there.
-  const bool hasEdges = std::any_of(options.features.begin(), options.features.end(),
-                                    [](const PlannedFeature& f) { return f.plan && f.plan->needsEdges; });
-  if (hasEdges) edges_.find(geometry.items);
+  // Vertices, where they are others, with what features make of them; then images.
+  changes.buffers |= followFeatures(settle);
+  for (const auto& feature : features_)
+    if (feature) feature->find(geometry.items);
   gpu::Uploader uploader(device_);
   const bool otherPlaces = geometry_.update(device_, uploader, geometry.items, settle);
   const bool otherTextures = textures_.update(uploader, scene.images, settle);
-  if (hasEdges) {
-    changes.buffers |= edges_.update(uploader, geometry.items, geometry_.places(), settle);
-  } else if (edges_.chunkCount() > 0) {
-    settle();
-    edges_.clear();
-    changes.buffers = true;
-  }
+  for (const auto& feature : features_)
+    if (feature) changes.buffers |= feature->place(uploader, geometry.items, geometry_.places(), settle);
   uploader.flush();
   if (otherTextures) ++texturesVersion_;
   if (otherPlaces) {
@@ -94,7 +89,6 @@ SceneOnGpu::Changes SceneOnGpu::update(const scene::SceneData& scene, const Geom
   }
 
   // What moves.
-  changes.buffers |= followFeatures(settle);
   changes.buffers |= listDraws(geometry, settle);
   changes.buffers |= followMotion(otherPlaces, settle);
 

@@ -15,7 +15,6 @@
 #include "stage/palette.h"
 #include "stage/viewers.h"
 #include "world/draw_list.h"
-#include "world/edges_on_gpu.h"
 #include "world/geometry_on_gpu.h"
 #include "world/scene_motion.h"
 #include "world/surface_colors.h"
@@ -117,8 +116,6 @@ class SceneOnGpu {
   void addUploads(std::vector<gpu::PerFrameBuffer*>& uploads);
 
   const GeometryOnGpu& geometry() const { return geometry_; }
-  // Those of all that is drawn, where a feature draws lines from them; else none.
-  const EdgesOnGpu& edges() const { return edges_; }
   // One vec3 a final vertex; of one vertex only before keepPrevious().
   const gpu::Buffer& previousPositions() const { return previousPositions_; }
   // The triangles of blended draws.
@@ -152,7 +149,7 @@ class SceneOnGpu {
 
   uint64_t triangleCount() const { return triangleCount_; }
   uint64_t uploadedBytes() const {
-    return geometry_.bytes() + edges_.bytes() + textures_.bytes() + transparent_.bytes() + draws_.bytes();
+    return geometry_.bytes() + textures_.bytes() + transparent_.bytes() + draws_.bytes();
   }
 
  private:
@@ -201,7 +198,6 @@ class SceneOnGpu {
   scene::Bounds bounds_;
   float longestCasterEdge_ = 0;
   GeometryOnGpu geometry_;
-  EdgesOnGpu edges_;
   TexturesOnGpu textures_;
   gpu::Buffer previousPositions_;
   std::vector<shared::ObjectData> objects_;  // without what moves

@@ -1,27 +1,20 @@
 // What the program knows of ink.
 #include "features/ink/ink.h"
 #include "features/ink/ink_knobs.h"
+#include "features/ink/lines/ink_moment.h"
 #include "frame/feature_parts.h"
 
 namespace scumble::ink {
 
 namespace {
 
-// It needs the edges, whatever is drawn of them.
+// It needs the edges of all that is drawn, whatever lines are shown.
 class InkPlan : public world::FeaturePlan {
  public:
-  InkPlan() { needsEdges = true; }
   bool equals(const world::FeaturePlan&) const override { return true; }
   std::unique_ptr<world::FeatureMoment> makeMoment(gpu::Device&, const scene::SceneData&) const override {
     return std::make_unique<InkMoment>();
   }
-
- private:
-  class InkMoment : public world::FeatureMoment {
-   public:
-    bool follow(const scene::SceneData&, const world::FeaturePlan&) override { return true; }
-    void pose(const look::LookData&, const KnobTable&, double, const world::FeatureMoment*) override {}
-  };
 };
 
 class InkFeature : public world::Feature {

@@ -1,7 +1,6 @@
 #ifndef SCUMBLE_INK_SHARED_H
 #define SCUMBLE_INK_SHARED_H
-#include "../../shading/edges.shared.h"
-#include "../../shading/shared_types.h"
+#include "edges.shared.h"
 
 SHARED_BEGIN
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "features/ink/ink.h"
+#include "features/ink/lines/ink_moment.h"
 #include "gpu/dispatch.h"
 #include "shaders/ink_find_comp.h"
 #include "shaders/ink_list_comp.h"
@@ -10,6 +12,11 @@
 namespace scumble::ink {
 
 static_assert(shared::kInkWordsOfChunk == shared::kInkThreads, "shaders go through words and bits alike");
+
+const EdgesOnGpu* LineFinder::edges() const {
+  const auto here = frame_->scene().feature(kName);
+  return here ? &static_cast<const InkMoment*>(here->moment)->edges() : nullptr;
+}
 
 void LineFinder::create(frame::FrameBuilder& frame, const frame::UniformSlice& uniforms) {
   frame_ = &frame;
@@ -38,9 +45,9 @@ void LineFinder::create(frame::FrameBuilder& frame, const frame::UniformSlice& u
 }
 
 void LineFinder::bind() {
-  const world::SceneOnGpu& scene = frame_->scene();
   if (isEmpty()) return;
-  const uint32_t chunks = scene.edges().chunkCount();
+  const world::SceneOnGpu& scene = frame_->scene();
+  const uint32_t chunks = edges()->chunkCount();
   if (chunks_ < chunks) {
     chunks_ = chunks;
     const auto make = [&](uint64_t numbers) {
@@ -57,15 +64,15 @@ void LineFinder::bind() {
     set_.writeBuffer(0, shared::kInkSums, sums_.handle());
     set_.writeBuffer(0, shared::kInkNumbers, numbers_.handle());
   }
-  set_.writeBuffer(0, shared::kInkEdges, scene.edges().edges().handle());
-  set_.writeBuffer(0, shared::kInkChunks, scene.edges().chunks().handle());
+  set_.writeBuffer(0, shared::kInkEdges, edges()->edges().handle());
+  set_.writeBuffer(0, shared::kInkChunks, edges()->chunks().handle());
   set_.writeBuffer(0, shared::kInkVertices, scene.geometry().finalCore().handle());
   set_.writeBuffer(0, shared::kInkFrames, scene.geometry().finalFrame().handle());
 }
 
 void LineFinder::record(VkCommandBuffer commands) const {
   if (isEmpty()) return;
-  const uint32_t chunks = frame_->scene().edges().chunkCount();
+  const uint32_t chunks = edges()->chunkCount();
   const auto run = [&](const gpu::Pipeline& pipeline) {
     gpu::computeBarrier(commands);
     pipeline.bind(commands);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "features/ink/ink.shared.h"
+#include "features/ink/lines/edges_on_gpu.h"
 #include "frame/pass.h"
 #include "gpu/prefix_sum.h"
 
@@ -14,7 +15,7 @@ class LineFinder {
   // Whenever the scene's buffers are others.
   void bind();
   // Whether there are no edges at all: nothing can be drawn then.
-  bool isEmpty() const { return frame_->scene().edges().chunkCount() == 0; }
+  bool isEmpty() const { return !edges() || edges()->chunkCount() == 0; }
   // Finds them; what reads the set afterwards needs a barrier.
   void record(VkCommandBuffer commands) const;
   // What shaders that draw lines read (ink_edge.glsl), with how many vertices there are as an indirect draw.
@@ -24,6 +25,9 @@ class LineFinder {
   VkBuffer numbers() const { return numbers_.handle(); }
 
  private:
+  // Null where the scene, as it is now, has no lines.
+  const EdgesOnGpu* edges() const;
+
   frame::FrameBuilder* frame_ = nullptr;
   gpu::SetLayout layout_;
   gpu::DescriptorSets set_;

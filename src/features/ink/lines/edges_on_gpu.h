@@ -1,4 +1,4 @@
-// The edges of all that is drawn, in device memory, for features that draw lines (FeaturePlan::needsEdges).
+// The edges of all that is drawn, in device memory.
 // What instances share is there once.
 #pragma once
 
@@ -6,12 +6,14 @@
 #include <map>
 #include <vector>
 
+#include "features/ink/edges.shared.h"
 #include "gpu/resources.h"
 #include "scene/mesh_edges.h"
-#include "shading/edges.shared.h"
 #include "world/geometry_on_gpu.h"
 
-namespace scumble::world {
+namespace scumble::ink {
+
+using namespace world;
 
 class EdgesOnGpu {
  public:
@@ -22,9 +24,6 @@ class EdgesOnGpu {
   // others; `settle` is called before the old ones go.
   bool update(gpu::Uploader& uploader, const std::vector<GeometryItem>& items,
               const std::vector<GeometryOnGpu::Place>& places, const std::function<void()>& settle);
-  // Frees all of it.
-  void clear();
-
   // How many runs of kEdgeChunk edges there are.
   uint32_t chunkCount() const { return chunkCount_; }
   uint64_t edgeCount() const { return edgeCount_; }
@@ -54,4 +53,4 @@ class EdgesOnGpu {
   gpu::Buffer edges_, chunks_;
 };
 
-}  // namespace scumble::world
+}  // namespace scumble::ink

@@ -1,4 +1,4 @@
-#include "world/edges_on_gpu.h"
+#include "features/ink/lines/edges_on_gpu.h"
 
 #include <algorithm>
 #include <set>
@@ -6,7 +6,7 @@
 
 #include "scene/parallel.h"
 
-namespace scumble::world {
+namespace scumble::ink {
 
 namespace {
 
@@ -141,8 +141,4 @@ bool EdgesOnGpu::update(gpu::Uploader& uploader, const std::vector<GeometryItem>
   return true;
 }
 
-void EdgesOnGpu::clear() {
-  *this = {};
-}
-
-}  // namespace scumble::world
+}  // namespace scumble::ink

@@ -1,7 +1,7 @@
-// The edges of what is drawn (world/edges_on_gpu.h).
+// The edges of what is drawn (lines/edges_on_gpu.h).
 #ifndef SCUMBLE_EDGES_SHARED_H
 #define SCUMBLE_EDGES_SHARED_H
-#include "shared_types.h"
+#include "../../shading/shared_types.h"
 
 SHARED_BEGIN
 

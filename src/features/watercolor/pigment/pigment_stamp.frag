@@ -1,0 +1,48 @@
+#version 460
+// What a brush's stamp lays down, on the object that its anchor lies on: so much more or less pigment, warmer or cooler,
+// wetter or drier; or (CELLS) a cell of a weighted Voronoi diagram, of which each place has the nearest (paper 004,
+// section 3.6).
+#extension GL_GOOGLE_include_directive : require
+#include "../../../shading/frame.glsl"
+#include "../../../shading/view_index.glsl"
+#include "../watercolor.shared.h"
+
+layout(set = 1, binding = kPigmentBlock, scalar) uniform Block { PigmentUniforms u; };
+layout(set = 1, binding = kPigmentDepth) uniform sampler2DArray depth;
+layout(set = 1, binding = kPigmentBrush) uniform sampler2D brush;
+
+layout(location = 0) in vec2 inPlace;
+layout(location = 1) flat in vec4 inStamp;
+layout(location = 2) flat in vec4 inChance;
+
+layout(location = 0) out vec4 outPigment;
+
+void main() {
+  // Other objects, and parts of the same one that are far before or behind it, keep what they have.
+  ivec2 texel = min(ivec2(gl_FragCoord.xy) * kPigmentScale + kPigmentScale / 2, ivec2(frame.imageSize) - 1);
+  float there = eyeDepth(texelFetch(depth, ivec3(texel, viewIndex()), 0).r, viewIndex());
+  float apart = abs(there - inStamp.x) / max(inStamp.y, 1e-12);
+  float counts = inStamp.z * (1.0 - smoothstep(0.8, 1.6, apart));
+  if (counts <= 0.0) discard;
+
+  float turnedBy = inStamp.w, away = length(inPlace);
+  vec2 turned = mat2(cos(turnedBy), sin(turnedBy), -sin(turnedBy), cos(turnedBy)) * inPlace;
+  float hair = textureLod(brush, 0.22 * turned + inChance.xy, 1.0).r - 0.5;
+  vec3 pigment = vec3(inChance.x, inChance.y, inChance.z);
+#ifdef CELLS
+  float distance = away * (0.7 + 0.6 * inChance.z) + 0.1 * hair;
+  if (distance >= 1.0) discard;
+  gl_FragDepth = 1.0 - distance;
+  outPigment = vec4(mix(vec3(0.5, 0.5, 0.5), pigment, counts), 1.0);
+#else
+  float inside = 1.0 - away + 0.9 * hair * (1.0 - 0.5 * away);
+  float alpha = smoothstep(0.0, 0.4, inside) * smoothstep(1.0, 0.85, away);
+  // A drop of water thins what is under it, and pushes pigment to a rim that is hard on the outside.
+  if (fract(inChance.w * 37.0) < u.backruns) {
+    float rim = exp(-pow((inside - 0.16) / 0.07, 2.0));
+    pigment.x = mix(0.28, 1.0, rim);
+    alpha = smoothstep(0.06, 0.16, inside) * smoothstep(1.0, 0.85, away);
+  }
+  outPigment = vec4(pigment, 0.75 * alpha * counts);
+#endif
+}

@@ -1,0 +1,5 @@
+// Pigment on paper: light goes through it twice, so that amounts of pigment add up in the logarithm.
+#ifndef SCUMBLE_WASH_GLSL
+#define SCUMBLE_WASH_GLSL
+vec3 densityOf(vec3 color, vec3 white) { return -log(clamp(color / max(white, 0.01), 0.004, 1.0)); }
+#endif

@@ -1,0 +1,69 @@
+#version 460
+// The picture in watercolour: its colours become amounts of pigment, which gather, settle, thin and run as water has them,
+// and lie on paper.
+#extension GL_GOOGLE_include_directive : require
+#include "../../../shading/frame.glsl"
+#include "../watercolor.shared.h"
+#include "wash.glsl"
+
+layout(set = 1, binding = 0, scalar) uniform Block { WashUniforms u; };
+layout(set = 1, binding = kWashPicture) uniform sampler2DArray soFar;
+layout(set = 1, binding = kWashDensity) uniform sampler2DArray blurred;
+layout(set = 1, binding = kWashPigment) uniform sampler2DArray pigment;
+layout(set = 1, binding = kWashLight) uniform sampler2DArray light;
+layout(set = 1, binding = kWashPaper) uniform sampler2D paper;
+
+vec4 shade(ivec2 pixel, int layer) {
+  vec2 own = vec2(pixel) + 0.5;
+  int view = min(layer, 1);
+  // The paper's height here and beside it.
+  vec2 on = (own - u.paperAt[view]) / u.paperSize;
+  float texel = 1.25 / u.paperSize;
+  float height = texture(paper, on).r - 0.5;
+  vec2 slope = vec2(texture(paper, on + vec2(texel, 0.0)).r, texture(paper, on + vec2(0.0, texel)).r) - 0.5 - height;
+  // A coarser part of the same relief, for what goes over larger stretches.
+  vec2 broad = vec2(textureLod(paper, 0.11 * on, 2.0).r, textureLod(paper, 0.11 * on + vec2(0.37, 0.61), 2.0).r) - 0.5;
+
+  // Edges of colour wobble with the relief (section 4.1).
+  vec2 at = own + u.wobble * clamp(5.0 * slope + 2.5 * broad, -1.5, 1.5);
+  vec2 uv = clamp(at, vec2(0.5), frame.imageSize - 0.5) / frame.imageSize;
+  vec4 color = textureLod(soFar, vec3(uv, layer), 0.0);
+  vec3 density = densityOf(color.rgb, u.white), around = textureLod(blurred, vec3(uv, layer), 0.0).rgb;
+  vec3 brush = textureLod(pigment, vec3(uv, layer), 0.0).rgb * 2.0 - 1.0;
+
+  // Wet washes run into each other, dry ones stop.
+  float wet = smoothstep(-0.15, 0.45, brush.z + 1.2 * broad.x);
+  vec3 wash = mix(density, around, u.bleeding * wet);
+  // Pigment gathers where a wash dries last: just inside of its border.
+  wash += u.edges * (1.0 - 0.8 * wet) * max(density - around, 0.0);
+  // What is dark is several washes, one over the other.
+  float amount = dot(wash, vec3(1.0 / 3.0));
+  wash *= 1.0 + u.glazing * smoothstep(0.35, 0.9, amount);
+  // More and less of it, warmer and cooler, as the brush had it. Hue wanders more than value.
+  wash *= max(1.0 + u.turbulence * (brush.x + broad.y), 0.0);
+  wash *= exp(u.hue * brush.y * vec3(-0.55, 0.05, 0.75));
+  // Where light falls full on, the paper stays free.
+  vec2 lit = textureLod(light, vec3(uv, layer), 0.0).ra;
+  float bare = lit.y > 0.0 ? smoothstep(u.bareFrom, 1.0, lit.x / lit.y + 0.35 * brush.x + 0.3 * broad.x - 0.08) : 0.0;
+  wash *= 1.0 - u.bare * bare;
+  // It settles in valleys, and a dry brush leaves ridges free.
+  float thin = 1.0 - smoothstep(0.1, 0.8, amount);
+  wash *= max(1.0 - 2.2 * u.granulation * height * (0.4 + 0.6 * (1.0 - thin)), 0.0);
+  wash *= 1.0 - u.dryBrush * thin * smoothstep(0.02, 0.2, height + 0.25 * brush.x - 0.1 * wet);
+  // The painting runs out before the frame ends, in an edge of its own.
+  vec2 side = min(own, frame.imageSize - own) / frame.imageSize.y;
+  if (u.margin > 0.0) {
+    vec2 inner = max(vec2(3.2 * u.margin) - side, 0.0);
+    float inside = 3.2 * u.margin - length(inner) + 0.9 * u.margin * (2.2 * broad.x + 0.8 * broad.y + 0.6 * height);
+    float ends = smoothstep(0.0, 0.22 * u.margin, inside - u.margin);
+    wash *= ends * (1.0 + 0.8 * u.edges * ends * (1.0 - smoothstep(0.0, 0.5 * u.margin, inside - u.margin)));
+  }
+  vec3 result = u.white * exp(-u.strength * wash);
+  // Light on the paper (section 4.2): as bright on the whole as without relief.
+  vec3 towards = u.paperLight[view] - vec3(own / frame.imageSize * 2.0 - 1.0, 0.0);
+  vec3 normal = normalize(vec3(-u.relief * 6.0 * slope, 1.0));
+  result *= clamp(dot(normal, normalize(towards)) / max(normalize(towards).z, 0.2), 0.0, 1.35);
+  return vec4(result, 1.0);
+}
+
+#include "../../../shading/image_pass.glsl"

@@ -1,0 +1,20 @@
+// The picture as a watercolour (paper 004, sections 3 and 4): pigment that is laid down around anchors on the
+// surfaces, and washes of it on paper.
+#pragma once
+
+#include <memory>
+
+#include "frame/pass.h"
+
+namespace scumble::watercolor {
+
+inline constexpr const char* kName = "watercolor";
+
+// At a quarter of the size. R: how much more pigment there is than elsewhere, G: how much warmer it is, both
+// around 1/2; B: how wet it is.
+inline constexpr frame::Role kPigment{"pigment"};
+
+std::unique_ptr<frame::Pass> makePigment();
+std::unique_ptr<frame::Pass> makeWash();
+
+}  // namespace scumble::watercolor

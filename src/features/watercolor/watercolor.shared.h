@@ -1,0 +1,47 @@
+#ifndef SCUMBLE_WATERCOLOR_SHARED_H
+#define SCUMBLE_WATERCOLOR_SHARED_H
+#include "../../shading/shared_types.h"
+
+SHARED_BEGIN
+
+// A point on a surface (scene/surface_anchors.h).
+struct DrawnAnchor {
+  uint a, b, c;  // final vertices, counted from where the chunk's begin
+  float toB, toC;
+  float spacing;  // metres in mesh space
+  uint seed;
+};
+// A run of anchors of one object; a number of an anchor among all is that of its chunk times kAnchorChunk,
+// and its place in it.
+const int kAnchorChunk = 64;
+struct AnchorChunk {
+  uint firstAnchor, count;
+  uint firstVertex;
+  float scale;  // metres in the world for each in mesh space
+};
+
+struct PigmentUniforms {
+  float spacing;   // pixels
+  float size;      // of stamps, in spacings
+  float backruns;  // part of stamps
+};
+const int kPigmentBlock = 0, kPigmentAnchors = 1, kPigmentChunks = 2, kPigmentVertices = 3, kPigmentDepth = 4,
+          kPigmentBrush = 5;
+
+// Pigment is laid down at a quarter of the size, since stamps are large and soft.
+const int kPigmentScale = 4;
+
+struct WashUniforms {
+  vec3 white;
+  float paperSize;  // pixels
+  float relief, wobble, strength, edges, edgeWidth, granulation, dryBrush, bleeding, bare, bareFrom, margin,
+      turbulence, hue, glazing;
+  vec2 paperAt[2];     // of each view, where the paper's origin lies, pixels
+  vec3 paperLight[2];  // of each view, where the light is that falls on the paper: x, y from -1 to 1 over the
+                       // picture, z towards the viewer
+};
+const int kWashPicture = 1, kWashDensity = 2, kWashPigment = 3, kWashLight = 4, kWashPaper = 5;
+const int kWashBlurred = 1;
+
+SHARED_END
+#endif

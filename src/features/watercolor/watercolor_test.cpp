@@ -1,0 +1,257 @@
+// Watercolours: with every knob at nothing the picture is what it was; each knob does what it says; pigment
+// stays with its object, and is as dense on the screen far away as near by.
+#include <cmath>
+
+#include "tests/support/aov.h"
+#include "tests/support/ray_cast.h"
+#include "tests/support/render_test.h"
+
+namespace scumble::watercolor {
+namespace {
+
+using namespace test;
+
+// A watercolour that leaves everything as it is.
+Knobs plainWash(const Knobs& more = {}) {
+  Knobs knobs{{"watercolor.shown", "on"},        {"watercolor.white", "#FFFFFF"},
+              {"watercolor.relief", "0"},        {"watercolor.wobble", "0"},
+              {"watercolor.edges", "0"},         {"watercolor.granulation", "0"},
+              {"watercolor.dryBrush", "0"},      {"watercolor.bleeding", "0"},
+              {"watercolor.bare", "0"},          {"watercolor.margin", "0"},
+              {"watercolor.turbulence", "0"},    {"watercolor.hue", "0"},
+              {"watercolor.glazing", "0"},       {"warp.amount", "0"},
+              {"background.horizon", "#FFFFFF"}, {"background.zenith", "#FFFFFF"}};
+  knobs.insert(knobs.end(), more.begin(), more.end());
+  return knobs;
+}
+
+class Watercolor : public BothEyes {
+ protected:
+  static constexpr int kWidth = 160, kHeight = 120;
+
+  // A board that faces the viewer and the light, of one colour.
+  static TestScene board(float size = 1, const glm::vec4& color = {0.3f, 0.5f, 0.7f, 1}) {
+    TestScene s;
+    s.add(gridMesh({-size, -size, 0}, {2 * size, 0, 0}, {0, 2 * size, 0}, 8),
+          s.material(TestScene::unlit("Board", color)));
+    return s;
+  }
+  Frame paint(const TestScene& s, const Knobs& knobs, const Stand& stand,
+              std::vector<std::string> aovs = {}) {
+    const Scene scene = s.load();
+    views_ = viewsFrom(scene, stand, kWidth, kHeight, GetParam());
+    return draw(scene, quietLook(knobs), views_, sized(kWidth, kHeight, std::move(aovs)));
+  }
+  static double value(const Frame& frame, size_t view, const glm::dvec2& at) {
+    const glm::dvec4 color = texel(aov(frame, "", view), int(at.x), int(at.y));
+    return (color.x + color.y + color.z) / 3;
+  }
+  glm::dvec2 at(size_t view, const glm::dvec3& world) const {
+    return pixelOf(views_[view], world, kWidth, kHeight);
+  }
+
+  std::vector<View> views_;
+};
+INSTANTIATE_BOTH_EYES(Watercolor);
+
+TEST_P(Watercolor, withoutWaterThePictureStays) {
+  const TestScene s = stillLife();
+  const Stand stand{{2, 2.5f, 6}, {-0.7f, 0.8f, 0.4f}};
+  const Frame with = paint(s, plainWash(), stand),
+              without = paint(s, plainWash({{"watercolor.shown", "off"}}), stand);
+  for (size_t v = 0; v < viewCount(); ++v)
+    EXPECT_LT(largestDifference(aov(with, "", v), aov(without, "", v)), 0.006) << v;
+}
+
+TEST_P(Watercolor, whatIsNotPaintedIsPaper) {
+  const Frame frame = paint(board(), plainWash({{"watercolor.white", "#F0E0C0"}}), {{0, 0, 5}});
+  const double linear[] = {0.8714, 0.7454, 0.5271};
+  for (size_t v = 0; v < viewCount(); ++v)
+    for (const glm::ivec2 corner : {glm::ivec2(2, 2), glm::ivec2(kWidth - 3, kHeight - 3)}) {
+      const glm::dvec4 color = texel(aov(frame, "", v), corner.x, corner.y);
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(color[c], linear[c], 0.005);
+    }
+}
+
+// Darker just inside of a border than in the middle; nothing outside.
+TEST_P(Watercolor, pigmentGathersAtBorders) {
+  const Frame frame = paint(board(), plainWash({{"watercolor.edges", "1"}, {"watercolor.edgeWidth", "30"}}),
+                            {{0, 0, 5}}),
+              without = paint(board(), plainWash(), {{0, 0, 5}});
+  for (size_t v = 0; v < viewCount(); ++v) double inside = 0, middle = 0, plain = 0;
+  for (int i = -7; i <= 7; ++i) {
+    const double y = 0.1 * i;
+    inside += value(frame, v, at(v, {-0.96, y, 0})) / 15;
+    middle += value(frame, v, at(v, {0, y, 0})) / 15;
+    plain += value(without, v, at(v, {0, y, 0})) / 15;
+    EXPECT_GT(value(frame, v, at(v, {-1.08, y, 0})), 0.99);
+  }
+  // Not everywhere alike: where it is wet, it does not dry at the border.
+  EXPECT_LT(inside, 0.93 * middle);
+  EXPECT_NEAR(middle, plain, 0.005);
+}
+}
+
+// Pigment lies where paper is deep: what is added and taken away is even.
+TEST_P(Watercolor, pigmentSettlesInValleys) {
+  const Knobs grained = plainWash({{"watercolor.granulation", "0.5"}, {"watercolor.paperSize", "700"}});
+  const Frame frame = paint(board(4), grained, {{0, 0, 5}}),
+              without = paint(board(4), plainWash(), {{0, 0, 5}});
+  for (size_t v = 0; v < viewCount(); ++v) {
+    double sum = 0, squares = 0, plain = 0;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        const double density = -std::log(value(frame, v, {x, y}));
+        sum += density, squares += density * density, plain += -std::log(value(without, v, {x, y}));
+      }
+    const double count = kWidth * kHeight, mean = sum / count,
+                 deviation = std::sqrt(squares / count - mean * mean);
+    EXPECT_GT(deviation, 0.05 * mean);
+    EXPECT_NEAR(mean, plain / count, 0.12 * mean);
+  }
+}
+
+TEST_P(Watercolor, paintingRunsOutBeforeTheFrameEnds) {
+  const Frame frame = paint(board(6), plainWash({{"watercolor.margin", "0.08"}}), {{0, 0, 5}});
+  for (size_t v = 0; v < viewCount(); ++v) {
+    for (const glm::dvec2 corner : {glm::dvec2(1, 1), glm::dvec2(kWidth - 2, 1), glm::dvec2(1, kHeight - 2),
+                                    glm::dvec2(kWidth - 2, kHeight - 2)})
+      EXPECT_GT(value(frame, v, corner), 0.99);
+    EXPECT_LT(value(frame, v, {kWidth / 2, kHeight / 2}), 0.6);
+  }
+}
+
+// FORMULAS 23: over a sixteenfold range of distances the same part of the surface is under stamps, within a
+// factor of two.
+TEST_P(Watercolor, stampsAreAsDenseFarAwayAsNearBy) {
+  const Knobs dots = plainWash(
+      {{"watercolor.spacing", "90"}, {"watercolor.stampSize", "0.3"}, {"watercolor.backruns", "0"}});
+  const TestScene s = board(8);
+  std::vector<double> covered;
+  for (const float distance : {2.0f, 4.0f, 8.0f, 16.0f, 32.0f}) {
+    const Frame frame = paint(s, dots, {{0.3f, 0.2f, distance}, {0.3f, 0.2f, 0}, 40, 0, 0.05f}, {"pigment"});
+    for (size_t v = 0; v < viewCount(); ++v) {
+      const Image& pigment = aov(frame, "pigment", v);
+      double sum = 0, count = 0;
+      for (int y = 1; y < int(pigment.height); y += 3)
+        for (int x = 1; x < int(pigment.width); x += 3) {
+          const double scale = double(kWidth) / pigment.width;
+          if (!castRay(pixelRay(views_[v], int((x + 0.5) * scale), int((y + 0.5) * scale), kWidth, kHeight),
+                       s.triangles()))
+            continue;
+          sum += texel(pigment, x, y).w;
+          ++count;
+        }
+      ASSERT_GT(count, 20);
+      covered.push_back(sum / count);
+    }
+  }
+  const auto [least, most] = std::minmax_element(covered.begin(), covered.end());
+  EXPECT_GT(*least, 0.02);
+  EXPECT_LT(*most, 2 * *least) << testing::PrintToString(covered);
+}
+
+// What lies far behind an object keeps its pigment, whatever the object's stamps are.
+TEST_P(Watercolor, stampsStayOnTheirObject) {
+  const Stand stand{{0, 0, 5}, {0, 0, 0}, 40, 0, 0.05f};
+  const auto scene = [](bool hasBoth) {
+    TestScene s;
+    const int material = s.material(TestScene::unlit("Board", {0.3f, 0.5f, 0.7f, 1}));
+    s.add(gridMesh({-6, -6, -8}, {12, 0, 0}, {0, 12, 0}, 8), material);
+    s.add(gridMesh({-0.5f, -0.5f, hasBoth ? 0.0f : 20.0f}, {1, 0, 0}, {0, 1, 0}, 8), material);
+    return s;
+  };
+  const Frame both = paint(scene(true), plainWash(), stand, {"pigment"}),
+              alone = paint(scene(false), plainWash(), stand, {"pigment"});
+  for (size_t v = 0; v < viewCount(); ++v) {
+    const Image &with = aov(both, "pigment", v), &without = aov(alone, "pigment", v);
+    const double scale = double(with.width) / kWidth;
+    size_t changedBeside = 0, changedOn = 0;
+    for (int y = 0; y < int(with.height); ++y)
+      for (int x = 0; x < int(with.width); ++x) {
+        const glm::dvec2 corner = at(v, {-0.5, 0.5, 0}) * scale, other = at(v, {0.5, -0.5, 0}) * scale;
+        const bool isOn = x > corner.x - 1.5 && x < other.x + 0.5 && y > corner.y - 1.5 && y < other.y + 0.5;
+        const bool isChanged = glm::distance(texel(with, x, y), texel(without, x, y)) > 0.02;
+        (isOn ? changedOn : changedBeside) += isChanged;
+      }
+    EXPECT_GT(changedOn, 10u);
+    // The board behind shows fewer of its own where it is hidden: stamps whose middle is.
+    EXPECT_LT(changedBeside, size_t(with.width * with.height) / 12);
+  }
+}
+
+// Cells of a Voronoi diagram: everywhere one, of one value.
+TEST_P(Watercolor, cellsCoverTheSurface) {
+  const Frame frame =
+      paint(board(8), plainWash({{"watercolor.generator", "cells"}, {"watercolor.spacing", "280"}}),
+            {{0.3f, 0.2f, 4}, {0.3f, 0.2f, 0}, 40, 0, 0.05f}, {"pigment"});
+  for (size_t v = 0; v < viewCount(); ++v) {
+    const Image& pigment = aov(frame, "pigment", v);
+    size_t same = 0, covered = 0, count = 0;
+    for (int y = 0; y < int(pigment.height); y += 4)
+      for (int x = 4; x < int(pigment.width); x += 4) {
+        ++count;
+        covered += texel(pigment, x, y).w > 0;
+        same += texel(pigment, x, y) == texel(pigment, x - 4, y);
+      }
+    EXPECT_GT(covered, count * 9 / 10);
+    EXPECT_GT(same, count / 2);
+    EXPECT_LT(same, count * 97 / 100);
+  }
+}
+
+TEST_P(Watercolor, knobsOfTheBrushChangeThePicture) {
+  const Stand stand{{2, 2.5f, 6}, {-0.7f, 0.8f, 0.4f}};
+  const TestScene s = stillLife();
+  const Frame plain = paint(s, plainWash(), stand);
+  for (const Knobs& knob : std::vector<Knobs>{{{"watercolor.turbulence", "1"}},
+                                              {{"watercolor.hue", "1"}},
+                                              {{"watercolor.glazing", "1"}},
+                                              {{"watercolor.bleeding", "1"}},
+                                              {{"watercolor.bare", "1"}, {"watercolor.bareFrom", "0.3"}},
+                                              {{"watercolor.dryBrush", "1"}},
+                                              {{"watercolor.wobble", "12"}},
+                                              {{"watercolor.relief", "1"}},
+                                              {{"watercolor.strength", "2"}}}) {
+    const Frame changed = paint(s, plainWash(knob), stand);
+    for (size_t v = 0; v < viewCount(); ++v)
+      EXPECT_GT(largestDifference(aov(plain, "", v), aov(changed, "", v)), 0.03) << knob[0].first << v;
+  }
+}
+
+// The paper goes along with what it is told to.
+TEST_P(Watercolor, paperGoesAlong) {
+  const auto reliefAt = [&](const char* motion, float turn) {
+    const Stand stand{{0, 0, 5}, {turn, 0, 0}, 40, 0, 0.05f};
+    return paint(board(12), plainWash({{"watercolor.granulation", "1"}, {"watercolor.paperMotion", motion}}),
+                 stand);
+  };
+  for (const char* motion : {"screen", "turn", "subject"}) {
+    const Frame before = reliefAt(motion, 0), after = reliefAt(motion, 0.4f);
+    for (size_t v = 0; v < viewCount(); ++v) {
+      const bool isSame = largestDifference(aov(before, "", v), aov(after, "", v)) < 0.004;
+      EXPECT_EQ(isSame, std::string(motion) == "screen") << motion;
+    }
+  }
+}
+
+TEST_P(Watercolor, costsNothingWhereItIsNot) {
+  const Stand stand{{0, 2, 8}, {0, 1, 0}};
+  const auto passesOf = [](const Frame& frame) {
+    size_t count = 0;
+    for (const PassTime& pass : frame.stats.passes)
+      count += pass.name == "watercolor" || pass.name == "pigment";
+    return count;
+  };
+  const Frame without = paint(stillLife(), {}, stand),
+              with = paint(stillLife(), {{"watercolor.shown", "on"}}, stand),
+              again = paint(stillLife(), {}, stand),
+              withAgain = paint(stillLife(), {{"watercolor.shown", "on"}}, stand);
+  EXPECT_EQ(passesOf(without), 0u);
+  EXPECT_GE(passesOf(with), 2u);
+  expectSame(without, again);
+  expectSame(with, withAgain);
+}
+
+}  // namespace
+}  // namespace scumble::watercolor
