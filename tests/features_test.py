@@ -10,7 +10,11 @@ import sys
 from pathlib import Path
 
 # By feature: parts of words.
-WORDS = {"ocean": re.compile(r"ocean|water|wave", re.IGNORECASE)}
+WORDS = {
+    "ocean": re.compile(r"ocean|water(?!colo)|wave", re.IGNORECASE),
+    "ink": re.compile(r"(?<![A-Za-z])ink(?![A-Za-z])|Ink[A-Z]"),
+    "watercolor": re.compile(r"watercolo|pigment", re.IGNORECASE),
+}
 FOLDERS = ["include", "src", "apps", "tools/cmake", "CMakeLists.txt"]
 
 

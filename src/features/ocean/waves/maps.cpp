@@ -49,7 +49,7 @@ Water waterOf(Mood mood) {
     case Mood::openSea:
       return {{rgb(0x163A50), rgb(0x1F4A63), rgb(0x2B6E80), rgb(0x3F8F96), rgb(0x62B39C), rgb(0xA9DDB2)},
               {rgb(0x162A4C), rgb(0x1D365C), rgb(0x264F78), rgb(0x356A90), rgb(0x4384A0), rgb(0x69A4B4)}};
-    // Grey-green; its shadow goes to ink, and the crest is the only pale thing.
+    // Grey-green; its shadow is nearly black, and the crest is the only pale thing.
     case Mood::storm:
       return {{rgb(0x1E2E35), rgb(0x293E40), rgb(0x38534F), rgb(0x4C6C60), rgb(0x728D78), rgb(0xB9C6A6)},
               {rgb(0x162430), rgb(0x1C313D), rgb(0x263F4D), rgb(0x34515F), rgb(0x4A6672), rgb(0x7E939D)}};

@@ -37,7 +37,7 @@ void main() {
 #else
   float inside = 1.0 - away + 0.9 * hair * (1.0 - 0.5 * away);
   float alpha = smoothstep(0.0, 0.4, inside) * smoothstep(1.0, 0.85, away);
-  // A drop of water thins what is under it, and pushes pigment to a rim that is hard on the outside.
+  // A wet drop thins what is under it, and pushes pigment to a rim that is hard on the outside.
   if (fract(inChance.w * 37.0) < u.backruns) {
     float rim = exp(-pow((inside - 0.16) / 0.07, 2.0));
     pigment.x = mix(0.28, 1.0, rim);

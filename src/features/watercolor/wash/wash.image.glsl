@@ -1,5 +1,5 @@
 #version 460
-// The picture in watercolour: its colours become amounts of pigment, which gather, settle, thin and run as water has them,
+// The picture in watercolour: its colours become amounts of pigment, which gather, settle, thin and run as wet paint does,
 // and lie on paper.
 #extension GL_GOOGLE_include_directive : require
 #include "../../../shading/frame.glsl"
