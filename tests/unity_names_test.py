@@ -98,6 +98,7 @@ def main():
     # What is compiled into one target, and which headers it sees.
     for sources, headers in ((["src"], ["src", "include"]), (["apps"], ["apps", "include"]),
                              (["examples/demo_scene"], ["examples/demo_scene", "examples/mesh_kit"]),
+                             (["examples/still_life"], ["examples/still_life", "examples/mesh_kit"]),
                              (["examples/henry_room"], ["examples/henry_room", "examples/mesh_kit"]),
                              (["examples/mesh_kit"], ["examples/mesh_kit"])):
         own, others = collections.defaultdict(set), collections.defaultdict(set)

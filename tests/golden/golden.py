@@ -33,7 +33,7 @@ if "SCUMBLE_TEST_DEVICE" in os.environ:  # as in the unit tests
 DRAWN_WITH = "llvmpipe"
 TOLERANCES, ELSEWHERE = (0.006, 0.06, 0.01, 0.01), (0.03, 0.2, 0.15, 0.05)
 LIMITED, LIMITED_ELSEWHERE = {"four-colours", "palette"}, (0.04, 0.65, 0.15, 0.05)
-GENERATORS = {"demo": "demo_scene", "room": "henry_room"}
+GENERATORS = {"demo": "demo_scene", "room": "henry_room", "still": "still_life"}
 
 
 def cases():

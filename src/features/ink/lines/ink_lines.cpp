@@ -65,8 +65,15 @@ class Lines : public Pass {
   }
 
   void declare(FrameBuilder& frame, uint32_t isShown) override {
-    if (!isShown) return;
     configuration_ = frame.configuration();
+    isShown_ = isShown;
+    if (!isShown_) {
+      // Whoever asks for it gets none.
+      frame.step(name(), [this](VkCommandBuffer commands) { record(commands); });
+      strokes_.declare(frame, "ink", kBytes);
+      frame.offer(kAovs[0], {strokes_.image()});
+      return;
+    }
     frame.step("ink-lines", [this](VkCommandBuffer commands) { finder_.record(commands); });
     frame.use(frame.get(kVertices), gpu::Use::storageBufferRead);
     const gpu::Handle numbers =
@@ -87,6 +94,7 @@ class Lines : public Pass {
 
   void create(FrameBuilder& frame) override {
     frame_ = &frame;
+    if (!isShown_) return;
     uniforms_ = frame.uniform(sizeof(shared::InkUniforms));
     lines_ = frame.uniform(frame.scene().materialCount() * sizeof(shared::InkLine));
     finder_.create(frame, uniforms_);
@@ -111,6 +119,7 @@ class Lines : public Pass {
 
   void bind(const gpu::GraphResources& resources) override {
     resources_ = &resources;
+    if (!isShown_) return;
     finder_.bind();
     const VkSampler exact = frame_->samplers().get({VK_FILTER_NEAREST});
     set_.rewriteTexture(0, shared::kInkDepth, resources.image(depth_).view(), exact);
@@ -118,6 +127,7 @@ class Lines : public Pass {
   }
 
   void update(const FrameInput& input) override {
+    if (!isShown_) return;
     uniforms_.write(inkUniforms(input, configuration_.viewCount));
     const InkParams params = input.knobs.scene<InkParams>();
     auto* const lines = reinterpret_cast<shared::InkLine*>(lines_.mapped);
@@ -132,7 +142,7 @@ class Lines : public Pass {
   void record(VkCommandBuffer commands) const {
     const gpu::Target ink = strokes_.target(*resources_);
     gpu::drawViews(commands, configuration_.views(), {&ink, 1}, nullptr, [&](uint32_t firstView) {
-      if (finder_.isEmpty()) return;
+      if (!isShown_ || finder_.isEmpty()) return;
       pipeline_.bind(commands);
       pipeline_.bindSet(commands, 0, frame_->frameSet());
       pipeline_.bindSet(commands, 1, finder_.set());
@@ -145,6 +155,7 @@ class Lines : public Pass {
   static constexpr Aov kAovs[] = {{.name = "ink"}};
 
   FrameBuilder* frame_ = nullptr;
+  bool isShown_ = false;
   Configuration configuration_;
   UniformSlice uniforms_, lines_;
   LineFinder finder_;

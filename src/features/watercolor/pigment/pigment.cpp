@@ -25,12 +25,14 @@ class Pigment : public Pass {
   }
 
   void declare(FrameBuilder& frame, uint32_t variant) override {
-    if (variant == 0) return;
-    generator_ = variant - 1;
+    isShown_ = variant > 0;
+    generator_ = isShown_ ? variant - 1 : kStamps;
     configuration_ = frame.configuration();
     frame.step(name(), [this](VkCommandBuffer commands) { record(commands); });
-    frame.use(frame.get(kVertices), gpu::Use::storageBufferReadByVertex);
-    depth_ = frame.use(frame.get(kDepth), gpu::Use::sampledByDraw);
+    if (isShown_) {
+      frame.use(frame.get(kVertices), gpu::Use::storageBufferReadByVertex);
+      depth_ = frame.use(frame.get(kDepth), gpu::Use::sampledByDraw);
+    }
     gpu::ImageShape shape{.format = kBytes, .overX = shared::kPigmentScale, .overY = shared::kPigmentScale};
     image_ = frame.use(frame.image("pigment", shape), gpu::Use::colorTarget);
     shape.format = kDepthFormat;
@@ -41,6 +43,7 @@ class Pigment : public Pass {
 
   void create(FrameBuilder& frame) override {
     frame_ = &frame;
+    if (!isShown_) return;  // whoever asks for it gets none
     uniforms_ = frame.uniform(sizeof(shared::PigmentUniforms));
     constexpr VkShaderStageFlags kVertex = VK_SHADER_STAGE_VERTEX_BIT,
                                  kFragment = VK_SHADER_STAGE_FRAGMENT_BIT;
@@ -74,6 +77,7 @@ class Pigment : public Pass {
 
   void bind(const gpu::GraphResources& resources) override {
     resources_ = &resources;
+    if (!isShown_) return;
     set_.rewriteTexture(0, shared::kPigmentDepth, resources.image(depth_).view(),
                         frame_->samplers().get({VK_FILTER_NEAREST}));
     if (chunkCount() == 0) return;
@@ -83,6 +87,7 @@ class Pigment : public Pass {
   }
 
   void update(const FrameInput& input) override {
+    if (!isShown_) return;
     const WatercolorParams params = input.knobs.scene<WatercolorParams>();
     uniforms_.write(shared::PigmentUniforms{params.spacing * input.uniforms.pixelScale, params.stampSize,
                                             params.backruns});
@@ -108,7 +113,7 @@ class Pigment : public Pass {
     if (generator_ == kCells) cells = {&resources_->image(cells_), nullptr, {}};
     gpu::drawViews(commands, configuration_.views(), {&pigment, 1}, generator_ == kCells ? &cells : nullptr,
                    [&](uint32_t firstView) {
-                     if (chunkCount() == 0) return;
+                     if (!isShown_ || chunkCount() == 0) return;
                      pipeline_.bind(commands);
                      pipeline_.bindSet(commands, 0, frame_->frameSet());
                      pipeline_.bindSet(commands, 1, set_[0]);
@@ -119,6 +124,7 @@ class Pigment : public Pass {
 
   FrameBuilder* frame_ = nullptr;
   Configuration configuration_;
+  bool isShown_ = false;
   uint32_t generator_ = kStamps;
   UniformSlice uniforms_;
   gpu::Handle depth_, image_, cells_;
