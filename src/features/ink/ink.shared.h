@@ -45,10 +45,30 @@ struct InkUniforms {
 
 // Set 1 of what finds lines and what draws them.
 const int kInkBlock = 0, kInkEdges = 1, kInkChunks = 2, kInkVertices = 3, kInkWords = 4, kInkSums = 5,
-          kInkNumbers = 6, kInkCommand = 7, kInkFrames = 8;
-const int kInkBindings = 9;
+          kInkNumbers = 6, kInkCommand = 7, kInkFrames = 8, kInkLines = 9, kInkRecords = 10, kInkDepth = 11;
+const int kInkBindings = 12;
 // Set 2 of what draws them.
-const int kInkLines = 0, kInkDepth = 1, kInkShadowed = 2;
+const int kInkShadowed = 0;
+
+// What draws lines, as VkDrawIndirectCommand has it, and what makes their records, as
+// VkDispatchIndirectCommand has it.
+struct InkCommand {
+  uint vertexCount, instanceCount, firstVertex, firstInstance;
+  uint groupsX, groupsY, groupsZ;
+};
+
+// A line in a view.
+struct LineRecord {
+  vec4 spine;     // both ends of the edge, pixels
+  vec4 shift;     // where lines move that lie beside it, for each pixel; at both ends
+  vec4 radii;     // at both ends, pixels; depth-buffer values there
+  vec4 color;     // square root; how much is the surface's own
+  vec3 outward;   // unit, on the screen; 1: an outline
+  vec2 caps;      // how far it goes on beyond both ends, for each pixel of its width
+  vec2 fullness;  // factors on radii at both ends; below 0: each pixel finds its own
+  uint isDrawn;
+};
+const int kInkRoom = 65536;  // for records of a view
 
 const int kInkThreads = 32;  // a word of bits, one edge each
 const int kInkWordsOfChunk = kEdgeChunk / kInkThreads;

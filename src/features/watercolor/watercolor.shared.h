@@ -40,7 +40,8 @@ struct WashUniforms {
   vec3 paperLight[2];  // of each view, where the light is that falls on the paper: x, y from -1 to 1 over the
                        // picture, z towards the viewer
 };
-const int kWashPicture = 1, kWashDensity = 2, kWashPigment = 3, kWashLight = 4, kWashPaper = 5;
+const int kWashPicture = 1, kWashDensity = 2, kWashPigment = 3, kWashLight = 4, kWashPaper = 5,
+          kWashBroad = 6;
 const int kWashBlurred = 1;
 
 SHARED_END

@@ -2,136 +2,52 @@
 // A line of an edge: a quad around it, with room for its round ends, which close the joints between lines.
 #extension GL_GOOGLE_include_directive : require
 #include "../../../shading/view_index.glsl"
-#include "../ink_edge.glsl"
+#include "ink_record.glsl"
 
-layout(set = 1, binding = kInkNumbers, scalar) readonly buffer Numbers { uint numbers[]; };
-layout(set = 1, binding = kInkFrames, scalar) readonly buffer Frames { VertexFrame frames[]; };
-layout(set = 2, binding = kInkLines, scalar) readonly buffer Lines { InkLine lines[]; };
+layout(set = 1, binding = kInkRecords, scalar) readonly buffer Records { LineRecord records[]; };
 
-layout(location = 0) flat out vec4 outSpine;    // both ends of the edge, pixels
-layout(location = 1) flat out vec4 outShift;    // where lines move that lie beside it, for each pixel; at both ends
-layout(location = 2) flat out vec4 outRadii;    // at both ends, pixels; depth-buffer values there
-layout(location = 3) flat out vec4 outColor;    // square root; how much is the surface's own
-layout(location = 4) flat out vec3 outOutward;  // unit, on the screen; 1: an outline
-
-const float kNear = 1e-4;  // of clip w, against the ends of lines behind the eye
-
-struct End {
-  vec3 position;  // world
-  vec4 clip;
-  vec3 normal;    // unit, the surface's
-};
-
-// From light that falls on a line: thin where it does, bold where it turns away (FORMULAS 24).
-float widthOf(vec3 normal) {
-  return mix(ink.greatest, ink.least, clamp(0.5 + 0.5 * dot(normal, frame.toLight), 0.0, 1.0));
-}
-
-vec3 normalOf(uint vertex) {
-  vec2 oct = unpackSnorm2x16(frames[vertex].smoothNormal);
-  return decodeNormal(oct);
-}
+layout(location = 0) flat out vec4 outSpine;    // as LineRecord has them
+layout(location = 1) flat out vec4 outShift;
+layout(location = 2) flat out vec4 outRadii;
+layout(location = 3) flat out vec4 outColor;
+layout(location = 4) flat out vec3 outOutward;
+layout(location = 5) flat out vec2 outFullness;
 
 void main() {
-  uint number = numbers[gl_VertexIndex / 6];
-  int corner = gl_VertexIndex % 6;
-  int view = viewIndex();
-  EdgeChunk chunk = chunks[number / uint(kEdgeChunk)];
-  DrawnEdge drawn = edges[chunk.firstEdge + number % uint(kEdgeChunk)];
-  PlacedEdge edge = placed(drawn, chunk.firstVertex);
-  vec4 eye = ink.eyes[min(view, ink.eyeCount - 1)];
-  int kind = kindOf(edge, eye);
-  ObjectData object = objects[chunk.object];
-  InkLine line = lines[object.material];
-  vec3 middle = 0.5 * (edge.a + edge.b), toEye = eye.xyz - eye.w * middle;
-  // What is seen from behind alone is hidden by the rest of it, but for open sheets.
-  float wound = determinant(mat3(object.model)) < 0.0 ? -1.0 : 1.0;
-  bool isTurned = wound * dot(edge.left, toEye) <= 0.0 && (edge.isOpen || wound * dot(edge.right, toEye) <= 0.0);
-  if (line.isSingle != 0u && isTurned) kind = kInkNone;
-
+  int line = gl_VertexIndex / 6, corner = gl_VertexIndex % 6, view = viewIndex();
+  LineRecord record;
+  if (line < kInkRoom)
+    record = records[view * kInkRoom + line];
+  else
+    record = recordOf(numbers[line], view);
+  outSpine = record.spine, outShift = record.shift, outRadii = record.radii, outColor = record.color;
+  outOutward = record.outward;
+  outFullness = record.fullness;
   gl_Position = vec4(2.0, 2.0, 0.0, 1.0);  // outside
-  outSpine = outShift = outRadii = outColor = vec4(0.0);
-  outOutward = vec3(0.0);
-  if (kind == kInkNone) return;
-  mat4 worldToClip = VIEW_FIELD(worldToClip, view);
-  End ends[2];
-  uint first = chunk.firstVertex;
-  ends[0] = End(edge.a, worldToClip * vec4(edge.a, 1.0), normalOf(first + (drawn.a & kEdgeVertexMask)));
-  ends[1] = End(edge.b, worldToClip * vec4(edge.b, 1.0), normalOf(first + drawn.b));
-  // What lies behind the eye is cut off.
-  float w0 = ends[0].clip.w, w1 = ends[1].clip.w;
-  if (max(w0, w1) <= kNear) return;
-  for (int i = 0; i < 2; ++i)
-    if (ends[i].clip.w < kNear)
-      ends[i].clip = mix(ends[i].clip, ends[1 - i].clip, (kNear - ends[i].clip.w) / (ends[1 - i].clip.w - ends[i].clip.w));
+  if (record.isDrawn == 0u) return;
 
-  vec2 toPixels = 0.5 * frame.imageSize;
-  vec2 at[2];
-  for (int i = 0; i < 2; ++i) at[i] = (ends[i].clip.xy / ends[i].clip.w + 1.0) * toPixels;
-  vec2 along = at[1] - at[0];
-  float size = length(along);
-  vec2 direction = size > 1e-6 ? along / size : vec2(1.0, 0.0);
-  // Away from the form, which on the screen lies on one side of its outline: that on which its triangles reach farther,
-  // since one of them may be seen from its edge.
-  vec2 across = vec2(-direction.y, direction.x);
-  float within = 0.0;
-  for (int side = 0; side < (edge.isOpen ? 1 : 2); ++side) {
-    vec4 third = worldToClip * vec4(vertices[first + (side == 0 ? drawn.left : drawn.right)].position, 1.0);
-    if (third.w > kNear) within += dot((third.xy / third.w + 1.0) * toPixels - at[0], across);
+  vec2 direction = record.spine.zw - record.spine.xy;
+  float size = length(direction);
+  direction = size > 1e-6 ? direction / size : vec2(1.0, 0.0);
+  vec2 across = record.outward.xy;
+  bool isOutline = record.outward.z > 0.0;
+  // The quad, no larger than it must be.
+  vec2 radii = record.radii.xy;
+  if (record.fullness.x >= 0.0)
+    radii *= record.fullness;
+  else if (isOutline)
+    radii *= max(ink.outer, 1.0);
+  float radius = max(max(radii.x, radii.y), 0.5), moved = 0.0, inside = radius + 1.0;
+  if (isOutline) {
+    bool isExterior = ink.placement == kInkExterior;
+    moved = abs(ink.offset) * frame.pixelScale + (isExterior ? radius : 0.0);
+    if (isExterior && ink.offset >= 0.0) inside = 2.5;  // what it overlaps, and anti-aliasing
   }
-  if (within > 0.0) across = -across;
-
-  // Widths: by normals that the edge itself has, or its ends.
-  vec3 edgeNormal = wound * (edge.left * inversesqrt(max(dot(edge.left, edge.left), 1e-37)) +
-                             edge.right * inversesqrt(max(dot(edge.right, edge.right), 1e-37)));
-  edgeNormal *= inversesqrt(max(dot(edgeNormal, edgeNormal), 1e-37));
-  int weights = ink.weights;
-  if (weights == kInkHybrid) weights = !edge.isOpen && bendOf(edge) > ink.cosSmooth ? kInkByVertex : kInkByTangent;
-  InkKind style = ink.kinds[kind];
-  float radii[2];
-  for (int i = 0; i < 2; ++i) {
-    vec3 normal = edgeNormal;
-    if (weights == kInkByVertex) normal = ends[i].normal;
-    if (weights == kInkByTangent && kind == kInkSilhouette) {
-      // The normal of a smooth form is square to the view on its outline (paper 004, section 2.3).
-      normal = cross(toEye, edge.b - edge.a);
-      normal *= (dot(normal, edgeNormal) < 0.0 ? -1.0 : 1.0) * inversesqrt(max(dot(normal, normal), 1e-37));
-    }
-    float pixelsOfOne = abs(toPixels.y / VIEW_FIELD(ndcToEyeRay, view).y);  // at one metre's distance
-    float scale = frame.pixelScale;
-    if (ink.unit == kInkMetres) scale = pixelsOfOne / (VIEW_FIELD(orthographic, view) != 0.0 ? 1.0 : ends[i].clip.w);
-    if (ink.unit == kInkDegrees) scale = radians(1.0) * pixelsOfOne;
-    radii[i] = 0.5 * widthOf(normal) * style.width * line.width * scale;
-  }
-
-  // Outlines may lie outside of the form. Ends move along normals of vertices, which lines that meet there share
-  // (FORMULAS 21), so that they still meet; how far, fragments find out.
-  outShift = vec4(0.0);
-  bool isOutline = kind == kInkSilhouette;
-  if (isOutline && (ink.placement == kInkExterior || ink.offset != 0.0)) {
-    vec2 shift[2];
-    for (int i = 0; i < 2; ++i) {
-      vec4 tip = worldToClip * vec4(ends[i].normal, 0.0);
-      shift[i] = (tip.xy - ends[i].clip.xy / ends[i].clip.w * tip.w) * toPixels;
-      shift[i] *= inversesqrt(max(dot(shift[i], shift[i]), 1e-30));
-      // Where a corner's normal says little of this edge, the edge decides.
-      float agrees = dot(shift[i], across);
-      shift[i] = agrees < 0.3 ? across : shift[i] / max(agrees, 0.7);
-    }
-    outShift = vec4(shift[0], shift[1]);
-  }
-  outSpine = vec4(at[0], at[1]);
-  outRadii = vec4(radii[0], radii[1], ends[0].clip.z / ends[0].clip.w, ends[1].clip.z / ends[1].clip.w);
-  outColor = vec4(mix(line.color, style.color, style.colorAmount), line.ownColor * (1.0 - style.colorAmount));
-  outOutward = vec3(across, isOutline ? 1.0 : 0.0);
-
-  // The quad.
-  float radius = max(max(radii[0], radii[1]) * (isOutline ? max(ink.outer, 1.0) : 1.0), 0.5);
-  float moved = 0.0;
-  if (isOutline) moved = abs(ink.offset) * frame.pixelScale + (ink.placement == kInkExterior ? radius : 0.0);
   float reach = radius + moved / 0.7 + 1.0;
-  float inside = ink.offset >= 0.0 ? radius + 1.0 : reach;
+  if (ink.offset < 0.0) inside = reach;
   bool isEnd = corner == 1 || corner == 2 || corner == 4, isUp = corner == 2 || corner == 4 || corner == 5;
-  vec2 place = (isEnd ? at[1] + direction * reach : at[0] - direction * reach) + across * (isUp ? reach : -inside);
-  gl_Position = vec4(place / toPixels - 1.0, 0.5, 1.0);
+  float beyond = (isEnd ? record.caps.y : record.caps.x) * (reach - 1.0) + 1.0;
+  vec2 place = (isEnd ? record.spine.zw + direction * beyond : record.spine.xy - direction * beyond) +
+               across * (isUp ? reach : -inside);
+  gl_Position = vec4(place / (0.5 * frame.imageSize) - 1.0, 0.5, 1.0);
 }

@@ -76,6 +76,7 @@ class Lines : public Pass {
     }
     frame.step("ink-lines", [this](VkCommandBuffer commands) { finder_.record(commands); });
     frame.use(frame.get(kVertices), gpu::Use::storageBufferRead);
+    frame.use(frame.get(kDepth), gpu::Use::sampledByCompute);
     const gpu::Handle numbers =
         frame.use(frame.graph().importBuffer("ink lines"), gpu::Use::storageBufferWrite);
     const gpu::Handle command =
@@ -85,7 +86,7 @@ class Lines : public Pass {
     frame.use(frame.get(kVertices), gpu::Use::storageBufferReadByVertex);
     frame.use(numbers, gpu::Use::storageBufferReadByVertex);
     frame.use(command, gpu::Use::indirectBuffer);
-    depth_ = frame.use(frame.get(kDepth), gpu::Use::sampledByFragment);
+    depth_ = frame.use(frame.get(kDepth), gpu::Use::sampledByDraw);
     shadowed_ = frame.use(frame.get(kShadowed), gpu::Use::sampledByFragment);
     strokes_.declare(frame, "ink", kBytes);
     frame.give(kStrokes, strokes_.image());
@@ -97,13 +98,10 @@ class Lines : public Pass {
     if (!isShown_) return;
     uniforms_ = frame.uniform(sizeof(shared::InkUniforms));
     lines_ = frame.uniform(frame.scene().materialCount() * sizeof(shared::InkLine));
-    finder_.create(frame, uniforms_);
+    finder_.create(frame, uniforms_, lines_);
     layout_ = gpu::SetLayout(frame.device(),
-                             {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT},
-                              {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT},
-                              {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}});
+                             {{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}});
     set_ = gpu::DescriptorSets(frame.device(), layout_);
-    set_.writeBuffer(0, shared::kInkLines, lines_.buffer, lines_.offset, lines_.size);
     gpu::GraphicsPipelineDesc desc;
     desc.vertex = {shaders::ink_line_vert};
     desc.fragment = {shaders::ink_line_frag};
@@ -120,9 +118,8 @@ class Lines : public Pass {
   void bind(const gpu::GraphResources& resources) override {
     resources_ = &resources;
     if (!isShown_) return;
-    finder_.bind();
+    finder_.bind(resources.image(depth_));
     const VkSampler exact = frame_->samplers().get({VK_FILTER_NEAREST});
-    set_.rewriteTexture(0, shared::kInkDepth, resources.image(depth_).view(), exact);
     set_.rewriteTexture(0, shared::kInkShadowed, resources.image(shadowed_).view(), exact);
   }
 

@@ -8,9 +8,7 @@ layout(local_size_x = kInkThreads) in;
 layout(set = 1, binding = kInkWords, scalar) readonly buffer Words { uint words[]; };
 layout(set = 1, binding = kInkSums, scalar) readonly buffer Sums { uint sums[]; };
 layout(set = 1, binding = kInkNumbers, scalar) writeonly buffer Numbers { uint numbers[]; };
-layout(set = 1, binding = kInkCommand, scalar) writeonly buffer Command {
-  uint vertexCount, instanceCount, firstVertex, firstInstance;
-};
+layout(set = 1, binding = kInkCommand, scalar) writeonly buffer Command { InkCommand command; };
 layout(push_constant, scalar) uniform Push { uint chunkCount; };
 
 void main() {
@@ -24,9 +22,8 @@ void main() {
     numbers[next++] = word * kInkThreads + uint(bit);
   }
   if (word == 0u) {
-    vertexCount = 6u * sums[chunkCount * kInkWordsOfChunk];
-    instanceCount = 1u;
-    firstVertex = 0u;
-    firstInstance = 0u;
+    uint lines = sums[chunkCount * kInkWordsOfChunk];
+    uint groups = (min(lines, uint(kInkRoom)) + kInkThreads - 1) / kInkThreads;
+    command = InkCommand(6u * lines, 1u, 0u, 0u, groups, 1u, 1u);
   }
 }

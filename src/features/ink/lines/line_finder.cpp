@@ -7,6 +7,7 @@
 #include "gpu/dispatch.h"
 #include "shaders/ink_find_comp.h"
 #include "shaders/ink_list_comp.h"
+#include "shaders/ink_record_comp.h"
 #include "shading/geometry_constants.shared.h"
 
 namespace scumble::ink {
@@ -18,13 +19,16 @@ const EdgesOnGpu* LineFinder::edges() const {
   return here ? &static_cast<const InkMoment*>(here->moment)->edges() : nullptr;
 }
 
-void LineFinder::create(frame::FrameBuilder& frame, const frame::UniformSlice& uniforms) {
+void LineFinder::create(frame::FrameBuilder& frame, const frame::UniformSlice& uniforms,
+                        const frame::UniformSlice& lines) {
   frame_ = &frame;
   std::vector<gpu::Binding> bindings(
       shared::kInkBindings,
       {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_VERTEX_BIT});
   bindings[shared::kInkBlock].type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
   bindings[shared::kInkBlock].stages |= VK_SHADER_STAGE_FRAGMENT_BIT;
+  bindings[shared::kInkDepth].type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+  bindings[shared::kInkDepth].stages |= VK_SHADER_STAGE_FRAGMENT_BIT;
   layout_ = gpu::SetLayout(frame.device(), std::move(bindings));
   set_ = gpu::DescriptorSets(frame.device(), layout_);
   set_.writeBuffer(0, shared::kInkBlock, uniforms.buffer, uniforms.offset, uniforms.size);
@@ -37,14 +41,23 @@ void LineFinder::create(frame::FrameBuilder& frame, const frame::UniformSlice& u
   find_ = gpu::Pipeline(frame.device(), desc);
   desc.shader = {shaders::ink_list_comp};
   list_ = gpu::Pipeline(frame.device(), desc);
-  command_ = gpu::Buffer(frame.device(), sizeof(VkDrawIndirectCommand),
+  desc.shader = {shaders::ink_record_comp};
+  records_ = gpu::Pipeline(frame.device(), desc);
+  set_.writeBuffer(0, shared::kInkLines, lines.buffer, lines.offset, lines.size);
+  recordsOfLines_ =
+      gpu::Buffer(frame.device(),
+                  uint64_t(shared::kInkRoom) * frame.configuration().viewCount * sizeof(shared::LineRecord),
+                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryKind::device);
+  set_.writeBuffer(0, shared::kInkRecords, recordsOfLines_.handle());
+  command_ = gpu::Buffer(frame.device(), sizeof(shared::InkCommand),
                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                          gpu::MemoryKind::device);
   set_.writeBuffer(0, shared::kInkCommand, command_.handle());
 }
 
-void LineFinder::bind() {
+void LineFinder::bind(const gpu::Image& depth) {
+  set_.rewriteTexture(0, shared::kInkDepth, depth.view(), frame_->samplers().get({VK_FILTER_NEAREST}));
   if (isEmpty()) return;
   const world::SceneOnGpu& scene = frame_->scene();
   const uint32_t chunks = edges()->chunkCount();
@@ -84,6 +97,20 @@ void LineFinder::record(VkCommandBuffer commands) const {
   run(find_);
   sum_.record(commands, chunks * uint32_t(shared::kInkWordsOfChunk) + 1);
   run(list_);
+  // How each of them looks.
+  VkMemoryBarrier2 listed{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+  listed.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+  listed.srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+  listed.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT;
+  listed.dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT;
+  VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+  dependency.memoryBarrierCount = 1;
+  dependency.pMemoryBarriers = &listed;
+  vkCmdPipelineBarrier2(commands, &dependency);
+  records_.bind(commands);
+  records_.bindSet(commands, 0, frame_->frameSet());
+  records_.bindSet(commands, 1, set_[0]);
+  vkCmdDispatchIndirect(commands, command_.handle(), offsetof(shared::InkCommand, groupsX));
 }
 
 }  // namespace scumble::ink

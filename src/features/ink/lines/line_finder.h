@@ -11,9 +11,11 @@ namespace scumble::ink {
 
 class LineFinder {
  public:
-  void create(frame::FrameBuilder& frame, const frame::UniformSlice& uniforms);
-  // Whenever the scene's buffers are others.
-  void bind();
+  // `uniforms`: InkUniforms; `lines`: an InkLine for each material.
+  void create(frame::FrameBuilder& frame, const frame::UniformSlice& uniforms,
+              const frame::UniformSlice& lines);
+  // Whenever the scene's buffers, or the surfaces' depth buffer, are others.
+  void bind(const gpu::Image& depth);
   // Whether there are no edges at all: nothing can be drawn then.
   bool isEmpty() const { return !edges() || edges()->chunkCount() == 0; }
   // Finds them; what reads the set afterwards needs a barrier.
@@ -31,10 +33,10 @@ class LineFinder {
   frame::FrameBuilder* frame_ = nullptr;
   gpu::SetLayout layout_;
   gpu::DescriptorSets set_;
-  gpu::Pipeline find_, list_;
+  gpu::Pipeline find_, list_, records_;
   // A word of bits for 32 edges; how many are set in it, which become sums; numbers of edges that are lines.
   uint32_t chunks_ = 0;  // that there is room for
-  gpu::Buffer words_, sums_, numbers_, command_;
+  gpu::Buffer words_, sums_, numbers_, command_, recordsOfLines_;
   gpu::PrefixSum sum_;
 };
 

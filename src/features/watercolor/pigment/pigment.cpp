@@ -92,12 +92,13 @@ class Pigment : public Pass {
     uniforms_.write(shared::PigmentUniforms{params.spacing * input.uniforms.pixelScale, params.stampSize,
                                             params.backruns});
     const ExampleTexture& brush = frame_->examples().get(input.look, params.brush);
-    set_.writeTexture(0, shared::kPigmentBrush, brush.image.view(),
-                      frame_->samplers().get(ExampleTextures::kSampler));
+    set_.writeTexture(0, shared::kPigmentBrush, brush.image.view(), frame_->samplers().get(kBrushSampler));
   }
 
  private:
   static constexpr Aov kAovs[] = {{.name = "pigment"}};
+  static constexpr gpu::SamplerDesc kBrushSampler{
+      VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_REPEAT, true, false, 1};
 
   // Null where the scene, as it is now, is no watercolour.
   const AnchorsOnGpu* anchors() const {

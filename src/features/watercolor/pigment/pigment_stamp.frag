@@ -27,7 +27,7 @@ void main() {
 
   float turnedBy = inStamp.w, away = length(inPlace);
   vec2 turned = mat2(cos(turnedBy), sin(turnedBy), -sin(turnedBy), cos(turnedBy)) * inPlace;
-  float hair = textureLod(brush, 0.22 * turned + inChance.xy, 1.0).r - 0.5;
+  float hair = texture(brush, 0.22 * turned + inChance.xy).r - 0.5;
   vec3 pigment = vec3(inChance.x, inChance.y, inChance.z);
 #ifdef CELLS
   float distance = away * (0.7 + 0.6 * inChance.z) + 0.1 * hair;

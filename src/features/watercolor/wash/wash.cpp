@@ -88,7 +88,7 @@ class Wash : public Pass {
                                                 {shared::kWashDensity, blurred, true},
                                                 {shared::kWashPigment, frame.get(kPigment), true},
                                                 {shared::kWashLight, frame.get(kShadow), true}},
-                                     .textures = {shared::kWashPaper},
+                                     .textures = {shared::kWashPaper, shared::kWashBroad},
                                      .outputs = {frame.image(name(), {.format = kHalves})},
                                      .fetches = 4 * 4 + 5 * 4,
                                      .uniformBytes = kBytesOfBlock})[0]);
@@ -118,10 +118,18 @@ class Wash : public Pass {
     }
     for (ImageStep* const step : steps_) step->update(u);
     const ExampleTexture& paper = frame_->examples().get(input.look, p.paper);
-    wash_.setJobs({{{}, {{shared::kWashPaper, &paper.image, ExampleTextures::kSampler}}}});
+    wash_.setJobs({{{},
+                    {{shared::kWashPaper, &paper.image, kPaperSampler},
+                     {shared::kWashBroad, &paper.image, kBroadSampler}}}});
   }
 
  private:
+  // Of one mip level each: what is finer than a pixel is no relief.
+  static constexpr gpu::SamplerDesc kPaperSampler{
+      VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_REPEAT, true, false, 0};
+  static constexpr gpu::SamplerDesc kBroadSampler{
+      VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_REPEAT, true, false, 2};
+
   FrameBuilder* frame_ = nullptr;
   ImageStep density_, blurX_, blurY_, wash_;
   ImageStep* const steps_[4] = {&density_, &blurX_, &blurY_, &wash_};

@@ -12,6 +12,7 @@ layout(set = 1, binding = kWashDensity) uniform sampler2DArray blurred;
 layout(set = 1, binding = kWashPigment) uniform sampler2DArray pigment;
 layout(set = 1, binding = kWashLight) uniform sampler2DArray light;
 layout(set = 1, binding = kWashPaper) uniform sampler2D paper;
+layout(set = 1, binding = kWashBroad) uniform sampler2D broadly;  // the same, without what is fine
 
 vec4 shade(ivec2 pixel, int layer) {
   vec2 own = vec2(pixel) + 0.5;
@@ -22,7 +23,7 @@ vec4 shade(ivec2 pixel, int layer) {
   float height = texture(paper, on).r - 0.5;
   vec2 slope = vec2(texture(paper, on + vec2(texel, 0.0)).r, texture(paper, on + vec2(0.0, texel)).r) - 0.5 - height;
   // A coarser part of the same relief, for what goes over larger stretches.
-  vec2 broad = vec2(textureLod(paper, 0.11 * on, 2.0).r, textureLod(paper, 0.11 * on + vec2(0.37, 0.61), 2.0).r) - 0.5;
+  vec2 broad = vec2(texture(broadly, 0.11 * on).r, texture(broadly, 0.11 * on + vec2(0.37, 0.61)).r) - 0.5;
 
   // Edges of colour wobble with the relief (section 4.1).
   vec2 at = own + u.wobble * clamp(5.0 * slope + 2.5 * broad, -1.5, 1.5);

@@ -1,0 +1,136 @@
+// How a line looks in a view: found once for each, by ink_record.comp, as many as there is room for; of others
+// by each of its vertices.
+#ifndef SCUMBLE_INK_RECORD_GLSL
+#define SCUMBLE_INK_RECORD_GLSL
+#include "../ink_edge.glsl"
+#include "ink_seen.glsl"
+
+layout(set = 1, binding = kInkNumbers, scalar) readonly buffer Numbers { uint numbers[]; };
+layout(set = 1, binding = kInkFrames, scalar) readonly buffer Frames { VertexFrame frames[]; };
+layout(set = 1, binding = kInkLines, scalar) readonly buffer Lines { InkLine lines[]; };
+
+const float kShort = 6.0;  // pixels
+const float kNear = 1e-4;  // of clip w, against the ends of lines behind the eye
+
+struct End {
+  vec3 position;  // world
+  vec4 clip;
+  vec3 normal;    // unit, the surface's
+};
+
+// From light that falls on a line: thin where it does, bold where it turns away (FORMULAS 24).
+float widthOf(vec3 normal) {
+  return mix(ink.greatest, ink.least, clamp(0.5 + 0.5 * dot(normal, frame.toLight), 0.0, 1.0));
+}
+
+vec3 normalOf(uint vertex) {
+  vec2 oct = unpackSnorm2x16(frames[vertex].smoothNormal);
+  return decodeNormal(oct);
+}
+
+LineRecord recordOf(uint number, int view) {
+  EdgeChunk chunk = chunks[number / uint(kEdgeChunk)];
+  DrawnEdge drawn = edges[chunk.firstEdge + number % uint(kEdgeChunk)];
+  PlacedEdge edge = placed(drawn, chunk.firstVertex);
+  vec4 eye = ink.eyes[min(view, ink.eyeCount - 1)];
+  int kind = kindOf(edge, eye);
+  ObjectData object = objects[chunk.object];
+  InkLine line = lines[object.material];
+  vec3 middle = 0.5 * (edge.a + edge.b), toEye = eye.xyz - eye.w * middle;
+  // What is seen from behind alone is hidden by the rest of it, but for open sheets.
+  float wound = determinant(mat3(object.model)) < 0.0 ? -1.0 : 1.0;
+  bool isTurned = wound * dot(edge.left, toEye) <= 0.0 && (edge.isOpen || wound * dot(edge.right, toEye) <= 0.0);
+  if (line.isSingle != 0u && isTurned) kind = kInkNone;
+
+  LineRecord record;
+  record.spine = record.shift = record.radii = record.color = vec4(0.0);
+  record.outward = vec3(0.0);
+  record.isDrawn = 0u;
+  if (kind == kInkNone) return record;
+  mat4 worldToClip = VIEW_FIELD(worldToClip, view);
+  End ends[2];
+  uint first = chunk.firstVertex;
+  ends[0] = End(edge.a, worldToClip * vec4(edge.a, 1.0), normalOf(first + (drawn.a & kEdgeVertexMask)));
+  ends[1] = End(edge.b, worldToClip * vec4(edge.b, 1.0), normalOf(first + drawn.b));
+  // What lies behind the eye is cut off.
+  float w0 = ends[0].clip.w, w1 = ends[1].clip.w;
+  if (max(w0, w1) <= kNear) return record;
+  for (int i = 0; i < 2; ++i)
+    if (ends[i].clip.w < kNear)
+      ends[i].clip = mix(ends[i].clip, ends[1 - i].clip, (kNear - ends[i].clip.w) / (ends[1 - i].clip.w - ends[i].clip.w));
+
+  vec2 toPixels = 0.5 * frame.imageSize;
+  vec2 at[2];
+  for (int i = 0; i < 2; ++i) at[i] = (ends[i].clip.xy / ends[i].clip.w + 1.0) * toPixels;
+  vec2 along = at[1] - at[0];
+  float size = length(along);
+  vec2 direction = size > 1e-6 ? along / size : vec2(1.0, 0.0);
+  // Away from the form, which on the screen lies on one side of its outline: that on which its triangles reach farther,
+  // since one of them may be seen from its edge.
+  vec2 across = vec2(-direction.y, direction.x);
+  float within = 0.0;
+  for (int side = 0; side < (edge.isOpen ? 1 : 2); ++side) {
+    vec4 third = worldToClip * vec4(vertices[first + (side == 0 ? drawn.left : drawn.right)].position, 1.0);
+    if (third.w > kNear) within += dot((third.xy / third.w + 1.0) * toPixels - at[0], across);
+  }
+  if (within > 0.0) across = -across;
+
+  // Widths: by normals that the edge itself has, or its ends.
+  vec3 edgeNormal = wound * (edge.left * inversesqrt(max(dot(edge.left, edge.left), 1e-37)) +
+                             edge.right * inversesqrt(max(dot(edge.right, edge.right), 1e-37)));
+  edgeNormal *= inversesqrt(max(dot(edgeNormal, edgeNormal), 1e-37));
+  int weights = ink.weights;
+  if (weights == kInkHybrid) weights = !edge.isOpen && bendOf(edge) > ink.cosSmooth ? kInkByVertex : kInkByTangent;
+  InkKind style = ink.kinds[kind];
+  float radii[2];
+  for (int i = 0; i < 2; ++i) {
+    vec3 normal = edgeNormal;
+    if (weights == kInkByVertex) normal = ends[i].normal;
+    if (weights == kInkByTangent && kind == kInkSilhouette) {
+      // The normal of a smooth form is square to the view on its outline (paper 004, section 2.3).
+      normal = cross(toEye, edge.b - edge.a);
+      normal *= (dot(normal, edgeNormal) < 0.0 ? -1.0 : 1.0) * inversesqrt(max(dot(normal, normal), 1e-37));
+    }
+    float pixelsOfOne = abs(toPixels.y / VIEW_FIELD(ndcToEyeRay, view).y);  // at one metre's distance
+    float scale = frame.pixelScale;
+    if (ink.unit == kInkMetres) scale = pixelsOfOne / (VIEW_FIELD(orthographic, view) != 0.0 ? 1.0 : ends[i].clip.w);
+    if (ink.unit == kInkDegrees) scale = radians(1.0) * pixelsOfOne;
+    radii[i] = 0.5 * widthOf(normal) * style.width * line.width * scale;
+  }
+
+  // Outlines may lie outside of the form. Ends move along normals of vertices, which lines that meet there share
+  // (FORMULAS 21), so that they still meet; how far, fragments find out.
+  // How far a line must reach beyond its ends to meet the next one halfway follows from that as well; small triangles
+  // would else be drawn many times over.
+  record.shift = vec4(0.0);
+  record.caps = vec2(1.0);
+  bool isOutline = kind == kInkSilhouette;
+  if (isOutline) {
+    vec2 shift[2];
+    for (int i = 0; i < 2; ++i) {
+      vec4 tip = worldToClip * vec4(ends[i].normal, 0.0);
+      shift[i] = (tip.xy - ends[i].clip.xy / ends[i].clip.w * tip.w) * toPixels;
+      shift[i] *= inversesqrt(max(dot(shift[i], shift[i]), 1e-30));
+      // Where a corner's normal says little of this edge, the edge decides.
+      float agrees = dot(shift[i], across);
+      shift[i] = agrees < 0.3 ? across : shift[i] / max(agrees, 0.7);
+      record.caps[i] = agrees < 0.3 ? 1.0 : min(sqrt(max(1.0 - agrees * agrees, 0.0)) / agrees, 1.0);
+    }
+    record.shift = vec4(shift[0], shift[1]);
+  }
+  record.spine = vec4(at[0], at[1]);
+  record.radii = vec4(radii[0], radii[1], ends[0].clip.z / ends[0].clip.w, ends[1].clip.z / ends[1].clip.w);
+  record.color = vec4(mix(line.color, style.color, style.colorAmount), line.ownColor * (1.0 - style.colorAmount));
+  record.outward = vec3(across, isOutline ? 1.0 : 0.0);
+
+  // Of short lines it is enough to know it at their ends.
+  record.fullness = vec2(-1.0);
+  if (size < kShort) {
+    for (int i = 0; i < 2; ++i)
+      record.fullness[i] = fullnessAt(at[i], record.radii[2 + i], across, isOutline, radii[i], view);
+    if (record.fullness == vec2(0.0)) return record;
+  }
+  record.isDrawn = 1u;
+  return record;
+}
+#endif
