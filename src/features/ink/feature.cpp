@@ -36,7 +36,8 @@ frame::FeatureParts makeFeature() {
   return {std::make_unique<InkFeature>(),
           {{"surface", makeLines}, {"final-color", makeOver}},
           {&InkParams::block(), &LineParams::block(), &SilhouetteParams::block(), &BoundaryParams::block(),
-           &MaterialBorderParams::block(), &CreaseParams::block(), &ColorBorderParams::block()},
+           &MaterialBorderParams::block(), &CreaseParams::block(), &ColorBorderParams::block(),
+           &ShadowShapeParams::block()},
           {}};
 }
 

@@ -61,7 +61,19 @@ namespace scumble::ink {
 #undef INK_KIND_SHOWN
 #undef INK_KIND_WIDTH
 
+#define INK_KIND_SHOWN 0
+#define INK_KIND_WIDTH 0.5
+#define PARAMS_STRUCT ShadowShapeParams
+#define PARAMS_FILE "features/ink/ink_kind.params"
+#define PARAMS_PATH "ink.shadows"
+#define PARAMS_TARGETS kScene
+#include "look/define_params.h"
+#undef INK_KIND_SHOWN
+#undef INK_KIND_WIDTH
+
 // Whether a look draws lines at any time.
 bool mayShow(const look::LookData& look);
+// Whether those are around shadow shapes as well.
+bool mayShowShadows(const look::LookData& look);
 
 }  // namespace scumble::ink

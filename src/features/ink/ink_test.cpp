@@ -269,6 +269,49 @@ TEST_P(Ink, colorsAreOfMaterialAndKind) {
              {1, 1, 1});
 }
 
+// Lines around shadow shapes lie where light meets shadow, and nowhere else.
+TEST_P(Ink, shadowShapesHaveOutlines) {
+  TestScene s = oneThing(sphereMesh({0, 0, 0}, 1.3f, 48));
+  s.light({1, 0.6f, 0.4f});
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0, 0, 6}, {0, 0, 0}, 40, 0, 0.1f}, kWidth, kHeight, GetParam());
+  Knobs knobs = evenLines({{"ink.silhouettes.shown", "off"},
+                           {"ink.line.color", "#FF0000"},
+                           {"shadow.indication", "0"},
+                           {"shadow.innerGlow", "0"},
+                           {"ink.shadows.width", "1"}});
+  const auto frameWith = [&](const char* shown) {
+    knobs.push_back({"ink.shadows.shown", shown});
+    return draw(scene, quietLook(knobs), views, sized(kWidth, kHeight, {"final-shadow"}));
+  };
+  const Frame without = frameWith("off"), with = frameWith("on");
+  for (size_t v = 0; v < viewCount(); ++v) {
+    const auto lightAt = [&](int x, int y) { return texel(aov(with, "final-shadow", v), x, y); };
+    size_t on = 0, red = 0, off = 0, changed = 0;
+    for (int y = 6; y < kHeight - 6; ++y)
+      for (int x = 6; x < kWidth - 6; ++x) {
+        double least = 1, most = 0, covered = 1;
+        for (int dy = -4; dy <= 4; ++dy)
+          for (int dx = -4; dx <= 4; ++dx) {
+            const glm::dvec4 light = lightAt(x + dx, y + dy);
+            covered = std::min(covered, light.w);
+            least = std::min(least, light.x), most = std::max(most, light.x);
+          }
+        const glm::dvec4 now = texel(aov(with, "", v), x, y);
+        const bool isChanged = glm::distance(now, texel(aov(without, "", v), x, y)) > 0.02;
+        if (most - least < 0.02) {
+          ++off, changed += isChanged;
+        } else if (covered == 1 && (lightAt(x, y).x > 0.5) != (lightAt(x + 1, y).x > 0.5)) {
+          ++on, red += now.x > 0.9 && now.y < 0.1;
+        }
+      }
+    EXPECT_GT(on, 40u);
+    EXPECT_GT(red, on * 95 / 100);
+    EXPECT_GT(off, 5000u);
+    EXPECT_EQ(changed, 0u);
+  }
+}
+
 // What is not shown has no passes, and pictures without it are what they were, to the byte.
 TEST_P(Ink, costsNothingWhereItIsNot) {
   const Scene scene = stillLife().load();

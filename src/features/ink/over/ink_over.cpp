@@ -1,4 +1,6 @@
 // Lays ink over the picture.
+#include <algorithm>
+
 #include "features/ink/ink.h"
 #include "features/ink/ink_knobs.h"
 #include "features/ink/over/ink_over.shared.h"
@@ -17,12 +19,12 @@ class Over : public Pass {
  public:
   const char* name() const override { return "ink-over"; }
   uint32_t variant(const scene::SceneData&, const look::LookData& look) const override {
-    return mayShow(look) ? 1 + 2 * passes::mayTear(look) : 0;
+    return mayShow(look) ? 1 + 2 * passes::mayTear(look) + 4 * mayShowShadows(look) : 0;
   }
 
   void declare(FrameBuilder& frame, uint32_t variant) override {
     if (!variant) return;
-    tears_ = variant & 2;
+    tears_ = variant & 2, shadows_ = variant & 4;
     frame.give(
         kPicture,
         step_.declare(frame, {.name = name(),
@@ -30,21 +32,32 @@ class Over : public Pass {
                               .inputs = {{shared::kInkOverPicture, frame.get(kPicture)},
                                          {shared::kInkOverStrokes, frame.get(kStrokes), true},
                                          {shared::kInkOverWarp, frame.get(tears_ ? kWarp : kLit)},
-                                         {shared::kInkOverTiles, frame.get(kTiles)}},
+                                         {shared::kInkOverTiles, frame.get(kTiles)},
+                                         {shared::kInkOverLight, frame.get(shadows_ ? kLight : kLit), true}},
                               .outputs = {frame.image(name(), {.format = kHalves})},
-                              .fetches = 1 + 4 + 1 + 1,
+                              .fetches = 1 + 4 + 1 + 1 + (shadows_ ? 9 * 4u : 0),
                               .uniformBytes = sizeof(shared::InkOverUniforms),
-                              .constants = {tears_}})[0]);
+                              .constants = {tears_, shadows_}})[0]);
   }
   void create(FrameBuilder& frame) override { step_.create(frame); }
   void bind(const gpu::GraphResources& resources) override { step_.bind(resources); }
   void update(const FrameInput& input) override {
-    step_.update(shared::InkOverUniforms{input.knobs.scene<InkParams>().warp});
+    const InkParams params = input.knobs.scene<InkParams>();
+    const ShadowShapeParams shadows = input.knobs.scene<ShadowShapeParams>();
+    const glm::vec3 color = input.knobs.scene<LineParams>().color.linear;
+    // Edges of light are about a pixel and a half wide: lines that are thinner are lighter instead.
+    constexpr float kThinnest = 0.75f;
+    const bool isShown = params.shown && shadows.shown;
+    const float radius =
+        isShown ? 0.25f * shadows.width * (params.least + params.greatest) * input.uniforms.pixelScale : 0;
+    step_.update(
+        shared::InkOverUniforms{params.warp, std::max(radius, kThinnest), std::min(radius / kThinnest, 1.0f),
+                                glm::sqrt(glm::mix(color, shadows.color.linear, shadows.colorAmount))});
   }
 
  private:
   ImageStep step_;
-  bool tears_ = false;
+  bool tears_ = false, shadows_ = false;
 };
 
 }  // namespace

@@ -5,7 +5,11 @@
 SHARED_BEGIN
 struct InkOverUniforms {
   float warp;  // how far the warp moves ink, against other edges
+  // Of lines around shadow shapes.
+  float shadowRadius;    // pixels
+  float shadowStrength;  // of thin ones below 1
+  vec3 shadowColor;      // square root
 };
-const int kInkOverPicture = 1, kInkOverStrokes = 2, kInkOverWarp = 3, kInkOverTiles = 4;
+const int kInkOverPicture = 1, kInkOverStrokes = 2, kInkOverWarp = 3, kInkOverTiles = 4, kInkOverLight = 5;
 SHARED_END
 #endif
