@@ -118,17 +118,18 @@ class Wash : public Pass {
     }
     for (ImageStep* const step : steps_) step->update(u);
     const ExampleTexture& paper = frame_->examples().get(input.look, p.paper);
+    // The mip level that has about a texel a pixel, since all of the picture has the same.
+    const float level = std::round(std::log2(float(paper.width) / std::max(u.paperSize, 1.0f)));
     wash_.setJobs({{{},
-                    {{shared::kWashPaper, &paper.image, kPaperSampler},
-                     {shared::kWashBroad, &paper.image, kBroadSampler}}}});
+                    {{shared::kWashPaper, &paper.image, paperSampler(glm::clamp(level, 0.0f, 8.0f))},
+                     {shared::kWashBroad, &paper.image, paperSampler(2)}}}});
   }
 
  private:
-  // Of one mip level each: what is finer than a pixel is no relief.
-  static constexpr gpu::SamplerDesc kPaperSampler{
-      VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_REPEAT, true, false, 0};
-  static constexpr gpu::SamplerDesc kBroadSampler{
-      VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_REPEAT, true, false, 2};
+  static gpu::SamplerDesc paperSampler(float level) {
+    return {
+        VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_REPEAT, true, false, level};
+  }
 
   FrameBuilder* frame_ = nullptr;
   ImageStep density_, blurX_, blurY_, wash_;
