@@ -27,8 +27,6 @@ UseInfo useInfo(Use use) {
       return {kVertex, kSampled, kReadOnly, VK_IMAGE_USAGE_SAMPLED_BIT, 0, false};
     case Use::sampledByFragment:
       return {kFragment, kSampled, kReadOnly, VK_IMAGE_USAGE_SAMPLED_BIT, 0, false};
-    case Use::sampledByDraw:
-      return {kVertex | kFragment, kSampled, kReadOnly, VK_IMAGE_USAGE_SAMPLED_BIT, 0, false};
     case Use::sampledByCompute:
       return {kCompute, kSampled, kReadOnly, VK_IMAGE_USAGE_SAMPLED_BIT, 0, false};
     case Use::colorTarget:

@@ -22,7 +22,6 @@ enum class Use : uint8_t {
   // Images.
   sampledByVertex,
   sampledByFragment,
-  sampledByDraw,  // by both
   sampledByCompute,
   colorTarget,
   depthTarget,

@@ -109,12 +109,13 @@ std::vector<SurfaceAnchor> anchorsOf(const Primitive& primitive, uint32_t candid
     if (u + v > 1) u = 1 - u, v = 1 - v;
     Candidate& c = all[i];
     const uint32_t* const corners = &primitive.indices[3 * t];
-    c.anchor = {corners[0], corners[1], corners[2], float(u), float(v), 0, uint32_t(numbers.bits())};
+    c.anchor = {corners[0], corners[1], corners[2], float(u), float(v), 0, 0, uint32_t(numbers.bits())};
     const glm::dvec3 a(primitive.positions[corners[0]]), b(primitive.positions[corners[1]]),
         d(primitive.positions[corners[2]]);
     c.position = a + u * (b - a) + v * (d - a);
     const glm::dvec3 outward = outwardOf(primitive, t);
     const double size = glm::length(outward);
+    c.anchor.area = float(0.5 * size);
     c.normal = size > 0 ? outward / size : glm::dvec3(0, 0, 1);
   }
   for (uint32_t i = candidates; i > 1; --i) std::swap(all[i - 1], all[numbers.bits() % i]);

@@ -13,6 +13,7 @@ struct SurfaceAnchor {
   // Those with at least some spacing are spread evenly by themselves, about 0.7 of them to its square, so
   // that a sparser set is a part of every denser one (FORMULAS 23).
   float spacing = 0;
+  float area = 0;     // of the triangle in mesh space, square metres
   uint32_t seed = 0;  // a number of its own
   bool operator==(const SurfaceAnchor&) const = default;
 };

@@ -35,7 +35,8 @@ class FeatureMoment {
   virtual bool follow(const scene::SceneData& scene, const FeaturePlan& plan) = 0;
   // Whatever it makes of the meshes of all that is drawn: what it needs of their vertices, which may be gone
   // afterwards; then, with where they lie on the device, its own buffers. True where those are others;
-  // `settle` is called before the old ones go. Primitives that are the same objects as before have not changed.
+  // `settle` is called before the old ones go. Primitives that are the same objects as before have not
+  // changed.
   virtual void find(const std::vector<GeometryItem>& /*items*/) {}
   virtual bool place(gpu::Uploader& /*uploader*/, const std::vector<GeometryItem>& /*items*/,
                      const std::vector<GeometryPlace>& /*places*/, const std::function<void()>& /*settle*/) {

@@ -2,12 +2,23 @@
 #ifndef SCUMBLE_INK_EDGE_GLSL
 #define SCUMBLE_INK_EDGE_GLSL
 #include "../../shading/frame.glsl"
-#include "ink.shared.h"
+#include "ink_choices.glsl"
 
 layout(set = 1, binding = kInkBlock, scalar) uniform Ink { InkUniforms ink; };
 layout(set = 1, binding = kInkEdges, scalar) readonly buffer Edges { DrawnEdge edges[]; };
 layout(set = 1, binding = kInkChunks, scalar) readonly buffer Chunks { EdgeChunk chunks[]; };
 layout(set = 1, binding = kInkVertices, scalar) readonly buffer Vertices { VertexCore vertices[]; };
+
+// Where a view is seen from: xyz - w * p points from p to there; or, for all of them, the middle between them.
+vec4 directionOf(int view) {
+  mat4 toEye = VIEW_FIELD(worldToEye, view);
+  return vec4(toEye[0][2], toEye[1][2], toEye[2][2], 0.0);
+}
+vec4 eyeOf(int view) {
+  vec4 parallel = kCyclopean ? 0.5 * (directionOf(0) + directionOf(kViewCount - 1)) : directionOf(view);
+  vec3 point = kCyclopean ? frame.viewer : VIEW_FIELD(eye, view);
+  return mix(vec4(point, 1.0), parallel, VIEW_FIELD(orthographic, view));
+}
 
 struct PlacedEdge {
   vec3 a, b;             // world
@@ -37,13 +48,13 @@ float bendOf(PlacedEdge edge) {
 // Of the kinds that are shown, the first one that it is, as a view sees it (paper 004, section 2.2: one of its triangles
 // faces the eye, and the other one does not).
 int kindOf(PlacedEdge edge, vec4 eye) {
-  if (edge.isOpen) return ink.kinds[kInkBoundary].shown != 0u ? kInkBoundary : kInkNone;
+  if (edge.isOpen) return isShown(kInkBoundary) ? kInkBoundary : kInkNone;
   vec3 toEye = eye.xyz - eye.w * edge.a;
   bool isSilhouette = (dot(edge.left, toEye) < 0.0) != (dot(edge.right, toEye) < 0.0);
-  if (isSilhouette && ink.kinds[kInkSilhouette].shown != 0u) return kInkSilhouette;
-  if ((edge.known & kEdgeMaterialBorder) != 0u && ink.kinds[kInkMaterial].shown != 0u) return kInkMaterial;
-  if (ink.kinds[kInkCrease].shown != 0u && bendOf(edge) < ink.cosCrease) return kInkCrease;
-  if ((edge.known & kEdgeColorBorder) != 0u && ink.kinds[kInkColor].shown != 0u) return kInkColor;
+  if (isSilhouette && isShown(kInkSilhouette)) return kInkSilhouette;
+  if ((edge.known & kEdgeMaterialBorder) != 0u && isShown(kInkMaterial)) return kInkMaterial;
+  if (isShown(kInkCrease) && bendOf(edge) < ink.cosCrease) return kInkCrease;
+  if ((edge.known & kEdgeColorBorder) != 0u && isShown(kInkColor)) return kInkColor;
   return kInkNone;
 }
 #endif

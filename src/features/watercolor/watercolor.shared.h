@@ -9,6 +9,7 @@ struct DrawnAnchor {
   uint a, b, c;  // final vertices, counted from where the chunk's begin
   float toB, toC;
   float spacing;  // metres in mesh space
+  float area;     // of the triangle there, square metres
   uint seed;
 };
 // A run of anchors of one object; a number of an anchor among all is that of its chunk times kAnchorChunk,
@@ -17,7 +18,6 @@ const int kAnchorChunk = 64;
 struct AnchorChunk {
   uint firstAnchor, count;
   uint firstVertex;
-  float scale;  // metres in the world for each in mesh space
 };
 
 struct PigmentUniforms {

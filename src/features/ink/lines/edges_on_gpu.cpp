@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "scene/parallel.h"
+#include "shading/frame.shared.h"
 
 namespace scumble::ink {
 
@@ -67,7 +68,7 @@ void EdgesOnGpu::find(const std::vector<GeometryItem>& items) {
   }
 }
 
-bool EdgesOnGpu::update(gpu::Uploader& uploader, const std::vector<GeometryItem>& items,
+bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std::vector<GeometryItem>& items,
                         const std::vector<GeometryOnGpu::Place>& places,
                         const std::function<void()>& settle) {
   std::vector<Known> known;
@@ -113,20 +114,31 @@ bool EdgesOnGpu::update(gpu::Uploader& uploader, const std::vector<GeometryItem>
     }
     // Those have vertices of two items.
     if (!shared || shared->empty()) continue;
-    const uint32_t first = uint32_t(edges.size());
-    for (const scene::SharedEdge& between : *shared) {
-      const GeometryItem &item = items[group[between.primitive]],
-                         &other = items[group[between.otherPrimitive]];
-      const uint32_t vertices = places[group[between.primitive]].firstVertex,
-                     otherVertices = places[group[between.otherPrimitive]].firstVertex;
-      shared::DrawnEdge edge = drawn(edgesOf_.at(item.primitive)[between.edge], vertices);
-      edge.right = edgesOf_.at(other.primitive)[between.otherEdge].left + otherVertices;
-      if (item.material != other.material) edge.a |= shared::kEdgeMaterialBorder;
-      edges.push_back(edge);
+    for (uint32_t p = 0; p < group.size(); ++p) {
+      const uint32_t first = uint32_t(edges.size());
+      for (const scene::SharedEdge& between : *shared) {
+        if (between.primitive != p) continue;
+        const GeometryItem &item = items[group[p]], &other = items[group[between.otherPrimitive]];
+        shared::DrawnEdge edge =
+            drawn(edgesOf_.at(item.primitive)[between.edge], places[group[p]].firstVertex);
+        edge.right = edgesOf_.at(other.primitive)[between.otherEdge].left +
+                     places[group[between.otherPrimitive]].firstVertex;
+        if (item.material != other.material) edge.a |= shared::kEdgeMaterialBorder;
+        edges.push_back(edge);
+      }
+      addChunks(first, uint32_t(edges.size()) - first, 0, group[p]);
     }
-    addChunks(first, uint32_t(edges.size()) - first, 0, group[0]);
   }
 
+  // What shaders read at once must fit into what the device binds: vertices too, of which their frames are
+  // the largest part.
+  uint64_t vertices = 0;
+  for (size_t i = 0; i < items.size(); ++i)
+    vertices = std::max(vertices, uint64_t(places[i].firstVertex) + items[i].primitive->vertexCount());
+  const uint64_t largest = std::max({vertices * sizeof(shared::VertexFrame), edges.size() * sizeof(edges[0]),
+                                     edgeCount_ * sizeof(uint32_t)});
+  if (largest > device.limits().maxStorageBufferRange)
+    throw gpu::VulkanError{"lines of so large a scene", VK_ERROR_OUT_OF_DEVICE_MEMORY};
   settle();
   const auto upload = [&]<class T>(const std::vector<T>& array, gpu::Buffer& buffer) {
     std::byte* target = nullptr;

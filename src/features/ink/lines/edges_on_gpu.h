@@ -21,8 +21,9 @@ class EdgesOnGpu {
   // objects as before have the same edges.
   void find(const std::vector<GeometryItem>& items);
   // Brings the buffers up to date with what was found, and with where vertices are. True where they are
-  // others; `settle` is called before the old ones go.
-  bool update(gpu::Uploader& uploader, const std::vector<GeometryItem>& items,
+  // others; `settle` is called before the old ones go. Throws gpu::VulkanError where there are more than the
+  // device binds at once.
+  bool update(gpu::Device& device, gpu::Uploader& uploader, const std::vector<GeometryItem>& items,
               const std::vector<GeometryOnGpu::Place>& places, const std::function<void()>& settle);
   // How many runs of kEdgeChunk edges there are.
   uint32_t chunkCount() const { return chunkCount_; }

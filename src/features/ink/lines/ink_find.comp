@@ -20,8 +20,8 @@ void main() {
     uint number = word * kInkThreads + thread;
     if (number >= chunk.count) continue;
     PlacedEdge edge = placed(edges[chunk.firstEdge + number], chunk.firstVertex);
-    bool isLine = kindOf(edge, ink.eyes[0]) != kInkNone;
-    if (ink.eyeCount > 1 && !isLine) isLine = kindOf(edge, ink.eyes[1]) != kInkNone;
+    bool isLine = kindOf(edge, eyeOf(0)) != kInkNone;
+    if (kViewCount > 1 && !kCyclopean && !isLine) isLine = kindOf(edge, eyeOf(1)) != kInkNone;
     if (isLine) atomicOr(found[word], 1u << thread);
   }
   barrier();

@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "../../../shading/frame.glsl"
 #include "../../../shading/view_index.glsl"
-#include "../ink.shared.h"
+#include "../ink_choices.glsl"
 
 layout(set = 1, binding = kInkBlock, scalar) uniform Ink { InkUniforms ink; };
 #include "ink_seen.glsl"
@@ -15,12 +15,11 @@ layout(location = 2) flat in vec4 inRadii;
 layout(location = 3) flat in vec4 inColor;
 layout(location = 4) flat in vec3 inOutward;
 
-layout(location = 5) flat in vec2 inFullness;
-
 layout(location = 0) out vec4 outInk;
 
-// How far outlines reach into the form, pixels: two anti-aliased edges that only touch would leave a light seam.
-const float kOverlap = 0.75;
+// How far outlines reach into the form, pixels: two anti-aliased edges that only touch would leave a light seam, and so
+// would two that are torn apart.
+float overlap() { return max(0.75, 2.4 * frame.pixelScale); }
 // How far along a line is nearest, from 0 to 1.
 float nearestOn(vec2 from, vec2 to, vec2 point) {
   vec2 along = to - from;
@@ -35,13 +34,9 @@ void main() {
 
   vec2 outward = inOutward.xy;
   vec2 spine = mix(inSpine.xy, inSpine.zw, t);
-  bool isShort = inFullness.x >= 0.0;
-  if (isShort)
-    radius *= mix(inFullness.x, inFullness.y, t);
-  else
-    radius *= fullnessAt(spine, mix(inRadii.z, inRadii.w, t), outward, inOutward.z > 0.0, radius, view);
+  radius *= fullnessAt(spine, mix(inRadii.z, inRadii.w, t), outward, inOutward.z > 0.0, radius, view);
 
-  float moved = ink.offset * frame.pixelScale + (ink.placement == kInkExterior ? max(radius - kOverlap, 0.0) : 0.0);
+  float moved = ink.offset * frame.pixelScale + (kPlacement == kInkExterior ? max(radius - overlap(), 0.0) : 0.0);
   vec4 line = inSpine + inShift * moved;
   float away = distance(pixel, mix(line.xy, line.zw, nearestOn(line.xy, line.zw, pixel)));
   float drawn = max(radius, 0.5);  // thinner lines are lighter instead

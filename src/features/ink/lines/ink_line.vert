@@ -11,7 +11,6 @@ layout(location = 1) flat out vec4 outShift;
 layout(location = 2) flat out vec4 outRadii;
 layout(location = 3) flat out vec4 outColor;
 layout(location = 4) flat out vec3 outOutward;
-layout(location = 5) flat out vec2 outFullness;
 
 void main() {
   int line = gl_VertexIndex / 6, corner = gl_VertexIndex % 6, view = viewIndex();
@@ -22,7 +21,6 @@ void main() {
     record = recordOf(numbers[line], view);
   outSpine = record.spine, outShift = record.shift, outRadii = record.radii, outColor = record.color;
   outOutward = record.outward;
-  outFullness = record.fullness;
   gl_Position = vec4(2.0, 2.0, 0.0, 1.0);  // outside
   if (record.isDrawn == 0u) return;
 
@@ -33,18 +31,15 @@ void main() {
   bool isOutline = record.outward.z > 0.0;
   // The quad, no larger than it must be.
   vec2 radii = record.radii.xy;
-  if (record.fullness.x >= 0.0)
-    radii *= record.fullness;
-  else if (isOutline)
-    radii *= max(ink.outer, 1.0);
+  if (isOutline) radii *= max(ink.outer, 1.0);
   float radius = max(max(radii.x, radii.y), 0.5), moved = 0.0, inside = radius + 1.0;
   if (isOutline) {
-    bool isExterior = ink.placement == kInkExterior;
+    bool isExterior = kPlacement == kInkExterior;
     moved = abs(ink.offset) * frame.pixelScale + (isExterior ? radius : 0.0);
-    if (isExterior && ink.offset >= 0.0) inside = 2.5;  // what it overlaps, and anti-aliasing
+    if (isExterior) inside = 1.75 + 2.4 * frame.pixelScale;  // what it overlaps, and anti-aliasing
   }
   float reach = radius + moved / 0.7 + 1.0;
-  if (ink.offset < 0.0) inside = reach;
+  inside = mix(inside, reach, float(ink.offset < 0.0));
   bool isEnd = corner == 1 || corner == 2 || corner == 4, isUp = corner == 2 || corner == 4 || corner == 5;
   float beyond = (isEnd ? record.caps.y : record.caps.x) * (reach - 1.0) + 1.0;
   vec2 place = (isEnd ? record.spine.zw + direction * beyond : record.spine.xy - direction * beyond) +

@@ -1,6 +1,7 @@
 // Draws lines of the edges of meshes.
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "features/ink/ink.h"
 #include "features/ink/ink_knobs.h"
@@ -22,27 +23,13 @@ constexpr float kRadians = 3.14159265f / 180;
 template <class Params>
 shared::InkKind kindOf(const KnobTable& knobs) {
   const Params p = knobs.scene<Params>();
-  return {uint32_t(p.shown && p.width > 0), p.width, glm::sqrt(p.color.linear), p.colorAmount};
+  return {p.width, glm::sqrt(p.color.linear), p.colorAmount};
 }
 
-// Where a view is seen from: a point, or (a parallel projection) a direction.
-glm::vec4 eyeOf(const shared::ViewUniforms& view) {
-  if (view.orthographic == 0) return glm::vec4(view.eye, 1);
-  const glm::mat4& m = view.worldToEye;
-  return glm::vec4(glm::normalize(glm::vec3(m[0][2], m[1][2], m[2][2])), 0);
-}
-
-shared::InkUniforms inkUniforms(const FrameInput& input, uint32_t views) {
+shared::InkUniforms inkUniforms(const FrameInput& input) {
   const InkParams params = input.knobs.scene<InkParams>();
   shared::InkUniforms u{};
-  for (uint32_t v = 0; v < 2; ++v) u.eyes[v] = eyeOf(input.uniforms.views[std::min(v, views - 1)]);
-  u.eyeCount = int(std::min(views, 2u));
-  if (params.cyclopean && views > 1) {
-    u.eyeCount = 1;
-    if (u.eyes[0].w != 0) u.eyes[0] = glm::vec4(input.uniforms.viewer, 1);
-  }
   u.least = params.least, u.greatest = params.greatest;
-  u.unit = params.unit, u.weights = params.weights, u.placement = params.placement;
   u.offset = params.offset;
   u.cosSmooth = std::cos(params.smoothAngle * kRadians);
   u.cosCrease = std::cos(params.creaseAngle * kRadians);
@@ -54,6 +41,24 @@ shared::InkUniforms inkUniforms(const FrameInput& input, uint32_t views) {
   u.kinds[shared::kInkCrease] = kindOf<CreaseParams>(input.knobs);
   u.kinds[shared::kInkColor] = kindOf<ColorBorderParams>(input.knobs);
   return u;
+}
+
+template <class Params>
+uint32_t shownBit(const KnobTable& knobs, int kind) {
+  const Params p = knobs.scene<Params>();
+  return uint32_t(p.shown && p.width > 0) << (shared::kInkKindsBit + kind);
+}
+
+uint32_t inkChoices(const FrameInput& input) {
+  const InkParams params = input.knobs.scene<InkParams>();
+  return uint32_t(params.unit) << shared::kInkUnitBit | uint32_t(params.weights) << shared::kInkWeightsBit |
+         uint32_t(params.placement) << shared::kInkPlacementBit |
+         uint32_t(params.cyclopean) << shared::kInkCyclopeanBit |
+         shownBit<SilhouetteParams>(input.knobs, shared::kInkSilhouette) |
+         shownBit<BoundaryParams>(input.knobs, shared::kInkBoundary) |
+         shownBit<MaterialBorderParams>(input.knobs, shared::kInkMaterial) |
+         shownBit<CreaseParams>(input.knobs, shared::kInkCrease) |
+         shownBit<ColorBorderParams>(input.knobs, shared::kInkColor);
 }
 
 class Lines : public Pass {
@@ -76,7 +81,6 @@ class Lines : public Pass {
     }
     frame.step("ink-lines", [this](VkCommandBuffer commands) { finder_.record(commands); });
     frame.use(frame.get(kVertices), gpu::Use::storageBufferRead);
-    frame.use(frame.get(kDepth), gpu::Use::sampledByCompute);
     const gpu::Handle numbers =
         frame.use(frame.graph().importBuffer("ink lines"), gpu::Use::storageBufferWrite);
     const gpu::Handle command =
@@ -86,7 +90,7 @@ class Lines : public Pass {
     frame.use(frame.get(kVertices), gpu::Use::storageBufferReadByVertex);
     frame.use(numbers, gpu::Use::storageBufferReadByVertex);
     frame.use(command, gpu::Use::indirectBuffer);
-    depth_ = frame.use(frame.get(kDepth), gpu::Use::sampledByDraw);
+    depth_ = frame.use(frame.get(kDepth), gpu::Use::sampledByFragment);
     shadowed_ = frame.use(frame.get(kShadowed), gpu::Use::sampledByFragment);
     strokes_.declare(frame, "ink", kBytes);
     frame.give(kStrokes, strokes_.image());
@@ -100,32 +104,26 @@ class Lines : public Pass {
     lines_ = frame.uniform(frame.scene().materialCount() * sizeof(shared::InkLine));
     finder_.create(frame, uniforms_, lines_);
     layout_ = gpu::SetLayout(frame.device(),
-                             {{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}});
+                             {{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT},
+                              {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}});
     set_ = gpu::DescriptorSets(frame.device(), layout_);
-    gpu::GraphicsPipelineDesc desc;
-    desc.vertex = {shaders::ink_line_vert};
-    desc.fragment = {shaders::ink_line_frag};
-    desc.constants.resize(size_t(shared::kViewCountId) + 1);
-    desc.constants.back() = configuration_.viewCount;
-    desc.colorFormats = {kBytes};
-    desc.blend = gpu::Blend::greatest;
-    desc.viewMask = configuration_.views().mask();
-    desc.sets = {frame.frameLayout().handle(), finder_.layout().handle(), layout_.handle()};
-    desc.pushConstantBytes = 4;
-    pipeline_ = gpu::Pipeline(frame.device(), desc);
   }
 
   void bind(const gpu::GraphResources& resources) override {
     resources_ = &resources;
     if (!isShown_) return;
-    finder_.bind(resources.image(depth_));
+    finder_.bind();
     const VkSampler exact = frame_->samplers().get({VK_FILTER_NEAREST});
+    set_.rewriteTexture(0, shared::kInkDepth, resources.image(depth_).view(), exact);
     set_.rewriteTexture(0, shared::kInkShadowed, resources.image(shadowed_).view(), exact);
   }
 
   void update(const FrameInput& input) override {
     if (!isShown_) return;
-    uniforms_.write(inkUniforms(input, configuration_.viewCount));
+    uniforms_.write(inkUniforms(input));
+    choices_ = inkChoices(input);
+    finder_.specialise(choices_);
+    if (!pipelines_.contains(choices_)) pipelines_[choices_] = makePipeline(choices_);
     const InkParams params = input.knobs.scene<InkParams>();
     auto* const lines = reinterpret_cast<shared::InkLine*>(lines_.mapped);
     for (size_t m = 0; m < input.scene.materialCount(); ++m) {
@@ -136,15 +134,31 @@ class Lines : public Pass {
   }
 
  private:
+  gpu::Pipeline makePipeline(uint32_t choices) const {
+    gpu::GraphicsPipelineDesc desc;
+    desc.vertex = {shaders::ink_line_vert};
+    desc.fragment = {shaders::ink_line_frag};
+    desc.constants.resize(size_t(shared::kPassId) + 1);
+    desc.constants[size_t(shared::kViewCountId)] = configuration_.viewCount;
+    desc.constants[size_t(shared::kPassId)] = choices;
+    desc.colorFormats = {kBytes};
+    desc.blend = gpu::Blend::greatest;
+    desc.viewMask = configuration_.views().mask();
+    desc.sets = {frame_->frameLayout().handle(), finder_.layout().handle(), layout_.handle()};
+    desc.pushConstantBytes = 4;
+    return gpu::Pipeline(frame_->device(), desc);
+  }
+
   void record(VkCommandBuffer commands) const {
     const gpu::Target ink = strokes_.target(*resources_);
     gpu::drawViews(commands, configuration_.views(), {&ink, 1}, nullptr, [&](uint32_t firstView) {
       if (!isShown_ || finder_.isEmpty()) return;
-      pipeline_.bind(commands);
-      pipeline_.bindSet(commands, 0, frame_->frameSet());
-      pipeline_.bindSet(commands, 1, finder_.set());
-      pipeline_.bindSet(commands, 2, set_[0]);
-      pipeline_.push(commands, firstView);
+      const gpu::Pipeline& pipeline = pipelines_.at(choices_);
+      pipeline.bind(commands);
+      pipeline.bindSet(commands, 0, frame_->frameSet());
+      pipeline.bindSet(commands, 1, finder_.set());
+      pipeline.bindSet(commands, 2, set_[0]);
+      pipeline.push(commands, firstView);
       vkCmdDrawIndirect(commands, finder_.command(), 0, 1, 0);
     });
   }
@@ -161,7 +175,8 @@ class Lines : public Pass {
   const gpu::GraphResources* resources_ = nullptr;
   gpu::SetLayout layout_;
   gpu::DescriptorSets set_;
-  gpu::Pipeline pipeline_;
+  uint32_t choices_ = 0;
+  std::map<uint32_t, gpu::Pipeline> pipelines_;  // by choices
 };
 
 }  // namespace

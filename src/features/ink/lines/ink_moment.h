@@ -8,11 +8,12 @@ namespace scumble::ink {
 
 class InkMoment : public world::FeatureMoment {
  public:
+  explicit InkMoment(gpu::Device& device) : device_(device) {}
   bool follow(const scene::SceneData&, const world::FeaturePlan&) override { return true; }
   void find(const std::vector<GeometryItem>& items) override { edges_.find(items); }
   bool place(gpu::Uploader& uploader, const std::vector<GeometryItem>& items,
              const std::vector<GeometryPlace>& places, const std::function<void()>& settle) override {
-    return edges_.update(uploader, items, places, settle);
+    return edges_.update(device_, uploader, items, places, settle);
   }
   // Lines follow from final vertices.
   void pose(const look::LookData&, const stage::KnobTable&, double, const world::FeatureMoment*) override {}
@@ -20,6 +21,7 @@ class InkMoment : public world::FeatureMoment {
   const EdgesOnGpu& edges() const { return edges_; }
 
  private:
+  gpu::Device& device_;
   EdgesOnGpu edges_;
 };
 

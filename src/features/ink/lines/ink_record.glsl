@@ -1,15 +1,12 @@
-// How a line looks in a view: found once for each, by ink_record.comp, as many as there is room for; of others
-// by each of its vertices.
+// How a line looks in a view: found once for each, by ink_record.comp as many as there is room for; of others by each of its vertices.
 #ifndef SCUMBLE_INK_RECORD_GLSL
 #define SCUMBLE_INK_RECORD_GLSL
 #include "../ink_edge.glsl"
-#include "ink_seen.glsl"
 
 layout(set = 1, binding = kInkNumbers, scalar) readonly buffer Numbers { uint numbers[]; };
 layout(set = 1, binding = kInkFrames, scalar) readonly buffer Frames { VertexFrame frames[]; };
 layout(set = 1, binding = kInkLines, scalar) readonly buffer Lines { InkLine lines[]; };
 
-const float kShort = 6.0;  // pixels
 const float kNear = 1e-4;  // of clip w, against the ends of lines behind the eye
 
 struct End {
@@ -32,13 +29,13 @@ LineRecord recordOf(uint number, int view) {
   EdgeChunk chunk = chunks[number / uint(kEdgeChunk)];
   DrawnEdge drawn = edges[chunk.firstEdge + number % uint(kEdgeChunk)];
   PlacedEdge edge = placed(drawn, chunk.firstVertex);
-  vec4 eye = ink.eyes[min(view, ink.eyeCount - 1)];
+  vec4 eye = eyeOf(view);
   int kind = kindOf(edge, eye);
   ObjectData object = objects[chunk.object];
   InkLine line = lines[object.material];
   vec3 middle = 0.5 * (edge.a + edge.b), toEye = eye.xyz - eye.w * middle;
   // What is seen from behind alone is hidden by the rest of it, but for open sheets.
-  float wound = determinant(mat3(object.model)) < 0.0 ? -1.0 : 1.0;
+  float wound = object.influences == 0u && determinant(mat3(object.model)) < 0.0 ? -1.0 : 1.0;  // skins ignore it
   bool isTurned = wound * dot(edge.left, toEye) <= 0.0 && (edge.isOpen || wound * dot(edge.right, toEye) <= 0.0);
   if (line.isSingle != 0u && isTurned) kind = kInkNone;
 
@@ -79,8 +76,8 @@ LineRecord recordOf(uint number, int view) {
   vec3 edgeNormal = wound * (edge.left * inversesqrt(max(dot(edge.left, edge.left), 1e-37)) +
                              edge.right * inversesqrt(max(dot(edge.right, edge.right), 1e-37)));
   edgeNormal *= inversesqrt(max(dot(edgeNormal, edgeNormal), 1e-37));
-  int weights = ink.weights;
-  if (weights == kInkHybrid) weights = !edge.isOpen && bendOf(edge) > ink.cosSmooth ? kInkByVertex : kInkByTangent;
+  int weights = kWeights;
+  if (kWeights == kInkHybrid) weights = !edge.isOpen && bendOf(edge) > ink.cosSmooth ? kInkByVertex : kInkByTangent;
   InkKind style = ink.kinds[kind];
   float radii[2];
   for (int i = 0; i < 2; ++i) {
@@ -93,8 +90,8 @@ LineRecord recordOf(uint number, int view) {
     }
     float pixelsOfOne = abs(toPixels.y / VIEW_FIELD(ndcToEyeRay, view).y);  // at one metre's distance
     float scale = frame.pixelScale;
-    if (ink.unit == kInkMetres) scale = pixelsOfOne / (VIEW_FIELD(orthographic, view) != 0.0 ? 1.0 : ends[i].clip.w);
-    if (ink.unit == kInkDegrees) scale = radians(1.0) * pixelsOfOne;
+    if (kUnit == kInkMetres) scale = pixelsOfOne / mix(ends[i].clip.w, 1.0, VIEW_FIELD(orthographic, view));
+    if (kUnit == kInkDegrees) scale = radians(1.0) * pixelsOfOne;
     radii[i] = 0.5 * widthOf(normal) * style.width * line.width * scale;
   }
 
@@ -123,13 +120,6 @@ LineRecord recordOf(uint number, int view) {
   record.color = vec4(mix(line.color, style.color, style.colorAmount), line.ownColor * (1.0 - style.colorAmount));
   record.outward = vec3(across, isOutline ? 1.0 : 0.0);
 
-  // Of short lines it is enough to know it at their ends.
-  record.fullness = vec2(-1.0);
-  if (size < kShort) {
-    for (int i = 0; i < 2; ++i)
-      record.fullness[i] = fullnessAt(at[i], record.radii[2 + i], across, isOutline, radii[i], view);
-    if (record.fullness == vec2(0.0)) return record;
-  }
   record.isDrawn = 1u;
   return record;
 }

@@ -3,11 +3,11 @@
 #define SCUMBLE_INK_SEEN_GLSL
 #include "../../../shading/frame.glsl"
 
-layout(set = 1, binding = kInkDepth) uniform sampler2DArray depth;
+layout(set = 2, binding = kInkDepth) uniform sampler2DArray depth;
 
-// By how much a depth-buffer value may be greater than an edge's own before it hides it: what rounding does, and what
-// levels of detail leave out.
-const float kTolerance = 1.0015;
+// By how much something may be before an edge and hide nothing, as a part of its distance, or (in parallel projections) of
+// the scene's radius: what rounding does, and what levels of detail leave out.
+const float kTolerance = 0.0015;
 
 float depthAt(vec2 place, int view) {
   return texelFetch(depth, ivec3(clamp(place, vec2(0.0), frame.imageSize - 1.0), view), 0).r;
@@ -20,12 +20,15 @@ float depthAt(vec2 place, int view) {
 // than the edge. So there is nothing to fight with about depths, and a line is hidden over its whole width at once.
 float fullnessAt(vec2 place, float own, vec2 outward, bool isOutline, float radius, int view) {
   float beyond = min(depthAt(place + 1.5 * outward, view), depthAt(place + 2.6 * outward, view));
-  if (min(beyond, depthAt(place - 1.5 * outward, view)) > own * kTolerance) return 0.0;
+  float parallel = VIEW_FIELD(orthographic, view);  // mixed and not chosen by: no branch on a uniform
+  float distance = eyeDepth(own, view);
+  float metresOfPixel = abs(VIEW_FIELD(ndcToEyeRay, view).y) * 2.0 / frame.imageSize.y * mix(distance, 1.0, parallel);
+  // On both sides of a line in a valley the surface comes nearer.
+  float tolerance = kTolerance * mix(distance, frame.sceneRadius, parallel) + (isOutline ? 0.0 : 3.0 * metresOfPixel);
+  if (eyeDepth(min(beyond, depthAt(place - 1.5 * outward, view)), view) < distance - tolerance) return 0.0;
   if (!isOutline) return 1.0;
   // An outline tapers where the form goes on right behind it, so that it neither begins nor ends at once.
-  float distance = eyeDepth(own, view), behind = min(eyeDepth(beyond, view), 1e6 * distance) - distance;
-  float metresOfPixel = abs(VIEW_FIELD(ndcToEyeRay, view).y) * 2.0 / frame.imageSize.y *
-                        (VIEW_FIELD(orthographic, view) != 0.0 ? 1.0 : distance);
+  float behind = min(eyeDepth(beyond, view), 1e6 * distance) - distance;
   float full = 2.0 * ink.fade * max(radius, 0.5) * metresOfPixel;
   float fullness = mix(1.0, ink.outer, smoothstep(0.1, 0.4, behind / frame.sceneRadius));
   return full > 0.0 ? fullness * smoothstep(0.0, 1.0, behind / full) : fullness;

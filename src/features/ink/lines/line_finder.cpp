@@ -27,22 +27,9 @@ void LineFinder::create(frame::FrameBuilder& frame, const frame::UniformSlice& u
       {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_VERTEX_BIT});
   bindings[shared::kInkBlock].type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
   bindings[shared::kInkBlock].stages |= VK_SHADER_STAGE_FRAGMENT_BIT;
-  bindings[shared::kInkDepth].type = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-  bindings[shared::kInkDepth].stages |= VK_SHADER_STAGE_FRAGMENT_BIT;
   layout_ = gpu::SetLayout(frame.device(), std::move(bindings));
   set_ = gpu::DescriptorSets(frame.device(), layout_);
   set_.writeBuffer(0, shared::kInkBlock, uniforms.buffer, uniforms.offset, uniforms.size);
-  gpu::ComputePipelineDesc desc;
-  desc.sets = {frame.frameLayout().handle(), layout_.handle()};
-  desc.pushConstantBytes = 4;
-  desc.constants.resize(size_t(shared::kViewCountId) + 1);
-  desc.constants.back() = frame.configuration().viewCount;
-  desc.shader = {shaders::ink_find_comp};
-  find_ = gpu::Pipeline(frame.device(), desc);
-  desc.shader = {shaders::ink_list_comp};
-  list_ = gpu::Pipeline(frame.device(), desc);
-  desc.shader = {shaders::ink_record_comp};
-  records_ = gpu::Pipeline(frame.device(), desc);
   set_.writeBuffer(0, shared::kInkLines, lines.buffer, lines.offset, lines.size);
   recordsOfLines_ =
       gpu::Buffer(frame.device(),
@@ -56,26 +43,46 @@ void LineFinder::create(frame::FrameBuilder& frame, const frame::UniformSlice& u
   set_.writeBuffer(0, shared::kInkCommand, command_.handle());
 }
 
-void LineFinder::bind(const gpu::Image& depth) {
-  set_.rewriteTexture(0, shared::kInkDepth, depth.view(), frame_->samplers().get({VK_FILTER_NEAREST}));
+void LineFinder::specialise(uint32_t choices) {
+  choices_ = choices;
+  Pipelines& pipelines = pipelines_[choices];
+  if (pipelines.find) return;
+  gpu::ComputePipelineDesc desc;
+  desc.sets = {frame_->frameLayout().handle(), layout_.handle()};
+  desc.pushConstantBytes = 4;
+  desc.constants.resize(size_t(shared::kPassId) + 1);
+  desc.constants[size_t(shared::kViewCountId)] = frame_->configuration().viewCount;
+  desc.constants[size_t(shared::kPassId)] = choices;
+  desc.shader = {shaders::ink_find_comp};
+  pipelines.find = gpu::Pipeline(frame_->device(), desc);
+  desc.shader = {shaders::ink_list_comp};
+  pipelines.list = gpu::Pipeline(frame_->device(), desc);
+  desc.shader = {shaders::ink_record_comp};
+  pipelines.record = gpu::Pipeline(frame_->device(), desc);
+}
+
+void LineFinder::bind() {
   if (isEmpty()) return;
   const world::SceneOnGpu& scene = frame_->scene();
+  const auto make = [&](uint64_t numbers) {
+    return gpu::Buffer(frame_->device(), numbers * sizeof(uint32_t),
+                       VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                       gpu::MemoryKind::device);
+  };
+  const uint64_t lines = std::max<uint64_t>(1, edges()->edgeCount());  // at most
+  if (numbers_.size() < lines * sizeof(uint32_t)) {
+    numbers_ = make(lines);
+    set_.writeBuffer(0, shared::kInkNumbers, numbers_.handle());
+  }
   const uint32_t chunks = edges()->chunkCount();
   if (chunks_ < chunks) {
     chunks_ = chunks;
-    const auto make = [&](uint64_t numbers) {
-      return gpu::Buffer(frame_->device(), numbers * sizeof(uint32_t),
-                         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
-                         gpu::MemoryKind::device);
-    };
     const uint32_t words = chunks * uint32_t(shared::kInkWordsOfChunk);
     words_ = make(words);
     sums_ = make(words + 1);
-    numbers_ = make(uint64_t(chunks) * shared::kEdgeChunk);
     sum_ = gpu::PrefixSum(frame_->device(), sums_, words + 1);
     set_.writeBuffer(0, shared::kInkWords, words_.handle());
     set_.writeBuffer(0, shared::kInkSums, sums_.handle());
-    set_.writeBuffer(0, shared::kInkNumbers, numbers_.handle());
   }
   set_.writeBuffer(0, shared::kInkEdges, edges()->edges().handle());
   set_.writeBuffer(0, shared::kInkChunks, edges()->chunks().handle());
@@ -94,9 +101,10 @@ void LineFinder::record(VkCommandBuffer commands) const {
     pipeline.push(commands, chunks);
     gpu::dispatch(commands, chunks);
   };
-  run(find_);
+  const Pipelines& pipelines = pipelines_.at(choices_);
+  run(pipelines.find);
   sum_.record(commands, chunks * uint32_t(shared::kInkWordsOfChunk) + 1);
-  run(list_);
+  run(pipelines.list);
   // How each of them looks.
   VkMemoryBarrier2 listed{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
   listed.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
@@ -107,9 +115,9 @@ void LineFinder::record(VkCommandBuffer commands) const {
   dependency.memoryBarrierCount = 1;
   dependency.pMemoryBarriers = &listed;
   vkCmdPipelineBarrier2(commands, &dependency);
-  records_.bind(commands);
-  records_.bindSet(commands, 0, frame_->frameSet());
-  records_.bindSet(commands, 1, set_[0]);
+  pipelines.record.bind(commands);
+  pipelines.record.bindSet(commands, 0, frame_->frameSet());
+  pipelines.record.bindSet(commands, 1, set_[0]);
   vkCmdDispatchIndirect(commands, command_.handle(), offsetof(shared::InkCommand, groupsX));
 }
 

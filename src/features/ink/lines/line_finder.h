@@ -2,6 +2,8 @@
 // counted, and its numbers are listed in the order of edges, so that the same frame has the same bytes.
 #pragma once
 
+#include <map>
+
 #include "features/ink/ink.shared.h"
 #include "features/ink/lines/edges_on_gpu.h"
 #include "frame/pass.h"
@@ -14,10 +16,12 @@ class LineFinder {
   // `uniforms`: InkUniforms; `lines`: an InkLine for each material.
   void create(frame::FrameBuilder& frame, const frame::UniformSlice& uniforms,
               const frame::UniformSlice& lines);
-  // Whenever the scene's buffers, or the surfaces' depth buffer, are others.
-  void bind(const gpu::Image& depth);
+  // Whenever the scene's buffers are others.
+  void bind();
   // Whether there are no edges at all: nothing can be drawn then.
   bool isEmpty() const { return !edges() || edges()->chunkCount() == 0; }
+  // What shaders are specialised to (ink_choices.glsl); before record().
+  void specialise(uint32_t choices);
   // Finds them; what reads the set afterwards needs a barrier.
   void record(VkCommandBuffer commands) const;
   // What shaders that draw lines read (ink_edge.glsl), with how many vertices there are as an indirect draw.
@@ -33,7 +37,11 @@ class LineFinder {
   frame::FrameBuilder* frame_ = nullptr;
   gpu::SetLayout layout_;
   gpu::DescriptorSets set_;
-  gpu::Pipeline find_, list_, records_;
+  struct Pipelines {
+    gpu::Pipeline find, list, record;
+  };
+  std::map<uint32_t, Pipelines> pipelines_;  // by choices
+  uint32_t choices_ = 0;
   // A word of bits for 32 edges; how many are set in it, which become sums; numbers of edges that are lines.
   uint32_t chunks_ = 0;  // that there is room for
   gpu::Buffer words_, sums_, numbers_, command_, recordsOfLines_;

@@ -1,7 +1,8 @@
 // Lays ink over the picture.
-#include <algorithm>
+#include <cmath>
 
 #include "features/ink/ink.h"
+#include "features/ink/ink.shared.h"
 #include "features/ink/ink_knobs.h"
 #include "features/ink/over/ink_over.shared.h"
 #include "frame/image_step.h"
@@ -33,11 +34,11 @@ class Over : public Pass {
                                          {shared::kInkOverStrokes, frame.get(kStrokes), true},
                                          {shared::kInkOverWarp, frame.get(tears_ ? kWarp : kLit)},
                                          {shared::kInkOverTiles, frame.get(kTiles)},
-                                         {shared::kInkOverLight, frame.get(shadows_ ? kLight : kLit), true}},
+                                         {shared::kInkOverLight, frame.get(shadows_ ? kLight : kLit), true},
+                                         {shared::kInkOverDepth, frame.get(kDepth)}},
                               .outputs = {frame.image(name(), {.format = kHalves})},
-                              .fetches = 1 + 4 + 1 + 1 + (shadows_ ? 9 * 4u : 0),
-                              .uniformBytes = sizeof(shared::InkOverUniforms),
-                              .constants = {tears_, shadows_}})[0]);
+                              .fetches = 1 + 4 + 1 + 1 + (shadows_ ? 9 * 5 + 1u : 0),
+                              .uniformBytes = sizeof(shared::InkOverUniforms)})[0]);
   }
   void create(FrameBuilder& frame) override { step_.create(frame); }
   void bind(const gpu::GraphResources& resources) override { step_.bind(resources); }
@@ -45,14 +46,17 @@ class Over : public Pass {
     const InkParams params = input.knobs.scene<InkParams>();
     const ShadowShapeParams shadows = input.knobs.scene<ShadowShapeParams>();
     const glm::vec3 color = input.knobs.scene<LineParams>().color.linear;
-    // Edges of light are about a pixel and a half wide: lines that are thinner are lighter instead.
-    constexpr float kThinnest = 0.75f;
     const bool isShown = params.shown && shadows.shown;
-    const float radius =
-        isShown ? 0.25f * shadows.width * (params.least + params.greatest) * input.uniforms.pixelScale : 0;
-    step_.update(
-        shared::InkOverUniforms{params.warp, std::max(radius, kThinnest), std::min(radius / kThinnest, 1.0f),
-                                glm::sqrt(glm::mix(color, shadows.color.linear, shadows.colorAmount))});
+    const shared::ViewUniforms& view = input.uniforms.views[0];
+    const float pixelsOfOne = 0.5f * input.uniforms.imageSize.y / std::abs(view.ndcToEyeRay.y);
+    const bool inMetres = params.unit == shared::kInkMetres;
+    const float scale = inMetres                             ? pixelsOfOne
+                        : params.unit == shared::kInkDegrees ? glm::radians(1.0f) * pixelsOfOne
+                                                             : input.uniforms.pixelScale;
+    step_.setJobs({{{tears_, shadows_, inMetres}, {}}});
+    step_.update(shared::InkOverUniforms{
+        params.warp, isShown ? 0.25f * shadows.width * (params.least + params.greatest) * scale : 0,
+        glm::sqrt(glm::mix(color, shadows.color.linear, shadows.colorAmount))});
   }
 
  private:

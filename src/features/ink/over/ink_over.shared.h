@@ -6,10 +6,10 @@ SHARED_BEGIN
 struct InkOverUniforms {
   float warp;  // how far the warp moves ink, against other edges
   // Of lines around shadow shapes.
-  float shadowRadius;    // pixels
-  float shadowStrength;  // of thin ones below 1
-  vec3 shadowColor;      // square root
+  float shadowRadius;  // pixels; where widths are in metres, at a distance of one
+  vec3 shadowColor;    // square root
 };
-const int kInkOverPicture = 1, kInkOverStrokes = 2, kInkOverWarp = 3, kInkOverTiles = 4, kInkOverLight = 5;
+const int kInkOverPicture = 1, kInkOverStrokes = 2, kInkOverWarp = 3, kInkOverTiles = 4, kInkOverLight = 5,
+          kInkOverDepth = 6;
 SHARED_END
 #endif

@@ -1,8 +1,10 @@
 #include "features/watercolor/pigment/anchors_on_gpu.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "scene/parallel.h"
+#include "shading/frame.shared.h"
 #include "world/geometry.h"
 
 namespace scumble::watercolor {
@@ -10,8 +12,8 @@ namespace scumble::watercolor {
 namespace {
 
 // Candidates of all of a scene, and the least and the most of one primitive.
-constexpr double kCandidates = 160000;
-constexpr double kFewest = 400, kMost = 80000;
+constexpr double kCandidates = 131072;
+constexpr double kFewest = 512, kMost = 131072;
 
 bool isPainted(const GeometryItem& item) {
   return item.shown && !item.primitive->indices.empty();
@@ -20,41 +22,52 @@ bool isPainted(const GeometryItem& item) {
 }  // namespace
 
 void AnchorsOnGpu::find(const std::vector<GeometryItem>& items) {
-  // What part of the whole surface a primitive has at its largest place.
-  std::map<const scene::Primitive*, double> areas, largest;
-  double total = 0;
+  // What part of the whole surface each primitive is, at its largest place.
+  std::map<const scene::Primitive*, double> areas;
   for (const GeometryItem& item : items) {
     if (!isPainted(item)) continue;
-    const auto known = anchorsOf_.find(item.primitive);
-    const auto [area, isNew] = areas.try_emplace(item.primitive, 0.0);
-    if (isNew && (known == anchorsOf_.end() || !item.primitive->positions.empty()))
-      area->second = scene::areaOf(*item.primitive);
-    const double scale = largestScale(glm::mat3(item.model)), own = area->second * scale * scale;
-    // The ground is one loose wash, and not what the scene is.
-    if (item.node != GeometryItem::kNoNode) total += own;
-    largest[item.primitive] = std::max(largest[item.primitive], own);
+    const auto [spread, isNew] = spreads_.try_emplace(item.primitive);
+    if (isNew) spread->second.area = scene::areaOf(*item.primitive);
+    // Skins ignore where their nodes stand. The ground is one loose wash, and not what the scene is.
+    const double scale = item.skin >= 0 ? 1 : largestScale(glm::mat3(item.model));
+    double& area = areas[item.primitive];
+    if (item.node != GeometryItem::kNoNode) area = std::max(area, spread->second.area * scale * scale);
   }
-  std::erase_if(anchorsOf_, [&](const auto& entry) { return !areas.contains(entry.first); });
-  std::vector<std::pair<const scene::Primitive*, uint32_t>> missing;
-  for (const auto& [primitive, area] : largest)
-    if (!anchorsOf_.contains(primitive))
-      missing.push_back(
-          {primitive, uint32_t(std::clamp(kCandidates * area / std::max(total, 1e-30), kFewest, kMost))});
-  std::vector<std::vector<scene::SurfaceAnchor>> found(missing.size());
-  scene::parallelFor(missing.size(), scene::threadCount(0), [&](size_t i) {
-    found[i] =
-        scene::anchorsOf(*missing[i].first, missing[i].second, uint32_t(missing[i].first->indices.size()));
+  std::erase_if(spreads_, [&](const auto& entry) { return !areas.contains(entry.first); });
+  double total = 0;
+  for (const auto& [primitive, area] : areas) total += area;
+
+  std::vector<std::pair<const scene::Primitive*, Spread*>> changed;
+  for (const auto& [primitive, area] : areas) {
+    // In powers of two, so that small changes change nothing.
+    const double share = kCandidates * area / std::max(total, 1e-30);
+    const uint32_t candidates = std::bit_ceil(uint32_t(std::clamp(share, kFewest, kMost)));
+    Spread& spread = spreads_.at(primitive);
+    if (spread.candidates == candidates) continue;
+    spread.candidates = candidates;
+    changed.push_back({primitive, &spread});
+  }
+  scene::parallelFor(changed.size(), scene::threadCount(0), [&](size_t i) {
+    const auto& [primitive, spread] = changed[i];
+    spread->anchors = scene::anchorsOf(*primitive, spread->candidates, uint32_t(primitive->indices.size()));
   });
-  for (size_t i = 0; i < missing.size(); ++i) anchorsOf_[missing[i].first] = std::move(found[i]);
 }
 
-bool AnchorsOnGpu::update(gpu::Uploader& uploader, const std::vector<GeometryItem>& items,
-                          const std::vector<GeometryPlace>& places, const std::function<void()>& settle) {
+bool AnchorsOnGpu::update(gpu::Device& device, gpu::Uploader& uploader,
+                          const std::vector<GeometryItem>& items, const std::vector<GeometryPlace>& places,
+                          const std::function<void()>& settle) {
   std::vector<Known> known;
-  for (size_t i = 0; i < items.size(); ++i)
-    known.push_back({items[i].primitive, places[i].firstVertex, largestScale(glm::mat3(items[i].model)),
-                     isPainted(items[i])});
+  uint64_t vertices = 0;
+  for (size_t i = 0; i < items.size(); ++i) {
+    const bool isShown = isPainted(items[i]);
+    known.push_back({items[i].primitive, places[i].firstVertex,
+                     isShown ? spreads_.at(items[i].primitive).candidates : 0, isShown});
+    vertices = std::max(vertices, uint64_t(places[i].firstVertex) + items[i].primitive->vertexCount());
+  }
   if (anchors_.handle() && known == known_) return false;
+  // What shaders read at once must fit into what the device binds.
+  if (vertices * sizeof(shared::VertexCore) > device.limits().maxStorageBufferRange)
+    throw gpu::VulkanError{"a watercolour of so large a scene", VK_ERROR_OUT_OF_DEVICE_MEMORY};
   known_ = std::move(known);
 
   std::vector<shared::DrawnAnchor> anchors;
@@ -62,14 +75,14 @@ bool AnchorsOnGpu::update(gpu::Uploader& uploader, const std::vector<GeometryIte
   std::map<const scene::Primitive*, uint32_t> firstOf;
   for (const Known& item : known_) {
     if (!item.shown) continue;
-    const std::vector<scene::SurfaceAnchor>& own = anchorsOf_.at(item.primitive);
+    const std::vector<scene::SurfaceAnchor>& own = spreads_.at(item.primitive).anchors;
     const auto [first, isNew] = firstOf.try_emplace(item.primitive, uint32_t(anchors.size()));
     if (isNew)
       for (const scene::SurfaceAnchor& a : own)
-        anchors.push_back({a.a, a.b, a.c, a.toB, a.toC, a.spacing, a.seed});
+        anchors.push_back({a.a, a.b, a.c, a.toB, a.toC, a.spacing, a.area, a.seed});
     for (uint32_t i = 0; i < own.size(); i += shared::kAnchorChunk)
       chunks.push_back({first->second + i, std::min(uint32_t(own.size()) - i, uint32_t(shared::kAnchorChunk)),
-                        item.firstVertex, item.scale});
+                        item.firstVertex});
   }
   settle();
   const auto upload = [&]<class T>(const std::vector<T>& array, gpu::Buffer& buffer) {

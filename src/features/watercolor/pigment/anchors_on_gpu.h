@@ -16,11 +16,11 @@ using namespace world;
 
 class AnchorsOnGpu {
  public:
-  // Spreads anchors over primitives that are new, while their vertices are there: so many over all of the
-  // scene, by area.
+  // Spreads anchors over primitives while their vertices are there, so many over all of them, by area; those
+  // that have as many as they should keep them.
   void find(const std::vector<GeometryItem>& items);
   // True where the buffers have other names.
-  bool update(gpu::Uploader& uploader, const std::vector<GeometryItem>& items,
+  bool update(gpu::Device& device, gpu::Uploader& uploader, const std::vector<GeometryItem>& items,
               const std::vector<GeometryPlace>& places, const std::function<void()>& settle);
 
   uint32_t chunkCount() const { return chunkCount_; }
@@ -29,11 +29,15 @@ class AnchorsOnGpu {
   VkBuffer chunks() const { return chunks_.handle(); }
 
  private:
-  std::map<const scene::Primitive*, std::vector<scene::SurfaceAnchor>> anchorsOf_;
+  struct Spread {
+    double area = 0;          // in mesh space
+    uint32_t candidates = 0;  // that the anchors were chosen from
+    std::vector<scene::SurfaceAnchor> anchors;
+  };
+  std::map<const scene::Primitive*, Spread> spreads_;
   struct Known {
     const scene::Primitive* primitive;
-    uint32_t firstVertex;
-    float scale;
+    uint32_t firstVertex, anchors;
     bool shown;
     bool operator==(const Known&) const = default;
   };
@@ -44,11 +48,12 @@ class AnchorsOnGpu {
 
 class WatercolorMoment : public FeatureMoment {
  public:
+  explicit WatercolorMoment(gpu::Device& device) : device_(device) {}
   bool follow(const scene::SceneData&, const FeaturePlan&) override { return true; }
   void find(const std::vector<GeometryItem>& items) override { anchors_.find(items); }
   bool place(gpu::Uploader& uploader, const std::vector<GeometryItem>& items,
              const std::vector<GeometryPlace>& places, const std::function<void()>& settle) override {
-    return anchors_.update(uploader, items, places, settle);
+    return anchors_.update(device_, uploader, items, places, settle);
   }
   // Anchors follow from final vertices.
   void pose(const look::LookData&, const stage::KnobTable&, double, const FeatureMoment*) override {}
@@ -56,6 +61,7 @@ class WatercolorMoment : public FeatureMoment {
   const AnchorsOnGpu& anchors() const { return anchors_; }
 
  private:
+  gpu::Device& device_;
   AnchorsOnGpu anchors_;
 };
 

@@ -31,7 +31,7 @@ class Pigment : public Pass {
     frame.step(name(), [this](VkCommandBuffer commands) { record(commands); });
     if (isShown_) {
       frame.use(frame.get(kVertices), gpu::Use::storageBufferReadByVertex);
-      depth_ = frame.use(frame.get(kDepth), gpu::Use::sampledByDraw);
+      depth_ = frame.use(frame.get(kDepth), gpu::Use::sampledByFragment);
     }
     gpu::ImageShape shape{.format = kBytes, .overX = shared::kPigmentScale, .overY = shared::kPigmentScale};
     image_ = frame.use(frame.image("pigment", shape), gpu::Use::colorTarget);
@@ -47,13 +47,12 @@ class Pigment : public Pass {
     uniforms_ = frame.uniform(sizeof(shared::PigmentUniforms));
     constexpr VkShaderStageFlags kVertex = VK_SHADER_STAGE_VERTEX_BIT,
                                  kFragment = VK_SHADER_STAGE_FRAGMENT_BIT;
-    layout_ =
-        gpu::SetLayout(frame.device(), {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kVertex | kFragment},
-                                        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
-                                        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
-                                        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
-                                        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kVertex | kFragment},
-                                        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment}});
+    layout_ = gpu::SetLayout(frame.device(), {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kVertex | kFragment},
+                                              {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
+                                              {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
+                                              {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
+                                              {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment},
+                                              {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment}});
     set_ = gpu::DescriptorSets(frame.device(), layout_);
     set_.writeBuffer(0, shared::kPigmentBlock, uniforms_.buffer, uniforms_.offset, uniforms_.size);
     gpu::GraphicsPipelineDesc desc;

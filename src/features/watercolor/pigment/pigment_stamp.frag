@@ -15,6 +15,8 @@ layout(location = 0) in vec2 inPlace;
 layout(location = 1) flat in vec4 inStamp;
 layout(location = 2) flat in vec4 inChance;
 
+layout(location = 3) flat in vec3 inMiddle;
+
 layout(location = 0) out vec4 outPigment;
 
 void main() {
@@ -24,6 +26,15 @@ void main() {
   float apart = abs(there - inStamp.x) / max(inStamp.y, 1e-12);
   float counts = inStamp.z * (1.0 - smoothstep(0.8, 1.6, apart));
   if (counts <= 0.0) discard;
+  // The anchor is hidden by what is nearer, by how many of a few places around it: the whole stamp fades (section 3.6).
+  float seen = 0.0;
+  for (int i = 0; i < 5; ++i) {
+    vec2 beside = i == 0 ? vec2(0.0) : 0.25 * inMiddle.z * vec2((i & 1) * 2 - 1, (i >> 1 & 1) * 2 - 1);
+    ivec2 at = ivec2(clamp(inMiddle.xy + beside, vec2(0.0), frame.imageSize - 1.0));
+    float nearest = eyeDepth(texelFetch(depth, ivec3(at, viewIndex()), 0).r, viewIndex());
+    seen += nearest > inStamp.x - inStamp.y ? 0.2 : 0.0;
+  }
+  counts *= seen;
 
   float turnedBy = inStamp.w, away = length(inPlace);
   vec2 turned = mat2(cos(turnedBy), sin(turnedBy), -sin(turnedBy), cos(turnedBy)) * inPlace;

@@ -69,18 +69,17 @@ class Wash : public Pass {
                 .outputs = {frame.image("density", kQuarter)},
                 .fetches = 4 * 4,
                 .uniformBytes = kBytesOfBlock})[0];
-    const auto blur = [&](ImageStep& step, gpu::Handle from, const char* to, uint32_t alongY) {
+    const auto blur = [&](ImageStep& step, gpu::Handle from, const char* to) {
       return step.declare(frame,
                           {.name = name(),
                            .shader = {{shaders::wash_blur_image_frag}, {shaders::wash_blur_image_comp}},
                            .inputs = {{shared::kWashBlurred, from}},
                            .outputs = {frame.image(to, kQuarter)},
                            .fetches = 7,
-                           .uniformBytes = kBytesOfBlock,
-                           .constants = {alongY}})[0];
+                           .uniformBytes = kBytesOfBlock})[0];
     };
     const gpu::Handle blurred =
-        blur(blurY_, blur(blurX_, density, "density blurred along x", 0), "density blurred", 1);
+        blur(blurY_, blur(blurX_, density, "density blurred along x"), "density blurred");
     frame.give(kPicture,
                wash_.declare(frame, {.name = name(),
                                      .shader = {{shaders::wash_image_frag}, {shaders::wash_image_comp}},
@@ -117,6 +116,11 @@ class Wash : public Pass {
       u.paperLight[view] = paperLight(input, view);
     }
     for (ImageStep* const step : steps_) step->update(u);
+    // Two and a half deviations, as wash_blur.image.glsl has them.
+    const float deviation = std::max(0.5f * u.edgeWidth / float(shared::kPigmentScale), 0.35f);
+    const uint32_t reach = uint32_t(std::min(std::ceil(2.5f * deviation), 24.0f));
+    blurX_.setJobs({{{0, reach}, {}}});
+    blurY_.setJobs({{{1, reach}, {}}});
     const ExampleTexture& paper = frame_->examples().get(input.look, p.paper);
     // The mip level that has about a texel a pixel, since all of the picture has the same.
     const float level = std::round(std::log2(float(paper.width) / std::max(u.paperSize, 1.0f)));

@@ -29,7 +29,7 @@ vec4 shade(ivec2 pixel, int layer) {
   vec2 at = own + u.wobble * clamp(5.0 * slope + 2.5 * broad, -1.5, 1.5);
   vec2 uv = clamp(at, vec2(0.5), frame.imageSize - 0.5) / frame.imageSize;
   vec4 color = textureLod(soFar, vec3(uv, layer), 0.0);
-  vec3 density = densityOf(color.rgb, u.white), around = textureLod(blurred, vec3(uv, layer), 0.0).rgb;
+  vec3 density = densityOf(onPaper(color, u.white), u.white), around = textureLod(blurred, vec3(uv, layer), 0.0).rgb;
   vec3 brush = textureLod(pigment, vec3(uv, layer), 0.0).rgb * 2.0 - 1.0;
 
   // Wet washes run into each other, dry ones stop.
@@ -53,12 +53,11 @@ vec4 shade(ivec2 pixel, int layer) {
   wash *= 1.0 - u.dryBrush * thin * smoothstep(0.02, 0.2, height + 0.25 * brush.x - 0.1 * wet);
   // The painting runs out before the frame ends, in an edge of its own.
   vec2 side = min(own, frame.imageSize - own) / frame.imageSize.y;
-  if (u.margin > 0.0) {
-    vec2 inner = max(vec2(3.2 * u.margin) - side, 0.0);
-    float inside = 3.2 * u.margin - length(inner) + 0.9 * u.margin * (2.2 * broad.x + 0.8 * broad.y + 0.6 * height);
-    float ends = smoothstep(0.0, 0.22 * u.margin, inside - u.margin);
-    wash *= ends * (1.0 + 0.8 * u.edges * ends * (1.0 - smoothstep(0.0, 0.5 * u.margin, inside - u.margin)));
-  }
+  float margin = max(u.margin, 1e-6);
+  vec2 inner = max(vec2(3.2 * margin) - side, 0.0);
+  float beyond = 2.2 * margin - length(inner) + 0.9 * margin * (2.2 * broad.x + 0.8 * broad.y + 0.6 * height);
+  float ends = smoothstep(0.0, 0.22 * margin, beyond);
+  wash *= ends * (1.0 + 0.8 * u.edges * ends * (1.0 - smoothstep(0.0, 0.5 * margin, beyond)));
   vec3 result = u.white * exp(-u.strength * wash);
   // Light on the paper (section 4.2): as bright on the whole as without relief.
   vec3 towards = u.paperLight[view] - vec3(own / frame.imageSize * 2.0 - 1.0, 0.0);

@@ -15,7 +15,7 @@ vec4 shade(ivec2 pixel, int layer) {
   for (int i = 0; i < 4; ++i) {
     vec2 at = vec2(pixel * kPigmentScale) + vec2(i & 1, i >> 1) * 2.0 + 1.0;
     vec4 color = textureLod(soFar, vec3(at / frame.imageSize, layer), 0.0);
-    sum += vec4(densityOf(color.rgb, u.white), color.a);
+    sum += vec4(densityOf(onPaper(color, u.white), u.white), 1.0);
   }
   return 0.25 * sum;
 }

@@ -1,0 +1,12 @@
+// What ink's shaders are specialised to.
+#ifndef SCUMBLE_INK_CHOICES_GLSL
+#define SCUMBLE_INK_CHOICES_GLSL
+#include "../../shading/geometry_constants.shared.h"
+#include "ink.shared.h"
+
+layout(constant_id = kPassId) const int kChoices = 0;
+const int kUnit = kChoices >> kInkUnitBit & 3, kWeights = kChoices >> kInkWeightsBit & 3;
+const int kPlacement = kChoices >> kInkPlacementBit & 1;
+const bool kCyclopean = (kChoices >> kInkCyclopeanBit & 1) != 0;
+bool isShown(int kind) { return (kChoices >> (kInkKindsBit + kind) & 1) != 0; }
+#endif
