@@ -48,15 +48,12 @@ const std::pair<std::string, Knobs> kNeeds[] = {
     {"ground.strokes", {{"ground.mode", "on"}, {"background.mode", "look"}}},
     {"ground.tint", {{"ground.mode", "on"}, {"background.mode", "look"}}},
     {"ink.", {{"ink.shown", "on"}, {"ink.greatest", "200"}, {"ink.least", "100"}}},
-    {"ink.boundaries.color", {{"ink.boundaries.colorAmount", "1"}}},
-    {"ink.colors.", {{"ink.colors.shown", "on"}}},
-    {"ink.colors.color", {{"ink.colors.colorAmount", "1"}}},
-    {"ink.creases.color", {{"ink.creases.colorAmount", "1"}}},
+    {"ink.boundaries.color", {{"ink.boundaries.color", "#FF2020"}, {"ink.boundaries.colorAmount", "1"}}},
+    {"ink.creases.color", {{"ink.creases.color", "#FF2020"}, {"ink.creases.colorAmount", "1"}}},
     {"ink.cyclopean", {{"ink.placement", "centred"}}},
-    {"ink.materials.color", {{"ink.materials.colorAmount", "1"}}},
     {"ink.shadows.", {{"ink.shadows.shown", "on"}, {"blur.radius", "128"}}},
-    {"ink.shadows.color", {{"ink.shadows.colorAmount", "1"}}},
-    {"ink.silhouettes.color", {{"ink.silhouettes.colorAmount", "1"}}},
+    {"ink.shadows.color", {{"ink.shadows.color", "#FF2020"}, {"ink.shadows.colorAmount", "1"}}},
+    {"ink.silhouettes.color", {{"ink.silhouettes.color", "#FF2020"}, {"ink.silhouettes.colorAmount", "1"}}},
     {"ink.smoothAngle", {{"ink.weights", "hybrid"}}},
     {"ink.warp", {{"warp.amount", "64"}, {"warp.inflation", "64"}}},
     {"light.azimuth", {{"light.source", "look"}}},
@@ -114,7 +111,7 @@ const std::pair<std::string, Knobs> kNeeds[] = {
     {"watercolor.edgeWidth", {{"watercolor.edges", "8"}, {"watercolor.bleeding", "1"}}},
     {"watercolor.generator", {{"watercolor.turbulence", "4"}, {"watercolor.spacing", "400"}}},
     {"watercolor.margin", {{"watercolor.strength", "4"}}},
-    {"watercolor.paperMotion", {{"watercolor.relief", "4"}}},
+    {"watercolor.paperMotion", {{"watercolor.relief", "4"}, {"watercolor.granulation", "4"}}},
     {"volume.", {{"colorizers.A.grade.tint", "#40FF20"}}},
     {"volume.length", {{"colorizers.A.volume.shape", "capsule"}}},
     {"volume.node", {{"colorizers.A.volume.radius", "2"}}},
@@ -137,18 +134,30 @@ const std::pair<std::string, Knobs> kNeeds[] = {
 };
 
 // Values besides the ends, where the default is one of them or nothing.
-const std::map<std::string, std::string> kBetween = {
-    {"camera.target", "Buoy"}, {"ocean.metatexture.contrast", "off"},
-    {"ocean.mode", "on"},      {"play.start", "0.3"},
-    {"volume.node", "Buoy"},   {"volume.rotation", "30,40,50"},
-    {"warp.boil", "0.4"},      {"water.every", "0.5"},
-    {"water.node", "Buoy"}};
+const std::map<std::string, std::string> kBetween = {{"camera.target", "Buoy"},
+                                                     {"ocean.metatexture.contrast", "off"},
+                                                     {"ocean.mode", "on"},
+                                                     {"play.start", "0.3"},
+                                                     {"volume.node", "Buoy"},
+                                                     {"volume.rotation", "30,40,50"},
+                                                     {"warp.boil", "0.4"},
+                                                     {"water.every", "0.5"},
+                                                     {"watercolor.paperMotion", "turn"},
+                                                     {"water.node", "Buoy"}};
 
 // Knobs that cannot show here, each with the reason.
 const std::map<std::string, std::string> kUnseen = {
     {"breakup.metatexture.cyclopean", "marks lie by the tangents that warp.metatexture chooses"},
     {"breakup.metatexture.gradients", "marks lie by the tangents that warp.metatexture chooses"},
     {"breakup.metatexture.radial", "marks lie by the tangents that warp.metatexture chooses"},
+    {"ink.colors.color", "no mesh here has borders of vertex colours; ink_test.cpp draws some"},
+    {"ink.colors.colorAmount", "the same"},
+    {"ink.colors.shown", "the same"},
+    {"ink.colors.width", "the same"},
+    {"ink.materials.color", "no mesh here has two materials; ink_test.cpp draws one"},
+    {"ink.materials.colorAmount", "the same"},
+    {"ink.materials.shown", "the same"},
+    {"ink.materials.width", "the same"},
     {"ocean.metatexture.orient",
      "seen along -z, strokes of the sea run across the foreshortening as they are"},
     {"palette.planes", "a scene of many colours has none of it"}};

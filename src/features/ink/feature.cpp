@@ -12,7 +12,8 @@ namespace {
 class InkPlan : public world::FeaturePlan {
  public:
   bool equals(const world::FeaturePlan&) const override { return true; }
-  std::unique_ptr<world::FeatureMoment> makeMoment(gpu::Device& device, const scene::SceneData&) const override {
+  std::unique_ptr<world::FeatureMoment> makeMoment(gpu::Device& device,
+                                                   const scene::SceneData&) const override {
     return std::make_unique<InkMoment>(device);
   }
 };

@@ -132,6 +132,55 @@ TEST_P(Ink, bordersOfMaterialsAreLines) {
     }
 }
 
+// Where vertex colours differ on both ends of an edge, with a width and a colour of their own.
+TEST_P(Ink, bordersOfColorsAreLines) {
+  TestMesh mesh;
+  append(mesh, gridMesh({-1, -1, 0}, {1, 0, 0}, {0, 2, 0}, 3), {1, 0.2f, 0.2f, 1});
+  append(mesh, gridMesh({0, -1, 0}, {1, 0, 0}, {0, 2, 0}, 3), {0.2f, 0.2f, 1, 1});
+  const Scene scene = oneThing(mesh).load();
+  const auto views = viewsFrom(scene, {{0.3f, 0.2f, 5}}, kWidth, kHeight, GetParam());
+  const Knobs shown{{"ink.colors.shown", "on"},
+                    {"ink.colors.width", "1"},
+                    {"ink.colors.color", "#00FF00"},
+                    {"ink.colors.colorAmount", "1"}};
+  const Frame with = drawLines(scene, evenLines(shown), views),
+              without = drawLines(scene, evenLines(), views);
+  for (size_t v = 0; v < viewCount(); ++v)
+    for (const double y : {-0.7, -0.2, 0.4}) {
+      const glm::dvec2 at = pixelOf(views[v], {0, y, 0}, kWidth, kHeight);
+      EXPECT_GT(ink(with, v, at), 0.9);
+      EXPECT_EQ(ink(without, v, at), 0.0);
+      const glm::dvec4 color = texel(aov(with, "", v), int(at.x), int(at.y));
+      EXPECT_GT(color.y, 0.85);
+      EXPECT_LT(color.x, 0.15);
+    }
+}
+
+// Inner lines in valleys are seen, whatever the size of the picture, in perspective and without it; and lines
+// behind something are not, also in parallel projections.
+TEST_P(Ink, valleysAndParallelProjections) {
+  TestScene s;
+  const int material = s.material(TestScene::colored("Thing", {0.6f, 0.5f, 0.4f, 1}));
+  TestMesh corner;
+  append(corner, gridMesh({-1, -1, 0}, {1, 0, -1}, {0, 2, 0}, 1), {1, 1, 1, 1});
+  append(corner, gridMesh({0, -1, -1}, {1, 0, 1}, {0, 2, 0}, 1), {1, 1, 1, 1});
+  s.add(corner, material);
+  s.add(boxMesh({-0.3f, -0.6f, 0.8f}, {0.3f, -0.2f, 1}), material);
+  const Scene scene = s.load();
+  auto views = viewsFrom(scene, {{0, 0, 6}, {0, 0, 0}, 34, 0, 0.05f}, kWidth, kHeight, GetParam());
+  for (int parallel = 0; parallel < 2; ++parallel) {
+    if (parallel)
+      for (View& view : views) view = parallelView(1.6f, float(kWidth) / kHeight);
+    const Frame frame =
+        drawLines(scene, evenLines({{"ink.creases.shown", "on"}, {"ink.creases.width", "1"}}), views);
+    for (size_t v = 0; v < viewCount(); ++v) {
+      EXPECT_GT(ink(frame, v, pixelOf(views[v], {0, 0.5, -1}, kWidth, kHeight)), 0.9) << parallel;
+      EXPECT_GT(ink(frame, v, pixelOf(views[v], {0, 0.1, -1}, kWidth, kHeight)), 0.9) << parallel;
+      EXPECT_EQ(ink(frame, v, pixelOf(views[v], {0, -0.4, 0.9}, kWidth, kHeight)), 0.0) << parallel;
+    }
+  }
+}
+
 // Lines of a box that stands behind another one; both are far enough apart to say which.
 TEST_P(Ink, hiddenLinesAreNotSeen) {
   TestScene s;
