@@ -264,7 +264,7 @@ TEST_P(Ink, unitsOfWidths) {
     for (int y = 0; y < kHeight / 2; ++y) sum += ink(frame, 0, {x, y});
     return sum;
   };
-  const auto pixelsOfOne = [&](float fov) { return kHeight / 2 / std::tan(fov * std::numbers::pi / 360); };
+  const auto pixelsOfOne = [&](float fov) { return 0.5 * kHeight / std::tan(fov * std::numbers::pi / 360); };
   EXPECT_NEAR(width("pixels", "36", 6, 40), 4, 0.1);
   for (const float distance : {4.0f, 8.0f})
     EXPECT_NEAR(width("metres", "0.2", distance, 40), 0.2 * pixelsOfOne(40) / (distance - 0.1), 0.15);
