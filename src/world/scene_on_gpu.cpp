@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 #include <tuple>
 
 #include "scene/drop_vertices.h"
@@ -417,7 +418,10 @@ std::array<SetTexture, 4> SceneOnGpu::textures(size_t material) const {
 
 void SceneOnGpu::setMaterial(size_t material, const shared::MaterialData& data) {
   const bool hasHoles = alphaMode(this->material(material)) != AlphaMode::opaque;
-  if (hasHoles && std::memcmp(&materialData(material), &data, sizeof(data)) != 0) ++castersVersion_;
+  // To the bit, padding and all: it was copied so.
+  const auto bytesOf = [](const shared::MaterialData& of) { return std::as_bytes(std::span(&of, 1)); };
+  const auto now = bytesOf(data), before = bytesOf(materialData(material));
+  if (hasHoles && !std::equal(now.begin(), now.end(), before.begin())) ++castersVersion_;
   std::memcpy(materialData_.contents() + material * kMaterialStride, &data, sizeof(data));
 }
 
