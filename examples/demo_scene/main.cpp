@@ -1,5 +1,4 @@
 // demo_scene OUT.glb: writes the demo picture, a gaff-rigged boat coming home in low sun.
-#include <cstdio>
 
 #include "mesh_kit/glb_writer.h"
 #include "parts.h"
@@ -45,17 +44,5 @@ Document makeScene() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2 || argv[1][0] == '-') {
-    std::fprintf(stderr, "usage: demo_scene OUT.glb\n");
-    return 2;
-  }
-  const Document document = makeScene();
-  const std::string problem = meshkit::writeGlb(document, argv[1], "scumble demo_scene");
-  if (!problem.empty()) {
-    std::fprintf(stderr, "demo_scene: error: %s\n", problem.c_str());
-    return 5;
-  }
-  std::printf("%s: %zu triangles, %zu meshes, %zu materials\n", argv[1], document.triangleCount(),
-              document.meshes.size(), document.materials.size());
-  return 0;
+  return meshkit::generate(argc, argv, "demo_scene", makeScene);
 }

@@ -1,5 +1,4 @@
 // henry_room OUT.glb: writes a round room in the late morning, with a cake, a hedgehog and some magic.
-#include <cstdio>
 
 #include "mesh_kit/glb_writer.h"
 #include "parts.h"
@@ -46,17 +45,5 @@ Document makeScene() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2 || argv[1][0] == '-') {
-    std::fprintf(stderr, "usage: henry_room OUT.glb\n");
-    return 2;
-  }
-  const Document document = makeScene();
-  const std::string problem = meshkit::writeGlb(document, argv[1], "scumble henry_room");
-  if (!problem.empty()) {
-    std::fprintf(stderr, "henry_room: error: %s\n", problem.c_str());
-    return 5;
-  }
-  std::printf("%s: %zu triangles, %zu meshes, %zu materials\n", argv[1], document.triangleCount(),
-              document.meshes.size(), document.materials.size());
-  return 0;
+  return meshkit::generate(argc, argv, "henry_room", makeScene);
 }

@@ -277,4 +277,20 @@ std::string writeGlb(const Document& document, const std::string& path, const st
   return {};
 }
 
+int generate(int argc, char** argv, const char* name, Document (*makeScene)()) {
+  if (argc != 2 || argv[1][0] == '-') {
+    std::fprintf(stderr, "usage: %s OUT.glb\n", name);
+    return 2;
+  }
+  const Document document = makeScene();
+  const std::string problem = writeGlb(document, argv[1], std::string("scumble ") + name);
+  if (!problem.empty()) {
+    std::fprintf(stderr, "%s: error: %s\n", name, problem.c_str());
+    return 5;
+  }
+  std::printf("%s: %zu triangles, %zu meshes, %zu materials\n", argv[1], document.triangleCount(),
+              document.meshes.size(), document.materials.size());
+  return 0;
+}
+
 }  // namespace meshkit

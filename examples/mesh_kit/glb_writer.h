@@ -11,4 +11,8 @@ namespace meshkit {
 // Returns an empty string, or what went wrong.
 std::string writeGlb(const Document& document, const std::string& path, const std::string& generator);
 
+// The whole of a program `NAME OUT.glb` that writes one scene: says what is in it, or what is wrong. Returns
+// the exit code.
+int generate(int argc, char** argv, const char* name, Document (*makeScene)());
+
 }  // namespace meshkit

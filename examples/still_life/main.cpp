@@ -1,7 +1,6 @@
 // still_life OUT.glb: writes a table by a window: a jug with poppies, a bowl of fruit, a bottle, a cut lemon
 // on a cloth. Round forms, few colours and much white, for washes and for lines.
 #include <cmath>
-#include <cstdio>
 
 #include "mesh_kit/glb_writer.h"
 #include "mesh_kit/mesh_builder.h"
@@ -321,17 +320,5 @@ Document makeScene() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 2 || argv[1][0] == '-') {
-    std::fprintf(stderr, "usage: still_life OUT.glb\n");
-    return 2;
-  }
-  const Document document = makeScene();
-  const std::string problem = writeGlb(document, argv[1], "scumble still_life");
-  if (!problem.empty()) {
-    std::fprintf(stderr, "still_life: error: %s\n", problem.c_str());
-    return 5;
-  }
-  std::printf("%s: %zu triangles, %zu meshes, %zu materials\n", argv[1], document.triangleCount(),
-              document.meshes.size(), document.materials.size());
-  return 0;
+  return meshkit::generate(argc, argv, "still_life", makeScene);
 }

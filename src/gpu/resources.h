@@ -1,6 +1,7 @@
 // Buffers and images that own their memory, and the way data gets into them.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -101,6 +102,15 @@ class Uploader {
   ~Uploader();
   // A new buffer on the device; the caller writes its contents to *target before the next flush().
   Buffer reserve(uint64_t size, VkBufferUsageFlags usage, std::byte** target);
+  // A new storage buffer that holds an array; of one element's size where that is empty.
+  template <class T>
+  Buffer storage(std::span<const T> array) {
+    std::byte* target = nullptr;
+    Buffer buffer = reserve(std::max<uint64_t>(sizeof(T), array.size_bytes()),
+                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &target);
+    std::copy(array.begin(), array.end(), reinterpret_cast<T*>(target));
+    return buffer;
+  }
   // Where the caller writes, before the next flush(), what is to be at an offset of a buffer that reserve()
   // has made; no frame under way may read that.
   std::byte* rewrite(Buffer& buffer, uint64_t offset, uint64_t size);

@@ -71,9 +71,12 @@ namespace scumble::ink {
 #undef INK_KIND_SHOWN
 #undef INK_KIND_WIDTH
 
-// Whether a look draws lines at any time.
-bool mayShow(const look::LookData& look);
-// Whether those are around shadow shapes as well.
-bool mayShowShadows(const look::LookData& look);
+// Whether a look, at its time, draws lines, and such around shadow shapes.
+inline bool mayShow(const look::LookData& look) {
+  return look.get<InkParams>().shown;
+}
+inline bool mayShowShadows(const look::LookData& look) {
+  return mayShow(look) && look.get<ShadowShapeParams>().shown;
+}
 
 }  // namespace scumble::ink

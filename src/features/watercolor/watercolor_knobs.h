@@ -1,8 +1,6 @@
 // Knobs of watercolours.
 #pragma once
 
-#include <algorithm>
-
 #include "look/look_data.h"
 
 namespace scumble::watercolor {
@@ -13,12 +11,9 @@ namespace scumble::watercolor {
 #define PARAMS_TARGETS kScene
 #include "look/define_params.h"
 
-// Whether a look is a watercolour at any time.
+// Whether a look, at its time, is a watercolour.
 inline bool mayShow(const look::LookData& look) {
-  if (look.get<WatercolorParams>().shown) return true;
-  return std::any_of(look.assignments.begin(), look.assignments.end(), [](const look::Assignment& a) {
-    return a.block == &WatercolorParams::block() && std::string_view(a.row->name) == "shown" && a.track;
-  });
+  return look.get<WatercolorParams>().shown;
 }
 
 }  // namespace scumble::watercolor

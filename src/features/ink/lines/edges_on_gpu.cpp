@@ -140,15 +140,10 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
   if (largest > device.limits().maxStorageBufferRange)
     throw gpu::VulkanError{"lines of so large a scene", VK_ERROR_OUT_OF_DEVICE_MEMORY};
   settle();
-  const auto upload = [&]<class T>(const std::vector<T>& array, gpu::Buffer& buffer) {
-    std::byte* target = nullptr;
-    buffer = {};
-    buffer = uploader.reserve(std::max<size_t>(1, array.size()) * sizeof(T),
-                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &target);
-    std::copy(array.begin(), array.end(), reinterpret_cast<T*>(target));
-  };
-  upload(edges, edges_);
-  upload(chunks, chunks_);
+  // What was there goes first.
+  edges_ = {}, chunks_ = {};
+  edges_ = uploader.storage<shared::DrawnEdge>(edges);
+  chunks_ = uploader.storage<shared::EdgeChunk>(chunks);
   chunkCount_ = uint32_t(chunks.size());
   return true;
 }

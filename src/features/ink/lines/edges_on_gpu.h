@@ -31,7 +31,6 @@ class EdgesOnGpu {
   // shared::DrawnEdge, and shared::EdgeChunk.
   const gpu::Buffer& edges() const { return edges_; }
   const gpu::Buffer& chunks() const { return chunks_; }
-  uint64_t bytes() const { return edges_.size() + chunks_.size(); }
 
  private:
   // Items that are one mesh at one place.

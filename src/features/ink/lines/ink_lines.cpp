@@ -124,11 +124,10 @@ class Lines : public Pass {
     choices_ = inkChoices(input);
     finder_.specialise(choices_);
     if (!pipelines_.contains(choices_)) pipelines_[choices_] = makePipeline(choices_);
-    const InkParams params = input.knobs.scene<InkParams>();
     auto* const lines = reinterpret_cast<shared::InkLine*>(lines_.mapped);
     for (size_t m = 0; m < input.scene.materialCount(); ++m) {
       const LineParams line = input.knobs.of<LineParams>(m);
-      lines[m] = {params.shown ? line.width : 0, glm::sqrt(line.color.linear), line.ownColor,
+      lines[m] = {line.width, glm::sqrt(line.color.linear), line.ownColor,
                   uint32_t(!input.scene.material(m).doubleSided)};
     }
   }

@@ -28,7 +28,6 @@ class LineFinder {
   const gpu::SetLayout& layout() const { return layout_; }
   VkDescriptorSet set() const { return set_[0]; }
   VkBuffer command() const { return command_.handle(); }
-  VkBuffer numbers() const { return numbers_.handle(); }
 
  private:
   // Null where the scene, as it is now, has no lines.

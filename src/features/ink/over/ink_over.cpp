@@ -46,7 +46,6 @@ class Over : public Pass {
     const InkParams params = input.knobs.scene<InkParams>();
     const ShadowShapeParams shadows = input.knobs.scene<ShadowShapeParams>();
     const glm::vec3 color = input.knobs.scene<LineParams>().color.linear;
-    const bool isShown = params.shown && shadows.shown;
     const shared::ViewUniforms& view = input.uniforms.views[0];
     const float pixelsOfOne = 0.5f * input.uniforms.imageSize.y / std::abs(view.ndcToEyeRay.y);
     const bool inMetres = params.unit == shared::kInkMetres;
@@ -54,9 +53,9 @@ class Over : public Pass {
                         : params.unit == shared::kInkDegrees ? glm::radians(1.0f) * pixelsOfOne
                                                              : input.uniforms.pixelScale;
     step_.setJobs({{{tears_, shadows_, inMetres}, {}}});
-    step_.update(shared::InkOverUniforms{
-        params.warp, isShown ? 0.25f * shadows.width * (params.least + params.greatest) * scale : 0,
-        glm::sqrt(glm::mix(color, shadows.color.linear, shadows.colorAmount))});
+    step_.update(
+        shared::InkOverUniforms{params.warp, 0.25f * shadows.width * (params.least + params.greatest) * scale,
+                                glm::sqrt(glm::mix(color, shadows.color.linear, shadows.colorAmount))});
   }
 
  private:

@@ -85,15 +85,10 @@ bool AnchorsOnGpu::update(gpu::Device& device, gpu::Uploader& uploader,
                         item.firstVertex});
   }
   settle();
-  const auto upload = [&]<class T>(const std::vector<T>& array, gpu::Buffer& buffer) {
-    std::byte* target = nullptr;
-    buffer = {};
-    buffer = uploader.reserve(std::max<size_t>(1, array.size()) * sizeof(T),
-                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &target);
-    std::copy(array.begin(), array.end(), reinterpret_cast<T*>(target));
-  };
-  upload(anchors, anchors_);
-  upload(chunks, chunks_);
+  // What was there goes first.
+  anchors_ = {}, chunks_ = {};
+  anchors_ = uploader.storage<shared::DrawnAnchor>(anchors);
+  chunks_ = uploader.storage<shared::AnchorChunk>(chunks);
   chunkCount_ = uint32_t(chunks.size());
   return true;
 }
