@@ -23,7 +23,9 @@ constexpr std::string_view kSupported[] = {"EXT_mesh_gpu_instancing",
                                            "KHR_materials_pbrSpecularGlossiness",
                                            "KHR_materials_unlit",
                                            "KHR_mesh_quantization",
-                                           "KHR_texture_transform"};
+                                           "KHR_texture_transform",
+                                           "VRM",
+                                           "VRMC_materials_mtoon"};
 
 // Extensions without which the scene is still itself, only plainer: required or not, they end in a warning.
 constexpr std::string_view kOnlyLooks[] = {"KHR_materials_", "EXT_materials_", "MSFT_texture_",

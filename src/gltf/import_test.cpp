@@ -63,6 +63,54 @@ TEST(Scene, materials) {
   EXPECT_EQ(scene.warnings().size(), 1u);
 }
 
+// Of both of VRM's versions, with their units and their colours' spaces.
+TEST(Scene, mtoonsOutlinesAreRead) {
+  TestGltf g = quad();
+  g.json["materials"] = {{{"extensions",
+                           {{"VRMC_materials_mtoon",
+                             {{"outlineWidthMode", "screenCoordinates"},
+                              {"outlineWidthFactor", 0.01},
+                              {"outlineColorFactor", {1, 0.5, 0}},
+                              {"outlineLightingMixFactor", 0.25}}}}}}};
+  g.json["meshes"][0]["primitives"][0]["material"] = 0;
+  {
+    const Scene scene = loaded(g);
+    const std::optional<Outline>& outline = scene.data().materials[1].outline;
+    ASSERT_TRUE(outline);
+    EXPECT_EQ(outline->unit, Outline::Unit::pictureHeights);
+    EXPECT_FLOAT_EQ(outline->width, 0.01f);
+    EXPECT_EQ(outline->color, glm::vec3(1, 0.5f, 0));
+    EXPECT_FLOAT_EQ(outline->lightingMix, 0.25f);
+  }
+  // VRM 0: centimetres and sRGB.
+  g.json["materials"] = {Json::object()};
+  g.json["extensions"]["VRM"]["materialProperties"] = {
+      {{"shader", "VRM/MToon"},
+       {"floatProperties",
+        {{"_OutlineWidthMode", 1},
+         {"_OutlineWidth", 0.5},
+         {"_OutlineColorMode", 1},
+         {"_OutlineLightingMix", 0.5}}},
+       {"vectorProperties", {{"_OutlineColor", {0.5, 0, 0, 1}}}}}};
+  {
+    const Scene scene = loaded(g);
+    const std::optional<Outline>& outline = scene.data().materials[1].outline;
+    ASSERT_TRUE(outline);
+    EXPECT_EQ(outline->unit, Outline::Unit::metres);
+    EXPECT_FLOAT_EQ(outline->width, 0.005f);
+    EXPECT_NEAR(outline->color.x, 0.2140411f, 1e-5f);
+    EXPECT_FLOAT_EQ(outline->lightingMix, 0.5f);
+  }
+  // What is broken costs the outline alone.
+  for (const Json& broken :
+       {Json(3), Json{{"materialProperties", 1}}, Json{{"materialProperties", {1}}},
+        Json{{"materialProperties", {{{"shader", "VRM/MToon"}, {"floatProperties", 7}}}}}}) {
+    g.json["extensions"]["VRM"] = broken;
+    const Scene scene = loaded(g);
+    EXPECT_FALSE(scene.data().materials[1].outline) << broken;
+  }
+}
+
 // Whole sets of colours: by a texture's number, as an object or alone, or by an image's name or file.
 TEST(Scene, setsOfColoursFromExtras) {
   TestGltf g = quad();

@@ -51,7 +51,8 @@ class MaterialReader {
  public:
   MaterialReader(const Import& import, SceneData& scene) : import_(import), scene_(scene) {}
 
-  Material read(const JsonView& json) {
+  // `number`: in the file.
+  Material read(const JsonView& json, size_t number) {
     Material m;
     m.metallic = 1.0f;  // the specification's default, where a material is given
     m.name = json.text("name");
@@ -76,6 +77,7 @@ class MaterialReader {
 
     const JsonView extensions = json.object("extensions");
     if (extensions) readExtensions(extensions, m);
+    m.outline = outlineOf(extensions, number);
     m.baseColor = glm::clamp(m.baseColor, glm::vec4(0.0f), glm::vec4(1.0f));
     m.emissive = glm::clamp(m.emissive, glm::vec3(0.0f), glm::vec3(1e6f));
     readExtras(json, m);
@@ -94,6 +96,54 @@ class MaterialReader {
       m.metallic = 0.0f;
       m.roughness = 1.0f - std::clamp(specular.number("glossinessFactor", 1.0f), 0.0f, 1.0f);
     }
+  }
+
+  std::optional<Outline> outlineOf(const JsonView& extensions, size_t number) const {
+    try {
+      if (extensions)
+        if (const JsonView mtoon = extensions.object("VRMC_materials_mtoon")) return outlineOfVrm1(mtoon);
+      // VRM 0 has it beside the materials.
+      if (const JsonView vrm = import_.document.root().extension("VRM"))
+        if (const JsonView all = vrm.list("materialProperties"); all && number < all.size())
+          if (const JsonView mtoon = all.at(number); mtoon.text("shader") == "VRM/MToon")
+            return outlineOfVrm0(mtoon);
+    } catch (const ImportFailure& failure) {
+      import_.warnings.add(failure.error.jsonPath,
+                           "a material's outline is ignored: " + failure.error.problem);
+    }
+    return std::nullopt;
+  }
+
+  static Outline bounded(Outline outline) {
+    outline.width = std::clamp(outline.width, 0.0f, 1000.0f);
+    outline.color = glm::clamp(outline.color, glm::vec3(0.0f), glm::vec3(1.0f));
+    outline.lightingMix = std::clamp(outline.lightingMix, 0.0f, 1.0f);
+    return outline;
+  }
+  static Outline outlineOfVrm1(const JsonView& mtoon) {
+    Outline outline;
+    const std::string mode = mtoon.text("outlineWidthMode", "none");
+    if (mode == "screenCoordinates") outline.unit = Outline::Unit::pictureHeights;
+    if (mode != "none") outline.width = mtoon.number("outlineWidthFactor", 0.0f);
+    mtoon.numbers("outlineColorFactor", &outline.color.x, 3);
+    outline.lightingMix = mtoon.number("outlineLightingMixFactor", 1.0f);
+    return bounded(outline);
+  }
+  // Centimetres, or percent of half the picture's height; colours in sRGB.
+  static Outline outlineOfVrm0(const JsonView& mtoon) {
+    Outline outline;
+    const JsonView numbers = mtoon.object("floatProperties"), vectors = mtoon.object("vectorProperties");
+    const float mode = numbers ? numbers.number("_OutlineWidthMode", 0.0f) : 0.0f;
+    const bool isOnScreen = mode == 2.0f;
+    if (isOnScreen) outline.unit = Outline::Unit::pictureHeights;
+    if (mode == 1.0f || isOnScreen)
+      outline.width = numbers.number("_OutlineWidth", 0.5f) * (isOnScreen ? 0.005f : 0.01f);
+    glm::vec4 color(0.0f, 0.0f, 0.0f, 1.0f);
+    if (vectors) vectors.numbers("_OutlineColor", &color.x, 4);
+    for (int c = 0; c < 3; ++c) outline.color[c] = linearOf(std::clamp(color[c], 0.0f, 1.0f));
+    const bool isMixed = numbers && numbers.number("_OutlineColorMode", 0.0f) == 1.0f;
+    outline.lightingMix = isMixed ? numbers.number("_OutlineLightingMix", 1.0f) : 0.0f;
+    return bounded(outline);
   }
 
   TextureUse textureUse(const JsonView& parent, const char* key) {
@@ -232,7 +282,7 @@ void readMaterials(const Import& import, SceneData& scene) {
     Material material;
     try {
       if (used[i + 1])
-        material = reader.read(list.at(i));
+        material = reader.read(list.at(i), i);
       else
         material.name = list.at(i).text("name");
     } catch (const ImportFailure& failure) {

@@ -45,6 +45,15 @@ struct TextureUse {
 
 enum class AlphaMode : uint8_t { opaque, mask, blend };
 
+// A material's own outline, as MToon has it (VRM 0 and 1).
+struct Outline {
+  // In metres of the world, or in parts of the picture's height.
+  enum class Unit : uint8_t { metres, pictureHeights } unit = Unit::metres;
+  float width = 0.0f;        // 0: none is drawn
+  glm::vec3 color{0.0f};     // linear
+  float lightingMix = 1.0f;  // 0: the colour as it is; 1: times the surface's
+};
+
 struct Material {
   std::string name;
   glm::vec4 baseColor{1.0f};  // linear; a factor on the texture
@@ -62,6 +71,7 @@ struct Material {
   // Whole sets of colours for light and for shadow, from extras as well (docs/scene.md). They lie on the
   // coordinates of baseColorTexture, and no factor acts on them.
   TextureUse litTexture, shadowedTexture;
+  std::optional<Outline> outline;
 };
 
 constexpr int kMaxMorphTargets = 64;

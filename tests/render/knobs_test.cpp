@@ -51,6 +51,7 @@ const std::pair<std::string, Knobs> kNeeds[] = {
     {"ink.boundaries.color", {{"ink.boundaries.color", "#FF2020"}, {"ink.boundaries.colorAmount", "1"}}},
     {"ink.creases.color", {{"ink.creases.color", "#FF2020"}, {"ink.creases.colorAmount", "1"}}},
     {"ink.cyclopean", {{"ink.placement", "centred"}}},
+    {"ink.doubledWidth", {{"ink.doubled", "40"}}},
     {"ink.shadows.", {{"ink.shadows.shown", "on"}, {"blur.radius", "128"}}},
     {"ink.shadows.color", {{"ink.shadows.color", "#FF2020"}, {"ink.shadows.colorAmount", "1"}}},
     {"ink.silhouettes.color", {{"ink.silhouettes.color", "#FF2020"}, {"ink.silhouettes.colorAmount", "1"}}},
@@ -158,6 +159,7 @@ const std::map<std::string, std::string> kUnseen = {
     {"ink.materials.colorAmount", "the same"},
     {"ink.materials.shown", "the same"},
     {"ink.materials.width", "the same"},
+    {"ink.ownOutlines", "no file here brings outlines; ink_test.cpp has one"},
     {"ocean.metatexture.orient",
      "seen along -z, strokes of the sea run across the foreshortening as they are"},
     {"palette.planes", "a scene of many colours has none of it"}};

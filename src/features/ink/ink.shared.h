@@ -17,7 +17,8 @@ struct InkKind {
 
 // Choices of ink.params, which are bits of a specialisation constant (ink_choices.glsl): what a uniform
 // decides CPU drivers compile anew for each of its values.
-const int kInkUnitBit = 0, kInkWeightsBit = 2, kInkPlacementBit = 4, kInkCyclopeanBit = 5, kInkKindsBit = 6;
+const int kInkUnitBit = 0, kInkWeightsBit = 2, kInkPlacementBit = 4, kInkCyclopeanBit = 5, kInkKindsBit = 6,
+          kInkDoubledBit = 16;
 const int kInkPixels = 0, kInkMetres = 1, kInkDegrees = 2;
 const int kInkByEdge = 0, kInkByVertex = 1, kInkByTangent = 2, kInkHybrid = 3;
 const int kInkExterior = 0, kInkCentred = 1;
@@ -28,11 +29,18 @@ struct InkLine {
   vec3 color;   // square root
   float ownColor;
   uint isSingle;  // 1: back faces are not seen
+  // The outline that the file gives it: its width, and in which unit (kInkPixels: in pictures' heights).
+  uint hasOutline, outlineUnit;
+  float outlineWidth;
+  vec3 outlineColor;  // square root
+  float outlineLight;
 };
 
 struct InkUniforms {
   float least, greatest;
-  float offset;  // pixels
+  float offset;   // pixels
+  float doubled;  // pixels
+  float doubledWidth;
   float cosSmooth, cosCrease;
   float fade;   // widths
   float outer;  // a factor
@@ -59,7 +67,7 @@ struct LineRecord {
   vec4 spine;    // both ends of the edge, pixels
   vec4 shift;    // where lines move that lie beside it, for each pixel; at both ends
   vec4 radii;    // at both ends, pixels; depth-buffer values there
-  vec4 color;    // square root; how much is the surface's own
+  vec4 color;    // square root; how much is the surface's own, or, below 0, is multiplied by that
   vec3 outward;  // unit, on the screen; 1: an outline
   vec2 caps;     // how far it goes on beyond both ends, for each pixel of its width
   uint isDrawn;

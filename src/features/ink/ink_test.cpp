@@ -318,6 +318,65 @@ TEST_P(Ink, colorsAreOfMaterialAndKind) {
              {1, 1, 1});
 }
 
+// A second outline lies at its distance from the first one, outside or inside, and is as wide as it should
+// be.
+TEST_P(Ink, outlinesAreDoubled) {
+  const Scene scene = oneThing(boxMesh({-1, -1, -1}, {1, 1, 1})).load();
+  const auto views = viewsFrom(scene, {{0, 0, 6}}, kWidth, kHeight, GetParam());
+  for (const double side : {1.0, -1.0}) {
+    const Frame frame = drawLines(
+        scene, evenLines({{"ink.doubled", std::to_string(72 * side)}, {"ink.doubledWidth", "0.5"}}), views);
+    for (size_t v = 0; v < viewCount(); ++v) {
+      const glm::dvec2 edge = pixelOf(views[v], {0, 1, 1}, kWidth, kHeight);
+      double first = 0, second = 0, elsewhere = 0;
+      for (double y = -16; y <= 16; ++y) {
+        const double at = y * side, covered = ink(frame, v, edge - glm::dvec2(0, y));
+        (std::abs(at) < 4 ? first : at > 4 && at < 12 ? second : elsewhere) += covered;
+      }
+      EXPECT_NEAR(first, 3, 0.1);
+      EXPECT_NEAR(second, 1.5, 0.1);
+      EXPECT_EQ(elsewhere, 0);
+    }
+  }
+}
+
+// MToon's outlines, of VRM 1 in metres and of VRM 0 in parts of the picture, are as wide as the file says,
+// with its colour; a look can ignore them.
+TEST_P(Ink, filesBringOutlines) {
+  const TestScene plain = oneThing(boxMesh({-1, -1, -0.1f}, {1, 1, 0.1f}));
+  TestScene vrm1 = plain, vrm0 = plain;
+  vrm1.json()["materials"][0]["extensions"]["VRMC_materials_mtoon"] = {
+      {"outlineWidthMode", "worldCoordinates"},
+      {"outlineWidthFactor", 0.2},
+      {"outlineColorFactor", {1, 0.25, 0}},
+      {"outlineLightingMixFactor", 0}};
+  vrm0.json()["extensions"]["VRM"]["materialProperties"] = {
+      {{"shader", "VRM/MToon"},
+       {"floatProperties", {{"_OutlineWidthMode", 2}, {"_OutlineWidth", 10}}},
+       {"vectorProperties", {{"_OutlineColor", {0, 0, 1, 1}}}}}};
+  struct Case {
+    const TestScene& scene;
+    const char* own;
+    double width;
+    glm::dvec3 color;
+  };
+  for (const Case& c : {Case{vrm1, "on", 0, {1, 0.25, 0}}, Case{vrm0, "on", 0.05 * kHeight, {0, 0, 1}},
+                        Case{vrm0, "off", 2 * kRadius, {0.013, 0.0103, 0.0116}}}) {
+    const Scene scene = c.scene.load();
+    const auto views = viewsFrom(scene, {{0, 0, 6}, {0, 0, 0}, 40}, kWidth, kHeight, GetParam());
+    const Frame frame = drawLines(scene, evenLines({{"ink.ownOutlines", c.own}}), views);
+    for (size_t v = 0; v < viewCount(); ++v) {
+      const glm::dvec2 edge = pixelOf(views[v], {0, 1, 0.1}, kWidth, kHeight);
+      double width = 0;
+      for (double y = 0; y < kHeight / 2.0; ++y) width += ink(frame, v, {edge.x, y});
+      const double metres = 0.2 * 0.5 * kHeight / std::tan(20 * std::numbers::pi / 180) / 5.9;
+      EXPECT_NEAR(width, c.width > 0 ? c.width : metres, 0.15);
+      const glm::dvec4 color = texel(aov(frame, "", v), int(edge.x), int(edge.y));
+      for (int i = 0; i < 3; ++i) EXPECT_NEAR(color[i], c.color[i], 0.012);
+    }
+  }
+}
+
 // Lines around shadow shapes lie where light meets shadow, and nowhere else.
 TEST_P(Ink, shadowShapesHaveOutlines) {
   TestScene s = oneThing(sphereMesh({0, 0, 0}, 1.3f, 48));

@@ -26,6 +26,12 @@ float nearestOn(vec2 from, vec2 to, vec2 point) {
   return clamp(dot(point - from, along) / max(dot(along, along), 1e-12), 0.0, 1.0);
 }
 
+// Lines that are thinner than a pixel are lighter instead.
+float coverageOf(float radius, float away) {
+  float drawn = max(radius, 0.5);
+  return radius / drawn * clamp(drawn - away + 0.5, 0.0, 1.0);
+}
+
 void main() {
   int view = viewIndex();
   vec2 pixel = gl_FragCoord.xy;
@@ -39,14 +45,18 @@ void main() {
   float moved = ink.offset * frame.pixelScale + (kPlacement == kInkExterior ? max(radius - overlap(), 0.0) : 0.0);
   vec4 line = inSpine + inShift * moved;
   float away = distance(pixel, mix(line.xy, line.zw, nearestOn(line.xy, line.zw, pixel)));
-  float drawn = max(radius, 0.5);  // thinner lines are lighter instead
-  float coverage = radius / drawn * clamp(drawn - away + 0.5, 0.0, 1.0);
+  float coverage = coverageOf(radius, away);
+  if (kDoubled && inOutward.z > 0.0) {
+    line = inSpine + inShift * (moved + ink.doubled * frame.pixelScale);
+    away = distance(pixel, mix(line.xy, line.zw, nearestOn(line.xy, line.zw, pixel)));
+    coverage = max(coverage, coverageOf(radius * ink.doubledWidth, away));
+  }
   if (coverage <= 0.0) discard;
   vec3 color = inColor.rgb;
-  if (inColor.a > 0.0) {
+  if (inColor.a != 0.0) {
     vec2 inside = clamp(spine - 2.0 * outward, vec2(0.0), frame.imageSize - 1.0);
     vec4 surface = texelFetch(shadowed, ivec3(inside, view), 0);
-    if (surface.a > 0.0) color = mix(color, 0.6 * surface.rgb / surface.a, inColor.a);
+    if (surface.a > 0.0) color = mix(color, (inColor.a > 0.0 ? vec3(0.6) : color) * surface.rgb / surface.a, abs(inColor.a));
   }
   outInk = coverage * vec4(1.0 - color, 1.0);
 }

@@ -40,6 +40,11 @@ void main() {
   }
   float reach = radius + moved / 0.7 + 1.0;
   inside = mix(inside, reach, float(ink.offset < 0.0));
+  if (isOutline && kDoubled) {
+    float second = abs(ink.doubled) * frame.pixelScale / 0.7 + radius * max(ink.doubledWidth, 1.0);
+    reach += second;
+    inside = mix(inside, max(inside, reach), float(ink.doubled < 0.0));
+  }
   bool isEnd = corner == 1 || corner == 2 || corner == 4, isUp = corner == 2 || corner == 4 || corner == 5;
   float beyond = (isEnd ? record.caps.y : record.caps.x) * (reach - 1.0) + 1.0;
   vec2 place = (isEnd ? record.spine.zw + direction * beyond : record.spine.xy - direction * beyond) +

@@ -31,6 +31,7 @@ shared::InkUniforms inkUniforms(const FrameInput& input) {
   shared::InkUniforms u{};
   u.least = params.least, u.greatest = params.greatest;
   u.offset = params.offset;
+  u.doubled = params.doubled, u.doubledWidth = params.doubledWidth;
   u.cosSmooth = std::cos(params.smoothAngle * kRadians);
   u.cosCrease = std::cos(params.creaseAngle * kRadians);
   u.fade = params.fade;
@@ -54,6 +55,7 @@ uint32_t inkChoices(const FrameInput& input) {
   return uint32_t(params.unit) << shared::kInkUnitBit | uint32_t(params.weights) << shared::kInkWeightsBit |
          uint32_t(params.placement) << shared::kInkPlacementBit |
          uint32_t(params.cyclopean) << shared::kInkCyclopeanBit |
+         uint32_t(params.doubled != 0 && params.doubledWidth > 0) << shared::kInkDoubledBit |
          shownBit<SilhouetteParams>(input.knobs, shared::kInkSilhouette) |
          shownBit<BoundaryParams>(input.knobs, shared::kInkBoundary) |
          shownBit<MaterialBorderParams>(input.knobs, shared::kInkMaterial) |
@@ -125,10 +127,19 @@ class Lines : public Pass {
     finder_.specialise(choices_);
     if (!pipelines_.contains(choices_)) pipelines_[choices_] = makePipeline(choices_);
     auto* const lines = reinterpret_cast<shared::InkLine*>(lines_.mapped);
+    const bool ownOutlines = input.knobs.scene<InkParams>().ownOutlines;
     for (size_t m = 0; m < input.scene.materialCount(); ++m) {
       const LineParams line = input.knobs.of<LineParams>(m);
-      lines[m] = {line.width, glm::sqrt(line.color.linear), line.ownColor,
-                  uint32_t(!input.scene.material(m).doubleSided)};
+      const scene::Material& material = input.scene.material(m);
+      lines[m] = {line.width, glm::sqrt(line.color.linear), line.ownColor, uint32_t(!material.doubleSided)};
+      if (!ownOutlines || !material.outline) continue;
+      const scene::Outline& outline = *material.outline;
+      lines[m].hasOutline = 1;
+      lines[m].outlineUnit =
+          outline.unit == scene::Outline::Unit::metres ? shared::kInkMetres : shared::kInkPixels;
+      lines[m].outlineWidth = outline.width;
+      lines[m].outlineColor = glm::sqrt(outline.color);
+      lines[m].outlineLight = outline.lightingMix;
     }
   }
 

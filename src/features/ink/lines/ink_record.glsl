@@ -80,6 +80,7 @@ LineRecord recordOf(uint number, int view) {
   if (kWeights == kInkHybrid) weights = !edge.isOpen && bendOf(edge) > ink.cosSmooth ? kInkByVertex : kInkByTangent;
   InkKind style = ink.kinds[kind];
   float radii[2];
+  bool hasOwn = kind == kInkSilhouette && line.hasOutline != 0u;
   for (int i = 0; i < 2; ++i) {
     vec3 normal = edgeNormal;
     if (weights == kInkByVertex) normal = ends[i].normal;
@@ -92,7 +93,13 @@ LineRecord recordOf(uint number, int view) {
     float scale = frame.pixelScale;
     if (kUnit == kInkMetres) scale = pixelsOfOne / mix(ends[i].clip.w, 1.0, VIEW_FIELD(orthographic, view));
     if (kUnit == kInkDegrees) scale = radians(1.0) * pixelsOfOne;
-    radii[i] = 0.5 * widthOf(normal) * style.width * line.width * scale;
+    float width = widthOf(normal) * scale;
+    if (hasOwn) {
+      width = line.outlineWidth * frame.imageSize.y;
+      if (line.outlineUnit == uint(kInkMetres))
+        width = line.outlineWidth * pixelsOfOne / mix(ends[i].clip.w, 1.0, VIEW_FIELD(orthographic, view));
+    }
+    radii[i] = 0.5 * width * style.width * line.width;
   }
 
   // Outlines may lie outside of the form. Ends move along normals of vertices, which lines that meet there share
@@ -117,7 +124,9 @@ LineRecord recordOf(uint number, int view) {
   }
   record.spine = vec4(at[0], at[1]);
   record.radii = vec4(radii[0], radii[1], ends[0].clip.z / ends[0].clip.w, ends[1].clip.z / ends[1].clip.w);
-  record.color = vec4(mix(line.color, style.color, style.colorAmount), line.ownColor * (1.0 - style.colorAmount));
+  vec4 color = vec4(line.color, line.ownColor);
+  if (hasOwn) color = vec4(line.outlineColor, -line.outlineLight);
+  record.color = vec4(mix(color.rgb, style.color, style.colorAmount), color.a * (1.0 - style.colorAmount));
   record.outward = vec3(across, isOutline ? 1.0 : 0.0);
 
   record.isDrawn = 1u;
