@@ -2,9 +2,9 @@
 """Keeps numbers and lists of the pages what the results and the tree say.
 
     tests/docs_numbers_test.py             exit code 1 with a list if something is wrong
-    tests/docs_numbers_test.py --write     makes the tables of docs/bench.md and docs/measure.md again
+    tests/docs_numbers_test.py --write     makes the tables of docs/bench.md, docs/ink.md and docs/measure.md again
 
-Tables of numbers in docs/bench.md and docs/measure.md stand below `<!-- table NAME -->` and are made from
+Tables of numbers in those pages stand below `<!-- table NAME -->` and are made from
 bench/results; every result says when, of what revision and on what machine it was measured. Lines "May include" are those
 of tools/include_table.py; tables of passes name all of src/passes and those of features; what is counted or listed is what is there.
 """
@@ -146,9 +146,19 @@ def targets(root):
                *(f"{t['value']:.2f}{rival_of(t)}{'' if t['kept'] else ', missed'}" for t in r["targets"])]
 
 
+def lines(root):
+    """Of 10,000 pixels with ink; the least of each row in bold."""
+    methods = ["lines", "plain", "freestyle", "lineart"]
+    yield ["scene", "ours", "plain", "Freestyle", "Line Art"]
+    for r in load(root, "lines")["results"]:
+        numbers = [1e4 * r["lines"][method]["flickers"] for method in methods]
+        yield [scene_name(r), *(f"**{n:.1f}**" if n == min(numbers) else f"{n:.1f}" for n in numbers)]
+
+
 COHERENCE = ["suzanne", "sail-ship", "toycar", "demo"]
 TABLES = {"bench.md": {"frames": frames, "metatexture": metatexture, "start": start, "sequences": sequences, "colorizers": colorizers,
                        "edits": edits, "ocean": ocean, "looks": looks},
+          "ink.md": {"lines": lines},
           "measure.md": {"targets": targets, **{name: coherence(name) for name in COHERENCE}}}
 
 

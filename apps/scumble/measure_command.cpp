@@ -13,6 +13,7 @@
 #include "json_option.h"
 #include "options.h"
 #include "output_files.h"
+#include "outputs.h"
 #include "progress.h"
 #include "report.h"
 #include "scumble/measure.h"
@@ -27,6 +28,8 @@ struct MeasureArguments {
   PictureArguments picture;
   std::optional<float> ipd;
   std::string plot;
+  bool lines = false;
+  std::vector<std::string> drawings;  // NAME=FILE.####.png
   JsonOption json;
   bool quiet = false;
 };
@@ -140,6 +143,74 @@ nlohmann::json toJson(const ModeMeasurements& mode) {
             {"final-color", mode.stereo.finalColor}}}};
 }
 
+MeasureOptions withProgress(MeasureOptions options, std::optional<Progress>& progress, bool quiet) {
+  options.progress = [&progress, quiet](int, int total) {
+    if (!progress) progress.emplace(total, quiet);
+    progress->done("measuring");
+    return true;
+  };
+  return options;
+}
+
+// A drawing by somebody else: its pictures, from number 0 on.
+Result<LineSteadiness> steadinessOfFiles(const std::string& given) {
+  const size_t equals = given.find('=');
+  if (equals == 0 || equals == std::string::npos || given.find('#', equals) == std::string::npos)
+    return usage("--drawing " + given + " names no pictures", "write it like pencil=pencil.####.png");
+  std::vector<Image> drawings;
+  for (int i = 0; i < kLineFrames; ++i) {
+    Result<Image> picture = readPicture(numbered(given.substr(equals + 1), i));
+    if (!picture) return picture.error();
+    drawings.push_back(std::move(picture).value());
+  }
+  return steadinessOf(given.substr(0, equals), drawings);
+}
+
+nlohmann::json toJson(const glm::mat4& matrix) {
+  nlohmann::json numbers = nlohmann::json::array();
+  for (int i = 0; i < 16; ++i) numbers.push_back(matrix[i / 4][i % 4]);
+  return numbers;
+}
+
+int runLines(const MeasureArguments& args, Renderer& renderer, const Scene& scene, const Look& look,
+             const MeasureOptions& options, const std::string& heading) {
+  std::vector<LineSteadiness> others;
+  for (const std::string& drawing : args.drawings) {
+    Result<LineSteadiness> of = steadinessOfFiles(drawing);
+    if (!of) return fail(of.error());
+    others.push_back(std::move(of).value());
+  }
+  std::optional<Progress> progress;
+  Result<LineMeasurements> measured =
+      measureLines(renderer, scene, look, withProgress(options, progress, args.quiet));
+  progress.reset();
+  if (!measured) return fail(measured.error());
+  measured->methods.insert(measured->methods.end(), others.begin(), others.end());
+  if (!args.json.isPrinted()) {
+    std::puts(heading.c_str());
+    std::puts(fmt::format("\n{:16}{:>14}{:>18}{:>18}", "lines", "ink, pixels", "change a degree",
+                          "flicker a degree")
+                  .c_str());
+    for (const LineSteadiness& of : measured->methods)
+      std::puts(
+          fmt::format("  {:14}{:14.0f}{:18.3f}{:18.5f}", of.method, of.ink, of.changes, of.flickers).c_str());
+  }
+  nlohmann::json methods = nlohmann::json::object(), views = nlohmann::json::array();
+  for (const LineSteadiness& of : measured->methods)
+    methods[of.method] = {{"ink", of.ink}, {"changes", of.changes}, {"flickers", of.flickers}};
+  // As a camera of glTF has them: columns, y up, along -z.
+  for (const View& view : measured->views)
+    views.push_back(
+        {{"eyeToWorld", toJson(glm::inverse(view.worldToEye))}, {"eyeToClip", toJson(view.eyeToClip)}});
+  const Status given = args.json.give({{"scene", args.scene.files},
+                                       {"device", renderer.gpu().name},
+                                       {"size", {options.width, options.height}},
+                                       {"samples", options.samples},
+                                       {"lines", methods},
+                                       {"views", views}});
+  return given ? int(kDone) : fail(given.error());
+}
+
 int run(const MeasureArguments& args) {
   // Check everything that can be checked before anything is drawn.
   const Result<RenderOptions> picture = args.picture.renderOptions();
@@ -150,6 +221,9 @@ int run(const MeasureArguments& args) {
   inputs.push_back(args.look.lookFor(args.scene.files[0]));
   if (!args.plot.empty() && endingOf(args.plot) != ".png")
     return failUsage("a chart cannot go into '" + args.plot + "'", "name it like chart.png");
+  if (args.lines && (!args.plot.empty() || args.ipd))
+    return failUsage("--lines goes with neither --plot nor --ipd", "give one of them");
+  if (!args.lines && !args.drawings.empty()) return failUsage("--drawing goes with --lines", "give both");
   OutputFiles files(inputs);
   for (const auto& [file, option] : {std::pair{args.plot, "--plot"}, {args.json.file(), "--json"}})
     if (const Status status = files.add(file, option); !status) return fail(status.error());
@@ -176,13 +250,17 @@ int run(const MeasureArguments& args) {
   options.seed = picture->seed;
   options.viewpoint = *viewpoint;
   options.ipd = args.ipd;
+  std::string names;
+  for (const std::string& file : args.scene.files)
+    names += (names.empty() ? "" : ", ") + std::filesystem::path(file).filename().string();
+  if (args.lines)
+    return runLines(args, **renderer, *scene, *look, options,
+                    fmt::format("{}, {} x {}, {} sample{}, {} pictures {} degrees apart", names,
+                                options.width, options.height, options.samples,
+                                options.samples == 1 ? "" : "s", kLineFrames, kLineStep));
   std::optional<Progress> progress;
-  options.progress = [&](int, int total) {
-    if (!progress) progress.emplace(total, args.quiet);
-    progress->done("measuring");
-    return true;
-  };
-  const Result<Measurements> measured = measure(**renderer, *scene, *look, options);
+  const Result<Measurements> measured =
+      measure(**renderer, *scene, *look, withProgress(options, progress, args.quiet));
   progress.reset();
   if (!measured) return fail(measured.error());
   if ((*renderer)->validationMessages() > 0)
@@ -190,9 +268,6 @@ int run(const MeasureArguments& args) {
         Error{ErrorKind::internal, "", 0, "", "the validation layers found mistakes", "please report them"});
 
   // Chart, table and JSON.
-  std::string names;
-  for (const std::string& file : args.scene.files)
-    names += (names.empty() ? "" : ", ") + std::filesystem::path(file).filename().string();
   const std::string conditions =
       fmt::format("{} x {}, {} sample{}, the scene covers {:.0f} % of the picture, eyes {:.3g} m apart",
                   options.width, options.height, options.samples, options.samples == 1 ? "" : "s",
@@ -239,6 +314,14 @@ void addMeasure(CLI::App& program, int& exitCode) {
       "--ipd", args->ipd,
       "Distance between the eyes, metres (default: 1/40 of the distance to the scene's centre)");
   args->json.addTo(*command);
+  command->add_flag("--lines", args->lines,
+                    "Measure instead how steady the look's lines are along an orbit of 10 degrees");
+  command
+      ->add_option("--drawing", args->drawings,
+                   "With --lines: drawings by another program of the same orbit, "
+                   "NAME=FILE.####.png from 0000 on; repeatable (--json has the cameras)")
+      ->type_name("NAME=FILE")
+      ->allow_extra_args(false);
   command->add_option("--plot", args->plot, "Also draw a chart")->type_name("FILE.png");
   command->add_flag("--quiet", args->quiet, "No warnings and no progress");
   command->footer("Example: scumble measure boat.glb --plot boat.png");

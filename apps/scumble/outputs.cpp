@@ -51,14 +51,18 @@ Result<OutputPlan> OutputPlan::make(const std::string& given, const std::string&
   return plan;
 }
 
-std::string OutputPlan::framePath(std::optional<int> number) const {
+std::string numbered(const std::string& path, int number) {
   const size_t first = path.find('#');
-  if (!number || first == std::string::npos) return path;
+  if (first == std::string::npos) return path;
   size_t last = first;
   while (last < path.size() && path[last] == '#') ++last;
-  std::string digits = std::to_string(std::abs(*number));
+  std::string digits = std::to_string(std::abs(number));
   if (digits.size() < last - first) digits.insert(0, last - first - digits.size(), '0');
-  return path.substr(0, first) + (*number < 0 ? "-" : "") + digits + path.substr(last);
+  return path.substr(0, first) + (number < 0 ? "-" : "") + digits + path.substr(last);
+}
+
+std::string OutputPlan::framePath(std::optional<int> number) const {
+  return number ? numbered(path, *number) : path;
 }
 
 bool OutputPlan::isFileOfItsOwn(const std::string& aov) const {

@@ -12,6 +12,9 @@
 
 namespace scumble::app {
 
+// A path with #### replaced by the number, zero-padded; without them, as it is.
+std::string numbered(const std::string& path, int number);
+
 struct OutputPlan {
   std::string path;  // as given, or made from the scene's name
   const OutputFormat* format = nullptr;

@@ -76,12 +76,6 @@ std::vector<Field> membersOf(const std::vector<Fields>& all, Field Fields::*memb
   return fields;
 }
 
-const Image& layer(const Frame& frame, const char* name, size_t view = 0) {
-  for (const Frame::Layer& l : frame.layers)
-    if (l.name == name) return l.views[view];
-  return frame.layers.front().views[view];
-}
-
 // Turns vectors on the screen (y down) clockwise.
 void turn(Field& vectors, float radians) {
   const float c = std::cos(radians), s = std::sin(radians);
@@ -229,8 +223,7 @@ class Measurer {
     materials_ = {summary.materialNames.begin(), summary.materialNames.end()};
     materials_.erase("");
     if (materials_.size() < 2 || materials_.size() > kMostMaterials) materials_.clear();
-    centre_ = 0.5f * glm::vec3(float(summary.min[0] + summary.max[0]), float(summary.min[1] + summary.max[1]),
-                               float(summary.min[2] + summary.max[2]));
+    centre_ = centreOf(scene_);
     distance_ = glm::length(glm::vec3(view_.worldToEye * glm::vec4(centre_, 1)));
     result_.ipd = options_.ipd.value_or(distance_ / 40);
 
@@ -300,17 +293,13 @@ class Measurer {
   View moved(int motion, int step) const {
     const float n = float(step);
     const glm::mat4 one(1.0f);
-    const auto turnedScene = [&](float degrees) {
-      return glm::translate(one, centre_) * glm::rotate(one, glm::radians(degrees), glm::vec3(0, 1, 0)) *
-             glm::translate(one, -centre_);
-    };
     View view = view_;
     switch (motion) {
       case 0:
         view.worldToEye = glm::translate(one, glm::vec3(0, 0, n * kDollyStep * distance_)) * view.worldToEye;
         break;
       case 1:
-        view.worldToEye = view.worldToEye * turnedScene(n * kOrbitStep);
+        view.worldToEye = view.worldToEye * turnAbout(centre_, n * kOrbitStep);
         break;
       case 2:
         view.worldToEye = glm::rotate(one, glm::radians(n * kRollStep), glm::vec3(0, 0, 1)) * view.worldToEye;
@@ -320,7 +309,7 @@ class Measurer {
         const float w = (view.eyeToClip * view.worldToEye * glm::vec4(centre_, 1)).w;
         const float sideways = n * kObjectStep * 2 * w / view.eyeToClip[0][0];
         view.worldToEye = glm::translate(one, glm::vec3(sideways, 0, 0)) * view.worldToEye *
-                          turnedScene(n * kObjectTurnStep);
+                          turnAbout(centre_, n * kObjectTurnStep);
     }
     return view;
   }
@@ -540,13 +529,25 @@ class Measurer {
 
 }  // namespace
 
-Result<Measurements> measuring::measureWith(const Draw& draw, const Scene& scene, const Look& look,
-                                            const MeasureOptions& options) {
-  return Measurer(draw, scene, look, options).run();
+const Image& measuring::layer(const Frame& frame, const char* name, size_t view) {
+  for (const Frame::Layer& l : frame.layers)
+    if (l.name == name) return l.views[view];
+  return frame.layers.front().views[view];
 }
 
-Result<Measurements> measure(Renderer& renderer, const Scene& scene, const Look& look,
-                             const MeasureOptions& options) {
+glm::vec3 measuring::centreOf(const Scene& scene) {
+  const SceneSummary summary = scene.summary();
+  return 0.5f * glm::vec3(float(summary.min[0] + summary.max[0]), float(summary.min[1] + summary.max[1]),
+                          float(summary.min[2] + summary.max[2]));
+}
+
+glm::mat4 measuring::turnAbout(const glm::vec3& place, float degrees) {
+  const glm::mat4 one(1.0f);
+  return glm::translate(one, place) * glm::rotate(one, glm::radians(degrees), glm::vec3(0, 1, 0)) *
+         glm::translate(one, -place);
+}
+
+Status measuring::checkMeasuring(const Scene& scene, const MeasureOptions& options) {
   if (scene.empty()) return usage("the scene is empty", "load one with Scene::load");
   if (options.width < 16 || options.height < 16 || options.width > 4096 || options.height > 4096)
     return usage("a picture of " + std::to_string(options.width) + "x" + std::to_string(options.height) +
@@ -554,6 +555,17 @@ Result<Measurements> measure(Renderer& renderer, const Scene& scene, const Look&
                  "use 16x16 to 4096x4096");
   if (options.ipd && !(std::isfinite(*options.ipd) && *options.ipd > 0 && *options.ipd <= 1e6f))
     return usage("the distance between the eyes is not above zero", "give it in metres");
+  return Done{};
+}
+
+Result<Measurements> measuring::measureWith(const Draw& draw, const Scene& scene, const Look& look,
+                                            const MeasureOptions& options) {
+  return Measurer(draw, scene, look, options).run();
+}
+
+Result<Measurements> measure(Renderer& renderer, const Scene& scene, const Look& look,
+                             const MeasureOptions& options) {
+  if (const Status status = checkMeasuring(scene, options); !status) return status.error();
   const Draw draw = [&](const Scene& drawn, const Look& with, const std::vector<View>& views,
                         const RenderOptions& frame) { return renderer.render(drawn, with, 0, views, frame); };
   return measureWith(draw, scene, look, options);

@@ -71,11 +71,16 @@ std::vector<MeshEdge> edgesOf(const Primitive& primitive) {
 
   std::vector<MeshEdge> edges;
   edges.reserve(indices.size() / 2 + 8);
+  std::vector<uint32_t> across(indices.size(),
+                               MeshEdge::kNone);  // by corner, what lies across the edge there
   const auto third = [&](const HalfEdge& half) { return nextCorner(nextCorner(half.corner)); };
   const auto add = [&](const HalfEdge& left, const HalfEdge* right) {
     MeshEdge edge{indices[left.corner], indices[nextCorner(left.corner)], indices[third(left)]};
+    edge.beyond[0] = left.corner;  // until all are known
     if (right) {
       edge.right = indices[third(*right)];
+      edge.beyond[2] = right->corner;
+      across[left.corner] = edge.right, across[right->corner] = edge.left;
       const auto& colors = primitive.colors;
       if (!colors.empty() && areUnlike(colors[edge.a], colors[indices[nextCorner(right->corner)]]) &&
           areUnlike(colors[edge.b], colors[indices[right->corner]]))
@@ -113,6 +118,13 @@ std::vector<MeshEdge> edgesOf(const Primitive& primitive) {
       group = end;
     }
   }
+  for (MeshEdge& edge : edges)
+    for (const int side : {0, 2}) {
+      const uint32_t corner = edge.beyond[side];
+      if (corner == MeshEdge::kNone) continue;
+      edge.beyond[side] = across[nextCorner(corner)];
+      edge.beyond[side + 1] = across[nextCorner(nextCorner(corner))];
+    }
   return edges;
 }
 

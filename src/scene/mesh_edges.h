@@ -2,6 +2,7 @@
 // from. Vertices that share a place are one, so that split normals and seams of a mapping open nothing.
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "scene/scene_data.h"
@@ -21,6 +22,9 @@ struct MeshEdge {
   uint32_t left = 0;       // the left triangle's third vertex
   uint32_t right = kNone;  // the right one's; none: the surface ends here
   uint32_t kinds = 0;      // EdgeKind
+  // Where the surface goes on: third vertices of the triangles across b to left, left to a, a to right and
+  // right to b; none: there is none in this primitive.
+  std::array<uint32_t, 4> beyond{kNone, kNone, kNone, kNone};
   bool operator==(const MeshEdge&) const = default;
 };
 

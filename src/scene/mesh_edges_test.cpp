@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
+#include <optional>
 #include <random>
 
 namespace scumble::scene {
@@ -61,6 +62,39 @@ TEST_P(MeshEdgesOf, whatIsMissingLeavesEnds) {
   const std::vector<MeshEdge> edges = edgesOf(meshOf(kCube, open, GetParam()));
   EXPECT_EQ(edges.size(), 18u);
   EXPECT_EQ(openOnes(edges), 3u);
+}
+
+// Beyond both sides of an edge, against a search among all triangles.
+TEST_P(MeshEdgesOf, knowWhatLiesBeyondTheirTriangles) {
+  // A side of the cube is missing.
+  const Triangles open(kCubeSides.begin() + 1, kCubeSides.end());
+  const Primitive mesh = meshOf(kCube, open, GetParam());
+  const auto& p = mesh.positions;
+  const auto& t = mesh.indices;
+  // The third place of the triangle that goes from one place to another.
+  const auto thirdOf = [&](const glm::vec3& from, const glm::vec3& to) -> std::optional<glm::vec3> {
+    for (size_t corner = 0; corner < t.size(); ++corner) {
+      const size_t first = corner - corner % 3;
+      if (p[t[corner]] == from && p[t[first + (corner + 1) % 3]] == to) return p[t[first + (corner + 2) % 3]];
+    }
+    return std::nullopt;
+  };
+  int none = 0;
+  for (const MeshEdge& edge : edgesOf(mesh)) {
+    const uint32_t ends[4][2] = {
+        {edge.b, edge.left}, {edge.left, edge.a}, {edge.a, edge.right}, {edge.right, edge.b}};
+    for (int i = 0; i < 4; ++i) {
+      std::optional<glm::vec3> expected;
+      if (ends[i][0] != MeshEdge::kNone && ends[i][1] != MeshEdge::kNone)
+        expected = thirdOf(p[ends[i][1]], p[ends[i][0]]);
+      ASSERT_EQ(edge.beyond[size_t(i)] == MeshEdge::kNone, !expected);
+      if (expected)
+        EXPECT_EQ(p[edge.beyond[size_t(i)]], *expected);
+      else
+        ++none;
+    }
+  }
+  EXPECT_GE(none, 3 * 2);
 }
 
 TEST_P(MeshEdgesOf, doubledAndFlatTrianglesCountForNothing) {

@@ -12,6 +12,12 @@ struct DrawnEdge {
   uint left;   // the left triangle's third vertex
   uint right;  // the right one's; kNoEdgeSide: the surface ends here
 };
+// Third vertices of the triangles beyond the left one (across b to left, and left to a), and beyond the right
+// one (across a to right, and right to b). kNoEdgeSide: there is none.
+struct EdgeRing {
+  uint beyondLeft[2];
+  uint beyondRight[2];
+};
 const uint kNoEdgeSide = 0xFFFFFFFFu;
 const uint kEdgeVertexMask = 0x0FFFFFFFu;
 const uint kEdgeMaterialBorder = 0x10000000u, kEdgeColorBorder = 0x20000000u;

@@ -42,15 +42,16 @@ struct InkUniforms {
   float doubled;  // pixels
   float doubledWidth;
   float cosSmooth, cosCrease;
-  float fade;   // widths
+  float fade;  // widths
+  float sinFadeAngle;
   float outer;  // a factor
   InkKind kinds[kInkKinds];
 };
 
 // Set 1 of what finds lines and what draws them.
 const int kInkBlock = 0, kInkEdges = 1, kInkChunks = 2, kInkVertices = 3, kInkWords = 4, kInkSums = 5,
-          kInkNumbers = 6, kInkCommand = 7, kInkFrames = 8, kInkLines = 9, kInkRecords = 10;
-const int kInkBindings = 11;
+          kInkNumbers = 6, kInkCommand = 7, kInkFrames = 8, kInkLines = 9, kInkRecords = 10, kInkRings = 11;
+const int kInkBindings = 12;
 // Set 2 of what draws them. (What comes before that looks at no image: llvmpipe would compile it anew in each
 // frame.)
 const int kInkDepth = 0, kInkShadowed = 1;
@@ -69,7 +70,10 @@ struct LineRecord {
   vec4 radii;    // at both ends, pixels; depth-buffer values there
   vec4 color;    // square root; how much is the surface's own, or, below 0, is multiplied by that
   vec3 outward;  // unit, on the screen; 1: an outline
-  vec2 caps;     // how far it goes on beyond both ends, for each pixel of its width
+  // Of outlines: how much the form turns away behind it, from 0 to 1; what part of its width it has in any
+  // case, as the inner line that it is besides.
+  vec2 turn;
+  vec2 caps;  // how far it goes on beyond both ends, for each pixel of its width
   uint isDrawn;
 };
 const int kInkRoom = 65536;  // for records of a view

@@ -45,16 +45,20 @@ float bendOf(PlacedEdge edge) {
   return dot(edge.left, edge.right) * inversesqrt(max(dot(edge.left, edge.left) * dot(edge.right, edge.right), 1e-37));
 }
 
+// Of the kinds that are shown, the first one that it is from everywhere.
+int innerKindOf(PlacedEdge edge) {
+  if ((edge.known & kEdgeMaterialBorder) != 0u && isShown(kInkMaterial)) return kInkMaterial;
+  if (isShown(kInkCrease) && bendOf(edge) < ink.cosCrease) return kInkCrease;
+  if ((edge.known & kEdgeColorBorder) != 0u && isShown(kInkColor)) return kInkColor;
+  return kInkNone;
+}
+
 // Of the kinds that are shown, the first one that it is, as a view sees it (paper 004, section 2.2: one of its triangles
 // faces the eye, and the other one does not).
 int kindOf(PlacedEdge edge, vec4 eye) {
   if (edge.isOpen) return isShown(kInkBoundary) ? kInkBoundary : kInkNone;
   vec3 toEye = eye.xyz - eye.w * edge.a;
   bool isSilhouette = (dot(edge.left, toEye) < 0.0) != (dot(edge.right, toEye) < 0.0);
-  if (isSilhouette && isShown(kInkSilhouette)) return kInkSilhouette;
-  if ((edge.known & kEdgeMaterialBorder) != 0u && isShown(kInkMaterial)) return kInkMaterial;
-  if (isShown(kInkCrease) && bendOf(edge) < ink.cosCrease) return kInkCrease;
-  if ((edge.known & kEdgeColorBorder) != 0u && isShown(kInkColor)) return kInkColor;
-  return kInkNone;
+  return isSilhouette && isShown(kInkSilhouette) ? kInkSilhouette : innerKindOf(edge);
 }
 #endif

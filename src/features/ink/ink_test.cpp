@@ -226,6 +226,70 @@ TEST_P(Ink, jointsOfExteriorLinesAreClosed) {
   }
 }
 
+// A fold that is one triangle deep has all its depth until it closes: its line tapers by the angle, to the
+// inner line that it is besides.
+TEST_P(Ink, foldsCloseByAnAngle) {
+  TestMesh step;
+  for (const TestMesh& part :
+       {gridMesh({-2, -2, 0.1f}, {4, 0, 0}, {0, 2, 0}), gridMesh({-2, 0, 0.1f}, {4, 0, 0}, {0, 0, -0.1f}),
+        gridMesh({-2, 0, 0}, {4, 0, 0}, {0, 2, 0})})
+    append(step, part, {1, 1, 1, 1});
+  const Scene scene = oneThing(step).load();
+  // Ink across the line, in parts of its width, where the riser turns away by so many degrees.
+  const auto inkAt = [&](double degrees, const Knobs& knobs) {
+    const double angle = glm::radians(degrees);
+    const auto views = viewsFrom(
+        scene, {{0, float(-6 * std::sin(angle)), float(6 * std::cos(angle))}, {0, 0, 0}, 40, 0, 0.1f}, kWidth,
+        kHeight, GetParam());
+    const Frame frame = drawLines(scene, evenLines(knobs), views);
+    std::vector<double> parts;
+    for (size_t v = 0; v < viewCount(); ++v) {
+      const glm::dvec2 edge = pixelOf(views[v], {0, 0, 0.1}, kWidth, kHeight);
+      double sum = 0;
+      for (int y = -5; y <= 5; ++y) sum += ink(frame, v, edge + glm::dvec2(0, y));
+      parts.push_back(sum / (2 * kRadius));
+    }
+    return parts;
+  };
+  for (const double degrees : {-1.0, 0.5, 2.0, 5.0, 8.0, 12.0}) {
+    const double turn = std::clamp(std::sin(glm::radians(degrees)) / std::sin(glm::radians(10.0)), 0.0, 1.0);
+    const double full = turn * turn * (3 - 2 * turn);
+    for (const double part : inkAt(degrees, {{"ink.fadeAngle", "10"}}))
+      EXPECT_NEAR(part, full, 0.06) << degrees;
+    for (const double part : inkAt(degrees, {{"ink.fadeAngle", "0"}}))
+      EXPECT_NEAR(part, degrees > 0, 0.06) << degrees;
+    for (const double part :
+         inkAt(degrees, {{"ink.fadeAngle", "10"}, {"ink.creases.shown", "on"}, {"ink.creases.width", "0.4"}}))
+      EXPECT_NEAR(part, std::max(full, 0.4), 0.06) << degrees;
+  }
+}
+
+// Where a coarse form goes on turning, its outline stays whole while it passes from edge to edge, also right
+// before a wall.
+TEST_P(Ink, outlinesThatPassOnStayWhole) {
+  TestScene s = oneThing(sphereMesh({0, 0, 0}, 1, 14));
+  s.add(gridMesh({-30, -30, -1.5f}, {60, 0, 0}, {0, 60, 0}),
+        s.material(TestScene::colored("Wall", {0.6f, 0.5f, 0.4f, 1})));
+  const Scene scene = s.load();
+  for (int i = 0; i < 12; ++i) {
+    const double angle = glm::radians(1.1 * i);
+    const auto views = viewsFrom(
+        scene, {{float(5 * std::sin(angle)), 0.4f, float(5 * std::cos(angle))}, {0, 0, 0}, 40, 0, 0.1f},
+        kWidth, kHeight, GetParam());
+    double sums[2][2]{};
+    for (int fades = 0; fades < 2; ++fades) {
+      const Frame frame = drawLines(scene, evenLines({{"ink.fadeAngle", fades ? "8" : "0"}}), views);
+      for (size_t v = 0; v < viewCount(); ++v)
+        for (int y = 0; y < kHeight; ++y)
+          for (int x = 0; x < kWidth; ++x) sums[fades][v] += texel(aov(frame, "ink", v), x, y).w;
+    }
+    for (size_t v = 0; v < viewCount(); ++v) {
+      EXPECT_GT(sums[0][v], 400);
+      EXPECT_NEAR(sums[1][v] / sums[0][v], 1, 0.02) << "step " << i;
+    }
+  }
+}
+
 // FORMULAS 24: thin where light falls on it, bold where it turns away, and in between what a cosine says.
 TEST_P(Ink, widthsFollowTheLight) {
   TestScene s = oneThing(sphereMesh({0, 0, 0}, 1, 64));

@@ -14,10 +14,18 @@ namespace {
 static_assert(scene::kMaterialBorder << 28 == shared::kEdgeMaterialBorder &&
               scene::kColorBorder << 28 == shared::kEdgeColorBorder);
 
+uint32_t moved(uint32_t vertex, uint32_t vertices) {
+  return vertex == scene::MeshEdge::kNone ? shared::kNoEdgeSide : vertex + vertices;
+}
 shared::DrawnEdge drawn(const scene::MeshEdge& edge, uint32_t vertices) {
-  const bool isOpen = edge.right == scene::MeshEdge::kNone;
   return {(edge.a + vertices) | edge.kinds << 28, edge.b + vertices, edge.left + vertices,
-          isOpen ? shared::kNoEdgeSide : edge.right + vertices};
+          moved(edge.right, vertices)};
+}
+
+shared::EdgeRing ringOf(const scene::MeshEdge& edge, uint32_t vertices) {
+  const auto& beyond = edge.beyond;
+  return {{moved(beyond[0], vertices), moved(beyond[1], vertices)},
+          {moved(beyond[2], vertices), moved(beyond[3], vertices)}};
 }
 
 }  // namespace
@@ -78,6 +86,7 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
   known_ = std::move(known);
 
   std::vector<shared::DrawnEdge> edges;
+  std::vector<shared::EdgeRing> rings;
   std::vector<shared::EdgeChunk> chunks;
   edgeCount_ = 0;
   const auto addChunks = [&](uint32_t first, uint32_t count, uint32_t firstVertex, uint32_t object) {
@@ -107,7 +116,7 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
             if (edge.otherPrimitive == p) isShared[edge.otherEdge] = true;
           }
         for (size_t e = 0; e < own.size(); ++e)
-          if (!isShared[e]) edges.push_back(drawn(own[e], 0));
+          if (!isShared[e]) edges.push_back(drawn(own[e], 0)), rings.push_back(ringOf(own[e], 0));
         run->second.count = uint32_t(edges.size()) - run->second.first;
       }
       addChunks(run->second.first, run->second.count, places[group[p]].firstVertex, group[p]);
@@ -119,12 +128,18 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
       for (const scene::SharedEdge& between : *shared) {
         if (between.primitive != p) continue;
         const GeometryItem &item = items[group[p]], &other = items[group[between.otherPrimitive]];
-        shared::DrawnEdge edge =
-            drawn(edgesOf_.at(item.primitive)[between.edge], places[group[p]].firstVertex);
-        edge.right = edgesOf_.at(other.primitive)[between.otherEdge].left +
-                     places[group[between.otherPrimitive]].firstVertex;
+        const scene::MeshEdge &left = edgesOf_.at(item.primitive)[between.edge],
+                              &right = edgesOf_.at(other.primitive)[between.otherEdge];
+        const uint32_t firstLeft = places[group[p]].firstVertex,
+                       firstRight = places[group[between.otherPrimitive]].firstVertex;
+        shared::DrawnEdge edge = drawn(left, firstLeft);
+        edge.right = right.left + firstRight;
         if (item.material != other.material) edge.a |= shared::kEdgeMaterialBorder;
         edges.push_back(edge);
+        // To the right one, this edge goes the other way.
+        shared::EdgeRing ring = ringOf(left, firstLeft);
+        for (int i = 0; i < 2; ++i) ring.beyondRight[i] = moved(right.beyond[i], firstRight);
+        rings.push_back(ring);
       }
       addChunks(first, uint32_t(edges.size()) - first, 0, group[p]);
     }
@@ -141,8 +156,9 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
     throw gpu::VulkanError{"lines of so large a scene", VK_ERROR_OUT_OF_DEVICE_MEMORY};
   settle();
   // What was there goes first.
-  edges_ = {}, chunks_ = {};
+  edges_ = {}, rings_ = {}, chunks_ = {};
   edges_ = uploader.storage<shared::DrawnEdge>(edges);
+  rings_ = uploader.storage<shared::EdgeRing>(rings);
   chunks_ = uploader.storage<shared::EdgeChunk>(chunks);
   chunkCount_ = uint32_t(chunks.size());
   return true;

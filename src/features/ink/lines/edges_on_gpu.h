@@ -28,8 +28,9 @@ class EdgesOnGpu {
   // How many runs of kEdgeChunk edges there are.
   uint32_t chunkCount() const { return chunkCount_; }
   uint64_t edgeCount() const { return edgeCount_; }
-  // shared::DrawnEdge, and shared::EdgeChunk.
+  // shared::DrawnEdge, shared::EdgeRing of the same ones, and shared::EdgeChunk.
   const gpu::Buffer& edges() const { return edges_; }
+  const gpu::Buffer& rings() const { return rings_; }
   const gpu::Buffer& chunks() const { return chunks_; }
 
  private:
@@ -50,7 +51,7 @@ class EdgesOnGpu {
   std::vector<Known> known_;  // what the buffers were written for
   uint32_t chunkCount_ = 0;
   uint64_t edgeCount_ = 0;
-  gpu::Buffer edges_, chunks_;
+  gpu::Buffer edges_, rings_, chunks_;
 };
 
 }  // namespace scumble::ink

@@ -14,6 +14,7 @@ layout(location = 1) flat in vec4 inShift;
 layout(location = 2) flat in vec4 inRadii;
 layout(location = 3) flat in vec4 inColor;
 layout(location = 4) flat in vec3 inOutward;
+layout(location = 5) flat in vec2 inTurn;
 
 layout(location = 0) out vec4 outInk;
 
@@ -40,7 +41,7 @@ void main() {
 
   vec2 outward = inOutward.xy;
   vec2 spine = mix(inSpine.xy, inSpine.zw, t);
-  radius *= fullnessAt(spine, mix(inRadii.z, inRadii.w, t), outward, inOutward.z > 0.0, radius, view);
+  radius *= fullnessAt(spine, mix(inRadii.z, inRadii.w, t), outward, inOutward.z > 0.0, inTurn, radius, view);
 
   float moved = ink.offset * frame.pixelScale + (kPlacement == kInkExterior ? max(radius - overlap(), 0.0) : 0.0);
   vec4 line = inSpine + inShift * moved;

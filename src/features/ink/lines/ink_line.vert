@@ -11,6 +11,7 @@ layout(location = 1) flat out vec4 outShift;
 layout(location = 2) flat out vec4 outRadii;
 layout(location = 3) flat out vec4 outColor;
 layout(location = 4) flat out vec3 outOutward;
+layout(location = 5) flat out vec2 outTurn;
 
 void main() {
   int line = gl_VertexIndex / 6, corner = gl_VertexIndex % 6, view = viewIndex();
@@ -20,7 +21,7 @@ void main() {
   else
     record = recordOf(numbers[line], view);
   outSpine = record.spine, outShift = record.shift, outRadii = record.radii, outColor = record.color;
-  outOutward = record.outward;
+  outOutward = record.outward, outTurn = record.turn;
   gl_Position = vec4(2.0, 2.0, 0.0, 1.0);  // outside
   if (record.isDrawn == 0u) return;
 

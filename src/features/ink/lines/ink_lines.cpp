@@ -35,6 +35,7 @@ shared::InkUniforms inkUniforms(const FrameInput& input) {
   u.cosSmooth = std::cos(params.smoothAngle * kRadians);
   u.cosCrease = std::cos(params.creaseAngle * kRadians);
   u.fade = params.fade;
+  u.sinFadeAngle = std::sin(params.fadeAngle * kRadians);
   u.outer = params.outer;
   u.kinds[shared::kInkSilhouette] = kindOf<SilhouetteParams>(input.knobs);
   u.kinds[shared::kInkBoundary] = kindOf<BoundaryParams>(input.knobs);

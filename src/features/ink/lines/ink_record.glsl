@@ -4,6 +4,7 @@
 #include "../ink_edge.glsl"
 
 layout(set = 1, binding = kInkNumbers, scalar) readonly buffer Numbers { uint numbers[]; };
+layout(set = 1, binding = kInkRings, scalar) readonly buffer Rings { EdgeRing rings[]; };
 layout(set = 1, binding = kInkFrames, scalar) readonly buffer Frames { VertexFrame frames[]; };
 layout(set = 1, binding = kInkLines, scalar) readonly buffer Lines { InkLine lines[]; };
 
@@ -25,6 +26,26 @@ vec3 normalOf(uint vertex) {
   return decodeNormal(oct);
 }
 
+// By how much a triangle turns away, as a sine; it goes on across the edge from x to y, with a third vertex.
+float awayOf(vec3 normal, vec3 toEye) { return -dot(normal, toEye) * inversesqrt(max(dot(normal, normal), 1e-37)); }
+float awayBeyond(uint first, uint third, vec3 x, vec3 y, float wound, vec3 toEye) {
+  if (third == kNoEdgeSide) return -1.0;
+  return awayOf(wound * cross(x - y, vertices[first + third].position - y), toEye);
+}
+// How much the form turns away behind an outline, from 0 to 1. Where a fold is about to close, none of its triangle, those
+// beyond and the vertex there does by much; where the form goes on turning, one does when the triangle no longer does.
+float turnOf(PlacedEdge edge, EdgeRing ring, uint first, bool isRight, uint thirdVertex, float wound, vec3 toEye) {
+  toEye *= inversesqrt(max(dot(toEye, toEye), 1e-37));
+  float turn = awayOf(wound * (isRight ? edge.right : edge.left), toEye);
+  vec3 from = isRight ? edge.a : edge.b, to = isRight ? edge.b : edge.a, third = vertices[thirdVertex].position;
+  turn = max(turn, awayBeyond(first, isRight ? ring.beyondRight[0] : ring.beyondLeft[0], from, third, wound, toEye));
+  turn = max(turn, awayBeyond(first, isRight ? ring.beyondRight[1] : ring.beyondLeft[1], third, to, wound, toEye));
+  turn = max(turn, awayOf(normalOf(thirdVertex), toEye));
+  float bend = bendOf(edge), sinBend = bend > 0.0 ? sqrt(max(1.0 - bend * bend, 0.0)) : 1.0;
+  float full = min(ink.sinFadeAngle, 0.25 * sinBend);
+  return smoothstep(0.0, 1.0, turn / max(full, 1e-6));
+}
+
 LineRecord recordOf(uint number, int view) {
   EdgeChunk chunk = chunks[number / uint(kEdgeChunk)];
   DrawnEdge drawn = edges[chunk.firstEdge + number % uint(kEdgeChunk)];
@@ -42,6 +63,7 @@ LineRecord recordOf(uint number, int view) {
   LineRecord record;
   record.spine = record.shift = record.radii = record.color = vec4(0.0);
   record.outward = vec3(0.0);
+  record.turn = vec2(0.0);
   record.isDrawn = 0u;
   if (kind == kInkNone) return record;
   mat4 worldToClip = VIEW_FIELD(worldToClip, view);
@@ -79,6 +101,14 @@ LineRecord recordOf(uint number, int view) {
   int weights = kWeights;
   if (kWeights == kInkHybrid) weights = !edge.isOpen && bendOf(edge) > ink.cosSmooth ? kInkByVertex : kInkByTangent;
   InkKind style = ink.kinds[kind];
+  if (kind == kInkSilhouette) {
+    bool isRight = wound * dot(edge.left, toEye) > 0.0;
+    EdgeRing ring = rings[chunk.firstEdge + number % uint(kEdgeChunk)];
+    record.turn.x = turnOf(edge, ring, first, isRight, first + (isRight ? drawn.right : drawn.left), wound, toEye);
+    // What is about to close becomes the inner line that it is besides, or nothing.
+    int besides = innerKindOf(edge);
+    if (besides != kInkNone) record.turn.y = min(ink.kinds[besides].width / style.width, 1.0);
+  }
   float radii[2];
   bool hasOwn = kind == kInkSilhouette && line.hasOutline != 0u;
   for (int i = 0; i < 2; ++i) {

@@ -14,23 +14,26 @@ float depthAt(vec2 place, int view) {
 }
 
 // A factor on the line's width; 0 where it is hidden. `own`: the place's depth-buffer value; `outward`: on the screen, away
-// from the form; `radius`: of the line, pixels.
+// from the form; `turn`: as LineRecord has it; `radius`: of the line, pixels.
 //
 // What lies just beside the edge on both sides tells whether something is before it: if the farther of the two is nearer
 // than the edge. So there is nothing to fight with about depths, and a line is hidden over its whole width at once.
-float fullnessAt(vec2 place, float own, vec2 outward, bool isOutline, float radius, int view) {
+float fullnessAt(vec2 place, float own, vec2 outward, bool isOutline, vec2 turn, float radius, int view) {
   float beyond = min(depthAt(place + 1.5 * outward, view), depthAt(place + 2.6 * outward, view));
   float parallel = VIEW_FIELD(orthographic, view);  // mixed and not chosen by: no branch on a uniform
   float distance = eyeDepth(own, view);
   float metresOfPixel = abs(VIEW_FIELD(ndcToEyeRay, view).y) * 2.0 / frame.imageSize.y * mix(distance, 1.0, parallel);
-  // On both sides of a line in a valley the surface comes nearer.
-  float tolerance = kTolerance * mix(distance, frame.sceneRadius, parallel) + (isOutline ? 0.0 : 3.0 * metresOfPixel);
+  // On both sides of an inner line in a valley the surface comes nearer, also of one that is an outline and stands on
+  // something.
+  float tolerance = kTolerance * mix(distance, frame.sceneRadius, parallel) +
+                    (isOutline && turn.y <= 0.0 ? 0.0 : 3.0 * metresOfPixel);
   if (eyeDepth(min(beyond, depthAt(place - 1.5 * outward, view)), view) < distance - tolerance) return 0.0;
   if (!isOutline) return 1.0;
-  // An outline tapers where the form goes on right behind it, so that it neither begins nor ends at once.
+  // An outline tapers where the form goes on right behind it, so that it neither begins nor ends at once; but the fold of a
+  // coarse form has depth until it closes, and tapers by its angle.
   float behind = min(eyeDepth(beyond, view), 1e6 * distance) - distance;
-  float full = 2.0 * ink.fade * max(radius, 0.5) * metresOfPixel;
-  float fullness = mix(1.0, ink.outer, smoothstep(0.1, 0.4, behind / frame.sceneRadius));
-  return full > 0.0 ? fullness * smoothstep(0.0, 1.0, behind / full) : fullness;
+  float full = 2.0 * ink.fade * max(radius, 0.5) * metresOfPixel, far = behind / frame.sceneRadius;
+  float fullness = mix(1.0, ink.outer, smoothstep(0.1, 0.4, far)) * smoothstep(0.0, 1.0, behind / max(full, 1e-20));
+  return max(fullness * mix(turn.x, 1.0, smoothstep(0.05, 0.2, far)), turn.y);
 }
 #endif
