@@ -20,19 +20,6 @@ uint32_t nextCorner(uint32_t corner) {
   return corner % 3 == 2 ? corner - 2 : corner + 1;
 }
 
-float inverseExtent(const Bounds& box) {
-  const glm::vec3 size = box.max - box.min;
-  const float extent = std::max({size.x, size.y, size.z});
-  return extent > 0 ? 1 / extent : 1;
-}
-
-Bounds boundsOf(std::span<const Primitive* const> primitives) {
-  Bounds box;
-  for (const Primitive* primitive : primitives)
-    for (const glm::vec3& position : primitive->positions) box.add(position);
-  return box;
-}
-
 // What differs by less is a gradient that two triangles share.
 constexpr int kLeastBorder = 24;  // of 255
 
@@ -46,8 +33,7 @@ bool areUnlike(const glm::u8vec4& a, const glm::u8vec4& b) {
 std::vector<MeshEdge> edgesOf(const Primitive& primitive) {
   const std::vector<uint32_t>& indices = primitive.indices;
   const Primitive* const one[] = {&primitive};
-  const std::vector<uint32_t> place =
-      firstAtPlaces(primitive.positions, PositionGrid(inverseExtent(boundsOf(one))));
+  const std::vector<uint32_t> place = firstAtPlaces(primitive.positions, gridOf(one));
   const auto placeOf = [&](uint32_t corner) { return place[indices[corner]]; };
   const auto hasArea = [&](uint32_t corner) {
     const uint32_t first = corner - corner % 3;
@@ -136,7 +122,7 @@ std::vector<SharedEdge> sharedEdges(std::span<const Primitive* const> primitives
     uint32_t primitive, edge;
     bool isForward;
   };
-  const PositionGrid grid(inverseExtent(boundsOf(primitives)));
+  const PositionGrid grid = gridOf(primitives);
   std::vector<glm::vec3> ends;
   std::vector<Open> open;
   for (uint32_t p = 0; p < primitives.size(); ++p)

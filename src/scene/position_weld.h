@@ -4,7 +4,10 @@
 #include <bit>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
+
+#include "scene/scene_data.h"
 
 namespace scumble::scene {
 
@@ -62,6 +65,9 @@ class PositionTable {
   size_t mask_;
   std::vector<uint32_t> slots_;
 };
+
+// Of meshes that lie in one space.
+PositionGrid gridOf(std::span<const Primitive* const> primitives);
 
 // By vertex, the first one at its place on the grid.
 inline std::vector<uint32_t> firstAtPlaces(const std::vector<glm::vec3>& positions,

@@ -9,10 +9,9 @@
 #include "scene/find_node.h"
 #include "tests/support/loaded_test_gltf.h"
 
-namespace scumble {
+namespace scumble::scene {
 namespace {
 
-using namespace scene;
 using Json = TestGltf::Json;
 
 // A unit square on a node "Deck" 2 m up, below "Hull".
@@ -233,4 +232,4 @@ TEST(FindNode, byNameAndByWhatItHangsOn) {
 }
 
 }  // namespace
-}  // namespace scumble
+}  // namespace scumble::scene

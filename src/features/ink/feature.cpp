@@ -8,23 +8,13 @@ namespace scumble::ink {
 
 namespace {
 
-// It needs the edges of all that is drawn, whatever lines are shown.
-class InkPlan : public world::FeaturePlan {
- public:
-  bool equals(const world::FeaturePlan&) const override { return true; }
-  std::unique_ptr<world::FeatureMoment> makeMoment(gpu::Device& device,
-                                                   const scene::SceneData&) const override {
-    return std::make_unique<InkMoment>(device);
-  }
-};
-
 class InkFeature : public world::Feature {
  public:
   const char* name() const override { return kName; }
   std::string_view material() const override { return ""; }
   std::shared_ptr<const world::FeaturePlan> plan(const scene::SceneData&,
                                                  const look::LookData& look) const override {
-    return mayShow(look) ? std::make_shared<InkPlan>() : nullptr;
+    return mayShow(look) ? std::make_shared<InkPlan>(mayShowPieces(look)) : nullptr;
   }
   Switch onOff() const override {
     return {&InkParams::block(), "shown", "no lines are drawn; --set ink.shown=on draws them"};
@@ -33,12 +23,18 @@ class InkFeature : public world::Feature {
 
 }  // namespace
 
+std::unique_ptr<world::FeatureMoment> InkPlan::makeMoment(gpu::Device& device,
+                                                          const scene::SceneData&) const {
+  return std::make_unique<InkMoment>(device, needsParts);
+}
+
 frame::FeatureParts makeFeature() {
   return {std::make_unique<InkFeature>(),
-          {{"surface", makeLines}, {"final-color", makeOver}},
+          {{"surface", makeLines}, {"surface", makeParts}, {"final-color", makeOver}},
           {&InkParams::block(), &LineParams::block(), &SilhouetteParams::block(), &BoundaryParams::block(),
            &MaterialBorderParams::block(), &CreaseParams::block(), &ColorBorderParams::block(),
-           &ShadowShapeParams::block()},
+           &ShadowShapeParams::block(), &LightStepParams::block(), &ObjectBorderParams::block(),
+           &IntersectionParams::block(), &CutOutParams::block()},
           {}};
 }
 

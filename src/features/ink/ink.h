@@ -14,7 +14,13 @@ inline constexpr const char* kName = "ink";
 // whatever order they are drawn.
 inline constexpr frame::Role kStrokes{"ink strokes"};
 
-// Draws it.
+// Of each pixel, one sample: R: which piece of a mesh, as PartsOnGpu numbers them, 0 where nothing is; G: the
+// object, as the AOV `id` has it; B: 1 where it may have holes; A: metres along the view axis.
+inline constexpr frame::Role kPieces{"ink pieces"};
+
+// Draws those, where lines follow from them.
+std::unique_ptr<frame::Pass> makeParts();
+// Draws ink.
 std::unique_ptr<frame::Pass> makeLines();
 // Lays it over the picture.
 std::unique_ptr<frame::Pass> makeOver();

@@ -68,15 +68,44 @@ namespace scumble::ink {
 #define PARAMS_PATH "ink.shadows"
 #define PARAMS_TARGETS kScene
 #include "look/define_params.h"
+
+#define PARAMS_STRUCT LightStepParams
+#define PARAMS_FILE "features/ink/ink_kind.params"
+#define PARAMS_PATH "ink.steps"
+#define PARAMS_TARGETS kScene
+#include "look/define_params.h"
+
+#define PARAMS_STRUCT ObjectBorderParams
+#define PARAMS_FILE "features/ink/ink_kind.params"
+#define PARAMS_PATH "ink.objects"
+#define PARAMS_TARGETS kScene
+#include "look/define_params.h"
+
+#define PARAMS_STRUCT IntersectionParams
+#define PARAMS_FILE "features/ink/ink_kind.params"
+#define PARAMS_PATH "ink.intersections"
+#define PARAMS_TARGETS kScene
+#include "look/define_params.h"
+
+#define PARAMS_STRUCT CutOutParams
+#define PARAMS_FILE "features/ink/ink_kind.params"
+#define PARAMS_PATH "ink.cutouts"
+#define PARAMS_TARGETS kScene
+#include "look/define_params.h"
 #undef INK_KIND_SHOWN
 #undef INK_KIND_WIDTH
 
-// Whether a look, at its time, draws lines, and such around shadow shapes.
+// Whether a look, at its time, draws lines; such around shadow shapes or steps of light; and such as follow
+// from which pieces of meshes are seen.
 inline bool mayShow(const look::LookData& look) {
   return look.get<InkParams>().shown;
 }
 inline bool mayShowShadows(const look::LookData& look) {
-  return mayShow(look) && look.get<ShadowShapeParams>().shown;
+  return mayShow(look) && (look.get<ShadowShapeParams>().shown || look.get<LightStepParams>().shown);
+}
+inline bool mayShowPieces(const look::LookData& look) {
+  return mayShow(look) && (look.get<ObjectBorderParams>().shown || look.get<IntersectionParams>().shown ||
+                           look.get<CutOutParams>().shown);
 }
 
 }  // namespace scumble::ink

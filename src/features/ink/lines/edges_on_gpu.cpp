@@ -4,6 +4,7 @@
 #include <set>
 #include <tuple>
 
+#include "features/ink/mesh_groups.h"
 #include "scene/parallel.h"
 #include "shading/frame.shared.h"
 
@@ -30,31 +31,11 @@ shared::EdgeRing ringOf(const scene::MeshEdge& edge, uint32_t vertices) {
 
 }  // namespace
 
-std::vector<EdgesOnGpu::Group> EdgesOnGpu::groupsOf(const std::vector<GeometryItem>& items) {
-  std::vector<Group> groups;
-  std::map<std::pair<size_t, size_t>, size_t> groupOf;  // by node and instance
-  for (uint32_t i = 0; i < items.size(); ++i) {
-    // The ground has no outline, and features draw their own.
-    if (items[i].node == GeometryItem::kNoNode) continue;
-    const auto [found, isNew] = groupOf.try_emplace({items[i].node, items[i].instanceOfNode}, groups.size());
-    if (isNew) groups.emplace_back();
-    groups[found->second].push_back(i);
-  }
-  return groups;
-}
-
-std::vector<const scene::Primitive*> EdgesOnGpu::primitivesOf(const std::vector<GeometryItem>& items,
-                                                              const Group& group) const {
-  std::vector<const scene::Primitive*> primitives;
-  for (const uint32_t item : group) primitives.push_back(items[item].primitive);
-  return primitives;
-}
-
 void EdgesOnGpu::find(const std::vector<GeometryItem>& items) {
-  const std::vector<Group> groups = groupsOf(items);
+  const std::vector<MeshGroup> groups = meshGroups(items);
   std::set<const scene::Primitive*> used;
   std::vector<const scene::Primitive*> missing;
-  for (const Group& group : groups)
+  for (const MeshGroup& group : groups)
     for (const scene::Primitive* primitive : primitivesOf(items, group))
       if (used.insert(primitive).second && !edgesOf_.contains(primitive)) missing.push_back(primitive);
   std::erase_if(edgesOf_, [&](const auto& entry) { return !used.contains(entry.first); });
@@ -64,7 +45,7 @@ void EdgesOnGpu::find(const std::vector<GeometryItem>& items) {
   for (size_t i = 0; i < missing.size(); ++i) edgesOf_[missing[i]] = std::move(found[i]);
 
   std::set<std::vector<const scene::Primitive*>> meshes;
-  for (const Group& group : groups)
+  for (const MeshGroup& group : groups)
     if (group.size() > 1) meshes.insert(primitivesOf(items, group));
   std::erase_if(sharedBy_, [&](const auto& entry) { return !meshes.contains(entry.first); });
   for (const auto& primitives : meshes) {
@@ -99,7 +80,7 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
   };
   // Of a primitive, but for edges at which it goes on in another one; those depend on the mesh.
   std::map<std::tuple<const scene::Primitive*, const std::vector<scene::SharedEdge>*, uint32_t>, Run> runs;
-  for (const Group& group : groupsOf(items)) {
+  for (const MeshGroup& group : meshGroups(items)) {
     if (!items[group[0]].shown) continue;
     const std::vector<scene::SharedEdge>* shared = nullptr;
     if (group.size() > 1) shared = &sharedBy_.at(primitivesOf(items, group));

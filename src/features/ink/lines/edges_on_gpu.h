@@ -34,12 +34,6 @@ class EdgesOnGpu {
   const gpu::Buffer& chunks() const { return chunks_; }
 
  private:
-  // Items that are one mesh at one place.
-  using Group = std::vector<uint32_t>;
-  static std::vector<Group> groupsOf(const std::vector<GeometryItem>& items);
-  std::vector<const scene::Primitive*> primitivesOf(const std::vector<GeometryItem>& items,
-                                                    const Group& group) const;
-
   std::map<const scene::Primitive*, std::vector<scene::MeshEdge>> edgesOf_;
   std::map<std::vector<const scene::Primitive*>, std::vector<scene::SharedEdge>> sharedBy_;
   struct Known {

@@ -4,6 +4,7 @@
 #include "../../../shading/frame.glsl"
 #include "../../../shading/view_index.glsl"
 #include "../ink_choices.glsl"
+#include "../ink_coverage.glsl"
 
 layout(set = 1, binding = kInkBlock, scalar) uniform Ink { InkUniforms ink; };
 #include "ink_seen.glsl"
@@ -25,12 +26,6 @@ float overlap() { return max(0.75, 2.4 * frame.pixelScale); }
 float nearestOn(vec2 from, vec2 to, vec2 point) {
   vec2 along = to - from;
   return clamp(dot(point - from, along) / max(dot(along, along), 1e-12), 0.0, 1.0);
-}
-
-// Lines that are thinner than a pixel are lighter instead.
-float coverageOf(float radius, float away) {
-  float drawn = max(radius, 0.5);
-  return radius / drawn * clamp(drawn - away + 0.5, 0.0, 1.0);
 }
 
 void main() {

@@ -3,13 +3,23 @@
 #include "../../../shading/shared_types.h"
 
 SHARED_BEGIN
-struct InkOverUniforms {
-  float warp;  // how far the warp moves ink, against other edges
-  // Of lines around shadow shapes.
-  float shadowRadius;  // pixels; where widths are in metres, at a distance of one
-  vec3 shadowColor;    // square root
+// Lines that follow from the picture: around shadow shapes, and between steps of light; where objects end,
+// where pieces of meshes meet, and where a texture cuts one out.
+const int kInkOverShadows = 0, kInkOverSteps = 1, kInkOverObjects = 2, kInkOverIntersections = 3,
+          kInkOverCutOuts = 4;
+const int kInkOverKinds = 5;
+struct InkOverKind {
+  float radius;  // pixels; where widths are in metres, at a distance of one
+  vec3 color;    // square root
 };
+struct InkOverUniforms {
+  float warp;   // how far the warp moves ink, against other edges
+  float steps;  // of light
+  InkOverKind kinds[kInkOverKinds];
+};
+// How far from a pixel borders of pieces are looked for, at most: half the greatest width of their lines.
+const int kInkOverReach = 4;
 const int kInkOverPicture = 1, kInkOverStrokes = 2, kInkOverWarp = 3, kInkOverTiles = 4, kInkOverLight = 5,
-          kInkOverDepth = 6;
+          kInkOverDepth = 6, kInkOverPieces = 7;
 SHARED_END
 #endif
