@@ -4,7 +4,7 @@
     bench/lines_against_blender.py SCENE... [--json FILE] [--program FILE] [--size 640x480] [-- OPTION...]
 
 Needs Blender 3.4 (apt-get install blender python3-numpy xvfb libgl1-mesa-dri). All draw the same: outlines, ends, and creases
-of more than 40 degrees, black, 2 pixels wide, from the cameras that `scumble measure --lines --json` names. What counts is
+of more than 40 degrees, black, 2 pixels wide, from the cameras that `scumble measure --lines ink --json` names. What counts is
 found in everybody's pictures by the same command (docs/measure.md). Scenes should stand still. Line Art draws by OpenGL, in a
 window system without a screen.
 """
@@ -41,9 +41,10 @@ def run(command, **more):
 
 def measure(chosen, options, scene, folder):
     width, height = map(int, chosen.size.split("x"))
-    ours = [chosen.program, "measure", scene, "--look", "ink", "--lines", "--json", "--quiet", "--size", chosen.size]
+    ours = [chosen.program, "measure", scene, "--look", "ink", "--lines", "ink", "--json", "--quiet", "--size", chosen.size]
     ours += [word for setting in settings(height) for word in ("--set", setting)] + options
-    views = json.loads(run(ours))["views"]
+    plain = json.loads(run([*ours, "--set", "ink.fade=0", "--set", "ink.fadeAngle=0"]))
+    views = plain["views"]
     # Blender's interpreter must be the system's, whose packages it is built for.
     system = {**os.environ, "PATH": "/usr/bin:/bin"}
     for method in METHODS:
@@ -53,7 +54,7 @@ def measure(chosen, options, scene, folder):
         run([*screen, "blender", "-b", "--factory-startup", "--python-exit-code", "1", "--python",
              str(ROOT / "bench" / "draw_lines_in_blender.py"), "--", json.dumps(task)], env=system)
         ours += ["--drawing", f"{method}={folder / method}.####.png"]
-    return {"scene": os.path.basename(scene), "lines": json.loads(run(ours))["lines"]}
+    return {"scene": os.path.basename(scene), "lines": {"plain": plain["lines"]["ink"], **json.loads(run(ours))["lines"]}}
 
 
 def main():
@@ -68,7 +69,7 @@ def main():
         report["results"].append(result)
         print(result["scene"])
         for method, lines in result["lines"].items():
-            print(f"  {method:12} {lines['ink']:8.0f} pixels of ink, {lines['changes']:.3f} change a degree, {lines['flickers']:.5f} flicker")
+            print(f"  {method:12} {lines['drawn']:8.0f} pixels drawn on, {lines['changes']:.3f} change a degree, {lines['flickers']:.5f} flicker")
     if chosen.json:
         Path(chosen.json).write_text(json.dumps(report, indent=2) + "\n")
 

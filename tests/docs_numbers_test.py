@@ -147,8 +147,8 @@ def targets(root):
 
 
 def lines(root):
-    """Of 10,000 pixels with ink; the least of each row in bold."""
-    methods = ["lines", "plain", "freestyle", "lineart"]
+    """Of 10,000 pixels that are drawn on; the least of each row in bold."""
+    methods = ["ink", "plain", "freestyle", "lineart"]
     yield ["scene", "ours", "plain", "Freestyle", "Line Art"]
     for r in load(root, "lines")["results"]:
         numbers = [1e4 * r["lines"][method]["flickers"] for method in methods]

@@ -28,7 +28,7 @@ struct MeasureArguments {
   PictureArguments picture;
   std::optional<float> ipd;
   std::string plot;
-  bool lines = false;
+  std::string lines;                  // an AOV
   std::vector<std::string> drawings;  // NAME=FILE.####.png
   JsonOption json;
   bool quiet = false;
@@ -182,22 +182,23 @@ int runLines(const MeasureArguments& args, Renderer& renderer, const Scene& scen
   }
   std::optional<Progress> progress;
   Result<LineMeasurements> measured =
-      measureLines(renderer, scene, look, withProgress(options, progress, args.quiet));
+      measureLines(renderer, scene, look, args.lines, withProgress(options, progress, args.quiet));
   progress.reset();
   if (!measured) return fail(measured.error());
-  measured->methods.insert(measured->methods.end(), others.begin(), others.end());
+  std::vector<LineSteadiness> methods{measured->lines};
+  methods.insert(methods.end(), others.begin(), others.end());
   if (!args.json.isPrinted()) {
     std::puts(heading.c_str());
-    std::puts(fmt::format("\n{:16}{:>14}{:>18}{:>18}", "lines", "ink, pixels", "change a degree",
+    std::puts(fmt::format("\n{:16}{:>14}{:>18}{:>18}", "lines", "drawn, pixels", "change a degree",
                           "flicker a degree")
                   .c_str());
-    for (const LineSteadiness& of : measured->methods)
-      std::puts(
-          fmt::format("  {:14}{:14.0f}{:18.3f}{:18.5f}", of.method, of.ink, of.changes, of.flickers).c_str());
+    for (const LineSteadiness& of : methods)
+      std::puts(fmt::format("  {:14}{:14.0f}{:18.3f}{:18.5f}", of.method, of.drawn, of.changes, of.flickers)
+                    .c_str());
   }
-  nlohmann::json methods = nlohmann::json::object(), views = nlohmann::json::array();
-  for (const LineSteadiness& of : measured->methods)
-    methods[of.method] = {{"ink", of.ink}, {"changes", of.changes}, {"flickers", of.flickers}};
+  nlohmann::json lines = nlohmann::json::object(), views = nlohmann::json::array();
+  for (const LineSteadiness& of : methods)
+    lines[of.method] = {{"drawn", of.drawn}, {"changes", of.changes}, {"flickers", of.flickers}};
   // As a camera of glTF has them: columns, y up, along -z.
   for (const View& view : measured->views)
     views.push_back(
@@ -206,7 +207,7 @@ int runLines(const MeasureArguments& args, Renderer& renderer, const Scene& scen
                                        {"device", renderer.gpu().name},
                                        {"size", {options.width, options.height}},
                                        {"samples", options.samples},
-                                       {"lines", methods},
+                                       {"lines", lines},
                                        {"views", views}});
   return given ? int(kDone) : fail(given.error());
 }
@@ -221,9 +222,10 @@ int run(const MeasureArguments& args) {
   inputs.push_back(args.look.lookFor(args.scene.files[0]));
   if (!args.plot.empty() && endingOf(args.plot) != ".png")
     return failUsage("a chart cannot go into '" + args.plot + "'", "name it like chart.png");
-  if (args.lines && (!args.plot.empty() || args.ipd))
+  if (!args.lines.empty() && (!args.plot.empty() || args.ipd))
     return failUsage("--lines goes with neither --plot nor --ipd", "give one of them");
-  if (!args.lines && !args.drawings.empty()) return failUsage("--drawing goes with --lines", "give both");
+  if (args.lines.empty() && !args.drawings.empty())
+    return failUsage("--drawing goes with --lines", "give both");
   OutputFiles files(inputs);
   for (const auto& [file, option] : {std::pair{args.plot, "--plot"}, {args.json.file(), "--json"}})
     if (const Status status = files.add(file, option); !status) return fail(status.error());
@@ -253,7 +255,7 @@ int run(const MeasureArguments& args) {
   std::string names;
   for (const std::string& file : args.scene.files)
     names += (names.empty() ? "" : ", ") + std::filesystem::path(file).filename().string();
-  if (args.lines)
+  if (!args.lines.empty())
     return runLines(args, **renderer, *scene, *look, options,
                     fmt::format("{}, {} x {}, {} sample{}, {} pictures {} degrees apart", names,
                                 options.width, options.height, options.samples,
@@ -314,8 +316,10 @@ void addMeasure(CLI::App& program, int& exitCode) {
       "--ipd", args->ipd,
       "Distance between the eyes, metres (default: 1/40 of the distance to the scene's centre)");
   args->json.addTo(*command);
-  command->add_flag("--lines", args->lines,
-                    "Measure instead how steady the look's lines are along an orbit of 10 degrees");
+  command
+      ->add_option("--lines", args->lines,
+                   "Measure instead how steady the lines of this AOV are along an orbit of 5 degrees")
+      ->type_name("AOV");
   command
       ->add_option("--drawing", args->drawings,
                    "With --lines: drawings by another program of the same orbit, "

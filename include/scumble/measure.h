@@ -100,33 +100,32 @@ struct Measurements {
 SCUMBLE_API Result<Measurements> measure(Renderer& renderer, const Scene& scene, const Look& look,
                                          const MeasureOptions& options = {});
 
-// How steady a drawing's lines are while one walks around the scene: kLineFrames pictures, a quarter of a
-// degree apart. A pixel's ink is from 0 to 1.
+// How steady a drawing's lines are while one walks around the scene: kLineFrames pictures, an eighth of a
+// degree apart. How much of a pixel is drawn on is from 0 to 1.
 constexpr int kLineFrames = 41;
-constexpr double kLineStep = 0.25;  // degrees
+constexpr double kLineStep = 0.125;  // degrees
 struct LineSteadiness {
-  std::string method;   // who drew: lines, plain, or a name that was given
-  double ink = 0;       // in a picture, pixels
-  double changes = 0;   // by how much pixels change in a degree, of the ink; that lines move is most of it
+  std::string method;   // who drew
+  double drawn = 0;     // what is drawn on in a picture, pixels
+  double changes = 0;   // by how much pixels change in a degree, of that; that lines move is most of it
   double flickers = 0;  // the same of what lines that move do not explain: see steadinessOf()
 };
 struct LineMeasurements {
-  // Of the look's lines (`lines`), and of the same that neither taper nor wait (`plain`: ink.fade and
-  // ink.fadeAngle 0), as paper 004 has them.
-  std::vector<LineSteadiness> methods;
+  LineSteadiness lines;
   std::vector<View> views;  // that they were drawn from, so that other programs can do the same
 };
 
-// Draws the ink of a look along the orbit, from the framing on; without ground. Uses the renderer as a call
-// of render() does. Fails as measure(), and with usage where nothing is drawn.
+// Of the lines that an AOV has in its channel A, along the orbit, from the framing on; without ground. Uses
+// the renderer as a call of render() does. Fails as measure(), and with usage where it has no such channel,
+// or nothing is drawn.
 SCUMBLE_API Result<LineMeasurements> measureLines(Renderer& renderer, const Scene& scene, const Look& look,
-                                                  const MeasureOptions& options = {});
+                                                  const std::string& aov, const MeasureOptions& options = {});
 
-// The same of pictures that anybody drew: dark lines, on the light that most of a picture has. Ink is linear.
-// A pixel flickers where, from one picture to the next, it has half of the full ink more or less than any
-// pixel within two of it had or has: so far lines may move, which at kLineStep is further than they do as
-// long as a picture has no more than 1,000 lines. Fails with usage for fewer than two, such as are not of one
-// size, and such without ink.
+// The same of pictures that anybody drew: dark lines, on the light that most of a picture has; what is drawn
+// is what is missing of that light. A pixel flickers where, from one picture to the next, half of it is drawn
+// on that was not, or is no longer, and no pixel within two of it was or is: so far lines may move, and at
+// kLineStep they move less within some 900 pixels of the axis. Fails with usage for fewer than two, such as
+// are not of one size, and such without lines.
 SCUMBLE_API Result<LineSteadiness> steadinessOf(const std::string& method, const std::vector<Image>& drawings,
                                                 double degreesAStep = kLineStep);
 

@@ -18,13 +18,13 @@ Field lineAt(double x, double width = 3, double to = 50) {
     return inRow * std::clamp(std::min(py - 10, to - py) + 0.5, 0.0, 1.0);
   });
 }
-InkChange change(const Field& before, const Field& after) {
+LineChange change(const Field& before, const Field& after) {
   return changeOf(before, greatestAround(before), after, greatestAround(after));
 }
 
 TEST(LineSteadiness, whatMovesDoesNotFlicker) {
   for (const double by : {0.0, 0.3, 1.0, 1.7, 2.0}) {
-    const InkChange moved = change(lineAt(30.5), lineAt(30.5 + by));
+    const LineChange moved = change(lineAt(30.5), lineAt(30.5 + by));
     EXPECT_NEAR(moved.changes, 2 * by * 40, 1e-3 + 0.01 * by * 40) << by;
     EXPECT_EQ(moved.flickers, 0) << by;
   }
@@ -35,7 +35,7 @@ TEST(LineSteadiness, whatMovesDoesNotFlicker) {
 TEST(LineSteadiness, whatComesOrGoesAtOnceDoes) {
   Field none = lineAt(30.5);
   std::fill(none.values.begin(), none.values.end(), 0.0f);
-  const InkChange gone = change(lineAt(30.5), none), come = change(none, lineAt(30.5));
+  const LineChange gone = change(lineAt(30.5), none), come = change(none, lineAt(30.5));
   EXPECT_EQ(gone.flickers, 3 * 40);
   EXPECT_EQ(come.flickers, gone.flickers);
   EXPECT_NEAR(gone.changes, 3 * 40, 1e-3);
@@ -55,12 +55,12 @@ TEST(LineSteadiness, whatFadesDoesNot) {
 // Drawings on any paper, linear or in codes.
 TEST(LineSteadiness, drawingsOfOthers) {
   const auto drawing = [](double x, float paper, bool isCoded) {
-    const Field ink = lineAt(x);
+    const Field drawn = lineAt(x);
     Image image;
-    image.width = uint32_t(ink.width), image.height = uint32_t(ink.height);
+    image.width = uint32_t(drawn.width), image.height = uint32_t(drawn.height);
     image.channels = {"R", "G", "B"};
     if (isCoded) image.format = PixelFormat::srgb8;
-    for (const float value : ink.values)
+    for (const float value : drawn.values)
       for (int c = 0; c < 3; ++c)
         if (isCoded)
           image.codes.push_back(value > 0.5f ? 0 : 250);
@@ -73,9 +73,9 @@ TEST(LineSteadiness, drawingsOfOthers) {
         "them", {drawing(20.5, 0.4f, isCoded), drawing(21.5, 0.4f, isCoded), drawing(41.5, 0.4f, isCoded)});
     ASSERT_TRUE(of) << of.error().message();
     EXPECT_EQ(of->method, "them");
-    EXPECT_NEAR(of->ink, 3 * 40, 1e-2);
-    EXPECT_NEAR(of->flickers, 2 * 3 * 40 / (0.5 * of->ink), 1e-3);
-    EXPECT_NEAR(of->changes, (2 + 6) * 40 / (0.5 * of->ink), 1e-2);
+    EXPECT_NEAR(of->drawn, 3 * 40, 1e-2);
+    EXPECT_NEAR(of->flickers, 2 * 3 * 40 / (2 * kLineStep * of->drawn), 1e-3);
+    EXPECT_NEAR(of->changes, (2 + 6) * 40 / (2 * kLineStep * of->drawn), 1e-2);
   }
   const Image one = drawing(20.5, 1, false);
   Image wide = one;

@@ -19,24 +19,24 @@ namespace {
 class Steadiness {
  public:
   explicit Steadiness(const std::string& method) { result_.method = method; }
-  void add(Field ink) {
-    for (const float value : ink.values) result_.ink += value;
-    Field most = greatestAround(ink);
+  void add(Field drawn) {
+    for (const float value : drawn.values) result_.drawn += value;
+    Field most = greatestAround(drawn);
     if (before_) {
-      const InkChange change = changeOf(*before_, mostBefore_, ink, most);
+      const LineChange change = changeOf(*before_, mostBefore_, drawn, most);
       result_.changes += change.changes, result_.flickers += change.flickers;
     }
-    before_ = std::move(ink), mostBefore_ = std::move(most);
+    before_ = std::move(drawn), mostBefore_ = std::move(most);
     ++count_;
   }
   Result<LineSteadiness> result(double degreesAStep) const {
-    if (result_.ink <= 0)
-      return usage("there is no ink in what " + result_.method + " drew",
+    if (result_.drawn <= 0)
+      return usage("there are no lines in what " + result_.method + " drew",
                    "let the look draw lines, and the camera see them");
     LineSteadiness all = result_;
-    all.ink /= count_;
+    all.drawn /= count_;
     const double degrees = degreesAStep * (count_ - 1);
-    all.changes /= all.ink * degrees, all.flickers /= all.ink * degrees;
+    all.changes /= all.drawn * degrees, all.flickers /= all.drawn * degrees;
     return all;
   }
 
@@ -47,21 +47,21 @@ class Steadiness {
   int count_ = 0;
 };
 
-Field inkOf(const Image& drawing) {
+Field drawnOn(const Image& drawing) {
   const bool isCoded = drawing.format == PixelFormat::srgb8;
   const size_t channels = drawing.channels.size(), colors = std::min<size_t>(channels, 3);
-  Field ink(int(drawing.width), int(drawing.height), 1);
-  for (size_t pixel = 0; pixel < ink.pixelCount(); ++pixel)
+  Field drawn(int(drawing.width), int(drawing.height), 1);
+  for (size_t pixel = 0; pixel < drawn.pixelCount(); ++pixel)
     for (size_t c = 0; c < colors; ++c) {
       const size_t at = pixel * channels + c;
-      ink.values[pixel] +=
+      drawn.values[pixel] +=
           (isCoded ? linearFromSrgb8()[drawing.codes[at]] : drawing.pixels[at]) / float(colors);
     }
-  std::vector<float> sorted = ink.values;
+  std::vector<float> sorted = drawn.values;
   std::nth_element(sorted.begin(), sorted.begin() + long(sorted.size() / 2), sorted.end());
   const float paper = std::max(sorted[sorted.size() / 2], 1e-6f);
-  for (float& value : ink.values) value = std::clamp(1 - value / paper, 0.0f, 1.0f);
-  return ink;
+  for (float& value : drawn.values) value = std::clamp(1 - value / paper, 0.0f, 1.0f);
+  return drawn;
 }
 
 }  // namespace
@@ -78,13 +78,13 @@ Result<LineSteadiness> steadinessOf(const std::string& method, const std::vector
     if (drawing.width == 0 || drawing.height == 0 || drawing.channels.empty() ||
         drawing.format == PixelFormat::half)
       return usage("a drawing of " + method + " is empty or of 16-bit floats", "give 8 or 32 bits a channel");
-    steadiness.add(inkOf(drawing));
+    steadiness.add(drawnOn(drawing));
   }
   return steadiness.result(degreesAStep);
 }
 
 Result<LineMeasurements> measureLines(Renderer& renderer, const Scene& scene, const Look& look,
-                                      const MeasureOptions& options) {
+                                      const std::string& aov, const MeasureOptions& options) {
   if (const Status status = checkMeasuring(scene, options); !status) return status.error();
   const float aspect = float(options.width) / float(options.height);
   const Result<std::vector<View>> framing =
@@ -99,30 +99,27 @@ Result<LineMeasurements> measureLines(Renderer& renderer, const Scene& scene, co
     result.views.push_back(view);
   }
 
+  Look alone = look;
+  if (const Status status = alone.set("ground.mode", "off"); !status) return status.error();
   RenderOptions frame;
   frame.width = options.width, frame.height = options.height;
   frame.samples = options.samples, frame.seed = options.seed;
-  frame.aovs = {"ink"};
+  frame.aovs = {aov};
+  Steadiness steadiness(aov);
   int done = 0;
-  for (const std::string method : {"lines", "plain"}) {
-    Look drawn = look;
-    std::vector<std::pair<std::string, std::string>> settings{{"ground.mode", "off"}};
-    if (method == "plain") settings.insert(settings.end(), {{"ink.fade", "0"}, {"ink.fadeAngle", "0"}});
-    for (const auto& [path, value] : settings)
-      if (const Status status = drawn.set(path, value); !status) return status.error();
-    Steadiness steadiness(method);
-    for (const View& view : result.views) {
-      const Result<Frame> rendered = renderer.render(scene, drawn, 0, {view}, frame);
-      if (!rendered) return rendered.error();
-      if (options.progress && !options.progress(++done, 2 * kLineFrames))
-        return Error{ErrorKind::cancelled, "", 0, "", "measuring was cancelled", ""};
-      const Image& ink = layer(*rendered, "ink", 0);
-      steadiness.add(fieldOf(ink, 3, 1, ink, 3));
-    }
-    Result<LineSteadiness> of = steadiness.result(kLineStep);
-    if (!of) return of.error();
-    result.methods.push_back(std::move(of).value());
+  for (const View& view : result.views) {
+    const Result<Frame> rendered = renderer.render(scene, alone, 0, {view}, frame);
+    if (!rendered) return rendered.error();
+    if (options.progress && !options.progress(++done, kLineFrames))
+      return Error{ErrorKind::cancelled, "", 0, "", "measuring was cancelled", ""};
+    const Image& lines = layer(*rendered, aov.c_str());
+    if (lines.channels.size() < 4)
+      return usage("the AOV " + aov + " has no coverage of lines", "name one that has");
+    steadiness.add(fieldOf(lines, 3, 1, lines, 3));
   }
+  Result<LineSteadiness> lines = steadiness.result(kLineStep);
+  if (!lines) return lines.error();
+  result.lines = std::move(lines).value();
   return result;
 }
 

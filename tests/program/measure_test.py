@@ -56,6 +56,40 @@ class Measure(Program):
         for color in (0x1D6478, 0xD0974A, 0xB4605A, 0x8E9B6B):  # one of each mode
             self.assertIn(color.to_bytes(3, "big"), colors)
 
+    def test_lines(self):
+        """Of an AOV, beside pictures that the program has drawn itself: the same lines are as steady."""
+        look = ["--look", "ink", "--size", "96x72", "--quiet", "--orbit", "25,15", "--set", "warp.amount=0"]
+        report = json.loads(self.good("measure", "box.gltf", *look, "--samples", "1", "--lines", "ink", "--validate", "--json"))
+        ink = report["lines"]["ink"]
+        self.assertGreater(ink["drawn"], 50)
+        self.assertGreater(ink["changes"], 0.05)
+        self.assertLess(ink["flickers"], 0.02)
+        self.assertEqual(len(report["views"]), 41)
+        eyes = [view["eyeToWorld"][12:15] for view in report["views"]]
+        across = [math.atan2(eye[0], eye[2]) for eye in eyes]  # the box stands around the origin
+        for before, after in zip(across, across[1:]):
+            self.assertAlmostEqual(abs(math.degrees(after - before)), 0.125, places=3)
+        # Black on white, but for surfaces: a drawing of nothing but lines.
+        blank = ["--set", "lit.overlay=#FFFFFF", "--set", "lit.overlayAmount=1", "--set", "shadowed.overlay=#FFFFFF", "--set",
+                 "shadowed.overlayAmount=1", "--set", "ground.mode=off", "--background", "#FFFFFF", "--samples", "1"]
+        for number, view in enumerate(report["views"]):
+            m = view["eyeToWorld"]
+            eye, target = m[12:15], [m[12 + i] - m[8 + i] for i in range(3)]
+            self.good("render", "box.gltf", *look[:5], *look[7:], *blank, "--eye", ",".join(map(str, eye)), "--target",
+                      ",".join(map(str, target)), "-o", f"drawn.{number:04}.png")
+        text = self.good("measure", "box.gltf", *look, "--lines", "ink", "--drawing", "drawn=drawn.####.png")
+        rows = {row.split()[0]: [float(n) for n in row.split()[1:]] for row in text.splitlines() if row.startswith("  ")}
+        self.assertEqual(set(rows), {"ink", "drawn"})
+        self.assertAlmostEqual(rows["drawn"][1] / rows["ink"][1], 1, delta=0.3)
+        self.assertLess(rows["drawn"][2], 0.02)
+
+    def test_lines_that_cannot_be_measured(self):
+        for words, what in ((["--lines", "nope"], "nope"), (["--lines", "depth"], "depth"), (["--lines", "ink"], "no lines"),
+                            (["--lines", "ink", "--plot", "a.png"], "--plot"), (["--drawing", "a=a.####.png"], "--lines"),
+                            (["--lines", "ink", "--drawing", "a"], "####")):
+            self.assertIn(what, self.bad(USAGE, "measure", "box.gltf", *SMALL, *words))
+        self.bad(UNUSABLE, "measure", "box.gltf", "--look", "ink", *SMALL, "--lines", "ink", "--drawing", "a=a.####.png")
+
     def check_modes(self, modes):
         """Each mode fails where docs/measure.md says it does, and the others do not."""
         for name, mode in modes.items():

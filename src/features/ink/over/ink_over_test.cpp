@@ -2,7 +2,10 @@
 // light.
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "tests/support/aov.h"
+#include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
 
 namespace scumble::ink {

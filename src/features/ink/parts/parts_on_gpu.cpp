@@ -39,26 +39,18 @@ bool PartsOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
     throw gpu::VulkanError{"lines of so large a scene", VK_ERROR_OUT_OF_DEVICE_MEMORY};
   known_ = std::move(known);
 
-  // What is no mesh of the scene is one piece each.
-  std::vector<uint32_t> parts(vertices, 0);
-  uint64_t first = 1;
-  std::vector<bool> isMesh(items.size(), false);
+  std::vector<uint32_t> parts(vertices, kOfNoMesh);
+  uint64_t first = kOfNoMesh + 1;
   for (const MeshGroup& group : meshGroups(items)) {
     const auto& partsOfMesh = partsOf_.at(primitivesOf(items, group));
     uint32_t count = 0;
     for (size_t p = 0; p < group.size(); ++p) {
-      isMesh[group[p]] = true;
       for (size_t v = 0; v < partsOfMesh[p].size(); ++v) {
         parts[places[group[p]].firstVertex + v] = uint32_t((first + partsOfMesh[p][v]) % kMostParts);
         count = std::max(count, partsOfMesh[p][v] + 1);
       }
     }
     first += count;
-  }
-  for (size_t i = 0; i < items.size(); ++i) {
-    if (isMesh[i]) continue;
-    const auto begin = parts.begin() + places[i].firstVertex;
-    std::fill(begin, begin + items[i].primitive->vertexCount(), uint32_t(first++ % kMostParts));
   }
   settle();
   parts_ = {};  // what was there goes first

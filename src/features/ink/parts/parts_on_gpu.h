@@ -18,8 +18,9 @@ class PartsOnGpu {
   void find(const std::vector<world::GeometryItem>& items);
   bool update(gpu::Device& device, gpu::Uploader& uploader, const std::vector<world::GeometryItem>& items,
               const std::vector<world::GeometryOnGpu::Place>& places, const std::function<void()>& settle);
-  // A number for each final vertex, from 1; no two meshes share one. At most kMostParts.
+  // A number for each final vertex; no two meshes share one. Below kMostParts.
   const gpu::Buffer& parts() const { return parts_; }
+  static constexpr uint32_t kOfNoMesh = 1;  // the ground, the sea and what floats on it: they have no lines
   static constexpr uint32_t kMostParts = 1u << 24;  // whole numbers that a float can have
 
  private:
