@@ -94,6 +94,8 @@ void memoryBarrier(VkCommandBuffer commands, VkPipelineStageFlags2 sourceStages,
 
 // Of storage buffers, between two dispatches.
 void computeBarrier(VkCommandBuffer commands);
+// The same, also for a dispatch whose size an earlier one has written.
+void indirectBarrier(VkCommandBuffer commands);
 
 // Gathers uploads and sends them in few submissions. Memory that the CPU sees is written directly.
 class Uploader {

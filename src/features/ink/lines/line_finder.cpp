@@ -55,10 +55,12 @@ void LineFinder::specialise(uint32_t choices) {
   desc.constants[size_t(shared::kPassId)] = choices;
   desc.shader = {shaders::ink_find_comp};
   pipelines.find = gpu::Pipeline(frame_->device(), desc);
-  desc.shader = {shaders::ink_list_comp};
-  pipelines.list = gpu::Pipeline(frame_->device(), desc);
   desc.shader = {shaders::ink_record_comp};
   pipelines.record = gpu::Pipeline(frame_->device(), desc);
+  if (list_) return;
+  desc.constants.clear();
+  desc.shader = {shaders::ink_list_comp};
+  list_ = gpu::Pipeline(frame_->device(), desc);
 }
 
 void LineFinder::bind() {
@@ -105,17 +107,9 @@ void LineFinder::record(VkCommandBuffer commands) const {
   const Pipelines& pipelines = pipelines_.at(choices_);
   run(pipelines.find);
   sum_.record(commands, chunks * uint32_t(shared::kInkWordsOfChunk) + 1);
-  run(pipelines.list);
+  run(list_);
   // How each of them looks.
-  VkMemoryBarrier2 listed{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
-  listed.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-  listed.srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-  listed.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT;
-  listed.dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT;
-  VkDependencyInfo dependency{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-  dependency.memoryBarrierCount = 1;
-  dependency.pMemoryBarriers = &listed;
-  vkCmdPipelineBarrier2(commands, &dependency);
+  gpu::indirectBarrier(commands);
   pipelines.record.bind(commands);
   pipelines.record.bindSet(commands, 0, frame_->frameSet());
   pipelines.record.bindSet(commands, 1, set_[0]);

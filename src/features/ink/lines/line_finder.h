@@ -37,9 +37,10 @@ class LineFinder {
   gpu::SetLayout layout_;
   gpu::DescriptorSets set_;
   struct Pipelines {
-    gpu::Pipeline find, list, record;
+    gpu::Pipeline find, record;
   };
   std::map<uint32_t, Pipelines> pipelines_;  // by choices
+  gpu::Pipeline list_;
   uint32_t choices_ = 0;
   // A word of bits for 32 edges; how many are set in it, which become sums; numbers of edges that are lines.
   uint32_t chunks_ = 0;  // that there is room for
