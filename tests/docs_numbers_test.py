@@ -106,6 +106,32 @@ def looks(root):
         yield [f"`{look}`", scene_name(r), f"`{name}`", whole(cost), whole(r["frameMilliseconds"])]
 
 
+def watercolour(root):
+    """The table of paper 004, which has frames of 1.3, 1.7 and 9.2 ms."""
+    paper = [1.3, 1.7, 9.2]
+    yield ["", "1 sample, ms", "of plain", "4 samples, ms", "of plain", "paper 004, ms", "of plain"]
+    columns = []
+    for samples in (1, 4):
+        r = load(root, f"watercolour-200k-{samples}")
+        took = {each["name"]: each["milliseconds"] for each in r["passes"]}
+        plain = r["yardstickMilliseconds"]
+        columns.append([plain, plain + took["pigment"], r["frameMilliseconds"]])
+    for row, name in enumerate(["plain", "plain and texture generation", "the whole frame"]):
+        cells = [name]
+        for column in [*columns, paper]:
+            cells += [rough(column[row]), f"{column[row] / column[0]:.1f}"]
+        yield cells
+
+
+def finding_lines(root):
+    yield ["triangles", "`ink-lines`, ms", "plain, ms", "of plain", "ms a million triangles"]
+    for name in ("ink-400k-1", "ink-2m-1", "ink-5m-1"):
+        r = load(root, name)
+        took = next(each["milliseconds"] for each in r["passes"] if each["name"] == "ink-lines")
+        yield [str(r["triangles"]), rough(took), rough(r["yardstickMilliseconds"]), f"{100 * took / r['yardstickMilliseconds']:.0f} %",
+               rough(took / r["triangles"] * 1e6)]
+
+
 MODES = ["metatexture", "object", "screen", "fractal"]
 MEASURED = [("warp error, dolly", lambda m: m["temporal"]["dolly"]["vectors"]),
             ("warp error, orbit", lambda m: m["temporal"]["orbit"]["vectors"]),
@@ -157,7 +183,7 @@ def lines(root):
 
 COHERENCE = ["suzanne", "sail-ship", "toycar", "demo"]
 TABLES = {"bench.md": {"frames": frames, "metatexture": metatexture, "start": start, "sequences": sequences, "colorizers": colorizers,
-                       "edits": edits, "ocean": ocean, "looks": looks},
+                       "edits": edits, "ocean": ocean, "looks": looks, "watercolour": watercolour, "finding-lines": finding_lines},
           "ink.md": {"lines": lines},
           "measure.md": {"targets": targets, **{name: coherence(name) for name in COHERENCE}}}
 

@@ -178,7 +178,9 @@ TEST_P(InkOver, stepsOfLightAreApartFromShadowShapes) {
             EXPECT_GT(borders[b], 30u) << kind;
             EXPECT_EQ(reds[b] > borders[b] * 8 / 10, b == int(isSteps))
                 << kind << " " << b << ": " << reds[b] << " of " << borders[b];
-            if (b != int(isSteps)) EXPECT_LT(reds[b], borders[b] / 10) << kind;
+            if (b != int(isSteps)) {
+              EXPECT_LT(reds[b], borders[b] / 10) << kind;
+            }
           }
         });
 }
