@@ -45,4 +45,11 @@ float eyeDepth(float depth, int view) {
   vec4 t = VIEW_FIELD(depthToEye, view);
   return depth <= 0.0 ? kNothing : (t.x + t.y * depth) / (t.z + t.w * depth);
 }
+
+// How much a pixel covers there, metres; in a parallel projection as much everywhere. (Mixed and not chosen by: no branch
+// on a uniform.)
+float metresOfPixel(float distance, int view) {
+  return 2.0 * abs(VIEW_FIELD(ndcToEyeRay, view).y) / frame.imageSize.y *
+         mix(distance, 1.0, VIEW_FIELD(orthographic, view));
+}
 #endif

@@ -146,6 +146,13 @@ GeometryOnGpu::Plan GeometryOnGpu::planOf(const std::vector<GeometryItem>& items
   return plan;
 }
 
+uint64_t finalVertexCount(const std::vector<GeometryItem>& items, const std::vector<GeometryPlace>& places) {
+  uint64_t count = 0;
+  for (size_t i = 0; i < items.size(); ++i)
+    count = std::max(count, uint64_t(places[i].firstVertex) + items[i].primitive->vertexCount());
+  return count;
+}
+
 bool GeometryOnGpu::update(gpu::Device& device, gpu::Uploader& uploader,
                            const std::vector<GeometryItem>& items, const std::function<void()>& settle) {
   rewritten_.clear();

@@ -24,6 +24,9 @@ struct GeometryPlace {
   bool morphs = false;
 };
 
+// How many final vertices there are up to the last of these items.
+uint64_t finalVertexCount(const std::vector<GeometryItem>& items, const std::vector<GeometryPlace>& places);
+
 class GeometryOnGpu {
  public:
   using Place = GeometryPlace;

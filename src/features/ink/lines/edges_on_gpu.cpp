@@ -128,9 +128,7 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
 
   // What shaders read at once must fit into what the device binds: vertices too, of which their frames are
   // the largest part.
-  uint64_t vertices = 0;
-  for (size_t i = 0; i < items.size(); ++i)
-    vertices = std::max(vertices, uint64_t(places[i].firstVertex) + items[i].primitive->vertexCount());
+  const uint64_t vertices = finalVertexCount(items, places);
   const uint64_t largest = std::max({vertices * sizeof(shared::VertexFrame), edges.size() * sizeof(edges[0]),
                                      edgeCount_ * sizeof(uint32_t)});
   if (largest > device.limits().maxStorageBufferRange)

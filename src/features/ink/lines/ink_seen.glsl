@@ -22,17 +22,17 @@ float fullnessAt(vec2 place, float own, vec2 outward, bool isOutline, vec2 turn,
   float beyond = min(depthAt(place + 1.5 * outward, view), depthAt(place + 2.6 * outward, view));
   float parallel = VIEW_FIELD(orthographic, view);  // mixed and not chosen by: no branch on a uniform
   float distance = eyeDepth(own, view);
-  float metresOfPixel = abs(VIEW_FIELD(ndcToEyeRay, view).y) * 2.0 / frame.imageSize.y * mix(distance, 1.0, parallel);
+  float pixel = metresOfPixel(distance, view);
   // On both sides of an inner line in a valley the surface comes nearer, also of one that is an outline and stands on
   // something.
   float tolerance = kTolerance * mix(distance, frame.sceneRadius, parallel) +
-                    (isOutline && turn.y <= 0.0 ? 0.0 : 3.0 * metresOfPixel);
+                    (isOutline && turn.y <= 0.0 ? 0.0 : 3.0 * pixel);
   if (eyeDepth(min(beyond, depthAt(place - 1.5 * outward, view)), view) < distance - tolerance) return 0.0;
   if (!isOutline) return 1.0;
   // An outline tapers where the form goes on right behind it, so that it neither begins nor ends at once; but the fold of a
   // coarse form has depth until it closes, and tapers by its angle.
   float behind = min(eyeDepth(beyond, view), 1e6 * distance) - distance;
-  float full = 2.0 * ink.fade * max(radius, 0.5) * metresOfPixel, far = behind / frame.sceneRadius;
+  float full = 2.0 * ink.fade * max(radius, 0.5) * pixel, far = behind / frame.sceneRadius;
   float fullness = mix(1.0, ink.outer, smoothstep(0.1, 0.4, far)) * smoothstep(0.0, 1.0, behind / max(full, 1e-20));
   return max(fullness * mix(turn.x, 1.0, smoothstep(0.05, 0.2, far)), turn.y);
 }

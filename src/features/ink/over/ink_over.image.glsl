@@ -76,14 +76,12 @@ vec3 bordersAround(ivec2 pixel, int layer) {
     isAlike = isAlike && there.r == here.r && there.b + here.b == 0.0;
   }
   if (isAlike) return nearest;
-  float parallel = VIEW_FIELD(orthographic, layer);
-  float metresOfPixel = abs(VIEW_FIELD(ndcToEyeRay, layer).y) * 2.0 / frame.imageSize.y;
   for (int y = -kReach; y <= kReach; ++y)
     for (int x = -kReach; x <= kReach; ++x) {
       vec4 there = pieceAt(pixel + ivec2(x, y), layer);
       float away = length(vec2(x, y));
       bool isOther = there.r != here.r;
-      float steep = kSteepest * away * metresOfPixel * mix(min(here.a, there.a), 1.0, parallel);
+      float steep = kSteepest * away * metresOfPixel(min(here.a, there.a), layer);
       bool touches = abs(there.a - here.a) <= steep;
       bool hasHoles = (there.a < here.a ? there.b : here.b) > 0.0;
       float border = away - 0.5;

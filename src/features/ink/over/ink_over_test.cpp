@@ -61,6 +61,19 @@ class InkOver : public BothEyes {
     for (size_t v = 0; v < viewCount(); ++v) check(Red{frame, views[v], v});
   }
   static int grey(TestScene& s) { return s.material(TestScene::colored("Grey", {0.5f, 0.5f, 0.5f, 1})); }
+  // Two meshes, as one mesh of one node or as two nodes.
+  static Scene pair(const TestMesh& one, const TestMesh& other, bool isOneMesh) {
+    TestScene s;
+    const int material = grey(s);
+    if (isOneMesh) {
+      TestMesh both;
+      for (const TestMesh& mesh : {one, other}) append(both, mesh, {1, 1, 1, 1});
+      s.add(both, material);
+    } else {
+      for (const TestMesh& mesh : {one, other}) s.add(mesh, material);
+    }
+    return s.load();
+  }
 };
 INSTANTIATE_BOTH_EYES(InkOver);
 
@@ -69,17 +82,7 @@ TEST_P(InkOver, piecesThatMeetHaveALineThere) {
   const TestMesh block = boxMesh({-1, -1, -0.5f}, {1, 1, 0.5f}),
                  beam = boxMesh({-0.3f, -0.3f, -0.4f}, {0.3f, 0.3f, 1.5f});
   for (const bool isOneMesh : {true, false}) {
-    TestScene s;
-    if (isOneMesh) {
-      TestMesh both;
-      append(both, block, {1, 1, 1, 1});
-      append(both, beam, {1, 1, 1, 1});
-      s.add(both, grey(s));
-    } else {
-      const int material = grey(s);
-      s.add(block, material), s.add(beam, material);
-    }
-    forEachEye(s.load(), only("intersections"), {2.5f, 2, 4}, [](const Red& red) {
+    forEachEye(pair(block, beam, isOneMesh), only("intersections"), {2.5f, 2, 4}, [](const Red& red) {
       for (const double along : {-0.2, 0.0, 0.2}) {
         EXPECT_TRUE(red.isAt({0.3, along, 0.5})) << along;
         EXPECT_TRUE(red.isAt({along, 0.3, 0.5})) << along;
@@ -100,17 +103,7 @@ TEST_P(InkOver, objectsEndInLines) {
   const TestMesh back = boxMesh({-1.2f, -1, -0.5f}, {1.2f, 1, 0.5f}),
                  front = boxMesh({-0.3f, -0.3f, 1}, {0.3f, 0.3f, 1.2f});
   for (const bool isOneObject : {true, false}) {
-    TestScene s;
-    if (isOneObject) {
-      TestMesh both;
-      append(both, back, {1, 1, 1, 1});
-      append(both, front, {1, 1, 1, 1});
-      s.add(both, grey(s));
-    } else {
-      const int material = grey(s);
-      s.add(back, material), s.add(front, material);
-    }
-    forEachEye(s.load(), only("objects"), {0, 0, 6}, [&](const Red& red) {
+    forEachEye(pair(back, front, isOneObject), only("objects"), {0, 0, 6}, [&](const Red& red) {
       for (const double along : {-0.2, 0.0, 0.2}) {
         EXPECT_EQ(red.isAt({0.3, along, 1.2}), !isOneObject);
         EXPECT_EQ(red.isAt({along, -0.3, 1.2}), !isOneObject);

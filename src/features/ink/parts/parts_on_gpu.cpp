@@ -29,12 +29,9 @@ bool PartsOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
                         const std::vector<GeometryOnGpu::Place>& places,
                         const std::function<void()>& settle) {
   std::vector<Known> known;
-  uint64_t vertices = 0;
-  for (size_t i = 0; i < items.size(); ++i) {
-    known.push_back({items[i].primitive, places[i].firstVertex});
-    vertices = std::max(vertices, uint64_t(places[i].firstVertex) + items[i].primitive->vertexCount());
-  }
+  for (size_t i = 0; i < items.size(); ++i) known.push_back({items[i].primitive, places[i].firstVertex});
   if (parts_.handle() && known == known_) return false;
+  const uint64_t vertices = finalVertexCount(items, places);
   if (vertices * sizeof(uint32_t) > device.limits().maxStorageBufferRange)
     throw gpu::VulkanError{"lines of so large a scene", VK_ERROR_OUT_OF_DEVICE_MEMORY};
   known_ = std::move(known);

@@ -57,16 +57,14 @@ bool AnchorsOnGpu::update(gpu::Device& device, gpu::Uploader& uploader,
                           const std::vector<GeometryItem>& items, const std::vector<GeometryPlace>& places,
                           const std::function<void()>& settle) {
   std::vector<Known> known;
-  uint64_t vertices = 0;
   for (size_t i = 0; i < items.size(); ++i) {
     const bool isShown = isPainted(items[i]);
     known.push_back({items[i].primitive, places[i].firstVertex,
                      isShown ? spreads_.at(items[i].primitive).candidates : 0, isShown});
-    vertices = std::max(vertices, uint64_t(places[i].firstVertex) + items[i].primitive->vertexCount());
   }
   if (anchors_.handle() && known == known_) return false;
   // What shaders read at once must fit into what the device binds.
-  if (vertices * sizeof(shared::VertexCore) > device.limits().maxStorageBufferRange)
+  if (finalVertexCount(items, places) * sizeof(shared::VertexCore) > device.limits().maxStorageBufferRange)
     throw gpu::VulkanError{"a watercolour of so large a scene", VK_ERROR_OUT_OF_DEVICE_MEMORY};
   known_ = std::move(known);
 

@@ -39,9 +39,8 @@ void main() {
   // last ones come and go by their size (FORMULAS 23). Both eyes have the same, from the middle between them.
   int view = viewIndex();
   float parallel = VIEW_FIELD(orthographic, view);  // mixed and not chosen by: no branch on a uniform
-  float metresOfPixel = 2.0 * abs(VIEW_FIELD(ndcToEyeRay, view).y) / frame.imageSize.y *
-                        mix(distance(frame.viewer, position), 1.0, parallel);
-  float wanted = u.spacing * metresOfPixel;
+  float pixel = metresOfPixel(distance(frame.viewer, position), view);
+  float wanted = u.spacing * pixel;
   float grown = smoothstep(0.8, 1.3, anchor.spacing * scale / wanted);
   if (grown <= 0.0) return;
   // It fades where the surface turns away (FORMULAS 22).
@@ -59,7 +58,7 @@ void main() {
   vec4 chance = chanceOf(anchor.seed);
   outChance = chance;
   outMiddle = vec3(at, radius);
-  outStamp = vec4(eyeDepth(clip.z / clip.w, view), radius * metresOfPixel, counts, 6.2831853 * chance.w);
+  outStamp = vec4(eyeDepth(clip.z / clip.w, view), radius * pixel, counts, 6.2831853 * chance.w);
   bool isRight = corner == 1 || corner == 2 || corner == 4, isLow = corner == 2 || corner == 4 || corner == 5;
   outPlace = vec2(isRight ? 1.0 : -1.0, isLow ? 1.0 : -1.0);
   gl_Position = vec4((at + radius * outPlace) / (0.5 * frame.imageSize) - 1.0, 0.5, 1.0);
