@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 
+#include "base/test_folder.h"
 #include "gltf/uri.h"
 #include "scene/animation.h"
 #include "scene/import_failure.h"
@@ -166,7 +167,8 @@ TEST(GltfErrors, uris) {
 }
 
 TEST(GltfErrors, filesBesideTheScene) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "scumble scene test";
+  const TestFolder made;
+  const std::filesystem::path folder = made.path();
   std::filesystem::create_directories(folder / "sub");
   const TestGltf g = quad();
   Json whole = Json::parse(g.gltf());
@@ -188,7 +190,6 @@ TEST(GltfErrors, filesBesideTheScene) {
   EXPECT_FALSE(Scene::load((folder / "sub").string()).ok());
   EXPECT_FALSE(Scene::load("/dev/null").ok());
   EXPECT_FALSE(Scene::load("/no/such/file.glb").ok());
-  std::filesystem::remove_all(folder);
 }
 
 TEST(GltfErrors, glbContainers) {

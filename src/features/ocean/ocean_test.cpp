@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "base/test_folder.h"
 #include "scene/scene_data.h"
 #include "tests/support/animated_scene.h"
 #include "tests/support/aov.h"
@@ -550,11 +550,12 @@ TEST_P(OceanPainted, mapsAreChosenAndGoneOverTo) {
 
 TEST_P(OceanPainted, picturesOfOnesOwn) {
   const Scene scene = harbour("Ocean").load();
-  const auto file = [](const char* name, const glm::vec4& color) {
+  const TestFolder folder;
+  const auto file = [&](const char* name, const glm::vec4& color) {
     Image image{4, 4, {"R", "G", "B", "A"}, {}};
     for (int i = 0; i < 16; ++i)
       image.pixels.insert(image.pixels.end(), {color.r, color.g, color.b, color.a});
-    std::string path = ::testing::TempDir() + "ocean_" + stereoName({GetParam(), 0}) + name;
+    std::string path = folder.file(name);
     EXPECT_TRUE(writePng(path, image).ok());
     return path;
   };
@@ -584,7 +585,6 @@ TEST_P(OceanPainted, picturesOfOnesOwn) {
   expectAll(
       {{"ocean.paint.nextColors", magenta}, {"ocean.paint.nextSky", magenta}, {"ocean.paint.next", "1"}},
       {0.8, 0.05, 0.6}, "next");
-  for (const std::string& path : {magenta, green}) std::filesystem::remove(path);
 }
 
 TEST_P(OceanPainted, foamWhereItIsAskedFor) {

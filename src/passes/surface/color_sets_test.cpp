@@ -1,9 +1,7 @@
 // The two sets of colours: graded, from files and from looks, by material, by node and over time.
-#include <unistd.h>
-
 #include <cmath>
-#include <filesystem>
 
+#include "base/test_folder.h"
 #include "passes/surface/surface_knobs.h"
 #include "scumble/image.h"
 #include "tests/support/aov.h"
@@ -163,19 +161,16 @@ TEST_P(ColorSetsTest, texturesOfTheLook) {
   s.add(gridMesh({1, -1, -1}, {2, 0, 0}, {0, 2, 0}),
         s.material(TestScene::colored("Other", {0.5f, 0.5f, 0.5f, 1})));
   const Scene scene = s.load();
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / ("scumble sets " + std::to_string(getpid()));
-  std::filesystem::create_directory(folder);
-  ASSERT_TRUE(writePng((folder / "light.png").string(), fourColors(kLight)));
-  ASSERT_TRUE(writePng((folder / "dark.png").string(), fourColors(kDark)));
-  const std::string file = (folder / "test.look.json").string();
+  const TestFolder folder;
+  ASSERT_TRUE(writePng(folder.file("light.png"), fourColors(kLight)));
+  ASSERT_TRUE(writePng(folder.file("dark.png"), fourColors(kDark)));
+  const std::string file = folder.file("test.look.json");
   const std::string rest =
       R"("ground": {"mode": "off"}, "background": {"mode": "look", "air": 0}, "surface": {"simplify": 0})";
   Result<Look> look = Look::fromJson(
       "{" + rest +
           R"(, "materials": {"Sail*": {"lit": {"texture": "light.png"}, "shadowed": {"texture": "dark.png"}}}})",
       file);
-  std::filesystem::remove_all(folder);
   ASSERT_TRUE(look) << look.error().message();
   const Sets got = drawn(scene, look.value());
   // Two texels over two metres are magnified: at the middle of each stands its own colour.
@@ -251,9 +246,9 @@ TEST_P(ColorSetsTest, tracksMoveThem) {
 
 // A texture for all of a scene is not laid on the ground that is put under it.
 TEST_P(ColorSetsTest, leaveTheGroundAlone) {
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / ("scumble-ground-" + std::to_string(getpid()) + ".png");
-  ASSERT_TRUE(writePng(file.string(), fourColors(kLight)));
+  const TestFolder folder;
+  const std::string file = folder.file("ground.png");
+  ASSERT_TRUE(writePng(file, fourColors(kLight)));
   TestScene s;
   s.add(boxMesh({-0.5f, 0, -0.5f}, {0.5f, 1, 0.5f}),
         s.material(TestScene::colored("Box", {0.4f, 0.4f, 0.4f, 1})));
@@ -261,9 +256,7 @@ TEST_P(ColorSetsTest, leaveTheGroundAlone) {
   const auto views = viewsFrom(scene, {{1, 2, 4}, {0, 0.4f, 0}}, kSetsWidth, kSetsHeight, GetParam());
   const RenderOptions options = sized(kSetsWidth, kSetsHeight, {"lit", "id"});
   const Frame without = draw(scene, quietLook({{"ground.mode", "on"}}), views, options),
-              with = draw(scene, quietLook({{"ground.mode", "on"}, {"lit.texture", file.string()}}), views,
-                          options);
-  std::filesystem::remove(file);
+              with = draw(scene, quietLook({{"ground.mode", "on"}, {"lit.texture", file}}), views, options);
   size_t ground = 0, changed = 0;
   for (int y = 0; y < kSetsHeight; ++y)
     for (int x = 0; x < kSetsWidth; ++x) {

@@ -3,11 +3,11 @@
 // was taken, and green how far down.
 #include <bit>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 #include <optional>
 
 #include "base/stroke_maps.h"
+#include "base/test_folder.h"
 #include "features/ocean/paint/ocean_knobs.h"
 #include "features/ocean/sea_reference.h"
 #include "features/ocean/waves/maps.h"
@@ -47,16 +47,6 @@ class OceanPaintTest : public BothEyes {
     double height = 0, jacobian = 1;  // metres
   };
 
-  void SetUp() override {
-    BothEyes::SetUp();
-    folder_ = std::filesystem::path(testing::TempDir()) / ("scumble ocean " + stereoName({GetParam(), 0}));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override {
-    std::filesystem::remove_all(folder_);
-    BothEyes::TearDown();
-  }
-
   // Square roots of colours: red is how far across, green how far down, blue all the same; alpha.
   std::string ramp(const std::string& name, double blue, double alpha) const {
     Image image{kRampSide, kRampSide, {"R", "G", "B", "A"}, {}};
@@ -65,7 +55,7 @@ class OceanPaintTest : public BothEyes {
         const double u = (x + 0.5) * kRamp, v = (y + 0.5) * kRamp;
         for (const double value : {u * u, v * v, blue * blue, alpha}) image.pixels.push_back(float(value));
       }
-    std::string path = (folder_ / (name + ".png")).string();
+    std::string path = folder_.file(name + ".png");
     EXPECT_TRUE(writePng(path, image).ok());
     return path;
   }
@@ -158,7 +148,7 @@ class OceanPaintTest : public BothEyes {
   static inline const glm::dvec3 kToSun = glm::normalize(glm::dvec3(1, 0.6, -0.4));
 
  private:
-  std::filesystem::path folder_;
+  TestFolder folder_;
 };
 INSTANTIATE_BOTH_EYES(OceanPaintTest);
 
