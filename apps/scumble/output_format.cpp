@@ -24,7 +24,8 @@ constexpr OutputFormat kFormats[] = {{".png", OutputKind::picture, 0, -1, FilmFo
                                      {".exr", OutputKind::exr},
                                      {".mp4", OutputKind::film, 0, 51, FilmFormat::mp4},
                                      {".webm", OutputKind::film, 0, 63, FilmFormat::webm},
-                                     {".gif", OutputKind::film, 0, -1, FilmFormat::gif}};
+                                     {".gif", OutputKind::film, 0, -1, FilmFormat::gif},
+                                     {".svg", OutputKind::drawing}};
 
 }  // namespace
 

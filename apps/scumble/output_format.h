@@ -9,7 +9,7 @@
 
 namespace scumble::app {
 
-enum class OutputKind { picture, exr, film };
+enum class OutputKind { picture, exr, film, drawing };
 
 struct OutputFormat {
   const char* ending;  // in small letters

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 #include "options.h"
 #include "report.h"
@@ -25,6 +26,15 @@ std::string withPart(const std::string& path, const std::string& part, const std
 const Image& arrange(const std::vector<Image>& views, const std::string& layout, Image& made) {
   if (views.size() < 2) return views[0];
   return made = layout == "over-under" ? overUnder(views[0], views[1]) : sideBySide(views[0], views[1]);
+}
+
+// Whether a file is what writeSvg() writes of this size, to its end.
+bool isWholeSvg(const std::string& path, uint32_t width, uint32_t height) {
+  std::ifstream in(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::string size =
+      "width=\"" + std::to_string(width) + "\" height=\"" + std::to_string(height) + "\"";
+  return text.find(size) != std::string::npos && text.ends_with("</svg>\n");
 }
 
 }  // namespace
@@ -66,7 +76,7 @@ std::string OutputPlan::framePath(std::optional<int> number) const {
 }
 
 bool OutputPlan::isFileOfItsOwn(const std::string& aov) const {
-  return kind() == OutputKind::picture || Renderer::hasSizeOfItsOwn(aov);
+  return kind() != OutputKind::exr || Renderer::hasSizeOfItsOwn(aov);
 }
 
 Status OutputPlan::writeLayers(const Frame& frame, const std::string& path_,
@@ -95,13 +105,15 @@ std::vector<std::string> OutputPlan::files(const std::string& framePath_) const 
 }
 
 bool OutputPlan::isThere(const std::string& framePath_) const {
-  const bool together = viewCount > 1 && !separateEyes && kind() == OutputKind::picture;
+  const bool together = viewCount > 1 && !separateEyes && kind() != OutputKind::exr;
   const uint32_t across = together && layout != "over-under" ? 2 : 1;
   const uint32_t down = together && layout == "over-under" ? 2 : 1;
   const std::vector<std::string> all = files(framePath_), pictures = picturePaths(framePath_);
-  return std::all_of(
-             pictures.begin(), pictures.end(),
-             [&](const std::string& file) { return isWholePicture(file, width * across, height * down); }) &&
+  const auto isWhole = [&](const std::string& file) {
+    return kind() == OutputKind::drawing ? isWholeSvg(file, width * across, height * down)
+                                         : isWholePicture(file, width * across, height * down);
+  };
+  return std::all_of(pictures.begin(), pictures.end(), isWhole) &&
          std::all_of(all.begin() + std::ptrdiff_t(pictures.size()), all.end(),
                      [](const std::string& file) { return isWholePicture(file); });
 }
@@ -109,25 +121,42 @@ bool OutputPlan::isThere(const std::string& framePath_) const {
 Status OutputPlan::write(const Frame& frame, const std::string& framePath_) const {
   const std::vector<std::string> paths = picturePaths(framePath_);
   for (size_t file = 0; file < paths.size(); ++file)
-    if (const Status status = kind() == OutputKind::picture ? writePicture(frame, file, paths[file])
-                                                            : writeLayeredExr(frame, file, paths[file]);
+    if (const Status status = kind() == OutputKind::picture   ? writePicture(frame, file, paths[file])
+                              : kind() == OutputKind::drawing ? writeDrawing(frame, file, paths[file])
+                                                              : writeLayeredExr(frame, file, paths[file]);
         !status)
       return status.error();
   return Done{};
 }
 
-Status OutputPlan::writePicture(const Frame& frame, size_t file, const std::string& path_) const {
+const Image& OutputPlan::imageOf(const Frame::Layer& layer, size_t file, Image& made) const {
+  return asFiles() && layer.views.size() > 1 ? layer.views[file] : arrange(layer.views, layout, made);
+}
+
+Status OutputPlan::writeAovsBeside(const Frame& frame, size_t file, const std::string& path_) const {
   Image made;
-  const auto picture = [&](const Frame::Layer& layer) -> const Image& {
-    return asFiles() && layer.views.size() > 1 ? layer.views[file] : arrange(layer.views, layout, made);
-  };
   for (size_t i = 1; i < frame.layers.size(); ++i) {
     const std::string& name = frame.layers[i].name;
-    const ImageLayer layer{name == kCryptomatte ? name : "", "", &picture(frame.layers[i]), isHalf(name)};
+    const ImageLayer layer{name == kCryptomatte ? name : "", "", &imageOf(frame.layers[i], file, made),
+                           isHalf(name)};
     if (const Status status = writeLayers(frame, withPart(path_, name, ".exr"), {layer}); !status)
       return status.error();
   }
-  return format->write(path_, picture(frame.layers[0]), quality);
+  return Done{};
+}
+
+Status OutputPlan::writePicture(const Frame& frame, size_t file, const std::string& path_) const {
+  if (const Status status = writeAovsBeside(frame, file, path_); !status) return status.error();
+  Image made;
+  return format->write(path_, imageOf(frame.layers[0], file, made), quality);
+}
+
+Status OutputPlan::writeDrawing(const Frame& frame, size_t file, const std::string& path_) const {
+  if (const Status status = writeAovsBeside(frame, file, path_); !status) return status.error();
+  const std::vector<Drawing>& views = frame.drawings;
+  if (views.size() < 2 || asFiles()) return writeSvg(path_, views[views.size() < 2 ? 0 : file], svg);
+  return writeSvg(
+      path_, layout == "over-under" ? overUnder(views[0], views[1]) : sideBySide(views[0], views[1]), svg);
 }
 
 Status OutputPlan::writeLayeredExr(const Frame& frame, size_t file, const std::string& path_) const {

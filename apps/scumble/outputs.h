@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "output_format.h"
+#include "scumble/drawing.h"
 #include "scumble/film.h"
 #include "scumble/renderer.h"
 
@@ -26,6 +27,7 @@ struct OutputPlan {
   std::vector<std::string> aovs;
   bool half = false;  // EXR: layers that 16 bits are enough for
   ExrOptions exr;
+  SvgOptions svg;
 
   // Fails with usage for a name whose ending is not known.
   static Result<OutputPlan> make(const std::string& given, const std::string& sceneFile,
@@ -54,7 +56,11 @@ struct OutputPlan {
   bool isHalf(const std::string& layer) const { return half && !Renderer::needsFloat(layer); }
   Status writeLayers(const Frame& frame, const std::string& path,
                      const std::vector<ImageLayer>& layers) const;
+  // Of a layer, what goes into a file; `made` holds it where it has to be made.
+  const Image& imageOf(const Frame::Layer& layer, size_t file, Image& made) const;
+  Status writeAovsBeside(const Frame& frame, size_t file, const std::string& path) const;
   Status writePicture(const Frame& frame, size_t file, const std::string& path) const;
+  Status writeDrawing(const Frame& frame, size_t file, const std::string& path) const;
   Status writeLayeredExr(const Frame& frame, size_t file, const std::string& path) const;
 };
 

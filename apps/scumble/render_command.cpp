@@ -33,7 +33,7 @@ struct RenderArguments {
   SceneArguments scene;
   LookArguments look;
   PictureArguments picture;
-  std::string output, frames, background, stats, graph, exr = "float,zip";
+  std::string output, frames, background, stats, graph, exr = "float,zip", svg = "outlines";
   std::vector<std::string> aovs;
   std::optional<double> time;  // seconds
   double fps = 24;
@@ -97,6 +97,21 @@ Status readExrOptions(const std::string& text, OutputPlan& output) {
                    "",
                    "--exr " + text + " is not known",
                    "use float or half, and zip or piz, like half,piz"};
+  }
+  return Done{};
+}
+
+// "centerlines,hidden" and the like.
+Status readSvgOptions(const std::string& text, OutputPlan& output) {
+  std::stringstream words(text);
+  for (std::string word; std::getline(words, word, ',');) {
+    if (word == "outlines" || word == "centerlines")
+      output.svg.centerlines = word == "centerlines";
+    else if (word == "hidden")
+      output.svg.hidden = true;
+    else
+      return usage("--svg " + text + " is not known",
+                   "use outlines or centerlines, and hidden, like centerlines,hidden");
   }
   return Done{};
 }
@@ -220,7 +235,9 @@ void warnOfIdle(const RenderArguments& args, const OutputPlan& output) {
   const bool isFilm = output.kind() == OutputKind::film;
   if (args.time && !args.frames.empty()) warn({"--time does nothing beside --frames: frame n is at n / fps"});
   if (args.time && args.frames.empty() && isFilm) warn({"--time does nothing for a film"});
-  if (args.isGiven("--exr") && (isFilm || (output.kind() == OutputKind::picture && output.aovs.empty())))
+  if (args.isGiven("--svg") && output.kind() != OutputKind::drawing)
+    warn({"--svg does nothing where no SVG is written"});
+  if (args.isGiven("--exr") && (isFilm || (output.kind() != OutputKind::exr && output.aovs.empty())))
     warn({"--exr does nothing where no EXR is written"});
   args.picture.warnOfIdle();
 }
@@ -245,6 +262,8 @@ int run(RenderArguments args) {
   output->quality = args.quality;
   if (const Status status = output->format->checkQuality(args.quality); !status) return fail(status.error());
   if (const Status status = readExrOptions(args.exr, *output); !status) return fail(status.error());
+  if (const Status status = readSvgOptions(args.svg, *output); !status) return fail(status.error());
+  options->drawing = output->kind() == OutputKind::drawing;
   // What is written is told apart from what is read.
   std::vector<std::string> inputs = args.scene.files;
   inputs.push_back(args.look.lookFor(args.scene.files[0]));
@@ -341,6 +360,9 @@ int run(RenderArguments args) {
   nlohmann::json frameStats = nlohmann::json::array();
   FrameLoop loop(args, *scene, *look, *options, *background, views, **renderer);
   Status status = loop.draw(times, [&](size_t i, Frame frame) {
+    for (const Drawing& drawing : frame.drawings)
+      if (drawing.leftOut > 0)
+        warn({std::to_string(drawing.leftOut) + " lines are left out of the drawing: there are too many"});
     frameStats.push_back(statsJson(frame.stats));
     return writer.add(isPicture ? 0 : (*numbers)[i], std::move(frame));
   });
@@ -388,9 +410,8 @@ void addRender(CLI::App& program, int& exitCode) {
   command->add_option(
       "-o,--output", args->output,
       "The picture: .png, .jpg, .webp (8 bit sRGB) or .exr (linear float, both eyes as views); "
-      "name.####.png for a sequence; .mp4, .webm or .gif for a film, by ffmpeg (default: the scene's name + "
-      ".png "
-      "in the current folder)");
+      "name.####.png for a sequence; .mp4, .webm or .gif for a film, by ffmpeg; .svg for the look's lines "
+      "(default: the scene's name + .png in the current folder)");
   args->look.addTo(*command);
   args->picture.addTo(*command);
   args->picture.addStereoTo(*command);
@@ -408,6 +429,11 @@ void addRender(CLI::App& program, int& exitCode) {
       "JPEG: 1 to 100 (default 92), WebP: 0 to 100, which is lossless (90), higher is better; films, "
       "constant quality, lower is better: MP4 0 to 51 (16), WebM 0 to 63 (20)");
   command->add_option("--exr", args->exr, "EXR: float or half (facts stay float), zip or piz")
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--svg", args->svg,
+          "SVG: outlines, as wide as lines are, or centerlines, for plotters; and hidden for hidden ones")
       ->capture_default_str();
   std::string names;
   for (const std::string& name : Renderer::aovNames()) names += (names.empty() ? "" : ", ") + name;

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "scumble/drawing.h"
 #include "scumble/export.h"
 #include "scumble/frame_stats.h"
 #include "scumble/image.h"
@@ -70,6 +71,8 @@ struct RenderOptions {
   // As what the picture (named "") and AOVs come back; those that are not named, as 32-bit floats. Codes are
   // for colours only: the picture, and AOVs of which Image::isColor.
   std::map<std::string, PixelFormat> formats;
+  // The lines of the look as strokes as well (Frame::drawings). Fails with usage for a look that draws none.
+  bool drawing = false;
   bool transparent = false;  // leave the background out: alpha 0 where nothing is
   // What is behind everything, instead of the sky: a picture with channels R, G, B or R, G, B, A (put over
   // black), of any size up to 16384 a side, or what the device allows. It is scaled to cover the frame, with
@@ -106,6 +109,7 @@ struct Frame {
   // number n is entry n - 1. One entry a node (its number, "node 12", where it has no name; empty where it
   // shows nothing), then "Ground" and the materials of features, empty where none is drawn.
   std::vector<std::string> objects;
+  std::vector<Drawing> drawings;  // one a view, where RenderOptions::drawing
   FrameStats stats;
 };
 

@@ -15,8 +15,10 @@ struct Aov {
   uint8_t premultiplied = 0;
   bool isSquareRoot = false;  // R, G and B: of linear colour
   bool needsFloat = false;    // metres, positions, numbers of objects: halves are too coarse
-  bool isOnce = false;        // one image for all views, of a size of its own
+  bool isOnce = false;        // one image for all views
+  bool hasOwnSize = false;    // not the frame's
   bool namesObjects = false;  // holds numbers of Frame::objects
+  bool isInternal = false;    // for the library's own use: users do not know the name
 };
 
 }  // namespace scumble::frame

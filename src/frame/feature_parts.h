@@ -2,14 +2,26 @@
 // makeFeature().
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "frame/pass.h"
 #include "scene/extras.h"
+#include "scumble/drawing.h"
+#include "scumble/image.h"
 #include "world/feature.h"
 
 namespace scumble::frame {
+
+// A feature's lines as strokes (RenderOptions::drawing).
+struct LineDrawing {
+  // What they are made from; nothing where the look, at its time, draws no lines.
+  std::vector<const char*> (*aovs)(const look::LookData& look) = nullptr;
+  // Adds those of a view, lines that lie above others after those. `aov`: of the view, floats, one of aovs().
+  using AovOfView = std::function<const Image&(const char* name)>;
+  void (*add)(const AovOfView& aov, const look::LookData& look, Drawing& drawing) = nullptr;
+};
 
 struct FeatureParts {
   std::unique_ptr<world::Feature> feature;
@@ -21,6 +33,7 @@ struct FeatureParts {
   std::vector<PlacedPass> passes;
   std::vector<const look::ParamBlock*> blocks;  // of knobs
   std::vector<scene::ExtraRule> extras;         // what nodes may say to it
+  LineDrawing drawing;                          // empty where it draws no lines
 };
 
 }  // namespace scumble::frame

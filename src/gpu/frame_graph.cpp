@@ -61,9 +61,12 @@ UseInfo useInfo(Use use) {
               VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
               VK_BUFFER_USAGE_TRANSFER_SRC_BIT,     false};
     case Use::copyTarget:
-      return {VK_PIPELINE_STAGE_2_COPY_BIT,         VK_ACCESS_2_TRANSFER_WRITE_BIT,
-              VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_USAGE_TRANSFER_DST_BIT,
-              VK_BUFFER_USAGE_TRANSFER_DST_BIT,     true};
+      return {VK_PIPELINE_STAGE_2_COPY_BIT | VK_PIPELINE_STAGE_2_CLEAR_BIT,
+              VK_ACCESS_2_TRANSFER_WRITE_BIT,
+              VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+              VK_IMAGE_USAGE_TRANSFER_DST_BIT,
+              VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+              true};
     case Use::storageBufferRead:
       return {kCompute, kRead, kNone, 0, kStorage, false};
     case Use::storageBufferWrite:

@@ -31,7 +31,7 @@ enum class Use : uint8_t {
   storageImageReadWrite,  // by compute
   // Images and buffers.
   copySource,
-  copyTarget,
+  copyTarget,  // or cleared
   // Buffers.
   storageBufferRead,       // by compute
   storageBufferWrite,      // by compute

@@ -1,5 +1,7 @@
 #include "renderer/feature_list.h"
 
+#include <algorithm>
+
 // Of each feature's folder, by its name.
 #define FEATURE(name)                \
   namespace scumble::name {          \
@@ -43,6 +45,15 @@ std::vector<world::PlannedFeature> plannedFeatures(const scene::SceneData& scene
   for (const frame::FeatureParts& parts : features())
     planned.push_back({parts.feature.get(), parts.feature->plan(scene, look)});
   return planned;
+}
+
+std::vector<std::string> aovsOfDrawings(const look::LookData& look) {
+  std::vector<std::string> names;
+  for (const frame::FeatureParts& parts : features())
+    if (parts.drawing.aovs)
+      for (const char* const name : parts.drawing.aovs(look))
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.emplace_back(name);
+  return names;
 }
 
 }  // namespace renderer

@@ -13,4 +13,7 @@ const std::vector<frame::FeatureParts>& features();
 // What each of them builds for a scene under a look, which is one at a time.
 std::vector<world::PlannedFeature> plannedFeatures(const scene::SceneData& scene, const look::LookData& look);
 
+// Names of AOVs that drawings under a look, at its time, are made from; none where it draws no lines.
+std::vector<std::string> aovsOfDrawings(const look::LookData& look);
+
 }  // namespace scumble::renderer

@@ -125,6 +125,14 @@ Status Renderer::Impl::begin(const Request& request) {
     next.slot = freeSlot();
     next.viewCount = views.size();
     next.formats = options.formats;
+    if (options.drawing) {
+      next.drawnLook = now;
+      for (const std::string& name : aovsOfDrawings(now)) {
+        next.formats.erase(name);  // of floats
+        if (std::find(options.aovs.begin(), options.aovs.end(), name) == options.aovs.end())
+          next.drawnFrom.push_back(name);
+      }
+    }
     for (const ViewGroup& group : groups) next.parts.push_back({group});
     FrameStats& stats = next.frame.stats;
     const uint32_t pipelinesBefore = device->pipelines().made();
@@ -322,8 +330,27 @@ void Renderer::Impl::fetch(Begun& frame) {
           into[layers[i].isOnce ? 0 : part.group.members[v]] = std::move(layers[i].views[v]);
     }
   }
+  if (frame.drawnLook) draw(frame);
   frame.frame.stats.readbackMilliseconds = millisecondsSince(start);
   frame.fetched = true;
+}
+
+void Renderer::Impl::draw(Begun& frame) {
+  std::vector<Frame::Layer>& layers = frame.frame.layers;
+  for (size_t view = 0; view < frame.viewCount; ++view) {
+    const Image& picture = layers.front().views[view];
+    Drawing& drawing = frame.frame.drawings.emplace_back(Drawing{picture.width, picture.height, {}});
+    const auto aov = [&](const char* name) -> const Image& {
+      return std::find_if(layers.begin(), layers.end(), [&](const auto& layer) { return layer.name == name; })
+          ->views[view];
+    };
+    for (const FeatureParts& parts : features())
+      if (parts.drawing.aovs && !parts.drawing.aovs(*frame.drawnLook).empty())
+        parts.drawing.add(aov, *frame.drawnLook, drawing);
+  }
+  std::erase_if(layers, [&](const Frame::Layer& layer) {
+    return std::find(frame.drawnFrom.begin(), frame.drawnFrom.end(), layer.name) != frame.drawnFrom.end();
+  });
 }
 
 void Renderer::Impl::fetchAll() {

@@ -69,6 +69,9 @@ struct Begun {
   std::vector<Part> parts;
   size_t viewCount = 0;
   std::map<std::string, PixelFormat> formats;
+  // Where drawings are made: under which look, and which layers the caller has not asked for.
+  std::optional<look::LookData> drawnLook;
+  std::vector<std::string> drawnFrom;
   Frame frame;  // statistics so far; the pictures, where they had to be fetched early
   bool fetched = false;
 };
@@ -104,6 +107,8 @@ struct Renderer::Impl {
   Status prepare(const renderer::Request& request, Rehearsal extent);
   // Waits for a frame and fetches its pictures, unless that has been done.
   void fetch(renderer::Begun& frame);
+  // Makes the drawings of a frame whose layers are there, and takes away what only they needed.
+  static void draw(renderer::Begun& frame);
   // Before anything goes that frames under way use.
   void fetchAll();
   Error failure(const gpu::VulkanError& error);

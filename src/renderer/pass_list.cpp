@@ -135,7 +135,8 @@ std::vector<const Aov*> aovsOf(const std::vector<std::unique_ptr<Pass>>& passes)
   for (const auto& pass : passes)
     for (const Aov& aov : pass->aovs())
       if (std::none_of(aovs.begin(), aovs.end(),
-                       [&](const Aov* other) { return std::string_view(other->name) == aov.name; }))
+                       [&](const Aov* other) { return std::string_view(other->name) == aov.name; }) &&
+          !aov.isInternal)
         aovs.push_back(&aov);
   return aovs;
 }

@@ -152,7 +152,7 @@ std::vector<Image> Readback::images(uint32_t frame, uint32_t width, uint32_t hei
   halfTable();
   const SrgbEncoder& encode = SrgbEncoder::instance();
   // Enlarging is done in floats.
-  const bool isSmall = !aov_.isOnce && (desc.width != width || desc.height != height);
+  const bool isSmall = !aov_.hasOwnSize && (desc.width != width || desc.height != height);
   const PixelFormat first = isSmall ? PixelFormat::float32 : format;
   for (uint32_t layer = 0; layer < desc.layers; ++layer) {
     Image image = blank(desc.width, desc.height, names, first);

@@ -113,7 +113,7 @@ bool Renderer::needsFloat(const std::string& name) {
 
 bool Renderer::hasSizeOfItsOwn(const std::string& name) {
   const Aov* const aov = standardAov(name);
-  return aov && aov->isOnce;
+  return aov && aov->hasOwnSize;
 }
 
 std::string Renderer::graph() const {

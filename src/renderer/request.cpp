@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/pixels.h"
+#include "renderer/feature_list.h"
 #include "renderer/impl.h"
 #include "scumble/nearest.h"
 #include "stage/light.h"
@@ -79,6 +80,11 @@ Status Renderer::Impl::check(const Request& request) const {
   if (begun.size() >= size_t(kMaxBegun))
     return usage("too many frames have been begun", "call finish() first");
 
+  if (options.drawing && (delivery || request.isYardstick))
+    return usage("only frames that come back have drawings", "render the picture by itself");
+  if (options.drawing && aovsOfDrawings(request.look.at(time)).empty())
+    return usage("this look draws no lines at " + std::to_string(time) + " s",
+                 "take one that does, like ink or technical, or switch lines on");
   // Only what a pass offers can be saved.
   const std::vector<const Aov*> offered = request.isYardstick ? std::vector<const Aov*>() : aovs;
   std::vector<std::string> names = options.aovs;
@@ -116,6 +122,9 @@ SetupKey Renderer::Impl::keyOf(const Request& request, const look::LookData& now
   key.plain = request.isYardstick;
   key.readsBack = !request.delivery;
   key.aovs = request.options.aovs;
+  if (request.options.drawing)
+    for (const std::string& name : aovsOfDrawings(now))
+      if (std::find(key.aovs.begin(), key.aovs.end(), name) == key.aovs.end()) key.aovs.push_back(name);
   for (const auto& pass : key.plain ? askedPlain : asked)
     key.variants.push_back(pass->variant(request.scene.data(), now));
   key.lights = std::max<size_t>(1, punctualLightCount(request.scene.data()));

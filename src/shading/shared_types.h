@@ -21,11 +21,14 @@ using uint = uint32_t;
 }  // namespace scumble::shared
 #define SHARED_BEGIN namespace scumble::shared {
 #define SHARED_END }
+// Before functions that both compile.
+#define SHARED_FUNCTION inline
 
 #else
 
 #define SHARED_BEGIN
 #define SHARED_END
+#define SHARED_FUNCTION
 
 // A .params file within the braces of a struct gives its members. (C++ has the struct from
 // look/define_params.h.)

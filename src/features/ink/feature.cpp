@@ -1,4 +1,5 @@
 // What the program knows of ink.
+#include "features/ink/drawing/drawing.h"
 #include "features/ink/ink.h"
 #include "features/ink/ink_knobs.h"
 #include "features/ink/lines/ink_moment.h"
@@ -35,7 +36,8 @@ frame::FeatureParts makeFeature() {
            &MaterialBorderParams::block(), &CreaseParams::block(), &ColorBorderParams::block(),
            &ShadowShapeParams::block(), &LightStepParams::block(), &ObjectBorderParams::block(),
            &IntersectionParams::block(), &CutOutParams::block()},
-          {}};
+          {},
+          lineDrawing()};
 }
 
 }  // namespace scumble::ink

@@ -18,6 +18,9 @@ inline constexpr frame::Role kStrokes{"ink strokes"};
 // object, as the AOV `id` has it; B: 1 where it may have holes; A: metres along the view axis.
 inline constexpr frame::Role kPieces{"ink pieces"};
 
+// Lines as numbers (ink.shared.h), and kPieces: what drawings of them are made from.
+inline constexpr const char *kLineTableAov = "ink-table", *kPiecesAov = "ink-pieces";
+
 // Draws those, where lines follow from them.
 std::unique_ptr<frame::Pass> makeParts();
 // Draws ink.

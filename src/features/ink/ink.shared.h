@@ -74,9 +74,24 @@ struct LineRecord {
   // case, as the inner line that it is besides.
   vec2 turn;
   vec2 caps;  // how far it goes on beyond both ends, for each pixel of its width
-  uint isDrawn;
+  int kind;   // kInkNone: it is not drawn
 };
 const int kInkRoom = 65536;  // for records of a view
+
+// Lines of a view for the CPU, as an image of 32-bit floats: line n takes kLineTexels texels, one below the
+// other, in column n % kLineTableWidth. Below all of them is a row that says what they are drawn with.
+//   0, 1: spine, shift, as LineRecord has them    2: radii, metres along the view axis at both ends
+//   3: color    4: outward; 1 + kind, so that 0 is no line    5: turn
+const int kLineTexels = 6, kLineTableWidth = 4096, kLineTableRows = 64;
+const int kLineTableRoom = kLineTableWidth * kLineTableRows;
+// Of that row: how many lines there are, also beyond the room; pixels of one knob pixel, scene's radius,
+// whether the view is a parallel projection.
+// Then: metres that a pixel covers at one metre; fade, outer, as InkUniforms has them.
+// Then: offset, doubled (pixels; 0: there is no second line), doubledWidth, placement.
+const int kLineTableHeader = 3;
+
+// Set 2 of what makes it.
+const int kLineTableImage = 0;
 
 const int kInkThreads = 32;  // a word of bits, one edge each
 const int kInkWordsOfChunk = kEdgeChunk / kInkThreads;

@@ -9,7 +9,6 @@
 #include "../../shading/shared_types.h"
 
 #ifdef __cplusplus
-#define SHARED_FUNCTION inline
 namespace scumble::shared {
 using glm::abs;
 using glm::clamp;
@@ -19,8 +18,6 @@ using glm::max;
 using glm::min;
 using glm::sqrt;
 }  // namespace scumble::shared
-#else
-#define SHARED_FUNCTION
 #endif
 
 SHARED_BEGIN

@@ -82,7 +82,7 @@ class ShadowMap : public Pass {
   }
 
   static constexpr Aov kAovs[] = {
-      {.name = "shadow-map", .channels = {"R"}, .needsFloat = true, .isOnce = true}};
+      {.name = "shadow-map", .channels = {"R"}, .needsFloat = true, .isOnce = true, .hasOwnSize = true}};
 
   std::optional<Content> drawn_;
   Content wanted_{};

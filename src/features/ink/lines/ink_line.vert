@@ -23,7 +23,7 @@ void main() {
   outSpine = record.spine, outShift = record.shift, outRadii = record.radii, outColor = record.color;
   outOutward = record.outward, outTurn = record.turn;
   gl_Position = vec4(2.0, 2.0, 0.0, 1.0);  // outside
-  if (record.isDrawn == 0u) return;
+  if (record.kind == kInkNone) return;
 
   vec2 direction = record.spine.zw - record.spine.xy;
   float size = length(direction);

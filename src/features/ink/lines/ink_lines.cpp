@@ -6,6 +6,7 @@
 #include "features/ink/ink.h"
 #include "features/ink/ink_knobs.h"
 #include "features/ink/lines/line_finder.h"
+#include "features/ink/lines/line_table.h"
 #include "frame/drawn_image.h"
 #include "frame/material_params.h"
 #include "shaders/ink_line_frag.h"
@@ -89,6 +90,12 @@ class Lines : public Pass {
     const gpu::Handle command =
         frame.use(frame.graph().importBuffer("ink draw"), gpu::Use::storageBufferWrite);
 
+    hasTable_ = frame.isAsked(kAovs[1]);
+    if (hasTable_) {
+      table_.declare(frame, numbers, command);
+      frame.offer(kAovs[1], {table_.image()});
+    }
+
     frame.step(name(), [this](VkCommandBuffer commands) { record(commands); });
     frame.use(frame.get(kVertices), gpu::Use::storageBufferReadByVertex);
     frame.use(numbers, gpu::Use::storageBufferReadByVertex);
@@ -106,6 +113,7 @@ class Lines : public Pass {
     uniforms_ = frame.uniform(sizeof(shared::InkUniforms));
     lines_ = frame.uniform(frame.scene().materialCount() * sizeof(shared::InkLine));
     finder_.create(frame, uniforms_, lines_);
+    if (hasTable_) table_.create(frame, finder_);
     layout_ = gpu::SetLayout(frame.device(),
                              {{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT},
                               {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}});
@@ -116,6 +124,7 @@ class Lines : public Pass {
     resources_ = &resources;
     if (!isShown_) return;
     finder_.bind();
+    if (hasTable_) table_.bind(resources);
     const VkSampler exact = frame_->samplers().get({VK_FILTER_NEAREST});
     set_.rewriteTexture(0, shared::kInkDepth, resources.image(depth_).view(), exact);
     set_.rewriteTexture(0, shared::kInkShadowed, resources.image(shadowed_).view(), exact);
@@ -126,6 +135,7 @@ class Lines : public Pass {
     uniforms_.write(inkUniforms(input));
     choices_ = inkChoices(input);
     finder_.specialise(choices_);
+    if (hasTable_) table_.specialise(choices_);
     if (!pipelines_.contains(choices_)) pipelines_[choices_] = makePipeline(choices_);
     auto* const lines = reinterpret_cast<shared::InkLine*>(lines_.mapped);
     const bool ownOutlines = input.knobs.scene<InkParams>().ownOutlines;
@@ -174,13 +184,15 @@ class Lines : public Pass {
     });
   }
 
-  static constexpr Aov kAovs[] = {{.name = "ink"}};
+  static constexpr Aov kAovs[] = {{.name = "ink"},
+                                  {.name = kLineTableAov, .hasOwnSize = true, .isInternal = true}};
 
   FrameBuilder* frame_ = nullptr;
-  bool isShown_ = false;
+  bool isShown_ = false, hasTable_ = false;
   Configuration configuration_;
   UniformSlice uniforms_, lines_;
   LineFinder finder_;
+  LineTable table_;
   gpu::Handle depth_, shadowed_;
   DrawnImage strokes_;
   const gpu::GraphResources* resources_ = nullptr;

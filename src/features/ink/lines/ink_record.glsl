@@ -64,7 +64,7 @@ LineRecord recordOf(uint number, int view) {
   record.spine = record.shift = record.radii = record.color = vec4(0.0);
   record.outward = vec3(0.0);
   record.turn = vec2(0.0);
-  record.isDrawn = 0u;
+  record.kind = kInkNone;
   if (kind == kInkNone) return record;
   mat4 worldToClip = VIEW_FIELD(worldToClip, view);
   End ends[2];
@@ -159,7 +159,7 @@ LineRecord recordOf(uint number, int view) {
   record.color = vec4(mix(color.rgb, style.color, style.colorAmount), color.a * (1.0 - style.colorAmount));
   record.outward = vec3(across, isOutline ? 1.0 : 0.0);
 
-  record.isDrawn = 1u;
+  record.kind = kind;
   return record;
 }
 #endif

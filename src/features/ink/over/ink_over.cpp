@@ -5,7 +5,7 @@
 #include "features/ink/ink.h"
 #include "features/ink/ink.shared.h"
 #include "features/ink/ink_knobs.h"
-#include "features/ink/over/ink_over.shared.h"
+#include "features/ink/over/over_lines.h"
 #include "frame/image_step.h"
 #include "passes/final_shadow/final_shadow_knobs.h"
 #include "passes/warp/warp_knobs.h"
@@ -48,28 +48,18 @@ class Over : public Pass {
   void create(FrameBuilder& frame) override { step_.create(frame); }
   void bind(const gpu::GraphResources& resources) override { step_.bind(resources); }
   void update(const FrameInput& input) override {
+    const float pixelsOfOne =
+        0.5f * input.uniforms.imageSize.y / std::abs(input.uniforms.views[0].ndcToEyeRay.y);
+    const float scale = pixelsOfUnit(input.look, pixelsOfOne, input.uniforms.pixelScale);
     const InkParams params = input.knobs.scene<InkParams>();
-    const shared::ViewUniforms& view = input.uniforms.views[0];
-    const float pixelsOfOne = 0.5f * input.uniforms.imageSize.y / std::abs(view.ndcToEyeRay.y);
     const bool inMetres = params.unit == shared::kInkMetres;
-    const float scale = inMetres                             ? pixelsOfOne
-                        : params.unit == shared::kInkDegrees ? glm::radians(1.0f) * pixelsOfOne
-                                                             : input.uniforms.pixelScale;
     shared::InkOverUniforms u{params.warp, float(input.knobs.scene<passes::FinalShadowParams>().steps)};
     uint32_t shown = 0;
-    const float middle = 0.25f * (params.least + params.greatest) * scale;
-    const auto add = [&]<class Params>(int kind) {
-      const Params of = input.knobs.scene<Params>();
-      const glm::vec3 line = input.knobs.scene<LineParams>().color.linear;
-      u.kinds[kind] = {of.width * middle, glm::sqrt(glm::mix(line, of.color.linear, of.colorAmount))};
-      shown |= uint32_t(of.shown && of.width > 0) << kind;
-    };
-    add.template operator()<ShadowShapeParams>(shared::kInkOverShadows);
-    add.template operator()<LightStepParams>(shared::kInkOverSteps);
-    add.template operator()<ObjectBorderParams>(shared::kInkOverObjects);
-    add.template operator()<IntersectionParams>(shared::kInkOverIntersections);
-    add.template operator()<CutOutParams>(shared::kInkOverCutOuts);
-    if (u.steps < 2) shown &= ~(1u << shared::kInkOverSteps);
+    const auto lines = overLines(input.look);
+    for (size_t kind = 0; kind < lines.size(); ++kind) {
+      u.kinds[kind] = {scale * lines[kind].radius, lines[kind].color};
+      shown |= uint32_t(lines[kind].isShown) << kind;
+    }
     // Only as far as the widest line needs; in metres that depends on the distance.
     float widest = 0;
     for (int kind = shared::kInkOverObjects; kind < shared::kInkOverKinds; ++kind)

@@ -29,6 +29,7 @@ class Parts : public Pass {
     depth_.declare(frame, "ink parts depth", kDepthFormat);
     parts_.declare(frame, "ink parts", kFloats);
     frame.give(kPieces, parts_.image());
+    frame.offer(kAovs[0], {parts_.image()});
   }
 
   void create(FrameBuilder& frame) override {
@@ -69,6 +70,8 @@ class Parts : public Pass {
     gpu::drawViews(commands, configuration_.views(), {&parts, 1}, &depth,
                    [&](uint32_t firstView) { step_.draw(commands, &sets_, firstView); });
   }
+
+  static constexpr Aov kAovs[] = {{.name = kPiecesAov, .needsFloat = true, .isInternal = true}};
 
   FrameBuilder* frame_ = nullptr;
   bool isShown_ = false;

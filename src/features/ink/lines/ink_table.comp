@@ -1,0 +1,39 @@
+#version 460
+// Lines of a view as a table for the CPU (ink.shared.h).
+#extension GL_GOOGLE_include_directive : require
+#include "ink_record.glsl"
+
+layout(local_size_x = kInkThreads) in;
+layout(set = 1, binding = kInkRecords, scalar) readonly buffer Records { LineRecord records[]; };
+layout(set = 1, binding = kInkCommand, scalar) readonly buffer Command { InkCommand command; };
+layout(set = 2, binding = kLineTableImage, rgba32f) writeonly uniform image2DArray table;
+
+void main() {
+  int line = int(gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x) * kInkThreads + int(gl_LocalInvocationID.x);
+  int view = int(gl_WorkGroupID.z);
+  if (line >= kLineTableRoom) return;
+  uint count = command.vertexCount / 6u;
+  ivec3 place = ivec3(line % kLineTableWidth, line / kLineTableWidth * kLineTexels, view);
+  if (line == 0) {
+    ivec3 header = ivec3(0, kLineTableRows * kLineTexels, view);
+    float parallel = VIEW_FIELD(orthographic, view);
+    imageStore(table, header, vec4(float(count), frame.pixelScale, frame.sceneRadius, parallel));
+    imageStore(table, header + ivec3(1, 0, 0), vec4(metresOfPixel(1.0, view), ink.fade, ink.outer, 0.0));
+    imageStore(table, header + ivec3(2, 0, 0),
+               vec4(ink.offset, kDoubled ? ink.doubled : 0.0, ink.doubledWidth, float(kPlacement)));
+  }
+  ivec3 down = ivec3(0, 1, 0);
+  if (uint(line) >= count) return;
+  LineRecord record;
+  if (line < kInkRoom)
+    record = records[view * kInkRoom + line];
+  else
+    record = recordOf(numbers[line], view);
+  vec2 metres = vec2(eyeDepth(record.radii.z, view), eyeDepth(record.radii.w, view));
+  imageStore(table, place, record.spine);
+  imageStore(table, place + down, record.shift);
+  imageStore(table, place + 2 * down, vec4(record.radii.xy, metres));
+  imageStore(table, place + 3 * down, record.color);
+  imageStore(table, place + 4 * down, vec4(record.outward, float(1 + record.kind)));
+  imageStore(table, place + 5 * down, vec4(record.turn, 0.0, 0.0));
+}
