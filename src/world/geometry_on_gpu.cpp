@@ -268,6 +268,7 @@ void GeometryOnGpu::build(gpu::Device& device, gpu::Uploader& uploader, Plan& pl
     Place& place = places_.emplace_back();
     place.firstIndex = rest.index;
     place.firstVertex = finalVertex;
+    place.firstRest = rest.vertex;
     place.firstChunk = uint32_t(chunks.size());
     place.morphs = rest.morph != shared::kNoMorph;
     for (uint32_t v = 0; v < rest.vertexCount; v += shared::kDeformChunk) {

@@ -20,6 +20,7 @@ struct VertexPage {
 // Where an item's data lies.
 struct GeometryPlace {
   uint32_t firstIndex = 0, firstVertex = 0;  // in GeometryOnGpu::indices(), in the final vertices
+  uint32_t firstRest = 0;                    // in those at rest, which items of one primitive share
   uint32_t firstChunk = 0, chunkCount = 0;   // in GeometryOnGpu::chunks()
   bool morphs = false;
 };

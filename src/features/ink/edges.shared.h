@@ -29,6 +29,7 @@ struct EdgeChunk {
   uint firstEdge, count;
   uint firstVertex;  // of the final ones
   uint object;
+  uint restShift;  // added to the number of an edge's end among all final vertices: among those at rest
 };
 
 SHARED_END

@@ -18,10 +18,11 @@ struct InkKind {
 // Choices of ink.params, which are bits of a specialisation constant (ink_choices.glsl): what a uniform
 // decides CPU drivers compile anew for each of its values.
 const int kInkUnitBit = 0, kInkWeightsBit = 2, kInkPlacementBit = 4, kInkCyclopeanBit = 5, kInkKindsBit = 6,
-          kInkDoubledBit = 16;
+          kInkDoubledBit = 16, kInkTextureBit = 17;
 const int kInkPixels = 0, kInkMetres = 1, kInkDegrees = 2;
 const int kInkByEdge = 0, kInkByVertex = 1, kInkByTangent = 2, kInkHybrid = 3;
 const int kInkExterior = 0, kInkCentred = 1;
+const int kInkPlain = 0, kInkBrush = 1, kInkPencil = 2, kInkBallpoint = 3;
 
 // Of a material's lines.
 struct InkLine {
@@ -45,13 +46,15 @@ struct InkUniforms {
   float fade;  // widths
   float sinFadeAngle;
   float outer;  // a factor
+  float texture, textureSize;  // how much of it; pixels of one period
   InkKind kinds[kInkKinds];
 };
 
 // Set 1 of what finds lines and what draws them.
 const int kInkBlock = 0, kInkEdges = 1, kInkChunks = 2, kInkVertices = 3, kInkWords = 4, kInkSums = 5,
-          kInkNumbers = 6, kInkCommand = 7, kInkFrames = 8, kInkLines = 9, kInkRecords = 10, kInkRings = 11;
-const int kInkBindings = 12;
+          kInkNumbers = 6, kInkCommand = 7, kInkFrames = 8, kInkLines = 9, kInkRecords = 10, kInkRings = 11,
+          kInkRest = 12;
+const int kInkBindings = 13;
 // Set 2 of what draws them. (What comes before that looks at no image: llvmpipe would compile it anew in each
 // frame.)
 const int kInkDepth = 0, kInkShadowed = 1;

@@ -8,6 +8,7 @@ layout(constant_id = kPassId) const int kChoices = 0;
 const int kUnit = kChoices >> kInkUnitBit & 3, kWeights = kChoices >> kInkWeightsBit & 3;
 const int kPlacement = kChoices >> kInkPlacementBit & 1;
 const bool kDoubled = (kChoices >> kInkDoubledBit & 1) != 0;
+const int kTexture = kChoices >> kInkTextureBit & 3;
 const bool kCyclopean = (kChoices >> kInkCyclopeanBit & 1) != 0;
 bool isShown(int kind) { return (kChoices >> (kInkKindsBit + kind) & 1) != 0; }
 #endif

@@ -62,7 +62,7 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
                         const std::function<void()>& settle) {
   std::vector<Known> known;
   for (size_t i = 0; i < items.size(); ++i)
-    known.push_back({items[i].primitive, places[i].firstVertex, items[i].shown});
+    known.push_back({items[i].primitive, places[i].firstVertex, places[i].firstRest, items[i].shown});
   if (edges_.handle() && known == known_) return false;
   known_ = std::move(known);
 
@@ -70,10 +70,13 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
   std::vector<shared::EdgeRing> rings;
   std::vector<shared::EdgeChunk> chunks;
   edgeCount_ = 0;
+  // Both ends of an edge are of its object.
   const auto addChunks = [&](uint32_t first, uint32_t count, uint32_t firstVertex, uint32_t object) {
     edgeCount_ += count;
+    const uint32_t restShift = places[object].firstRest - places[object].firstVertex;
     for (uint32_t e = 0; e < count; e += shared::kEdgeChunk)
-      chunks.push_back({first + e, std::min(count - e, uint32_t(shared::kEdgeChunk)), firstVertex, object});
+      chunks.push_back(
+          {first + e, std::min(count - e, uint32_t(shared::kEdgeChunk)), firstVertex, object, restShift});
   };
   struct Run {
     uint32_t first = 0, count = 0;

@@ -38,7 +38,7 @@ class EdgesOnGpu {
   std::map<std::vector<const scene::Primitive*>, std::vector<scene::SharedEdge>> sharedBy_;
   struct Known {
     const scene::Primitive* primitive;
-    uint32_t firstVertex;
+    uint32_t firstVertex, firstRest;
     bool shown;
     bool operator==(const Known&) const = default;
   };

@@ -8,6 +8,7 @@
 
 layout(set = 1, binding = kInkBlock, scalar) uniform Ink { InkUniforms ink; };
 #include "ink_seen.glsl"
+#include "ink_texture.glsl"
 layout(set = 2, binding = kInkShadowed) uniform sampler2DArray shadowed;
 
 layout(location = 0) flat in vec4 inSpine;
@@ -16,6 +17,10 @@ layout(location = 2) flat in vec4 inRadii;
 layout(location = 3) flat in vec4 inColor;
 layout(location = 4) flat in vec3 inOutward;
 layout(location = 5) flat in vec2 inTurn;
+layout(location = 6) flat in vec3 inRestA;
+layout(location = 7) flat in vec3 inRestB;
+layout(location = 8) flat in vec3 inAcross;
+layout(location = 9) flat in vec3 inDown;
 
 layout(location = 0) out vec4 outInk;
 
@@ -26,6 +31,25 @@ float overlap() { return max(0.75, 2.4 * frame.pixelScale); }
 float nearestOn(vec2 from, vec2 to, vec2 point) {
   vec2 along = to - from;
   return clamp(dot(point - from, along) / max(dot(along, along), 1e-12), 0.0, 1.0);
+}
+
+// A line's coverage of a pixel. `nearest`: of the line as it is drawn; `spine`: of the edge, at `t`.
+float lineCoverage(float radius, vec2 pixel, vec2 nearest, vec2 spine, float t, int view) {
+  float plain = coverageOf(radius, distance(pixel, nearest));
+  if (kTexture == kInkPlain) return plain;
+  float parallel = VIEW_FIELD(orthographic, view);
+  vec2 metres = vec2(eyeDepth(inRadii.z, view), eyeDepth(inRadii.w, view));
+  vec2 nearness = mix(1.0 / metres, vec2(1.0), parallel);
+  float metresAway = 1.0 / mix(nearness.x, nearness.y, t);  // 1 in a parallel projection
+  vec3 place = mix(inRestA * nearness.x, inRestB * nearness.y, t) * metresAway;
+  vec2 off = (pixel - spine) * metresAway, along = inSpine.zw - inSpine.xy;
+  vec3 beside = place + off.x * inAcross + off.y * inDown;
+  // Beyond its ends a line goes straight on, as the next one does, which lies there as well.
+  place += (inRestB - inRestA) * dot(pixel - spine, along) / max(dot(along, along), 1e-3);
+  // Inner lines have no sides that would stay where they are.
+  float side = dot(pixel - nearest, inOutward.xy);
+  return plain * strokeCoverage(place, beside, length(inAcross) * metresAway * ink.textureSize, radius,
+                                inOutward.z > 0.0 ? side : abs(side));
 }
 
 void main() {
@@ -40,12 +64,12 @@ void main() {
 
   float moved = ink.offset * frame.pixelScale + (kPlacement == kInkExterior ? max(radius - overlap(), 0.0) : 0.0);
   vec4 line = inSpine + inShift * moved;
-  float away = distance(pixel, mix(line.xy, line.zw, nearestOn(line.xy, line.zw, pixel)));
-  float coverage = coverageOf(radius, away);
+  vec2 nearest = mix(line.xy, line.zw, nearestOn(line.xy, line.zw, pixel));
+  float coverage = lineCoverage(radius, pixel, nearest, spine, t, view);
   if (kDoubled && inOutward.z > 0.0) {
     line = inSpine + inShift * (moved + ink.doubled * frame.pixelScale);
-    away = distance(pixel, mix(line.xy, line.zw, nearestOn(line.xy, line.zw, pixel)));
-    coverage = max(coverage, coverageOf(radius * ink.doubledWidth, away));
+    nearest = mix(line.xy, line.zw, nearestOn(line.xy, line.zw, pixel));
+    coverage = max(coverage, lineCoverage(radius * ink.doubledWidth, pixel, nearest, spine, t, view));
   }
   if (coverage <= 0.0) discard;
   vec3 color = inColor.rgb;

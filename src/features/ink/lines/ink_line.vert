@@ -12,6 +12,32 @@ layout(location = 2) flat out vec4 outRadii;
 layout(location = 3) flat out vec4 outColor;
 layout(location = 4) flat out vec3 outOutward;
 layout(location = 5) flat out vec2 outTurn;
+// Of textured lines: both ends, and how far a pixel across and down leads at a metre's distance, in the object's space at rest.
+layout(location = 6) flat out vec3 outRestA;
+layout(location = 7) flat out vec3 outRestB;
+layout(location = 8) flat out vec3 outAcross;
+layout(location = 9) flat out vec3 outDown;
+
+layout(set = 1, binding = kInkRest, scalar) readonly buffer Rest { VertexCore rest[]; };
+
+void findRest(uint number, int view, out vec3 a, out vec3 b, out vec3 across, out vec3 down) {
+  EdgeChunk chunk = chunks[number / uint(kEdgeChunk)];
+  DrawnEdge edge = edges[chunk.firstEdge + number % uint(kEdgeChunk)];
+  uint first = chunk.firstVertex + (edge.a & kEdgeVertexMask), second = chunk.firstVertex + edge.b;
+  a = rest[first + chunk.restShift].position;
+  b = rest[second + chunk.restShift].position;
+  // How much longer the edge is in the world: what is far away or small has the same marks. A bent form is turned as if it
+  // were not.
+  float longer = distance(vertices[first].position, vertices[second].position) / max(distance(a, b), 1e-20);
+  ObjectData object = objects[chunk.object];
+  mat3 turn = object.influences == 0u ? mat3(object.model) : mat3(1.0);
+  for (int i = 0; i < 3; ++i) turn[i] *= inversesqrt(max(dot(turn[i], turn[i]), 1e-37));
+  mat4 toEye = VIEW_FIELD(worldToEye, view);
+  vec3 right = vec3(toEye[0][0], toEye[1][0], toEye[2][0]), up = vec3(toEye[0][1], toEye[1][1], toEye[2][1]);
+  float step = metresOfPixel(1.0, view) / max(longer, 1e-20);
+  across = step * (right * turn);
+  down = -step * (up * turn);
+}
 
 void main() {
   int line = gl_VertexIndex / 6, corner = gl_VertexIndex % 6, view = viewIndex();
@@ -24,6 +50,9 @@ void main() {
   outOutward = record.outward, outTurn = record.turn;
   gl_Position = vec4(2.0, 2.0, 0.0, 1.0);  // outside
   if (record.kind == kInkNone) return;
+
+  outRestA = outRestB = outAcross = outDown = vec3(0.0);
+  if (kTexture != kInkPlain) findRest(numbers[line], view, outRestA, outRestB, outAcross, outDown);
 
   vec2 direction = record.spine.zw - record.spine.xy;
   float size = length(direction);

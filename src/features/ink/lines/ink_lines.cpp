@@ -38,6 +38,8 @@ shared::InkUniforms inkUniforms(const FrameInput& input) {
   u.fade = params.fade;
   u.sinFadeAngle = std::sin(params.fadeAngle * kRadians);
   u.outer = params.outer;
+  u.texture = params.textureAmount;
+  u.textureSize = params.textureSize * input.uniforms.pixelScale;
   u.kinds[shared::kInkSilhouette] = kindOf<SilhouetteParams>(input.knobs);
   u.kinds[shared::kInkBoundary] = kindOf<BoundaryParams>(input.knobs);
   u.kinds[shared::kInkMaterial] = kindOf<MaterialBorderParams>(input.knobs);
@@ -58,6 +60,8 @@ uint32_t inkChoices(const FrameInput& input) {
          uint32_t(params.placement) << shared::kInkPlacementBit |
          uint32_t(params.cyclopean) << shared::kInkCyclopeanBit |
          uint32_t(params.doubled != 0 && params.doubledWidth > 0) << shared::kInkDoubledBit |
+         uint32_t(params.textureAmount > 0 ? int(params.texture) : shared::kInkPlain)
+             << shared::kInkTextureBit |
          shownBit<SilhouetteParams>(input.knobs, shared::kInkSilhouette) |
          shownBit<BoundaryParams>(input.knobs, shared::kInkBoundary) |
          shownBit<MaterialBorderParams>(input.knobs, shared::kInkMaterial) |

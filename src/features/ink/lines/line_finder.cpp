@@ -91,6 +91,7 @@ void LineFinder::bind() {
   set_.writeBuffer(0, shared::kInkChunks, edges()->chunks().handle());
   set_.writeBuffer(0, shared::kInkVertices, scene.geometry().finalCore().handle());
   set_.writeBuffer(0, shared::kInkFrames, scene.geometry().finalFrame().handle());
+  set_.writeBuffer(0, shared::kInkRest, scene.geometry().restCore().handle());
 }
 
 void LineFinder::record(VkCommandBuffer commands) const {
