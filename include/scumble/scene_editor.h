@@ -81,6 +81,7 @@ struct MeshPart {
   std::span<const glm::vec2> uv0 = {}, uv1 = {};  // uv0 empty: they are made, as large as the mesh
   std::span<const glm::u8vec4> colors = {};       // linear
   std::span<const float> warpScales = {};         // factors on the amount of Edge Breakup, 0 to 64
+  std::span<const float> roundness = {};          // of the form, for weights of lines, 0 to 1
   MaterialId material = MaterialId::standard;
 };
 

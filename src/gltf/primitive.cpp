@@ -184,16 +184,20 @@ class AttributeReader {
       }
   }
 
-  // An attribute of the file's own, as Blender exports those whose names begin with an underscore.
-  void warpScales(Primitive& p) {
-    const std::optional<Accessor> accessor = source_.find("_WARP");
+  // Attributes of the file's own, as Blender exports those whose names begin with an underscore.
+  void warpScales(Primitive& p) { own("_WARP", 64, p.warpScales); }
+  void roundness(Primitive& p) { own("_ROUND", 1, p.roundness); }
+
+  // A number a vertex, from 0 to `most`.
+  void own(const char* name, float most, std::vector<float>& values) {
+    const std::optional<Accessor> accessor = source_.find(name);
     if (!accessor || !fits(*accessor, 1, 1)) return;
     import_.budget.takeBytes(count() * sizeof(float), accessor->path);
-    p.warpScales.resize(count());
+    values.resize(count());
     Accessor normalized = *accessor;
     if (normalized.type != ComponentType::f32) normalized.normalized = true;
-    readFloats(normalized, selection_, 1, p.warpScales.data());
-    for (float& scale : p.warpScales) scale = scale > 0.0f ? std::min(scale, 64.0f) : 0.0f;
+    readFloats(normalized, selection_, 1, values.data());
+    for (float& value : values) value = value > 0.0f ? std::min(value, most) : 0.0f;
   }
 
   void skinning(Primitive& p) {
@@ -335,6 +339,7 @@ Primitive readPrimitive(const Import& import, const JsonView& json, ImportWarnin
   reader.uvs(p);
   reader.colors(p);
   reader.warpScales(p);
+  reader.roundness(p);
   reader.skinning(p);
   reader.morphTargets(p, json);
   return p;

@@ -56,5 +56,11 @@ std::vector<std::string> aovsOfDrawings(const look::LookData& look) {
   return names;
 }
 
+std::string adviceForDrawings() {
+  for (const frame::FeatureParts& parts : features())
+    if (parts.drawing.aovs) return parts.feature->onOff().absence;
+  return "this program was built without lines";
+}
+
 }  // namespace renderer
 }  // namespace scumble

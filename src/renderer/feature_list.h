@@ -15,5 +15,7 @@ std::vector<world::PlannedFeature> plannedFeatures(const scene::SceneData& scene
 
 // Names of AOVs that drawings under a look, at its time, are made from; none where it draws no lines.
 std::vector<std::string> aovsOfDrawings(const look::LookData& look);
+// What to do where a look draws none.
+std::string adviceForDrawings();
 
 }  // namespace scumble::renderer

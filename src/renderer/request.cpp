@@ -83,8 +83,7 @@ Status Renderer::Impl::check(const Request& request) const {
   if (options.drawing && (delivery || request.isYardstick))
     return usage("only frames that come back have drawings", "render the picture by itself");
   if (options.drawing && aovsOfDrawings(request.look.at(time)).empty())
-    return usage("this look draws no lines at " + std::to_string(time) + " s",
-                 "take one that does, like ink or technical, or switch lines on");
+    return usage("a drawing is made of lines", adviceForDrawings());
   // Only what a pass offers can be saved.
   const std::vector<const Aov*> offered = request.isYardstick ? std::vector<const Aov*>() : aovs;
   std::vector<std::string> names = options.aovs;

@@ -79,6 +79,9 @@ Primitive primitiveOf(const MeshPart& part, const SceneData& scene, const Check&
   check.perVertex(part.warpScales, count, "warpScales");
   for (const float scale : part.warpScales)
     check.require(scale >= 0 && scale <= 64, "a warp scale is out of range", "use 0 to 64");
+  check.perVertex(part.roundness, count, "roundness");
+  for (const float roundness : part.roundness)
+    check.require(roundness >= 0 && roundness <= 1, "a roundness is out of range", "use 0 to 1");
   check.require(isIndex(part.material, scene.materials.size()),
                 "there is no material " + std::to_string(int(part.material)), "add it first");
   const size_t corners = part.indices.empty() ? count : part.indices.size();
@@ -96,6 +99,7 @@ Primitive primitiveOf(const MeshPart& part, const SceneData& scene, const Check&
   copy(primitive.uv1, part.uv1);
   copy(primitive.colors, part.colors);
   copy(primitive.warpScales, part.warpScales);
+  copy(primitive.roundness, part.roundness);
   copy(primitive.indices, part.indices);
   for (uint32_t i = 0; part.indices.empty() && i < count; ++i) primitive.indices.push_back(i);
   primitive.material = int(part.material);

@@ -193,6 +193,7 @@ void gatherVertices(Primitive& p, const std::vector<uint32_t>& source) {
   gather(p.uv1, source);
   gather(p.colors, source);
   gather(p.warpScales, source);
+  gather(p.roundness, source);
   gather(p.dPdu, source);
   gather(p.dPdv, source);
   gather(p.joints, source, static_cast<size_t>(p.influences));

@@ -65,6 +65,8 @@ const std::pair<std::string, Knobs> kNeeds[] = {
     {"ink.smoothAngle", {{"ink.weights", "hybrid"}}},
     {"ink.steps.", {{"ink.steps.shown", "on"}, {"shadow.steps", "3"}, {"blur.radius", "64"}}},
     {"ink.steps.color", {{"ink.steps.color", "#FF2020"}, {"ink.steps.colorAmount", "1"}}},
+    {"ink.textureAmount", {{"ink.texture", "pencil"}}},
+    {"ink.textureSize", {{"ink.texture", "pencil"}}},
     {"ink.warp", {{"warp.amount", "64"}, {"warp.inflation", "64"}}},
     {"light.azimuth", {{"light.source", "look"}}},
     {"light.elevation", {{"light.source", "look"}}},

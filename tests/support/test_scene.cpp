@@ -149,6 +149,7 @@ int TestScene::addMesh(const TestMesh& mesh, int material) {
                      {"NORMAL", gltf_.addFloats(floats(mesh.normals), 3)},
                      {"TEXCOORD_0", gltf_.addFloats(floats(mesh.uvs), 2)}};
   if (!mesh.colors.empty()) attributes["COLOR_0"] = gltf_.addFloats(floats(mesh.colors), 4);
+  if (!mesh.roundness.empty()) attributes["_ROUND"] = gltf_.addFloats(mesh.roundness, 1);
   if (!mesh.warpScales.empty()) attributes["_WARP"] = gltf_.addFloats(mesh.warpScales, 1);
   if (!mesh.joints.empty()) {
     std::vector<uint8_t> joints;

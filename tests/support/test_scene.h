@@ -20,6 +20,7 @@ struct TestMesh {
   std::vector<glm::vec2> uvs;
   std::vector<glm::vec4> colors;  // linear RGBA; empty or one a vertex
   std::vector<float> warpScales;  // the attribute _WARP; empty or one a vertex
+  std::vector<float> roundness;   // the attribute _ROUND; the same
   std::vector<uint32_t> indices;
   // Skinning: both empty, or one a vertex.
   std::vector<glm::u8vec4> joints;

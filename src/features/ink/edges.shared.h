@@ -20,7 +20,8 @@ struct EdgeRing {
 };
 const uint kNoEdgeSide = 0xFFFFFFFFu;
 const uint kEdgeVertexMask = 0x0FFFFFFFu;
-const uint kEdgeMaterialBorder = 0x10000000u, kEdgeColorBorder = 0x20000000u;
+const uint kEdgeMaterialBorder = 0x10000000u, kEdgeColorBorder = 0x20000000u,
+           kEdgeRoundnessKnown = 0x40000000u, kEdgeRound = 0x80000000u;
 
 // A run of edges of one object. A number of an edge among all that are drawn is that of its chunk times
 // kEdgeChunk, and its place in it.

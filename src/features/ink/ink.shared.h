@@ -45,7 +45,7 @@ struct InkUniforms {
   float cosSmooth, cosCrease;
   float fade;  // widths
   float sinFadeAngle;
-  float outer;  // a factor
+  float outer;                 // a factor
   float texture, textureSize;  // how much of it; pixels of one period
   InkKind kinds[kInkKinds];
 };

@@ -2,6 +2,7 @@
 // close, widths follow the light, and what is switched off is not there.
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "features/ink/ink_reference.h"
 #include "tests/support/ray_cast.h"
@@ -311,6 +312,28 @@ TEST_P(Ink, widthsFollowTheLight) {
       }
     }
   }
+}
+
+// A vertex attribute chooses, where a file has one: whatever the angle is.
+TEST_P(Ink, roundFormsAreWhatTheFileSays) {
+  const auto drawn = [&](const char* weights, std::optional<float> roundness) {
+    TestMesh ball = sphereMesh({0, 0, 0}, 1, 10);
+    if (roundness) ball.roundness.assign(ball.positions.size(), *roundness);
+    TestScene s = oneThing(ball);
+    s.light({1, 0.4f, 0.2f});
+    const Scene scene = s.load();
+    return drawLines(scene, evenLines({{"ink.weights", weights}, {"ink.least", "9"}, {"ink.greatest", "63"}}),
+                     viewsFrom(scene, {{0, 1, 7}, {0, 0, 0}, 20, 0, 0.05f}, kWidth, kHeight, GetParam()));
+  };
+  const auto isSame = [&](const Frame& a, const Frame& b) {
+    bool same = true;
+    for (size_t v = 0; v < viewCount(); ++v) same &= sameBytes(aov(a, "ink", v), aov(b, "ink", v));
+    return same;
+  };
+  EXPECT_TRUE(isSame(drawn("hybrid", 1), drawn("vertex", std::nullopt)));
+  EXPECT_TRUE(isSame(drawn("hybrid", 0), drawn("tangent", std::nullopt)));
+  EXPECT_TRUE(isSame(drawn("vertex", 0), drawn("vertex", std::nullopt)));
+  EXPECT_FALSE(isSame(drawn("hybrid", 0), drawn("hybrid", 1)));
 }
 
 // A degree of what is seen stays one when a lens is exchanged, and a metre is one at any distance.

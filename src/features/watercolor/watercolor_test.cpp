@@ -1,7 +1,10 @@
 // Watercolours: with every knob at nothing the picture is what it was; each knob does what it says; pigment
 // stays with its object, and is as dense on the screen far away as near by.
 #include <cmath>
+#include <functional>
 
+#include "base/test_folder.h"
+#include "scumble/image.h"
 #include "tests/support/aov.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
@@ -199,6 +202,36 @@ TEST_P(Watercolor, cellsCoverTheSurface) {
     EXPECT_GT(same, count / 2);
     EXPECT_LT(same, count * 97 / 100);
   }
+}
+
+// A picture of one's own is a stamp's whole shape: white paints.
+TEST_P(Watercolor, picturesAreShapesOfStamps) {
+  const TestFolder folder;
+  const auto covered = [&](const char* name, int side, const std::function<float(int, int)>& white) {
+    Image image{uint32_t(side), uint32_t(side), {"R", "G", "B", "A"}, {}};
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x)
+        for (int c = 0; c < 4; ++c) image.pixels.push_back(c < 3 ? white(x, y) : 1.0f);
+    EXPECT_TRUE(writePng(folder.file(name), image).ok());
+    const Frame frame = paint(board(8),
+                              plainWash({{"watercolor.generator", "shapes"},
+                                         {"watercolor.brush", folder.file(name)},
+                                         {"watercolor.spacing", "150"},
+                                         {"watercolor.stampSize", "0.6"},
+                                         {"watercolor.backruns", "0"}}),
+                              {{0.3f, 0.2f, 4}, {0.3f, 0.2f, 0}, 40, 0, 0.05f}, {"pigment"});
+    double sum = 0;
+    const Image& pigment = aov(frame, "pigment", viewCount() - 1);
+    for (int y = 1; y < int(pigment.height); y += 4)
+      for (int x = 1; x < int(pigment.width); x += 4) sum += texel(pigment, x, y).w;
+    return sum;
+  };
+  const double whole = covered("white.png", 1, [](int, int) { return 1.0f; });
+  const double bar = covered("bar.png", 96, [](int x, int) { return float(x >= 32 && x < 64); });
+  EXPECT_GT(whole, 20);
+  EXPECT_EQ(covered("black.png", 1, [](int, int) { return 0.0f; }), 0);
+  EXPECT_GT(bar, 0.2 * whole);
+  EXPECT_LT(bar, 0.55 * whole);
 }
 
 TEST_P(Watercolor, knobsOfTheBrushChangeThePicture) {

@@ -13,7 +13,9 @@ namespace scumble::ink {
 namespace {
 
 static_assert(scene::kMaterialBorder << 28 == shared::kEdgeMaterialBorder &&
-              scene::kColorBorder << 28 == shared::kEdgeColorBorder);
+              scene::kColorBorder << 28 == shared::kEdgeColorBorder &&
+              scene::kRoundnessKnown << 28 == shared::kEdgeRoundnessKnown &&
+              uint32_t(scene::kRound) << 28 == shared::kEdgeRound);
 
 uint32_t moved(uint32_t vertex, uint32_t vertices) {
   return vertex == scene::MeshEdge::kNone ? shared::kNoEdgeSide : vertex + vertices;

@@ -99,7 +99,11 @@ LineRecord recordOf(uint number, int view) {
                              edge.right * inversesqrt(max(dot(edge.right, edge.right), 1e-37)));
   edgeNormal *= inversesqrt(max(dot(edgeNormal, edgeNormal), 1e-37));
   int weights = kWeights;
-  if (kWeights == kInkHybrid) weights = !edge.isOpen && bendOf(edge) > ink.cosSmooth ? kInkByVertex : kInkByTangent;
+  if (kWeights == kInkHybrid) {
+    bool isRound = !edge.isOpen && bendOf(edge) > ink.cosSmooth;
+    if ((edge.known & kEdgeRoundnessKnown) != 0u) isRound = (edge.known & kEdgeRound) != 0u;
+    weights = isRound ? kInkByVertex : kInkByTangent;
+  }
   InkKind style = ink.kinds[kind];
   if (kind == kInkSilhouette) {
     bool isRight = wound * dot(edge.left, toEye) > 0.0;

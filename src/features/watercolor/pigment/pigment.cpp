@@ -5,6 +5,7 @@
 #include "frame/pass.h"
 #include "shaders/pigment_stamp_cells_frag.h"
 #include "shaders/pigment_stamp_frag.h"
+#include "shaders/pigment_stamp_shapes_frag.h"
 #include "shaders/pigment_stamp_vert.h"
 #include "shading/geometry_constants.shared.h"
 
@@ -14,7 +15,7 @@ using namespace frame;
 
 namespace {
 
-enum Generator : uint32_t { kStamps, kCells };
+enum Generator : uint32_t { kStamps, kShapes, kCells };
 
 class Pigment : public Pass {
  public:
@@ -62,7 +63,10 @@ class Pigment : public Pass {
       desc.depthFormat = kDepthFormat;
       desc.depthCompare = VK_COMPARE_OP_GREATER;
     } else {
-      desc.fragment = {shaders::pigment_stamp_frag};
+      if (generator_ == kShapes)
+        desc.fragment = {shaders::pigment_stamp_shapes_frag};
+      else
+        desc.fragment = {shaders::pigment_stamp_frag};
       desc.blend = gpu::Blend::over;
     }
     desc.constants.resize(size_t(shared::kViewCountId) + 1);

@@ -38,7 +38,13 @@ void main() {
 
   float turnedBy = inStamp.w, away = length(inPlace);
   vec2 turned = mat2(cos(turnedBy), sin(turnedBy), -sin(turnedBy), cos(turnedBy)) * inPlace;
+#ifdef SHAPES
+  // The whole picture, however it is turned.
+  float covers = texture(brush, 0.5 + 0.7071 * turned).r;
+  covers *= step(max(abs(turned.x), abs(turned.y)), 0.7071);
+#else
   float hair = texture(brush, 0.22 * turned + inChance.xy).r - 0.5;
+#endif
   vec3 pigment = vec3(inChance.x, inChance.y, inChance.z);
 #ifdef CELLS
   float distance = away * (0.7 + 0.6 * inChance.z) + 0.1 * hair;
@@ -46,13 +52,17 @@ void main() {
   gl_FragDepth = 1.0 - distance;
   outPigment = vec4(mix(vec3(0.5, 0.5, 0.5), pigment, counts), 1.0);
 #else
-  float inside = 1.0 - away + 0.9 * hair * (1.0 - 0.5 * away);
-  float alpha = smoothstep(0.0, 0.4, inside) * smoothstep(1.0, 0.85, away);
+#ifdef SHAPES
+  float inside = 0.5 * covers, within = 1.0, alpha = covers;
+#else
+  float inside = 1.0 - away + 0.9 * hair * (1.0 - 0.5 * away), within = smoothstep(1.0, 0.85, away);
+  float alpha = smoothstep(0.0, 0.4, inside) * within;
+#endif
   // A wet drop thins what is under it, and pushes pigment to a rim that is hard on the outside.
   if (fract(inChance.w * 37.0) < u.backruns) {
     float rim = exp(-pow((inside - 0.16) / 0.07, 2.0));
     pigment.x = mix(0.28, 1.0, rim);
-    alpha = smoothstep(0.06, 0.16, inside) * smoothstep(1.0, 0.85, away);
+    alpha = smoothstep(0.06, 0.16, inside) * within;
   }
   outPigment = vec4(pigment, 0.75 * alpha * counts);
 #endif
