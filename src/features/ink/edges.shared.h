@@ -6,6 +6,7 @@
 SHARED_BEGIN
 
 // Final vertices, counted from where the chunk's begin. An edge goes from a to b along its left triangle.
+// Where b is a there is none.
 struct DrawnEdge {
   uint a;  // the upper four bits: what it is besides, kEdgeMaterialBorder ...
   uint b;
@@ -30,8 +31,10 @@ struct EdgeChunk {
   uint firstEdge, count;
   uint firstVertex;  // of the final ones
   uint object;
-  uint restShift;  // added to the number of an edge's end among all final vertices: among those at rest
+  uint firstBounds;  // of its words of edges (edge_bounds.shared.h); kNoEdgeBounds: it may bend
+  uint restShift;    // added to the number of an edge's end among all final vertices: among those at rest
 };
+const uint kNoEdgeBounds = 0xFFFFFFFFu;
 
 SHARED_END
 #endif

@@ -53,8 +53,8 @@ struct InkUniforms {
 // Set 1 of what finds lines and what draws them.
 const int kInkBlock = 0, kInkEdges = 1, kInkChunks = 2, kInkVertices = 3, kInkWords = 4, kInkSums = 5,
           kInkNumbers = 6, kInkCommand = 7, kInkFrames = 8, kInkLines = 9, kInkRecords = 10, kInkRings = 11,
-          kInkRest = 12;
-const int kInkBindings = 13;
+          kInkRest = 12, kInkBounds = 13;
+const int kInkBindings = 14;
 // Set 2 of what draws them. (What comes before that looks at no image: llvmpipe would compile it anew in each
 // frame.)
 const int kInkDepth = 0, kInkShadowed = 1;

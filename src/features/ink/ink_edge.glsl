@@ -24,7 +24,7 @@ struct PlacedEdge {
   vec3 a, b;             // world
   vec3 left, right;      // normals of the triangles, as long as twice their area; as they are wound
   uint known;            // kEdgeMaterialBorder ...
-  bool isOpen;
+  bool isOpen, isNone;
 };
 
 PlacedEdge placed(DrawnEdge edge, uint first) {
@@ -32,6 +32,7 @@ PlacedEdge placed(DrawnEdge edge, uint first) {
   result.a = vertices[first + (edge.a & kEdgeVertexMask)].position;
   result.b = vertices[first + edge.b].position;
   result.known = edge.a & ~kEdgeVertexMask;
+  result.isNone = (edge.a & kEdgeVertexMask) == edge.b;
   result.isOpen = edge.right == kNoEdgeSide;
   vec3 along = result.b - result.a;
   result.left = cross(along, vertices[first + edge.left].position - result.a);
@@ -56,6 +57,7 @@ int innerKindOf(PlacedEdge edge) {
 // Of the kinds that are shown, the first one that it is, as a view sees it (paper 004, section 2.2: one of its triangles
 // faces the eye, and the other one does not).
 int kindOf(PlacedEdge edge, vec4 eye) {
+  if (edge.isNone) return kInkNone;
   if (edge.isOpen) return isShown(kInkBoundary) ? kInkBoundary : kInkNone;
   vec3 toEye = eye.xyz - eye.w * edge.a;
   bool isSilhouette = (dot(edge.left, toEye) < 0.0) != (dot(edge.right, toEye) < 0.0);

@@ -4,6 +4,8 @@
 #include <set>
 #include <tuple>
 
+#include "features/ink/ink.shared.h"
+#include "features/ink/lines/edge_bounds.h"
 #include "features/ink/mesh_groups.h"
 #include "scene/parallel.h"
 #include "shading/frame.shared.h"
@@ -41,9 +43,11 @@ void EdgesOnGpu::find(const std::vector<GeometryItem>& items) {
     for (const scene::Primitive* primitive : primitivesOf(items, group))
       if (used.insert(primitive).second && !edgesOf_.contains(primitive)) missing.push_back(primitive);
   std::erase_if(edgesOf_, [&](const auto& entry) { return !used.contains(entry.first); });
-  std::vector<std::vector<scene::MeshEdge>> found(missing.size());
-  scene::parallelFor(missing.size(), scene::threadCount(0),
-                     [&](size_t i) { found[i] = scene::edgesOf(*missing[i]); });
+  std::vector<Found> found(missing.size());
+  scene::parallelFor(missing.size(), scene::threadCount(0), [&](size_t i) {
+    found[i].edges = inPatches(*missing[i], scene::edgesOf(*missing[i]));
+    found[i].bounds = boundsOf(*missing[i], found[i].edges);
+  });
   for (size_t i = 0; i < missing.size(); ++i) edgesOf_[missing[i]] = std::move(found[i]);
 
   std::set<std::vector<const scene::Primitive*>> meshes;
@@ -54,7 +58,7 @@ void EdgesOnGpu::find(const std::vector<GeometryItem>& items) {
     const auto [entry, isNew] = sharedBy_.try_emplace(primitives);
     if (!isNew) continue;
     std::vector<const std::vector<scene::MeshEdge>*> edges;
-    for (const scene::Primitive* primitive : primitives) edges.push_back(&edgesOf_.at(primitive));
+    for (const scene::Primitive* primitive : primitives) edges.push_back(&edgesOf_.at(primitive).edges);
     entry->second = scene::sharedEdges(primitives, edges);
   }
 }
@@ -71,17 +75,22 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
   std::vector<shared::DrawnEdge> edges;
   std::vector<shared::EdgeRing> rings;
   std::vector<shared::EdgeChunk> chunks;
+  std::vector<shared::EdgeBounds> bounds;
   edgeCount_ = 0;
+  constexpr uint32_t kWord = uint32_t(shared::kInkThreads);
   // Both ends of an edge are of its object.
-  const auto addChunks = [&](uint32_t first, uint32_t count, uint32_t firstVertex, uint32_t object) {
+  const auto addChunks = [&](uint32_t first, uint32_t count, uint32_t firstBounds, uint32_t firstVertex,
+                             uint32_t object) {
     edgeCount_ += count;
     const uint32_t restShift = places[object].firstRest - places[object].firstVertex;
-    for (uint32_t e = 0; e < count; e += shared::kEdgeChunk)
-      chunks.push_back(
-          {first + e, std::min(count - e, uint32_t(shared::kEdgeChunk)), firstVertex, object, restShift});
+    for (uint32_t e = 0; e < count; e += shared::kEdgeChunk) {
+      const uint32_t own = firstBounds == shared::kNoEdgeBounds ? firstBounds : firstBounds + e / kWord;
+      chunks.push_back({first + e, std::min(count - e, uint32_t(shared::kEdgeChunk)), firstVertex, object,
+                        own, restShift});
+    }
   };
   struct Run {
-    uint32_t first = 0, count = 0;
+    uint32_t first = 0, count = 0, firstBounds = shared::kNoEdgeBounds;
   };
   // Of a primitive, but for edges at which it goes on in another one; those depend on the mesh.
   std::map<std::tuple<const scene::Primitive*, const std::vector<scene::SharedEdge>*, uint32_t>, Run> runs;
@@ -91,7 +100,8 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
     if (group.size() > 1) shared = &sharedBy_.at(primitivesOf(items, group));
     for (uint32_t p = 0; p < group.size(); ++p) {
       const GeometryItem& item = items[group[p]];
-      const std::vector<scene::MeshEdge>& own = edgesOf_.at(item.primitive);
+      const Found& found = edgesOf_.at(item.primitive);
+      const std::vector<scene::MeshEdge>& own = found.edges;
       const auto [run, isNew] = runs.try_emplace({item.primitive, shared, shared ? p : 0});
       if (isNew) {
         run->second.first = uint32_t(edges.size());
@@ -101,11 +111,17 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
             if (edge.primitive == p) isShared[edge.edge] = true;
             if (edge.otherPrimitive == p) isShared[edge.otherEdge] = true;
           }
-        for (size_t e = 0; e < own.size(); ++e)
-          if (!isShared[e]) edges.push_back(drawn(own[e], 0)), rings.push_back(ringOf(own[e], 0));
+        if (!found.bounds.empty()) run->second.firstBounds = uint32_t(bounds.size());
+        bounds.insert(bounds.end(), found.bounds.begin(), found.bounds.end());
+        for (size_t e = 0; e < own.size(); ++e) {
+          edges.push_back(drawn(own[e], 0)), rings.push_back(ringOf(own[e], 0));
+          // Words of bounds stay as they are.
+          if (isShared[e]) edges.back() = {};
+        }
         run->second.count = uint32_t(edges.size()) - run->second.first;
       }
-      addChunks(run->second.first, run->second.count, places[group[p]].firstVertex, group[p]);
+      addChunks(run->second.first, run->second.count, run->second.firstBounds, places[group[p]].firstVertex,
+                group[p]);
     }
     // Those have vertices of two items.
     if (!shared || shared->empty()) continue;
@@ -114,8 +130,8 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
       for (const scene::SharedEdge& between : *shared) {
         if (between.primitive != p) continue;
         const GeometryItem &item = items[group[p]], &other = items[group[between.otherPrimitive]];
-        const scene::MeshEdge &left = edgesOf_.at(item.primitive)[between.edge],
-                              &right = edgesOf_.at(other.primitive)[between.otherEdge];
+        const scene::MeshEdge &left = edgesOf_.at(item.primitive).edges[between.edge],
+                              &right = edgesOf_.at(other.primitive).edges[between.otherEdge];
         const uint32_t firstLeft = places[group[p]].firstVertex,
                        firstRight = places[group[between.otherPrimitive]].firstVertex;
         shared::DrawnEdge edge = drawn(left, firstLeft);
@@ -127,7 +143,7 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
         for (int i = 0; i < 2; ++i) ring.beyondRight[i] = moved(right.beyond[i], firstRight);
         rings.push_back(ring);
       }
-      addChunks(first, uint32_t(edges.size()) - first, 0, group[p]);
+      addChunks(first, uint32_t(edges.size()) - first, shared::kNoEdgeBounds, 0, group[p]);
     }
   }
 
@@ -140,10 +156,11 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
     throw gpu::VulkanError{"lines of so large a scene", VK_ERROR_OUT_OF_DEVICE_MEMORY};
   settle();
   // What was there goes first.
-  edges_ = {}, rings_ = {}, chunks_ = {};
+  edges_ = {}, rings_ = {}, chunks_ = {}, bounds_ = {};
   edges_ = uploader.storage<shared::DrawnEdge>(edges);
   rings_ = uploader.storage<shared::EdgeRing>(rings);
   chunks_ = uploader.storage<shared::EdgeChunk>(chunks);
+  bounds_ = uploader.storage<shared::EdgeBounds>(bounds);
   chunkCount_ = uint32_t(chunks.size());
   return true;
 }

@@ -6,6 +6,7 @@
 #include <map>
 #include <vector>
 
+#include "features/ink/edge_bounds.shared.h"
 #include "features/ink/edges.shared.h"
 #include "gpu/resources.h"
 #include "scene/mesh_edges.h"
@@ -32,9 +33,15 @@ class EdgesOnGpu {
   const gpu::Buffer& edges() const { return edges_; }
   const gpu::Buffer& rings() const { return rings_; }
   const gpu::Buffer& chunks() const { return chunks_; }
+  // shared::EdgeBounds of words of edges.
+  const gpu::Buffer& bounds() const { return bounds_; }
 
  private:
-  std::map<const scene::Primitive*, std::vector<scene::MeshEdge>> edgesOf_;
+  struct Found {
+    std::vector<scene::MeshEdge> edges;
+    std::vector<shared::EdgeBounds> bounds;
+  };
+  std::map<const scene::Primitive*, Found> edgesOf_;
   std::map<std::vector<const scene::Primitive*>, std::vector<scene::SharedEdge>> sharedBy_;
   struct Known {
     const scene::Primitive* primitive;
@@ -45,7 +52,7 @@ class EdgesOnGpu {
   std::vector<Known> known_;  // what the buffers were written for
   uint32_t chunkCount_ = 0;
   uint64_t edgeCount_ = 0;
-  gpu::Buffer edges_, rings_, chunks_;
+  gpu::Buffer edges_, rings_, chunks_, bounds_;
 };
 
 }  // namespace scumble::ink

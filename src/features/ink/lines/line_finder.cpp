@@ -88,6 +88,7 @@ void LineFinder::bind() {
   }
   set_.writeBuffer(0, shared::kInkEdges, edges()->edges().handle());
   set_.writeBuffer(0, shared::kInkRings, edges()->rings().handle());
+  set_.writeBuffer(0, shared::kInkBounds, edges()->bounds().handle());
   set_.writeBuffer(0, shared::kInkChunks, edges()->chunks().handle());
   set_.writeBuffer(0, shared::kInkVertices, scene.geometry().finalCore().handle());
   set_.writeBuffer(0, shared::kInkFrames, scene.geometry().finalFrame().handle());
