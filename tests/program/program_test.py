@@ -19,6 +19,7 @@ import tempfile
 import unittest
 from array import array
 from pathlib import Path
+from xml.etree import ElementTree
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
@@ -186,7 +187,7 @@ class Commands(Program):
         text = self.good("render", "--help")
         for option in ("-o", "--look", "--set", "--camera", "--orbit", "--eye", "--target", "--roll", "--fov", "--size",
                        "--samples", "--time", "--frames", "--fps", "--stereo", "--ipd", "--aov", "--background", "--device",
-                       "--seed", "--stats", "--graph", "--quiet", "--resume", "--allow-outside", "--clip", "--quality"):
+                       "--seed", "--stats", "--graph", "--quiet", "--resume", "--allow-outside", "--clip", "--quality", "--svg"):
             self.assertRegex(text, rf"(^|[\s,]){option}\b", option)
         for default in ("1280x720", "0.063", "24"):
             self.assertIn(default, text)
@@ -722,6 +723,62 @@ class Stereo(Program):
     def test_errors(self):
         self.bad(USAGE, "render", "box.gltf", "-o", "x.png", "--stereo", "sideways", *TINY, says="side-by-side")
         self.bad(USAGE, "render", "box.gltf", "-o", "x.png", "--stereo", "separate", "--ipd", "-1", *TINY)
+
+
+class Drawings(Program):
+    SVG = "{http://www.w3.org/2000/svg}"
+
+    def layers(self, name):
+        """Of an SVG, its size, and by layer its paths."""
+        root = ElementTree.parse(self.folder / name).getroot()
+        self.assertEqual(root.tag, self.SVG + "svg")
+        groups = {group.get("id"): group.findall(self.SVG + "path") for group in root.findall(self.SVG + "g")}
+        return (int(root.get("width")), int(root.get("height"))), groups
+
+    def test_lines_of_the_look_go_into_an_svg(self):
+        self.render("box.gltf", "-o", "a.svg", "--look", "technical")
+        self.assertEqual(self.new_files(), {"a.svg"})
+        size, groups = self.layers("a.svg")
+        self.assertEqual(size, (160, 90))
+        self.assertIn("silhouettes", groups)
+        for paths in groups.values():
+            self.assertTrue(paths)
+            for path in paths:
+                self.assertRegex(path.get("fill"), r"\A#[0-9a-f]{6}\Z")
+                self.assertRegex(path.get("d"), r"\AM[-0-9. MLAZ]+Z\Z")
+        self.render("box.gltf", "-o", "b.svg", "--look", "technical")
+        self.same((self.folder / "a.svg").read_bytes(), (self.folder / "b.svg").read_bytes())
+
+    def test_centerlines_and_hidden_lines(self):
+        self.render("box.gltf", "-o", "a.svg", "--look", "technical", "--svg", "centerlines,hidden", "--orbit", "30,30")
+        _, groups = self.layers("a.svg")
+        self.assertTrue(any(name.endswith("-hidden") for name in groups), groups.keys())
+        for name, paths in groups.items():
+            for path in paths:
+                self.assertEqual(path.get("fill"), "none")
+                self.assertEqual(path.get("stroke-dasharray") is not None, name.endswith("-hidden"))
+
+    def test_stereo_sequences_and_aovs_are_those_of_pictures(self):
+        ink = ("--look", "ink", "--quiet")
+        self.render("box.gltf", "-o", "side.svg", "--stereo", "side-by-side", *ink)
+        self.assertEqual(self.layers("side.svg")[0], (320, 90))
+        self.render("box.gltf", "-o", "two.svg", "--stereo", "separate", "--aov", "depth", *ink)
+        self.render("box.gltf", "-o", "x.#.svg", "--frames", "0..1", *ink)
+        self.assertEqual(self.new_files(), {"side.svg", "two.left.svg", "two.right.svg", "two.left.depth.exr",
+                                            "two.right.depth.exr", "x.0.svg", "x.1.svg"})
+        # What is whole stays, and what is not is drawn again.
+        whole = (self.folder / "x.0.svg").read_bytes()
+        mine = whole.replace(b"<g ", b"<g  ", 1)
+        (self.folder / "x.0.svg").write_bytes(mine)
+        (self.folder / "x.1.svg").write_bytes(whole[:-8])
+        self.render("box.gltf", "-o", "x.#.svg", "--frames", "0..1", "--resume", *ink)
+        self.same((self.folder / "x.0.svg").read_bytes(), mine)
+        self.assertTrue((self.folder / "x.1.svg").read_bytes().endswith(b"</svg>\n"))
+
+    def test_errors(self):
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.svg", *TINY, says="ink.shown=on")
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.svg", "--look", "ink", "--svg", "dashed", *TINY, says="centerlines")
+        self.assertIn("--svg does nothing", self.run_program("render", "box.gltf", "-o", "x.png", "--svg", "hidden", *TINY).stderr)
 
 
 class Sequences(Program):

@@ -8,6 +8,7 @@ SHARED_BEGIN
 const int kInkNone = -1, kInkSilhouette = 0, kInkBoundary = 1, kInkMaterial = 2, kInkCrease = 3,
           kInkColor = 4;
 const int kInkKinds = 5;
+const int kInkTurned = 16;  // a bit beside the kind: its surface is seen from behind, where it is not drawn
 
 struct InkKind {
   float width;  // a factor

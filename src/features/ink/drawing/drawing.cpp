@@ -150,7 +150,7 @@ struct TableLine {
   float radii[2], metres[2];
   glm::vec4 color;
   glm::vec2 outward, turn;
-  bool isOutline;
+  bool isOutline, isTurned;  // away, which nobody sees
   int kind;
 };
 
@@ -185,7 +185,8 @@ Table tableOf(const Image& image) {
                            {outward.x, outward.y},
                            part(5),
                            outward.z > 0,
-                           int(outward.w) - 1});
+                           ((int(outward.w) - 1) & shared::kInkTurned) != 0,
+                           (int(outward.w) - 1) & ~shared::kInkTurned});
   }
   return table;
 }
@@ -230,9 +231,9 @@ std::vector<Link> linksOf(const std::vector<TableLine>& lines, uint32_t& nodeCou
       link.ends[i] = line.ends[i];
     }
     const glm::vec4 c = line.color;
+    const float kind = float(line.kind + (line.isTurned ? shared::kInkTurned : 0));
     link.family =
-        families.emplace(std::array{c.r, c.g, c.b, c.a, float(line.kind)}, uint32_t(families.size()))
-            .first->second;
+        families.emplace(std::array{c.r, c.g, c.b, c.a, kind}, uint32_t(families.size())).first->second;
     links.push_back(link);
   }
   nodeCount = nodes.count();
@@ -310,6 +311,7 @@ class EdgeStrokes {
     return std::isfinite(metres) ? metres : 1e30f;
   }
   float fullnessAt(const TableLine& line, glm::vec2 place, float metres, float radius) const {
+    if (line.isTurned) return 0;
     // What lies outside of the picture is not drawn.
     if (place.x < -radius || place.y < -radius || place.x > float(depth_.width) + radius ||
         place.y > float(depth_.height) + radius)

@@ -45,7 +45,7 @@ void main() {
   if (line < kInkRoom)
     record = records[view * kInkRoom + line];
   else
-    record = recordOf(numbers[line], view);
+    record = recordOf(numbers[line], view, false);
   outSpine = record.spine, outShift = record.shift, outRadii = record.radii, outColor = record.color;
   outOutward = record.outward, outTurn = record.turn;
   gl_Position = vec4(2.0, 2.0, 0.0, 1.0);  // outside

@@ -10,5 +10,5 @@ layout(set = 1, binding = kInkCommand, scalar) readonly buffer Command { InkComm
 void main() {
   uint line = gl_GlobalInvocationID.x;
   if (line >= min(command.vertexCount / 6u, uint(kInkRoom))) return;
-  for (int view = 0; view < kViewCount; ++view) records[view * kInkRoom + int(line)] = recordOf(numbers[line], view);
+  for (int view = 0; view < kViewCount; ++view) records[view * kInkRoom + int(line)] = recordOf(numbers[line], view, false);
 }

@@ -46,7 +46,8 @@ float turnOf(PlacedEdge edge, EdgeRing ring, uint first, bool isRight, uint thir
   return smoothstep(0.0, 1.0, turn / max(full, 1e-6));
 }
 
-LineRecord recordOf(uint number, int view) {
+// `keepsTurned`: lines that are seen from behind alone, and so never, have records too, with kInkTurned in their kind.
+LineRecord recordOf(uint number, int view, bool keepsTurned) {
   EdgeChunk chunk = chunks[number / uint(kEdgeChunk)];
   DrawnEdge drawn = edges[chunk.firstEdge + number % uint(kEdgeChunk)];
   PlacedEdge edge = placed(drawn, chunk.firstVertex);
@@ -58,7 +59,8 @@ LineRecord recordOf(uint number, int view) {
   // What is seen from behind alone is hidden by the rest of it, but for open sheets.
   float wound = object.influences == 0u && determinant(mat3(object.model)) < 0.0 ? -1.0 : 1.0;  // skins ignore it
   bool isTurned = wound * dot(edge.left, toEye) <= 0.0 && (edge.isOpen || wound * dot(edge.right, toEye) <= 0.0);
-  if (line.isSingle != 0u && isTurned) kind = kInkNone;
+  isTurned = isTurned && line.isSingle != 0u;
+  if (isTurned && !keepsTurned) kind = kInkNone;
 
   LineRecord record;
   record.spine = record.shift = record.radii = record.color = vec4(0.0);
@@ -163,7 +165,7 @@ LineRecord recordOf(uint number, int view) {
   record.color = vec4(mix(color.rgb, style.color, style.colorAmount), color.a * (1.0 - style.colorAmount));
   record.outward = vec3(across, isOutline ? 1.0 : 0.0);
 
-  record.kind = kind;
+  record.kind = isTurned ? kind | kInkTurned : kind;
   return record;
 }
 #endif

@@ -4,7 +4,6 @@
 #include "ink_record.glsl"
 
 layout(local_size_x = kInkThreads) in;
-layout(set = 1, binding = kInkRecords, scalar) readonly buffer Records { LineRecord records[]; };
 layout(set = 1, binding = kInkCommand, scalar) readonly buffer Command { InkCommand command; };
 layout(set = 2, binding = kLineTableImage, rgba32f) writeonly uniform image2DArray table;
 
@@ -24,11 +23,7 @@ void main() {
   }
   ivec3 down = ivec3(0, 1, 0);
   if (uint(line) >= count) return;
-  LineRecord record;
-  if (line < kInkRoom)
-    record = records[view * kInkRoom + line];
-  else
-    record = recordOf(numbers[line], view);
+  LineRecord record = recordOf(numbers[line], view, true);
   vec2 metres = vec2(eyeDepth(record.radii.z, view), eyeDepth(record.radii.w, view));
   imageStore(table, place, record.spine);
   imageStore(table, place + down, record.shift);
