@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "scumble/drawing.h"
+#include "tests/support/stroke_distance.h"
 
 namespace scumble {
 namespace {
@@ -53,25 +54,13 @@ int windingOf(const std::vector<std::vector<glm::dvec2>>& polygons, glm::dvec2 p
   return winding;
 }
 
-double beyondStroke(const Drawing::Stroke& stroke, glm::dvec2 place) {
-  double nearest = 1e9;
-  const size_t n = stroke.points.size();
-  for (size_t i = 0; i + (stroke.isClosed ? 0 : 1) < n; ++i) {
-    const Drawing::Point &a = stroke.points[i], &b = stroke.points[(i + 1) % n];
-    const glm::dvec2 from(a.x, a.y), way(b.x - a.x, b.y - a.y);
-    const double t = glm::clamp(glm::dot(place - from, way) / glm::dot(way, way), 0.0, 1.0);
-    nearest = std::min(nearest, glm::length(place - from - t * way) - glm::mix(a.radius, b.radius, t));
-  }
-  return nearest;
-}
-
 void expectShape(const Drawing::Stroke& stroke) {
   const auto polygons = polygonsOf(svgOf({60, 60, {stroke}}));
   int inside = 0;
   for (int y = 0; y < 120; ++y)
     for (int x = 0; x < 120; ++x) {
       const glm::dvec2 place(0.5 * x + 0.123, 0.5 * y + 0.217);
-      const double beyond = beyondStroke(stroke, place);
+      const double beyond = test::beyondStroke(stroke, place);
       const bool isFilled = windingOf(polygons, place) != 0;
       inside += isFilled;
       // Arcs are two lines here; widths change by up to the half along a part.

@@ -6,7 +6,6 @@
 
 #ifdef __cplusplus
 namespace scumble::shared {
-using glm::abs;
 using glm::dot;
 using glm::max;
 using glm::sqrt;

@@ -1,5 +1,5 @@
-// Whether a place on an edge is seen, and how full its line is there: C++ and GLSL compile the same text, so
-// that drawings hide the lines that pictures hide.
+// Whether a place on an edge is seen, how full its line is there, and where it lies: C++ and GLSL compile the
+// same text, so that drawings hide the lines that pictures hide.
 #ifndef SCUMBLE_INK_FULLNESS_SHARED_H
 #define SCUMBLE_INK_FULLNESS_SHARED_H
 #include "../../shading/shared_types.h"
@@ -52,6 +52,12 @@ SHARED_FUNCTION float inkFullness(InkPlace p, float sceneRadius, float parallel,
   float fullness =
       mix(1.0f, outer, smoothstep(0.1f, 0.4f, far)) * smoothstep(0.0f, 1.0f, behind / max(full, 1e-20f));
   return max(fullness * mix(p.turn.x, 1.0f, smoothstep(0.05f, 0.2f, far)), p.turn.y);
+}
+
+// How far outlines that lie outside of their form reach into it, pixels: two anti-aliased edges that only
+// touch would leave a light seam, and so would two that are torn apart. `pixelScale`: pixels of a knob pixel.
+SHARED_FUNCTION float inkOverlap(float pixelScale) {
+  return max(0.75f, 2.4f * pixelScale);
 }
 
 SHARED_END

@@ -92,7 +92,6 @@ const int kLineTableRoom = kLineTableWidth * kLineTableRows;
 // whether the view is a parallel projection.
 // Then: metres that a pixel covers at one metre; fade, outer, as InkUniforms has them.
 // Then: offset, doubled (pixels; 0: there is no second line), doubledWidth, placement.
-const int kLineTableHeader = 3;
 
 // Set 2 of what makes it.
 const int kLineTableImage = 0;

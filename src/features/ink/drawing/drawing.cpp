@@ -242,7 +242,7 @@ std::vector<Link> linksOf(const std::vector<TableLine>& lines, uint32_t& nodeCou
 
 class EdgeStrokes {
  public:
-  EdgeStrokes(const Table& table, const Image& depth, const Image* surface)
+  EdgeStrokes(const Table& table, const Image& depth, const Image& surface)
       : table_(table), depth_(depth), surface_(surface) {}
 
   void add(const Chain& chain, std::vector<Drawing::Stroke>& strokes) const {
@@ -283,8 +283,9 @@ class EdgeStrokes {
           const glm::vec2 at = spine + pixels * shift;
           return Place{{at.x, at.y, half}, isSeen};
         };
-        const float overlap = std::max(0.75f, 2.4f * table_.pixelScale);  // as ink_line.frag has it
-        const float out = line.isOutline && table_.isExterior ? std::max(drawn - overlap, 0.0f) : 0;
+        const float out = line.isOutline && table_.isExterior
+                              ? std::max(drawn - shared::inkOverlap(table_.pixelScale), 0.0f)
+                              : 0;
         places.push_back(place(moved + out, drawn));
         if (line.isOutline && table_.doubled != 0)
           doubled.push_back(
@@ -330,8 +331,8 @@ class EdgeStrokes {
   // Square root; as ink_line.frag has it.
   glm::vec3 colorAt(const TableLine& line, glm::vec2 spine) const {
     const glm::vec3 color = line.color;
-    if (line.color.a == 0 || !surface_) return color;
-    const glm::vec4 surface = nearestTexel(*surface_, spine - 2.0f * line.outward);
+    if (line.color.a == 0) return color;
+    const glm::vec4 surface = nearestTexel(surface_, spine - 2.0f * line.outward);
     if (surface.a <= 0) return color;
     return glm::mix(color, (line.color.a > 0 ? glm::vec3(0.6f) : color) * glm::sqrt(glm::vec3(surface)),
                     std::abs(line.color.a));
@@ -339,7 +340,7 @@ class EdgeStrokes {
 
   const Table& table_;
   const Image& depth_;
-  const Image* surface_;  // its colours in shadow, linear
+  const Image& surface_;  // its colours in shadow, linear
 };
 
 // -- Lines of the picture
@@ -363,9 +364,6 @@ void addContours(const Contours& contours, float precision, const Drawing::Strok
       addStrokes(std::move(places), chain.isClosed, style, precision, strokes);
   }
 }
-
-// As ink_over.image.glsl has it: beyond such a slope two places are no longer on one surface, or touch.
-constexpr float kSteepest = 8;
 
 void addPictureLines(const AovOfView& aov, const look::LookData& look, const Table& table,
                      std::vector<Drawing::Stroke>& strokes) {
@@ -414,7 +412,7 @@ void addPictureLines(const AovOfView& aov, const look::LookData& look, const Tab
     const auto isBorder = [&](uint32_t x, uint32_t y, uint32_t otherX, uint32_t otherY) {
       const glm::vec4 here = pieceAt(x, y), there = pieceAt(otherX, otherY);
       const float metres = std::min(here.a, there.a);
-      const float steep = kSteepest * table.metresOfPixel * glm::mix(metres, 1.0f, table.parallel);
+      const float steep = shared::kInkSteepest * table.metresOfPixel * glm::mix(metres, 1.0f, table.parallel);
       const bool touches = std::abs(there.a - here.a) <= steep;
       if (kind == shared::kInkOverObjects) return there.g != here.g;
       if (kind == shared::kInkOverIntersections) return there.r != here.r && touches;
@@ -442,7 +440,7 @@ void add(const AovOfView& aov, const look::LookData& look, Drawing& drawing) {
   uint32_t nodeCount = 0;
   const std::vector<Link> links = linksOf(table.lines, nodeCount);
   const std::vector<Chain> chains = chainsOf(links, nodeCount);
-  const EdgeStrokes strokes(table, aov("depth"), &aov("shadowed"));
+  const EdgeStrokes strokes(table, aov("depth"), aov("shadowed"));
   for (int kind = shared::kInkKinds - 1; kind >= 0; --kind)
     for (const Chain& chain : chains)
       if (table.lines[chain.parts.front().link].kind == kind) strokes.add(chain, drawing.strokes);

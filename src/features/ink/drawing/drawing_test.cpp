@@ -5,6 +5,7 @@
 
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
+#include "tests/support/stroke_distance.h"
 
 namespace scumble::ink {
 namespace {
@@ -29,20 +30,11 @@ class InkDrawing : public BothEyes {
       found += stroke.layer == layer && stroke.isHidden == isHidden;
     return found;
   }
-  // How far a place is beyond the edge of the nearest stroke that is seen, pixels; within it below 0.
-  static double beyondStrokes(const Drawing& drawing, double x, double y) {
+  // The nearest stroke that is seen.
+  static double beyondStrokes(const Drawing& drawing, const glm::dvec2& place) {
     double nearest = 1e9;
-    for (const Drawing::Stroke& stroke : drawing.strokes) {
-      if (stroke.isHidden) continue;
-      const size_t n = stroke.points.size();
-      for (size_t i = 0; i + (stroke.isClosed ? 0 : 1) < n; ++i) {
-        const Drawing::Point &a = stroke.points[i], &b = stroke.points[(i + 1) % n];
-        const glm::dvec2 from(a.x, a.y), way(b.x - a.x, b.y - a.y), place(x, y);
-        const double t =
-            glm::clamp(glm::dot(place - from, way) / std::max(glm::dot(way, way), 1e-9), 0.0, 1.0);
-        nearest = std::min(nearest, glm::length(place - from - t * way) - glm::mix(a.radius, b.radius, t));
-      }
-    }
+    for (const Drawing::Stroke& stroke : drawing.strokes)
+      if (!stroke.isHidden) nearest = std::min(nearest, beyondStroke(stroke, place));
     return nearest;
   }
   // Up to a part of it.
@@ -51,7 +43,7 @@ class InkDrawing : public BothEyes {
     for (int y = 0; y < kHigh; ++y)
       for (int x = 0; x < kWide; ++x) {
         const double ink = texel(aov(frame, "ink", view), x, y).w;
-        const double beyond = beyondStrokes(frame.drawings[view], x + 0.5, y + 0.5);
+        const double beyond = beyondStrokes(frame.drawings[view], {x + 0.5, y + 0.5});
         inked += ink > 0.9, bare += ink < 0.02;
         missing += ink > 0.9 && beyond > 0.6;
         wrong += ink < 0.02 && beyond < -0.6;

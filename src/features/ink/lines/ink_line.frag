@@ -24,9 +24,6 @@ layout(location = 9) flat in vec3 inDown;
 
 layout(location = 0) out vec4 outInk;
 
-// How far outlines reach into the form, pixels: two anti-aliased edges that only touch would leave a light seam, and so
-// would two that are torn apart.
-float overlap() { return max(0.75, 2.4 * frame.pixelScale); }
 // How far along a line is nearest, from 0 to 1.
 float nearestOn(vec2 from, vec2 to, vec2 point) {
   vec2 along = to - from;
@@ -62,7 +59,7 @@ void main() {
   vec2 spine = mix(inSpine.xy, inSpine.zw, t);
   radius *= fullnessAt(spine, mix(inRadii.z, inRadii.w, t), outward, inOutward.z > 0.0, inTurn, radius, view);
 
-  float moved = ink.offset * frame.pixelScale + (kPlacement == kInkExterior ? max(radius - overlap(), 0.0) : 0.0);
+  float moved = ink.offset * frame.pixelScale + (kPlacement == kInkExterior ? max(radius - inkOverlap(frame.pixelScale), 0.0) : 0.0);
   vec4 line = inSpine + inShift * moved;
   vec2 nearest = mix(line.xy, line.zw, nearestOn(line.xy, line.zw, pixel));
   float coverage = lineCoverage(radius, pixel, nearest, spine, t, view);

@@ -11,7 +11,6 @@
 #include "frame/material_params.h"
 #include "shaders/ink_line_frag.h"
 #include "shaders/ink_line_vert.h"
-#include "shading/geometry_constants.shared.h"
 
 namespace scumble::ink {
 
@@ -163,9 +162,7 @@ class Lines : public Pass {
     gpu::GraphicsPipelineDesc desc;
     desc.vertex = {shaders::ink_line_vert};
     desc.fragment = {shaders::ink_line_frag};
-    desc.constants.resize(size_t(shared::kPassId) + 1);
-    desc.constants[size_t(shared::kViewCountId)] = configuration_.viewCount;
-    desc.constants[size_t(shared::kPassId)] = choices;
+    desc.constants = finder_.constants(choices);
     desc.colorFormats = {kBytes};
     desc.blend = gpu::Blend::greatest;
     desc.viewMask = configuration_.views().mask();

@@ -8,9 +8,7 @@ layout(set = 1, binding = kInkCommand, scalar) readonly buffer Command { InkComm
 layout(set = 2, binding = kLineTableImage, rgba32f) writeonly uniform image2DArray table;
 
 void main() {
-  int line = int(gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x) * kInkThreads + int(gl_LocalInvocationID.x);
-  int view = int(gl_WorkGroupID.z);
-  if (line >= kLineTableRoom) return;
+  int line = int(gl_GlobalInvocationID.x), view = int(gl_WorkGroupID.z);
   uint count = command.vertexCount / 6u;
   ivec3 place = ivec3(line % kLineTableWidth, line / kLineTableWidth * kLineTexels, view);
   if (line == 0) {

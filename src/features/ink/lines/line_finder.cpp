@@ -43,6 +43,13 @@ void LineFinder::create(frame::FrameBuilder& frame, const frame::UniformSlice& u
   set_.writeBuffer(0, shared::kInkCommand, command_.handle());
 }
 
+std::vector<uint32_t> LineFinder::constants(uint32_t choices) const {
+  std::vector<uint32_t> all(size_t(shared::kPassId) + 1);
+  all[size_t(shared::kViewCountId)] = frame_->configuration().viewCount;
+  all[size_t(shared::kPassId)] = choices;
+  return all;
+}
+
 void LineFinder::specialise(uint32_t choices) {
   choices_ = choices;
   Pipelines& pipelines = pipelines_[choices];
@@ -50,9 +57,7 @@ void LineFinder::specialise(uint32_t choices) {
   gpu::ComputePipelineDesc desc;
   desc.sets = {frame_->frameLayout().handle(), layout_.handle()};
   desc.pushConstantBytes = 4;
-  desc.constants.resize(size_t(shared::kPassId) + 1);
-  desc.constants[size_t(shared::kViewCountId)] = frame_->configuration().viewCount;
-  desc.constants[size_t(shared::kPassId)] = choices;
+  desc.constants = constants(choices);
   desc.shader = {shaders::ink_find_comp};
   pipelines.find = gpu::Pipeline(frame_->device(), desc);
   desc.shader = {shaders::ink_record_comp};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <vector>
 
 #include "features/ink/ink.shared.h"
 #include "features/ink/lines/edges_on_gpu.h"
@@ -20,7 +21,9 @@ class LineFinder {
   void bind();
   // Whether there are no edges at all: nothing can be drawn then.
   bool isEmpty() const { return !edges() || edges()->chunkCount() == 0; }
-  // What shaders are specialised to (ink_choices.glsl); before record().
+  // Of the shaders that are specialised to choices (ink_choices.glsl).
+  std::vector<uint32_t> constants(uint32_t choices) const;
+  // What its own are specialised to; before record().
   void specialise(uint32_t choices);
   // Finds them; what reads the set afterwards needs a barrier.
   void record(VkCommandBuffer commands) const;

@@ -1,7 +1,6 @@
 #include "features/ink/lines/line_table.h"
 
 #include "shaders/ink_table_comp.h"
-#include "shading/geometry_constants.shared.h"
 
 namespace scumble::ink {
 
@@ -37,9 +36,7 @@ void LineTable::specialise(uint32_t choices) {
   gpu::ComputePipelineDesc desc;
   desc.shader = {shaders::ink_table_comp};
   desc.sets = {frame_->frameLayout().handle(), finder_->layout().handle(), layout_.handle()};
-  desc.constants.resize(size_t(shared::kPassId) + 1);
-  desc.constants[size_t(shared::kViewCountId)] = frame_->configuration().viewCount;
-  desc.constants[size_t(shared::kPassId)] = choices;
+  desc.constants = finder_->constants(choices);
   pipeline = gpu::Pipeline(frame_->device(), desc);
 }
 

@@ -60,9 +60,6 @@ vec4 pieceAt(ivec2 pixel, int layer) {
   return piece.r > 0.0 ? piece : vec4(0.0, 0.0, 0.0, 1e9);
 }
 
-// Beyond such a slope two places are no longer on one surface, or touch.
-const float kSteepest = 8.0;
-
 // How far the borders are at which objects end, pieces meet, and textures cut: pixels, from this one's middle.
 vec3 bordersAround(ivec2 pixel, int layer) {
   vec3 nearest = vec3(1e9);
@@ -81,7 +78,7 @@ vec3 bordersAround(ivec2 pixel, int layer) {
       vec4 there = pieceAt(pixel + ivec2(x, y), layer);
       float away = length(vec2(x, y));
       bool isOther = there.r != here.r;
-      float steep = kSteepest * away * metresOfPixel(min(here.a, there.a), layer);
+      float steep = kInkSteepest * away * metresOfPixel(min(here.a, there.a), layer);
       bool touches = abs(there.a - here.a) <= steep;
       bool hasHoles = (there.a < here.a ? there.b : here.b) > 0.0;
       float border = away - 0.5;

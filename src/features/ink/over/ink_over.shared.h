@@ -19,6 +19,8 @@ struct InkOverUniforms {
 };
 // How far from a pixel borders of pieces are looked for, at most: half the greatest width of their lines.
 const int kInkOverReach = 4;
+// Beyond such a slope two places are no longer on one surface, or touch.
+const float kInkSteepest = 8.0f;
 const int kInkOverPicture = 1, kInkOverStrokes = 2, kInkOverWarp = 3, kInkOverTiles = 4, kInkOverLight = 5,
           kInkOverDepth = 6, kInkOverPieces = 7;
 SHARED_END
