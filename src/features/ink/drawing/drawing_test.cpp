@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "tests/support/ray_cast.h"
+#include "tests/support/aov.h"
 #include "tests/support/render_test.h"
 #include "tests/support/stroke_distance.h"
 
