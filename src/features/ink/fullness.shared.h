@@ -15,11 +15,18 @@ using glm::smoothstep;
 
 SHARED_BEGIN
 
-// By how much something may be before an edge and hide nothing, as a part of its distance, or (in parallel
-// projections) of the scene's radius: what rounding does, and what levels of detail leave out.
-const float kInkTolerance = 0.0015f;
+// By how much something may be before an edge and hide nothing: a part of its distance or (in parallel
+// projections) of the scene's radius, which is what rounding does and what levels of detail leave out; and
+// what some pixels measure there, since on both sides of a line in a valley the surface comes nearer. And
+// what hides all of it.
+const float kInkTolerance = 0.0015f, kInkTolerancePixels = 3.0f;
+const float kInkHides = 0.0045f, kInkHidesPixels = 12.0f;
 // Where depth is looked up beside an edge, pixels: beyond it, twice, and before it.
 const float kInkBeyond = 1.5f, kInkFarBeyond = 2.6f, kInkBefore = 1.5f;
+// How full a line is, is the mean of what is found at a place and so many pixels before and behind it.
+const float kInkMeanOver = 2.0f;
+// Over how many pixels an outline ends that is not drawn along its whole edge.
+const float kInkSoftEnd = 8.0f;
 
 // What is known of a place on an edge. Lengths are metres.
 struct InkPlace {
@@ -29,8 +36,23 @@ struct InkPlace {
   float pixel;     // that a pixel covers
   float radius;    // of the line, pixels
   vec2 turn;       // as LineRecord has it
+  float reach;     // inkReach there
   uint isOutline;
 };
+
+// How much of an outline is drawn at a place along its edge, from 0 to 1. `reach`: as LineRecord has it; all
+// of it where that is 0 and 1. `size`: the edge's length, pixels.
+SHARED_FUNCTION float inkReach(float along, vec2 reach, float size) {
+  float soft = min(kInkSoftEnd / max(size, 1e-3f), 0.5f);
+  float from = reach.x * (1.0f + soft) - soft, to = reach.y * (1.0f + soft);
+  return smoothstep(from, from + soft, along) * (1.0f - smoothstep(to - soft, to, along));
+}
+
+// A depth at a place along an edge, or a little beyond its ends, which may be close on the screen and not in
+// depth. `atA`, `atB`: at its ends, of what is linear on the screen.
+SHARED_FUNCTION float inkDepthAlong(float atA, float atB, float along) {
+  return max(mix(atA, atB, min(max(along, -0.5f), 1.5f)), 0.5f * min(atA, atB));
+}
 
 // A factor on the line's width; 0 where it is hidden. `parallel`: 1 for a parallel projection, else 0;
 // `fade`, `outer`: as InkUniforms has them.
@@ -39,19 +61,21 @@ struct InkPlace {
 // two is nearer than the edge. So there is nothing to fight with about depths, and a line is hidden over its
 // whole width at once.
 SHARED_FUNCTION float inkFullness(InkPlace p, float sceneRadius, float parallel, float fade, float outer) {
-  // On both sides of an inner line in a valley the surface comes nearer, also of one that is an outline and
-  // stands on something.
-  bool isFree = p.isOutline != 0u && p.turn.y <= 0.0f;
-  float tolerance = kInkTolerance * mix(p.distance, sceneRadius, parallel) + (isFree ? 0.0f : 3.0f * p.pixel);
-  if (max(p.beyond, p.before) < p.distance - tolerance) return 0.0f;
-  if (p.isOutline == 0u) return 1.0f;
+  // What is hidden comes and goes by how deep it lies, and never at once.
+  float scale = mix(p.distance, sceneRadius, parallel);
+  float hidden =
+      smoothstep(kInkTolerance * scale + kInkTolerancePixels * p.pixel,
+                 kInkHides * scale + kInkHidesPixels * p.pixel, p.distance - max(p.beyond, p.before));
+  if (p.isOutline == 0u) return 1.0f - hidden;
   // An outline tapers where the form goes on right behind it, so that it neither begins nor ends at once; but
   // the fold of a coarse form has depth until it closes, and tapers by its angle.
   float behind = min(p.beyond, 1e6f * p.distance) - p.distance;
   float full = 2.0f * fade * max(p.radius, 0.5f) * p.pixel, far = behind / sceneRadius;
   float fullness =
       mix(1.0f, outer, smoothstep(0.1f, 0.4f, far)) * smoothstep(0.0f, 1.0f, behind / max(full, 1e-20f));
-  return max(fullness * mix(p.turn.x, 1.0f, smoothstep(0.05f, 0.2f, far)), p.turn.y);
+  // Against the rest of the world it is whole.
+  fullness *= mix(p.turn.x * p.reach, 1.0f, smoothstep(0.2f, 0.6f, far));
+  return (1.0f - hidden) * max(fullness, p.turn.y);
 }
 
 // How far outlines that lie outside of their form reach into it, pixels: two anti-aliased edges that only

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "features/ink/ink_reference.h"
+#include "scumble/measure.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
 
@@ -42,6 +43,12 @@ class Ink : public BothEyes {
   }
   static double ink(const Frame& frame, size_t view, const glm::dvec2& at) {
     return texel(aov(frame, "ink", view), int(at.x), int(at.y)).w;
+  }
+  // Across a line that runs from left to right, in parts of its width.
+  static double inkAcross(const Frame& frame, size_t view, const glm::dvec2& at) {
+    double sum = 0;
+    for (int y = -5; y <= 5; ++y) sum += ink(frame, view, at + glm::dvec2(0, y));
+    return sum / (2 * kRadius);
   }
   // That ink covers what it should, pixel by pixel.
   void expectLines(const TestScene& s, const Knobs& knobs, const Stand& stand,
@@ -201,6 +208,62 @@ TEST_P(Ink, hiddenLinesAreNotSeen) {
   }
 }
 
+// A bar, one of whose outlines runs behind a plate that lies so close before it; `left`: where the plate
+// begins.
+class HalfHidden {
+ public:
+  HalfHidden(double gap, double left) {
+    TestScene s;
+    const int material = s.material(TestScene::colored("Thing", {0.6f, 0.5f, 0.4f, 1}));
+    s.add(boxMesh({-1.5f, -0.3f, -1.5f}, {1.5f, 0.3f, -1}), material);
+    s.add(gridMesh({float(left), -0.6f, float(gap - 1)}, {1.6f, 0, 0}, {0, 1.2f, 0}), material);
+    scene_ = s.load();
+  }
+  const Scene& scene() const { return scene_; }
+  static constexpr double kDistance = 7;  // of the outline
+  static constexpr Stand kStand{{0, 0, 6}, {0, 0, 0}, 40, 0, 0.1f};
+
+ private:
+  Scene scene_;
+};
+
+// What lies before a line hides it more and more the farther it lies before it, and never at once.
+TEST_P(Ink, whatIsHiddenComesByItsDepth) {
+  const double pixel = 2 * HalfHidden::kDistance * std::tan(glm::radians(20.0)) / kHeight;
+  const double from = 0.0015 * HalfHidden::kDistance + 3 * pixel,
+               to = 0.0045 * HalfHidden::kDistance + 12 * pixel;
+  for (const double part : {-0.3, 0.0, 0.2, 0.4, 0.5, 0.6, 0.8, 1.0, 1.2}) {
+    const HalfHidden s(from + part * (to - from), -0.8);
+    const auto views = viewsFrom(s.scene(), HalfHidden::kStand, kWidth, kHeight, GetParam());
+    const Frame frame =
+        drawLines(s.scene(), evenLines({{"ink.creases.shown", "on"}, {"ink.creases.width", "1"}}), views);
+    const double t = std::clamp(part, 0.0, 1.0), hidden = t * t * (3 - 2 * t);
+    for (size_t v = 0; v < viewCount(); ++v)
+      EXPECT_NEAR(inkAcross(frame, v, pixelOf(views[v], {0, 0.3, -1}, kWidth, kHeight)), 1 - hidden, 0.03)
+          << part;
+  }
+}
+
+// Where a line goes behind something it ends within some pixels, however that lies on the pixels.
+TEST_P(Ink, linesEndSoftly) {
+  for (const double left : {-0.02, 0.0, 0.01}) {
+    const HalfHidden s(0.7, left);
+    const auto views = viewsFrom(s.scene(), HalfHidden::kStand, kWidth, kHeight, GetParam());
+    const Frame frame = drawLines(s.scene(), evenLines(), views);
+    for (size_t v = 0; v < viewCount(); ++v) {
+      const double edge = pixelOf(views[v], {left, 0.3, -0.3}, kWidth, kHeight).x;
+      const glm::dvec2 line = pixelOf(views[v], {0, 0.3, -1}, kWidth, kHeight);
+      const auto at = [&](double beside) {
+        return inkAcross(frame, v, {std::floor(edge) + 0.5 + beside, line.y});
+      };
+      EXPECT_GT(at(-4), 0.95);
+      EXPECT_NEAR(at(-1), 2 / 3.0, 0.1);
+      EXPECT_NEAR(at(1), 1 / 3.0, 0.1);
+      EXPECT_EQ(at(4), 0.0);
+    }
+  }
+}
+
 // Bold lines outside of a ball: its outline is covered all around, from the ball on to the line's width.
 TEST_P(Ink, jointsOfExteriorLinesAreClosed) {
   const TestScene s = oneThing(sphereMesh({0, 0, 0}, 1, 24));
@@ -245,10 +308,7 @@ TEST_P(Ink, foldsCloseByAnAngle) {
     const Frame frame = drawLines(scene, evenLines(knobs), views);
     std::vector<double> parts;
     for (size_t v = 0; v < viewCount(); ++v) {
-      const glm::dvec2 edge = pixelOf(views[v], {0, 0, 0.1}, kWidth, kHeight);
-      double sum = 0;
-      for (int y = -5; y <= 5; ++y) sum += ink(frame, v, edge + glm::dvec2(0, y));
-      parts.push_back(sum / (2 * kRadius));
+      parts.push_back(inkAcross(frame, v, pixelOf(views[v], {0, 0, 0.1}, kWidth, kHeight)));
     }
     return parts;
   };
@@ -289,6 +349,27 @@ TEST_P(Ink, outlinesThatPassOnStayWhole) {
       EXPECT_NEAR(sums[1][v] / sums[0][v], 1, 0.02) << "step " << i;
     }
   }
+}
+
+// Of lumps whose outlines pass over many an edge while one walks around them, nothing comes or goes at once.
+TEST_F(RenderTest, linesOfLumpsAreSteady) {
+  TestMesh lumps = sphereMesh({0, 0, 0}, 1, 16);
+  for (glm::vec3& position : lumps.positions)
+    position *=
+        1 + 0.12f * std::sin(7 * position.x + 2) * std::sin(6 * position.y) * std::sin(8 * position.z + 1);
+  const Scene scene = oneThing(lumps).load();
+  MeasureOptions options;
+  options.width = 480, options.height = 360;
+  const auto flickersWith = [&](const Knobs& more) {
+    Knobs knobs{{"ink.least", "6"}, {"ink.greatest", "6"}, {"ink.fade", "1.5"}};
+    knobs.insert(knobs.end(), more.begin(), more.end());
+    const LineMeasurements found =
+        measureLines(renderer(), scene, quietLook(evenLines(knobs)), "ink", options).value();
+    return found.lines.flickers * found.lines.drawn * kLineStep * (kLineFrames - 1);
+  };
+  const double plain = flickersWith({{"ink.fade", "0"}, {"ink.fadeAngle", "0"}}), ours = flickersWith({});
+  EXPECT_GT(plain, 50);
+  EXPECT_LE(ours, 4);
 }
 
 // FORMULAS 24: thin where light falls on it, bold where it turns away, and in between what a cosine says.

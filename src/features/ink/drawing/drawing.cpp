@@ -149,7 +149,7 @@ struct TableLine {
   glm::vec2 ends[2], shift[2];
   float radii[2], metres[2];
   glm::vec4 color;
-  glm::vec2 outward, turn;
+  glm::vec2 outward, turn, reach;
   bool isOutline, isTurned;  // away, which nobody sees
   int kind;
 };
@@ -175,7 +175,7 @@ Table tableOf(const Image& image) {
       return texel(image, n % uint32_t(shared::kLineTableWidth),
                    n / uint32_t(shared::kLineTableWidth) * uint32_t(shared::kLineTexels) + down);
     };
-    const glm::vec4 spine = part(0), shift = part(1), radii = part(2), outward = part(4);
+    const glm::vec4 spine = part(0), shift = part(1), radii = part(2), outward = part(4), turn = part(5);
     if (outward.w <= 0) continue;
     table.lines.push_back({{{spine.x, spine.y}, {spine.z, spine.w}},
                            {{shift.x, shift.y}, {shift.z, shift.w}},
@@ -183,7 +183,8 @@ Table tableOf(const Image& image) {
                            {radii.z, radii.w},
                            part(3),
                            {outward.x, outward.y},
-                           part(5),
+                           {turn.x, turn.y},
+                           {turn.z, turn.w},
                            outward.z > 0,
                            ((int(outward.w) - 1) & shared::kInkTurned) != 0,
                            (int(outward.w) - 1) & ~shared::kInkTurned});
@@ -273,8 +274,7 @@ class EdgeStrokes {
         const float t = float(i) / float(steps), radius = glm::mix(radii[part], radii[part + 1], t);
         const glm::vec2 spine = glm::mix(line.ends[from], line.ends[to], t);
         const glm::vec2 shift = glm::mix(shifts[part], shifts[part + 1], t);
-        const float metres = metresAt(line, from == 0 ? t : 1 - t);
-        const float fullness = fullnessAt(line, spine, metres, radius);
+        const float fullness = meanFullnessAt(line, from == 0 ? t : 1 - t, radius);
         const bool isSeen = fullness > 0;
         const float drawn = isSeen ? radius * fullness : radius;
         color += colorAt(line, spine);
@@ -304,19 +304,29 @@ class EdgeStrokes {
  private:
   // On the screen, what is linear is one over the distance; but in a parallel projection the distance itself.
   float metresAt(const TableLine& line, float t) const {
-    if (table_.parallel > 0.5f) return glm::mix(line.metres[0], line.metres[1], t);
-    return 1 / glm::mix(1 / line.metres[0], 1 / line.metres[1], t);
+    if (table_.parallel > 0.5f) return shared::inkDepthAlong(line.metres[0], line.metres[1], t);
+    return 1 / shared::inkDepthAlong(1 / line.metres[0], 1 / line.metres[1], t);
   }
   float depthAt(glm::vec2 place) const {
     const float metres = nearestTexel(depth_, place).x;
     return std::isfinite(metres) ? metres : 1e30f;
   }
-  float fullnessAt(const TableLine& line, glm::vec2 place, float metres, float radius) const {
+  // As ink_seen.glsl has both.
+  float meanFullnessAt(const TableLine& line, float t, float radius) const {
     if (line.isTurned) return 0;
+    const float size = std::max(glm::distance(line.ends[0], line.ends[1]), 1e-3f);
+    float sum = 0;
+    for (int i = -1; i <= 1; ++i)
+      sum += fullnessAt(line, t + float(i) * shared::kInkMeanOver / size, size, radius);
+    return sum / 3;
+  }
+  float fullnessAt(const TableLine& line, float t, float size, float radius) const {
+    const glm::vec2 place = glm::mix(line.ends[0], line.ends[1], t);
     // What lies outside of the picture is not drawn.
     if (place.x < -radius || place.y < -radius || place.x > float(depth_.width) + radius ||
         place.y > float(depth_.height) + radius)
       return 0;
+    const float metres = metresAt(line, t);
     const float pixel = table_.metresOfPixel * glm::mix(metres, 1.0f, table_.parallel);
     const shared::InkPlace p{metres,
                              std::max(depthAt(place + shared::kInkBeyond * line.outward),
@@ -325,6 +335,7 @@ class EdgeStrokes {
                              pixel,
                              radius,
                              line.turn,
+                             shared::inkReach(t, line.reach, size),
                              uint32_t(line.isOutline)};
     return shared::inkFullness(p, table_.sceneRadius, table_.parallel, table_.fade, table_.outer);
   }

@@ -16,7 +16,7 @@ layout(location = 1) flat in vec4 inShift;
 layout(location = 2) flat in vec4 inRadii;
 layout(location = 3) flat in vec4 inColor;
 layout(location = 4) flat in vec3 inOutward;
-layout(location = 5) flat in vec2 inTurn;
+layout(location = 5) flat in vec4 inTurn;  // and reach
 layout(location = 6) flat in vec3 inRestA;
 layout(location = 7) flat in vec3 inRestB;
 layout(location = 8) flat in vec3 inAcross;
@@ -57,7 +57,7 @@ void main() {
 
   vec2 outward = inOutward.xy;
   vec2 spine = mix(inSpine.xy, inSpine.zw, t);
-  radius *= fullnessAt(spine, mix(inRadii.z, inRadii.w, t), outward, inOutward.z > 0.0, inTurn, radius, view);
+  radius *= meanFullnessAt(InkSpine(inSpine, inRadii.zw, outward, inTurn.xy, inTurn.zw, inOutward.z > 0.0), t, radius, view);
 
   float moved = ink.offset * frame.pixelScale + (kPlacement == kInkExterior ? max(radius - inkOverlap(frame.pixelScale), 0.0) : 0.0);
   vec4 line = inSpine + inShift * moved;

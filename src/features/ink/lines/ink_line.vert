@@ -11,7 +11,7 @@ layout(location = 1) flat out vec4 outShift;
 layout(location = 2) flat out vec4 outRadii;
 layout(location = 3) flat out vec4 outColor;
 layout(location = 4) flat out vec3 outOutward;
-layout(location = 5) flat out vec2 outTurn;
+layout(location = 5) flat out vec4 outTurn;  // and reach
 // Of textured lines: both ends, and how far a pixel across and down leads at a metre's distance, in the object's space at rest.
 layout(location = 6) flat out vec3 outRestA;
 layout(location = 7) flat out vec3 outRestB;
@@ -47,7 +47,7 @@ void main() {
   else
     record = recordOf(numbers[line], view, false);
   outSpine = record.spine, outShift = record.shift, outRadii = record.radii, outColor = record.color;
-  outOutward = record.outward, outTurn = record.turn;
+  outOutward = record.outward, outTurn = vec4(record.turn, record.reach);
   gl_Position = vec4(2.0, 2.0, 0.0, 1.0);  // outside
   if (record.kind == kInkNone) return;
 

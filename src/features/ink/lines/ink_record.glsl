@@ -34,16 +34,35 @@ float awayBeyond(uint first, uint third, vec3 x, vec3 y, float wound, vec3 toEye
 }
 // How much the form turns away behind an outline, from 0 to 1. Where a fold is about to close, none of its triangle, those
 // beyond and the vertex there does by much; where the form goes on turning, one does when the triangle no longer does.
-float turnOf(PlacedEdge edge, EdgeRing ring, uint first, bool isRight, uint thirdVertex, float wound, vec3 toEye) {
+//
+// And how much of the outline is drawn (LineRecord::reach). When a triangle turns away, its other edges take the place of one of
+// its outlines. Seen from its edge then, they lie on one line; but where its tip lies beyond that outline, they reach out as far,
+// at once. So they are drawn up to where the outline was, and grow to the tip with the angle.
+float cosBetween(vec2 a, vec2 b) { return dot(a, b) * inversesqrt(max(dot(a, a) * dot(b, b), 1e-20)); }
+struct Turn {
+  float all;
+  vec2 reach;
+};
+Turn turnOf(PlacedEdge edge, EdgeRing ring, uint first, bool isRight, uint thirdVertex, float wound, vec3 toEye, vec2 at[2],
+            vec2 thirdAt) {
   toEye *= inversesqrt(max(dot(toEye, toEye), 1e-37));
-  float turn = awayOf(wound * (isRight ? edge.right : edge.left), toEye);
   vec3 from = isRight ? edge.a : edge.b, to = isRight ? edge.b : edge.a, third = vertices[thirdVertex].position;
-  turn = max(turn, awayBeyond(first, isRight ? ring.beyondRight[0] : ring.beyondLeft[0], from, third, wound, toEye));
-  turn = max(turn, awayBeyond(first, isRight ? ring.beyondRight[1] : ring.beyondLeft[1], third, to, wound, toEye));
-  turn = max(turn, awayOf(normalOf(thirdVertex), toEye));
+  vec2 beyond;  // at both ends
+  beyond.x = awayBeyond(first, isRight ? ring.beyondRight[0] : ring.beyondLeft[0], from, third, wound, toEye);
+  beyond.y = awayBeyond(first, isRight ? ring.beyondRight[1] : ring.beyondLeft[1], third, to, wound, toEye);
+  if (!isRight) beyond = beyond.yx;
+  float own = awayOf(wound * (isRight ? edge.right : edge.left), toEye);
+  float turn = max(max(own, max(beyond.x, beyond.y)), awayOf(normalOf(thirdVertex), toEye));
   float bend = bendOf(edge), sinBend = bend > 0.0 ? sqrt(max(1.0 - bend * bend, 0.0)) : 1.0;
-  float full = min(ink.sinFadeAngle, 0.25 * sinBend);
-  return smoothstep(0.0, 1.0, turn / max(full, 1e-6));
+  float full = max(min(ink.sinFadeAngle, 0.25 * sinBend), 1e-6);
+  // Whether the outline goes on at its ends from triangle to triangle; else it turns around the tip of its own.
+  vec2 goesOn = smoothstep(-0.1 * full, 0.0, beyond);
+  vec2 along = at[1] - at[0];
+  float size = dot(along, along), tip = clamp(dot(thirdAt - at[0], along) / max(size, 1e-6), 0.0, 1.0);
+  vec2 back = vec2(cosBetween(thirdAt - at[0], along), cosBetween(at[1] - thirdAt, along));
+  vec2 cut = (1.0 - goesOn) * smoothstep(0.0, 0.5, back) * (1.0 - smoothstep(0.0, 1.0, own / full));
+  vec2 reach = vec2(mix(1.0, tip, goesOn.y) * cut.x, 1.0 - mix(1.0, 1.0 - tip, goesOn.x) * cut.y);
+  return Turn(smoothstep(0.0, 1.0, turn / full), reach);
 }
 
 // `keepsTurned`: lines that are seen from behind alone, and so never, have records too, with kInkTurned in their kind.
@@ -66,6 +85,7 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
   record.spine = record.shift = record.radii = record.color = vec4(0.0);
   record.outward = vec3(0.0);
   record.turn = vec2(0.0);
+  record.reach = vec2(0.0, 1.0);
   record.kind = kInkNone;
   if (kind == kInkNone) return record;
   mat4 worldToClip = VIEW_FIELD(worldToClip, view);
@@ -90,9 +110,11 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
   // since one of them may be seen from its edge.
   vec2 across = vec2(-direction.y, direction.x);
   float within = 0.0;
+  vec2 thirdAt[2] = vec2[2](at[0], at[0]);
   for (int side = 0; side < (edge.isOpen ? 1 : 2); ++side) {
     vec4 third = worldToClip * vec4(vertices[first + (side == 0 ? drawn.left : drawn.right)].position, 1.0);
-    if (third.w > kNear) within += dot((third.xy / third.w + 1.0) * toPixels - at[0], across);
+    if (third.w > kNear) thirdAt[side] = (third.xy / third.w + 1.0) * toPixels;
+    within += dot(thirdAt[side] - at[0], across);
   }
   if (within > 0.0) across = -across;
 
@@ -110,7 +132,10 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
   if (kind == kInkSilhouette) {
     bool isRight = wound * dot(edge.left, toEye) > 0.0;
     EdgeRing ring = rings[chunk.firstEdge + number % uint(kEdgeChunk)];
-    record.turn.x = turnOf(edge, ring, first, isRight, first + (isRight ? drawn.right : drawn.left), wound, toEye);
+    Turn turn = turnOf(edge, ring, first, isRight, first + (isRight ? drawn.right : drawn.left), wound, toEye, at,
+                       thirdAt[isRight ? 1 : 0]);
+    record.turn.x = turn.all;
+    record.reach = turn.reach;
     // What is about to close becomes the inner line that it is besides, or nothing.
     int besides = innerKindOf(edge);
     if (besides != kInkNone) record.turn.y = min(ink.kinds[besides].width / style.width, 1.0);

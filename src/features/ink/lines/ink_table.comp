@@ -28,5 +28,5 @@ void main() {
   imageStore(table, place + 2 * down, vec4(record.radii.xy, metres));
   imageStore(table, place + 3 * down, record.color);
   imageStore(table, place + 4 * down, vec4(record.outward, float(1 + record.kind)));
-  imageStore(table, place + 5 * down, vec4(record.turn, 0.0, 0.0));
+  imageStore(table, place + 5 * down, vec4(record.turn, record.reach));
 }
