@@ -53,8 +53,16 @@ void readNodes(const Import& import, int wantedScene, SceneData& scene, Maps& ma
 void readMeshes(const Import& import, const Maps& maps, SceneData& scene);
 
 // All materials, and the images that materials in use name, decoded.
-void readMaterials(const Import& import, SceneData& scene);
+// A channel, 0 to 3, of a texture that is a factor on the width of a material's outline; by material.
+struct OutlineTexture {
+  TextureUse use;
+  int channel = 0;
+};
+using OutlineTextures = std::map<size_t, OutlineTexture>;
+OutlineTextures readMaterials(const Import& import, SceneData& scene);
 void readImages(const Import& import, SceneData& scene);
+// Once images are there: Primitive::outlineWidths.
+void readOutlineWidths(const OutlineTextures& textures, SceneData& scene);
 
 void readCamerasAndLights(const Import& import, SceneData& scene, Maps& maps);
 void readSkins(const Import& import, SceneData& scene, Maps& maps);

@@ -5,7 +5,9 @@
 #include <functional>
 #include <limits>
 
+#include "base/test_folder.h"
 #include "scene/scene_data.h"
+#include "scumble/image.h"
 #include "scumble/scene.h"
 #include "tests/support/loaded_test_gltf.h"
 
@@ -100,6 +102,34 @@ TEST(Scene, mtoonsOutlinesAreRead) {
     EXPECT_FLOAT_EQ(outline->width, 0.005f);
     EXPECT_NEAR(outline->color.x, 0.2140411f, 1e-5f);
     EXPECT_FLOAT_EQ(outline->lightingMix, 0.5f);
+  }
+  // Textures of widths: a channel of the file's own numbers, at the vertices.
+  const TestFolder folder;
+  const std::string file = folder.file("widths.png");
+  ASSERT_TRUE(writePng(file, {2, 1, {"R", "G", "B", "A"}, {0, 1, 0, 1, 1, 0.2140411f, 0, 1}}));
+  const std::string png = contentOf(file);
+  TestGltf textured = quad();
+  textured.addImage({png.begin(), png.end()});
+  textured.json["samplers"] = Json::array({{{"wrapS", 33071}, {"wrapT", 33071}}});
+  textured.json["textures"][0]["sampler"] = 0;
+  Json& material = textured.json["materials"][0];
+  for (const bool isVrm1 : {true, false}) {
+    if (isVrm1)
+      material["extensions"]["VRMC_materials_mtoon"] = {{"outlineWidthMode", "worldCoordinates"},
+                                                        {"outlineWidthFactor", 0.01},
+                                                        {"outlineWidthMultiplyTexture", {{"index", 0}}}};
+    else
+      material.erase("extensions"), textured.json["extensions"]["VRM"]["materialProperties"] = {
+                                        {{"shader", "VRM/MToon"},
+                                         {"floatProperties", {{"_OutlineWidthMode", 1}}},
+                                         {"textureProperties", {{"_OutlineWidthTexture", 0}}}}};
+    const Scene scene = loaded(textured);
+    const Primitive& p = scene.data().meshes[0]->primitives[0];
+    ASSERT_EQ(p.outlineWidths.size(), p.vertexCount());
+    for (size_t v = 0; v < p.vertexCount(); ++v) {
+      const bool isLeft = p.uv0[v].x < 0.5f;
+      EXPECT_NEAR(p.outlineWidths[v], isVrm1 ? (isLeft ? 1 : 0.5) : (isLeft ? 0 : 1), 0.003) << v;
+    }
   }
   // What is broken costs the outline alone.
   for (const Json& broken :

@@ -72,8 +72,9 @@ std::shared_ptr<SceneData> import(Bytes bytes, const FileBytes* file, const std:
   keepLevelsApart(*data);
   timings.geometry = watch.lap();
 
-  readMaterials(import, *data);
+  const OutlineTextures outlines = readMaterials(import, *data);
   readImages(import, *data);
+  readOutlineWidths(outlines, *data);
   timings.images = watch.lap();
   data->warnings = warnings.lines(name);
   progress.expect(1, 1);

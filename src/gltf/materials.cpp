@@ -3,6 +3,7 @@
 
 #include "base/color_text.h"
 #include "gltf/import.h"
+#include "scene/texels.h"
 
 namespace scumble::gltf {
 
@@ -84,6 +85,8 @@ class MaterialReader {
     return m;
   }
 
+  const OutlineTextures& outlines() const { return outlines_; }
+
  private:
   void readExtensions(const JsonView& extensions, Material& m) {
     m.unlit = extensions.has("KHR_materials_unlit");
@@ -98,7 +101,7 @@ class MaterialReader {
     }
   }
 
-  std::optional<Outline> outlineOf(const JsonView& extensions, size_t number) const {
+  std::optional<Outline> outlineOf(const JsonView& extensions, size_t number) {
     try {
       if (extensions)
         if (const JsonView mtoon = extensions.object("VRMC_materials_mtoon")) return outlineOfVrm1(mtoon);
@@ -120,17 +123,18 @@ class MaterialReader {
     outline.lightingMix = std::clamp(outline.lightingMix, 0.0f, 1.0f);
     return outline;
   }
-  static Outline outlineOfVrm1(const JsonView& mtoon) {
+  Outline outlineOfVrm1(const JsonView& mtoon) {
     Outline outline;
     const std::string mode = mtoon.text("outlineWidthMode", "none");
     if (mode == "screenCoordinates") outline.unit = Outline::Unit::pictureHeights;
     if (mode != "none") outline.width = mtoon.number("outlineWidthFactor", 0.0f);
     mtoon.numbers("outlineColorFactor", &outline.color.x, 3);
     outline.lightingMix = mtoon.number("outlineLightingMixFactor", 1.0f);
+    outlines_[scene_.materials.size()] = {textureUse(mtoon, "outlineWidthMultiplyTexture"), 1};
     return bounded(outline);
   }
-  // Centimetres, or percent of half the picture's height; colours in sRGB.
-  static Outline outlineOfVrm0(const JsonView& mtoon) {
+  // Centimetres, or percent of half the picture's height; colours in sRGB; textures by their numbers.
+  Outline outlineOfVrm0(const JsonView& mtoon) {
     Outline outline;
     const JsonView numbers = mtoon.object("floatProperties"), vectors = mtoon.object("vectorProperties");
     const float mode = numbers ? numbers.number("_OutlineWidthMode", 0.0f) : 0.0f;
@@ -143,7 +147,23 @@ class MaterialReader {
     for (int c = 0; c < 3; ++c) outline.color[c] = linearOf(std::clamp(color[c], 0.0f, 1.0f));
     const bool isMixed = numbers && numbers.number("_OutlineColorMode", 0.0f) == 1.0f;
     outline.lightingMix = isMixed ? numbers.number("_OutlineLightingMix", 1.0f) : 0.0f;
+    if (const JsonView used = mtoon.object("textureProperties"))
+      if (const int64_t texture =
+              used.index("_OutlineWidthTexture", import_.document.list("textures").size(), "texture");
+          texture >= 0)
+        outlines_[scene_.materials.size()] = {textureOf(texture), 0};
     return bounded(outline);
+  }
+
+  // A texture of the file, as it is without what a material adds.
+  TextureUse textureOf(int64_t number) {
+    TextureUse use;
+    const JsonView texture = import_.document.list("textures").at(static_cast<size_t>(number));
+    const JsonView samplers = import_.document.list("samplers");
+    if (const int64_t sampler = texture.index("sampler", samplers.size(), "sampler"); sampler >= 0)
+      use.sampler = readSampler(samplers.at(sampler));
+    use.image = imageNumber(imageOf(texture, import_.document.list("images").size()));
+    return use;
   }
 
   TextureUse textureUse(const JsonView& parent, const char* key) {
@@ -151,9 +171,7 @@ class MaterialReader {
     const JsonView info = parent.object(key);
     if (!info) return use;
     try {
-      const JsonView textures = import_.document.list("textures");
-      const JsonView texture =
-          textures.at(static_cast<size_t>(info.requiredIndex("index", textures.size(), "texture")));
+      use = textureOf(info.requiredIndex("index", import_.document.list("textures").size(), "texture"));
       uint64_t uvSet = info.count("texCoord", 0);
       if (const JsonView transform = info.extension("KHR_texture_transform")) {
         uvSet = transform.count("texCoord", uvSet);
@@ -164,10 +182,6 @@ class MaterialReader {
         uvSet = 0;
       }
       use.uvSet = static_cast<int>(uvSet);
-      const JsonView samplers = import_.document.list("samplers");
-      if (const int64_t sampler = texture.index("sampler", samplers.size(), "sampler"); sampler >= 0)
-        use.sampler = readSampler(samplers.at(sampler));
-      use.image = imageNumber(imageOf(texture, import_.document.list("images").size()));
     } catch (const ImportFailure& failure) {
       import_.warnings.add(failure.error.jsonPath,
                            "a texture is drawn as a magenta checker: " + failure.error.problem);
@@ -238,14 +252,8 @@ class MaterialReader {
         if (use.image >= 0) return use;
       } else if (index->is_number()) {
         const double number = index->get<double>();
-        if (number >= 0 && number < static_cast<double>(textures.size()) && number == std::floor(number)) {
-          const JsonView texture = textures.at(static_cast<size_t>(number));
-          const JsonView samplers = import_.document.list("samplers");
-          if (const int64_t sampler = texture.index("sampler", samplers.size(), "sampler"); sampler >= 0)
-            use.sampler = readSampler(samplers.at(sampler));
-          use.image = imageNumber(imageOf(texture, images.size()));
-          return use;
-        }
+        if (number >= 0 && number < static_cast<double>(textures.size()) && number == std::floor(number))
+          return textureOf(static_cast<int64_t>(number));
       }
     } catch (const ImportFailure&) {
     }
@@ -264,11 +272,12 @@ class MaterialReader {
   const Import& import_;
   SceneData& scene_;
   std::map<int64_t, int> imageMap_;
+  OutlineTextures outlines_;
 };
 
 }  // namespace
 
-void readMaterials(const Import& import, SceneData& scene) {
+OutlineTextures readMaterials(const Import& import, SceneData& scene) {
   const JsonView list = import.document.list("materials");
   std::vector<bool> used(list.size() + 1, false);
   for (const Mesh& mesh : scene.meshes)
@@ -292,6 +301,21 @@ void readMaterials(const Import& import, SceneData& scene) {
     }
     scene.materials.push_back(std::move(material));
   }
+  return reader.outlines();
+}
+
+void readOutlineWidths(const OutlineTextures& textures, SceneData& scene) {
+  for (Shared<Mesh>& mesh : scene.meshes)
+    for (size_t i = 0; i < mesh->primitives.size(); ++i) {
+      const auto found = textures.find(size_t(mesh->primitives[i].material));
+      if (found == textures.end() || found->second.use.image < 0) continue;
+      const auto& [use, channel] = found->second;
+      const Image& image = scene.images[size_t(use.image)];
+      if (image.standIn) continue;
+      Primitive& primitive = mesh.own().primitives[i];
+      for (const glm::vec2& uv : coordinatesOf(primitive, use))
+        primitive.outlineWidths.push_back(float(texelAt(image, use, uv)[channel]));
+    }
 }
 
 }  // namespace scumble::gltf

@@ -25,6 +25,7 @@ void forEachRequired(VulkanFeatures& f, Visit visit) {
   visit(f.v13.synchronization2, "synchronization2");
   visit(f.v13.maintenance4, "maintenance4");
   visit(f.v12.scalarBlockLayout, "scalarBlockLayout");
+  visit(f.v12.bufferDeviceAddress, "bufferDeviceAddress");
   visit(f.v11.multiview, "multiview");
   visit(f.core.features.fragmentStoresAndAtomics, "fragmentStoresAndAtomics");
   visit(f.core.features.independentBlend, "independentBlend");

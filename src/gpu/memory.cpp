@@ -73,7 +73,10 @@ uint32_t MemoryPool::chooseType(uint32_t allowed, MemoryKind kind) const {
 }
 
 MemoryPool::Block& MemoryPool::addBlock(uint64_t size, uint32_t type, bool linear) {
-  const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, size, type};
+  // Shaders may find buffers by their address.
+  const VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO, nullptr,
+                                        VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT, 0};
+  const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &flags, size, type};
   VkDeviceMemory memory;
   SCUMBLE_VK(vkAllocateMemory(device_, &info, nullptr, &memory));
   void* mapped = nullptr;

@@ -57,6 +57,7 @@ Buffer::Buffer(Device& device, uint64_t size, VkBufferUsageFlags usage, MemoryKi
   VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
   info.size = size;
   info.usage = usage;
+  if (usage & VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) info.usage |= VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
   SCUMBLE_VK(vkCreateBuffer(device.handle(), &info, nullptr, &buffer_));
   VkMemoryRequirements needs;
   vkGetBufferMemoryRequirements(device.handle(), buffer_, &needs);
@@ -67,6 +68,12 @@ Buffer::Buffer(Device& device, uint64_t size, VkBufferUsageFlags usage, MemoryKi
     vkDestroyBuffer(device.handle(), buffer_, nullptr);
     throw;
   }
+}
+
+glm::uvec2 Buffer::address() const {
+  const VkBufferDeviceAddressInfo info{VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO, nullptr, buffer_};
+  const VkDeviceAddress address = vkGetBufferDeviceAddress(device_->handle(), &info);
+  return {uint32_t(address), uint32_t(address >> 32)};
 }
 
 Buffer::~Buffer() {

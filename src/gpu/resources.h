@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <span>
 #include <utility>
 #include <vector>
@@ -30,6 +31,9 @@ class Buffer {
   }
   VkBuffer handle() const { return buffer_; }
   uint64_t size() const { return size_; }
+  // Of storage buffers, for shaders that read them by `buffer_reference` from a uvec2: however large they are,
+  // while a binding has a limit (maxStorageBufferRange).
+  glm::uvec2 address() const;
   // Null where the CPU cannot see the memory.
   std::byte* mapped() const { return static_cast<std::byte*>(allocation_.mapped); }
 

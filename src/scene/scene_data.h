@@ -145,6 +145,8 @@ struct Primitive {
   // How much the surface is part of a round form, for the weights of its lines (the attribute _ROUND), 0 to
   // 1; may be empty.
   std::vector<float> roundness;
+  // Factors on the width of the material's own outline, 0 to 1; may be empty.
+  std::vector<float> outlineWidths;
   // Tangent vectors dP/du and dP/dv of patternUv (else uv0) in object space (metres per unit of u and v),
   // area-weighted over the triangles at a vertex. Paper 000 eq. 9 and 10 need |grad_w u| = 1/|dP/du|; carried
   // as vectors they follow any deformation by its stretch. Zero where the mapping is degenerate.

@@ -68,7 +68,7 @@ class Splitter {
         array.push_back(length > 1e-6f ? sum / length : array[a]);
       };
       mean(out_.positions), mean(out_.uv0), mean(out_.uv1), mean(out_.patternUv), mean(out_.warpScales),
-          mean(out_.roundness), mean(out_.dPdu), mean(out_.dPdv);
+          mean(out_.roundness), mean(out_.outlineWidths), mean(out_.dPdu), mean(out_.dPdv);
       meanDirection(out_.normals), meanDirection(out_.smoothNormals);
       if (!out_.colors.empty())
         out_.colors.push_back(

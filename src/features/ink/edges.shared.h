@@ -18,6 +18,7 @@ struct DrawnEdge {
 struct EdgeRing {
   uint beyondLeft[2];
   uint beyondRight[2];
+  uint widths;  // factors on the width of the material's own outline at a and b, as unorm2x16
 };
 const uint kNoEdgeSide = 0xFFFFFFFFu;
 const uint kEdgeVertexMask = 0x0FFFFFFFu;

@@ -38,7 +38,14 @@ struct InkLine {
   float outlineLight;
 };
 
+// Where edges and vertices lie, which may be more than a device binds at once (gpu::Buffer::address).
+struct InkAddresses {
+  uvec2 edges, rings;           // DrawnEdge, EdgeRing of the same ones
+  uvec2 vertices, frames, rest;  // VertexCore, VertexFrame of final ones; VertexCore of those at rest
+};
+
 struct InkUniforms {
+  InkAddresses addresses;
   float least, greatest;
   float offset;   // pixels
   float doubled;  // pixels
@@ -52,10 +59,9 @@ struct InkUniforms {
 };
 
 // Set 1 of what finds lines and what draws them.
-const int kInkBlock = 0, kInkEdges = 1, kInkChunks = 2, kInkVertices = 3, kInkWords = 4, kInkSums = 5,
-          kInkNumbers = 6, kInkCommand = 7, kInkFrames = 8, kInkLines = 9, kInkRecords = 10, kInkRings = 11,
-          kInkRest = 12, kInkBounds = 13;
-const int kInkBindings = 14;
+const int kInkBlock = 0, kInkChunks = 1, kInkWords = 2, kInkSums = 3, kInkNumbers = 4, kInkCommand = 5,
+          kInkLines = 6, kInkRecords = 7, kInkBounds = 8;
+const int kInkBindings = 9;
 // Set 2 of what draws them. (What comes before that looks at no image: llvmpipe would compile it anew in each
 // frame.)
 const int kInkDepth = 0, kInkShadowed = 1;

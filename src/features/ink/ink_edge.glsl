@@ -1,13 +1,17 @@
 // An edge as it is drawn, and what kind of line it is.
 #ifndef SCUMBLE_INK_EDGE_GLSL
 #define SCUMBLE_INK_EDGE_GLSL
+#extension GL_EXT_buffer_reference_uvec2 : require
 #include "../../shading/frame.glsl"
 #include "ink_choices.glsl"
 
 layout(set = 1, binding = kInkBlock, scalar) uniform Ink { InkUniforms ink; };
-layout(set = 1, binding = kInkEdges, scalar) readonly buffer Edges { DrawnEdge edges[]; };
 layout(set = 1, binding = kInkChunks, scalar) readonly buffer Chunks { EdgeChunk chunks[]; };
-layout(set = 1, binding = kInkVertices, scalar) readonly buffer Vertices { VertexCore vertices[]; };
+layout(buffer_reference, buffer_reference_align = 4, scalar) readonly buffer Edges { DrawnEdge at[]; };
+layout(buffer_reference, buffer_reference_align = 4, scalar) readonly buffer Vertices { VertexCore at[]; };
+
+DrawnEdge edgeOf(uint place) { return Edges(ink.addresses.edges).at[place]; }
+vec3 positionOf(uint vertex) { return Vertices(ink.addresses.vertices).at[vertex].position; }
 
 // Where a view is seen from: xyz - w * p points from p to there; or, for all of them, the middle between them.
 vec4 directionOf(int view) {
@@ -29,15 +33,15 @@ struct PlacedEdge {
 
 PlacedEdge placed(DrawnEdge edge, uint first) {
   PlacedEdge result;
-  result.a = vertices[first + (edge.a & kEdgeVertexMask)].position;
-  result.b = vertices[first + edge.b].position;
+  result.a = positionOf(first + (edge.a & kEdgeVertexMask));
+  result.b = positionOf(first + edge.b);
   result.known = edge.a & ~kEdgeVertexMask;
   result.isNone = (edge.a & kEdgeVertexMask) == edge.b;
   result.isOpen = edge.right == kNoEdgeSide;
   vec3 along = result.b - result.a;
-  result.left = cross(along, vertices[first + edge.left].position - result.a);
+  result.left = cross(along, positionOf(first + edge.left) - result.a);
   result.right = vec3(0.0);
-  if (!result.isOpen) result.right = cross(vertices[first + edge.right].position - result.a, along);
+  if (!result.isOpen) result.right = cross(positionOf(first + edge.right) - result.a, along);
   return result;
 }
 

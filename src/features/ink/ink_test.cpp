@@ -512,12 +512,18 @@ TEST_P(Ink, outlinesAreDoubled) {
 // with its colour; a look can ignore them.
 TEST_P(Ink, filesBringOutlines) {
   const TestScene plain = oneThing(boxMesh({-1, -1, -0.1f}, {1, 1, 0.1f}));
-  TestScene vrm1 = plain, vrm0 = plain;
+  TestScene vrm1 = plain, vrm0 = plain, halved = plain;
   vrm1.json()["materials"][0]["extensions"]["VRMC_materials_mtoon"] = {
       {"outlineWidthMode", "worldCoordinates"},
       {"outlineWidthFactor", 0.2},
       {"outlineColorFactor", {1, 0.25, 0}},
       {"outlineLightingMixFactor", 0}};
+  // A texture of widths: 0.5, in the channel that counts.
+  const Image half{1, 1, {"R", "G", "B", "A"}, {1, 0.2140411f, 0, 1}};
+  halved.json()["materials"][0]["extensions"]["VRMC_materials_mtoon"] =
+      vrm1.json()["materials"][0]["extensions"]["VRMC_materials_mtoon"];
+  halved.json()["materials"][0]["extensions"]["VRMC_materials_mtoon"]["outlineWidthMultiplyTexture"] = {
+      {"index", halved.texture(half)}};
   vrm0.json()["extensions"]["VRM"]["materialProperties"] = {
       {{"shader", "VRM/MToon"},
        {"floatProperties", {{"_OutlineWidthMode", 2}, {"_OutlineWidth", 10}}},
@@ -525,10 +531,11 @@ TEST_P(Ink, filesBringOutlines) {
   struct Case {
     const TestScene& scene;
     const char* own;
-    double width;
+    double width;  // pixels; or, below 0, parts of 0.2 metres
     glm::dvec3 color;
   };
-  for (const Case& c : {Case{vrm1, "on", 0, {1, 0.25, 0}}, Case{vrm0, "on", 0.05 * kHeight, {0, 0, 1}},
+  for (const Case& c : {Case{vrm1, "on", -1, {1, 0.25, 0}}, Case{halved, "on", -0.5, {1, 0.25, 0}},
+                        Case{vrm0, "on", 0.05 * kHeight, {0, 0, 1}},
                         Case{vrm0, "off", 2 * kRadius, {0.013, 0.0103, 0.0116}}}) {
     const Scene scene = c.scene.load();
     const auto views = viewsFrom(scene, {{0, 0, 6}, {0, 0, 0}, 40}, kWidth, kHeight, GetParam());
@@ -538,7 +545,7 @@ TEST_P(Ink, filesBringOutlines) {
       double width = 0;
       for (double y = 0; y < kHeight / 2.0; ++y) width += ink(frame, v, {edge.x, y});
       const double metres = 0.2 * 0.5 * kHeight / std::tan(20 * std::numbers::pi / 180) / 5.9;
-      EXPECT_NEAR(width, c.width > 0 ? c.width : metres, 0.15);
+      EXPECT_NEAR(width, c.width > 0 ? c.width : -c.width * metres, 0.15);
       const glm::dvec4 color = texel(aov(frame, "", v), int(edge.x), int(edge.y));
       for (int i = 0; i < 3; ++i) EXPECT_NEAR(color[i], c.color[i], 0.012);
     }

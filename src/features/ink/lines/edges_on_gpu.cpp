@@ -1,6 +1,7 @@
 #include "features/ink/lines/edges_on_gpu.h"
 
 #include <algorithm>
+#include <glm/gtc/packing.hpp>
 #include <set>
 #include <tuple>
 
@@ -27,10 +28,21 @@ shared::DrawnEdge drawn(const scene::MeshEdge& edge, uint32_t vertices) {
           moved(edge.right, vertices)};
 }
 
-shared::EdgeRing ringOf(const scene::MeshEdge& edge, uint32_t vertices) {
-  const auto& beyond = edge.beyond;
+// `widths`: of each edge, or of none.
+shared::EdgeRing ringOf(const std::vector<scene::MeshEdge>& edges, const std::vector<uint32_t>& widths,
+                        size_t e, uint32_t vertices) {
+  const auto& beyond = edges[e].beyond;
   return {{moved(beyond[0], vertices), moved(beyond[1], vertices)},
-          {moved(beyond[2], vertices), moved(beyond[3], vertices)}};
+          {moved(beyond[2], vertices), moved(beyond[3], vertices)},
+          widths.empty() ? ~0u : widths[e]};
+}
+
+std::vector<uint32_t> widthsOf(const scene::Primitive& primitive, const std::vector<scene::MeshEdge>& edges) {
+  std::vector<uint32_t> widths;
+  if (primitive.outlineWidths.empty()) return widths;
+  for (const scene::MeshEdge& edge : edges)
+    widths.push_back(glm::packUnorm2x16({primitive.outlineWidths[edge.a], primitive.outlineWidths[edge.b]}));
+  return widths;
 }
 
 }  // namespace
@@ -46,6 +58,7 @@ void EdgesOnGpu::find(const std::vector<GeometryItem>& items) {
   std::vector<Found> found(missing.size());
   scene::parallelFor(missing.size(), scene::threadCount(0), [&](size_t i) {
     found[i].edges = inPatches(*missing[i], scene::edgesOf(*missing[i]));
+    found[i].widths = widthsOf(*missing[i], found[i].edges);
     found[i].bounds = boundsOf(*missing[i], found[i].edges);
   });
   for (size_t i = 0; i < missing.size(); ++i) edgesOf_[missing[i]] = std::move(found[i]);
@@ -114,7 +127,7 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
         if (!found.bounds.empty()) run->second.firstBounds = uint32_t(bounds.size());
         bounds.insert(bounds.end(), found.bounds.begin(), found.bounds.end());
         for (size_t e = 0; e < own.size(); ++e) {
-          edges.push_back(drawn(own[e], 0)), rings.push_back(ringOf(own[e], 0));
+          edges.push_back(drawn(own[e], 0)), rings.push_back(ringOf(own, found.widths, e, 0));
           // Words of bounds stay as they are.
           if (isShared[e]) edges.back() = {};
         }
@@ -130,7 +143,8 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
       for (const scene::SharedEdge& between : *shared) {
         if (between.primitive != p) continue;
         const GeometryItem &item = items[group[p]], &other = items[group[between.otherPrimitive]];
-        const scene::MeshEdge &left = edgesOf_.at(item.primitive).edges[between.edge],
+        const Found& found = edgesOf_.at(item.primitive);
+        const scene::MeshEdge &left = found.edges[between.edge],
                               &right = edgesOf_.at(other.primitive).edges[between.otherEdge];
         const uint32_t firstLeft = places[group[p]].firstVertex,
                        firstRight = places[group[between.otherPrimitive]].firstVertex;
@@ -139,7 +153,7 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
         if (item.material != other.material) edge.a |= shared::kEdgeMaterialBorder;
         edges.push_back(edge);
         // To the right one, this edge goes the other way.
-        shared::EdgeRing ring = ringOf(left, firstLeft);
+        shared::EdgeRing ring = ringOf(found.edges, found.widths, between.edge, firstLeft);
         for (int i = 0; i < 2; ++i) ring.beyondRight[i] = moved(right.beyond[i], firstRight);
         rings.push_back(ring);
       }
@@ -147,12 +161,8 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
     }
   }
 
-  // What shaders read at once must fit into what the device binds: vertices too, of which their frames are
-  // the largest part.
-  const uint64_t vertices = finalVertexCount(items, places);
-  const uint64_t largest = std::max({vertices * sizeof(shared::VertexFrame), edges.size() * sizeof(edges[0]),
-                                     edgeCount_ * sizeof(uint32_t)});
-  if (largest > device.limits().maxStorageBufferRange)
+  // Numbers of those that are lines must fit into what the device binds.
+  if (edgeCount_ * sizeof(uint32_t) > device.limits().maxStorageBufferRange)
     throw gpu::VulkanError{"lines of so large a scene", VK_ERROR_OUT_OF_DEVICE_MEMORY};
   settle();
   // What was there goes first.

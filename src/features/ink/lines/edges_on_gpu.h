@@ -39,6 +39,7 @@ class EdgesOnGpu {
  private:
   struct Found {
     std::vector<scene::MeshEdge> edges;
+    std::vector<uint32_t> widths;  // as shared::EdgeRing has them; empty or one an edge
     std::vector<shared::EdgeBounds> bounds;
   };
   std::map<const scene::Primitive*, Found> edgesOf_;

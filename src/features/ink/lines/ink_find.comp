@@ -54,7 +54,7 @@ void main() {
   for (uint i = 0; i < openedCount; ++i) {
     uint word = opened[i], number = word * kInkThreads + thread;
     if (number >= chunk.count) continue;
-    PlacedEdge edge = placed(edges[chunk.firstEdge + number], chunk.firstVertex);
+    PlacedEdge edge = placed(edgeOf(chunk.firstEdge + number), chunk.firstVertex);
     bool isLine = kindOf(edge, eyeOf(0)) != kInkNone;
     if (kHasTwoEyes && !isLine) isLine = kindOf(edge, eyeOf(1)) != kInkNone;
     if (isLine) atomicOr(found[word], 1u << thread);

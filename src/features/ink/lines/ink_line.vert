@@ -18,17 +18,16 @@ layout(location = 7) flat out vec3 outRestB;
 layout(location = 8) flat out vec3 outAcross;
 layout(location = 9) flat out vec3 outDown;
 
-layout(set = 1, binding = kInkRest, scalar) readonly buffer Rest { VertexCore rest[]; };
-
 void findRest(uint number, int view, out vec3 a, out vec3 b, out vec3 across, out vec3 down) {
   EdgeChunk chunk = chunks[number / uint(kEdgeChunk)];
-  DrawnEdge edge = edges[chunk.firstEdge + number % uint(kEdgeChunk)];
+  DrawnEdge edge = edgeOf(chunk.firstEdge + number % uint(kEdgeChunk));
   uint first = chunk.firstVertex + (edge.a & kEdgeVertexMask), second = chunk.firstVertex + edge.b;
-  a = rest[first + chunk.restShift].position;
-  b = rest[second + chunk.restShift].position;
+  Vertices atRest = Vertices(ink.addresses.rest);
+  a = atRest.at[first + chunk.restShift].position;
+  b = atRest.at[second + chunk.restShift].position;
   // How much longer the edge is in the world: what is far away or small has the same marks. A bent form is turned as if it
   // were not.
-  float longer = distance(vertices[first].position, vertices[second].position) / max(distance(a, b), 1e-20);
+  float longer = distance(positionOf(first), positionOf(second)) / max(distance(a, b), 1e-20);
   ObjectData object = objects[chunk.object];
   mat3 turn = object.influences == 0u ? mat3(object.model) : mat3(1.0);
   for (int i = 0; i < 3; ++i) turn[i] *= inversesqrt(max(dot(turn[i], turn[i]), 1e-37));

@@ -135,7 +135,9 @@ class Lines : public Pass {
 
   void update(const FrameInput& input) override {
     if (!isShown_) return;
-    uniforms_.write(inkUniforms(input));
+    shared::InkUniforms uniforms = inkUniforms(input);
+    uniforms.addresses = finder_.addresses();
+    uniforms_.write(uniforms);
     choices_ = inkChoices(input);
     finder_.specialise(choices_);
     if (hasTable_) table_.specialise(choices_);

@@ -4,8 +4,8 @@
 #include "../ink_edge.glsl"
 
 layout(set = 1, binding = kInkNumbers, scalar) readonly buffer Numbers { uint numbers[]; };
-layout(set = 1, binding = kInkRings, scalar) readonly buffer Rings { EdgeRing rings[]; };
-layout(set = 1, binding = kInkFrames, scalar) readonly buffer Frames { VertexFrame frames[]; };
+layout(buffer_reference, buffer_reference_align = 4, scalar) readonly buffer Rings { EdgeRing at[]; };
+layout(buffer_reference, buffer_reference_align = 4, scalar) readonly buffer Frames { VertexFrame at[]; };
 layout(set = 1, binding = kInkLines, scalar) readonly buffer Lines { InkLine lines[]; };
 
 const float kNear = 1e-4;  // of clip w, against the ends of lines behind the eye
@@ -22,7 +22,7 @@ float widthOf(vec3 normal) {
 }
 
 vec3 normalOf(uint vertex) {
-  vec2 oct = unpackSnorm2x16(frames[vertex].smoothNormal);
+  vec2 oct = unpackSnorm2x16(Frames(ink.addresses.frames).at[vertex].smoothNormal);
   return decodeNormal(oct);
 }
 
@@ -30,7 +30,7 @@ vec3 normalOf(uint vertex) {
 float awayOf(vec3 normal, vec3 toEye) { return -dot(normal, toEye) * inversesqrt(max(dot(normal, normal), 1e-37)); }
 float awayBeyond(uint first, uint third, vec3 x, vec3 y, float wound, vec3 toEye) {
   if (third == kNoEdgeSide) return -1.0;
-  return awayOf(wound * cross(x - y, vertices[first + third].position - y), toEye);
+  return awayOf(wound * cross(x - y, positionOf(first + third) - y), toEye);
 }
 // How much the form turns away behind an outline, from 0 to 1. Where a fold is about to close, none of its triangle, those
 // beyond and the vertex there does by much; where the form goes on turning, one does when the triangle no longer does.
@@ -46,7 +46,7 @@ struct Turn {
 Turn turnOf(PlacedEdge edge, EdgeRing ring, uint first, bool isRight, uint thirdVertex, float wound, vec3 toEye, vec2 at[2],
             vec2 thirdAt) {
   toEye *= inversesqrt(max(dot(toEye, toEye), 1e-37));
-  vec3 from = isRight ? edge.a : edge.b, to = isRight ? edge.b : edge.a, third = vertices[thirdVertex].position;
+  vec3 from = isRight ? edge.a : edge.b, to = isRight ? edge.b : edge.a, third = positionOf(thirdVertex);
   vec2 beyond;  // at both ends
   beyond.x = awayBeyond(first, isRight ? ring.beyondRight[0] : ring.beyondLeft[0], from, third, wound, toEye);
   beyond.y = awayBeyond(first, isRight ? ring.beyondRight[1] : ring.beyondLeft[1], third, to, wound, toEye);
@@ -68,7 +68,7 @@ Turn turnOf(PlacedEdge edge, EdgeRing ring, uint first, bool isRight, uint third
 // `keepsTurned`: lines that are seen from behind alone, and so never, have records too, with kInkTurned in their kind.
 LineRecord recordOf(uint number, int view, bool keepsTurned) {
   EdgeChunk chunk = chunks[number / uint(kEdgeChunk)];
-  DrawnEdge drawn = edges[chunk.firstEdge + number % uint(kEdgeChunk)];
+  DrawnEdge drawn = edgeOf(chunk.firstEdge + number % uint(kEdgeChunk));
   PlacedEdge edge = placed(drawn, chunk.firstVertex);
   vec4 eye = eyeOf(view);
   int kind = kindOf(edge, eye);
@@ -112,7 +112,7 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
   float within = 0.0;
   vec2 thirdAt[2] = vec2[2](at[0], at[0]);
   for (int side = 0; side < (edge.isOpen ? 1 : 2); ++side) {
-    vec4 third = worldToClip * vec4(vertices[first + (side == 0 ? drawn.left : drawn.right)].position, 1.0);
+    vec4 third = worldToClip * vec4(positionOf(first + (side == 0 ? drawn.left : drawn.right)), 1.0);
     if (third.w > kNear) thirdAt[side] = (third.xy / third.w + 1.0) * toPixels;
     within += dot(thirdAt[side] - at[0], across);
   }
@@ -129,11 +129,13 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
     weights = isRound ? kInkByVertex : kInkByTangent;
   }
   InkKind style = ink.kinds[kind];
+  vec2 ownWidths = vec2(1.0);
   if (kind == kInkSilhouette) {
     bool isRight = wound * dot(edge.left, toEye) > 0.0;
-    EdgeRing ring = rings[chunk.firstEdge + number % uint(kEdgeChunk)];
+    EdgeRing ring = Rings(ink.addresses.rings).at[chunk.firstEdge + number % uint(kEdgeChunk)];
     Turn turn = turnOf(edge, ring, first, isRight, first + (isRight ? drawn.right : drawn.left), wound, toEye, at,
                        thirdAt[isRight ? 1 : 0]);
+    ownWidths = line.outlineWidth * unpackUnorm2x16(ring.widths);
     record.turn.x = turn.all;
     record.reach = turn.reach;
     // What is about to close becomes the inner line that it is besides, or nothing.
@@ -156,9 +158,9 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
     if (kUnit == kInkDegrees) scale = radians(1.0) * pixelsOfOne;
     float width = widthOf(normal) * scale;
     if (hasOwn) {
-      width = line.outlineWidth * frame.imageSize.y;
+      width = ownWidths[i] * frame.imageSize.y;
       if (line.outlineUnit == uint(kInkMetres))
-        width = line.outlineWidth * pixelsOfOne / mix(ends[i].clip.w, 1.0, VIEW_FIELD(orthographic, view));
+        width = ownWidths[i] * pixelsOfOne / mix(ends[i].clip.w, 1.0, VIEW_FIELD(orthographic, view));
     }
     radii[i] = 0.5 * width * style.width * line.width;
   }

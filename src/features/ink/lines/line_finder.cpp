@@ -70,7 +70,6 @@ void LineFinder::specialise(uint32_t choices) {
 
 void LineFinder::bind() {
   if (isEmpty()) return;
-  const world::SceneOnGpu& scene = frame_->scene();
   const auto make = [&](uint64_t numbers) {
     return gpu::Buffer(frame_->device(), numbers * sizeof(uint32_t),
                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
@@ -91,13 +90,11 @@ void LineFinder::bind() {
     set_.writeBuffer(0, shared::kInkWords, words_.handle());
     set_.writeBuffer(0, shared::kInkSums, sums_.handle());
   }
-  set_.writeBuffer(0, shared::kInkEdges, edges()->edges().handle());
-  set_.writeBuffer(0, shared::kInkRings, edges()->rings().handle());
   set_.writeBuffer(0, shared::kInkBounds, edges()->bounds().handle());
   set_.writeBuffer(0, shared::kInkChunks, edges()->chunks().handle());
-  set_.writeBuffer(0, shared::kInkVertices, scene.geometry().finalCore().handle());
-  set_.writeBuffer(0, shared::kInkFrames, scene.geometry().finalFrame().handle());
-  set_.writeBuffer(0, shared::kInkRest, scene.geometry().restCore().handle());
+  const GeometryOnGpu& geometry = frame_->scene().geometry();
+  addresses_ = {edges()->edges().address(), edges()->rings().address(), geometry.finalCore().address(),
+                geometry.finalFrame().address(), geometry.restCore().address()};
 }
 
 void LineFinder::record(VkCommandBuffer commands) const {

@@ -21,6 +21,8 @@ class LineFinder {
   void bind();
   // Whether there are no edges at all: nothing can be drawn then.
   bool isEmpty() const { return !edges() || edges()->chunkCount() == 0; }
+  // For InkUniforms; since the last bind().
+  const shared::InkAddresses& addresses() const { return addresses_; }
   // Of the shaders that are specialised to choices (ink_choices.glsl).
   std::vector<uint32_t> constants(uint32_t choices) const;
   // What its own are specialised to; before record().
@@ -49,6 +51,7 @@ class LineFinder {
   uint32_t chunks_ = 0;  // that there is room for
   gpu::Buffer words_, sums_, numbers_, command_, recordsOfLines_;
   gpu::PrefixSum sum_;
+  shared::InkAddresses addresses_{};
 };
 
 }  // namespace scumble::ink
