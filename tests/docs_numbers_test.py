@@ -125,7 +125,7 @@ def watercolour(root):
 
 def finding_lines(root):
     yield ["triangles", "`ink-lines`, ms", "plain, ms", "of plain", "ms a million triangles"]
-    for name in ("ink-400k-1", "ink-2m-1", "ink-5m-1"):
+    for name in ("ink-400k-1", "ink-2m-1", "ink-5m-1", "ink-9m-1"):
         r = load(root, name)
         took = next(each["milliseconds"] for each in r["passes"] if each["name"] == "ink-lines")
         yield [str(r["triangles"]), rough(took), rough(r["yardstickMilliseconds"]), f"{100 * took / r['yardstickMilliseconds']:.0f} %",

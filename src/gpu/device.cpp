@@ -441,6 +441,10 @@ void Device::savePipelineCache() {
   cachedBytes_ = size;
 }
 
+void Device::requireBindable(uint64_t bytes, const char* what) const {
+  if (bytes > limits_.maxStorageBufferRange) throw VulkanError{what, VK_ERROR_OUT_OF_DEVICE_MEMORY};
+}
+
 std::optional<ViewDrawing> Device::viewDrawing(uint32_t samples) {
   if (!viewDrawings_) {
     const std::string driver = info_.name + ", " + info_.driver;

@@ -84,6 +84,8 @@ class Device {
   MemoryPool& memory() { return *memory_; }
   const DeviceInfo& info() const { return info_; }
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
+  // Throws VulkanError where shaders cannot read so many bytes by one binding.
+  void requireBindable(uint64_t bytes, const char* what) const;
   // As if storage buffers bound no more bytes than this: for tests, before anything is made.
   void limitStorageRange(uint32_t bytes) { limits_.maxStorageBufferRange = bytes; }
   bool supports4Samples() const { return supports4Samples_; }

@@ -17,8 +17,7 @@ bool TransparentTriangles::update(gpu::Device& device, std::vector<Part> parts,
     vertices = std::max<uint64_t>(vertices, part.firstVertex + part.primitive->vertexCount());
   }
   const uint64_t bytes = std::max<uint64_t>(1, triangles) * sizeof(shared::TransparentTriangle);
-  if (bytes > device.limits().maxStorageBufferRange)
-    throw gpu::VulkanError{"the scene's transparent triangles", VK_ERROR_OUT_OF_DEVICE_MEMORY};
+  device.requireBindable(bytes, "the scene's transparent triangles");
   count_ = uint32_t(triangles);
   isVisible_ = false;
 

@@ -83,7 +83,6 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
   for (size_t i = 0; i < items.size(); ++i)
     known.push_back({items[i].primitive, places[i].firstVertex, places[i].firstRest, items[i].shown});
   if (edges_.handle() && known == known_) return false;
-  known_ = std::move(known);
 
   std::vector<shared::DrawnEdge> edges;
   std::vector<shared::EdgeRing> rings;
@@ -161,9 +160,9 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
     }
   }
 
-  // Numbers of those that are lines must fit into what the device binds.
-  if (edgeCount_ * sizeof(uint32_t) > device.limits().maxStorageBufferRange)
-    throw gpu::VulkanError{"lines of so large a scene", VK_ERROR_OUT_OF_DEVICE_MEMORY};
+  // Of those that are lines: their numbers.
+  device.requireBindable(edgeCount_ * sizeof(uint32_t), "lines of so large a scene");
+  known_ = std::move(known);
   settle();
   // What was there goes first.
   edges_ = {}, rings_ = {}, chunks_ = {}, bounds_ = {};

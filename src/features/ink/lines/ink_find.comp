@@ -17,6 +17,13 @@ shared uint opened[kInkWordsOfChunk], openedCount;
 
 const bool kHasTwoEyes = kViewCount > 1 && !kCyclopean;
 
+// What eyeOf() is in the space of a mesh, by Cramer's rule: an inverse matrix takes longer.
+vec4 inMesh(mat4 model, vec4 eye) {
+  vec3 x = model[0].xyz, y = model[1].xyz, z = model[2].xyz, there = eye.xyz - eye.w * model[3].xyz;
+  vec3 yz = cross(y, z);
+  return vec4(vec3(dot(yz, there), dot(cross(z, x), there), dot(cross(x, y), there)) / dot(x, yz), eye.w);
+}
+
 // Whether nothing tells that a word has no lines.
 bool mayHaveLines(EdgeChunk chunk, uint word) {
   if (word * kInkThreads >= chunk.count) return false;
@@ -36,9 +43,8 @@ bool mayHaveLines(EdgeChunk chunk, uint word) {
     if (isStretched || b.cosBend < ink.cosCrease + 2e-3) return true;
   }
   if (!isShown(kInkSilhouette)) return false;
-  mat4 toMesh = inverse(model);
-  bool areAlike = allFaceAlike(b, toMesh * eyeOf(0));
-  if (kHasTwoEyes) areAlike = areAlike && allFaceAlike(b, toMesh * eyeOf(1));
+  bool areAlike = allFaceAlike(b, inMesh(model, eyeOf(0)));
+  if (kHasTwoEyes) areAlike = areAlike && allFaceAlike(b, inMesh(model, eyeOf(1)));
   return !areAlike;
 }
 

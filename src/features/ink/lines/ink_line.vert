@@ -2,6 +2,7 @@
 // A line of an edge: a quad around it, with room for its round ends, which close the joints between lines.
 #extension GL_GOOGLE_include_directive : require
 #include "../../../shading/view_index.glsl"
+#include "../fullness.shared.h"
 #include "ink_record.glsl"
 
 layout(set = 1, binding = kInkRecords, scalar) readonly buffer Records { LineRecord records[]; };
@@ -58,19 +59,22 @@ void main() {
   direction = size > 1e-6 ? direction / size : vec2(1.0, 0.0);
   vec2 across = record.outward.xy;
   bool isOutline = record.outward.z > 0.0;
-  // The quad, no larger than it must be.
+  // The quad, no larger than it must be: of whatever moves beside the edge, what lies along it is its caps'.
   vec2 radii = record.radii.xy;
   if (isOutline) radii *= max(ink.outer, 1.0);
   float radius = max(max(radii.x, radii.y), 0.5), moved = 0.0, inside = radius + 1.0;
   if (isOutline) {
-    bool isExterior = kPlacement == kInkExterior;
-    moved = abs(ink.offset) * frame.pixelScale + (isExterior ? radius : 0.0);
-    if (isExterior) inside = 1.75 + 2.4 * frame.pixelScale;  // what it overlaps, and anti-aliasing
+    moved = abs(ink.offset) * frame.pixelScale;
+    if (kPlacement == kInkExterior) {
+      float overlap = inkOverlap(frame.pixelScale);
+      moved += max(radius - overlap, 0.0);
+      inside = max(overlap, 0.5) + 1.0;
+    }
   }
-  float reach = radius + moved / 0.7 + 1.0;
+  float reach = radius + moved + 1.0;
   inside = mix(inside, reach, float(ink.offset < 0.0));
   if (isOutline && kDoubled) {
-    float second = abs(ink.doubled) * frame.pixelScale / 0.7 + radius * max(ink.doubledWidth, 1.0);
+    float second = abs(ink.doubled) * frame.pixelScale + radius * max(ink.doubledWidth, 1.0);
     reach += second;
     inside = mix(inside, max(inside, reach), float(ink.doubled < 0.0));
   }

@@ -32,8 +32,7 @@ bool PartsOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
   for (size_t i = 0; i < items.size(); ++i) known.push_back({items[i].primitive, places[i].firstVertex});
   if (parts_.handle() && known == known_) return false;
   const uint64_t vertices = finalVertexCount(items, places);
-  if (vertices * sizeof(uint32_t) > device.limits().maxStorageBufferRange)
-    throw gpu::VulkanError{"lines of so large a scene", VK_ERROR_OUT_OF_DEVICE_MEMORY};
+  device.requireBindable(vertices * sizeof(uint32_t), "lines of so large a scene");
   known_ = std::move(known);
 
   std::vector<uint32_t> parts(vertices, kOfNoMesh);

@@ -63,9 +63,8 @@ bool AnchorsOnGpu::update(gpu::Device& device, gpu::Uploader& uploader,
                      isShown ? spreads_.at(items[i].primitive).candidates : 0, isShown});
   }
   if (anchors_.handle() && known == known_) return false;
-  // What shaders read at once must fit into what the device binds.
-  if (finalVertexCount(items, places) * sizeof(shared::VertexCore) > device.limits().maxStorageBufferRange)
-    throw gpu::VulkanError{"a watercolour of so large a scene", VK_ERROR_OUT_OF_DEVICE_MEMORY};
+  device.requireBindable(finalVertexCount(items, places) * sizeof(shared::VertexCore),
+                         "a watercolour of so large a scene");
   known_ = std::move(known);
 
   std::vector<shared::DrawnAnchor> anchors;
