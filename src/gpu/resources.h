@@ -31,8 +31,8 @@ class Buffer {
   }
   VkBuffer handle() const { return buffer_; }
   uint64_t size() const { return size_; }
-  // Of storage buffers, for shaders that read them by `buffer_reference` from a uvec2: however large they are,
-  // while a binding has a limit (maxStorageBufferRange).
+  // Of storage buffers, for shaders that read them by `buffer_reference` from a uvec2: however large they
+  // are, while a binding has a limit (maxStorageBufferRange).
   glm::uvec2 address() const;
   // Null where the CPU cannot see the memory.
   std::byte* mapped() const { return static_cast<std::byte*>(allocation_.mapped); }

@@ -40,7 +40,7 @@ struct InkLine {
 
 // Where edges and vertices lie, which may be more than a device binds at once (gpu::Buffer::address).
 struct InkAddresses {
-  uvec2 edges, rings;           // DrawnEdge, EdgeRing of the same ones
+  uvec2 edges, rings;            // DrawnEdge, EdgeRing of the same ones
   uvec2 vertices, frames, rest;  // VertexCore, VertexFrame of final ones; VertexCore of those at rest
 };
 
@@ -84,8 +84,8 @@ struct LineRecord {
   // case, as the inner line that it is besides.
   vec2 turn;
   vec2 reach;  // from where to where along it, 0 to 1, an outline is drawn
-  vec2 caps;  // how far it goes on beyond both ends, for each pixel of its width
-  int kind;   // kInkNone: it is not drawn
+  vec2 caps;   // how far it goes on beyond both ends, for each pixel of its width
+  int kind;    // kInkNone: it is not drawn
 };
 const int kInkRoom = 65536;  // for records of a view
 
