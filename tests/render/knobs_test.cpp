@@ -50,7 +50,7 @@ const std::pair<std::string, Knobs> kNeeds[] = {
     {"ink.", {{"ink.shown", "on"}, {"ink.greatest", "200"}, {"ink.least", "100"}}},
     {"ink.boundaries.color", {{"ink.boundaries.color", "#FF2020"}, {"ink.boundaries.colorAmount", "1"}}},
     {"ink.creases.color", {{"ink.creases.color", "#FF2020"}, {"ink.creases.colorAmount", "1"}}},
-    {"ink.cutouts.", {{"ink.cutouts.shown", "on"}}},
+    {"ink.cutouts.", {{"ink.cutouts.shown", "on"}, {"ink.greatest", "40"}, {"ink.least", "20"}}},
     {"ink.cutouts.color", {{"ink.cutouts.color", "#FF2020"}, {"ink.cutouts.colorAmount", "1"}}},
     {"ink.cyclopean", {{"ink.placement", "centred"}}},
     {"ink.doubledWidth", {{"ink.doubled", "40"}}},

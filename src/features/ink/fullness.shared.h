@@ -17,10 +17,10 @@ SHARED_BEGIN
 
 // By how much something may be before an edge and hide nothing: a part of its distance or (in parallel
 // projections) of the scene's radius, which is what rounding does and what levels of detail leave out; and
-// what some pixels measure there, since on both sides of a line in a valley the surface comes nearer. And
-// what hides all of it.
-const float kInkTolerance = 0.0015f, kInkTolerancePixels = 3.0f;
-const float kInkHides = 0.0045f, kInkHidesPixels = 12.0f;
+// what some pixels measure there. And what hides all of it. In a valley the surface comes nearer on both
+// sides.
+const float kInkTolerance = 0.0015f, kInkTolerancePixels = 1.0f, kInkValleyTolerancePixels = 3.0f;
+const float kInkHides = 0.0045f, kInkHidesPixels = 4.0f, kInkValleyHidesPixels = 12.0f;
 // Where depth is looked up beside an edge, pixels: beyond it, twice, and before it.
 const float kInkBeyond = 1.5f, kInkFarBeyond = 2.6f, kInkBefore = 1.5f;
 // How full a line is, is the mean of what is found at a place and so many pixels before and behind it.
@@ -37,7 +37,7 @@ struct InkPlace {
   float radius;    // of the line, pixels
   vec2 turn;       // as LineRecord has it
   float reach;     // inkReach there
-  uint isOutline;
+  uint isOutline, isValley;
 };
 
 // How much of an outline is drawn at a place along its edge, from 0 to 1. `reach`: as LineRecord has it; all
@@ -63,9 +63,10 @@ SHARED_FUNCTION float inkDepthAlong(float atA, float atB, float along) {
 SHARED_FUNCTION float inkFullness(InkPlace p, float sceneRadius, float parallel, float fade, float outer) {
   // What is hidden comes and goes by how deep it lies, and never at once.
   float scale = mix(p.distance, sceneRadius, parallel);
-  float hidden =
-      smoothstep(kInkTolerance * scale + kInkTolerancePixels * p.pixel,
-                 kInkHides * scale + kInkHidesPixels * p.pixel, p.distance - max(p.beyond, p.before));
+  float tolerance = p.isValley != 0u ? kInkValleyTolerancePixels : kInkTolerancePixels;
+  float hides = p.isValley != 0u ? kInkValleyHidesPixels : kInkHidesPixels;
+  float hidden = smoothstep(kInkTolerance * scale + tolerance * p.pixel, kInkHides * scale + hides * p.pixel,
+                            p.distance - max(p.beyond, p.before));
   if (p.isOutline == 0u) return 1.0f - hidden;
   // An outline tapers where the form goes on right behind it, so that it neither begins nor ends at once; but
   // the fold of a coarse form has depth until it closes, and tapers by its angle.

@@ -50,8 +50,9 @@ struct InkUniforms {
   float offset;   // pixels
   float doubled;  // pixels
   float doubledWidth;
-  float cosSmooth, cosCrease;
-  float fade;  // widths
+  float cosSmooth;
+  float cosCrease, cosCreaseFull;  // where a crease begins to be a line, and where it has its width
+  float fade;                      // widths
   float sinFadeAngle;
   float outer;                 // a factor
   float texture, textureSize;  // how much of it; pixels of one period
@@ -79,7 +80,7 @@ struct LineRecord {
   vec4 shift;    // where lines move that lie beside it, for each pixel; at both ends
   vec4 radii;    // at both ends, pixels; depth-buffer values there
   vec4 color;    // square root; how much is the surface's own, or, below 0, is multiplied by that
-  vec3 outward;  // unit, on the screen; 1: an outline
+  vec3 outward;  // unit, on the screen; 1: an outline, -1: in a valley
   // Of outlines: how much the form turns away behind it, from 0 to 1; what part of its width it has in any
   // case, as the inner line that it is besides.
   vec2 turn;

@@ -50,11 +50,16 @@ float bendOf(PlacedEdge edge) {
   return dot(edge.left, edge.right) * inversesqrt(max(dot(edge.left, edge.left) * dot(edge.right, edge.right), 1e-37));
 }
 
+// How much of its width a crease has.
+float creaseOf(PlacedEdge edge) { return 1.0 - smoothstep(ink.cosCreaseFull, ink.cosCrease, bendOf(edge)); }
+
 // Of the kinds that are shown, the first one that it is from everywhere.
 int innerKindOf(PlacedEdge edge) {
   if ((edge.known & kEdgeMaterialBorder) != 0u && isShown(kInkMaterial)) return kInkMaterial;
-  if (isShown(kInkCrease) && bendOf(edge) < ink.cosCrease) return kInkCrease;
-  if ((edge.known & kEdgeColorBorder) != 0u && isShown(kInkColor)) return kInkColor;
+  // What is not wholly a crease is a border of colours first.
+  bool isColor = (edge.known & kEdgeColorBorder) != 0u && isShown(kInkColor);
+  if (isShown(kInkCrease) && bendOf(edge) < (isColor ? ink.cosCreaseFull : ink.cosCrease)) return kInkCrease;
+  if (isColor) return kInkColor;
   return kInkNone;
 }
 

@@ -105,6 +105,29 @@ TEST_P(Ink, creasesAreEdgesThatAreSharpAndSeen) {
   expectLines(oneThing(boxMesh({-1, -0.8f, -0.6f}, {1, 0.7f, 0.9f})), knobs, {{2, 1.5f, 4}}, crease);
 }
 
+// Creases come within some degrees, by how sharp they are.
+TEST_P(Ink, creasesComeByTheirAngle) {
+  const auto cosine = [](double degrees) { return std::cos(glm::radians(degrees)); };
+  for (const double angle : {30.0, 35.0, 38.0, 40.0, 42.0, 45.0, 60.0}) {
+    TestMesh roof;
+    const float side = float(glm::radians(angle / 2));
+    const glm::vec3 down(0, -std::cos(side), -std::sin(side)), up(0, std::cos(side), -std::sin(side));
+    append(roof, gridMesh(2.0f * down - glm::vec3(2, 0, 0), {4, 0, 0}, -2.0f * down), {1, 1, 1, 1});
+    append(roof, gridMesh({-2, 0, 0}, {4, 0, 0}, 2.0f * up), {1, 1, 1, 1});
+    const Scene scene = oneThing(roof).load();
+    const auto views = viewsFrom(scene, {{0, 0, 6}, {0, 0, 0}, 40, 0, 0.1f}, kWidth, kHeight, GetParam());
+    const Frame frame = drawLines(
+        scene,
+        evenLines({{"ink.creases.shown", "on"}, {"ink.creases.width", "1"}, {"ink.creaseAngle", "40"}}),
+        views);
+    const double t = std::clamp((cosine(angle) - cosine(44)) / (cosine(36) - cosine(44)), 0.0, 1.0);
+    for (size_t v = 0; v < viewCount(); ++v)
+      EXPECT_NEAR(inkAcross(frame, v, pixelOf(views[v], {0, 0, 0}, kWidth, kHeight)), 1 - t * t * (3 - 2 * t),
+                  0.03)
+          << angle;
+  }
+}
+
 TEST_P(Ink, openSurfacesEndInLines) {
   const Knobs knobs = evenLines(
       {{"ink.boundaries.shown", "on"}, {"ink.boundaries.width", "1"}, {"ink.silhouettes.shown", "off"}});
@@ -230,8 +253,7 @@ class HalfHidden {
 // What lies before a line hides it more and more the farther it lies before it, and never at once.
 TEST_P(Ink, whatIsHiddenComesByItsDepth) {
   const double pixel = 2 * HalfHidden::kDistance * std::tan(glm::radians(20.0)) / kHeight;
-  const double from = 0.0015 * HalfHidden::kDistance + 3 * pixel,
-               to = 0.0045 * HalfHidden::kDistance + 12 * pixel;
+  const double from = 0.0015 * HalfHidden::kDistance + pixel, to = 0.0045 * HalfHidden::kDistance + 4 * pixel;
   for (const double part : {-0.3, 0.0, 0.2, 0.4, 0.5, 0.6, 0.8, 1.0, 1.2}) {
     const HalfHidden s(from + part * (to - from), -0.8);
     const auto views = viewsFrom(s.scene(), HalfHidden::kStand, kWidth, kHeight, GetParam());

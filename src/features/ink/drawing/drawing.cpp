@@ -125,8 +125,12 @@ void addStrokes(std::vector<Place> places, bool isClosed, const Drawing::Stroke&
   for (size_t from = 0; from < places.size();) {
     const size_t to = endOfRun(from);
     std::vector<Drawing::Point> points;
-    // Runs reach to where the next one begins.
-    for (size_t i = from; i < std::min(to + 1, places.size()); ++i) points.push_back(places[i].point);
+    for (size_t i = from; i < to; ++i) points.push_back(places[i].point);
+    // Runs reach to where the next one begins, which is as wide as if it were seen.
+    if (to < places.size()) {
+      const Drawing::Point& next = places[to].point;
+      points.push_back({next.x, next.y, points.back().radius});
+    }
     const bool isSeen = places[from].isSeen;
     from = to;
     if (isSeen && std::all_of(points.begin(), points.end(),
@@ -150,7 +154,7 @@ struct TableLine {
   float radii[2], metres[2];
   glm::vec4 color;
   glm::vec2 outward, turn, reach;
-  bool isOutline, isTurned;  // away, which nobody sees
+  bool isOutline, isValley, isTurned;  // away, which nobody sees
   int kind;
 };
 
@@ -186,6 +190,7 @@ Table tableOf(const Image& image) {
                            {turn.x, turn.y},
                            {turn.z, turn.w},
                            outward.z > 0,
+                           outward.z < 0,
                            ((int(outward.w) - 1) & shared::kInkTurned) != 0,
                            (int(outward.w) - 1) & ~shared::kInkTurned});
   }
@@ -336,7 +341,8 @@ class EdgeStrokes {
                              radius,
                              line.turn,
                              shared::inkReach(t, line.reach, size),
-                             uint32_t(line.isOutline)};
+                             uint32_t(line.isOutline),
+                             uint32_t(line.isValley)};
     return shared::inkFullness(p, table_.sceneRadius, table_.parallel, table_.fade, table_.outer);
   }
   // Square root; as ink_line.frag has it.

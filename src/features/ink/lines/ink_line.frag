@@ -57,7 +57,7 @@ void main() {
 
   vec2 outward = inOutward.xy;
   vec2 spine = mix(inSpine.xy, inSpine.zw, t);
-  radius *= meanFullnessAt(InkSpine(inSpine, inRadii.zw, outward, inTurn.xy, inTurn.zw, inOutward.z > 0.0), t, radius, view);
+  radius *= meanFullnessAt(InkSpine(inSpine, inRadii.zw, outward, inTurn.xy, inTurn.zw, inOutward.z > 0.0, inOutward.z < 0.0), t, radius, view);
 
   float moved = ink.offset * frame.pixelScale + (kPlacement == kInkExterior ? max(radius - inkOverlap(frame.pixelScale), 0.0) : 0.0);
   vec4 line = inSpine + inShift * moved;

@@ -19,6 +19,9 @@ using namespace frame;
 namespace {
 
 constexpr float kRadians = 3.14159265f / 180;
+// Creases come within so many degrees before and after their angle, so that none breaks into dashes where it
+// is about as sharp.
+constexpr float kCreaseFade = 4;
 
 template <class Params>
 shared::InkKind kindOf(const KnobTable& knobs) {
@@ -33,7 +36,8 @@ shared::InkUniforms inkUniforms(const FrameInput& input) {
   u.offset = params.offset;
   u.doubled = params.doubled, u.doubledWidth = params.doubledWidth;
   u.cosSmooth = std::cos(params.smoothAngle * kRadians);
-  u.cosCrease = std::cos(params.creaseAngle * kRadians);
+  u.cosCrease = std::cos(std::max(params.creaseAngle - kCreaseFade, 0.0f) * kRadians);
+  u.cosCreaseFull = std::cos(std::min(params.creaseAngle + kCreaseFade, 180.0f) * kRadians);
   u.fade = params.fade;
   u.sinFadeAngle = std::sin(params.fadeAngle * kRadians);
   u.outer = params.outer;

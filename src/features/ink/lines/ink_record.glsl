@@ -141,6 +141,7 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
     // What is about to close becomes the inner line that it is besides, or nothing.
     int besides = innerKindOf(edge);
     if (besides != kInkNone) record.turn.y = min(ink.kinds[besides].width / style.width, 1.0);
+    if (besides == kInkCrease) record.turn.y *= creaseOf(edge);
   }
   float radii[2];
   bool hasOwn = kind == kInkSilhouette && line.hasOutline != 0u;
@@ -163,6 +164,7 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
         width = ownWidths[i] * pixelsOfOne / mix(ends[i].clip.w, 1.0, VIEW_FIELD(orthographic, view));
     }
     radii[i] = 0.5 * width * style.width * line.width;
+    if (kind == kInkCrease) radii[i] *= creaseOf(edge);
   }
 
   // Outlines may lie outside of the form. Ends move along normals of vertices, which lines that meet there share
@@ -190,7 +192,10 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
   vec4 color = vec4(line.color, line.ownColor);
   if (hasOwn) color = vec4(line.outlineColor, -line.outlineLight);
   record.color = vec4(mix(color.rgb, style.color, style.colorAmount), color.a * (1.0 - style.colorAmount));
-  record.outward = vec3(across, isOutline ? 1.0 : 0.0);
+  // Both of its triangles rise towards the eye beside it.
+  bool isValley = !isOutline && !edge.isOpen &&
+                  dot(edge.left, toEye) * dot(edge.left, positionOf(first + drawn.right) - edge.a) > 0.0;
+  record.outward = vec3(across, isOutline ? 1.0 : isValley ? -1.0 : 0.0);
 
   record.kind = isTurned ? kind | kInkTurned : kind;
   return record;

@@ -16,7 +16,7 @@ struct InkSpine {
   vec2 depths;   // depth-buffer values at both
   vec2 outward;  // away from the form
   vec2 turn, reach;  // as LineRecord has them
-  bool isOutline;
+  bool isOutline, isValley;
 };
 
 float fullnessAt(InkSpine s, float t, float size, float radius, int view) {
@@ -30,6 +30,7 @@ float fullnessAt(InkSpine s, float t, float size, float radius, int view) {
   p.turn = s.turn;
   p.reach = inkReach(t, s.reach, size);
   p.isOutline = s.isOutline ? 1u : 0u;
+  p.isValley = s.isValley ? 1u : 0u;
   return inkFullness(p, frame.sceneRadius, VIEW_FIELD(orthographic, view), ink.fade, ink.outer);
 }
 
