@@ -1,9 +1,11 @@
 // Meshes as broken files have them, in looks that draw their edges and spread points over them: a picture,
 // and a warning.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "scumble/look.h"
+#include "tests/support/aov.h"
 #include "tests/support/loaded_test_gltf.h"
 #include "tests/support/render_test.h"
 
