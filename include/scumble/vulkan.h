@@ -18,7 +18,7 @@
 
 namespace scumble {
 
-// Somebody's device. It has Vulkan 1.3, a queue for graphics and compute, and what requiredVulkanFeatures()
+// Somebody's device. It has Vulkan 1.3, a queue for graphics and compute, and what requireVulkanFeatures()
 // asks for enabled.
 struct VulkanDevice {
   VkInstance instance = VK_NULL_HANDLE;

@@ -52,13 +52,13 @@ void readNodes(const Import& import, int wantedScene, SceneData& scene, Maps& ma
 // The meshes that nodes use, ready to draw.
 void readMeshes(const Import& import, const Maps& maps, SceneData& scene);
 
-// All materials, and the images that materials in use name, decoded.
 // A channel, 0 to 3, of a texture that is a factor on the width of a material's outline; by material.
 struct OutlineTexture {
   TextureUse use;
   int channel = 0;
 };
 using OutlineTextures = std::map<size_t, OutlineTexture>;
+// All materials, and the images that materials in use name, decoded.
 OutlineTextures readMaterials(const Import& import, SceneData& scene);
 void readImages(const Import& import, SceneData& scene);
 // Once images are there: Primitive::outlineWidths.

@@ -131,6 +131,21 @@ TEST(Scene, mtoonsOutlinesAreRead) {
       EXPECT_NEAR(p.outlineWidths[v], isVrm1 ? (isLeft ? 1 : 0.5) : (isLeft ? 0 : 1), 0.003) << v;
     }
   }
+  // A texture that is not there costs itself alone.
+  {
+    TestGltf without = quad();
+    without.json["materials"] = {Json::object()};
+    without.json["meshes"][0]["primitives"][0]["material"] = 0;
+    without.json["extensions"]["VRM"]["materialProperties"] = {
+        {{"shader", "VRM/MToon"},
+         {"floatProperties", {{"_OutlineWidthMode", 1}, {"_OutlineWidth", 0.5}}},
+         {"textureProperties", {{"_OutlineWidthTexture", 7}}}}};
+    const Scene scene = loaded(without);
+    ASSERT_TRUE(scene.data().materials[1].outline);
+    EXPECT_FLOAT_EQ(scene.data().materials[1].outline->width, 0.005f);
+    EXPECT_TRUE(scene.data().meshes[0]->primitives[0].outlineWidths.empty());
+    EXPECT_EQ(scene.warnings().size(), 1u);
+  }
   // What is broken costs the outline alone.
   for (const Json& broken :
        {Json(3), Json{{"materialProperties", 1}}, Json{{"materialProperties", {1}}},

@@ -147,11 +147,16 @@ class MaterialReader {
     for (int c = 0; c < 3; ++c) outline.color[c] = linearOf(std::clamp(color[c], 0.0f, 1.0f));
     const bool isMixed = numbers && numbers.number("_OutlineColorMode", 0.0f) == 1.0f;
     outline.lightingMix = isMixed ? numbers.number("_OutlineLightingMix", 1.0f) : 0.0f;
-    if (const JsonView used = mtoon.object("textureProperties"))
-      if (const int64_t texture =
-              used.index("_OutlineWidthTexture", import_.document.list("textures").size(), "texture");
-          texture >= 0)
-        outlines_[scene_.materials.size()] = {textureOf(texture), 0};
+    try {
+      if (const JsonView used = mtoon.object("textureProperties"))
+        if (const int64_t texture =
+                used.index("_OutlineWidthTexture", import_.document.list("textures").size(), "texture");
+            texture >= 0)
+          outlines_[scene_.materials.size()] = {textureOf(texture), 0};
+    } catch (const ImportFailure& failure) {
+      import_.warnings.add(failure.error.jsonPath,
+                           "a texture of an outline's widths is ignored: " + failure.error.problem);
+    }
     return bounded(outline);
   }
 

@@ -44,6 +44,7 @@ struct InkPlace {
 // of it where that is 0 and 1. `size`: the edge's length, pixels.
 SHARED_FUNCTION float inkReach(float along, vec2 reach, float size) {
   float soft = min(kInkSoftEnd / max(size, 1e-3f), 0.5f);
+  along = min(max(along, 0.0f), 1.0f);  // beyond its ends the line goes on as it is there
   float from = reach.x * (1.0f + soft) - soft, to = reach.y * (1.0f + soft);
   return smoothstep(from, from + soft, along) * (1.0f - smoothstep(to - soft, to, along));
 }

@@ -394,6 +394,30 @@ TEST_F(RenderTest, linesOfLumpsAreSteady) {
   EXPECT_LE(ours, 4);
 }
 
+// An outline of edges of a pixel or two is as wide as one of long edges, also before a wall close behind it.
+TEST_P(Ink, shortEdgesAreAsWideAsLongOnes) {
+  const auto inkWith = [&](int segments) {
+    TestScene s = oneThing(sphereMesh({0, 0, 0}, 1, segments));
+    s.add(gridMesh({-30, -30, -1.2f}, {60, 0, 0}, {0, 60, 0}),
+          s.material(TestScene::colored("Wall", {0.6f, 0.5f, 0.4f, 1})));
+    const Scene scene = s.load();
+    const auto views = viewsFrom(scene, {{0, 0.4f, 9}, {0, 0, 0}, 30, 0, 0.1f}, kWidth, kHeight, GetParam());
+    const Frame frame = drawLines(scene, evenLines({{"ink.fade", "0.5"}}), views);
+    std::vector<double> sums;
+    for (size_t v = 0; v < viewCount(); ++v) {
+      double& sum = sums.emplace_back(0);
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) sum += texel(aov(frame, "ink", v), x, y).w;
+    }
+    return sums;
+  };
+  const std::vector<double> longOnes = inkWith(16), shortOnes = inkWith(160);
+  for (size_t v = 0; v < viewCount(); ++v) {
+    EXPECT_GT(longOnes[v], 300);
+    EXPECT_NEAR(shortOnes[v] / longOnes[v], 1, 0.08);
+  }
+}
+
 // FORMULAS 24: thin where light falls on it, bold where it turns away, and in between what a cosine says.
 TEST_P(Ink, widthsFollowTheLight) {
   TestScene s = oneThing(sphereMesh({0, 0, 0}, 1, 64));
@@ -527,6 +551,14 @@ TEST_P(Ink, outlinesAreDoubled) {
       EXPECT_NEAR(second, 1.5, 0.1);
       EXPECT_EQ(elsewhere, 0);
     }
+  }
+  // A wider one close by reaches over the first one, to both of its sides.
+  const Frame frame = drawLines(scene, evenLines({{"ink.doubled", "1"}, {"ink.doubledWidth", "4"}}), views);
+  for (size_t v = 0; v < viewCount(); ++v) {
+    const glm::dvec2 edge = pixelOf(views[v], {0, 1, 1}, kWidth, kHeight);
+    double covered = 0;
+    for (double y = -16; y <= 16; ++y) covered += ink(frame, v, edge + glm::dvec2(0, y));
+    EXPECT_NEAR(covered, 12, 0.3);
   }
 }
 

@@ -160,7 +160,9 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
     }
   }
 
-  // Of those that are lines: their numbers.
+  // Vertices have 28 bits; of edges that are lines there are numbers.
+  if (finalVertexCount(items, places) > shared::kEdgeVertexMask)
+    throw gpu::VulkanError{"lines of so large a scene", VK_ERROR_OUT_OF_DEVICE_MEMORY};
   device.requireBindable(edgeCount_ * sizeof(uint32_t), "lines of so large a scene");
   known_ = std::move(known);
   settle();

@@ -76,7 +76,7 @@ void main() {
   if (isOutline && kDoubled) {
     float second = abs(ink.doubled) * frame.pixelScale + radius * max(ink.doubledWidth, 1.0);
     reach += second;
-    inside = mix(inside, max(inside, reach), float(ink.doubled < 0.0));
+    inside = max(inside, mix(radius * ink.doubledWidth + 1.0, reach, float(ink.doubled < 0.0)));
   }
   bool isEnd = corner == 1 || corner == 2 || corner == 4, isUp = corner == 2 || corner == 4 || corner == 5;
   float beyond = (isEnd ? record.caps.y : record.caps.x) * (reach - 1.0) + 1.0;

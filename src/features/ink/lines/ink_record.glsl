@@ -111,9 +111,11 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
   vec2 across = vec2(-direction.y, direction.x);
   float within = 0.0;
   vec2 thirdAt[2] = vec2[2](at[0], at[0]);
+  bool isKnown[2] = bool[2](false, false);
   for (int side = 0; side < (edge.isOpen ? 1 : 2); ++side) {
     vec4 third = worldToClip * vec4(positionOf(first + (side == 0 ? drawn.left : drawn.right)), 1.0);
-    if (third.w > kNear) thirdAt[side] = (third.xy / third.w + 1.0) * toPixels;
+    isKnown[side] = third.w > kNear;
+    if (isKnown[side]) thirdAt[side] = (third.xy / third.w + 1.0) * toPixels;
     within += dot(thirdAt[side] - at[0], across);
   }
   if (within > 0.0) across = -across;
@@ -137,7 +139,7 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
                        thirdAt[isRight ? 1 : 0]);
     ownWidths = line.outlineWidth * unpackUnorm2x16(ring.widths);
     record.turn.x = turn.all;
-    record.reach = turn.reach;
+    if (isKnown[isRight ? 1 : 0]) record.reach = turn.reach;
     // What is about to close becomes the inner line that it is besides, or nothing.
     int besides = innerKindOf(edge);
     if (besides != kInkNone) record.turn.y = min(ink.kinds[besides].width / style.width, 1.0);
@@ -183,7 +185,7 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
       // Where a corner's normal says little of this edge, the edge decides.
       float agrees = dot(shift[i], across);
       shift[i] = agrees < 0.3 ? across : shift[i] / max(agrees, 0.7);
-      record.caps[i] = agrees < 0.3 ? 1.0 : min(sqrt(max(1.0 - agrees * agrees, 0.0)) / agrees, 1.0);
+      record.caps[i] = agrees < 0.3 ? 1.0 : sqrt(max(1.0 - agrees * agrees, 0.0)) / max(agrees, 0.7);
     }
     record.shift = vec4(shift[0], shift[1]);
   }

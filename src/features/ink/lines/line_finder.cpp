@@ -117,8 +117,7 @@ void LineFinder::record(VkCommandBuffer commands) const {
   pipelines.record.bind(commands);
   pipelines.record.bindSet(commands, 0, frame_->frameSet());
   pipelines.record.bindSet(commands, 1, set_[0]);
-  if (!getenv("NOREC"))
-    vkCmdDispatchIndirect(commands, command_.handle(), offsetof(shared::InkCommand, groupsX));
+  vkCmdDispatchIndirect(commands, command_.handle(), offsetof(shared::InkCommand, groupsX));
 }
 
 }  // namespace scumble::ink
