@@ -41,6 +41,9 @@ nlohmann::json reportOf(const Scene& scene) {
           {"ownPatterns", s.ownPatterns},
           {"triangles", s.triangles},
           {"vertices", s.vertices},
+          {"strokes", s.strokes},
+          {"points", s.points},
+          {"brushes", s.brushes},
           {"nodes", s.nodes},
           {"nodeNames", s.nodeNames},
           {"materials", s.materialNames},
@@ -72,6 +75,9 @@ int info(const SceneArguments& args, const JsonOption& json) {
       fmt::format("nodes       {}: {}\nmaterials   {}: {}\nimages      {}\nskins       {}\nmorphs      {}\n",
                   s.nodes, shortened(s.nodeNames), s.materialNames.size(), joined(s.materialNames), s.images,
                   s.skins, s.morphTargets));
+  if (s.strokes > 0)
+    print(
+        fmt::format("strokes     {} ({} points; brushes: {})\n", s.strokes, s.points, shortened(s.brushes)));
   std::vector<std::string> clips;
   for (const auto& clip : s.clips) clips.push_back(fmt::format("{} ({:.2f} s)", clip.name, clip.duration));
   print(fmt::format("clips       {}\ncameras     {}\nlights      {}\n", joined(clips), joined(s.cameras),

@@ -44,6 +44,7 @@ int run(int argc, char** argv) {
     app::addDescriptions(program, exitCode);
     app::addBench(program, exitCode);
     app::addMeasure(program, exitCode);
+    app::addPaint(program, exitCode);
     program.footer(
         "Example: scumble render boat.glb -o boat.png\n`scumble COMMAND --help` shows a command's options.");
 

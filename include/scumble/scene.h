@@ -52,7 +52,9 @@ struct SceneSummary {
   };
   size_t meshes = 0, primitives = 0, triangles = 0, vertices = 0, nodes = 0, materials = 0, images = 0,
          skins = 0, morphTargets = 0;
-  size_t ownPatterns = 0;  // primitives whose patterns do not follow the file's coordinates
+  size_t ownPatterns = 0;            // primitives whose patterns do not follow the file's coordinates
+  size_t strokes = 0, points = 0;    // of paintings in space
+  std::vector<std::string> brushes;  // theirs, as the files call them
   std::vector<std::string> cameras, lights, materialNames;
   std::vector<std::string> nodeNames;  // of those that have one, in the file's order
   std::vector<Clip> clips;

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/file_bytes.h"
-#include "gltf/json.h"
 #include "scene/import_warnings.h"
+#include "scene/json.h"
 
 namespace scumble::gltf {
 

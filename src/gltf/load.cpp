@@ -3,13 +3,16 @@
 #include <chrono>
 #include <exception>
 #include <filesystem>
+#include <functional>
 
 #include "gltf/import.h"
 #include "gltf/world_file.h"
 #include "scene/clearance.h"
+#include "scene/painting.h"
 #include "scene/parallel.h"
 #include "scene/scene_bounds.h"
 #include "scumble/scene.h"
+#include "sketch/sketch.h"
 
 namespace scumble {
 
@@ -82,20 +85,56 @@ std::shared_ptr<SceneData> import(Bytes bytes, const FileBytes* file, const std:
   return data;
 }
 
+// A painting of another program: one node that carries it.
+std::shared_ptr<SceneData> importSketch(const std::string& name, const SceneOptions& options,
+                                        const std::function<Painting(ImportWarnings&)>& read,
+                                        SceneTimings& timings) {
+  Stopwatch watch;
+  ImportWarnings warnings;
+  ImportProgress progress(options.progress);
+  progress.expect(1, 1);
+  auto data = std::make_shared<SceneData>();
+  data->name = std::filesystem::path(name).stem().string();
+  data->keepsVertices = options.keepsVertices;
+  data->materials.resize(1);
+  Mesh mesh;
+  mesh.name = data->name;
+  if (Painting painting = read(warnings); !painting.strokes.empty())
+    mesh.painting = std::make_shared<const Painting>(std::move(painting));
+  timings.parse = watch.lap();
+  data->meshes.push_back(std::move(mesh));
+  Node& node = data->nodes.emplace_back();
+  node.name = data->name;
+  node.mesh = 0;
+  placeScene(*data, warnings);
+  requireMeshes(*data);
+  timings.geometry = watch.lap();
+  data->warnings = warnings.lines(name);
+  progress.step();
+  return data;
+}
+
+std::shared_ptr<SceneData> importBytes(Bytes bytes, const FileBytes* file, const std::string& name,
+                                       const std::string& folder, const SceneOptions& options,
+                                       SceneTimings& timings) {
+  if (!sketch::isSketch(bytes)) return import(bytes, file, name, folder, options, timings);
+  return importSketch(
+      name, options, [&](ImportWarnings& warnings) { return sketch::readSketch(bytes, warnings); }, timings);
+}
+
 Error internalError(const std::string& name, const std::string& what) {
   return Error{ErrorKind::internal, name, 0, {}, "the importer failed: " + what, "please report this file"};
 }
 
-// The same, with what fails as an error.
-Result<std::shared_ptr<SceneData>> tryImport(Bytes bytes, const FileBytes* file, const std::string& name,
-                                             const std::string& folder, const SceneOptions& options,
-                                             SceneTimings& timings) {
+// With what fails as an error.
+Result<std::shared_ptr<SceneData>> tryImport(const std::string& name, const SceneOptions& options,
+                                             const std::function<std::shared_ptr<SceneData>()>& import) {
   if (options.scene < -1)
     return Error{
         ErrorKind::usage,           name, 0, {}, "there is no scene " + std::to_string(options.scene),
         "scenes are counted from 0"};
   try {
-    return import(bytes, file, name, folder, options, timings);
+    return import();
   } catch (ImportFailure& failure) {
     failure.error.file = name;
     return failure.error;
@@ -123,22 +162,31 @@ void gltf::ImportProgress::step() {
 
 Result<Scene> Scene::load(const std::string& path, const SceneOptions& options) {
   try {
-    if (path.ends_with(".json"))
-      if (std::optional<Result<Scene>> world = loadWorld(path, options)) return *std::move(world);
+    Scene scene;
+    const auto finish = [&](Result<std::shared_ptr<SceneData>> data) -> Result<Scene> {
+      if (!data) return data.error();
+      scene.data_ = std::move(data).value();
+      return scene;
+    };
+    if (sketch::isSketchFolder(path))
+      return finish(tryImport(path, options, [&] {
+        return importSketch(
+            path, options, [&](ImportWarnings& w) { return sketch::readSketchFolder(path, w); },
+            scene.timings_);
+      }));
     Stopwatch watch;
     FileBytes file;
     std::string problem;
     if (!file.open(path, problem))
-      return Error{ErrorKind::unusableFile, path, 0, {}, problem, "give the path of a .gltf or .glb"};
-    const double read = watch.lap();
+      return Error{ErrorKind::unusableFile, path, 0, {}, problem, "give the path of a .gltf, .glb or .tilt"};
+    scene.timings_.read = watch.lap();
+    if (!sketch::isSketch(file.bytes()) && path.ends_with(".json"))
+      if (std::optional<Result<Scene>> world = loadWorld(path, options)) return *std::move(world);
     std::string folder = std::filesystem::path(path).parent_path().string();
     if (folder.empty()) folder += '.';
-    Scene scene;
-    auto data = tryImport(file.bytes(), &file, path, folder, options, scene.timings_);
-    if (!data) return data.error();
-    scene.data_ = std::move(data).value();
-    scene.timings_.read = read;
-    return scene;
+    return finish(tryImport(path, options, [&] {
+      return importBytes(file.bytes(), &file, path, folder, options, scene.timings_);
+    }));
   } catch (const std::exception& error) {
     return internalError(path, error.what());
   }
@@ -147,8 +195,10 @@ Result<Scene> Scene::load(const std::string& path, const SceneOptions& options) 
 Result<Scene> Scene::loadFromMemory(const void* bytes, size_t size, const std::string& name,
                                     const std::string& folder, const SceneOptions& options) {
   Scene scene;
-  auto data =
-      tryImport({static_cast<const uint8_t*>(bytes), size}, nullptr, name, folder, options, scene.timings_);
+  auto data = tryImport(name, options, [&] {
+    return importBytes({static_cast<const uint8_t*>(bytes), size}, nullptr, name, folder, options,
+                       scene.timings_);
+  });
   if (!data) return data.error();
   scene.data_ = std::move(data).value();
   return scene;

@@ -1,9 +1,12 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <map>
+#include <optional>
 
 #include "gltf/import.h"
 #include "gltf/primitive.h"
+#include "gltf/strokes.h"
 #include "scene/levels.h"
 #include "scene/parallel.h"
 #include "scene/prepare_mesh.h"
@@ -40,7 +43,8 @@ void readMeshes(const Import& import, const Maps& maps, SceneData& scene) {
   struct Task {
     size_t mesh, primitive;
     JsonView json;
-    ImportWarnings warnings;
+    ImportWarnings warnings{};
+    std::optional<ReadStroke> stroke{};
   };
   std::vector<Task> tasks;
   for (size_t i = 0; i < maps.meshes.size(); ++i) {
@@ -51,7 +55,7 @@ void readMeshes(const Import& import, const Maps& maps, SceneData& scene) {
     mesh.name = json.text("name");
     mesh.primitives.resize(primitives.size());
     readMorphWeights(json, mesh, import.warnings);
-    for (size_t k = 0; k < primitives.size(); ++k) tasks.push_back({index, k, primitives.at(k), {}});
+    for (size_t k = 0; k < primitives.size(); ++k) tasks.push_back({index, k, primitives.at(k)});
   }
 
   // Triangles, whole ones. The file's memory goes as they come, lest there be two of all.
@@ -60,6 +64,11 @@ void readMeshes(const Import& import, const Maps& maps, SceneData& scene) {
   import.progress.expect(tasks.size(), 0.4);
   parallelFor(tasks.size(), import.threads, [&](size_t i) {
     Task& task = tasks[i];
+    if (isStroke(task.json)) {
+      task.stroke = readStroke(import, task.json, task.warnings);
+      import.progress.step();
+      return;
+    }
     Primitive& primitive = scene.meshes[task.mesh].own().primitives[task.primitive];
     primitive = readPrimitive(import, task.json, task.warnings);
     if (!primitive.indices.empty()) cleanPrimitive(primitive, task.json.path(), task.warnings);
@@ -67,7 +76,12 @@ void readMeshes(const Import& import, const Maps& maps, SceneData& scene) {
     if (before / kForgottenVertices != (before + count) / kForgottenVertices) import.buffers.forgetFiles();
     import.progress.step();
   });
-  for (const Task& task : tasks) import.warnings.merge(task.warnings);
+  std::map<size_t, StrokeCollector> strokes;  // by mesh
+  for (Task& task : tasks) {
+    if (task.stroke) strokes[task.mesh].add(std::move(*task.stroke), task.json.path(), task.warnings);
+    import.warnings.merge(task.warnings);
+  }
+  for (auto& [mesh, collector] : strokes) scene.meshes[mesh].own().painting = collector.finish();
 
   // Meshes as wholes.
   std::vector<float> radii(scene.meshes.size());

@@ -221,9 +221,9 @@ void make(Device& device, const GraphicsPipelineDesc& desc, PipelineStore::Made&
   // What it draws into.
   VkPipelineColorBlendAttachmentState target{};
   target.colorWriteMask = 0xF;
-  if (desc.blend == Blend::over) {
+  if (desc.blend == Blend::over || desc.blend == Blend::premultiplied) {
     target.blendEnable = VK_TRUE;
-    target.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
+    target.srcColorBlendFactor = desc.blend == Blend::over ? VK_BLEND_FACTOR_SRC_ALPHA : VK_BLEND_FACTOR_ONE;
     target.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
     target.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
     target.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;

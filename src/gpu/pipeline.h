@@ -70,8 +70,9 @@ class DescriptorSets {
   std::vector<std::pair<VkImageView, VkSampler>> textures_;  // by set, then by binding
 };
 
-// Of what is drawn and what is there: it lies over it, or the greater of both stays, channel by channel.
-enum class Blend : uint8_t { none, over, greatest };
+// Of what is drawn and what is there: it lies over it, with colours as they are or times their alpha; or the
+// greater of both stays, channel by channel.
+enum class Blend : uint8_t { none, over, premultiplied, greatest };
 
 struct GraphicsPipelineDesc {
   Shader vertex, fragment;          // no fragment shader: depth only

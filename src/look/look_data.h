@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/name_pattern.h"
 #include "base/pixels.h"
 #include "look/param.h"
 #include "look/track.h"
@@ -98,8 +99,7 @@ struct LookData {
 // Whether there is a '*' or '?' in it.
 bool isPattern(const std::string& name);
 
-// Whether `name` matches a pattern of literal characters, '*' and '?'.
-bool matches(const std::string& pattern, const std::string& name);
+using scumble::matches;  // a name and a pattern
 
 // Resolves "a.b.row"; fails with a suggestion when there is no such knob: one of those that may be set for
 // `targets`.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "scene/painting.h"
 #include "scene/prepare_mesh.h"
 
 namespace scumble::scene {
@@ -89,6 +90,11 @@ void forEachPlayed(const SceneData& scene, const std::vector<bool>& nodes, std::
           for (const glm::mat4& instance : node.instances)
             visit(primitive, pose.world[n] * instance, none, weights);
       }
+      // What bends carries its strokes along, and tells where they are.
+      if (!mesh.painting || node.skin >= 0) continue;
+      if (node.instances.empty()) visit(mesh.painting->hull, pose.world[n], none, {});
+      for (const glm::mat4& instance : node.instances)
+        visit(mesh.painting->hull, pose.world[n] * instance, none, {});
     }
   });
 }

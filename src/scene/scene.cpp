@@ -1,5 +1,8 @@
 #include "scumble/scene.h"
 
+#include <algorithm>
+
+#include "scene/painting.h"
 #include "scene/scene_data.h"
 #include "scene/surroundings.h"
 
@@ -39,6 +42,13 @@ SceneSummary Scene::summary() const {
   for (const Mesh& mesh : data.meshes) {
     s.primitives += mesh.primitives.size();
     s.morphTargets += mesh.morphWeights.size();
+    if (mesh.painting) {
+      s.strokes += mesh.painting->strokes.size();
+      s.points += mesh.painting->points.size();
+      for (const std::string& brush : mesh.painting->brushes)
+        if (std::find(s.brushes.begin(), s.brushes.end(), brush) == s.brushes.end())
+          s.brushes.push_back(brush);
+    }
     for (const Primitive& p : mesh.primitives) {
       s.triangles += p.indexCount() / 3;
       s.vertices += p.vertexCount();

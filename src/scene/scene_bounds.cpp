@@ -5,6 +5,7 @@
 #include <map>
 
 #include "scene/import_failure.h"
+#include "scene/painting.h"
 #include "scene/posed_bounds.h"
 #include "scene/prepare_mesh.h"
 
@@ -28,6 +29,7 @@ MeshBox measure(const Mesh& mesh) {
     for (size_t t = 0; t < p.extent.targets.size() && t < result.offsets.size(); ++t)
       result.offsets[t].add(p.extent.targets[t]);
   }
+  if (mesh.painting) result.box.add(mesh.painting->hull.extent.box);
   return result;
 }
 
@@ -114,7 +116,7 @@ void placeScene(SceneData& scene, ImportWarnings& warnings) {
            "reduce the instances or the meshes");
 
     Bounds bounds = scene.bounds;
-    bool good = !mesh.primitives.empty();
+    bool good = !mesh.primitives.empty() || mesh.painting;
     if (good) {
       const MeshBox& own = boxes[node.mesh];
       const Bounds box = morphed(own, node.morphWeights.empty() ? mesh.morphWeights : node.morphWeights);
@@ -148,7 +150,7 @@ void placeScene(SceneData& scene, ImportWarnings& warnings) {
 
 void requireMeshes(const SceneData& scene) {
   if (scene.bounds.empty)
-    fail({}, "holds nothing to draw", "a scene needs at least one node with a mesh of triangles");
+    fail({}, "holds nothing to draw", "a scene needs at least one node with a mesh of triangles, or strokes");
 }
 
 }  // namespace scumble::scene

@@ -174,10 +174,14 @@ struct Primitive {
   const std::vector<glm::vec2>& patternCoordinates() const { return patternUv.empty() ? uv0 : patternUv; }
 };
 
+struct Painting;
+
 struct Mesh {
   std::string name;
   std::vector<Primitive> primitives;
   std::vector<float> morphWeights;  // defaults
+  // Strokes on it and around it (painting.h); null: none.
+  std::shared_ptr<const Painting> painting = nullptr;
 };
 
 struct Transform {

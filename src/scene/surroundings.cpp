@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scene/painting.h"
 #include "scene/posed_bounds.h"
 
 namespace scumble::scene {
@@ -27,6 +28,7 @@ Bounds boundsOf(const SceneData& scene, const Node& node, const Pose& pose,
     else
       for (const glm::mat4& instance : node.instances) place(pose.world[n] * instance);
   }
+  if (mesh.painting) bounds.add(posedBounds(mesh.painting->hull.extent, pose.world[n], {}, {}));
   return bounds;
 }
 

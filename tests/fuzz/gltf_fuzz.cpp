@@ -3,10 +3,10 @@
 // and poses that are not finite.
 //
 //   CC=clang-14 CXX=clang++-14 cmake -S . -B build-fuzz -G Ninja -DSCUMBLE_FUZZ=ON -DSCUMBLE_SANITIZE=ON
-//   ninja -C build-fuzz gltf_fuzz && mkdir -p build-fuzz/corpus
-//   build-fuzz/gltf_fuzz --write-seeds=build-fuzz/corpus
+//   ninja -C build-fuzz gltf_fuzz && mkdir -p build-fuzz/corpus-gltf_fuzz
+//   build-fuzz/gltf_fuzz --write-seeds=build-fuzz/corpus-gltf_fuzz
 //   build-fuzz/gltf_fuzz -dict=tests/fuzz/gltf.dict -max_total_time=60 -timeout=20 -rss_limit_mb=4096
-//   build-fuzz/corpus
+//   build-fuzz/corpus-gltf_fuzz
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

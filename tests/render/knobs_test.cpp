@@ -129,6 +129,8 @@ const std::pair<std::string, Knobs> kNeeds[] = {
     {"volume.node", {{"colorizers.A.volume.radius", "2"}}},
     {"volume.rotation", {{"colorizers.A.volume.shape", "box"}, {"colorizers.A.volume.size", "3,0.3,1"}}},
     {"volume.size", {{"colorizers.A.volume.shape", "box"}}},
+    {"painting.speed", {{"painting.plays", "on"}}},
+    {"painting.warp", {{"warp.amount", "64"}, {"warp.inflation", "64"}}},
     {"warp.", {{"warp.amount", "64"}, {"warp.inflation", "64"}}},
     {"warp.metatexture.skewLevels", {{"warp.metatexture.skew", "exact"}}},
     {"warp.metatexture.tiles", {{"warp.metatexture.mode", "object"}}},
@@ -190,9 +192,9 @@ TEST_P(KnobSweep, everyKnobAtItsEndsDrawsAndShows) {
     const float value = (i + i / 16) % 2 ? 0.2f : 0.9f;
     leaf.pixels.insert(leaf.pixels.end(), {value, 0.5f, 1 - value, i % 16 < 9 ? 1.0f : 0.0f});
   }
-  Image painted = leaf;
-  for (size_t i = 0; i < painted.pixels.size(); i += 4) painted.pixels[i] = 0.1f;
-  masked["extras"] = {{"scumble_lit_texture", s.texture(painted)},
+  Image other = leaf;
+  for (size_t i = 0; i < other.pixels.size(); i += 4) other.pixels[i] = 0.1f;
+  masked["extras"] = {{"scumble_lit_texture", s.texture(other)},
                       {"scumble_shadowed_texture", s.texture(leaf)}};
   masked["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", s.texture(leaf)}};
   masked["alphaMode"] = "MASK", pane["alphaMode"] = "BLEND";
@@ -210,10 +212,17 @@ TEST_P(KnobSweep, everyKnobAtItsEndsDrawsAndShows) {
   s.clip("Drift", {0, 1, 2}, {{0, 0, 0}, {1, 0.4f, 0}, {0, 0, 0.5f}});
   s.json()["materials"].back()["extras"] = {{"scumble_shadowed", "#204080"}};
   s.json()["samplers"] = Json::array({{{"magFilter", 9729}, {"minFilter", 9987}}});  // with mip levels
-  const Scene scene = s.load();
+  const Scene plain = s.load();
+  // Strokes: crossing ones at one depth, a sunken one, one that is being painted; for knobs of theirs alone,
+  // lest they hide others.
+  const glm::vec4 red(0.8f, 0.2f, 0.1f, 0.9f), blue(0.1f, 0.3f, 0.8f, 0.9f);
+  s.addStrokes({{{{-2, 0.5f, 2.5f}, {0, 1.2f, 2.4f}, {2, 2.2f, 2.5f}}, 0.35f, red, "bristles", {0, 0.5f, 2}},
+                {{{-2, 2.2f, 2.5f}, {0, 1.2f, 2.4f}, {2, 0.5f, 2.5f}}, 0.35f, blue, "bristles", {0, 1, 4}},
+                {{{-1.5f, 0.6f, 1.4f}, {1.5f, 0.9f, 1.0f}}, 0.4f, blue, "plain", {0, 1}}});
+  const Scene painted = s.load();
 
   const Stand stand{{2, 1.5f, 6}, {0, 1.2f, 0}};
-  const auto given = viewsFrom(scene, stand, kWidth, kHeight, GetParam());
+  const auto given = viewsFrom(plain, stand, kWidth, kHeight, GetParam());
   // A picture with a hard edge, for knobs about pictures behind everything.
   auto backdrop = std::make_shared<Image>(Image{16, 12, {"R", "G", "B"}, {}});
   for (int i = 0; i < 16 * 12; ++i) {
@@ -222,7 +231,8 @@ TEST_P(KnobSweep, everyKnobAtItsEndsDrawsAndShows) {
   }
   const std::vector<std::string> aovs{"warp", "shadow",       "lit",   "shadowed",
                                       "blur", "final-shadow", "color", "colorize"};
-  const auto draw = [&](const Look& look, const std::string& what, bool camera, bool behind) {
+  const auto draw = [&](const Scene& scene, const Look& look, const std::string& what, bool camera,
+                        bool behind) {
     std::vector<float> seen;
     Viewpoint viewpoint;
     const std::vector<View> views =
@@ -249,7 +259,8 @@ TEST_P(KnobSweep, everyKnobAtItsEndsDrawsAndShows) {
   const auto isOfTwoEyes = [&](const std::string& path) {
     return viewCount() == 1 && path.ends_with(".cyclopean");
   };
-  draw(Look(), "defaults", false, false);
+  draw(plain, Look(), "defaults", false, false);
+  draw(painted, Look(), "defaults", false, false);
   size_t count = 0;
   std::set<std::string> unseen;
   for (const Knob& knob : Look::knobs()) {
@@ -272,7 +283,8 @@ TEST_P(KnobSweep, everyKnobAtItsEndsDrawsAndShows) {
       ASSERT_TRUE(set.ok()) << knob.path << " = " << value << ": " << set.error().message();
       const bool behind = knob.path == "background.style" || knob.path == "background.simplify" ||
                           knob.path == "background.warp";
-      drawn.push_back(draw(look, knob.path + " = " + value, knob.path.starts_with("camera."), behind));
+      const Scene& scene = knob.path.starts_with("painting.") ? painted : plain;
+      drawn.push_back(draw(scene, look, knob.path + " = " + value, knob.path.starts_with("camera."), behind));
       ++count;
     }
     if (drawn.size() == 3 && drawn[1] == drawn[2]) unseen.insert(knob.path);
@@ -290,7 +302,7 @@ TEST_P(KnobSweep, everyKnobAtItsEndsDrawsAndShows) {
     Look look;
     for (const Knob& knob : Look::knobs())
       ASSERT_TRUE(look.set(settingPath(knob), most ? knob.max : knob.min).ok());
-    draw(look, most ? "all at their most" : "all at their least", false, false);
+    draw(painted, look, most ? "all at their most" : "all at their least", false, false);
   }
 }
 

@@ -43,6 +43,7 @@ class AnimatedScene {
                const std::vector<float>& times, const std::vector<float>& values);
 
   Scene load() const;  // fails the test on a warning
+  std::string text() const { return gltf_.gltf(); }
 
   Json& json() { return gltf_.json; }
 

@@ -163,6 +163,29 @@ int TestScene::addMesh(const TestMesh& mesh, int material) {
   return int(json()["meshes"].size()) - 1;
 }
 
+Json TestScene::primitiveOf(const TestStroke& stroke) {
+  std::vector<glm::vec4> colors(stroke.points.size(), stroke.color);
+  Json attributes = {
+      {"POSITION", gltf_.addFloats(floats(stroke.points), 3)},
+      {"COLOR_0", gltf_.addFloats(floats(colors), 4)},
+      {"_RADIUS", gltf_.addFloats(std::vector<float>(stroke.points.size(), stroke.radius), 1)}};
+  if (!stroke.times.empty()) attributes["_TIME"] = gltf_.addFloats(stroke.times, 1);
+  Json primitive = {{"attributes", attributes}, {"mode", 3}};
+  if (!stroke.brush.empty()) primitive["extras"]["scumble_brush"] = stroke.brush;
+  return primitive;
+}
+
+void TestScene::addStrokes(const std::vector<TestStroke>& strokes, const glm::mat4& matrix) {
+  json()["meshes"].push_back({{"primitives", Json::array()}});
+  paint(strokes);
+  addNode({{"mesh", int(json()["meshes"].size()) - 1}, {"matrix", numbers(matrix)}});
+}
+
+void TestScene::paint(const std::vector<TestStroke>& strokes) {
+  for (const TestStroke& stroke : strokes)
+    json()["meshes"].back()["primitives"].push_back(primitiveOf(stroke));
+}
+
 int TestScene::addNode(Json node) {
   json()["nodes"].push_back(std::move(node));
   const int index = int(json()["nodes"].size()) - 1;

@@ -36,6 +36,15 @@ TestMesh boxMesh(const glm::vec3& low, const glm::vec3& high);
 // Adds `part` to `mesh` in one colour, linear; `mesh` has colours only if all its parts do.
 void append(TestMesh& mesh, const TestMesh& part, const glm::vec4& color);
 
+// A stroke in space; colours and radii are the same all along it.
+struct TestStroke {
+  std::vector<glm::vec3> points;
+  float radius = 0.1f;            // metres
+  glm::vec4 color{1.0f};          // linear
+  std::string brush = {};         // empty: none is named
+  std::vector<float> times = {};  // seconds; empty: none are given
+};
+
 // A triangle where the world has it.
 struct WorldTriangle {
   glm::dvec3 positions[3], normals[3];
@@ -62,6 +71,9 @@ class TestScene {
   // Joints are nodes with these matrices, in the world; bind poses likewise.
   void addSkinned(const TestMesh& mesh, int material, const std::vector<glm::mat4>& joints,
                   const std::vector<glm::mat4>& inverseBind);
+  // Strokes as a node of their own, and on the mesh that was added last.
+  void addStrokes(const std::vector<TestStroke>& strokes, const glm::mat4& matrix = glm::mat4(1.0f));
+  void paint(const std::vector<TestStroke>& strokes);
   // A directional light that comes from there.
   void light(const glm::vec3& towards);
   // A clip that moves what was added last, which must lie where its mesh has it, along these places. Not in
@@ -77,6 +89,7 @@ class TestScene {
 
  private:
   int addMesh(const TestMesh& mesh, int material);
+  Json primitiveOf(const TestStroke& stroke);
   int addNode(Json node);
   void place(const TestMesh& mesh, const std::vector<glm::dmat4>& vertexMatrices, int id);
 

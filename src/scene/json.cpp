@@ -1,11 +1,11 @@
-#include "gltf/json.h"
+#include "scene/json.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "base/json_place.h"
 
-namespace scumble::gltf {
+namespace scumble::scene {
 
 namespace {
 
@@ -198,4 +198,4 @@ bool JsonView::numbers(const char* key, float* out, size_t count) const {
   return true;
 }
 
-}  // namespace scumble::gltf
+}  // namespace scumble::scene

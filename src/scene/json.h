@@ -9,9 +9,7 @@
 
 #include "scene/import_failure.h"
 
-namespace scumble::gltf {
-
-using namespace scene;
+namespace scumble::scene {
 
 using Json = nlohmann::json;
 
@@ -64,4 +62,4 @@ class JsonView {
   std::string path_;
 };
 
-}  // namespace scumble::gltf
+}  // namespace scumble::scene

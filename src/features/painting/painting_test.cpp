@@ -1,0 +1,433 @@
+// Strokes in space against a reference on the CPU in double precision, and what must hold of them: paint lies
+// in the order of depth, later strokes over earlier ones; surfaces hide and carry it; nothing pops.
+#include "features/painting/painting.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "features/painting/painting.shared.h"
+#include "features/painting/splats/bindings.h"
+#include "scene/import_warnings.h"
+#include "scene/splat_places.h"
+#include "tests/support/aov.h"
+#include "tests/support/render_test.h"
+
+namespace scumble::painting {
+namespace {
+
+using namespace test;
+
+constexpr int kWidth = 96, kHeight = 72;
+
+const Knobs kEven{{"painting.variation", "0"}};
+
+Look paintLook(Knobs knobs = {}) {
+  knobs.insert(knobs.begin(), kEven.begin(), kEven.end());
+  return quietLook(knobs);
+}
+
+// A swung stroke from one place to another.
+TestStroke swung(const glm::vec3& from, const glm::vec3& to, float radius, const glm::vec4& color,
+                 const std::string& brush = "") {
+  TestStroke stroke{{}, radius, color, brush};
+  for (int i = 0; i <= 12; ++i) {
+    const float t = float(i) / 12;
+    stroke.points.push_back(glm::mix(from, to, t) + glm::vec3(0, 0.12f, 0.1f) * std::sin(6 * t));
+  }
+  return stroke;
+}
+
+struct ReferenceSplat {
+  glm::dvec3 position, tangent;
+  double radius, order, spacing, opacity;
+  glm::dvec3 root;
+  bool isWash;
+};
+
+// All of a scene's strokes as they are painted where nothing carries them.
+std::vector<ReferenceSplat> referenceSplats(const scene::Painting& painting) {
+  std::vector<ReferenceSplat> splats;
+  std::vector<float> along;
+  std::vector<size_t> strokeOf;
+  for (size_t s = 0; s < painting.strokes.size(); ++s)
+    strokeOf.resize(strokeOf.size() + painting.strokes[s].pointCount, s);
+  for (const scene::SplatPlace& place : scene::splatPlaces(painting, along)) {
+    const scene::Stroke& stroke = painting.strokes[strokeOf[place.point]];
+    const auto position = [&](uint32_t i) { return glm::dvec3(painting.points[i].position); };
+    const auto tangent = [&](uint32_t i) {
+      const uint32_t last = stroke.firstPoint + stroke.pointCount - 1;
+      const glm::dvec3 t = position(std::min(i + 1, last)) - position(i > stroke.firstPoint ? i - 1 : i);
+      return glm::length(t) > 0 ? glm::normalize(t) : glm::dvec3(1, 0, 0);
+    };
+    const uint32_t next = place.point + (place.toNext > 0 ? 1 : 0);
+    const scene::StrokePoint &a = painting.points[place.point], &b = painting.points[next];
+    const double t = place.toNext;
+    const auto root = [](const scene::StrokePoint& p) {
+      return glm::round(255.0 * glm::sqrt(glm::dvec3(p.color))) / 255.0;
+    };
+    const double opacity = std::round(255.0 * glm::mix(double(a.color.a), double(b.color.a), t)) / 255;
+    splats.push_back({glm::mix(position(place.point), position(next), t),
+                      glm::mix(tangent(place.point), tangent(next), t),
+                      glm::mix(double(a.radius), double(b.radius), t),
+                      double(strokeOf[place.point] + 1) / double(painting.strokes.size()), place.spacing,
+                      opacity, glm::mix(root(a), root(b), t), stroke.brush == scene::Brush::wash});
+  }
+  return splats;
+}
+
+// Premultiplied, as the AOV has it. `viewer`: between the eyes.
+Texels reference(const std::vector<ReferenceSplat>& splats, const View& view, const glm::dvec3& viewer,
+                 double spacing, double order) {
+  Texels picture(kWidth, kHeight);
+  const glm::dmat4 toClip = glm::dmat4(view.eyeToClip) * glm::dmat4(view.worldToEye);
+  const glm::dvec2 size(kWidth, kHeight);
+  const double metresOfPixel = 2.0 / std::abs(double(view.eyeToClip[1][1])) / kHeight;
+  struct Drawn {
+    double distance;
+    const ReferenceSplat* splat;
+  };
+  std::vector<Drawn> drawn;
+  for (const ReferenceSplat& s : splats) {
+    const glm::dvec3 sight = glm::normalize(viewer - s.position);
+    drawn.push_back({glm::distance(viewer, s.position + sight * (order * s.radius * s.order)), &s});
+  }
+  std::stable_sort(drawn.begin(), drawn.end(),
+                   [](const Drawn& a, const Drawn& b) { return a.distance > b.distance; });
+  for (const Drawn& d : drawn) {
+    const ReferenceSplat& s = *d.splat;
+    const double away = glm::distance(viewer, s.position);
+    const glm::dvec3 sight = (viewer - s.position) / away, along = glm::normalize(s.tangent);
+    const double sine = std::max(glm::length(glm::cross(sight, along)), 0.15);
+    const double apart =
+        std::max(spacing, double(shared::kLeastPixels) * metresOfPixel * away / s.radius) / sine;
+    const double fade = glm::clamp(2 - apart / s.spacing, 0.0, 1.0);
+    if (fade <= 0) continue;
+    const auto project = [&](const glm::dvec3& p) {
+      const glm::dvec4 clip = toClip * glm::dvec4(p, 1);
+      return (glm::dvec2(clip) / clip.w + 1.0) * 0.5 * size;
+    };
+    const glm::dvec2 at = project(s.position);
+    const double depth = -(glm::dmat4(view.worldToEye) * glm::dvec4(s.position, 1)).z;
+    const double pixels = s.radius / (metresOfPixel * depth), drawnPixels = std::max(pixels, 0.5);
+    const double alpha =
+        (1 - std::pow(1 - std::min(s.opacity, 0.9995), std::min(apart, 1.0))) * fade * pixels / drawnPixels;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        const double out = glm::distance(glm::dvec2(x + 0.5, y + 0.5), at) / drawnPixels;
+        const double soft = std::max(1 - out * out, 0.0);
+        const double covers =
+            s.isWash ? 0.35 * soft * soft : glm::clamp((1 - out) * drawnPixels + 0.5, 0.0, 1.0);
+        if (covers <= 0) continue;
+        glm::dvec4& texel = picture.at(x, y);
+        texel = glm::dvec4(s.root, 1) * (covers * alpha) + texel * (1 - covers * alpha);
+      }
+  }
+  return picture;
+}
+
+class Paintings : public BothEyes {
+ protected:
+  static Frame drawn(const Scene& scene, const std::vector<View>& views, const Knobs& knobs = {},
+                     double time = 0) {
+    Result<Frame> frame =
+        renderer().render(scene, paintLook(knobs), time, views, sized(kWidth, kHeight, {"painting"}));
+    if (!frame) throw std::runtime_error(frame.error().message());
+    return std::move(frame).value();
+  }
+  static double covered(const Frame& frame, size_t view) {
+    double sum = 0;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) sum += texel(aov(frame, "painting", view), x, y).w;
+    return sum;
+  }
+  // The middle of what is painted, pixels.
+  static glm::dvec2 middle(const Frame& frame, size_t view) {
+    glm::dvec3 sum(0.0);
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x)
+        sum += texel(aov(frame, "painting", view), x, y).w * glm::dvec3(x + 0.5, y + 0.5, 1);
+    return glm::dvec2(sum) / sum.z;
+  }
+  static glm::dvec2 pixelOf(const View& view, const glm::dvec3& place) {
+    const glm::dvec4 clip = glm::dmat4(view.eyeToClip) * glm::dmat4(view.worldToEye) * glm::dvec4(place, 1);
+    return (glm::dvec2(clip) / clip.w + 1.0) * 0.5 * glm::dvec2(kWidth, kHeight);
+  }
+};
+INSTANTIATE_BOTH_EYES(Paintings);
+
+TEST_P(Paintings, areAsTheReferenceHasThem) {
+  TestScene s;
+  s.addStrokes({swung({-1.2f, 0, 0}, {1.2f, 0.3f, 0.4f}, 0.25f, {0.8f, 0.1f, 0.1f, 1}),
+                swung({-0.8f, -0.7f, 0.5f}, {0.9f, 0.8f, -0.5f}, 0.15f, {0.1f, 0.3f, 0.8f, 0.6f}),
+                swung({0.9f, -0.8f, -0.3f}, {-0.9f, 0.7f, 0.8f}, 0.3f, {0.2f, 0.7f, 0.2f, 0.9f}, "wash"),
+                swung({0, -0.9f, -1}, {0.1f, 0.2f, 1.5f}, 0.1f, {0.9f, 0.8f, 0.2f, 1})});
+  const Scene scene = s.load();
+  const scene::Painting& painting = *scene.data().meshes[0]->painting;
+  ASSERT_EQ(painting.strokes.size(), 4u);
+  const std::vector<ReferenceSplat> splats = referenceSplats(painting);
+  for (const glm::vec3& eye : {glm::vec3(0, 0, 4), glm::vec3(2.5f, 1.5f, -2), glm::vec3(0.5f, 3, 14)}) {
+    const auto views = viewsFrom(scene, {eye}, kWidth, kHeight, GetParam());
+    const Frame frame = drawn(scene, views, {{"painting.spacing", "0.4"}, {"painting.order", "0.7"}});
+    for (size_t v = 0; v < viewCount(); ++v) {
+      Texels expected = reference(splats, views[v], eye, 0.4, 0.7);
+      Difference paint(0.02);
+      double most = 0;
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+          const glm::dvec4 got = texel(aov(frame, "painting", v), x, y), want = expected.at(x, y);
+          for (int c = 0; c < 4; ++c) paint.add(got[c], want[c]);
+          most = std::max(most, want.w);
+        }
+      EXPECT_GT(most, 0.95);
+      // Splats at nearly one depth may be sorted otherwise.
+      EXPECT_LT(paint.beyondPart(), 0.004) << paint.text();
+      EXPECT_LT(paint.mean(), 0.001) << paint.text();
+    }
+  }
+}
+
+// What does not count at a distance is every second splat, then all but every fourth, and so on; there is one
+// at each end.
+TEST(Splats, lieEvenlyAndNested) {
+  scene::Painting painting;
+  scene::ImportWarnings warnings;
+  std::vector<scene::StrokePoint> points;
+  for (int i = 0; i < 40; ++i) {
+    scene::StrokePoint point;
+    point.position = glm::vec3(0.1f * float(i), 0, 0) + 0.05f * glm::vec3(0, std::sin(float(i)), 0);
+    point.radius = 0.05f + 0.004f * float(i);
+    points.push_back(point);
+  }
+  painting.add(scene::Brush::plain, points, "", warnings);
+  painting.add(scene::Brush::plain, {points[3]}, "", warnings);
+  painting.finish();
+  std::vector<float> along;
+  const std::vector<scene::SplatPlace> all = scene::splatPlaces(painting, along);
+  const auto places = [&](double least) {
+    std::vector<double> found;
+    for (const scene::SplatPlace& place : all) {
+      if (place.point >= 40 || place.spacing < least) continue;
+      const double next = place.point < 39 ? along[place.point + 1] : 0;
+      found.push_back(glm::mix(double(along[place.point]), next, double(place.toNext)));
+    }
+    return found;
+  };
+  EXPECT_GT(places(0).size(), 30u);
+  for (double spacing = scene::kSplatSpacing; spacing <= 4; spacing *= 2) {
+    const std::vector<double> found = places(spacing);
+    for (size_t i = 1; i + 1 < found.size(); ++i) EXPECT_NEAR(found[i] - found[i - 1], spacing, 1e-3);
+    EXPECT_EQ(found.front(), 0);
+    EXPECT_FLOAT_EQ(float(found.back()), along[39]);
+  }
+  EXPECT_EQ(all.back().point, 40u);
+  EXPECT_EQ(all.back().toNext, 0);
+}
+
+// Of two strokes at one place the later one is seen, from either side.
+TEST_P(Paintings, laterStrokesLieOverEarlierOnes) {
+  const glm::vec4 red(1, 0, 0, 1), blue(0, 0, 1, 1);
+  for (const bool redFirst : {true, false}) {
+    TestScene s;
+    const auto stroke = [&](const glm::vec4& color) { return swung({-1, 0, 0}, {1, 0, 0}, 0.3f, color); };
+    s.addStrokes(redFirst ? std::vector{stroke(red), stroke(blue)} : std::vector{stroke(blue), stroke(red)});
+    const Scene scene = s.load();
+    for (const float z : {4.0f, -4.0f}) {
+      const auto views = viewsFrom(scene, {{0, 0, z}}, kWidth, kHeight, GetParam());
+      const Frame frame = drawn(scene, views);
+      for (size_t v = 0; v < viewCount(); ++v) {
+        const glm::dvec4 got = texel(aov(frame, "painting", v), kWidth / 2, kHeight / 2);
+        EXPECT_NEAR(got.x, redFirst ? 0 : 1, 0.02);
+        EXPECT_NEAR(got.z, redFirst ? 1 : 0, 0.02);
+      }
+    }
+  }
+}
+
+// A wall hides what is behind it, but for strokes that have sunk into it by less than they may.
+TEST_P(Paintings, surfacesHideThem) {
+  for (const float depth : {0.05f, 0.6f}) {
+    TestScene s;
+    s.add(gridMesh({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}),
+          s.material(TestScene::colored("Wall", {0.5f, 0.5f, 0.5f, 1})));
+    s.addStrokes({{{{-1, 0, -depth}, {1, 0, -depth}}, 0.2f, {1, 0, 0, 1}}});
+    const Scene scene = s.load();
+    const auto views = viewsFrom(scene, {{0, 0, 4}}, kWidth, kHeight, GetParam());
+    const Frame frame = drawn(scene, views, {{"painting.sunken", "1"}});
+    const Frame strict = drawn(scene, views, {{"painting.sunken", "0"}});
+    for (size_t v = 0; v < viewCount(); ++v) {
+      if (depth < 0.2f)
+        EXPECT_GT(covered(frame, v), 100);
+      else
+        EXPECT_EQ(covered(frame, v), 0);
+      EXPECT_EQ(covered(strict, v), 0);
+    }
+  }
+}
+
+// A painting goes where its node does, and strokes on a mesh go where that is bent to.
+TEST_P(Paintings, goWithWhatCarriesThem) {
+  const TestStroke dab{{{-0.1f, 0.9f, 0.3f}, {0.1f, 0.9f, 0.3f}}, 0.08f, {1, 0, 0, 1}};
+  {
+    TestScene s;
+    const glm::mat4 place(0, 2, 0, 0, -2, 0, 0, 0, 0, 0, 2, 0, 0.5f, -0.3f, 0, 1);
+    s.addStrokes({dab}, place);
+    const Scene scene = s.load();
+    const auto views = viewsFrom(scene, {{0, 0, 8}}, kWidth, kHeight, GetParam());
+    const Frame frame = drawn(scene, views);
+    for (size_t v = 0; v < viewCount(); ++v) {
+      const glm::dvec3 expected(glm::dmat4(place) * glm::dvec4(0, 0.9, 0.3, 1));
+      EXPECT_LT(glm::distance(middle(frame, v), pixelOf(views[v], expected)), 0.2);
+    }
+  }
+  // The upper half of a bar is turned by a joint, a quarter around, and the dab at its upper end with it.
+  TestScene s;
+  TestMesh bar = gridMesh({-0.3f, -1, 0}, {0.6f, 0, 0}, {0, 2, 0}, 4);
+  for (const glm::vec3& p : bar.positions) {
+    bar.joints.push_back({p.y > 0 ? 1 : 0, 0, 0, 0});
+    bar.weights.push_back({1, 0, 0, 0});
+  }
+  const glm::mat4 one(1.0f), turned(0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0.2f, 0, 0, 1);
+  s.addSkinned(bar, s.material(TestScene::colored("Bar", {0.5f, 0.5f, 0.5f, 1})), {one, turned}, {one, one});
+  s.paint({dab});
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0, 0, 5}}, kWidth, kHeight, GetParam());
+  const Frame frame = drawn(scene, views);
+  for (size_t v = 0; v < viewCount(); ++v) {
+    const glm::dvec3 expected(glm::dmat4(turned) * glm::dvec4(0, 0.9, 0.3, 1));
+    EXPECT_LT(glm::distance(middle(frame, v), pixelOf(views[v], expected)), 0.5);
+  }
+}
+
+// At rest a stroke that a mesh carries lies where it was painted, however far out.
+TEST(PaintingBindings, giveBackTheirPoints) {
+  TestScene s;
+  s.add(sphereMesh({0.2f, 0.1f, 0}, 1, 12), -1);
+  const Scene scene = s.load();
+  scene::Painting painting;
+  scene::ImportWarnings warnings;
+  std::vector<scene::StrokePoint> points(50);
+  for (size_t i = 0; i < points.size(); ++i) {
+    const float t = float(i);
+    points[i].position = 1.7f * glm::vec3(std::sin(3 * t), std::cos(5 * t), std::sin(7 * t + 1));
+    points[i].radius = 0.1f;
+  }
+  painting.add(scene::Brush::plain, points, "", warnings);
+  const scene::Primitive& p = scene.data().meshes[0]->primitives[0];
+  const scene::Primitive* const primitives[] = {&p};
+  const std::vector<PointBinding> bindings = bindPoints(painting, primitives);
+  ASSERT_EQ(bindings.size(), points.size());
+  for (size_t i = 0; i < points.size(); ++i) {
+    const PointBinding& b = bindings[i];
+    const glm::dvec3 corners[] = {p.positions[b.vertices.x], p.positions[b.vertices.y],
+                                  p.positions[b.vertices.z]};
+    const double weights[] = {1.0 - b.at.x - b.at.y, b.at.x, b.at.y};
+    glm::dvec3 foot(0.0), normal(0.0);
+    for (int c = 0; c < 3; ++c) {
+      foot += weights[c] * corners[c];
+      normal += weights[c] * glm::dvec3(p.normals[b.vertices[c]]);
+    }
+    normal = glm::normalize(normal);
+    glm::dvec3 edge = corners[1] - corners[0];
+    edge = glm::normalize(edge - normal * glm::dot(normal, edge));
+    const glm::dvec3 back = foot + glm::dmat3(edge, glm::cross(normal, edge), normal) * glm::dvec3(b.offset);
+    EXPECT_LT(glm::distance(back, glm::dvec3(points[i].position)), 1e-5);
+    // No place of the surface is nearer: corners of all triangles, and their middles.
+    const double away = glm::distance(foot, glm::dvec3(points[i].position));
+    for (size_t t = 0; t < p.indices.size(); t += 3) {
+      glm::dvec3 sum(0.0);
+      for (size_t c = 0; c < 3; ++c) {
+        const glm::dvec3 corner(p.positions[p.indices[t + c]]);
+        EXPECT_GE(glm::distance(corner, glm::dvec3(points[i].position)), away - 1e-6);
+        sum += corner / 3.0;
+      }
+      EXPECT_GE(glm::distance(sum, glm::dvec3(points[i].position)), away - 1e-6);
+    }
+  }
+}
+
+// A painting paints itself: what was painted later is not there yet.
+TEST_P(Paintings, playAsTheyWerePainted) {
+  TestScene s;
+  s.addStrokes({{{{-1, 0, 0}, {1, 0, 0}}, 0.1f, {1, 0, 0, 1}, "", {2, 4}},
+                {{{-1, 0.6f, 0}, {1, 0.6f, 0}}, 0.1f, {0, 0, 1, 1}, "", {6, 7}}});
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0, 0, 4}}, kWidth, kHeight, GetParam());
+  const auto at = [&](double time, const char* speed) {
+    return drawn(scene, views, {{"painting.plays", "on"}, {"painting.speed", speed}}, time);
+  };
+  const Frame whole = drawn(scene, views), none = at(-0.1, "1"), half = at(1, "1"), one = at(3, "1"),
+              faster = at(0.5, "2"), all = at(6, "1");
+  for (size_t v = 0; v < viewCount(); ++v) {
+    EXPECT_EQ(covered(none, v), 0);
+    EXPECT_NEAR(covered(half, v) / covered(one, v), 0.5, 0.06);
+    EXPECT_EQ(covered(half, v), covered(faster, v));
+    EXPECT_NEAR(covered(one, v) / covered(whole, v), 0.5, 0.03);
+    EXPECT_EQ(covered(all, v), covered(whole, v));
+  }
+}
+
+// Painted colours are what they are, until strokes are to take light.
+TEST_P(Paintings, takeLight) {
+  TestScene s;
+  s.light({0, 0, 1});
+  s.add(sphereMesh({0, 0, 0}, 1, 32), s.material(TestScene::colored("Ball", {0.5f, 0.5f, 0.5f, 1})));
+  std::vector<TestStroke> strokes;
+  for (const float side : {1.0f, -1.0f})
+    strokes.push_back(
+        {{{-0.3f, 0.2f, 1.05f * side}, {0.3f, 0.2f, 1.05f * side}}, 0.2f, {0.5f, 0.5f, 0.5f, 1}});
+  s.paint(strokes);
+  const Scene scene = s.load();
+  for (const float z : {5.0f, -5.0f}) {
+    const auto views = viewsFrom(scene, {{0, 0, z}}, kWidth, kHeight, GetParam());
+    const Frame plain = drawn(scene, views), lit = drawn(scene, views, {{"painting.light", "1"}});
+    for (size_t v = 0; v < viewCount(); ++v) {
+      const auto at = [&](const Frame& frame) {
+        const glm::dvec2 place = pixelOf(views[v], {0, 0.2, 1.05 * (z > 0 ? 1 : -1)});
+        return texel(aov(frame, "painting", v), int(place.x), int(place.y));
+      };
+      ASSERT_GT(at(plain).w, 0.95);
+      EXPECT_NEAR(at(plain).x / at(plain).w, std::sqrt(0.5), 0.01);
+      if (z > 0)
+        EXPECT_GT(at(lit).x, at(plain).x - 0.1);
+      else
+        EXPECT_LT(at(lit).x, at(plain).x - 0.1);
+    }
+  }
+}
+
+// Going away from a painting, what it covers shrinks as the square of the distance, and never at once.
+TEST_P(Paintings, nothingPops) {
+  TestScene s;
+  s.addStrokes({swung({-1.2f, 0, 0}, {1.2f, 0.3f, 0.4f}, 0.2f, {0.8f, 0.1f, 0.1f, 1}),
+                swung({-0.8f, -0.7f, 0.5f}, {0.9f, 0.8f, -0.5f}, 0.12f, {0.1f, 0.3f, 0.8f, 0.5f}, "wash")});
+  const Scene scene = s.load();
+  std::vector<double> before;
+  for (int step = 0; step < 40; ++step) {
+    const float z = 4 * std::pow(1.03f, float(step));
+    const auto views = viewsFrom(scene, {{0, 0, z}}, kWidth, kHeight, GetParam());
+    const Frame frame = drawn(scene, views);
+    std::vector<double> now;
+    for (size_t v = 0; v < viewCount(); ++v) now.push_back(covered(frame, v) * double(z) * double(z));
+    for (size_t v = 0; v < before.size(); ++v) EXPECT_NEAR(now[v] / before[v], 1, 0.03) << z;
+    before = now;
+  }
+}
+
+// Strokes cost nothing where there are none, and a frame is the same whenever it is drawn.
+TEST_P(Paintings, framesArePure) {
+  TestScene s;
+  s.addStrokes({swung({-1, 0, 0}, {1, 0, 0}, 0.2f, {0.8f, 0.1f, 0.1f, 1}, "bristles")});
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0, 0, 4}}, kWidth, kHeight, GetParam());
+  const Frame first = drawn(scene, views);
+  drawn(scene, viewsFrom(scene, {{3, 1, 2}}, kWidth, kHeight, GetParam()));
+  expectSame(first, drawn(scene, views));
+  const Frame off = drawn(scene, views, {{"painting.shown", "off"}});
+  for (size_t v = 0; v < viewCount(); ++v) {
+    EXPECT_GT(covered(first, v), 50);
+    EXPECT_EQ(covered(off, v), 0);
+  }
+}
+
+}  // namespace
+}  // namespace scumble::painting

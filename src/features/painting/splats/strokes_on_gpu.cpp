@@ -1,0 +1,161 @@
+#include "features/painting/splats/strokes_on_gpu.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/tileable_noise.h"
+#include "scene/splat_places.h"
+#include "world/geometry.h"
+
+namespace scumble::painting {
+
+namespace {
+
+// Of a scene; more than that, and they lie farther apart.
+constexpr size_t kMostSplats = 4 << 20;
+uint32_t packNormal(glm::vec3 n) {
+  n /= std::max(std::abs(n.x) + std::abs(n.y) + std::abs(n.z), 1e-20f);
+  glm::vec2 oct(n);
+  if (n.z < 0) {
+    oct = {(1 - std::abs(n.y)) * (n.x >= 0 ? 1.0f : -1.0f), (1 - std::abs(n.x)) * (n.y >= 0 ? 1.0f : -1.0f)};
+  }
+  const auto snorm = [](float v) {
+    return uint32_t(uint16_t(int16_t(std::lround(std::clamp(v, -1.0f, 1.0f) * 32767))));
+  };
+  return snorm(oct.x) | snorm(oct.y) << 16;
+}
+
+uint32_t packColor(const glm::vec4& linear) {
+  const glm::vec4 root(glm::sqrt(glm::vec3(linear)), linear.a);
+  uint32_t packed = 0;
+  for (int c = 0; c < 4; ++c) packed |= uint32_t(std::lround(std::clamp(root[c], 0.0f, 1.0f) * 255)) << 8 * c;
+  return packed;
+}
+
+}  // namespace
+
+std::vector<DrawnPainting> paintingsOf(const scene::SceneData& scene) {
+  std::vector<DrawnPainting> drawn;
+  const std::vector<bool> shown = scene::shownNodes(scene);
+  for (size_t n = 0; n < scene.nodes.size(); ++n) {
+    const scene::Node& node = scene.nodes[n];
+    if (node.mesh < 0 || !shown[n]) continue;
+    const scene::Mesh& mesh = scene.meshes[size_t(node.mesh)];
+    if (!mesh.painting || mesh.painting->strokes.empty()) continue;
+    if (node.instances.empty()) drawn.push_back({n, 0, glm::mat4(1.0f), mesh.painting});
+    for (size_t i = 0; i < node.instances.size(); ++i)
+      drawn.push_back({n, i, node.instances[i], mesh.painting});
+  }
+  return drawn;
+}
+
+std::vector<std::vector<size_t>> StrokesOnGpu::carriers(const std::vector<GeometryItem>& items) const {
+  std::map<std::pair<size_t, size_t>, size_t> paintingOf;
+  for (size_t p = 0; p < paintings_.size(); ++p) paintingOf[{paintings_[p].node, paintings_[p].instance}] = p;
+  std::vector<std::vector<size_t>> carriers(paintings_.size());
+  for (size_t i = 0; i < items.size(); ++i) {
+    const auto found = paintingOf.find({items[i].node, items[i].instanceOfNode});
+    if (found != paintingOf.end() && items[i].primitive->indexCount() > 0)
+      carriers[found->second].push_back(i);
+  }
+  return carriers;
+}
+
+void StrokesOnGpu::find(const std::vector<GeometryItem>& items) {
+  std::map<std::pair<const scene::Painting*, Carrier>, std::vector<PointBinding>> found;
+  const std::vector<std::vector<size_t>> all = carriers(items);
+  for (size_t p = 0; p < paintings_.size(); ++p) {
+    if (all[p].empty()) continue;
+    Carrier carrier;
+    for (const size_t item : all[p]) carrier.push_back(items[item].primitive);
+    const std::pair key{paintings_[p].painting.get(), carrier};
+    if (found.contains(key)) continue;
+    const auto known = bindings_.find(key);
+    found[key] =
+        known != bindings_.end() ? std::move(known->second) : bindPoints(*paintings_[p].painting, carrier);
+  }
+  bindings_ = std::move(found);
+}
+
+bool StrokesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader,
+                          const std::vector<GeometryItem>& items, const std::vector<GeometryPlace>& places,
+                          const std::function<void()>& settle) {
+  std::vector<std::pair<const scene::Primitive*, uint32_t>> known;
+  for (size_t i = 0; i < items.size(); ++i) known.emplace_back(items[i].primitive, places[i].firstVertex);
+  if (points_.handle() && known == known_) return false;
+  known_ = std::move(known);
+  device.requireBindable(finalVertexCount(items, places) * sizeof(shared::VertexCore),
+                         "a painting in so large a scene");
+
+  float least = scene::kSplatSpacing;
+  std::map<const scene::Painting*, std::pair<std::vector<scene::SplatPlace>, std::vector<float>>> placesOf;
+  for (bool fits = false; !fits; least *= 2) {
+    size_t count = 0;
+    placesOf.clear();
+    for (const DrawnPainting& drawn : paintings_) {
+      auto& [splats, along] = placesOf[drawn.painting.get()];
+      if (splats.empty()) splats = scene::splatPlaces(*drawn.painting, along, least);
+      count += splats.size();
+    }
+    fits = count <= kMostSplats || least > 64;
+  }
+
+  const std::vector<std::vector<size_t>> all = carriers(items);
+  std::vector<shared::StrokePoint> points;
+  std::vector<shared::Splat> splats;
+  for (size_t p = 0; p < paintings_.size(); ++p) {
+    const scene::Painting& painting = *paintings_[p].painting;
+    const auto& [own, along] = placesOf.at(&painting);
+    const std::vector<PointBinding>* bindings = nullptr;
+    if (!all[p].empty()) {
+      Carrier carrier;
+      for (const size_t item : all[p]) carrier.push_back(items[item].primitive);
+      const auto found = bindings_.find({&painting, carrier});
+      if (found != bindings_.end() && !found->second.empty()) bindings = &found->second;
+    }
+    const auto first = uint32_t(points.size());
+    for (size_t s = 0; s < painting.strokes.size(); ++s) {
+      const scene::Stroke& stroke = painting.strokes[s];
+      const uint32_t last = stroke.firstPoint + stroke.pointCount - 1;
+      const uint32_t chance = hash(uint32_t(s) * 2654435761u + 17u) & 0xFFFF;
+      for (uint32_t i = stroke.firstPoint; i <= last; ++i) {
+        const scene::StrokePoint& from = painting.points[i];
+        shared::StrokePoint point{};
+        point.position = from.position;
+        point.radius = from.radius;
+        point.normal = packNormal(from.orientation * glm::vec3(0, 0, 1));
+        point.color = packColor(from.color);
+        point.time = from.time;
+        point.order = float(s + 1) / float(painting.strokes.size());
+        point.along = along[i];
+        point.whole = along[last];
+        point.flags = (i == stroke.firstPoint ? shared::kFirstOfStroke : 0) |
+                      (i == last ? shared::kLastOfStroke : 0) | uint32_t(stroke.brush) << 8 | chance << 16;
+        point.object = uint32_t(p);
+        point.vertices = glm::uvec3(shared::kUnbound);
+        if (bindings) {
+          const PointBinding& binding = (*bindings)[i];
+          point.position = binding.offset;
+          point.normal = packNormal({0, 0, 1});  // as the surface faces
+          point.vertices = binding.vertices + places[all[p][binding.primitive]].firstVertex;
+          point.at = binding.at;
+          point.size = binding.size;
+        }
+        points.push_back(point);
+      }
+    }
+    for (const scene::SplatPlace& place : own)
+      splats.push_back({first + place.point, place.toNext, place.spacing});
+  }
+  settle();
+  // What was there goes first.
+  points_ = {}, splats_ = {};
+  points_ = uploader.storage<shared::StrokePoint>(points);
+  splats_ = uploader.storage<shared::Splat>(splats);
+  device.requireBindable(std::max(points_.size(), splats_.size()), "so large a painting");
+  pointCount_ = uint32_t(points.size());
+  splatCount_ = uint32_t(splats.size());
+  return true;
+}
+
+}  // namespace scumble::painting

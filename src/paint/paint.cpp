@@ -1,0 +1,157 @@
+// From a glTF to the same with strokes.
+#include "scumble/paint.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/name_pattern.h"
+#include "base/usage.h"
+#include "base/whole_file.h"
+#include "gltf/add_strokes.h"
+#include "paint/mesh_strokes.h"
+#include "scene/import_failure.h"
+#include "scene/splat_places.h"
+#include "scumble/nearest.h"
+#include "scumble/scene.h"
+
+namespace scumble {
+
+namespace {
+
+using namespace paint;
+
+const StrokeStyle* styleOf(const std::string& name) {
+  for (const StrokeStyle& style : strokeStyles())
+    if (name == style.name) return &style;
+  return nullptr;
+}
+
+Status checkOptions(const PaintOptions& options) {
+  if (!styleOf(options.style)) {
+    std::vector<std::string> names;
+    std::string all;
+    for (const StrokeStyle& style : strokeStyles()) {
+      names.emplace_back(style.name);
+      all += (all.empty() ? "" : ", ") + names.back();
+    }
+    const std::string meant = nearest(options.style, names);
+    return usage("there is no style '" + options.style + "'",
+                 meant.empty() ? "there are: " + all : "did you mean '" + meant + "'?");
+  }
+  if (options.splats < 1 || options.splats > 4000000)
+    return usage("so many splats cannot be made", "give a number from 1 to 4000000");
+  if (options.size != 0 && !(options.size >= 0.001f && options.size <= 1))
+    return usage("the size is out of range", "give a part of the mesh's radius, from 0.001 to 1");
+  if (!(options.height <= 10)) return usage("the height is out of range", "give at most 10 radii");
+  if (!(options.variation >= 0 && options.variation <= 1))
+    return usage("the variation is out of range", "give a number from 0 to 1");
+  const float length = glm::length(options.direction);
+  if (!(length > 1e-6f) || !std::isfinite(length))
+    return usage("the direction points nowhere", "give three numbers like 0,-1,0");
+  return Done{};
+}
+
+// What is painted: each mesh once, as it stands at the first node that has it.
+struct Painted {
+  size_t mesh;
+  glm::mat4 world;
+  double area;  // world
+};
+
+std::vector<Painted> paintedOf(const scene::SceneData& scene, const std::string& nodes) {
+  std::vector<Painted> painted;
+  const std::vector<glm::mat4> world = scene::worldMatrices(scene);
+  for (size_t n = 0; n < scene.nodes.size(); ++n) {
+    const scene::Node& node = scene.nodes[n];
+    if (node.mesh < 0 || (!nodes.empty() && !matches(nodes, node.name))) continue;
+    const auto mesh = size_t(node.mesh);
+    if (std::any_of(painted.begin(), painted.end(), [&](const Painted& p) { return p.mesh == mesh; }))
+      continue;
+    // Joints place what is skinned, whatever its node does.
+    const glm::mat4 placed = node.skin >= 0 ? glm::mat4(1.0f) : world[n];
+    const double scale = std::cbrt(std::abs(double(glm::determinant(glm::mat3(placed)))));
+    painted.push_back({mesh, placed, paint::areaOf(scene.meshes[mesh]) * scale * scale});
+  }
+  return painted;
+}
+
+float radiusOf(const scene::Mesh& mesh) {
+  scene::Bounds box;
+  for (const scene::Primitive& p : mesh.primitives) box.add(p.extent.box);
+  return box.radius();
+}
+
+}  // namespace
+
+std::vector<PaintStyle> paintStyles() {
+  std::vector<PaintStyle> styles;
+  for (const StrokeStyle& style : strokeStyles()) styles.push_back({style.name, style.meaning});
+  return styles;
+}
+
+Result<PaintReport> paintScene(const std::string& path, const std::string& out, const PaintOptions& options) {
+  if (const Status status = checkOptions(options); !status) return status.error();
+  SceneOptions how;
+  how.allowOutside = options.allowOutside;
+  const Result<Scene> loaded = Scene::load(path, how);
+  if (!loaded) return loaded.error();
+  const scene::SceneData& scene = loaded->data();
+  const std::vector<Painted> painted = paintedOf(scene, options.nodes);
+  double area = 0;
+  for (const Painted& one : painted) area += one.area;
+  if (painted.empty() && !options.nodes.empty())
+    return usage("the scene has no node '" + options.nodes + "' with a mesh",
+                 "`scumble info` lists its nodes");
+  if (!(area > 0))
+    return Error{ErrorKind::unusableFile,      path, 0, "", "holds no surface that could be painted",
+                 "give a scene with triangles"};
+  const StrokeStyle& style = *styleOf(options.style);
+  PaintReport report;
+  report.warnings = loaded->warnings();
+  try {
+    std::vector<std::shared_ptr<const scene::Painting>> paintings(scene.meshes.size());
+    for (size_t i = 0; i < painted.size(); ++i) {
+      if (options.progress && !options.progress(double(i) / double(painted.size())))
+        return Error{ErrorKind::cancelled, "", 0, "", "painting was cancelled", ""};
+      const scene::Mesh& mesh = scene.meshes[painted[i].mesh];
+      const float radius = radiusOf(mesh);
+      MeshPaint how;
+      how.style = &style;
+      how.size = radius * (options.size > 0 ? options.size : style.size);
+      how.height = radius * (options.height >= 0 ? options.height : style.height);
+      how.splats = size_t(std::llround(double(options.splats) * painted[i].area / area));
+      how.flow = options.flow;
+      how.towards = glm::normalize(glm::inverse(glm::mat3(painted[i].world)) * options.direction);
+      how.variation = options.variation;
+      how.seed = options.seed;
+      scene::Painting painting = strokesOver(scene, mesh, how);
+      if (painting.strokes.empty()) continue;
+      std::vector<float> along;
+      ++report.meshes;
+      report.strokes += painting.strokes.size();
+      report.points += painting.points.size();
+      report.splats += scene::splatPlaces(painting, along).size();
+      paintings[painted[i].mesh] = std::make_shared<const scene::Painting>(std::move(painting));
+    }
+    scene::ImportWarnings warnings;
+    const std::vector<uint8_t> file = gltf::withStrokes(path, how, scene, paintings, warnings);
+    WholeFile target(out);
+    target.write(file.data(), file.size());
+    if (const Status status = target.commit(); !status) return status.error();
+  } catch (scene::ImportFailure& failure) {
+    failure.error.file = path;
+    return failure.error;
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorKind::unusableFile, path, 0, "", "needs more memory than there is",
+                 "ask for fewer splats"};
+  } catch (const std::exception& error) {
+    return Error{ErrorKind::internal,      path, 0, "", std::string("painting failed: ") + error.what(),
+                 "please report this file"};
+  }
+  if (options.progress) options.progress(1);
+  return report;
+}
+
+}  // namespace scumble
