@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/test_folder.h"
+#include "scene/painting.h"
 #include "scene/scene_data.h"
 #include "scumble/image.h"
 #include "scumble/scene.h"
@@ -453,6 +454,88 @@ TEST(Scene, progressAndCancelling) {
     EXPECT_EQ(calls, stopAt + 1) << "nobody asks again";
   }
   EXPECT_GT(calls, 10u);
+}
+
+// Strokes: LINE_STRIPs that say how wide they are. What is broken besides that is left out; other lines are.
+TEST(Scene, strokesAreRead) {
+  const auto scene = [](const std::function<void(TestGltf&, TestGltf::Json&)>& change) {
+    TestGltf gltf;
+    gltf.addQuad();
+    TestGltf::Json stroke = {{"mode", 3}, {"extras", {{"scumble_brush", "wash"}}}};
+    auto& attributes = stroke["attributes"];
+    attributes["POSITION"] = gltf.addFloats({0, 0, 1, 1, 0, 1, 1, 2, 1}, 3);
+    attributes["_RADIUS"] = gltf.addFloats({0.1f, 0.2f, 0.3f}, 1);
+    attributes["COLOR_0"] =
+        gltf.add(std::vector<uint8_t>{255, 0, 51, 255, 0, 0, 255, 0, 0}, 5121, "VEC3", 3, true);
+    attributes["_ORIENTATION"] = gltf.addFloats({0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1}, 4);
+    attributes["_TIME"] = gltf.addFloats({3, 4, 5}, 1);
+    change(gltf, stroke);
+    gltf.json["meshes"][0]["primitives"].push_back(stroke);
+    const std::string text = gltf.gltf();
+    return Scene::loadFromMemory(text.data(), text.size(), "strokes.gltf", "");
+  };
+  const auto whole = scene([](TestGltf&, TestGltf::Json&) {});
+  ASSERT_TRUE(whole) << whole.error().message();
+  EXPECT_TRUE(whole->warnings().empty());
+  ASSERT_TRUE(whole->data().meshes[0]->painting);
+  EXPECT_EQ(whole->data().meshes[0]->primitives.size(), 1u);
+  const Painting& painting = *whole->data().meshes[0]->painting;
+  ASSERT_EQ(painting.points.size(), 3u);
+  EXPECT_EQ(painting.strokes[0].brush, Brush::wash);
+  EXPECT_EQ(painting.points[2].position, glm::vec3(1, 2, 1));
+  EXPECT_FLOAT_EQ(painting.points[1].radius, 0.2f);
+  EXPECT_FLOAT_EQ(painting.points[0].color.b, 0.2f);
+  EXPECT_FLOAT_EQ(painting.points[0].color.a, 1);
+  EXPECT_FLOAT_EQ(painting.points[0].orientation.y, 1);
+  EXPECT_FLOAT_EQ(painting.points[1].orientation.w, 1);
+  EXPECT_FLOAT_EQ(painting.points[2].time, 2);
+  EXPECT_NEAR(painting.hull.extent.box.max.y, 2.3, 1e-6);
+
+  // One warning each, and the stroke stays.
+  const std::function<void(TestGltf&, TestGltf::Json&)> soft[] = {
+      [](TestGltf& g, TestGltf::Json& s) {
+        s["attributes"]["COLOR_0"] = g.addFloats({1, 1, 1, 1}, 4);
+      },
+      [](TestGltf& g, TestGltf::Json& s) {
+        s["attributes"]["_TIME"] = g.addFloats({1, 2, 3}, 3);
+      },
+      [](TestGltf&, TestGltf::Json& s) { s["attributes"]["_ORIENTATION"] = 99; },
+      [](TestGltf&, TestGltf::Json& s) { s["extras"]["scumble_brush"] = "broom"; },
+      [](TestGltf& g, TestGltf::Json& s) {
+        s["attributes"]["_RADIUS"] = g.addFloats({0.1f, 0, 0.2f}, 1);
+      },
+      [](TestGltf& g, TestGltf::Json& s) {
+        s["indices"] = g.addIndices({0, 1, 2});
+      }};
+  for (const auto& change : soft) {
+    const auto changed = scene(change);
+    ASSERT_TRUE(changed) << changed.error().message();
+    EXPECT_EQ(changed->warnings().size(), 1u);
+    EXPECT_TRUE(changed->data().meshes[0]->painting);
+  }
+  // Extras of others are theirs.
+  for (const TestGltf::Json& extras :
+       {TestGltf::Json(3), TestGltf::Json{{"scumble_brush", 7}}, TestGltf::Json::array()}) {
+    const auto changed = scene([&](TestGltf&, TestGltf::Json& s) { s["extras"] = extras; });
+    ASSERT_TRUE(changed);
+    EXPECT_TRUE(changed->warnings().empty());
+  }
+  // Lines without widths, and strokes that are nowhere, are left out.
+  const auto lines = scene([](TestGltf&, TestGltf::Json& s) { s["attributes"].erase("_RADIUS"); });
+  ASSERT_TRUE(lines);
+  EXPECT_FALSE(lines->data().meshes[0]->painting);
+  EXPECT_EQ(lines->warnings().size(), 1u);
+  const auto thin = scene([](TestGltf& g, TestGltf::Json& s) {
+    s["attributes"]["_RADIUS"] = g.addFloats({0, -1, 0}, 1);
+  });
+  ASSERT_TRUE(thin);
+  EXPECT_FALSE(thin->data().meshes[0]->painting);
+  EXPECT_EQ(thin->warnings().size(), 1u);
+  // What a stroke cannot do without must be sound.
+  EXPECT_FALSE(scene([](TestGltf& g, TestGltf::Json& s) {
+    s["attributes"]["_RADIUS"] = g.addFloats({1, 2}, 1);
+  }));
+  EXPECT_FALSE(scene([](TestGltf&, TestGltf::Json& s) { s["attributes"]["POSITION"] = 77; }));
 }
 
 }  // namespace

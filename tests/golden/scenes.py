@@ -81,7 +81,37 @@ def lamps():
     return g.text()
 
 
-SCENES = {"sphere": sphere, "alpha": alpha, "colours": colours, "lamps": lamps}
+def strokes():
+    """Strokes in space of every brush: on a ball that carries them, and in the air before it and behind it."""
+    g = Gltf()
+    g.floor(6, g.material("Ground", (0.7, 0.65, 0.55, 1)))
+    g.ball(1, g.material("Clay", (0.5, 0.22, 0.12, 1)), 24, 48, translation=(0, 1.2, 0))
+
+    def around(i, height, turn, radius, width, color, brush):
+        """A part of a helix on the ball's mesh."""
+        rows = []
+        for k in range(25):
+            a, y = turn + 0.09 * k, height + 0.012 * k
+            side = math.sqrt(max(radius * radius - y * y, 0.01))
+            rows.append((side * math.sin(a), y, side * math.cos(a)))
+        g.stroke(rows, width, color, brush, 0.1 * i)
+
+    for i in range(22):
+        shade = 0.35 + 0.03 * i
+        around(i, -0.8 + 0.07 * i, 2.4 * i, 1.03 + 0.004 * i, 0.13, (0.9 * shade, 0.5 * shade, 0.25 * shade, 1), "bristles")
+    for i in range(6):
+        around(30 + i, 0.1 * i, 1.05 * i, 1.1, 0.05, (0.95, 0.85, 0.6, 0.9), "plain")
+    g.json["meshes"].append({"primitives": []})
+    g.json["nodes"].append({"mesh": len(g.json["meshes"]) - 1})
+    g.json["scenes"][0]["nodes"].append(len(g.json["nodes"]) - 1)
+    for i, (brush, color) in enumerate((("wash", (0.2, 0.3, 0.6, 0.8)), ("spatter", (0.1, 0.35, 0.2, 1)), ("light", (1, 0.8, 0.3, 1)))):
+        z = (1.6, 0.4, -1.5)[i]
+        g.stroke([(-2.4 + 0.2 * k, 1.2 + 0.5 * i + 0.4 * math.sin(0.5 * k + i), z + 0.02 * k) for k in range(25)], 0.22, color, brush, 5 + i)
+    g.camera(8, 2.2, 0.5)
+    return g.text()
+
+
+SCENES = {"sphere": sphere, "alpha": alpha, "colours": colours, "lamps": lamps, "strokes": strokes}
 
 
 def backdrop():

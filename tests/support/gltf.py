@@ -51,6 +51,14 @@ class Gltf:
         self.json["nodes"].append({"mesh": len(self.json["meshes"]) - 1, "translation": translation})
         self.json["scenes"][0]["nodes"].append(len(self.json["nodes"]) - 1)
 
+    def stroke(self, positions, radius, color, brush, time=0):
+        """On the last mesh: a stroke in space of one colour, thin at its ends."""
+        n = len(positions)
+        ends = [radius * min(1, 0.2 + 4 * min(k, n - 1 - k) / n) for k in range(n)]
+        attributes = {"POSITION": self.accessor(positions, "VEC3"), "COLOR_0": self.accessor([color] * n, "VEC4"),
+                      "_RADIUS": self.accessor(ends, "SCALAR"), "_TIME": self.accessor([time + 0.01 * k for k in range(n)], "SCALAR")}
+        self.json["meshes"][-1]["primitives"].append({"attributes": attributes, "mode": 3, "extras": {"scumble_brush": brush}})
+
     def grid(self, rows, columns, point, material, color=None, translation=(0, 0, 0), repeat=(1, 1)):
         """point(u, v) gives position and normal, u and v in [0, 1]; repeat: units of texture coordinates along u and v."""
         coordinates = [(c / columns, r / rows) for r in range(rows + 1) for c in range(columns + 1)]

@@ -16,7 +16,7 @@ class PaintingFeature : public world::Feature {
   std::string_view material() const override { return ""; }
   std::shared_ptr<const world::FeaturePlan> plan(const scene::SceneData& scene,
                                                  const look::LookData& look) const override {
-    return mayShow(scene, look) ? std::make_shared<PaintingPlan>(paintingsOf(scene)) : nullptr;
+    return shownPaintings(scene, look) ? std::make_shared<PaintingPlan>(paintingsOf(scene)) : nullptr;
   }
   Switch onOff() const override {
     return {&PaintingParams::block(), "shown",
@@ -26,14 +26,11 @@ class PaintingFeature : public world::Feature {
 
 }  // namespace
 
-bool mayShow(const scene::SceneData& scene, const look::LookData& look) {
-  if (!look.get<PaintingParams>().shown) return false;
-  const std::vector<bool> shown = scene::shownNodes(scene);
-  for (size_t n = 0; n < scene.nodes.size(); ++n)
-    if (const int mesh = scene.nodes[n].mesh; mesh >= 0 && shown[n])
-      if (const auto& painting = scene.meshes[size_t(mesh)]->painting; painting && !painting->strokes.empty())
-        return true;
-  return false;
+uint32_t shownPaintings(const scene::SceneData& scene, const look::LookData& look) {
+  if (!look.get<PaintingParams>().shown) return 0;
+  const bool any = std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                               [](const scene::Mesh& mesh) { return bool(mesh.painting); });
+  return any ? uint32_t(paintingsOf(scene).size()) : 0;
 }
 
 frame::FeatureParts makeFeature() {

@@ -16,7 +16,7 @@ inline constexpr frame::Role kPaint{"paint"};
 std::unique_ptr<frame::Pass> makeSplats();
 std::unique_ptr<frame::Pass> makeOver();
 
-// Whether a scene's strokes are drawn under a look.
-bool mayShow(const scene::SceneData& scene, const look::LookData& look);
+// How many places of paintings a scene has that are drawn under a look.
+uint32_t shownPaintings(const scene::SceneData& scene, const look::LookData& look);
 
 }  // namespace scumble::painting

@@ -345,6 +345,34 @@ TEST(PaintingBindings, giveBackTheirPoints) {
   }
 }
 
+// Meshes that carry nothing, or hardly anything: without area, with edges of three triangles, far away from
+// their strokes, in one point.
+TEST_P(Paintings, oddCarriers) {
+  const TestStroke dab{{{-0.2f, 0, 0}, {0.2f, 0, 0}}, 0.15f, {1, 0, 0, 1}};
+  TestMesh flat = gridMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), fan = flat, far = flat, point = flat;
+  for (glm::vec3& p : flat.positions) p.x = 0, p.z = 0;
+  for (glm::vec3& p : point.positions) p = glm::vec3(0.3f);
+  for (glm::vec3& p : far.positions) p += glm::vec3(0, 0, -4e4f);
+  fan.positions.push_back({0, 0, -1}), fan.normals.push_back({0, 0, 1}), fan.uvs.push_back({0, 0});
+  for (const uint32_t index : {0u, 1u, 4u, 1u, 0u, 4u}) fan.indices.push_back(index);
+  for (const TestMesh& mesh : {flat, fan, far, point}) {
+    // Beside something to draw, for a mesh without any triangle is left out.
+    TestScene s;
+    s.add(gridMesh({5, 5, 0}, {1, 0, 0}, {0, 1, 0}), -1);
+    s.add(mesh, -1);
+    s.paint({dab, {{{0, 0.3f, 0.1f}}, 0.1f, {0, 1, 0, 1}}});
+    const std::string text = s.text();
+    const Result<Scene> scene = Scene::loadFromMemory(text.data(), text.size(), "odd.gltf", "");
+    ASSERT_TRUE(scene) << scene.error().message();
+    const auto views = viewsFrom(*scene, {{0, 0, 4}}, kWidth, kHeight, GetParam());
+    const Frame frame = drawn(*scene, views);
+    for (size_t v = 0; v < viewCount(); ++v) {
+      EXPECT_GT(covered(frame, v), 30);
+      for (const float value : aov(frame, "painting", v).pixels) EXPECT_TRUE(std::isfinite(value));
+    }
+  }
+}
+
 // A painting paints itself: what was painted later is not there yet.
 TEST_P(Paintings, playAsTheyWerePainted) {
   TestScene s;

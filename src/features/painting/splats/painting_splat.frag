@@ -17,6 +17,21 @@ layout(location = 4) flat in int inBrush;
 
 layout(location = 0) out vec4 outPaint;
 
+// Drops, at most one in each cell of a grid on the stroke.
+float dropsAt(vec2 onStroke) {
+  const float kCells = 2.2;  // a radius
+  vec2 place = kCells * onStroke, cell = floor(place);
+  uvec2 key = uvec2(ivec2(cell)) + uint(inStroke.w * 65536.0);
+  uint h = key.x * 0x9E3779B9u ^ key.y * 0x85EBCA6Bu;
+  h = (h ^ h >> 15) * 0x2C1B3C6Du;
+  h = (h ^ h >> 12) * 0x297A2D39u;
+  vec4 chance = unpackUnorm4x8(h ^ h >> 15);
+  float size = mix(0.08, 0.34, chance.z * chance.z);
+  vec2 middle = mix(vec2(size), vec2(1.0 - size), chance.xy);
+  float soft = kCells / max(inStroke.z, 1.0);
+  return 1.0 - smoothstep(size - soft, size + 0.01, distance(place - cell, middle));
+}
+
 void main() {
   float away = length(inPlace), pixels = inStroke.z;
   float covers = clamp((1.0 - away) * pixels + 0.5, 0.0, 1.0);
@@ -33,7 +48,7 @@ void main() {
   } else if (inBrush == kWash) {
     covers = 0.35 * soft * soft;
   } else if (inBrush == kSpatter) {
-    covers *= smoothstep(0.55, 0.65, mark);
+    covers *= dropsAt(onStroke);
   } else if (inBrush == kLight) {
     covers = soft * soft * soft;
   }

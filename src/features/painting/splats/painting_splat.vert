@@ -71,7 +71,10 @@ void main() {
   vec4 color = mix(unpackUnorm4x8(a.color), unpackUnorm4x8(b.color), splat.toNext);
   float apart = max(u.spacing, kLeastPixels * metresOfPixel(away, 0) / max(radius, 1e-30)) / max(sine, 0.15);
   float opacity = min(color.a * u.opacity, 0.9995);
-  color.a = (1.0 - pow(1.0 - opacity, clamp(apart, 0.0, 1.0))) * fade * thin;
+  float within = clamp(apart, 0.0, 1.0);
+  outBrush = int(a.flags >> 8 & 255u);
+  // Light is added: there it is their sum.
+  color.a = (outBrush == kLight ? opacity * within : 1.0 - pow(1.0 - opacity, within)) * fade * thin;
   uint chance = a.flags >> 16;
   color.rgb *= 1.0 + u.variation * (float(chance & 255u) / 255.0 - 0.5);
 
@@ -87,7 +90,6 @@ void main() {
   float fromStart = mix(a.along, b.along, splat.toNext);
   outStroke = vec4(fromStart, a.whole - fromStart, drawn, float(chance) / 65536.0);
   outDepth = vec2(depth, u.sunken * radius);
-  outBrush = int(a.flags >> 8 & 255u);
 
   bool isAhead = corner == 1 || corner == 2 || corner == 4, isUp = corner == 2 || corner == 4 || corner == 5;
   outPlace = vec2(isAhead ? 1.0 : -1.0, isUp ? 1.0 : -1.0) * (reach / drawn);

@@ -23,11 +23,12 @@ class Splats : public Pass {
   const char* name() const override { return "painting"; }
   std::span<const Aov> aovs() const override { return kAovs; }
   uint32_t variant(const scene::SceneData& scene, const look::LookData& look) const override {
-    return mayShow(scene, look) ? 1 + uint32_t(look.get<PaintingParams>().light > 0) : 0;
+    return 2 * shownPaintings(scene, look) + uint32_t(look.get<PaintingParams>().light > 0);
   }
 
   void declare(FrameBuilder& frame, uint32_t variant) override {
-    isShown_ = variant > 0, takesLight_ = variant > 1;
+    paintings_ = variant / 2, takesLight_ = variant & 1;
+    isShown_ = paintings_ > 0;
     configuration_ = frame.configuration();
     if (isShown_) {
       frame.step("painting-order", [this](VkCommandBuffer commands) { order(commands); });
@@ -49,7 +50,7 @@ class Splats : public Pass {
     frame_ = &frame;
     if (!isShown_) return;  // whoever asks for it gets none
     uniforms_ = frame.uniform(sizeof(shared::PaintingUniforms));
-    matrices_ = frame.uniform(std::max<size_t>(1, strokes().paintings().size()) * sizeof(glm::mat4));
+    matrices_ = frame.uniform(paintings_ * sizeof(glm::mat4));
     constexpr VkShaderStageFlags kPlaces = VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_VERTEX_BIT;
     std::vector<gpu::Binding> bindings(shared::kPaintingBindings,
                                        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kPlaces});
@@ -96,16 +97,16 @@ class Splats : public Pass {
                              frame_->samplers().get({VK_FILTER_NEAREST}));
     textures_.rewriteTexture(0, shared::kPaintingShadowMap, resources.image(shadowMap_).view(),
                              frame_->samplers().get({.compareLess = true}));
-    if (strokes().splatCount() == 0) return;
-    if (sort_.most() < strokes().splatCount())
-      sort_ = gpu::RadixSort(frame_->device(), strokes().splatCount());
-    const uint64_t placedBytes = strokes().pointCount() * sizeof(shared::PlacedPoint);
+    const StrokesOnGpu* const strokes = this->strokes();
+    if (!strokes || strokes->splatCount() == 0) return;
+    if (sort_.most() < strokes->splatCount()) sort_ = gpu::RadixSort(frame_->device(), strokes->splatCount());
+    const uint64_t placedBytes = strokes->pointCount() * sizeof(shared::PlacedPoint);
     if (placed_.size() < placedBytes)
       placed_ = gpu::Buffer(frame_->device(), placedBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                             gpu::MemoryKind::device);
-    set_.writeBuffer(0, shared::kPaintingPoints, strokes().points());
+    set_.writeBuffer(0, shared::kPaintingPoints, strokes->points());
     set_.writeBuffer(0, shared::kPaintingPlaced, placed_.handle());
-    set_.writeBuffer(0, shared::kPaintingSplats, strokes().splats());
+    set_.writeBuffer(0, shared::kPaintingSplats, strokes->splats());
     set_.writeBuffer(0, shared::kPaintingOrder, sort_.values().handle());
     set_.writeBuffer(0, shared::kPaintingKeys, sort_.keys().handle());
     set_.writeBuffer(0, shared::kPaintingVertices, frame_->scene().geometry().finalCore().handle());
@@ -127,8 +128,9 @@ class Splats : public Pass {
     uniforms_.write(u);
     auto* const matrices = reinterpret_cast<glm::mat4*>(matrices_.mapped);
     const std::vector<glm::mat4>& world = input.scene.motion().worldAsDrawn();
-    for (size_t p = 0; p < strokes().paintings().size(); ++p)
-      matrices[p] = world[strokes().paintings()[p].node] * strokes().paintings()[p].toNode;
+    const std::vector<DrawnPainting>& paintings = strokes()->paintings();
+    for (size_t p = 0; p < paintings.size(); ++p)
+      matrices[p] = world[paintings[p].node] * paintings[p].toNode;
     const ExampleTexture& bristles = frame_->examples().get(input.look, params.bristles);
     textures_.writeTexture(0, shared::kPaintingBristles, bristles.image.view(),
                            frame_->samplers().get(ExampleTextures::kSampler));
@@ -137,8 +139,10 @@ class Splats : public Pass {
  private:
   static constexpr Aov kAovs[] = {{.name = "painting"}};
 
-  const StrokesOnGpu& strokes() const {
-    return static_cast<const PaintingMoment*>(frame_->scene().feature(kName)->moment)->strokes();
+  // Null where the scene, as it is now, has none: these passes are about to go then.
+  const StrokesOnGpu* strokes() const {
+    const auto here = frame_->scene().feature(kName);
+    return here ? &static_cast<const PaintingMoment*>(here->moment)->strokes() : nullptr;
   }
 
   void order(VkCommandBuffer commands) const {
@@ -151,9 +155,9 @@ class Splats : public Pass {
       constexpr uint32_t kThreads = shared::kPaintingThreads;
       gpu::dispatch(commands, (count + kThreads - 1) / kThreads);
     };
-    run(pointsPipeline_, strokes().pointCount());
-    run(keysPipeline_, strokes().splatCount());
-    sort_.record(commands, strokes().splatCount());
+    run(pointsPipeline_, strokes()->pointCount());
+    run(keysPipeline_, strokes()->splatCount());
+    sort_.record(commands, strokes()->splatCount());
   }
 
   void record(VkCommandBuffer commands) const {
@@ -165,12 +169,13 @@ class Splats : public Pass {
       drawPipeline_.bindSet(commands, 1, set_[0]);
       drawPipeline_.bindSet(commands, 2, textures_[0]);
       drawPipeline_.push(commands, firstView);
-      vkCmdDraw(commands, 6 * strokes().splatCount(), 1, 0, 0);
+      vkCmdDraw(commands, 6 * strokes()->splatCount(), 1, 0, 0);
     });
   }
 
   FrameBuilder* frame_ = nullptr;
   Configuration configuration_;
+  uint32_t paintings_ = 0;
   bool isShown_ = false, takesLight_ = false;
   UniformSlice uniforms_, matrices_;
   gpu::Handle placedBuffer_, depth_, shadowMap_;

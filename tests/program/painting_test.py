@@ -1,0 +1,120 @@
+#!/usr/bin/env python3
+"""Paintings in space: files of other programs, strokes for meshes, and mistakes that people make with both.
+
+    tests/program/painting_test.py SCUMBLE DEMO_SCENE [unittest's options]     as program_test.py
+"""
+import io
+import json
+import struct
+import unittest
+import zipfile
+
+import program_test
+from program_test import NOT_WRITTEN, TINY, UNUSABLE, USAGE, Program, gltf, png
+
+OIL = "c515dad7-4393-4681-81ad-162ef052241b"
+
+
+def sketch(strokes=1, cut=None, nan=False):
+    """data.sketch of Tilt Brush: strokes of three points, in decimetres, a second each."""
+    data = struct.pack("<IiiIi", 0xC576A5CD, 5, 0, 0, strokes)
+    for s in range(strokes):
+        data += struct.pack("<i4ffIIi", 0, 0.9, 0.2, 0.1, 1, 3, 0, 3, 3)
+        for i in range(3):
+            x = float("nan") if nan else 5.0 * i
+            data += struct.pack("<7ffI", x, 4.0 * s, 0, 0, 0, 0, 1, 1, 1000 * (3 * s + i))
+    return data[:cut]
+
+
+class Case(Program):
+    def tilt(self, data=None, metadata=None, name="bird.tilt"):
+        packed = io.BytesIO()
+        with zipfile.ZipFile(packed, "w") as file:
+            file.writestr("metadata.json", metadata or json.dumps({"BrushIndex": [OIL]}))
+            file.writestr("data.sketch", sketch() if data is None else data)
+        self.put(name, struct.pack("<4sHHQ", b"tilT", 16, 1, 0) + packed.getvalue())
+
+    def reds(self, name):
+        _, _, channels, rows = png(self.folder / name)
+        return sum(row[i] > 1.6 * max(row[i + 1:i + 3]) for row in rows for i in range(0, len(row), channels))
+
+
+class Files(Case):
+    def test_a_tilt_is_a_scene(self):
+        self.tilt(data=sketch(2))
+        about = json.loads(self.good("info", "bird.tilt", "--json"))
+        self.assertEqual((about["strokes"], about["points"], about["brushes"]), (2, 6, ["OilPaint"]))
+        self.assertEqual(about["meshes"], 1)
+        for i in range(3):
+            self.assertAlmostEqual(about["bounds"]["max"][i], (1.15, 0.55, 0.15)[i], 4)
+        self.good("render", "bird.tilt", "-o", "bird.png", *TINY)
+        self.assertGreater(self.reds("bird.png"), 20)
+        self.good("render", "bird.tilt", "-o", "two.png", "--stereo", "side-by-side", *TINY)
+        self.good("render", "box.gltf", "bird.tilt", "--place", "bird:at=0,2,0", "-o", "both.png", *TINY)
+
+    def test_as_a_folder(self):
+        self.put("bird.tilt/metadata.json", json.dumps({"BrushIndex": [OIL]}))
+        self.put("bird.tilt/data.sketch", sketch())
+        self.good("render", "bird.tilt", "-o", "bird.png", *TINY)
+        (self.folder / "bird.tilt/metadata.json").unlink()
+        (self.folder / "bird.png").unlink()
+        self.bad(UNUSABLE, "render", "bird.tilt", "-o", "x.png", *TINY, says="metadata.json")
+
+    def test_what_cannot_be_used(self):
+        for data, says in ((sketch(cut=90), "data.sketch, byte"), (b"", "ends too early"), (sketch(0), "nothing to draw"),
+                           (sketch(nan=True), "nothing to draw")):
+            self.tilt(data=data)
+            self.bad(UNUSABLE, "render", "bird.tilt", "-o", "x.png", *TINY, says=says)
+        self.tilt(metadata="{}")
+        self.bad(UNUSABLE, "info", "bird.tilt", says="BrushIndex")
+        self.put("bird.tilt", b"tilT")
+        self.bad(UNUSABLE, "info", "bird.tilt")
+
+    def test_it_paints_itself(self):
+        self.tilt(data=sketch(3))
+        counts = []
+        for time in ("0.5", "2", "9"):
+            self.good("render", "bird.tilt", "-o", "x.png", "--time", time, "--set", "painting.plays=on", *TINY)
+            counts.append(self.reds("x.png"))
+        self.assertLess(counts[0], counts[1])
+        self.assertLess(counts[1], counts[2])
+
+
+class Paint(Case):
+    def test_strokes_for_a_mesh(self):
+        said = self.good("paint", "box.gltf", "-o", "painted.glb", "--splats", "2000", "--style", "fur", warnings=True)
+        self.assertIn("strokes", said)
+        about = json.loads(self.good("info", "painted.glb", "--json"))
+        self.assertGreater(about["strokes"], 10)
+        self.assertEqual(about["triangles"], 12)
+        self.good("render", "painted.glb", "-o", "x.png", *TINY)
+        self.good("render", "painted.glb", "-o", "y.png", "--set", "painting.shown=off", *TINY)
+        self.different(*((self.folder / name).read_bytes() for name in ("x.png", "y.png")))
+
+    def test_the_same_call_gives_the_same_bytes(self):
+        for name in ("a.glb", "b.glb"):
+            self.good("paint", "box.gltf", "-o", name, "--splats", "1000", "--quiet")
+        self.same(*((self.folder / name).read_bytes() for name in ("a.glb", "b.glb")))
+        self.good("paint", "box.gltf", "-o", "b.glb", "--splats", "1000", "--seed", "1", "--quiet")
+        self.different(*((self.folder / name).read_bytes() for name in ("a.glb", "b.glb")))
+
+    def test_the_default_name(self):
+        self.good("paint", "box.gltf", "--splats", "100", warnings=True)
+        self.assertTrue((self.folder / "box.painted.glb").exists())
+
+    def test_mistakes(self):
+        self.tilt()
+        for args, code, says in (
+                (["box.gltf", "--style", "furr"], USAGE, "did you mean 'fur'?"), (["box.gltf", "--splats", "0"], USAGE, "splats"),
+                (["box.gltf", "--stroke", "0"], USAGE, "paints nothing"), (["box.gltf", "--height", "-1"], USAGE, "below 0"),
+                (["box.gltf", "--flow", "wind"], USAGE, "curvature or direction"), (["box.gltf", "--direction", "1,2"], USAGE, "0,-1,0"),
+                (["box.gltf", "-o", "x.png"], USAGE, "painted.glb"), (["box.gltf", "-o", "x.gltf"], USAGE, "painted.glb"),
+                (["box.gltf", "--nodes", "Cat"], USAGE, "Cat"), (["bird.tilt"], UNUSABLE, "surface"), (["none.glb"], UNUSABLE, "none.glb"),
+                ([], USAGE, "SCENE")):
+            self.bad(code, "paint", *args, says=says)
+        self.put("x.glb", gltf())
+        self.bad(NOT_WRITTEN, "paint", "x.glb", "-o", "x.glb", says="one of the inputs")
+
+
+if __name__ == "__main__":
+    program_test.main()
