@@ -21,6 +21,9 @@ struct PaintArguments {
   std::string scene, out, direction, flow = "curvature";
   PaintOptions options;
   std::optional<float> size, height;
+  LookArguments look;
+  bool underLook = false;
+  std::string device;
   bool quiet = false;
 };
 
@@ -47,6 +50,22 @@ int run(const PaintArguments& args) {
     return failUsage("a painting cannot go into '" + out + "'", "name it like painted.glb");
   OutputFiles files({args.scene});
   if (const Status status = files.add(out, "-o"); !status) return fail(status.error());
+  // Colours of a look are drawn.
+  std::optional<Look> look;
+  std::unique_ptr<Renderer> renderer;
+  if (!args.underLook && (!args.look.look.empty() || !args.look.settings.empty() || !args.device.empty()))
+    return failUsage("a look counts for nothing without --under-look", "add that, or leave the look out");
+  if (args.underLook) {
+    Result<Look> loaded = args.look.load(args.scene, args.quiet);
+    if (!loaded) return fail(loaded.error());
+    look = std::move(loaded).value();
+    RendererOptions how;
+    how.device = args.device, how.cacheFolder = cacheFolder();
+    Result<std::unique_ptr<Renderer>> made = Renderer::create(how);
+    if (!made) return fail(made.error());
+    renderer = std::move(made).value();
+    options.renderer = renderer.get(), options.look = &*look;
+  }
   constexpr int kSteps = 100;
   std::optional<Progress> progress;
   int done = 0;
@@ -99,6 +118,15 @@ void addPaint(CLI::App& program, int& exitCode) {
       ->type_name("X,Y,Z");
   command->add_option("--variation", args->options.variation, "Of colours, sizes and directions, 0 to 1")
       ->capture_default_str();
+  command->add_flag("--under-look", args->underLook,
+                    "Take colours from the picture under the look, light and shadow with them, and not from "
+                    "the mesh's materials");
+  command->add_option("--look", args->look.look, "With --under-look: as of `scumble render`");
+  command->add_option("--set", args->look.settings, "With --under-look: any knob; repeatable")
+      ->type_name("PATH=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--device", args->device, "With --under-look: which GPU draws")
+      ->type_name("NAME|N|cpu");
   command->add_option("--nodes", args->options.nodes,
                       "Paint the meshes of these nodes alone (a name or pattern)");
   command->add_option("--seed", args->options.seed, "Another one gives other strokes")->capture_default_str();

@@ -12,6 +12,9 @@
 
 namespace scumble {
 
+class Look;
+class Renderer;
+
 // A way of laying strokes.
 struct PaintStyle {
   std::string name, meaning;
@@ -36,6 +39,10 @@ struct PaintOptions {
   glm::vec3 direction{0, -1, 0};
   float variation = 0.5f;  // of colours, sizes and directions: 0 to 1
   uint32_t seed = 0;
+  // Where both are there, colours are those that this look gives to the scene at rest, drawn from all around;
+  // else those of the surface's materials.
+  Renderer* renderer = nullptr;
+  const Look* look = nullptr;
   std::string nodes;          // names of nodes, with * and ?: their meshes alone; empty: all
   bool allowOutside = false;  // SceneOptions has it
   Progress progress = {};

@@ -194,7 +194,9 @@ class Writer {
     for (const Primitive& p : own.primitives)
       if (p.influences > 0) skinned.push_back(&p);
     const NearestPlaces places(skinned);
-    const size_t targets = own.morphWeights.size();
+    size_t targets = 0;
+    for (const Json& other : mesh["primitives"])
+      if (other.contains("targets")) targets = std::max(targets, other["targets"].size());
     for (const Stroke& stroke : painting.strokes) {
       Json primitive = {{"mode", 3}, {"extras", {{"scumble_brush", nameOf(stroke.brush)}}}};
       glm::vec3 low(std::numeric_limits<float>::max()), high(-low);

@@ -488,7 +488,7 @@ TEST(Scene, strokesAreRead) {
   EXPECT_FLOAT_EQ(painting.points[0].color.a, 1);
   EXPECT_FLOAT_EQ(painting.points[0].orientation.y, 1);
   EXPECT_FLOAT_EQ(painting.points[1].orientation.w, 1);
-  EXPECT_FLOAT_EQ(painting.points[2].time, 2);
+  EXPECT_FLOAT_EQ(painting.points[2].time, 5);
   EXPECT_NEAR(painting.hull.extent.box.max.y, 2.3, 1e-6);
 
   // One warning each, and the stroke stays.

@@ -1,6 +1,7 @@
 #include "gltf/strokes.h"
 
 #include <algorithm>
+#include <string_view>
 
 namespace scumble::gltf {
 
@@ -26,7 +27,9 @@ bool readOptional(const Import& import, const JsonView& attributes, const char* 
                   size_t count, std::vector<float>& numbers, float otherwise, ImportWarnings& warnings) {
   if (!attributes.has(semantic)) return false;
   try {
-    const Accessor accessor = opened(import, attributes, semantic, least, most, count);
+    Accessor accessor = opened(import, attributes, semantic, least, most, count);
+    // Whole numbers are colours of which the largest is 1, whether or not the file says so.
+    if (std::string_view(semantic) == "COLOR_0") accessor.normalized |= accessor.type != ComponentType::f32;
     numbers.assign(count * size_t(most), otherwise);
     readFloats(accessor, {}, most, numbers.data());
     return true;

@@ -37,7 +37,8 @@ class Chance {
 
 class Surface {
  public:
-  Surface(const scene::SceneData& scene, const scene::Mesh& mesh, const MeshPaint& paint) : scene_(scene) {
+  Surface(const scene::SceneData& scene, const scene::Mesh& mesh, const MeshPaint& paint)
+      : scene_(scene), colors_(paint.colors), posed_(paint.posed) {
     for (const scene::Primitive& p : mesh.primitives) primitives_.push_back(&p);
     places_ = std::make_unique<scene::NearestPlaces>(primitives_);
     if (places_->isEmpty()) return;
@@ -64,8 +65,12 @@ class Surface {
     return place;
   }
 
-  // Square root of what the material has there.
+  // Square root of what the look makes of it, or else of what the material has there.
   glm::vec3 rootAt(const scene::NearestPlaces::Place& at) const {
+    if (colors_)
+      if (const std::optional<glm::vec3> seen = colors_->rootAt(at.mixed(posed_->positions[at.primitive]),
+                                                                at.mixed(posed_->normals[at.primitive])))
+        return *seen;
     const scene::Primitive& p = *primitives_[at.primitive];
     const scene::Material& material = scene_.materials[size_t(p.material)];
     glm::vec3 root = glm::sqrt(glm::clamp(glm::vec3(material.baseColor), 0.0f, 1.0f));
@@ -85,6 +90,8 @@ class Surface {
 
  private:
   const scene::SceneData& scene_;
+  const LookColors* colors_;
+  const PosedMesh* posed_;
   std::vector<const scene::Primitive*> primitives_;
   std::unique_ptr<scene::NearestPlaces> places_;
   DirectionField field_;
@@ -214,7 +221,7 @@ scene::Painting lay(const Surface& surface, const scene::Mesh& mesh, const MeshP
   for (const StrokeLayer& layer : paint.style->layers) shares += layer.share;
 
   scene::ImportWarnings warnings;
-  float time = 0;
+  float time = paint.begin;
   for (size_t l = 0; l < paint.style->layers.size(); ++l) {
     const StrokeLayer& layer = paint.style->layers[l];
     // How many strokes: each is about as long as the style says.

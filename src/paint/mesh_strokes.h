@@ -1,6 +1,7 @@
 // Strokes over one mesh.
 #pragma once
 
+#include "paint/look_colors.h"
 #include "paint/stroke_styles.h"
 #include "scene/painting.h"
 #include "scumble/paint.h"
@@ -16,6 +17,10 @@ struct MeshPaint {
   glm::vec3 towards{0, -1, 0};  // mesh space
   float variation = 0;
   uint32_t seed = 0;
+  float begin = 0;  // seconds: when the first stroke is painted
+  // Where there are colours of a look, the mesh as it was drawn; else null.
+  const LookColors* colors = nullptr;
+  const PosedMesh* posed = nullptr;
 };
 
 // Empty where the mesh has no triangles with an area.

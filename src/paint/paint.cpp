@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <optional>
 
 #include "base/name_pattern.h"
 #include "base/usage.h"
@@ -12,6 +14,7 @@
 #include "gltf/add_strokes.h"
 #include "paint/mesh_strokes.h"
 #include "scene/import_failure.h"
+#include "scene/posed_bounds.h"
 #include "scene/splat_places.h"
 #include "scumble/nearest.h"
 #include "scumble/scene.h"
@@ -53,28 +56,49 @@ Status checkOptions(const PaintOptions& options) {
   return Done{};
 }
 
-// What is painted: each mesh once, as it stands at the first node that has it.
+// What is painted: each mesh once, as it stands at the node where it is largest.
 struct Painted {
-  size_t mesh;
+  size_t mesh, node;
   glm::mat4 world;
   double area;  // world
 };
 
+// Where a node puts its mesh at rest; of what joints place, about.
+glm::mat4 placeOf(const scene::SceneData& scene, const std::vector<glm::mat4>& world, size_t n) {
+  const scene::Node& node = scene.nodes[n];
+  if (node.skin < 0) return world[n];
+  glm::mat4 sum(0.0f);
+  const std::vector<glm::mat4> joints = scene::jointMatrices(scene.skins[size_t(node.skin)], world);
+  for (const glm::mat4& joint : joints) sum += joint / float(joints.size());
+  return joints.empty() ? glm::mat4(1.0f) : sum;
+}
+
 std::vector<Painted> paintedOf(const scene::SceneData& scene, const std::string& nodes) {
-  std::vector<Painted> painted;
+  std::map<size_t, Painted> largest;  // by mesh
   const std::vector<glm::mat4> world = scene::worldMatrices(scene);
   for (size_t n = 0; n < scene.nodes.size(); ++n) {
     const scene::Node& node = scene.nodes[n];
     if (node.mesh < 0 || (!nodes.empty() && !matches(nodes, node.name))) continue;
     const auto mesh = size_t(node.mesh);
-    if (std::any_of(painted.begin(), painted.end(), [&](const Painted& p) { return p.mesh == mesh; }))
-      continue;
-    // Joints place what is skinned, whatever its node does.
-    const glm::mat4 placed = node.skin >= 0 ? glm::mat4(1.0f) : world[n];
+    const glm::mat4 placed = placeOf(scene, world, n);
     const double scale = std::cbrt(std::abs(double(glm::determinant(glm::mat3(placed)))));
-    painted.push_back({mesh, placed, paint::areaOf(scene.meshes[mesh]) * scale * scale});
+    const Painted here{mesh, n, placed, scale * scale};
+    const auto [known, isNew] = largest.try_emplace(mesh, here);
+    if (!isNew && here.area > known->second.area) known->second = here;
+  }
+  std::vector<Painted> painted;
+  for (const auto& [mesh, here] : largest) {
+    painted.push_back(here);
+    painted.back().area *= paint::areaOf(scene.meshes[mesh]);
   }
   return painted;
+}
+
+// A direction in the world as a mesh has it.
+glm::vec3 towardsIn(const glm::mat4& placed, const glm::vec3& direction) {
+  const glm::vec3 own = glm::inverse(glm::mat3(placed)) * direction;
+  const float length = glm::length(own);
+  return length > 0 && std::isfinite(length) ? own / length : glm::normalize(direction);
 }
 
 float radiusOf(const scene::Mesh& mesh) {
@@ -107,11 +131,21 @@ Result<PaintReport> paintScene(const std::string& path, const std::string& out, 
   if (!(area > 0))
     return Error{ErrorKind::unusableFile,      path, 0, "", "holds no surface that could be painted",
                  "give a scene with triangles"};
+  std::optional<LookColors> colors;
+  if (options.renderer && options.look) {
+    Result<LookColors> made = LookColors::make(*options.renderer, *loaded, *options.look);
+    if (!made) return made.error();
+    colors = std::move(made).value();
+  }
   const StrokeStyle& style = *styleOf(options.style);
   PaintReport report;
   report.warnings = loaded->warnings();
   try {
     std::vector<std::shared_ptr<const scene::Painting>> paintings(scene.meshes.size());
+    // After all that is painted already.
+    float clock = 0;
+    for (const scene::Mesh& mesh : scene.meshes)
+      if (mesh.painting) clock = std::max(clock, mesh.painting->duration);
     for (size_t i = 0; i < painted.size(); ++i) {
       if (options.progress && !options.progress(double(i) / double(painted.size())))
         return Error{ErrorKind::cancelled, "", 0, "", "painting was cancelled", ""};
@@ -123,11 +157,15 @@ Result<PaintReport> paintScene(const std::string& path, const std::string& out, 
       how.height = radius * (options.height >= 0 ? options.height : style.height);
       how.splats = size_t(std::llround(double(options.splats) * painted[i].area / area));
       how.flow = options.flow;
-      how.towards = glm::normalize(glm::inverse(glm::mat3(painted[i].world)) * options.direction);
+      how.towards = towardsIn(painted[i].world, options.direction);
       how.variation = options.variation;
       how.seed = options.seed;
+      how.begin = clock;
+      const PosedMesh posed = colors ? posedAtRest(scene, painted[i].node) : PosedMesh();
+      if (colors) how.colors = &*colors, how.posed = &posed;
       scene::Painting painting = strokesOver(scene, mesh, how);
       if (painting.strokes.empty()) continue;
+      clock = painting.duration;
       std::vector<float> along;
       ++report.meshes;
       report.strokes += painting.strokes.size();
@@ -137,6 +175,9 @@ Result<PaintReport> paintScene(const std::string& path, const std::string& out, 
     }
     scene::ImportWarnings warnings;
     const std::vector<uint8_t> file = gltf::withStrokes(path, how, scene, paintings, warnings);
+    for (const std::string& line : warnings.lines(path))
+      if (std::find(report.warnings.begin(), report.warnings.end(), line) == report.warnings.end())
+        report.warnings.push_back(line);
     WholeFile target(out);
     target.write(file.data(), file.size());
     if (const Status status = target.commit(); !status) return status.error();

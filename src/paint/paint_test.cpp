@@ -15,6 +15,7 @@
 #include "scene/painting.h"
 #include "scene/splat_places.h"
 #include "tests/support/animated_scene.h"
+#include "tests/support/render_test.h"
 #include "tests/support/test_scene.h"
 
 namespace scumble::paint {
@@ -28,6 +29,8 @@ struct Files {
   TestFolder folder;
   std::string scene, out = folder.file("out.glb");
 };
+
+class PaintUnderLook : public RenderTest {};
 
 TestScene ball() {
   TestScene s;
@@ -142,6 +145,33 @@ TEST(Paint, coloursComeFromTheSurface) {
     if (std::abs(first.position.x) < 0.4f) continue;
     EXPECT_EQ(first.color.r > first.color.b, first.position.x < 0);
   }
+}
+
+// Under a look they are those of its picture: light on one side, shadow on the other.
+TEST_F(PaintUnderLook, coloursComeFromThePicture) {
+  TestScene s = ball();
+  s.light({1, 0, 0});
+  const Files files(s.text());
+  PaintOptions options;
+  options.splats = 5000;
+  options.variation = 0;
+  const Look look = quietLook();
+  options.renderer = &renderer(), options.look = &look;
+  ASSERT_TRUE(paintScene(files.scene, files.out, options));
+  const Result<Scene> scene = Scene::load(files.out);
+  ASSERT_TRUE(scene);
+  const scene::Painting& painting = *scene->data().meshes[0]->painting;
+  double lit = 0, shadowed = 0;
+  size_t litCount = 0, shadowedCount = 0;
+  for (const scene::Stroke& stroke : painting.strokes) {
+    const scene::StrokePoint& first = painting.points[stroke.firstPoint];
+    const float side = first.position.x - 0.5f;
+    if (side > 1) lit += first.color.r, ++litCount;
+    if (side < -1) shadowed += first.color.r, ++shadowedCount;
+  }
+  ASSERT_GT(litCount, 10u);
+  ASSERT_GT(shadowedCount, 10u);
+  EXPECT_GT(lit / double(litCount), 1.25 * shadowed / double(shadowedCount));
 }
 
 // Joints, morph targets, clips and what else a file has stay, painted twice, too; and every mesh whose node

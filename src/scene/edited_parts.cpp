@@ -180,6 +180,7 @@ MaterialDesc descOf(const Material& material) {
 Mesh meshOf(const std::vector<MeshPart>& parts, const SceneData& scene, const Mesh* before) {
   if (parts.empty()) fail("mesh", "it has no parts", "give one at least");
   Mesh mesh;
+  if (before) mesh.painting = before->painting;  // its strokes stay
   ImportWarnings warnings;
   for (size_t i = 0; i < parts.size(); ++i) {
     const Check check("part " + std::to_string(i) + " of the mesh");

@@ -2,6 +2,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <cmath>
 #include <new>
 
@@ -98,15 +99,20 @@ struct NearestPlaces::Tree {
 
 NearestPlaces::NearestPlaces(std::span<const Primitive* const> primitives)
     : primitives_(primitives.begin(), primitives.end()) {
-  for (uint32_t p = 0; p < primitives_.size(); ++p) {
-    const Primitive& primitive = *primitives_[p];
-    if (primitive.positions.empty()) continue;
-    for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
-      const Triangle triangle{p, {primitive.indices[i], primitive.indices[i + 1], primitive.indices[i + 2]}};
-      const glm::vec3& a = corner(triangle, 0);
-      const glm::vec3 twice = glm::cross(corner(triangle, 1) - a, corner(triangle, 2) - a);
-      if (glm::dot(twice, twice) > 0) triangles_.push_back(triangle);
+  // Slivers, whose areas are roundings, only where there is nothing else.
+  constexpr float kSliver = 1e-4f;
+  for (const float least : {kSliver, 0.0f}) {
+    for (uint32_t p = 0; p < primitives_.size(); ++p) {
+      const Primitive& primitive = *primitives_[p];
+      if (primitive.positions.empty()) continue;
+      for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+        const Triangle t{p, {primitive.indices[i], primitive.indices[i + 1], primitive.indices[i + 2]}};
+        const glm::vec3 ab = corner(t, 1) - corner(t, 0), ac = corner(t, 2) - corner(t, 0), bc = ac - ab;
+        const float longest2 = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)});
+        if (glm::length(glm::cross(ab, ac)) > least * longest2) triangles_.push_back(t);
+      }
     }
+    if (!triangles_.empty()) break;
   }
   if (!triangles_.empty()) tree_ = std::make_unique<Tree>(*this);
 }

@@ -45,23 +45,24 @@ void Painting::add(Brush brush, std::vector<StrokePoint> added, const std::strin
   points.insert(points.end(), added.begin(), added.end());
 }
 
+void Painting::beginAtZero() {
+  float first = points.empty() ? 0.0f : points[0].time;
+  for (const StrokePoint& p : points) first = std::min(first, p.time);
+  for (StrokePoint& p : points) p.time -= first;
+}
+
 void Painting::finish() {
   Bounds box;
-  std::vector<glm::vec3> positions;
-  positions.reserve(points.size());
-  float first = points.empty() ? 0.0f : points[0].time, last = first;
+  duration = 0;
   for (const StrokePoint& p : points) {
     box.add(p.position - p.radius);
     box.add(p.position + p.radius);
-    positions.push_back(p.position);
-    first = std::min(first, p.time), last = std::max(last, p.time);
+    hull.positions.push_back(p.position);
+    duration = std::max(duration, p.time);
   }
-  for (StrokePoint& p : points) p.time -= first;
-  duration = last - first;
-  hull.positions = std::move(positions);
   hull.extent = extentOf(hull);
   hull.extent.box = box;
-  hull.positions.clear();
+  hull.positions = {};
 }
 
 }  // namespace scumble::scene

@@ -50,7 +50,9 @@ struct Painting {
 
   // Adds a stroke with all points that number something; what is wrong with the others is warned of.
   void add(Brush brush, std::vector<StrokePoint> points, const std::string& path, ImportWarnings& warnings);
-  // Once all are there: the hull; times from 0 on.
+  // Lets times begin at 0.
+  void beginAtZero();
+  // Once all are there: the hull, and how long it took.
   void finish();
 };
 

@@ -13,7 +13,8 @@ namespace scumble::scene {
 
 namespace {
 
-constexpr uint64_t kMaxDrawnTriangles = 1ull << 28;  // instances and repeated meshes included
+// Instances and repeated meshes included.
+constexpr uint64_t kMaxDrawnTriangles = 1ull << 28, kMaxDrawnStrokePoints = 1ull << 22;
 
 // A mesh's box, and how far each of its morph targets can move it.
 struct MeshBox {
@@ -106,10 +107,17 @@ void placeScene(SceneData& scene, ImportWarnings& warnings) {
 
   // Boxes of nodes, in the world.
   std::map<std::pair<int, int>, Bounds> skinned;  // by mesh and skin: the node's place does not matter
-  uint64_t drawn = 0;
+  uint64_t drawn = 0, strokePoints = 0;
   for (Node& node : scene.nodes) {
     if (node.mesh < 0) continue;
     const Mesh& mesh = scene.meshes[node.mesh];
+    if (mesh.painting) {
+      strokePoints += mesh.painting->points.size() * std::max<uint64_t>(1, node.instances.size());
+      if (strokePoints > kMaxDrawnStrokePoints)
+        fail("nodes",
+             "strokes of more than " + std::to_string(kMaxDrawnStrokePoints) + " points would be drawn",
+             "reduce the instances or the strokes");
+    }
     drawn += trianglesOf(mesh) * (node.skin >= 0 ? 1 : std::max<uint64_t>(1, node.instances.size()));
     if (drawn > kMaxDrawnTriangles)
       fail("nodes", "more than " + std::to_string(kMaxDrawnTriangles) + " triangles would be drawn",

@@ -20,4 +20,7 @@ constexpr float kSplatSpacing = 0.25f;
 std::vector<SplatPlace> splatPlaces(const Painting& painting, std::vector<float>& along,
                                     float least = kSplatSpacing);
 
+// How many there are between the ends of strokes, without finding them.
+double splatCount(const Painting& painting, float least);
+
 }  // namespace scumble::scene

@@ -28,7 +28,12 @@ Bounds boundsOf(const SceneData& scene, const Node& node, const Pose& pose,
     else
       for (const glm::mat4& instance : node.instances) place(pose.world[n] * instance);
   }
-  if (mesh.painting) bounds.add(posedBounds(mesh.painting->hull.extent, pose.world[n], {}, {}));
+  // What bends carries its strokes along, and tells where they are.
+  if (!mesh.painting || node.skin >= 0) return bounds;
+  const PrimitiveExtent& strokes = mesh.painting->hull.extent;
+  if (node.instances.empty()) bounds.add(posedBounds(strokes, pose.world[n], {}, {}));
+  for (const glm::mat4& instance : node.instances)
+    bounds.add(posedBounds(strokes, pose.world[n] * instance, {}, {}));
   return bounds;
 }
 

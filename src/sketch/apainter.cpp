@@ -29,12 +29,10 @@ class Brushes {
     return known_[index];
   }
   void tell(Painting& painting, ImportWarnings& warnings) const {
-    for (size_t b = 0; b < names_.size(); ++b) {
-      if (!isUsed_[b]) continue;
-      painting.brushes.push_back(names_[b]);
-      if (!*known_[b].name)
-        warnings.add("brushes", "a brush that is not known is taken for a plain one: " + names_[b]);
-    }
+    std::vector<UsedBrush> used;
+    for (size_t b = 0; b < names_.size(); ++b)
+      if (isUsed_[b]) used.push_back({names_[b], *known_[b].name != 0});
+    tellBrushes(used, painting, warnings);
   }
 
  private:
@@ -95,6 +93,7 @@ Painting readApainter(Bytes file, ImportWarnings& warnings) {
   if (reader.left() > 0)
     warnings.add(reader.path(), fmt::format("{} bytes after the last stroke are ignored", reader.left()));
   brushes.tell(painting, warnings);
+  painting.beginAtZero();
   painting.finish();
   return painting;
 }
@@ -134,6 +133,7 @@ Painting readApainterJson(Bytes file, ImportWarnings& warnings) {
     painting.add(brush.brush, std::move(points), stroke.path(), warnings);
   }
   brushes.tell(painting, warnings);
+  painting.beginAtZero();
   painting.finish();
   return painting;
 }

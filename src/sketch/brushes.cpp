@@ -117,4 +117,22 @@ std::optional<KnownBrush> apainterBrush(std::string_view name) {
   return find(kApainter, name);
 }
 
+void tellBrushes(const std::vector<UsedBrush>& used, scene::Painting& painting,
+                 scene::ImportWarnings& warnings) {
+  constexpr size_t kMostNamed = 4, kLongest = 60;
+  std::string unknown;
+  size_t count = 0;
+  for (const UsedBrush& brush : used) {
+    painting.brushes.push_back(brush.name);
+    if (brush.isKnown) continue;
+    if (count < kMostNamed) unknown += (count > 0 ? ", " : "") + brush.name.substr(0, kLongest);
+    ++count;
+  }
+  if (count > kMostNamed) unknown += " and " + std::to_string(count - kMostNamed) + " more";
+  if (count > 0)
+    warnings.add("brushes", (count > 1 ? "brushes that are not known are taken for plain ones: "
+                                       : "a brush that is not known is taken for a plain one: ") +
+                                unknown);
+}
+
 }  // namespace scumble::sketch

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/srgb.h"
+#include "scene/import_warnings.h"
 #include "scene/painting.h"
 
 namespace scumble::sketch {
@@ -22,6 +25,14 @@ struct KnownBrush {
 std::optional<KnownBrush> tiltBrush(std::string_view guid);
 // By its name in A-Painter.
 std::optional<KnownBrush> apainterBrush(std::string_view name);
+
+// Of a painting whose brushes these are: tells their names, and warns once of all that are not known.
+struct UsedBrush {
+  std::string name;
+  bool isKnown = true;
+};
+void tellBrushes(const std::vector<UsedBrush>& used, scene::Painting& painting,
+                 scene::ImportWarnings& warnings);
 
 // A channel of a colour as both programs store it, sRGB.
 inline float linearOf(float srgb) {

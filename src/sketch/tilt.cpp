@@ -110,12 +110,11 @@ Painting readTilt(Bytes metadata, Bytes sketch, ImportWarnings& warnings) {
   }
   if (reader.left() > 0)
     warnings.add(reader.path(), fmt::format("{} bytes after the last stroke are ignored", reader.left()));
-  for (size_t b = 0; b < brushes.size(); ++b) {
-    if (!isUsed[b]) continue;
-    painting.brushes.push_back(brushes[b].name);
-    if (!*brushes[b].known.name)
-      warnings.add("metadata.json", "a brush that is not known is taken for a plain one: " + brushes[b].name);
-  }
+  std::vector<UsedBrush> used;
+  for (size_t b = 0; b < brushes.size(); ++b)
+    if (isUsed[b]) used.push_back({brushes[b].name, *brushes[b].known.name != 0});
+  tellBrushes(used, painting, warnings);
+  painting.beginAtZero();
   painting.finish();
   return painting;
 }

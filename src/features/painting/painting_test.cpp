@@ -98,9 +98,8 @@ Texels reference(const std::vector<ReferenceSplat>& splats, const View& view, co
     const double away = glm::distance(viewer, s.position);
     const glm::dvec3 sight = (viewer - s.position) / away, along = glm::normalize(s.tangent);
     const double sine = std::max(glm::length(glm::cross(sight, along)), 0.15);
-    const double apart =
-        std::max(spacing, double(shared::kLeastPixels) * metresOfPixel * away / s.radius) / sine;
-    const double fade = glm::clamp(2 - apart / s.spacing, 0.0, 1.0);
+    const double apart = std::max(spacing, double(shared::kLeastPixels) * metresOfPixel * away / s.radius);
+    const double fade = glm::clamp(2 - apart / sine / s.spacing, 0.0, 1.0);
     if (fade <= 0) continue;
     const auto project = [&](const glm::dvec3& p) {
       const glm::dvec4 clip = toClip * glm::dvec4(p, 1);
@@ -109,8 +108,8 @@ Texels reference(const std::vector<ReferenceSplat>& splats, const View& view, co
     const glm::dvec2 at = project(s.position);
     const double depth = -(glm::dmat4(view.worldToEye) * glm::dvec4(s.position, 1)).z;
     const double pixels = s.radius / (metresOfPixel * depth), drawnPixels = std::max(pixels, 0.5);
-    const double alpha =
-        (1 - std::pow(1 - std::min(s.opacity, 0.9995), std::min(apart, 1.0))) * fade * pixels / drawnPixels;
+    const double alpha = (1 - std::pow(1 - std::min(s.opacity, 0.9995), std::min(0.5 * apart, 1.0))) * fade *
+                         pixels / drawnPixels;
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x) {
         const double out = glm::distance(glm::dvec2(x + 0.5, y + 0.5), at) / drawnPixels;
@@ -184,6 +183,77 @@ TEST_P(Paintings, areAsTheReferenceHasThem) {
       EXPECT_LT(paint.mean(), 0.001) << paint.text();
     }
   }
+}
+
+// A stroke is as opaque as its file says, from wherever it is seen.
+TEST_P(Paintings, areAsOpaqueAsTheyShouldBe) {
+  for (const float opacity : {0.3f, 0.7f}) {
+    TestScene s;
+    s.addStrokes({{{{-3, 0, 0}, {3, 0, 0}}, 0.4f, {0.8f, 0.1f, 0.1f, opacity}}});
+    const Scene scene = s.load();
+    for (const float angle : {90.0f, 60.0f, 30.0f}) {
+      const float turn = glm::radians(angle);
+      const auto views = viewsFrom(scene, {5.0f * glm::vec3(std::cos(turn), 0, std::sin(turn))}, kWidth,
+                                   kHeight, GetParam());
+      const Frame frame = drawn(scene, views, {{"painting.spacing", "0.25"}});
+      for (size_t v = 0; v < viewCount(); ++v)
+        EXPECT_NEAR(texel(aov(frame, "painting", v), kWidth / 2, kHeight / 2).w, opacity, 0.07) << angle;
+    }
+  }
+}
+
+// Over nothing, paint that lets through keeps its colour.
+TEST_P(Paintings, keepTheirColorOverNothing) {
+  TestScene s;
+  s.addStrokes({{{{-3, 0, 0}, {3, 0, 0}}, 0.4f, {0.2f, 0.5f, 0.8f, 0.5f}}});
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0, 0, 5}}, kWidth, kHeight, GetParam());
+  RenderOptions options = sized(kWidth, kHeight);
+  options.transparent = true;
+  const Frame frame = draw(scene, paintLook(), views, options);
+  for (size_t v = 0; v < viewCount(); ++v) {
+    const glm::dvec4 got = texel(frame.layers[0].views[v], kWidth / 2, kHeight / 2);
+    EXPECT_NEAR(got.w, 0.5, 0.07);
+    EXPECT_NEAR(got.x, 0.2, 0.01);
+    EXPECT_NEAR(got.y, 0.5, 0.01);
+    EXPECT_NEAR(got.z, 0.8, 0.01);
+  }
+}
+
+// What lies behind the viewer, or before what a camera shows, is not drawn.
+TEST_P(Paintings, nothingBehindTheViewer) {
+  TestScene s;
+  s.addStrokes({{{{-1, 0, 9}, {1, 0, 9}}, 0.4f, {1, 0, 0, 1}}});
+  const Scene scene = s.load();
+  const Frame frame = drawn(scene, std::vector<View>(viewCount(), parallelView(2, float(kWidth) / kHeight)));
+  for (size_t v = 0; v < viewCount(); ++v) EXPECT_EQ(covered(frame, v), 0);
+}
+
+// A mirrored mesh mirrors its strokes, those beyond its edge, too.
+TEST_P(Paintings, mirroredMeshesMirrorThem) {
+  const TestStroke beyond{{{1.3f, 0.4f, 0.1f}, {1.5f, 0.4f, 0.1f}}, 0.1f, {1, 0, 0, 1}};
+  TestScene s;
+  s.add(gridMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 2), -1,
+        glm::mat4(-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1));
+  s.paint({beyond});
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0, 0, 6}}, kWidth, kHeight, GetParam());
+  const Frame frame = drawn(scene, views);
+  for (size_t v = 0; v < viewCount(); ++v)
+    EXPECT_LT(glm::distance(middle(frame, v), pixelOf(views[v], {-1.4, 0.4, 0.1})), 0.3);
+}
+
+// Hairs of no width to speak of, however long: no more splats than a scene may have.
+TEST_P(Paintings, hairsCostNoMoreThanTheyMay) {
+  TestScene s;
+  std::vector<TestStroke> hairs(40, {{{-1, 0, 0}, {1, 0, 0}}, 1e-30f, {1, 0, 0, 1}});
+  hairs.push_back({{{-1, 0, 0}, {1, 0, 0}}, 0.2f, {1, 0, 0, 1}});
+  s.addStrokes(hairs);
+  const Scene scene = s.load();
+  EXPECT_LT(scene::splatCount(*scene.data().meshes[0]->painting, scene::kSplatSpacing), 4e7);
+  const auto views = viewsFrom(scene, {{0, 0, 4}}, kWidth, kHeight, GetParam());
+  const Frame frame = drawn(scene, views);
+  for (size_t v = 0; v < viewCount(); ++v) EXPECT_GT(covered(frame, v), 50);
 }
 
 // What does not count at a distance is every second splat, then all but every fourth, and so on; there is one
@@ -376,8 +446,8 @@ TEST_P(Paintings, oddCarriers) {
 // A painting paints itself: what was painted later is not there yet.
 TEST_P(Paintings, playAsTheyWerePainted) {
   TestScene s;
-  s.addStrokes({{{{-1, 0, 0}, {1, 0, 0}}, 0.1f, {1, 0, 0, 1}, "", {2, 4}},
-                {{{-1, 0.6f, 0}, {1, 0.6f, 0}}, 0.1f, {0, 0, 1, 1}, "", {6, 7}}});
+  s.addStrokes({{{{-1, 0, 0}, {1, 0, 0}}, 0.1f, {1, 0, 0, 1}, "", {0, 2}},
+                {{{-1, 0.6f, 0}, {1, 0.6f, 0}}, 0.1f, {0, 0, 1, 1}, "", {4, 5}}});
   const Scene scene = s.load();
   const auto views = viewsFrom(scene, {{0, 0, 4}}, kWidth, kHeight, GetParam());
   const auto at = [&](double time, const char* speed) {

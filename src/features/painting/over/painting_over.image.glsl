@@ -24,8 +24,10 @@ vec4 shade(ivec2 pixel, int layer) {
   }
   if (over.a <= 0.0) return color;
   float rest = color.a * (1.0 - over.a), covered = over.a + rest;
-  vec3 root = (over.rgb + sqrt(max(color.rgb, vec3(0.0))) * rest) / max(covered, 1e-6);
-  return vec4(root * root, covered);
+  // The picture is multiplied by its coverage; square roots of colours are mixed as they are.
+  vec3 behind = sqrt(max(color.rgb, vec3(0.0)) / max(color.a, 1e-6));
+  vec3 root = (over.rgb + behind * rest) / max(covered, 1e-6);
+  return vec4(root * root * covered, covered);
 }
 
 #include "../../../shading/image_pass.glsl"

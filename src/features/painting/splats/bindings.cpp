@@ -20,7 +20,9 @@ PointBinding bound(const scene::StrokePoint& point, const scene::NearestPlaces::
   glm::vec3 edge = b - a;
   edge -= normal * glm::dot(normal, edge);
   edge *= 1 / std::sqrt(std::max(glm::dot(edge, edge), 1e-30f));
-  const glm::mat3 toFrame = glm::transpose(glm::mat3(edge, glm::cross(normal, edge), normal));
+  // On the side that a mirrored triangle has mirrored, too.
+  const float hand = glm::dot(face, normal) < 0 ? -1.0f : 1.0f;
+  const glm::mat3 toFrame = glm::transpose(glm::mat3(edge, hand * glm::cross(normal, edge), normal));
   PointBinding binding;
   binding.primitive = place.primitive;
   binding.vertices = place.vertices;

@@ -21,8 +21,9 @@ mat3 frameOf(StrokePoint point, out vec3 foot, out float scale) {
   vec3 edge = b.position - a.position;
   edge -= normal * dot(normal, edge);
   edge *= inversesqrt(max(dot(edge, edge), 1e-30));
-  scale = sqrt(length(face)) / max(point.size, 1e-20);
-  return mat3(edge, cross(normal, edge), normal);
+  scale = clamp(sqrt(length(face)) / max(point.size, 1e-20), 1e-3, 1e3);
+  float hand = dot(face, normal) < 0.0 ? -1.0 : 1.0;  // mirrored triangles mirror what they carry
+  return mat3(edge, hand * cross(normal, edge), normal);
 }
 
 struct Place {

@@ -46,7 +46,8 @@ void main() {
   vec3 position = mix(from.position, to.position, splat.toNext), along = mix(from.tangent, to.tangent, splat.toNext);
   float radius = mix(from.radius, to.radius, splat.toNext);
   vec4 clip = VIEW_FIELD(worldToClip, view) * vec4(position, 1.0);
-  if (clip.w <= 1e-6) return;
+  // Before the near plane, behind the viewer, or beyond what is drawn.
+  if (clip.w <= 1e-6 || clip.z > clip.w || clip.z < 0.0) return;
   vec2 at = (clip.xy / clip.w + 1.0) * 0.5 * frame.imageSize;
   float depth = eyeDepth(clip.z / clip.w, view);
   float pixels = radius / metresOfPixel(depth, view);
@@ -69,12 +70,12 @@ void main() {
   float fade = fadeOf(splat, radius, metresOfPixel(away, 0), sine);
   StrokePoint a = points[splat.point], b = points[next];
   vec4 color = mix(unpackUnorm4x8(a.color), unpackUnorm4x8(b.color), splat.toNext);
-  float apart = max(u.spacing, kLeastPixels * metresOfPixel(away, 0) / max(radius, 1e-30)) / max(sine, 0.15);
+  float apart = max(u.spacing, kLeastPixels * metresOfPixel(away, 0) / max(radius, 1e-30));  // on the screen
   float opacity = min(color.a * u.opacity, 0.9995);
-  float within = clamp(apart, 0.0, 1.0);
+  float within = clamp(0.5 * apart, 0.0, 1.0);  // what part of those over a place it is
   outBrush = int(a.flags >> 8 & 255u);
   // Light is added: there it is their sum.
-  color.a = (outBrush == kLight ? opacity * within : 1.0 - pow(1.0 - opacity, within)) * fade * thin;
+  color.a = (outBrush == kLight ? 2.0 * opacity * within : 1.0 - pow(1.0 - opacity, within)) * fade * thin;
   uint chance = a.flags >> 16;
   color.rgb *= 1.0 + u.variation * (float(chance & 255u) / 255.0 - 0.5);
 

@@ -1,4 +1,6 @@
 // Places splats, sorts them, and draws them over each other.
+#include <bit>
+
 #include "features/painting/painting.h"
 #include "features/painting/painting_knobs.h"
 #include "features/painting/splats/strokes_on_gpu.h"
@@ -23,7 +25,9 @@ class Splats : public Pass {
   const char* name() const override { return "painting"; }
   std::span<const Aov> aovs() const override { return kAovs; }
   uint32_t variant(const scene::SceneData& scene, const look::LookData& look) const override {
-    return 2 * shownPaintings(scene, look) + uint32_t(look.get<PaintingParams>().light > 0);
+    // In powers of two, so that few that come and go make nothing anew.
+    const uint32_t paintings = std::bit_ceil(shownPaintings(scene, look));
+    return shownPaintings(scene, look) ? 2 * paintings + uint32_t(look.get<PaintingParams>().light > 0) : 0;
   }
 
   void declare(FrameBuilder& frame, uint32_t variant) override {

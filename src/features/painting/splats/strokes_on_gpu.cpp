@@ -11,7 +11,7 @@ namespace scumble::painting {
 
 namespace {
 
-// Of a scene; more than that, and they lie farther apart.
+// Of a scene, but for the ends of strokes; more than that, and they lie farther apart.
 constexpr size_t kMostSplats = 4 << 20;
 uint32_t packNormal(glm::vec3 n) {
   n /= std::max(std::abs(n.x) + std::abs(n.y) + std::abs(n.z), 1e-20f);
@@ -87,17 +87,20 @@ bool StrokesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader,
   device.requireBindable(finalVertexCount(items, places) * sizeof(shared::VertexCore),
                          "a painting in so large a scene");
 
+  // As many as may be.
+  std::map<const scene::Painting*, size_t> copies;
+  for (const DrawnPainting& drawn : paintings_) ++copies[drawn.painting.get()];
+  const auto countAt = [&](float least) {
+    double count = 0;
+    for (const auto& [painting, times] : copies) count += double(times) * scene::splatCount(*painting, least);
+    return count;
+  };
   float least = scene::kSplatSpacing;
+  while (countAt(least) > double(kMostSplats)) least *= 2;
   std::map<const scene::Painting*, std::pair<std::vector<scene::SplatPlace>, std::vector<float>>> placesOf;
-  for (bool fits = false; !fits; least *= 2) {
-    size_t count = 0;
-    placesOf.clear();
-    for (const DrawnPainting& drawn : paintings_) {
-      auto& [splats, along] = placesOf[drawn.painting.get()];
-      if (splats.empty()) splats = scene::splatPlaces(*drawn.painting, along, least);
-      count += splats.size();
-    }
-    fits = count <= kMostSplats || least > 64;
+  for (const auto& [painting, times] : copies) {
+    auto& [splats, along] = placesOf[painting];
+    splats = scene::splatPlaces(*painting, along, least);
   }
 
   const std::vector<std::vector<size_t>> all = carriers(items);
