@@ -64,13 +64,9 @@ Result<LookColors> LookColors::make(Renderer& renderer, const Scene& scene, cons
   LookColors colors;
   colors.cellSize_ = std::max(scene.data().bounds.radius() / kCellsOfRadius, 1e-9f);
   Look plain = look;
-  // What the program has not been built with need not be switched off.
-  for (const auto& [path, value] : {std::pair{"ground.mode", "off"},
-                                    {"warp.amount", "0"},
-                                    {"clips.*.play.weight", "0"},
-                                    {"painting.shown", "off"}})
-    if (const Status set = plain.set(path, value); !set && std::string(path) != "painting.shown")
-      return set.error();
+  for (const auto& [path, value] :
+       {std::pair{"ground.mode", "off"}, {"warp.amount", "0"}, {"clips.*.play.weight", "0"}})
+    if (const Status set = plain.set(path, value); !set) return set.error();
   RenderOptions options;
   options.width = options.height = kSize;
   options.samples = 1;

@@ -19,7 +19,8 @@ PosedMesh posedAtRest(const scene::SceneData& scene, size_t node);
 
 class LookColors {
  public:
-  // Draws the scene at rest, without a ground, torn edges and strokes. Fails as rendering does.
+  // Draws the scene at rest, without a ground and torn edges; strokes that it has already are seen. Fails
+  // as rendering does.
   static Result<LookColors> make(Renderer& renderer, const Scene& scene, const Look& look);
 
   // Square root of the colour of what is seen there, of a surface that faces so; nothing where no picture
