@@ -5,6 +5,7 @@
 
 #include "scene/import_warnings.h"
 #include "scene/posed_bounds.h"
+#include "scene/prepare_mesh.h"
 
 namespace scumble::scene {
 
