@@ -93,7 +93,7 @@ class Numbers(unittest.TestCase):
         self.change("docs/frame.md", "stage, world.", "stage.")
         self.notices("docs/frame.md", "src/frame may include")
         self.change("docs/house.md", "| public, base, scene |", "| public, base |")
-        self.notices("docs/house.md", "src/gltf may include")
+        self.notices("docs/house.md", "src/sketch may include")
 
     def test_lists(self):
         for file, before, after, word in (("docs/passes.md", "| `order` |", "| |", "order"), ("docs/passes.md", "| `ocean` |", "| |", "ocean"),
