@@ -11,6 +11,7 @@
 #include "scene/splat_places.h"
 #include "tests/support/aov.h"
 #include "tests/support/render_test.h"
+#include "tests/support/sanitized.h"
 
 namespace scumble::painting {
 namespace {
@@ -126,6 +127,10 @@ Texels reference(const std::vector<ReferenceSplat>& splats, const View& view, co
 
 class Paintings : public BothEyes {
  protected:
+  void SetUp() override {
+    BothEyes::SetUp();
+    if (kSanitized && viewCount() == 1) GTEST_SKIP() << "two eyes are enough";
+  }
   static Frame drawn(const Scene& scene, const std::vector<View>& views, const Knobs& knobs = {},
                      double time = 0) {
     Result<Frame> frame =
@@ -243,14 +248,14 @@ TEST_P(Paintings, mirroredMeshesMirrorThem) {
     EXPECT_LT(glm::distance(middle(frame, v), pixelOf(views[v], {-1.4, 0.4, 0.1})), 0.3);
 }
 
-// Hairs of no width to speak of, however long: no more splats than a scene may have.
+// Hairs of no width to speak of, however long, have so many splats and no more.
 TEST_P(Paintings, hairsCostNoMoreThanTheyMay) {
   TestScene s;
-  std::vector<TestStroke> hairs(40, {{{-1, 0, 0}, {1, 0, 0}}, 1e-30f, {1, 0, 0, 1}});
+  std::vector<TestStroke> hairs(1, {{{-1, 0, 0}, {1, 0, 0}}, 1e-30f, {1, 0, 0, 1}});
   hairs.push_back({{{-1, 0, 0}, {1, 0, 0}}, 0.2f, {1, 0, 0, 1}});
   s.addStrokes(hairs);
   const Scene scene = s.load();
-  EXPECT_LT(scene::splatCount(*scene.data().meshes[0]->painting, scene::kSplatSpacing), 4e7);
+  EXPECT_LT(scene::splatCount(*scene.data().meshes[0]->painting, scene::kSplatSpacing), 1e6);
   const auto views = viewsFrom(scene, {{0, 0, 4}}, kWidth, kHeight, GetParam());
   const Frame frame = drawn(scene, views);
   for (size_t v = 0; v < viewCount(); ++v) EXPECT_GT(covered(frame, v), 50);
@@ -500,7 +505,7 @@ TEST_P(Paintings, nothingPops) {
                 swung({-0.8f, -0.7f, 0.5f}, {0.9f, 0.8f, -0.5f}, 0.12f, {0.1f, 0.3f, 0.8f, 0.5f}, "wash")});
   const Scene scene = s.load();
   std::vector<double> before;
-  for (int step = 0; step < 40; ++step) {
+  for (int step = 0; step < 24; ++step) {
     const float z = 4 * std::pow(1.03f, float(step));
     const auto views = viewsFrom(scene, {{0, 0, z}}, kWidth, kHeight, GetParam());
     const Frame frame = drawn(scene, views);
