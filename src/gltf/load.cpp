@@ -180,7 +180,7 @@ Result<Scene> Scene::load(const std::string& path, const SceneOptions& options) 
     if (!file.open(path, problem))
       return Error{ErrorKind::unusableFile, path, 0, {}, problem, "give the path of a .gltf, .glb or .tilt"};
     scene.timings_.read = watch.lap();
-    if (!sketch::isSketch(file.bytes()) && path.ends_with(".json"))
+    if (path.ends_with(".json") && !sketch::isSketch(file.bytes()))
       if (std::optional<Result<Scene>> world = loadWorld(path, options)) return *std::move(world);
     std::string folder = std::filesystem::path(path).parent_path().string();
     if (folder.empty()) folder += '.';

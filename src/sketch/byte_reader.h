@@ -16,7 +16,6 @@ class ByteReader {
   // `what`: what messages call the bytes.
   ByteReader(Bytes bytes, const char* what) : bytes_(bytes), what_(what) {}
 
-  size_t offset() const { return offset_; }
   size_t left() const { return bytes_.size() - offset_; }
 
   template <class T>

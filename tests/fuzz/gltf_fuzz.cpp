@@ -10,10 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -21,6 +18,7 @@
 #include "scene/posed_bounds.h"
 #include "scene/scene_data.h"
 #include "scumble/scene.h"
+#include "tests/fuzz/fuzz_target.h"
 #include "tests/support/test_gltf.h"
 
 // The list of features is not linked; what nodes may say to one of them is.
@@ -33,12 +31,7 @@ namespace {
 
 using namespace scumble;
 using namespace scumble::scene;
-
-void require(bool condition, const char* what) {
-  if (condition) return;
-  std::fprintf(stderr, "broken promise: %s\n", what);
-  std::abort();
-}
+using fuzz::require;
 
 bool isFinite(const glm::vec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -137,12 +130,9 @@ void checkPoses(const SceneData& scene) {
   require(!bounds.empty && isFinite(bounds.min) && isFinite(bounds.max), "bounds of what plays");
 }
 
-void write(const std::string& folder, const char* name, const std::string& content) {
-  std::ofstream(folder + "/" + name, std::ios::binary) << content;
-}
+}  // namespace
 
-// A few files that between them touch every part of the importer: mutations go further from there.
-void writeSeeds(const std::string& folder) {
+void scumble::fuzz::writeSeeds(const std::string& folder) {
   TestGltf quad;
   quad.addQuad();
   write(folder, "quad.gltf", quad.gltf());
@@ -222,18 +212,6 @@ void writeSeeds(const std::string& folder) {
   sparse.addImage({0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n', 0, 0, 0, 13, 'I',  'H',  'D',  'R', 0,
                    0,    0,   1,   0,   0,    0,    1,    8,    2, 0, 0, 0,  0x90, 0x77, 0x53, 0xde});
   write(folder, "sparse.glb", sparse.glb());
-}
-
-}  // namespace
-
-extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
-  for (int i = 1; i < *count; ++i) {
-    const char* option = "--write-seeds=";
-    if (std::strncmp((*arguments)[i], option, std::strlen(option)) != 0) continue;
-    writeSeeds((*arguments)[i] + std::strlen(option));
-    std::exit(0);
-  }
-  return 0;
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {

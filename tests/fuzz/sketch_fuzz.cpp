@@ -3,10 +3,7 @@
 // scene/painting.h. Built and run as gltf_fuzz is.
 #include <cmath>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -14,6 +11,7 @@
 #include "scene/import_failure.h"
 #include "scumble/scene.h"
 #include "sketch/sketch.h"
+#include "tests/fuzz/fuzz_target.h"
 
 const std::vector<scumble::scene::ExtraRule>& scumble::scene::extraRules() {
   static const std::vector<ExtraRule> none;
@@ -24,15 +22,10 @@ namespace {
 
 using namespace scumble;
 using namespace scumble::scene;
+using fuzz::require;
 
 constexpr char kMetadata[] =
     R"({"BrushIndex": ["c515dad7-4393-4681-81ad-162ef052241b", "not known", "429ed64a-4e97-4466-84d3-145a861ef684"]})";
-
-void require(bool condition, const char* what) {
-  if (condition) return;
-  std::fprintf(stderr, "broken promise: %s\n", what);
-  std::abort();
-}
 
 void check(const Painting& painting) {
   size_t next = 0;
@@ -73,13 +66,12 @@ std::string seed(int32_t brush, uint32_t strokeMask, uint32_t pointMask) {
   return bytes;
 }
 
-void writeSeeds(const std::string& folder) {
-  const auto write = [&](const char* name, const std::string& content) {
-    std::ofstream(folder + "/" + name, std::ios::binary) << content;
-  };
-  write("plain.sketch", seed(0, 0, 3));
-  write("rich.sketch", seed(1, 0x0003003F, 0xF));
-  write("painting.json",
+}  // namespace
+
+void scumble::fuzz::writeSeeds(const std::string& folder) {
+  write(folder, "plain.sketch", seed(0, 0, 3));
+  write(folder, "rich.sketch", seed(1, 0x0003003F, 0xF));
+  write(folder, "painting.json",
         R"({"version": 1, "strokes": [{"brush": {"index": 0, "color": [1, 0, 0], "size": 0.1},
     "points": [{"position": [0, 1, 2], "orientation": [0, 0, 0, 1], "pressure": 0.5, "timestamp": 1000}]}],
     "brushes": ["flat"]})");
@@ -94,20 +86,8 @@ void writeSeeds(const std::string& folder) {
     painting.append(reinterpret_cast<const char*>(&value), sizeof value);
   };
   put(one), painting += '\0', put(numbers), put(one), put(point), put(time);
-  write("painting.apa", painting);
-  write("cut.tilt", std::string("tilT\x10\0\x01\0\0\0\0\0\0\0\0\0PK\x03\x04", 20));
-}
-
-}  // namespace
-
-extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
-  for (int i = 1; i < *count; ++i) {
-    const char* option = "--write-seeds=";
-    if (std::strncmp((*arguments)[i], option, std::strlen(option)) != 0) continue;
-    writeSeeds((*arguments)[i] + std::strlen(option));
-    std::exit(0);
-  }
-  return 0;
+  write(folder, "painting.apa", painting);
+  write(folder, "cut.tilt", std::string("tilT\x10\0\x01\0\0\0\0\0\0\0\0\0PK\x03\x04", 20));
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* bytes, size_t size) {

@@ -18,16 +18,10 @@ void main() {
   vec3 position = mix(from.position, to.position, splat.toNext);
   float radius = mix(from.radius, to.radius, splat.toNext);
   float time = mix(point.time, points[splat.point + (splat.toNext > 0.0 ? 1u : 0u)].time, splat.toNext);
-  vec3 toViewer = frame.viewer - position;
-  float parallel = frame.views[0].orthographic;
-  mat4 toEyeSpace = frame.views[0].worldToEye;
-  toViewer = mix(toViewer, vec3(toEyeSpace[0][2], toEyeSpace[1][2], toEyeSpace[2][2]), parallel);
-  float away = length(toViewer);
-  vec3 sight = toViewer / max(away, 1e-30), along = mix(from.tangent, to.tangent, splat.toNext);
-  float sine = length(cross(sight, along)) * inversesqrt(max(dot(along, along), 1e-12));
-  float fade = fadeOf(splat, radius, metresOfPixel(away, 0), sine);
+  Sight sight = sightOf(position, mix(from.tangent, to.tangent, splat.toNext));
+  float fade = fadeOf(splat, radius, metresOfPixel(sight.away, 0), sight.sine);
   bool isThere = fade > 0.0 && time <= u.until;
   // Later strokes come forward.
-  keys[i] = isThere ? ~distanceKey(position + sight * (u.order * radius * point.order)) : 0xFFFFFFFFu;
+  keys[i] = isThere ? ~distanceKey(position + sight.way * (u.order * radius * point.order)) : 0xFFFFFFFFu;
   order[i] = i;
 }

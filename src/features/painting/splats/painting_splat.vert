@@ -61,16 +61,11 @@ void main() {
   direction = size > 1e-4 ? direction / size : vec2(1.0, 0.0);
 
   // How much of it counts, and how opaque it is that as many as lie over a place together are as opaque as the stroke.
-  float parallel = frame.views[0].orthographic;
-  mat4 toEyeSpace = frame.views[0].worldToEye;
-  vec3 toViewer = mix(frame.viewer - position, vec3(toEyeSpace[0][2], toEyeSpace[1][2], toEyeSpace[2][2]), parallel);
-  float away = length(toViewer);
-  vec3 sight = toViewer / max(away, 1e-30);
-  float sine = length(cross(sight, along)) * inversesqrt(max(dot(along, along), 1e-12));
-  float fade = fadeOf(splat, radius, metresOfPixel(away, 0), sine);
+  Sight sight = sightOf(position, along);
+  float fade = fadeOf(splat, radius, metresOfPixel(sight.away, 0), sight.sine);
   StrokePoint a = points[splat.point], b = points[next];
   vec4 color = mix(unpackUnorm4x8(a.color), unpackUnorm4x8(b.color), splat.toNext);
-  float apart = max(u.spacing, kLeastPixels * metresOfPixel(away, 0) / max(radius, 1e-30));  // on the screen
+  float apart = max(u.spacing, kLeastPixels * metresOfPixel(sight.away, 0) / max(radius, 1e-30));  // on the screen
   float opacity = min(color.a * u.opacity, 0.9995);
   float within = clamp(0.5 * apart, 0.0, 1.0);  // what part of those over a place it is
   outBrush = int(a.flags >> 8 & 255u);
@@ -82,7 +77,7 @@ void main() {
   if (kTakesLight) {
     vec3 normal = normalize(mix(decodeNormal(unpackSnorm2x16(from.normal)), decodeNormal(unpackSnorm2x16(to.normal)),
                                 splat.toNext));
-    if (a.vertices.x == kUnbound && dot(normal, sight) < 0.0) normal = -normal;
+    if (a.vertices.x == kUnbound && dot(normal, sight.way) < 0.0) normal = -normal;
     vec3 lit = applyColorMap(u.lit, color.rgb);
     vec3 shadowed = applyColorMap(u.shadowed, color.rgb) * mix(u.tintDown, u.tintUp, 0.5 + 0.5 * normal.y);
     color.rgb = mix(color.rgb, mix(shadowed, lit, lightAt(position, normal, radius)), u.light);

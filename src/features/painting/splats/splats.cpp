@@ -26,8 +26,8 @@ class Splats : public Pass {
   std::span<const Aov> aovs() const override { return kAovs; }
   uint32_t variant(const scene::SceneData& scene, const look::LookData& look) const override {
     // In powers of two, so that few that come and go make nothing anew.
-    const uint32_t paintings = std::bit_ceil(shownPaintings(scene, look));
-    return shownPaintings(scene, look) ? 2 * paintings + uint32_t(look.get<PaintingParams>().light > 0) : 0;
+    const uint32_t paintings = shownPaintings(scene, look);
+    return paintings ? 2 * std::bit_ceil(paintings) + uint32_t(look.get<PaintingParams>().light > 0) : 0;
   }
 
   void declare(FrameBuilder& frame, uint32_t variant) override {

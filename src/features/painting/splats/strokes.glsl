@@ -13,3 +13,20 @@ float fadeOf(Splat splat, float radius, float metresOfOnePixel, float sine) {
   float wanted = max(u.spacing, kLeastPixels * metresOfOnePixel / max(radius, 1e-30)) / max(sine, 0.15);
   return clamp(2.0 - wanted / splat.spacing, 0.0, 1.0);
 }
+
+// How a place on a stroke is seen from the middle between the eyes: the way there, unit length; how far it is, metres; and
+// the sine of the angle between stroke and line of sight.
+struct Sight {
+  vec3 way;
+  float away, sine;
+};
+Sight sightOf(vec3 position, vec3 along) {
+  mat4 toEyeSpace = frame.views[0].worldToEye;
+  vec3 toViewer = mix(frame.viewer - position, vec3(toEyeSpace[0][2], toEyeSpace[1][2], toEyeSpace[2][2]),
+                      frame.views[0].orthographic);
+  Sight sight;
+  sight.away = length(toViewer);
+  sight.way = toViewer / max(sight.away, 1e-30);
+  sight.sine = length(cross(sight.way, along)) * inversesqrt(max(dot(along, along), 1e-12));
+  return sight;
+}

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/packing.hpp>
 
 #include "base/tileable_noise.h"
 #include "scene/splat_places.h"
 #include "world/geometry.h"
+#include "world/vertex_codes.h"
 
 namespace scumble::painting {
 
@@ -13,23 +15,15 @@ namespace {
 
 // Of a scene, but for the ends of strokes; more than that, and they lie farther apart.
 constexpr size_t kMostSplats = 4 << 20;
-uint32_t packNormal(glm::vec3 n) {
-  n /= std::max(std::abs(n.x) + std::abs(n.y) + std::abs(n.z), 1e-20f);
-  glm::vec2 oct(n);
-  if (n.z < 0) {
-    oct = {(1 - std::abs(n.y)) * (n.x >= 0 ? 1.0f : -1.0f), (1 - std::abs(n.x)) * (n.y >= 0 ? 1.0f : -1.0f)};
-  }
-  const auto snorm = [](float v) {
-    return uint32_t(uint16_t(int16_t(std::lround(std::clamp(v, -1.0f, 1.0f) * 32767))));
-  };
-  return snorm(oct.x) | snorm(oct.y) << 16;
+uint32_t packColor(const glm::vec4& linear) {
+  return glm::packUnorm4x8(glm::vec4(glm::sqrt(glm::vec3(linear)), linear.a));
 }
 
-uint32_t packColor(const glm::vec4& linear) {
-  const glm::vec4 root(glm::sqrt(glm::vec3(linear)), linear.a);
-  uint32_t packed = 0;
-  for (int c = 0; c < 4; ++c) packed |= uint32_t(std::lround(std::clamp(root[c], 0.0f, 1.0f) * 255)) << 8 * c;
-  return packed;
+std::vector<const scene::Primitive*> primitivesOf(const std::vector<GeometryItem>& items,
+                                                  const std::vector<size_t>& which) {
+  std::vector<const scene::Primitive*> primitives;
+  for (const size_t item : which) primitives.push_back(items[item].primitive);
+  return primitives;
 }
 
 }  // namespace
@@ -66,8 +60,7 @@ void StrokesOnGpu::find(const std::vector<GeometryItem>& items) {
   const std::vector<std::vector<size_t>> all = carriers(items);
   for (size_t p = 0; p < paintings_.size(); ++p) {
     if (all[p].empty()) continue;
-    Carrier carrier;
-    for (const size_t item : all[p]) carrier.push_back(items[item].primitive);
+    const Carrier carrier = primitivesOf(items, all[p]);
     const std::pair key{paintings_[p].painting.get(), carrier};
     if (found.contains(key)) continue;
     const auto known = bindings_.find(key);
@@ -111,9 +104,7 @@ bool StrokesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader,
     const auto& [own, along] = placesOf.at(&painting);
     const std::vector<PointBinding>* bindings = nullptr;
     if (!all[p].empty()) {
-      Carrier carrier;
-      for (const size_t item : all[p]) carrier.push_back(items[item].primitive);
-      const auto found = bindings_.find({&painting, carrier});
+      const auto found = bindings_.find({&painting, primitivesOf(items, all[p])});
       if (found != bindings_.end() && !found->second.empty()) bindings = &found->second;
     }
     const auto first = uint32_t(points.size());
@@ -126,7 +117,7 @@ bool StrokesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader,
         shared::StrokePoint point{};
         point.position = from.position;
         point.radius = from.radius;
-        point.normal = packNormal(from.orientation * glm::vec3(0, 0, 1));
+        point.normal = encodeNormal(from.orientation * glm::vec3(0, 0, 1));
         point.color = packColor(from.color);
         point.time = from.time;
         point.order = float(s + 1) / float(painting.strokes.size());
@@ -139,7 +130,7 @@ bool StrokesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader,
         if (bindings) {
           const PointBinding& binding = (*bindings)[i];
           point.position = binding.offset;
-          point.normal = packNormal({0, 0, 1});  // as the surface faces
+          point.normal = encodeNormal({0, 0, 1});  // as the surface faces
           point.vertices = binding.vertices + places[all[p][binding.primitive]].firstVertex;
           point.at = binding.at;
           point.size = binding.size;
