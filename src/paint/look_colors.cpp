@@ -86,8 +86,8 @@ Result<LookColors> LookColors::make(Renderer& renderer, const Scene& scene, cons
       for (size_t p = 0; p < pixels; ++p) {
         if (!std::isfinite(depth.pixels[p * depth.channels.size()])) continue;
         const auto at = [&](const Image& image, size_t stride) {
-          const float* const from = &image.pixels[p * stride];
-          return glm::vec3(from[0], from[1], from[2]);
+          const float* const pixel = &image.pixels[p * stride];
+          return glm::vec3(pixel[0], pixel[1], pixel[2]);
         };
         const glm::vec3 root = glm::sqrt(glm::clamp(at(picture, channels), 0.0f, 1.0f));
         colors.cells_[colors.cellOf(at(position, position.channels.size()),

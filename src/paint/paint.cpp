@@ -117,9 +117,9 @@ std::vector<PaintStyle> paintStyles() {
 
 Result<PaintReport> paintScene(const std::string& path, const std::string& out, const PaintOptions& options) {
   if (const Status status = checkOptions(options); !status) return status.error();
-  SceneOptions how;
-  how.allowOutside = options.allowOutside;
-  const Result<Scene> loaded = Scene::load(path, how);
+  SceneOptions sceneOptions;
+  sceneOptions.allowOutside = options.allowOutside;
+  const Result<Scene> loaded = Scene::load(path, sceneOptions);
   if (!loaded) return loaded.error();
   const scene::SceneData& scene = loaded->data();
   const std::vector<Painted> painted = paintedOf(scene, options.nodes);
@@ -174,7 +174,7 @@ Result<PaintReport> paintScene(const std::string& path, const std::string& out, 
       paintings[painted[i].mesh] = std::make_shared<const scene::Painting>(std::move(painting));
     }
     scene::ImportWarnings warnings;
-    const std::vector<uint8_t> file = gltf::withStrokes(path, how, scene, paintings, warnings);
+    const std::vector<uint8_t> file = gltf::withStrokes(path, sceneOptions, scene, paintings, warnings);
     for (const std::string& line : warnings.lines(path))
       if (std::find(report.warnings.begin(), report.warnings.end(), line) == report.warnings.end())
         report.warnings.push_back(line);

@@ -23,6 +23,7 @@ class NearestPlaces {
 
   struct Place {
     uint32_t primitive = 0;   // which one of those given
+    uint32_t triangle = 0;    // of it
     glm::uvec3 vertices{0u};  // of it: a triangle
     glm::vec2 at{0.0f};       // the second and the third corner's part
     // What a triangle's corners mix to.
@@ -35,7 +36,7 @@ class NearestPlaces {
 
  private:
   struct Triangle {
-    uint32_t primitive;
+    uint32_t primitive, number;
     glm::uvec3 vertices;
   };
   struct Tree;  // Embree's, so that its headers stay where they are

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "world/mipmaps.h"
+#include "base/mipmaps.h"
 
 namespace scumble::world {
 

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "scene/parallel.h"
-#include "world/mipmaps.h"
+#include "base/mipmaps.h"
 
 namespace scumble::world {
 

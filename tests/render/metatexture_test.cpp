@@ -104,7 +104,7 @@ class MetaTextureTest : public ::testing::Test {
 
   static MetaTextureReference reference(const MetaTexture& m, int example = 0) {
     MetaTextureReference r;
-    r.texture.pixels = world::builtInExample(example);
+    r.texture.pixels = builtInExample(example);
     r.mean = m.mean;
     r.size = m.size.x, r.base = m.base, r.levelRotation = m.levelRotation, r.blend = m.blend, r.skip = m.skip;
     r.skewLevels = int(m.skewLevels);
@@ -251,7 +251,7 @@ TEST_F(MetaTextureTest, contrastIsTheTexturesOwn) {
     const double n = 2.0 * double(queries.size());
     return std::sqrt(squares / n - sum * sum / n / n);
   };
-  const double own = deviationOf(world::builtInExample(0))[0];
+  const double own = deviationOf(builtInExample(0))[0];
   for (const bool askew : {false, true}) {
     MetaTexture m;
     m.skew = askew ? 2 : 0;
@@ -462,7 +462,7 @@ TEST_F(MetaTextureTest, finiteForAnything) {
 TEST_F(MetaTextureTest, orientationShowsTheContour) {
   MetaTexture m;
   m.orient = 1, m.contrast = 0;
-  const RepeatingTexture texture{world::builtInExample(1)};
+  const RepeatingTexture texture{builtInExample(1)};
   for (const bool foreshortened : {false, true}) {
     std::vector<Query> queries(200);
     for (Query& query : queries) {
@@ -489,7 +489,7 @@ TEST_F(MetaTextureTest, nestedMarksAreNeverLost) {
   const glm::dvec2 along[] = {{1, 0}, {0, 1}, {1, 1}};
   for (const bool nested : {true, false}) {
     MetaTexture m;
-    m.mean = meanOf(world::builtInExample(kExample));
+    m.mean = meanOf(builtInExample(kExample));
     m.contrast = frame::kContrastVariance;
     m.nested = nested;
     m.shift = {0.3137f, 0.7241f};
@@ -517,7 +517,7 @@ TEST_F(MetaTextureTest, nestedMarksAreNeverLost) {
 
 // The rivals are what they are said to be.
 TEST_F(MetaTextureTest, rivals) {
-  const RepeatingTexture texture{world::builtInExample(0)};
+  const RepeatingTexture texture{builtInExample(0)};
   MetaTexture m;
   m.size = glm::vec2(128), m.tiles = 3, m.contrast = 0;
   std::vector<Query> queries(200);

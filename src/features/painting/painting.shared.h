@@ -1,5 +1,6 @@
 #ifndef SCUMBLE_PAINTING_SHARED_H
 #define SCUMBLE_PAINTING_SHARED_H
+#include "../../shading/brush.shared.h"
 #include "../../shading/frame.shared.h"
 
 SHARED_BEGIN
@@ -37,9 +38,6 @@ struct Splat {
   float toNext;   // its part of the next one
   float spacing;  // radii to the next splat that counts at least as much: a power of two times the least
 };
-const float kLeastPixels = 0.7f;  // between splats
-
-const int kPlain = 0, kBristles = 1, kWash = 2, kSpatter = 3, kLight = 4;  // scene::Brush
 
 struct PaintingUniforms {
   float width, opacity, spacing, streaks, dryEnds, variation, order, sunken, light;

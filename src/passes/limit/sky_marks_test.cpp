@@ -49,7 +49,7 @@ INSTANTIATE_BOTH_EYES(SkyMarksTest);
 
 TEST_P(SkyMarksTest, areThePatternInEveryDirection) {
   const Scene scene = emptySky();
-  const RepeatingTexture strokes{world::builtInExample(1)};
+  const RepeatingTexture strokes{builtInExample(1)};
   const double dither = 0.9;
   size_t atSeam = 0;
   for (const double size : {120.0, 100.0, 7.0}) {

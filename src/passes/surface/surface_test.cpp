@@ -333,7 +333,7 @@ TEST_P(SurfaceTest, paintsTexturesOfTheLook) {
                                  {"texture.metatexture.cyclopean", "off"}});
     const Frame frame = draw(scene, look, views, sized(kWidth, kHeight, {"lit", "uv", "uv-gradient", "id"}));
     MetaTextureReference reference;
-    reference.texture.pixels = world::builtInExample(2);
+    reference.texture.pixels = builtInExample(2);
     reference.mean = meanOf(reference.texture.pixels);
     reference.size = 3000.0 * kHeight / 1080;
     reference.skew = MetaTextureReference::exact;

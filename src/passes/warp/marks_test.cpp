@@ -149,7 +149,7 @@ TEST_P(MarksTest, fromATextureOfTheLook) {
 
   // Vectors do not know of it.
   MetaTextureReference builtIn;
-  builtIn.texture.pixels = world::builtInExample(0);
+  builtIn.texture.pixels = builtInExample(0);
   builtIn.mean = meanOf(builtIn.texture.pixels);
   builtIn.size = 256, builtIn.skew = MetaTextureReference::exact, builtIn.skewLevels = 2;
   compare(
@@ -212,7 +212,7 @@ MetaTextureReference defaultReference(const Pixels& pixels, double size) {
 // Knobs as they are, but for the size: the built-in marks are near enough to a Gaussian, so that contrast is
 // restored by the variance.
 TEST_P(MarksTest, contrastByDefault) {
-  const MetaTextureReference reference = defaultReference(world::builtInExample(0), 256);
+  const MetaTextureReference reference = defaultReference(builtInExample(0), 256);
   const double amount = 1.3, mean = reference.mean.z;
   compare(
       quietLook(quietKnobs({{"breakup.metatexture.size", "3072"}})), reference,

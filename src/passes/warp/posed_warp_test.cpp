@@ -263,7 +263,7 @@ TEST_P(PosedWarpTest, gradientsAndVectorsOfAffinePoses) {
                            seen, sized(kWidth, kHeight, {"uv", "uv-gradient", "id", "warp", "metatexture"}));
   const double scale = kHeight / 1080.0;
   MetaTextureReference reference;
-  reference.texture.pixels = world::builtInExample(0);
+  reference.texture.pixels = builtInExample(0);
   reference.mean = meanOf(reference.texture.pixels);
   reference.size = kSize * scale;
   reference.skew = MetaTextureReference::exact;

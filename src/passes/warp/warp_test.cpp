@@ -78,8 +78,8 @@ TEST_P(WarpTest, equalsItsReference) {
                sized(kWidth, kHeight, {"warp", "uv", "uv-gradient", "depth", "id", "metatexture"}));
       const double scale = kHeight / 1080.0;
       MetaTextureReference reference;
-      reference.texture.pixels = mipLevel(world::builtInExample(0), size * scale);
-      reference.mean = meanOf(world::builtInExample(0));
+      reference.texture.pixels = mipLevel(builtInExample(0), size * scale);
+      reference.mean = meanOf(builtInExample(0));
       reference.size = size * scale;
       reference.skew = MetaTextureReference::exact;
       reference.skewLevels = 2;

@@ -60,17 +60,13 @@ void main() {
   float size = length(direction);
   direction = size > 1e-4 ? direction / size : vec2(1.0, 0.0);
 
-  // How much of it counts, and how opaque it is that as many as lie over a place together are as opaque as the stroke.
   Sight sight = sightOf(position, along);
   float fade = fadeOf(splat, radius, metresOfPixel(sight.away, 0), sight.sine);
   StrokePoint a = points[splat.point], b = points[next];
   vec4 color = mix(unpackUnorm4x8(a.color), unpackUnorm4x8(b.color), splat.toNext);
-  float apart = max(u.spacing, kLeastPixels * metresOfPixel(sight.away, 0) / max(radius, 1e-30));  // on the screen
-  float opacity = min(color.a * u.opacity, 0.9995);
-  float within = clamp(0.5 * apart, 0.0, 1.0);  // what part of those over a place it is
+  float apart = splatsApart(u.spacing, metresOfPixel(sight.away, 0), radius);
   outBrush = int(a.flags >> 8 & 255u);
-  // Light is added: there it is their sum.
-  color.a = (outBrush == kLight ? 2.0 * opacity * within : 1.0 - pow(1.0 - opacity, within)) * fade * thin;
+  color.a = splatOpacity(outBrush, color.a * u.opacity, apart) * fade * thin;
   uint chance = a.flags >> 16;
   color.rgb *= 1.0 + u.variation * (float(chance & 255u) / 255.0 - 0.5);
 

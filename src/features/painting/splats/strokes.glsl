@@ -7,11 +7,9 @@ layout(set = 1, binding = kPaintingBlock, scalar) uniform Block { PaintingUnifor
 layout(set = 1, binding = kPaintingPoints, scalar) readonly buffer Points { StrokePoint points[]; };
 layout(set = 1, binding = kPaintingSplats, scalar) readonly buffer Splats { Splat splats[]; };
 
-// How much a splat counts, from the middle between the eyes, so that both have the same: where fewer serve as well, all but
-// every second one fade out, then all but every fourth. `sine`: of the angle between stroke and line of sight.
+// How much a splat counts, from the middle between the eyes, so that both have the same.
 float fadeOf(Splat splat, float radius, float metresOfOnePixel, float sine) {
-  float wanted = max(u.spacing, kLeastPixels * metresOfOnePixel / max(radius, 1e-30)) / max(sine, 0.15);
-  return clamp(2.0 - wanted / splat.spacing, 0.0, 1.0);
+  return splatFade(splatsApart(u.spacing, metresOfOnePixel, radius), sine, splat.spacing);
 }
 
 // How a place on a stroke is seen from the middle between the eyes: the way there, unit length; how far it is, metres; and

@@ -1,5 +1,5 @@
 // Mip levels against means in double precision, each level from the one above it as it was made.
-#include "world/mipmaps.h"
+#include "base/mipmaps.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-namespace scumble::world {
+namespace scumble {
 namespace {
 
 double linearOfByte(uint8_t byte) {
@@ -99,4 +99,4 @@ TEST(Mipmaps, aSinglePixelHasNoLevels) {
 }
 
 }  // namespace
-}  // namespace scumble::world
+}  // namespace scumble

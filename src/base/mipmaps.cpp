@@ -1,31 +1,21 @@
-#include "world/mipmaps.h"
+#include "base/mipmaps.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "look/param.h"
+#include "base/srgb.h"
 
-namespace scumble::world {
+namespace scumble {
 
 namespace {
-
-const std::array<float, 256>& toLinear() {
-  static const std::array<float, 256> table = [] {
-    std::array<float, 256> t{};
-    for (uint32_t i = 0; i < 256; ++i) t[i] = look::linearFromSrgb(i).b;
-    return t;
-  }();
-  return table;
-}
 
 // sRGB bytes by linear value in steps of 1 / 4095: within one byte of exact, which is enough for a filtered
 // level.
 const std::array<uint8_t, 4096>& toSrgb() {
   static const std::array<uint8_t, 4096> table = [] {
     std::array<uint8_t, 4096> t{};
-    for (uint32_t i = 0; i < t.size(); ++i)
-      t[i] = uint8_t(look::srgbFromLinear(glm::vec3(float(i) / 4095.0f)) & 0xFF);
+    for (uint32_t i = 0; i < t.size(); ++i) t[i] = uint8_t(std::lround(255 * srgbFromLinear(i / 4095.0)));
     return t;
   }();
   return table;
@@ -61,7 +51,7 @@ std::vector<std::vector<uint8_t>> halve(std::span<const uint8_t> rgba, uint32_t 
 
 std::vector<std::vector<uint8_t>> makeMipmaps(std::span<const uint8_t> rgba, uint32_t width,
                                               uint32_t height) {
-  const auto& linear = toLinear();
+  const auto& linear = linearFromSrgb8();
   const auto& srgb = toSrgb();
   return halve(rgba, width, height, [&](const uint8_t* const texels[4], uint8_t* out) {
     float sum[3] = {}, alpha = 0;
@@ -84,4 +74,4 @@ std::vector<std::vector<uint8_t>> makeValueMipmaps(std::span<const uint8_t> rgba
   });
 }
 
-}  // namespace scumble::world
+}  // namespace scumble

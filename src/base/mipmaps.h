@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace scumble::world {
+namespace scumble {
 
 // All levels below the largest one, down to 1 x 1: each pixel is the mean of (up to) 2 x 2 of the level
 // above, in linear light and weighted by alpha. `rgba`: 4 bytes a pixel, sRGB colour, straight alpha.
@@ -17,4 +17,4 @@ std::vector<std::vector<uint8_t>> makeMipmaps(std::span<const uint8_t> rgba, uin
 std::vector<std::vector<uint8_t>> makeValueMipmaps(std::span<const uint8_t> rgba, uint32_t width,
                                                    uint32_t height);
 
-}  // namespace scumble::world
+}  // namespace scumble
