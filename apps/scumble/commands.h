@@ -9,6 +9,7 @@ void addRender(CLI::App& program, int& exitCode);
 void addBench(CLI::App& program, int& exitCode);
 void addMeasure(CLI::App& program, int& exitCode);
 void addPaint(CLI::App& program, int& exitCode);
+void addBake(CLI::App& program, int& exitCode);
 void addDescriptions(CLI::App& program, int& exitCode);  // info, looks, params, schema, devices
 
 }  // namespace scumble::app

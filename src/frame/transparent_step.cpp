@@ -21,6 +21,15 @@ int slotOf(const SetTexture& texture, std::vector<SetTexture>& list) {
   return int(list.size()) - 1;
 }
 
+bool fades(const scene::Material& material) {
+  return material.paint && material.paint->fades;
+}
+
+// What does not fade is there from all sides.
+glm::vec2 fadeOf(const scene::Material& material) {
+  return fades(material) ? glm::vec2(material.paint->fadeStart, material.paint->fadeEnd) : glm::vec2(3, 2);
+}
+
 // Of so many textures a pipeline is made for: a few numbers, so that one more texture compiles nothing. What
 // is too many is white.
 uint32_t slotsFor(size_t textures) {
@@ -82,6 +91,7 @@ const gpu::Pipeline& TransparentStep::pipelineFor(const Group& group, uint32_t i
   specialise(shared::kTangentsId, group.painted.tangents);
   specialise(shared::kMaterialId, group.painted.options);
   specialise(shared::kGroupId, index);
+  specialise(shared::kFadesId, group.fades);
   specialise(shared::kSlotsId, slotsFor(group.textures.size()));
   std::vector<uint32_t> key = desc.constants;
   key.push_back(group.painted.isPainted);
@@ -127,10 +137,11 @@ void TransparentStep::update(uint32_t constant, std::span<const MaterialVariant>
       glm::ivec4 slots;
       for (int i = 0; i < 4; ++i) slots[i] = slotOf(textures[size_t(i)], own.textures);
       own.isVaried |= scene.isVaried(m);
+      own.fades |= fades(scene.material(m));
       own.farthest = std::max(own.farthest, farthestOf.at(m));
       const bool varies = variantOf(m).isPainted || variantOf(m).sets != 0;
       rows[m] = {scene.materialData(m), slots, uint32_t(&own - groups_.data()),
-                 scene.material(m).doubleSided ? 0u : 1u, varies ? 1u : 0u};
+                 scene.material(m).doubleSided ? 0u : 1u, fadeOf(scene.material(m)), varies ? 1u : 0u};
     }
   };
   group();

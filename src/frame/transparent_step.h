@@ -31,7 +31,7 @@ class TransparentStep {
   struct Group {
     MaterialVariant painted;  // what the look paints on it
     uint32_t painting = 0;    // and which textures
-    bool isVaried = false;
+    bool isVaried = false, fades = false;
     uint32_t leader = 0;  // its first material, painted ones first
     std::vector<SetTexture> textures;
     float farthest = 0;  // metres to what is the farthest of it

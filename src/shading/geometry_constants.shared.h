@@ -15,6 +15,7 @@ const int kTangentsId = 7;   // how that counts: surface_tangents.shared.h
 const int kMaterialId = 8;   // the pass's own of the material
 const int kGroupId = 9;      // of blended surfaces: which are drawn; -1: all are
 const int kSlotsId = 10;     // of blended surfaces: textures that there are
-const int kGeometryConstants = 11;
+const int kFadesId = 11;     // of blended surfaces: some of them fade
+const int kGeometryConstants = 12;
 SHARED_END
 #endif

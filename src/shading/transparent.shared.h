@@ -27,6 +27,7 @@ struct TransparentMaterial {
   ivec4 slots;  // textures of base colour and emission, sets of colours for light and for shadow; -1: none
   uint group;   // with which others it is drawn
   uint single;  // 1: back faces are not seen
+  vec2 fade;    // of fins: where they begin to show, and where all of them does (paintFade)
   uint varies;  // 1: its colour varies whatever its parts are: the look paints on it, or gives it colours
 };
 

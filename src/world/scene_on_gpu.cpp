@@ -233,9 +233,10 @@ bool SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>
     if (draw.state.varied) isVaried_[item.material] = true;
     if (draw.state.alpha == AlphaMode::blend)
       blended.push_back({&primitive, draw.object, place.firstVertex, item.material, draw.state.varied});
+    triangleCount_ += draw.indexCount / 3;
+    if (material.paint) continue;  // no pass draws it but those that blend
     draws.push_back(draw);
     reach_.push_back(item.reach);
-    triangleCount_ += draw.indexCount / 3;
   }
   arePlaced_ = false;
   const bool otherTriangles = transparent_.update(device_, std::move(blended), settle);

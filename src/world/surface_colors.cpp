@@ -19,7 +19,8 @@ constexpr size_t kPoints = 128;
 SurfaceColors::Part SurfaceColors::partOf(const GeometryItem& item, const scene::Material& material,
                                           const std::vector<Shared<scene::Image>>& images) {
   Part part;
-  if (item.node == GeometryItem::kNoNode || !item.shown) return part;
+  // Paint has the colours of what it lies on.
+  if (item.node == GeometryItem::kNoNode || !item.shown || material.paint) return part;
   part.primitive = item.primitive;
   part.linear = glm::mat3(item.model);
   const scene::TextureUse& use = material.baseColorTexture;

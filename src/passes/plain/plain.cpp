@@ -42,6 +42,7 @@ class Plain : public Pass {
     desc.leavesBlended = hasBlended_;
     step_.create(frame, desc);
     if (!hasBlended_) return;
+    desc.inputs |= kNormal;
     desc.vertex = {shaders::plain_transparent_vert};
     desc.fragment = {shaders::plain_transparent_frag};
     blended_.create(frame, desc);

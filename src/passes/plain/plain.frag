@@ -9,6 +9,8 @@ layout(constant_id = kTexturedId) const int kTextured = 0;
 
 #ifdef TRANSPARENT
 layout(location = 11) flat in uint inPart;
+layout(location = 9) in vec3 inWorld;
+layout(location = 10) in vec3 inNormal;
 #endif
 layout(location = 0) in vec2 inUv;
 layout(location = 1) in vec4 inColor;
@@ -20,6 +22,7 @@ void main() {
   materialIndex = materialOf(inPart);
   color *= sampleSlots(ivec4(materialRows[materialIndex].slots.x, -1, -1, -1), inUv, 0.0).values[0];
   if (isCulled(seesFront(inPart, gl_FrontFacing))) discard;
+  if (kFades) color.a *= paintFade(materialRows[materialIndex].fade, inWorld, inNormal);
   outColor = color;
 #else
   if (kTextured != 0) color *= texture(baseTexture, inUv);

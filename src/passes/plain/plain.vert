@@ -9,6 +9,9 @@ layout(constant_id = kTexturedId) const int kTextured = 0;
 #ifdef TRANSPARENT
 layout(location = 11) in uint inPart;
 layout(location = 11) flat out uint outPart;
+layout(location = 1) in vec2 inNormal;
+layout(location = 9) out vec3 outWorld;
+layout(location = 10) out vec3 outNormal;
 #endif
 layout(location = 0) in vec3 inPosition;
 layout(location = 2) in vec2 inUv0;
@@ -24,6 +27,10 @@ void main() {
   outPart = parts[inPart].known;
   materialIndex = materialOf(outPart);
   if (!isOfGroup(outPart)) gl_Position = kNowhere;
+  if (kFades) {
+    outWorld = inPosition;
+    outNormal = decodeNormal(inNormal);
+  }
 #endif
   outUv = kTextured != 0 ? baseUv(inUv0, inUv1) : vec2(0.0);
   outColor = material.baseColor * inColor;

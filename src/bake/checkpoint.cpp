@@ -1,0 +1,95 @@
+#include "bake/checkpoint.h"
+
+#include <cstring>
+#include <vector>
+
+#include "base/file_bytes.h"
+
+namespace scumble::bake {
+
+namespace {
+
+constexpr char kMagic[8] = {'s', 'c', 'm', 'b', 'a', 'k', 'e', '1'};
+
+struct Record {
+  uint64_t number;
+  uint32_t width, height;
+  float top;
+  uint32_t check;  // of the bytes that follow
+};
+static_assert(sizeof(Record) == 24);
+
+uint32_t checkOf(const std::vector<uint8_t>& bytes) {
+  uint32_t hash = 2166136261u;
+  for (const uint8_t byte : bytes) hash = (hash ^ byte) * 16777619u;
+  return hash;
+}
+
+}  // namespace
+
+Checkpoint::Checkpoint(std::string path, uint64_t key) : path_(std::move(path)) {
+  read(key);
+  // Written anew, so that it ends with a whole piece.
+  file_ = std::fopen(path_.c_str(), "wb");
+  if (!file_) return;
+  std::fwrite(kMagic, 1, sizeof kMagic, file_);
+  std::fwrite(&key, 1, sizeof key, file_);
+  for (const auto& [number, piece] : pieces_) add(number, piece);
+}
+
+Checkpoint::~Checkpoint() {
+  if (file_) std::fclose(file_);
+}
+
+void Checkpoint::read(uint64_t key) {
+  FileBytes file;
+  std::string problem;
+  if (!file.open(path_, problem)) return;
+  const auto bytes = file.bytes();
+  uint64_t own = 0;
+  constexpr size_t kHeader = sizeof kMagic + sizeof own;
+  if (bytes.size() < kHeader || std::memcmp(bytes.data(), kMagic, sizeof kMagic) != 0) return;
+  std::memcpy(&own, bytes.data() + sizeof kMagic, sizeof own);
+  if (own != key) return;
+  for (size_t at = kHeader; at + sizeof(Record) <= bytes.size();) {
+    Record record;
+    std::memcpy(&record, bytes.data() + at, sizeof record);
+    at += sizeof record;
+    if (record.width > kMaxImageSide || record.height > kMaxImageSide) return;
+    const size_t size = size_t(record.width) * record.height * 4;
+    if (size > bytes.size() - at) return;
+    Piece piece{{record.width,
+                 record.height,
+                 {bytes.begin() + std::ptrdiff_t(at), bytes.begin() + std::ptrdiff_t(at + size)}},
+                record.top};
+    if (checkOf(piece.tile.rgba) != record.check) return;
+    pieces_[record.number] = std::move(piece);
+    at += size;
+  }
+}
+
+const Piece* Checkpoint::find(uint64_t number) const {
+  const auto found = pieces_.find(number);
+  return found != pieces_.end() ? &found->second : nullptr;
+}
+
+void Checkpoint::add(uint64_t number, const Piece& piece) {
+  const std::lock_guard lock(mutex_);
+  if (!file_) return;
+  const Record record{number, piece.tile.width, piece.tile.height, piece.top, checkOf(piece.tile.rgba)};
+  bool isWritten = std::fwrite(&record, 1, sizeof record, file_) == sizeof record;
+  if (!piece.tile.rgba.empty())
+    isWritten &=
+        std::fwrite(piece.tile.rgba.data(), 1, piece.tile.rgba.size(), file_) == piece.tile.rgba.size();
+  if (isWritten) return;
+  std::fclose(file_);
+  file_ = nullptr;
+}
+
+void Checkpoint::finish() {
+  if (file_) std::fclose(file_);
+  file_ = nullptr;
+  std::remove(path_.c_str());
+}
+
+}  // namespace scumble::bake

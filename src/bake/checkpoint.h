@@ -1,0 +1,46 @@
+// What a bake has done so far, in a file, so that one that was cut off goes on.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <map>
+#include <mutex>
+#include <string>
+
+#include "bake/capture.h"
+
+namespace scumble::bake {
+
+// A piece of work: a tile, and what else was found of it.
+struct Piece {
+  Tile tile;
+  float top = 1;
+};
+
+class Checkpoint {
+ public:
+  // `key`: of all that pieces follow from. What the file holds of another key, or that ends in the middle,
+  // counts for nothing. Where it cannot be written nothing is kept.
+  Checkpoint(std::string path, uint64_t key);
+  ~Checkpoint();
+  Checkpoint(const Checkpoint&) = delete;
+  Checkpoint& operator=(const Checkpoint&) = delete;
+
+  size_t known() const { return pieces_.size(); }
+  // One that an earlier call has made; null: none. Valid until it is taken.
+  const Piece* find(uint64_t number) const;
+  // From any thread.
+  void add(uint64_t number, const Piece& piece);
+  // All is done: the file goes.
+  void finish();
+
+ private:
+  void read(uint64_t key);
+
+  std::string path_;
+  std::map<uint64_t, Piece> pieces_;
+  std::mutex mutex_;
+  FILE* file_ = nullptr;
+};
+
+}  // namespace scumble::bake

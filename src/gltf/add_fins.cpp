@@ -1,0 +1,136 @@
+#include "gltf/add_fins.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+
+#include "gltf/rewrite.h"
+
+namespace scumble::gltf {
+
+namespace {
+
+constexpr int kShorts = 5123, kInts = 5125, kFloats = 5126;  // component types
+constexpr const char* kUnlit = "KHR_materials_unlit";
+
+template <class T>
+Bytes bytesOf(const std::vector<T>& values) {
+  return {reinterpret_cast<const uint8_t*>(values.data()), values.size() * sizeof(T)};
+}
+
+class PaintWriter {
+ public:
+  PaintWriter(Rewrite& file, Json& mesh, const Mesh& own) : file_(file), mesh_(mesh), own_(own) {}
+
+  void add(const PaintedMesh& painted) {
+    Json image = {{"name", own_.name + " paint"}, {"mimeType", "image/png"}};
+    image["bufferView"] = file_.addView(painted.picture);
+    const size_t sampler =
+        file_.add("samplers", {{"magFilter", 9729}, {"minFilter", 9987}, {"wrapS", 33071}, {"wrapT", 33071}});
+    const size_t texture =
+        file_.add("textures", {{"source", file_.add("images", image)}, {"sampler", sampler}});
+    for (const PaintPart& part : painted.parts) add(part, texture);
+    Json& used = file_.root()["extensionsUsed"];
+    if (!used.is_array()) used = Json::array();
+    if (std::find(used.begin(), used.end(), kUnlit) == used.end()) used.push_back(kUnlit);
+  }
+
+ private:
+  void add(const PaintPart& part, size_t texture) {
+    Json primitive = {{"attributes", Json::object()}};
+    Json& attributes = primitive["attributes"];
+    attributes["POSITION"] = addPoints(part.positions, true);
+    attributes["NORMAL"] = addPoints(part.normals, false);
+    attributes["TEXCOORD_0"] =
+        addAccessor(bytesOf(part.uvs), kFloats, "VEC2", part.uvs.size(), 8, kVertexData);
+    primitive["indices"] =
+        addAccessor(bytesOf(part.indices), kInts, "SCALAR", part.indices.size(), 0, kIndexData);
+    addSkin(part, attributes);
+    addTargets(part, primitive);
+    primitive["material"] = file_.add("materials", materialOf(part, texture));
+    mesh_["primitives"].push_back(std::move(primitive));
+  }
+
+  static Json materialOf(const PaintPart& part, size_t texture) {
+    Json paint = Json::object();
+    if (part.layer.fades) paint = {{"fadeStart", part.layer.fadeStart}, {"fadeEnd", part.layer.fadeEnd}};
+    return {{"name", part.name},
+            {"alphaMode", "BLEND"},
+            {"doubleSided", part.layer.fades},
+            {"pbrMetallicRoughness",
+             {{"baseColorTexture", {{"index", texture}}}, {"metallicFactor", 0}, {"roughnessFactor", 1}}},
+            {"extensions", {{kUnlit, Json::object()}}},
+            {"extras", {{"scumble_paint", paint}}}};
+  }
+
+  size_t addAccessor(Bytes bytes, int componentType, const char* type, size_t count, size_t stride,
+                     int target) {
+    return file_.add("accessors", {{"bufferView", file_.addView(bytes, stride, target)},
+                                   {"componentType", componentType},
+                                   {"type", type},
+                                   {"count", count}});
+  }
+  size_t addPoints(const std::vector<glm::vec3>& points, bool hasBox) {
+    const size_t number = addAccessor(bytesOf(points), kFloats, "VEC3", points.size(), 12, kVertexData);
+    if (!hasBox) return number;
+    glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
+    for (const glm::vec3& p : points) low = glm::min(low, p), high = glm::max(high, p);
+    Json& accessor = file_.root()["accessors"][number];
+    accessor["min"] = {low.x, low.y, low.z}, accessor["max"] = {high.x, high.y, high.z};
+    return number;
+  }
+
+  void addSkin(const PaintPart& part, Json& attributes) {
+    const Primitive& carrier = own_.primitives[part.primitive];
+    const auto n = size_t(carrier.influences);
+    for (size_t set = 0; 4 * set < n; ++set) {
+      std::vector<uint16_t> joints;
+      std::vector<float> weights;
+      for (const uint32_t vertex : part.carriers)
+        for (size_t k = 4 * set; k < 4 * set + 4; ++k) {
+          const float weight = carrier.weights[vertex * n + k];
+          weights.push_back(weight);
+          joints.push_back(weight > 0 ? carrier.joints[vertex * n + k] : uint16_t(0));
+        }
+      const std::string number = std::to_string(set);
+      attributes["JOINTS_" + number] =
+          addAccessor(bytesOf(joints), kShorts, "VEC4", part.carriers.size(), 8, kVertexData);
+      attributes["WEIGHTS_" + number] =
+          addAccessor(bytesOf(weights), kFloats, "VEC4", part.carriers.size(), 16, kVertexData);
+    }
+  }
+
+  // All primitives of a mesh have as many.
+  void addTargets(const PaintPart& part, Json& primitive) {
+    size_t targets = 0;
+    for (const Json& other : mesh_["primitives"])
+      if (other.contains("targets")) targets = std::max(targets, other["targets"].size());
+    const std::vector<MorphTarget>& morphs = own_.primitives[part.primitive].morphTargets;
+    for (size_t t = 0; t < targets; ++t) {
+      std::vector<glm::vec3> moved(part.carriers.size(), glm::vec3(0));
+      if (t < morphs.size() && !morphs[t].positions.empty())
+        for (size_t v = 0; v < moved.size(); ++v) moved[v] = morphs[t].positions[part.carriers[v]];
+      primitive["targets"].push_back({{"POSITION", addPoints(moved, true)}});
+    }
+  }
+
+  Rewrite& file_;
+  Json& mesh_;
+  const Mesh& own_;
+};
+
+}  // namespace
+
+std::vector<uint8_t> withPaint(const std::string& path, const SceneOptions& options, const SceneData& scene,
+                               const std::vector<PaintedMesh>& meshes, ImportWarnings& warnings) {
+  Rewrite file(path, options, warnings);
+  file.dropStrokes();
+  for (size_t m = 0; m < file.meshes().size(); ++m) {
+    const int own = file.meshes()[m];
+    if (own < 0 || size_t(own) >= meshes.size() || meshes[size_t(own)].parts.empty()) continue;
+    PaintWriter(file, file.root()["meshes"][m], scene.meshes[size_t(own)]).add(meshes[size_t(own)]);
+  }
+  return file.glb("ask for a smaller texture");
+}
+
+}  // namespace scumble::gltf
