@@ -40,8 +40,9 @@ uint32_t slotsFor(size_t textures) {
 
 }  // namespace
 
-void TransparentStep::create(FrameBuilder& frame, const GeometryStepDesc& desc) {
+void TransparentStep::create(FrameBuilder& frame, const GeometryStepDesc& desc, What what) {
   frame_ = &frame;
+  what_ = what;
   desc_ = desc;
   const size_t materials = frame.scene().materialCount();
   constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
@@ -101,8 +102,8 @@ const gpu::Pipeline& TransparentStep::pipelineFor(const Group& group, uint32_t i
   desc.fragment = group.painted.isPainted ? desc_.paintedFragment : desc_.fragment;
   addVertexInput(desc, kPart | (group.painted.isPainted ? desc_.paintedInputs : desc_.inputs));
   desc.colorFormats = desc_.colorFormats;
-  desc.blend = gpu::Blend::over;
-  desc.depthFormat = kDepthFormat;
+  desc.blend = what_ == What::paint ? gpu::Blend::premultiplied : gpu::Blend::over;
+  if (what_ != What::paint) desc.depthFormat = kDepthFormat;
   desc.depthWrite = false;
   desc.samples = desc_.samples;
   desc.viewMask = desc_.viewMask;
@@ -120,13 +121,22 @@ void TransparentStep::update(uint32_t constant, std::span<const MaterialVariant>
   const SceneOnGpu& scene = frame_->scene();
   const std::map<uint32_t, float>& farthestOf = scene.transparent().farthest();
   std::vector<uint32_t> blended;
-  for (const auto& [material, farthest] : farthestOf) blended.push_back(material);
+  // What is left to others is of no group.
+  auto* const rows = reinterpret_cast<shared::TransparentMaterial*>(rows_.mapped);
+  bool isPart = false;
+  for (const auto& [material, farthest] : farthestOf) {
+    if (includes(scene.material(material))) {
+      blended.push_back(material);
+    } else {
+      rows[material].group = ~0u;
+      isPart = true;
+    }
+  }
   const auto variantOf = [&](uint32_t m) { return m < variants.size() ? variants[m] : MaterialVariant(); };
   // What is painted chooses a group, and the others join any.
   std::stable_sort(blended.begin(), blended.end(),
                    [&](uint32_t a, uint32_t b) { return variantOf(a).isPainted > variantOf(b).isPainted; });
 
-  auto* const rows = reinterpret_cast<shared::TransparentMaterial*>(rows_.mapped);
   const auto group = [&] {
     groups_.clear();
     for (const uint32_t m : blended) {
@@ -140,8 +150,9 @@ void TransparentStep::update(uint32_t constant, std::span<const MaterialVariant>
       own.fades |= fades(scene.material(m));
       own.farthest = std::max(own.farthest, farthestOf.at(m));
       const bool varies = variantOf(m).isPainted || variantOf(m).sets != 0;
-      rows[m] = {scene.materialData(m), slots, uint32_t(&own - groups_.data()),
-                 scene.material(m).doubleSided ? 0u : 1u, fadeOf(scene.material(m)), varies ? 1u : 0u};
+      rows[m] = {scene.materialData(m),           slots,
+                 uint32_t(&own - groups_.data()), scene.material(m).doubleSided ? 0u : 1u,
+                 fadeOf(scene.material(m)),       varies ? 1u : 0u};
     }
   };
   group();
@@ -156,7 +167,7 @@ void TransparentStep::update(uint32_t constant, std::span<const MaterialVariant>
   const bool isRenamed = texturesVersion_ != scene.texturesVersion();
   texturesVersion_ = scene.texturesVersion();
   for (uint32_t g = 0; g < groups_.size(); ++g)
-    groups_[g].pipeline = &pipelineFor(groups_[g], groups_.size() > 1 ? g : ~0u);
+    groups_[g].pipeline = &pipelineFor(groups_[g], isPart || groups_.size() > 1 ? g : ~0u);
   // Of sets that no group has now as well: one may have them later.
   for (uint32_t set = 0; set < (isRenamed ? sets_.size() : groups_.size()); ++set)
     for (size_t t = 0; t < kMostTextures; ++t) {

@@ -13,9 +13,12 @@ namespace scumble::frame {
 
 class TransparentStep {
  public:
+  // Which blended surfaces: those that are no layers of paint (scene::PaintLayer), such layers, drawn without
+  // a depth buffer and premultiplied, or both.
+  enum class What : uint8_t { surfaces, paint, all };
   // Of the description count shaders and their inputs, formats, samples, views, and the layout of set 2, of
   // which nothing is dynamic.
-  void create(FrameBuilder& frame, const GeometryStepDesc& desc);
+  void create(FrameBuilder& frame, const GeometryStepDesc& desc, What what);
   // The scene's buffers have other names.
   void bind();
   // Before each frame, after the scene has its materials. `constant`, `variants`: as in
@@ -41,7 +44,12 @@ class TransparentStep {
                   const std::array<SetTexture, 4>& textures);
   const gpu::Pipeline& pipelineFor(const Group& group, uint32_t index);
 
+  bool includes(const scene::Material& material) const {
+    return what_ == What::all || (what_ == What::paint) == material.paint.has_value();
+  }
+
   FrameBuilder* frame_ = nullptr;
+  What what_ = What::all;
   GeometryStepDesc desc_;
   gpu::SetLayout layout_;
   gpu::DescriptorSets sets_;  // by group: there are no more than materials

@@ -2,6 +2,7 @@
 // draws is looked up by the vertex's part. Includers set materialIndex first.
 #ifndef SCUMBLE_TRANSPARENT_GLSL
 #define SCUMBLE_TRANSPARENT_GLSL
+#include "paint_fade.glsl"
 #include "transparent.shared.h"
 
 layout(set = 1, binding = 0, scalar) readonly buffer MaterialRows { TransparentMaterial materialRows[]; };
@@ -26,17 +27,6 @@ uint materialIndex;
 // Whether the front of the surface is seen; where its back is and has none, there is nothing.
 bool seesFront(uint known, bool isFrontFacing) { return isFrontFacing != ((known & 1u) != 0); }
 bool isCulled(bool seesFront) { return !seesFront && materialRows[materialIndex].single != 0; }
-
-// How much of a fin shows: the more, the more it faces the viewer (paper 003, section 3.3; both eyes see the same). What
-// does not fade has numbers that give 1.
-float paintFade(vec2 fade, vec3 position, vec3 normal) {
-  mat4 toEyeSpace = frame.views[0].worldToEye;
-  vec3 toViewer = mix(frame.viewer - position, vec3(toEyeSpace[0][2], toEyeSpace[1][2], toEyeSpace[2][2]),
-                      frame.views[0].orthographic);
-  float faces = abs(dot(normal, toViewer)) * inversesqrt(max(dot(normal, normal) * dot(toViewer, toViewer), 1e-30));
-  float t = clamp((1.0 - faces - fade.x) / (fade.y - fade.x), 0.0, 1.0);
-  return t * t * (3.0 - 2.0 * t);
-}
 
 #ifdef TRANSPARENT_TEXTURES
 layout(set = 1, binding = 2) uniform sampler2D slot0;

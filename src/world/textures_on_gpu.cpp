@@ -3,8 +3,8 @@
 #include <map>
 #include <span>
 
-#include "scene/parallel.h"
 #include "base/mipmaps.h"
+#include "scene/parallel.h"
 
 namespace scumble::world {
 

@@ -21,6 +21,7 @@ class TransparentTriangles {
     uint32_t object, firstVertex;  // of the final ones
     uint32_t material;
     bool varied;
+    float fadeStart;  // of a fin, else 0
     bool operator==(const Part&) const = default;
   };
   // All that there is. Primitives that are the same objects as before have the same triangles. Where there

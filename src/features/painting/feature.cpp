@@ -33,6 +33,12 @@ uint32_t shownPaintings(const scene::SceneData& scene, const look::LookData& loo
   return any ? uint32_t(paintingsOf(scene).size()) : 0;
 }
 
+bool showsLayers(const scene::SceneData& scene, const look::LookData& look) {
+  return look.get<PaintingParams>().shown &&
+         std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const scene::Material& material) { return material.paint.has_value(); });
+}
+
 frame::FeatureParts makeFeature() {
   return {std::make_unique<PaintingFeature>(),
           {{"surface", makeSplats}, {"final-color", makeOver}},

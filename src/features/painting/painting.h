@@ -10,7 +10,7 @@ namespace scumble::painting {
 
 inline constexpr const char* kName = "painting";
 
-// Strokes alone. R, G, B: square roots of colours, times coverage; A: coverage.
+// Strokes and layers of paint alone. R, G, B: square roots of colours, times coverage; A: coverage.
 inline constexpr frame::Role kPaint{"paint"};
 
 std::unique_ptr<frame::Pass> makeSplats();
@@ -18,5 +18,7 @@ std::unique_ptr<frame::Pass> makeOver();
 
 // How many places of paintings a scene has that are drawn under a look.
 uint32_t shownPaintings(const scene::SceneData& scene, const look::LookData& look);
+// Whether it has layers of paint that are.
+bool showsLayers(const scene::SceneData& scene, const look::LookData& look);
 
 }  // namespace scumble::painting

@@ -45,7 +45,7 @@ class Plain : public Pass {
     desc.inputs |= kNormal;
     desc.vertex = {shaders::plain_transparent_vert};
     desc.fragment = {shaders::plain_transparent_frag};
-    blended_.create(frame, desc);
+    blended_.create(frame, desc, TransparentStep::What::all);
   }
   void bind(const gpu::GraphResources& resources) override {
     resources_ = &resources;

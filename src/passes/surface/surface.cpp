@@ -214,7 +214,7 @@ class Surface : public Pass {
     desc.paintedVertex = {shaders::surface_transparent_painted_vert};
     desc.paintedFragment = {shaders::surface_transparent_painted_frag};
     desc.passLayout = &blendedLayout_;
-    blended_.create(frame, desc);
+    blended_.create(frame, desc, TransparentStep::What::surfaces);
   }
 
   // kOptions in the shaders.

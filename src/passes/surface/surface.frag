@@ -183,9 +183,6 @@ void main() {
 #endif
   if (kAlphaMode == 1 && alpha < material.alphaCutoff) discard;
   if (kAlphaMode != 2) alpha = 1.0;
-#ifdef TRANSPARENT
-  if (kFades) alpha *= paintFade(materialRows[materialIndex].fade, inWorld, inNormal);
-#endif
 
   // Red: Lambert times cast shadow, steepened around the terminator. Outside the map there is nothing that could cast a
   // shadow, and its border is empty.

@@ -77,12 +77,7 @@ void main() {
   outLightSpace = vec3(sigmoidArgument(p.xy), p.z - 0.5 * coarse / frame.lightToWorldScale.z);
 
   outFacing = vec2(lambert, normal.y);
-#ifdef TRANSPARENT
-  const bool kPlaced = (kOptions & 2) != 0 || kFades;
-#else
-  const bool kPlaced = (kOptions & 2) != 0;
-#endif
-  if (kPlaced) {
+  if ((kOptions & 2) != 0) {
     outWorld = inPosition;
     outNormal = normal;
   }

@@ -1,6 +1,7 @@
-// Places splats, sorts them, and draws them over each other.
+// Places splats, sorts them, and draws them over each other; and layers of paint over those.
 #include <bit>
 
+#include "features/painting/fins/fins.h"
 #include "features/painting/painting.h"
 #include "features/painting/painting_knobs.h"
 #include "features/painting/splats/strokes_on_gpu.h"
@@ -27,11 +28,13 @@ class Splats : public Pass {
   uint32_t variant(const scene::SceneData& scene, const look::LookData& look) const override {
     // In powers of two, so that few that come and go make nothing anew.
     const uint32_t paintings = shownPaintings(scene, look);
-    return paintings ? 2 * std::bit_ceil(paintings) + uint32_t(look.get<PaintingParams>().light > 0) : 0;
+    const bool takesLight = paintings > 0 && look.get<PaintingParams>().light > 0;
+    return 4 * (paintings ? std::bit_ceil(paintings) : 0) + 2 * uint32_t(showsLayers(scene, look)) +
+           uint32_t(takesLight);
   }
 
   void declare(FrameBuilder& frame, uint32_t variant) override {
-    paintings_ = variant / 2, takesLight_ = variant & 1;
+    paintings_ = variant / 4, hasLayers_ = variant & 2, takesLight_ = variant & 1;
     isShown_ = paintings_ > 0;
     configuration_ = frame.configuration();
     if (isShown_) {
@@ -45,13 +48,15 @@ class Splats : public Pass {
       depth_ = frame.use(frame.get(kDepth), gpu::Use::sampledByFragment);
       shadowMap_ = frame.use(frame.get(kShadowMap), gpu::Use::sampledByVertex);
     }
-    paint_.declare(frame, "painting", kHalves);
-    if (isShown_) frame.give(kPaint, paint_.image());
+    if (hasLayers_) fins_.declare(frame);
+    paint_.declare(frame, "painting", format());
+    if (isShown_ || hasLayers_) frame.give(kPaint, paint_.image());
     frame.offer(kAovs[0], {paint_.image()});
   }
 
   void create(FrameBuilder& frame) override {
     frame_ = &frame;
+    if (hasLayers_) fins_.create(frame, format());
     if (!isShown_) return;  // whoever asks for it gets none
     uniforms_ = frame.uniform(sizeof(shared::PaintingUniforms));
     matrices_ = frame.uniform(paintings_ * sizeof(glm::mat4));
@@ -96,6 +101,7 @@ class Splats : public Pass {
 
   void bind(const gpu::GraphResources& resources) override {
     resources_ = &resources;
+    if (hasLayers_) fins_.bind(resources);
     if (!isShown_) return;
     textures_.rewriteTexture(0, shared::kPaintingDepth, resources.image(depth_).view(),
                              frame_->samplers().get({VK_FILTER_NEAREST}));
@@ -117,6 +123,7 @@ class Splats : public Pass {
   }
 
   void update(const FrameInput& input) override {
+    if (hasLayers_) fins_.update(input);
     if (!isShown_) return;
     const PaintingParams params = input.knobs.scene<PaintingParams>();
     const LightParams light = input.knobs.scene<LightParams>();
@@ -167,20 +174,28 @@ class Splats : public Pass {
   void record(VkCommandBuffer commands) const {
     const gpu::Target paint = paint_.target(*resources_);
     gpu::drawViews(commands, configuration_.views(), {&paint, 1}, nullptr, [&](uint32_t firstView) {
-      if (!isShown_) return;
-      drawPipeline_.bind(commands);
-      drawPipeline_.bindSet(commands, 0, frame_->frameSet());
-      drawPipeline_.bindSet(commands, 1, set_[0]);
-      drawPipeline_.bindSet(commands, 2, textures_[0]);
-      drawPipeline_.push(commands, firstView);
-      vkCmdDraw(commands, 6 * strokes()->splatCount(), 1, 0, 0);
+      if (isShown_) drawSplats(commands, firstView);
+      if (hasLayers_) fins_.draw(commands, firstView);
     });
+  }
+
+  // Many thin splats add up; layers of paint are few, and bytes already.
+  VkFormat format() const { return isShown_ ? kHalves : kBytes; }
+
+  void drawSplats(VkCommandBuffer commands, uint32_t firstView) const {
+    drawPipeline_.bind(commands);
+    drawPipeline_.bindSet(commands, 0, frame_->frameSet());
+    drawPipeline_.bindSet(commands, 1, set_[0]);
+    drawPipeline_.bindSet(commands, 2, textures_[0]);
+    drawPipeline_.push(commands, firstView);
+    vkCmdDraw(commands, 6 * strokes()->splatCount(), 1, 0, 0);
   }
 
   FrameBuilder* frame_ = nullptr;
   Configuration configuration_;
   uint32_t paintings_ = 0;
-  bool isShown_ = false, takesLight_ = false;
+  bool isShown_ = false, hasLayers_ = false, takesLight_ = false;
+  Fins fins_;
   UniformSlice uniforms_, matrices_;
   gpu::Handle placedBuffer_, depth_, shadowMap_;
   DrawnImage paint_;

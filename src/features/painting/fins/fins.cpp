@@ -1,0 +1,48 @@
+#include "features/painting/fins/fins.h"
+
+#include "features/painting/fins/painting_fins.shared.h"
+#include "features/painting/painting_knobs.h"
+#include "shaders/painting_fins_frag.h"
+#include "shaders/painting_fins_vert.h"
+
+namespace scumble::painting {
+
+using namespace frame;
+
+void Fins::declare(FrameBuilder& frame) {
+  frame.use(frame.get(kVertices), gpu::Use::vertexBuffer);
+  frame.use(frame.get(kTransparentOrder), gpu::Use::indexBuffer);
+  depth_ = frame.use(frame.get(kDepth), gpu::Use::sampledByFragment);
+}
+
+void Fins::create(FrameBuilder& frame, VkFormat format) {
+  frame_ = &frame;
+  uniforms_ = frame.uniform(sizeof(shared::FinsUniforms));
+  layout_ = gpu::SetLayout(frame.device(),
+                           {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_FRAGMENT_BIT},
+                            {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}});
+  set_ = gpu::DescriptorSets(frame.device(), layout_);
+  set_.writeBuffer(0, shared::kFinsBlock, uniforms_.buffer, uniforms_.offset, uniforms_.size);
+  GeometryStepDesc desc;
+  desc.vertex = {shaders::painting_fins_vert};
+  desc.fragment = {shaders::painting_fins_frag};
+  desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor;
+  desc.colorFormats = {format};
+  desc.viewMask = frame.configuration().views().mask();
+  desc.viewCount = frame.configuration().viewCount;
+  desc.passLayout = &layout_;
+  step_.create(frame, desc, TransparentStep::What::paint);
+}
+
+void Fins::bind(const gpu::GraphResources& resources) {
+  set_.rewriteTexture(0, shared::kFinsDepth, resources.image(depth_).view(),
+                      frame_->samplers().get({VK_FILTER_NEAREST}));
+  step_.bind();
+}
+
+void Fins::update(const FrameInput& input) {
+  uniforms_.write(shared::FinsUniforms{input.knobs.scene<PaintingParams>().opacity});
+  step_.update(0);
+}
+
+}  // namespace scumble::painting

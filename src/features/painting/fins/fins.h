@@ -1,0 +1,28 @@
+// Draws layers of paint (scene::PaintLayer): fins and coats of all objects, in one order.
+#pragma once
+
+#include "frame/pass.h"
+#include "frame/transparent_step.h"
+
+namespace scumble::painting {
+
+class Fins {
+ public:
+  // Uses of the step that draws them.
+  void declare(frame::FrameBuilder& frame);
+  void create(frame::FrameBuilder& frame, VkFormat format);
+  void bind(const gpu::GraphResources& resources);
+  void update(const frame::FrameInput& input);
+  // Into what paint lies in already.
+  void draw(VkCommandBuffer commands, uint32_t firstView) const { step_.draw(commands, &set_, firstView); }
+
+ private:
+  frame::FrameBuilder* frame_ = nullptr;
+  gpu::Handle depth_;
+  frame::UniformSlice uniforms_;
+  gpu::SetLayout layout_;
+  gpu::DescriptorSets set_;
+  frame::TransparentStep step_;
+};
+
+}  // namespace scumble::painting
