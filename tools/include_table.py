@@ -28,6 +28,8 @@ TABLE = {
     "src/sketch": [PUBLIC, "src/base", "src/scene"],
     "src/gltf": [PUBLIC, "src/base", "src/scene", "src/sketch"],
     "src/paint": [PUBLIC, "src/base", "src/scene", "src/gltf"],
+    # The brush is the one that shaders draw with.
+    "src/bake": [PUBLIC, "src/base", "src/scene", "src/gltf", "src/shading"],
     "src/look": [PUBLIC, "src/base"],
     "src/shading": [],
     "src/stage": STAGE,

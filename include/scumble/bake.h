@@ -28,7 +28,7 @@ struct BakePart {
 
 struct BakeOptions {
   uint32_t textureSize = 2048;  // a side of each mesh's texture, at most: 64 to 8192
-  float fadeStart = 0.75f, fadeEnd = 0.35f;
+  float fadeStart = 0.5f, fadeEnd = 0.2f;
   // Shells of paint over the surface, 1 to 16: one lies on it, more stand where strokes are sparse and long.
   int layers = 1;
   std::vector<BakePart> parts;  // the last one that matches counts

@@ -43,14 +43,14 @@ Status checkOptions(const BakeOptions& options) {
     return usage("the texture's size is out of range", "give 64 to 8192");
   if (options.layers < 1 || options.layers > 16)
     return usage("so many layers cannot be made", "give 1 to 16");
-  if (const Status status = checkFade(options.fadeStart, options.fadeEnd, "the "); !status) return status;
+  if (Status status = checkFade(options.fadeStart, options.fadeEnd, "the "); !status) return status;
   for (const BakePart& part : options.parts) {
     const std::string whose = "of part '" + part.materials + "' the ";
     if (!(part.offset >= 0) || !std::isfinite(part.offset))
       return usage(whose + "offset is out of range", "give metres above 0");
     if (part.layers < 0 || part.layers > 16) return usage(whose + "layers are out of range", "give 1 to 16");
-    if (const Status status = checkFade(part.fadeStart >= 0 ? part.fadeStart : options.fadeStart,
-                                        part.fadeEnd >= 0 ? part.fadeEnd : options.fadeEnd, whose);
+    if (Status status = checkFade(part.fadeStart >= 0 ? part.fadeStart : options.fadeStart,
+                                  part.fadeEnd >= 0 ? part.fadeEnd : options.fadeEnd, whose);
         !status)
       return status;
   }

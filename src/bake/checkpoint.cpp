@@ -27,21 +27,15 @@ uint32_t checkOf(const std::vector<uint8_t>& bytes) {
 
 }  // namespace
 
-Checkpoint::Checkpoint(std::string path, uint64_t key) : path_(std::move(path)) {
-  read(key);
-  // Written anew, so that it ends with a whole piece.
-  file_ = std::fopen(path_.c_str(), "wb");
-  if (!file_) return;
-  std::fwrite(kMagic, 1, sizeof kMagic, file_);
-  std::fwrite(&key, 1, sizeof key, file_);
-  for (const auto& [number, piece] : pieces_) add(number, piece);
+Checkpoint::Checkpoint(std::string path, uint64_t key) : path_(std::move(path)), key_(key) {
+  read();
 }
 
 Checkpoint::~Checkpoint() {
   if (file_) std::fclose(file_);
 }
 
-void Checkpoint::read(uint64_t key) {
+void Checkpoint::read() {
   FileBytes file;
   std::string problem;
   if (!file.open(path_, problem)) return;
@@ -50,7 +44,7 @@ void Checkpoint::read(uint64_t key) {
   constexpr size_t kHeader = sizeof kMagic + sizeof own;
   if (bytes.size() < kHeader || std::memcmp(bytes.data(), kMagic, sizeof kMagic) != 0) return;
   std::memcpy(&own, bytes.data() + sizeof kMagic, sizeof own);
-  if (own != key) return;
+  if (own != key_) return;
   for (size_t at = kHeader; at + sizeof(Record) <= bytes.size();) {
     Record record;
     std::memcpy(&record, bytes.data() + at, sizeof record);
@@ -75,6 +69,21 @@ const Piece* Checkpoint::find(uint64_t number) const {
 
 void Checkpoint::add(uint64_t number, const Piece& piece) {
   const std::lock_guard lock(mutex_);
+  if (!isOpened_) open();
+  write(number, piece);
+}
+
+// Written anew, so that it ends with a whole piece.
+void Checkpoint::open() {
+  isOpened_ = true;
+  file_ = std::fopen(path_.c_str(), "wb");
+  if (!file_) return;
+  std::fwrite(kMagic, 1, sizeof kMagic, file_);
+  std::fwrite(&key_, 1, sizeof key_, file_);
+  for (const auto& [number, piece] : pieces_) write(number, piece);
+}
+
+void Checkpoint::write(uint64_t number, const Piece& piece) {
   if (!file_) return;
   const Record record{number, piece.tile.width, piece.tile.height, piece.top, checkOf(piece.tile.rgba)};
   bool isWritten = std::fwrite(&record, 1, sizeof record, file_) == sizeof record;

@@ -19,8 +19,8 @@ struct Piece {
 
 class Checkpoint {
  public:
-  // `key`: of all that pieces follow from. What the file holds of another key, or that ends in the middle,
-  // counts for nothing. Where it cannot be written nothing is kept.
+  // Nothing is written before the first piece. `key`: of all that pieces follow from. What the file holds of
+  // another key, or that ends in the middle, counts for nothing. Where it cannot be written nothing is kept.
   Checkpoint(std::string path, uint64_t key);
   ~Checkpoint();
   Checkpoint(const Checkpoint&) = delete;
@@ -35,11 +35,15 @@ class Checkpoint {
   void finish();
 
  private:
-  void read(uint64_t key);
+  void read();
+  void open();
+  void write(uint64_t number, const Piece& piece);
 
   std::string path_;
+  uint64_t key_;
   std::map<uint64_t, Piece> pieces_;
   std::mutex mutex_;
+  bool isOpened_ = false;
   FILE* file_ = nullptr;
 };
 

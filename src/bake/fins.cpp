@@ -65,7 +65,7 @@ Shell makeShell(const Proxy& proxy, const std::vector<Splat>& splats, const std:
   }
   const std::vector<float> mean = smoothed(proxy, shell.offsets);
   for (size_t p = 0; p < mean.size(); ++p)
-    if (shell.offsets[p] > 0) shell.offsets[p] = mean[p];
+    if (shell.offsets[p] > 0) shell.offsets[p] = std::max(shell.offsets[p], mean[p]);
   for (const ProxyTriangle& t : proxy.triangles)
     if (fixedOffset[t.primitive] > 0)
       for (int c = 0; c < 3; ++c) shell.offsets[t.places[c]] = fixedOffset[t.primitive];

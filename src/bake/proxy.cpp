@@ -13,7 +13,7 @@ namespace {
 
 // Two triangles make a rectangle if they lie as flat as this, and its corners differ from right angles by no
 // more than that in all (radians).
-constexpr float kFlat = 0.9f, kMostSkew = 2.2f;
+constexpr float kNearlyFlat = 0.9f, kMostSkew = 2.2f;
 // What any field must begin with; no axis, since models have edges along those.
 const glm::vec3 kFieldDirection = glm::normalize(glm::vec3(0.21f, -0.94f, 0.27f));
 // Of a unit vector laid onto a plane: less, and it says nothing.
@@ -146,7 +146,8 @@ class Maker {
     if (edge.triangles[1] < 0) return INFINITY;
     const ProxyTriangle &first = proxy_.triangles[size_t(edge.triangles[0])],
                         &second = proxy_.triangles[size_t(edge.triangles[1])];
-    if (first.primitive != second.primitive || glm::dot(first.normal, second.normal) < kFlat) return INFINITY;
+    if (first.primitive != second.primitive || glm::dot(first.normal, second.normal) < kNearlyFlat)
+      return INFINITY;
     const glm::vec3 &a = proxy_.places[edge.a], &b = proxy_.places[edge.b],
                     &c = proxy_.places[thirdPlace(edge.triangles[0], edge)],
                     &d = proxy_.places[thirdPlace(edge.triangles[1], edge)];

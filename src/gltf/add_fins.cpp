@@ -10,7 +10,7 @@ namespace scumble::gltf {
 
 namespace {
 
-constexpr int kShorts = 5123, kInts = 5125, kFloats = 5126;  // component types
+constexpr int kShortType = 5123, kIntType = 5125, kFloatType = 5126;  // component types
 constexpr const char* kUnlit = "KHR_materials_unlit";
 
 template <class T>
@@ -42,9 +42,9 @@ class PaintWriter {
     attributes["POSITION"] = addPoints(part.positions, true);
     attributes["NORMAL"] = addPoints(part.normals, false);
     attributes["TEXCOORD_0"] =
-        addAccessor(bytesOf(part.uvs), kFloats, "VEC2", part.uvs.size(), 8, kVertexData);
+        addAccessor(bytesOf(part.uvs), kFloatType, "VEC2", part.uvs.size(), 8, kVertexData);
     primitive["indices"] =
-        addAccessor(bytesOf(part.indices), kInts, "SCALAR", part.indices.size(), 0, kIndexData);
+        addAccessor(bytesOf(part.indices), kIntType, "SCALAR", part.indices.size(), 0, kIndexData);
     addSkin(part, attributes);
     addTargets(part, primitive);
     primitive["material"] = file_.add("materials", materialOf(part, texture));
@@ -71,7 +71,7 @@ class PaintWriter {
                                    {"count", count}});
   }
   size_t addPoints(const std::vector<glm::vec3>& points, bool hasBox) {
-    const size_t number = addAccessor(bytesOf(points), kFloats, "VEC3", points.size(), 12, kVertexData);
+    const size_t number = addAccessor(bytesOf(points), kFloatType, "VEC3", points.size(), 12, kVertexData);
     if (!hasBox) return number;
     glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
     for (const glm::vec3& p : points) low = glm::min(low, p), high = glm::max(high, p);
@@ -94,9 +94,9 @@ class PaintWriter {
         }
       const std::string number = std::to_string(set);
       attributes["JOINTS_" + number] =
-          addAccessor(bytesOf(joints), kShorts, "VEC4", part.carriers.size(), 8, kVertexData);
+          addAccessor(bytesOf(joints), kShortType, "VEC4", part.carriers.size(), 8, kVertexData);
       attributes["WEIGHTS_" + number] =
-          addAccessor(bytesOf(weights), kFloats, "VEC4", part.carriers.size(), 16, kVertexData);
+          addAccessor(bytesOf(weights), kFloatType, "VEC4", part.carriers.size(), 16, kVertexData);
     }
   }
 

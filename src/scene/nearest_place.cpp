@@ -106,7 +106,8 @@ NearestPlaces::NearestPlaces(std::span<const Primitive* const> primitives)
       const Primitive& primitive = *primitives_[p];
       if (primitive.positions.empty()) continue;
       for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
-        const Triangle t{p, uint32_t(i / 3), {primitive.indices[i], primitive.indices[i + 1], primitive.indices[i + 2]}};
+        const Triangle t{
+            p, uint32_t(i / 3), {primitive.indices[i], primitive.indices[i + 1], primitive.indices[i + 2]}};
         const glm::vec3 ab = corner(t, 1) - corner(t, 0), ac = corner(t, 2) - corner(t, 0), bc = ac - ab;
         const float longest2 = std::max({glm::dot(ab, ab), glm::dot(ac, ac), glm::dot(bc, bc)});
         if (glm::length(glm::cross(ab, ac)) > least * longest2) triangles_.push_back(t);

@@ -54,12 +54,12 @@ struct Outline {
   float lightingMix = 1.0f;  // 0: the colour as it is; 1: times the surface's
 };
 
-// Paint that lies over other surfaces (docs/fins.md): it is seen, and is nothing else. It casts no shadow, has no
-// edges, and is in no facts.
+// Paint that lies over other surfaces (docs/fins.md): it is seen, and is nothing else. It casts no shadow,
+// has no edges, and is in no facts.
 struct PaintLayer {
   bool fades = false;  // a fin, which fades as it turns away from the viewer
   // As BakePart has them.
-  float fadeStart = 0.75f, fadeEnd = 0.35f;
+  float fadeStart = 0.5f, fadeEnd = 0.2f;
 };
 
 struct Material {
@@ -80,7 +80,7 @@ struct Material {
   // coordinates of baseColorTexture, and no factor acts on them.
   TextureUse litTexture, shadowedTexture;
   std::optional<Outline> outline;
-  // From extras: {"scumble_paint": {"fadeStart": 0.75, "fadeEnd": 0.35}}; without numbers it does not fade.
+  // From extras: {"scumble_paint": {"fadeStart": 0.5, "fadeEnd": 0.2}}; without numbers it does not fade.
   std::optional<PaintLayer> paint;
 };
 

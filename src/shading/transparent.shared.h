@@ -15,7 +15,7 @@ struct TransparentTriangle {
 struct TransparentPart {
   uint object;
   uint known;
-  uint visible;  // 1: in one of the frame's views
+  uint visible;     // 1: in one of the frame's views
   float fadeStart;  // of fins, as paintFade has it; else 0
 };
 

@@ -116,5 +116,55 @@ class Paint(Case):
         self.bad(NOT_WRITTEN, "paint", "x.glb", "-o", "x.glb", says="one of the inputs")
 
 
+class Fins(Case):
+    def paint(self):
+        self.good("paint", "box.gltf", "-o", "painted.glb", "--splats", "2000", "--quiet")
+        self.put("painted.glb", (self.folder / "painted.glb").read_bytes())
+
+    def test_a_painting_is_baked(self):
+        self.paint()
+        out = self.good("bake", "painted.glb", "-o", "fins.glb", "--texture", "512", warnings=True)
+        self.assertIn("fins", out)
+        about = json.loads(self.good("info", "fins.glb", "--json"))
+        self.assertEqual(about["strokes"], 0)
+        self.good("render", "fins.glb", "-o", "fins.png", *TINY)
+        self.good("render", "fins.glb", "-o", "two.png", "--stereo", "side-by-side", *TINY)
+        first = (self.folder / "fins.glb").read_bytes()
+        self.good("bake", "painted.glb", "-o", "again.glb", "--texture", "512", "--quiet")
+        self.assertEqual((self.folder / "again.glb").read_bytes(), first)
+        self.assertFalse(list(self.folder.glob("*.part")))
+        # What other programs look for.
+        size = struct.unpack("<I", first[12:16])[0]
+        root = json.loads(first[20:20 + size])
+        layers = [m for m in root["materials"] if "scumble_paint" in m.get("extras", {})]
+        self.assertTrue(any("fadeStart" in m["extras"]["scumble_paint"] for m in layers))
+        for m in layers:
+            self.assertEqual(m["alphaMode"], "BLEND")
+            self.assertIn("KHR_materials_unlit", m["extensions"])
+        self.assertTrue(all(p.get("mode", 4) == 4 for m in root["meshes"] for p in m["primitives"]))
+
+    def test_parts_have_their_own_numbers(self):
+        self.paint()
+        self.good("bake", "painted.glb", "-o", "a.glb", "--texture", "512", "--part", "*:offset=0.4;start=0.8;end=0.3;layers=3", "--quiet")
+        self.good("bake", "painted.glb", "-o", "b.glb", "--texture", "512", "--quiet")
+        self.assertNotEqual((self.folder / "a.glb").read_bytes(), (self.folder / "b.glb").read_bytes())
+        for name in ("a.glb", "b.glb"):
+            (self.folder / name).unlink()
+        for part in ("offset=1", "*:offset", "*:height=1", "*:layers=1.5", "*:offset=-1"):
+            self.bad(USAGE, "bake", "painted.glb", "-o", "c.glb", "--part", part)
+        self.bad(USAGE, "bake", "painted.glb", "-o", "c.glb", "--part", "Nobody:offset=1", says="Nobody")
+
+    def test_mistakes(self):
+        self.bad(UNUSABLE, "bake", "box.gltf", "-o", "fins.glb", says="scumble paint")
+        self.bad(UNUSABLE, "bake", "absent.glb", "-o", "fins.glb")
+        self.tilt()
+        self.bad(UNUSABLE, "bake", "bird.tilt", "-o", "fins.glb", says="no surface")
+        self.paint()
+        self.bad(USAGE, "bake", "painted.glb", "-o", "fins.png", says="fins.glb")
+        self.bad(NOT_WRITTEN, "bake", "painted.glb", "-o", "painted.glb", says="one of the inputs")
+        self.bad(USAGE, "bake", "painted.glb", "-o", "fins.glb", "--texture", "10")
+        self.bad(NOT_WRITTEN, "bake", "painted.glb", "-o", "absent/fins.glb")
+
+
 if __name__ == "__main__":
     program_test.main()

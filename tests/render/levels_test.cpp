@@ -13,6 +13,7 @@
 #include "tests/support/draw_list_spy.h"
 #include "tests/support/render_test.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/test_device.h"
 
 namespace scumble {
 namespace {

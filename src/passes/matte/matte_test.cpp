@@ -9,6 +9,7 @@
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/test_device.h"
 
 namespace scumble::passes {
 namespace {

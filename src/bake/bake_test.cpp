@@ -1,0 +1,469 @@
+// Fins: what lies across edges is laid flat without gaps, splats come by the shortest way and in order, fins
+// go over into each other, nothing bleeds in the atlas; and a bake that was cut off goes on.
+#include "scumble/bake.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "bake/atlas.h"
+#include "bake/capture.h"
+#include "bake/checkpoint.h"
+#include "bake/fins.h"
+#include "base/mipmaps.h"
+#include "base/test_folder.h"
+#include "scene/painting.h"
+#include "scumble/paint.h"
+#include "scumble/scene.h"
+#include "tests/support/animated_scene.h"
+#include "tests/support/test_scene.h"
+
+namespace scumble::bake {
+namespace {
+
+using namespace test;
+
+struct Files {
+  explicit Files(const std::string& text) : scene(folder.put("scene.gltf", text)) {}
+  TestFolder folder;
+  std::string scene, out = folder.file("out.glb");
+};
+
+std::string contentOf(const std::string& path) {
+  std::stringstream content;
+  content << std::ifstream(path, std::ios::binary).rdbuf();
+  return content.str();
+}
+
+TestScene painted(const TestMesh& mesh, const std::vector<TestStroke>& strokes) {
+  TestScene s;
+  s.add(mesh, s.material(TestScene::colored("Skin", {0.5f, 0.5f, 0.5f, 1})));
+  s.paint(strokes);
+  return s;
+}
+
+// A floor and a wall, whose common edge is the z axis's, from squares of a half.
+TestMesh corner(float wallLeansBy = 0) {
+  TestMesh mesh = gridMesh({-1, 0, 1}, {1, 0, 0}, {0, 0, -2}, 4);
+  const TestMesh wall = gridMesh({0, 0, 1}, {wallLeansBy, -1, 0}, {0, 0, -2}, 4);
+  const auto first = uint32_t(mesh.positions.size());
+  mesh.positions.insert(mesh.positions.end(), wall.positions.begin(), wall.positions.end());
+  mesh.normals.insert(mesh.normals.end(), wall.normals.begin(), wall.normals.end());
+  mesh.uvs.insert(mesh.uvs.end(), wall.uvs.begin(), wall.uvs.end());
+  for (const uint32_t index : wall.indices) mesh.indices.push_back(first + index);
+  return mesh;
+}
+
+// One mesh with everything up to its captures.
+struct Baked {
+  Baked(const TestScene& test, float texel, const BakeOptions& given = {})
+      : scene(test.load()), mesh(scene.data().meshes[0]), options(given), proxy(makeProxy(mesh)) {
+    size_t left = 0;
+    splats = hungSplats(*mesh.painting, proxy, options, 10, left);
+    shell = makeShell(proxy, splats, std::vector<float>(mesh.primitives.size(), 0.0f));
+    fins = makeFins(proxy, shell);
+    capture = std::make_unique<Capture>(proxy, shell, splats, options, texel);
+  }
+  Scene scene;
+  const scene::Mesh& mesh;
+  BakeOptions options;
+  Proxy proxy;
+  std::vector<Splat> splats;
+  Shell shell;
+  std::vector<Fin> fins;
+  std::unique_ptr<Capture> capture;
+
+  // Of a coat, square root of colour and opacity, at a place of space over a triangle.
+  glm::vec4 coatAt(size_t triangle, const glm::vec3& place) const {
+    const ProxyTriangle& t = proxy.triangles[triangle];
+    const Chart& chart = proxy.charts[t.chart];
+    const Tile tile = capture->coat(t.chart, -INFINITY, INFINITY);
+    if (tile.width == 0) return glm::vec4(0);
+    const glm::vec3 from = place - proxy.places[t.places[0]];
+    const glm::vec2 p = t.flat[0] + glm::vec2(glm::dot(from, t.axisX), glm::dot(from, t.axisY));
+    const glm::vec2 texel = (p - chart.low) / texelSize(tile, chart);
+    const int x = int(std::floor(texel.x)) + kGutter,
+              y = int(tile.height) - 1 - kGutter - int(std::floor(texel.y));
+    const uint8_t* const c = &tile.rgba[4 * (size_t(y) * tile.width + size_t(x))];
+    return {float(c[0]) / 255, float(c[1]) / 255, float(c[2]) / 255, float(c[3]) / 255};
+  }
+  glm::vec2 texelSize(const Tile& tile, const Chart& chart) const {
+    const glm::vec2 content(tile.width - 2 * kGutter, tile.height - 2 * kGutter);
+    return glm::max((chart.high - chart.low) / content, glm::vec2((chart.high - chart.low) / content));
+  }
+};
+
+TEST(BakeProxy, whatLiesAcrossAnEdgeIsLaidFlatBesideIt) {
+  TestScene s;
+  s.add(sphereMesh({0, 0, 0}, 1, 16), s.material(TestScene::colored("Skin", {1, 1, 1, 1})));
+  const Scene scene = s.load();
+  const Proxy proxy = makeProxy(scene.data().meshes[0]);
+  size_t crossings = 0, quads = 0;
+  for (size_t t = 0; t < proxy.triangles.size(); ++t) {
+    const ProxyTriangle& triangle = proxy.triangles[t];
+    for (size_t i = 0; i < 3; ++i) {
+      // Lengths stay, and so does the side from which it is seen.
+      const size_t k = (i + 1) % 3;
+      EXPECT_NEAR(glm::distance(triangle.flat[i], triangle.flat[k]),
+                  glm::distance(proxy.places[triangle.places[int(i)]], proxy.places[triangle.places[int(k)]]),
+                  1e-5f);
+      if (triangle.across[i] < 0) continue;
+      ++crossings;
+      const ProxyTriangle& other = proxy.triangles[size_t(triangle.across[i])];
+      for (const size_t end : {i, k})
+        for (int c = 0; c < 3; ++c)
+          if (other.places[c] == triangle.places[int(end)])
+            EXPECT_LT(glm::distance(triangle.into[i](triangle.flat[end]), other.flat[size_t(c)]), 1e-5f);
+      // The rest of it lies on the other side of the edge.
+      const auto side = [&](const glm::vec2& p, const glm::vec2& a, const glm::vec2& b) {
+        return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+      };
+      const glm::vec2 a = triangle.into[i](triangle.flat[i]), b = triangle.into[i](triangle.flat[k]);
+      EXPECT_GT(side(triangle.into[i](triangle.flat[(i + 2) % 3]), a, b), 0);
+      for (int c = 0; c < 3; ++c)
+        if (other.places[c] != triangle.places[int(i)] && other.places[c] != triangle.places[int(k)])
+          EXPECT_LT(side(other.flat[size_t(c)], a, b), 0);
+    }
+    const glm::vec2 u = triangle.flat[1] - triangle.flat[0], v = triangle.flat[2] - triangle.flat[0];
+    EXPECT_GT(u.x * v.y - u.y * v.x, 0);
+  }
+  // Closed: every triangle has three neighbours. Between the poles all are quads.
+  EXPECT_EQ(crossings, 3 * proxy.triangles.size());
+  for (const Chart& chart : proxy.charts) quads += chart.triangles[1] >= 0;
+  EXPECT_GT(2 * quads, proxy.triangles.size() * 4 / 5);
+  size_t turned = 0;
+  for (const ProxyTriangle& t : proxy.triangles)
+    for (size_t e = 0; e < 3; ++e)
+      turned += glm::dot(t.into[e].turned(t.field), proxy.triangles[size_t(t.across[e])].field) < 0.5f;
+  // A field on a sphere has places where it does not go on; they are few.
+  EXPECT_LT(turned, crossings / 20);
+}
+
+TEST(BakeProxy, brokenSurfacesAreNone) {
+  // Three sheets at one edge, a triangle without area, two wound against each other.
+  TestMesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, -1, 0}, {2, 0, 0}};
+  mesh.normals.assign(6, {0, 0, 1});
+  mesh.uvs.assign(6, {0, 0});
+  mesh.indices = {0, 1, 2, 0, 1, 3, 1, 0, 4, 0, 1, 5, 0, 2, 1};
+  TestScene s;
+  s.add(mesh, s.material(TestScene::colored("Skin", {1, 1, 1, 1})));
+  const Scene scene = s.load();
+  const Proxy proxy = makeProxy(scene.data().meshes[0]);
+  EXPECT_EQ(proxy.triangles.size(), 4u);
+  for (size_t t = 0; t < proxy.triangles.size(); ++t)
+    for (size_t e = 0; e < 3; ++e) {
+      const int other = proxy.triangles[t].across[e];
+      if (other < 0) continue;
+      const auto& back = proxy.triangles[size_t(other)].across;
+      EXPECT_NE(std::find(back.begin(), back.end(), int(t)), back.end());
+    }
+}
+
+TEST(BakeFins, goOverIntoTheStraightestNeighbour) {
+  const Baked baked(
+      painted(gridMesh({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, 4), {{{{-1.8f, 0.3f, 0}, {1.8f, 0.3f, 0}}}}),
+      0.05f);
+  const std::vector<bool> all(baked.proxy.edges.size(), true);
+  size_t straight = 0;
+  for (uint32_t p = 0; p < baked.proxy.places.size(); ++p) {
+    std::vector<bool> upright = all;
+    for (size_t e = 0; e < all.size(); ++e) upright[e] = !baked.proxy.edges[e].isDiagonal;
+    const std::vector<uint32_t> matched = matchedEdges(baked.proxy, p, upright);
+    const std::vector<uint32_t>& edges = baked.proxy.edgesAt[p];
+    for (size_t i = 0; i < edges.size(); ++i) {
+      if (matched[i] == ~0u) continue;
+      const auto along = [&](uint32_t e) {
+        const ProxyEdge& edge = baked.proxy.edges[e];
+        return baked.proxy.places[edge.b] - baked.proxy.places[edge.a];
+      };
+      // Of a grid's edges all go straight on, and each of two is the other's.
+      EXPECT_GT(std::abs(glm::dot(glm::normalize(along(edges[i])), glm::normalize(along(matched[i])))),
+                0.999f);
+      const size_t k = size_t(std::find(edges.begin(), edges.end(), matched[i]) - edges.begin());
+      EXPECT_EQ(matched[k], edges[i]);
+      ++straight;
+    }
+  }
+  EXPECT_GT(straight, 40u);
+  // Around a ball normals of fins that follow each other are the same where they meet.
+  std::vector<TestStroke> strokes;
+  for (int i = 0; i < 12; ++i) {
+    const float a = float(i) * 0.5236f;
+    strokes.push_back(
+        {{{1.1f * std::cos(a), -0.5f, 1.1f * std::sin(a)}, {1.2f * std::cos(a), 0.5f, 1.2f * std::sin(a)}}});
+  }
+  const Baked ball(painted(sphereMesh({0, 0, 0}, 1, 16), strokes), 0.05f);
+  std::vector<bool> hasFin(ball.proxy.edges.size());
+  std::vector<const Fin*> finOf(ball.proxy.edges.size());
+  for (const Fin& fin : ball.fins) hasFin[fin.edge] = true, finOf[fin.edge] = &fin;
+  size_t shared = 0;
+  for (uint32_t p = 0; p < ball.proxy.places.size(); ++p) {
+    const std::vector<uint32_t> matched = matchedEdges(ball.proxy, p, hasFin);
+    for (size_t i = 0; i < matched.size(); ++i) {
+      const uint32_t e = ball.proxy.edgesAt[p][i];
+      if (matched[i] == ~0u) continue;
+      const size_t k =
+          size_t(std::find(ball.proxy.edgesAt[p].begin(), ball.proxy.edgesAt[p].end(), matched[i]) -
+                 ball.proxy.edgesAt[p].begin());
+      if (matched[k] != e) continue;
+      const auto normalAt = [&](uint32_t edge) {
+        return finOf[edge]->matched[ball.proxy.edges[edge].a == p ? 0 : 1];
+      };
+      EXPECT_GT(std::abs(glm::dot(normalAt(e), normalAt(matched[i]))), 0.9999f);
+      ++shared;
+    }
+  }
+  EXPECT_GT(shared, 100u);
+}
+
+// (FORMULAS 20.) A stroke over the edge of a wall that hangs down: the part beside it lies around the edge,
+// as far from it as the stroke is wide; straight projection would not have it there at all.
+TEST(BakeCapture, splatsComeByTheShortestWayOverEdges) {
+  const Baked baked(painted(corner(), {{{{-0.05f, 0.0f, 0.8f}, {-0.05f, 0.0f, -0.8f}}, 0.25f, {1, 0, 0, 1}}}),
+                    0.01f);
+  size_t floorHits = 0, wallHits = 0;
+  for (size_t t = 0; t < baked.proxy.triangles.size(); ++t) {
+    const ProxyTriangle& triangle = baked.proxy.triangles[t];
+    const bool isWall = std::abs(triangle.normal.x) > 0.9f;
+    // Beside the edge, at z = 0.1: on the wall down to where 0.25 metres from the stroke's middle are over.
+    for (const float away : {0.02f, 0.12f, 0.17f, 0.23f, 0.3f}) {
+      const glm::vec3 place = isWall ? glm::vec3(0, -away, 0.1f) : glm::vec3(-away, 0, 0.1f);
+      glm::vec2 in;
+      const glm::vec3 from = place - baked.proxy.places[triangle.places[0]];
+      in = triangle.flat[0] + glm::vec2(glm::dot(from, triangle.axisX), glm::dot(from, triangle.axisY));
+      bool isInside = true;
+      for (size_t i = 0; i < 3; ++i) {
+        const glm::vec2 e = triangle.flat[(i + 1) % 3] - triangle.flat[i], d = in - triangle.flat[i];
+        isInside &= e.x * d.y - e.y * d.x > 1e-3f;
+      }
+      if (!isInside) continue;
+      const float distance = isWall ? away + 0.05f : std::abs(away - 0.05f);
+      const glm::vec4 color = baked.coatAt(t, place);
+      EXPECT_NEAR(color.a,
+                  distance < 0.235f   ? 1.0f
+                  : distance > 0.265f ? 0.0f
+                                      : color.a,
+                  0.05f)
+          << (isWall ? "wall " : "floor ") << away;
+      (isWall ? wallHits : floorHits) += 1;
+    }
+  }
+  EXPECT_GE(wallHits, 4u);
+  EXPECT_GE(floorHits, 4u);
+}
+
+TEST(BakeCapture, whatIsHigherLiesOnTopAndOfEqualsTheLater) {
+  const glm::vec4 red(1, 0, 0, 1), blue(0, 0, 1, 1);
+  const auto stroke = [](float height, const glm::vec4& color) {
+    return TestStroke{{{-0.5f, height, 0.1f}, {0.5f, height, 0.1f}}, 0.2f, color};
+  };
+  const auto seen = [&](const std::vector<TestStroke>& strokes) {
+    const Baked baked(painted(gridMesh({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, 2), strokes), 0.02f);
+    for (size_t t = 0; t < baked.proxy.triangles.size(); ++t) {
+      const ProxyTriangle& triangle = baked.proxy.triangles[t];
+      glm::vec3 middle(0);
+      for (int c = 0; c < 3; ++c) middle += baked.proxy.places[triangle.places[c]] / 3.0f;
+      if (middle.x > 0 && middle.z > 0) return baked.coatAt(t, {0.2f, 0, 0.12f});
+    }
+    return glm::vec4(0);
+  };
+  EXPECT_GT(seen({stroke(0.5f, red), stroke(0.1f, blue)}).r, 0.9f);
+  EXPECT_GT(seen({stroke(0.1f, red), stroke(0.5f, blue)}).b, 0.9f);
+  EXPECT_GT(seen({stroke(0.3f, red), stroke(0.3f, blue)}).b, 0.9f);
+  EXPECT_GT(seen({stroke(0.3f, blue), stroke(0.3f, red)}).r, 0.9f);
+}
+
+// A blade that stands on an edge is in its fin, where it stands and as high.
+TEST(BakeCapture, finsShowWhatStandsOnThem) {
+  const Baked baked(painted(gridMesh({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, 2),
+                            {{{{-0.5f, 0.05f, 0}, {-0.5f, 0.8f, 0}}, 0.06f, {0, 1, 0, 1}}}),
+                    0.01f);
+  size_t found = 0;
+  for (const Fin& fin : baked.fins) {
+    const ProxyEdge& edge = baked.proxy.edges[fin.edge];
+    const glm::vec3 &a = baked.proxy.places[edge.a], &b = baked.proxy.places[edge.b];
+    if (std::abs(a.z) > 0.1f || std::abs(b.z) > 0.1f || std::min(a.x, b.x) > -0.6f) continue;
+    float top = 1;
+    const Tile tile = baked.capture->fin(fin, top);
+    ASSERT_GT(tile.width, 0u);
+    const float height = top * baked.shell.offsets[edge.a];
+    EXPECT_GT(height, 0.7f);
+    const auto opaqueAt = [&](float s, float y) {
+      const int x = kGutter + int(s * float(tile.width - 2 * kGutter));
+      const int row = int(tile.height) - 1 - kGutter - int(y / height * float(tile.height - 2 * kGutter));
+      return tile.rgba[4 * (size_t(row) * tile.width + size_t(x)) + 3];
+    };
+    EXPECT_GT(opaqueAt(0.5f, 0.1f), 240);
+    EXPECT_GT(opaqueAt(0.5f, 0.5f), 240);
+    EXPECT_EQ(opaqueAt(0.3f, 0.3f), 0);
+    EXPECT_EQ(opaqueAt(0.7f, 0.5f), 0);
+    ++found;
+  }
+  EXPECT_EQ(found, 1u);
+}
+
+TEST(BakeAtlas, tilesNeitherOverlapNorBleed) {
+  std::vector<glm::uvec2> sizes;
+  for (uint32_t i = 0; i < 200; ++i) sizes.emplace_back(5 + i * 7 % 40, 3 + i * 13 % 60);
+  sizes[17] = {0, 0};
+  const std::optional<Packing> packing = pack(sizes, 256, 2048);
+  ASSERT_TRUE(packing);
+  std::vector<uint8_t> taken(size_t(packing->width) * packing->height);
+  for (size_t i = 0; i < sizes.size(); ++i)
+    for (uint32_t y = 0; y < sizes[i].y; ++y)
+      for (uint32_t x = 0; x < sizes[i].x; ++x) {
+        uint8_t& here = taken[size_t(packing->at[i].y + y) * packing->width + packing->at[i].x + x];
+        EXPECT_EQ(here, 0);
+        here = 1;
+      }
+  EXPECT_FALSE(pack(sizes, 32, 2048));
+  EXPECT_FALSE(pack(sizes, 256, 64));
+
+  // Red and blue ones, the first halves of which are empty: down to an eighth of the size no level has
+  // violet, nor any colour of what is not there.
+  std::vector<Tile> tiles;
+  for (size_t i = 0; i < sizes.size(); ++i) {
+    Tile tile{sizes[i].x, sizes[i].y, std::vector<uint8_t>(size_t(sizes[i].x) * sizes[i].y * 4)};
+    for (uint32_t y = 0; y < sizes[i].y; ++y)
+      for (uint32_t x = sizes[i].x / 2; x < sizes[i].x; ++x) {
+        uint8_t* const texel = &tile.rgba[4 * (size_t(y) * sizes[i].x + x)];
+        texel[i % 2 ? 0 : 2] = 255, texel[3] = 255;
+      }
+    tiles.push_back(std::move(tile));
+  }
+  const Pixels atlas = assemble(*packing, tiles);
+  const auto levels = makeMipmaps(atlas.rgba, atlas.width, atlas.height);
+  for (size_t level = 0; level < 3; ++level)
+    for (size_t i = 0; i < tiles.size(); ++i)
+      for (uint32_t y = 0; y < sizes[i].y >> (level + 1); ++y)
+        for (uint32_t x = 0; x < sizes[i].x >> (level + 1); ++x) {
+          const size_t at = size_t((packing->at[i].y >> (level + 1)) + y) * (atlas.width >> (level + 1)) +
+                            (packing->at[i].x >> (level + 1)) + x;
+          const uint8_t* const texel = &levels[level][4 * at];
+          EXPECT_GT(texel[i % 2 ? 0 : 2], 250) << level;
+          EXPECT_LT(texel[i % 2 ? 2 : 0], 5) << level;
+        }
+  // It is a picture.
+  EXPECT_GT(pngOf(atlas).size(), 100u);
+}
+
+TestScene furryBall() {
+  TestScene s;
+  s.add(sphereMesh({0, 0, 0}, 1, 12), s.material(TestScene::colored("Fur", {0.7f, 0.3f, 0.1f, 1})));
+  return s;
+}
+
+TEST(Bake, aCutOffBakeGoesOnAndEndsTheSame) {
+  const Files files(furryBall().text());
+  PaintOptions paint;
+  paint.style = "fur", paint.splats = 4000;
+  const std::string painting = files.folder.file("painted.glb");
+  ASSERT_TRUE(paintScene(files.scene, painting, paint));
+  BakeOptions options;
+  options.textureSize = 512;
+  const Result<BakeReport> whole = bakeFins(painting, files.out, options);
+  ASSERT_TRUE(whole) << whole.error().message();
+  EXPECT_EQ(whole->meshes, 1u);
+  EXPECT_EQ(whole->resumed, 0u);
+  EXPECT_GT(whole->fins, 50u);
+  EXPECT_LE(whole->textureWidth, 512u);
+  const std::string expected = contentOf(files.out);
+
+  const std::string again = files.folder.file("again.glb");
+  options.progress = [](double part) { return part < 0.5; };
+  const Result<BakeReport> cut = bakeFins(painting, again, options);
+  ASSERT_FALSE(cut);
+  EXPECT_EQ(cut.error().kind, ErrorKind::cancelled);
+  EXPECT_FALSE(std::filesystem::exists(again));
+  ASSERT_TRUE(std::filesystem::exists(again + ".part"));
+  // Cut off in the middle of a piece, and of other options: neither harms.
+  std::filesystem::resize_file(again + ".part", std::filesystem::file_size(again + ".part") - 7);
+  options.progress = {};
+  const std::string kept = contentOf(again + ".part");
+  const Result<BakeReport> resumed = bakeFins(painting, again, options);
+  ASSERT_TRUE(resumed) << resumed.error().message();
+  EXPECT_GT(resumed->resumed, 20u);
+  EXPECT_EQ(contentOf(again), expected);
+  EXPECT_FALSE(std::filesystem::exists(again + ".part"));
+  std::ofstream(again + ".part", std::ios::binary) << kept;
+  options.variation = 0.5f;
+  const Result<BakeReport> other = bakeFins(painting, again, options);
+  ASSERT_TRUE(other);
+  EXPECT_EQ(other->resumed, 0u);
+  EXPECT_NE(contentOf(again), expected);
+}
+
+TEST(Bake, whatComesOutHoldsWhatMoves) {
+  // Joints and morph targets go along.
+  const Files files(troupe().text());
+  PaintOptions paint;
+  paint.splats = 3000;
+  const std::string painting = files.folder.file("painted.glb");
+  const Result<PaintReport> report = paintScene(files.scene, painting, paint);
+  ASSERT_TRUE(report) << report.error().message();
+  BakeOptions options;
+  options.textureSize = 512;
+  options.layers = 2;
+  const Result<BakeReport> baked = bakeFins(painting, files.out, options);
+  ASSERT_TRUE(baked) << baked.error().message();
+  const Result<Scene> before = Scene::load(painting), after = Scene::load(files.out);
+  ASSERT_TRUE(after) << after.error().message();
+  EXPECT_TRUE(after->warnings().empty()) << after->warnings().front();
+  size_t layers = 0;
+  for (size_t m = 0; m < after->data().meshes.size(); ++m) {
+    const scene::Mesh &mesh = after->data().meshes[m], &own = before->data().meshes[m];
+    EXPECT_FALSE(mesh.painting);
+    for (const scene::Primitive& p : mesh.primitives) {
+      const scene::Material& material = after->data().materials[size_t(p.material)];
+      if (!material.paint) continue;
+      ++layers;
+      EXPECT_TRUE(material.unlit);
+      EXPECT_EQ(material.alphaMode, scene::AlphaMode::blend);
+      EXPECT_EQ(material.paint->fades, material.doubleSided);
+      EXPECT_EQ(p.influences, own.primitives[0].influences);
+      EXPECT_EQ(p.morphTargets.size(), own.primitives[0].morphTargets.size());
+    }
+  }
+  EXPECT_GE(layers, 2u);
+}
+
+TEST(Bake, whatCannotBeBakedSaysWhy) {
+  const auto problemOf = [](const std::string& text, const BakeOptions& options = {}) {
+    const Files files(text);
+    const Result<BakeReport> report = bakeFins(files.scene, files.out, options);
+    EXPECT_FALSE(std::filesystem::exists(files.out) && !report);
+    return report ? std::string() : report.error().problem;
+  };
+  EXPECT_NE(problemOf(furryBall().text()).find("no strokes"), std::string::npos);
+  // In the empty air; on a surface without any; and far away from one.
+  TestScene air;
+  air.addStrokes({{{{0, 0, 0}, {1, 0, 0}}}});
+  EXPECT_NE(problemOf(air.text()).find("no surface"), std::string::npos);
+  const TestScene far = painted(sphereMesh({0, 0, 0}, 1, 8), {{{{0, 900, 0}, {1, 900, 0}}}});
+  EXPECT_NE(problemOf(far.text()).find("no surface"), std::string::npos);
+  const TestScene good = painted(sphereMesh({0, 0, 0}, 1, 8), {{{{0, 1, 0}, {0.2f, 1, 0}}}});
+  EXPECT_EQ(problemOf(good.text()), "");
+  // A million splats of one point, and none of a stroke without length.
+  std::vector<TestStroke> heap(300, TestStroke{{{0, 1, 0}}});
+  EXPECT_EQ(problemOf(painted(sphereMesh({0, 0, 0}, 1, 8), heap).text()), "");
+  BakeOptions options;
+  options.textureSize = 63;
+  EXPECT_NE(problemOf(good.text(), options).find("size"), std::string::npos);
+  options = {};
+  options.layers = 17;
+  EXPECT_NE(problemOf(good.text(), options).find("layers"), std::string::npos);
+  options = {};
+  options.fadeStart = 0.2f, options.fadeEnd = 0.3f;
+  EXPECT_NE(problemOf(good.text(), options).find("fade"), std::string::npos);
+  options = {};
+  options.parts = {{"Nobody"}};
+  EXPECT_NE(problemOf(good.text(), options).find("Nobody"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace scumble::bake
