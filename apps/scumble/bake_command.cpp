@@ -45,7 +45,7 @@ std::optional<BakePart> parsePart(const std::string& text) {
       part.fadeStart = number;
     else if (name == "end")
       part.fadeEnd = number;
-    else if (name == "layers" && number == float(int(number)))
+    else if (name == "layers" && number >= 1 && number <= 16 && number == float(int(number)))
       part.layers = int(number);
     else
       return std::nullopt;
@@ -66,7 +66,8 @@ int run(const BakeArguments& args) {
   const std::string out =
       args.out.empty() ? std::filesystem::path(args.painting).stem().string() + ".fins.glb" : args.out;
   if (endingOf(out) != ".glb") return failUsage("fins cannot go into '" + out + "'", "name it like fins.glb");
-  OutputFiles files({args.painting});
+  OutputFiles files(args.options.proxy.empty() ? std::vector{args.painting}
+                                               : std::vector{args.painting, args.options.proxy});
   if (const Status status = files.add(out, "-o"); !status) return fail(status.error());
   constexpr int kSteps = 100;
   std::optional<Progress> progress;
@@ -97,10 +98,20 @@ void addBake(CLI::App& program, int& exitCode) {
   CLI::App* command =
       program.add_subcommand("bake", "Fin textures: a painting as a mesh that draws in real time");
   command
-      ->add_option("PAINTING", args->painting, "A glTF with strokes on its meshes (scumble paint makes them)")
+      ->add_option("PAINTING", args->painting,
+                   "A glTF with strokes (scumble paint makes them), .tilt or .apa")
       ->required();
   command->add_option("-o", args->out, "Where it is written (default: the painting's name + .fins.glb)")
       ->type_name("OUT.glb");
+  command
+      ->add_option(
+          "--proxy", args->options.proxy,
+          "A glTF around whose meshes the strokes lie (default: the painting's own meshes, or a hull)")
+      ->type_name("MESH.glb");
+  command
+      ->add_option("--hull-cells", args->options.hullCells,
+                   "Where a painting has no meshes: cells along the longest side of its hull, 8 to 256")
+      ->capture_default_str();
   command
       ->add_option("--texture", args->options.textureSize,
                    "A side of each mesh's texture, at most: 64 to 8192 texels")

@@ -16,8 +16,8 @@ namespace scumble {
 // How fins of a part of the proxy are made, where it is otherwise than for the rest.
 struct BakePart {
   std::string materials;  // names of materials, with * and ?: what is made of them
-  // How far fins reach from the surface, metres in the mesh's own space; above 0. 0: as far as its strokes
-  // do.
+  // How far fins reach from the surface, metres in the mesh's own space; above 0, and no farther than the
+  // mesh is large. 0: as far as its strokes do.
   float offset = 0;
   // Fins fade by 1 - |n . v|, n being the normal of a fin and v the way to the viewer, both of unit length:
   // they begin to show at `fadeStart` and are there in full at `fadeEnd`, which is the smaller one; 0 to 1.
@@ -27,12 +27,19 @@ struct BakePart {
 };
 
 struct BakeOptions {
+  // A glTF around whose meshes the strokes lie, in one world: instead of the painting's own. Empty: those
+  // that have both strokes and triangles; where none has, a hull of the strokes that is made for them.
+  std::string proxy;
+  // How many cells of a grid lie along the longest side of such a hull, 8 to 256: finer ones part strokes
+  // that lie closer.
+  uint32_t hullCells = 40;
   uint32_t textureSize = 2048;  // a side of each mesh's texture, at most: 64 to 8192
   float fadeStart = 0.5f, fadeEnd = 0.2f;
   // Shells of paint over the surface, 1 to 16: one lies on it, more stand where strokes are sparse and long.
   int layers = 1;
   std::vector<BakePart> parts;  // the last one that matches counts
-  // As the knobs `painting.*` of these names have them when the painting itself is drawn.
+  // As the knobs `painting.*` of these names have them when the painting itself is drawn, and within their
+  // ranges.
   float spacing = 0.3f, streaks = 0.7f, dryEnds = 2.0f, variation = 0.12f, order = 0.5f;
   bool allowOutside = false;  // SceneOptions has it
   int threads = 0;            // 0: as many as the machine has

@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <mutex>
 
 #include "bake/mesh_bake.h"
-#include "base/file_bytes.h"
+#include "bake/subjects.h"
 #include "base/name_pattern.h"
 #include "base/usage.h"
 #include "base/whole_file.h"
@@ -39,8 +40,15 @@ PartOptions partOf(const BakeOptions& options, const std::string& material) {
 }
 
 Status checkOptions(const BakeOptions& options) {
+  if (options.hullCells < 8 || options.hullCells > 256)
+    return usage("the hull's cells are out of range", "give 8 to 256");
   if (options.textureSize < 64 || options.textureSize > 8192)
     return usage("the texture's size is out of range", "give 64 to 8192");
+  const auto isWithin = [](float value, float low, float high) { return value >= low && value <= high; };
+  if (!isWithin(options.spacing, 0.25f, 4) || !isWithin(options.streaks, 0, 1) ||
+      !isWithin(options.dryEnds, 0, 100) || !isWithin(options.variation, 0, 1) ||
+      !isWithin(options.order, 0, 20))
+    return usage("a number of the brush is out of range", "they have the ranges of the knobs painting.*");
   if (options.layers < 1 || options.layers > 16)
     return usage("so many layers cannot be made", "give 1 to 16");
   if (Status status = checkFade(options.fadeStart, options.fadeEnd, "the "); !status) return status;
@@ -55,6 +63,10 @@ Status checkOptions(const BakeOptions& options) {
       return status;
   }
   return Done{};
+}
+
+bool isWorld(const std::string& path) {
+  return std::filesystem::path(path).extension() == ".json";
 }
 
 // Of everything that pieces follow from: FNV-1a.
@@ -73,25 +85,24 @@ class Key {
   uint64_t hash_ = 14695981039346656037ull;
 };
 
-uint64_t keyOf(const std::string& path, const scene::SceneData& scene, const BakeOptions& options) {
+uint64_t keyOf(const Subjects& subjects, const BakeOptions& options) {
   Key key;
-  const auto addText = [&](std::string_view text) {
-    key.add(Bytes(reinterpret_cast<const uint8_t*>(text.data()), text.size()));
+  const auto addAll = [&](const auto& values) {
+    key.add(values.size());
+    key.add(Bytes(reinterpret_cast<const uint8_t*>(values.data()), values.size() * sizeof(values[0])));
   };
-  addText(SCUMBLE_VERSION_STRING);
-  std::string problem;
-  if (FileBytes file; file.open(path, problem)) key.add(file.bytes());
-  // Buffers in other files.
-  for (const scene::Mesh& mesh : scene.meshes) {
+  addAll(std::string_view(SCUMBLE_VERSION_STRING));
+  for (const scene::Mesh& mesh : subjects.meshes) {
     for (const scene::Primitive& p : mesh.primitives)
-      key.add(Bytes(reinterpret_cast<const uint8_t*>(p.positions.data()),
-                    p.positions.size() * sizeof(glm::vec3)));
+      addAll(p.positions), addAll(p.indices), key.add(p.material);
     if (!mesh.painting) continue;
     for (const scene::StrokePoint& point : mesh.painting->points)
       key.add(point.position), key.add(point.radius), key.add(point.color);
+    for (const scene::Stroke& stroke : mesh.painting->strokes)
+      key.add(stroke.firstPoint), key.add(stroke.brush);
   }
-  for (const scene::Material& material : scene.materials) {
-    const PartOptions part = partOf(options, material.name);
+  for (const std::string& material : subjects.materials) {
+    const PartOptions part = partOf(options, material);
     key.add(part.offset), key.add(part.layers);
   }
   key.add(options.textureSize);
@@ -105,48 +116,50 @@ uint64_t keyOf(const std::string& path, const scene::SceneData& scene, const Bak
 
 Result<BakeReport> bakeFins(const std::string& path, const std::string& out, const BakeOptions& options) {
   if (const Status status = checkOptions(options); !status) return status.error();
-  SceneOptions sceneOptions;
-  sceneOptions.allowOutside = options.allowOutside;
-  sceneOptions.threads = options.threads;
-  const Result<Scene> loaded = Scene::load(path, sceneOptions);
-  if (!loaded) return loaded.error();
-  const scene::SceneData& scene = loaded->data();
+  Result<Subjects> found = findSubjects(path, options);
+  if (!found) return found.error();
+  const Subjects& subjects = *found;
   for (const BakePart& part : options.parts)
-    if (std::none_of(scene.materials.begin(), scene.materials.end(),
-                     [&](const scene::Material& m) { return matches(part.materials, m.name); }))
+    if (std::none_of(subjects.materials.begin(), subjects.materials.end(),
+                     [&](const std::string& name) { return matches(part.materials, name); }))
       return usage("the scene has no material '" + part.materials + "'",
                    "`scumble info` lists its materials");
-  const auto isPainted = [](const scene::Mesh& mesh) {
-    return mesh.painting && !mesh.painting->strokes.empty();
-  };
-  std::vector<size_t> painted;
-  for (size_t m = 0; m < scene.meshes.size(); ++m)
-    if (isPainted(scene.meshes[m])) painted.push_back(m);
-  if (painted.empty())
-    return Error{
-        ErrorKind::unusableFile, path, 0, "", "has no strokes", "paint it first: scumble paint " + path};
+
+  // What cannot be written anew should say so before the work, and not after it.
+  if (!subjects.isHull && isWorld(subjects.path))
+    return usage("a world of several scenes cannot be written anew", "bake its scenes one by one");
 
   BakeReport report;
-  report.warnings = loaded->warnings();
+  report.warnings = subjects.warnings;
   try {
-    Checkpoint checkpoint(out + ".part", keyOf(path, scene, options));
-    std::vector<gltf::PaintedMesh> meshes(scene.meshes.size());
+    Checkpoint checkpoint(out + ".part", keyOf(subjects, options));
+    std::vector<gltf::PaintedMesh> meshes(subjects.meshes.size());
+    std::vector<size_t> painted;
+    for (size_t m = 0; m < subjects.meshes.size(); ++m)
+      if (subjects.meshes[m]->painting && !subjects.meshes[m]->painting->strokes.empty())
+        painted.push_back(m);
     std::mutex mutex;
+    double done = 0;
+    bool isStopped = false;
     size_t left = 0;
     for (size_t i = 0; i < painted.size(); ++i) {
-      const scene::Mesh& mesh = scene.meshes[painted[i]];
+      const scene::Mesh& mesh = subjects.meshes[painted[i]];
       MeshBake bake;
       bake.mesh = &mesh;
+      bake.isAlone = subjects.isHull;
       bake.firstPiece = uint64_t(painted[i]) << 32;
       for (const scene::Primitive& p : mesh.primitives) {
-        const scene::Material& material = scene.materials[size_t(p.material)];
-        bake.names.push_back(material.name.empty() ? "material" : material.name);
-        bake.parts.push_back(partOf(options, material.name));
+        const std::string& material = subjects.materials[size_t(p.material)];
+        bake.names.push_back(material.empty() ? "material" : material);
+        bake.parts.push_back(partOf(options, material));
       }
       const auto progress = [&](double part) {
         if (!options.progress) return;
         const std::lock_guard lock(mutex);
-        if (!options.progress((double(i) + part) / double(painted.size())))
+        // Threads come as they come.
+        done = std::max(done, (double(i) + part) / double(painted.size()));
+        isStopped = isStopped || !options.progress(done);
+        if (isStopped)
           throw scene::ImportFailure{{ErrorKind::cancelled, "", 0, "", "baking was cancelled", ""}};
       };
       MeshReport own;
@@ -164,16 +177,23 @@ Result<BakeReport> bakeFins(const std::string& path, const std::string& out, con
     if (left > 0)
       report.warnings.push_back(fmt::format(
           "{}: {} splats lie too far from the surface, or too deep below it, and are left out", path, left));
-    if (report.meshes == 0)
+    if (report.meshes == 0) {
+      checkpoint.finish();
       return Error{ErrorKind::unusableFile,
                    path,
                    0,
                    "",
                    "has strokes, and no surface near them",
-                   "fins stand on the triangles of the mesh that has the strokes"};
+                   "fins stand on the triangles of the mesh that has the strokes, or of --proxy"};
+    }
     scene::ImportWarnings warnings;
-    const std::vector<uint8_t> file = gltf::withPaint(path, sceneOptions, scene, meshes, warnings);
-    for (const std::string& line : warnings.lines(path))
+    SceneOptions sceneOptions;
+    sceneOptions.allowOutside = options.allowOutside;
+    const std::vector<uint8_t> file =
+        subjects.isHull
+            ? gltf::paintAlone(subjects.meshes[0], meshes[0])
+            : gltf::withPaint(subjects.path, sceneOptions, subjects.scene->data(), meshes, warnings);
+    for (const std::string& line : warnings.lines(subjects.path))
       if (std::find(report.warnings.begin(), report.warnings.end(), line) == report.warnings.end())
         report.warnings.push_back(line);
     WholeFile target(out);

@@ -14,6 +14,7 @@
 #include "bake/capture.h"
 #include "bake/checkpoint.h"
 #include "bake/fins.h"
+#include "bake/hull.h"
 #include "base/mipmaps.h"
 #include "base/test_folder.h"
 #include "scene/painting.h"
@@ -352,6 +353,42 @@ TEST(BakeAtlas, tilesNeitherOverlapNorBleed) {
   EXPECT_GT(pngOf(atlas).size(), 100u);
 }
 
+// Around a shell of strokes lies one closed surface, close to them; a single sheet has two sides.
+TEST(BakeHull, liesOnTheOutsideOfStrokes) {
+  std::vector<TestStroke> around;
+  for (int i = 0; i < 24; ++i) {
+    TestStroke ring{{}, 0.2f};
+    for (int k = 0; k <= 32; ++k) {
+      const float a = 0.19635f * float(k), h = std::sin(0.129f * (float(i) - 11.5f)),
+                  r = std::sqrt(1 - h * h);
+      ring.points.push_back({r * std::cos(a), h, r * std::sin(a)});
+    }
+    around.push_back(ring);
+  }
+  TestScene s;
+  s.addStrokes(around);
+  const Scene scene = s.load();
+  scene::Mesh mesh;
+  mesh.primitives.push_back(hullOf(*scene.data().meshes[0]->painting, 24));
+  const scene::Primitive& hull = mesh.primitives[0];
+  ASSERT_GT(hull.indices.size(), 3000u);
+  for (const glm::vec3& p : hull.positions) EXPECT_NEAR(glm::length(p), 1, 0.3f);
+  const Proxy proxy = makeProxy(mesh);
+  size_t open = 0;
+  double volume = 0;
+  for (const ProxyTriangle& t : proxy.triangles) {
+    for (const int other : t.across) open += other < 0;
+    volume +=
+        glm::dot(glm::dvec3(proxy.places[t.places[0]]),
+                 glm::cross(glm::dvec3(proxy.places[t.places[1]]), glm::dvec3(proxy.places[t.places[2]]))) /
+        6;
+  }
+  EXPECT_LT(double(open), 0.02 * double(proxy.triangles.size()));
+  // Of a ball, from outside, and not of a shell.
+  EXPECT_GT(volume, 3.3);
+  EXPECT_LT(volume, 7.0);
+}
+
 TestScene furryBall() {
   TestScene s;
   s.add(sphereMesh({0, 0, 0}, 1, 12), s.material(TestScene::colored("Fur", {0.7f, 0.3f, 0.1f, 1})));
@@ -375,6 +412,11 @@ TEST(Bake, aCutOffBakeGoesOnAndEndsTheSame) {
   const std::string expected = contentOf(files.out);
 
   const std::string again = files.folder.file("again.glb");
+  options.threads = 1;
+  ASSERT_TRUE(bakeFins(painting, again, options));
+  EXPECT_EQ(contentOf(again), expected);
+  options.threads = 0;
+  std::filesystem::remove(again);
   options.progress = [](double part) { return part < 0.5; };
   const Result<BakeReport> cut = bakeFins(painting, again, options);
   ASSERT_FALSE(cut);
@@ -390,6 +432,10 @@ TEST(Bake, aCutOffBakeGoesOnAndEndsTheSame) {
   EXPECT_GT(resumed->resumed, 20u);
   EXPECT_EQ(contentOf(again), expected);
   EXPECT_FALSE(std::filesystem::exists(again + ".part"));
+  // Somebody else's file of that name stays.
+  std::ofstream(again + ".part", std::ios::binary) << "a letter";
+  ASSERT_TRUE(bakeFins(painting, again, options));
+  EXPECT_EQ(contentOf(again + ".part"), "a letter");
   std::ofstream(again + ".part", std::ios::binary) << kept;
   options.variation = 0.5f;
   const Result<BakeReport> other = bakeFins(painting, again, options);
@@ -440,10 +486,10 @@ TEST(Bake, whatCannotBeBakedSaysWhy) {
     return report ? std::string() : report.error().problem;
   };
   EXPECT_NE(problemOf(furryBall().text()).find("no strokes"), std::string::npos);
-  // In the empty air; on a surface without any; and far away from one.
+  // In the empty air; and far away from a surface.
   TestScene air;
   air.addStrokes({{{{0, 0, 0}, {1, 0, 0}}}});
-  EXPECT_NE(problemOf(air.text()).find("no surface"), std::string::npos);
+  EXPECT_EQ(problemOf(air.text()), "");  // gets a hull
   const TestScene far = painted(sphereMesh({0, 0, 0}, 1, 8), {{{{0, 900, 0}, {1, 900, 0}}}});
   EXPECT_NE(problemOf(far.text()).find("no surface"), std::string::npos);
   const TestScene good = painted(sphereMesh({0, 0, 0}, 1, 8), {{{{0, 1, 0}, {0.2f, 1, 0}}}});

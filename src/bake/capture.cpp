@@ -44,7 +44,17 @@ float distanceTo(const glm::vec2& p, const glm::vec2& a, const glm::vec2& b) {
 
 // With the border.
 glm::uvec2 sizeOf(const glm::vec2& metres, float texel) {
-  return glm::max(glm::uvec2(glm::ceil(metres / texel)), glm::uvec2(2)) + 2u * uint32_t(kGutter);
+  constexpr float kMost = 1 << 15;  // more fits nowhere
+  return glm::uvec2(glm::clamp(glm::ceil(metres / texel), 2.0f, kMost)) + 2u * uint32_t(kGutter);
+}
+
+// Of so many texels those between two places, which may lie anywhere.
+struct Range {
+  int first, last;
+};
+Range rangeOf(float low, float high, float texels, int count) {
+  return {int(glm::clamp(std::ceil(low * texels), 0.0f, float(count))),
+          int(glm::clamp(std::floor(high * texels), -1.0f, float(count - 1)))};
 }
 
 }  // namespace
@@ -124,7 +134,8 @@ void Capture::land(const BakeOptions& options) {
   const size_t chunks = (splats_.size() + kChunk - 1) / kChunk;
   std::vector<std::vector<Found>> found(chunks);
   scene::parallelFor(chunks, scene::threadCount(options.threads), [&](size_t chunk) {
-    std::vector<std::pair<int, uint32_t>> seen;  // triangles and charts that this splat has come to
+    // Which splat, plus one, has come last to a triangle, and to a chart.
+    std::vector<size_t> seenTriangle(proxy_.triangles.size()), seenChart(proxy_.charts.size());
     for (size_t s = chunk * kChunk; s < std::min((chunk + 1) * kChunk, splats_.size()); ++s) {
       const Splat& splat = splats_[s];
       const ProxyTriangle& own = proxy_.triangles[size_t(splat.triangle)];
@@ -142,22 +153,19 @@ void Capture::land(const BakeOptions& options) {
       for (int c = 0; c < 3; ++c) offset += parts[c] * shell_.offsets[own.places[c]];
       const float share = offset > 0 ? splat.height / offset : 0.0f;
       const float reach = splat.radius + (float(kGutter) + 1.5f) * texel_;
-      seen.clear();
       std::priority_queue<Step> steps;
       steps.push({0, splat.triangle, splat.foot, along});
       while (!steps.empty()) {
         const Step step = steps.top();
         steps.pop();
-        if (std::any_of(seen.begin(), seen.end(),
-                        [&](const auto& known) { return known.first == step.triangle; }))
-          continue;
+        if (seenTriangle[size_t(step.triangle)] == s + 1) continue;
+        seenTriangle[size_t(step.triangle)] = s + 1;
         const ProxyTriangle& t = proxy_.triangles[size_t(step.triangle)];
-        const bool isNew = std::none_of(seen.begin(), seen.end(),
-                                        [&](const auto& known) { return known.second == t.chart; });
-        seen.emplace_back(step.triangle, t.chart);
-        if (isNew) found[chunk].push_back({t.chart, {uint32_t(s), step.at, step.along, share}});
+        if (seenChart[t.chart] != s + 1)
+          found[chunk].push_back({t.chart, {uint32_t(s), step.at, step.along, share}});
+        seenChart[t.chart] = s + 1;
         for (size_t e = 0; e < 3; ++e) {
-          if (t.across[e] < 0) continue;
+          if (t.across[e] < 0 || seenTriangle[size_t(t.across[e])] == s + 1) continue;
           const float away = std::max(step.away, distanceTo(step.at, t.flat[e], t.flat[(e + 1) % 3]));
           if (away < reach) steps.push({away, t.across[e], t.into[e](step.at), t.into[e].turned(step.along)});
         }
@@ -165,8 +173,10 @@ void Capture::land(const BakeOptions& options) {
     }
   });
   landings_.resize(proxy_.charts.size());
-  for (const std::vector<Found>& of : found)
+  for (std::vector<Found>& of : found) {
     for (const Found& one : of) landings_[one.chart].push_back(one.landing);
+    of = {};
+  }
 }
 
 Capture::Brush Capture::brushOf(const Splat& splat, float sine) const {
@@ -214,13 +224,11 @@ Tile Capture::coat(uint32_t number, float low, float high) const {
     const float along = glm::dot(splat.along, proxy_.triangles[size_t(splat.triangle)].normal);
     const Brush brush = brushOf(splat, std::sqrt(std::max(1 - along * along, 0.0f)));
     if (brush.alpha <= 0) continue;
-    const glm::vec2 from = (landing.at - brush.reach - first) / texel_,
-                    to = (landing.at + brush.reach - first) / texel_;
-    const int x0 = std::max(int(std::ceil(from.x)), 0), x1 = std::min(int(std::floor(to.x)), int(size.x) - 1);
-    const int y0 = std::max(int(std::ceil((top - landing.at.y - brush.reach) / texel_)), 0),
-              y1 = std::min(int(std::floor((top - landing.at.y + brush.reach) / texel_)), int(size.y) - 1);
-    for (int y = y0; y <= y1; ++y)
-      for (int x = x0; x <= x1; ++x) {
+    const glm::vec2 middle(landing.at.x - first.x, top - landing.at.y);
+    const Range columns = rangeOf(middle.x - brush.reach, middle.x + brush.reach, 1 / texel_, int(size.x));
+    const Range rows = rangeOf(middle.y - brush.reach, middle.y + brush.reach, 1 / texel_, int(size.y));
+    for (int y = rows.first; y <= rows.last; ++y)
+      for (int x = columns.first; x <= columns.last; ++x) {
         const glm::vec2 d(first.x + float(x) * texel_ - landing.at.x, top - float(y) * texel_ - landing.at.y);
         if (glm::dot(d, d) > brush.reach * brush.reach) continue;
         glm::vec4& texel = texels[size_t(y) * size.x + size_t(x)];
@@ -231,20 +239,16 @@ Tile Capture::coat(uint32_t number, float low, float high) const {
   return isThere ? tileOf(texels, size.x, size.y) : Tile();
 }
 
-Tile Capture::fin(const Fin& fin, float& top) const {
-  const glm::uvec2 whole = tileSize(fin, texel_);
-  const int width = int(whole.x), height = int(whole.y);
-  const auto& c = fin.corners;
-  // Where texels lie; row 0 is the lowest here.
-  std::vector<glm::vec3> at(size_t(width) * size_t(height));
-  const glm::vec2 content(width - 2 * kGutter, height - 2 * kGutter);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const float s = (float(x - kGutter) + 0.5f) / content.x, t = (float(y - kGutter) + 0.5f) / content.y;
-      at[size_t(y * width + x)] = glm::mix(glm::mix(c[0], c[1], s), glm::mix(c[3], c[2], s), t);
-    }
+struct Capture::Standing {
+  uint32_t splat;
+  Brush brush;
+  glm::vec3 onto, across;  // its directions as it is seen
+  float height;            // of its middle over the fin's foot, metres
+};
 
-  // What lies over the triangles around it.
+// (Section 3.2 and figure 10.) What lies over the triangles around a fin, as the strip of it in which it lies
+// sees it.
+std::vector<Capture::Standing> Capture::standingOn(const Fin& fin, float& most) const {
   const ProxyEdge& edge = proxy_.edges[fin.edge];
   std::vector<uint32_t> around = proxy_.trianglesAt[edge.a], candidates;
   around.insert(around.end(), proxy_.trianglesAt[edge.b].begin(), proxy_.trianglesAt[edge.b].end());
@@ -254,67 +258,87 @@ Tile Capture::fin(const Fin& fin, float& top) const {
     candidates.insert(candidates.end(), splatsOver_[t].begin(), splatsOver_[t].end());
   std::sort(candidates.begin(), candidates.end());
 
-  const glm::vec3 along = glm::normalize(c[1] - c[0]), up = glm::cross(fin.normal, along);
+  const auto& c = fin.corners;
   const float length = glm::distance(c[0], c[1]);
-  const float hand = glm::dot(up, c[3] - c[0] + c[2] - c[1]) < 0 ? -1.0f : 1.0f;
-  const float sides[] = {glm::dot(hand * up, c[3] - c[0]), glm::dot(hand * up, c[2] - c[1])};
-  const float most = std::max(sides[0], sides[1]),
-              least = std::max(std::min(sides[0], sides[1]), 0.1f * most);
-  if (!(most > 0)) return {};
-  std::vector<glm::vec4> texels(at.size(), glm::vec4(0));
+  const glm::vec3 along = (c[1] - c[0]) / length, normal = glm::cross(fin.normal, along);
+  const glm::vec3 up = glm::dot(normal, c[3] - c[0] + c[2] - c[1]) < 0 ? -normal : normal;
+  most = std::max(glm::dot(up, c[3] - c[0]), glm::dot(up, c[2] - c[1]));
+  std::vector<Standing> standing;
   for (const uint32_t s : candidates) {
     const Splat& splat = splats_[s];
     const glm::vec3 from = splat.position - c[0];
     const float deep = glm::dot(from, fin.normal);
     if (std::abs(deep) > fin.depth) continue;
-    // It is seen along the normals of the strip in which it lies (figure 10).
     const float part = glm::clamp(glm::dot(from, along) / length, 0.0f, 1.0f);
-    const glm::vec3 mixed = glm::mix(fin.matched[0], fin.matched[1], part);
-    const glm::vec3 view = glm::length(mixed) > 0.1f ? glm::normalize(mixed) : fin.normal;
+    const glm::vec3 view = unitOr(fin.normal, glm::mix(fin.matched[0], fin.matched[1], part));
     const float facing = glm::dot(view, fin.normal);
     if (std::abs(facing) < 0.3f) continue;
-    const glm::vec3 seen = from - view * (deep / facing);
-    const float y = hand * glm::dot(seen, up);
-    glm::vec3 onto = splat.along - view * glm::dot(splat.along, view);
+    const glm::vec3 onto = splat.along - view * glm::dot(splat.along, view);
     const float sine = glm::length(onto);
-    const Brush brush = brushOf(splat, sine);
-    if (brush.alpha <= 0 || y < -brush.reach || y > most + brush.reach) continue;
-    onto = sine > kVanishes ? onto / sine : glm::normalize(along - view * glm::dot(along, view));
-    const glm::vec3 across = glm::cross(view, onto);
-    // Rows that it may come to: a row rises from one side to the other.
-    const float bottom = y - brush.reach, roof = y + brush.reach;
-    const int y0 = std::max(int(bottom / (bottom < 0 ? least : most) * content.y) + kGutter - 2, 0);
-    const int y1 = std::min(int(roof / (roof < 0 ? most : least) * content.y) + kGutter + 2, height - 1);
-    for (int row = y0; row <= y1; ++row)
+    Standing one{s, brushOf(splat, sine), {}, {}, glm::dot(from - view * (deep / facing), up)};
+    if (one.brush.alpha <= 0 || one.height < -one.brush.reach || one.height > most + one.brush.reach)
+      continue;
+    one.onto = sine > kVanishes ? onto / sine : unitOr(along, along - view * glm::dot(along, view));
+    one.across = glm::cross(view, one.onto);
+    standing.push_back(one);
+  }
+  return standing;
+}
+
+Tile Capture::fin(const Fin& fin, float& top) const {
+  float most = 0;
+  const std::vector<Standing> standing = standingOn(fin, most);
+  if (standing.empty() || !(most > 0)) return {};
+  const glm::uvec2 whole = tileSize(fin, texel_);
+  const float allRows = float(whole.y) - 2 * float(kGutter);
+  float highest = 0;
+  for (const Standing& one : standing) highest = std::max(highest, one.height + one.brush.reach);
+  const float rows = glm::clamp(std::ceil(highest / most * allRows), 2.0f, allRows);
+  top = rows / allRows;
+  // As its two triangles are drawn; row 0 is the lowest here.
+  const int width = int(whole.x), height = int(rows) + 2 * kGutter;
+  const glm::vec3 &a = fin.corners[0], &b = fin.corners[1], overB = top * (fin.corners[2] - b),
+                  overA = top * (fin.corners[3] - a);
+  std::vector<glm::vec3> at(size_t(width) * size_t(height));
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const float s = (float(x - kGutter) + 0.5f) / float(width - 2 * kGutter),
+                  t = (float(y - kGutter) + 0.5f) / rows;
+      at[size_t(y * width + x)] = a + s * (b - a) + (s >= t ? t * overB : t * overA + s * (overB - overA));
+    }
+
+  // Rows that a splat may come to: the lower side's lie closer.
+  const glm::vec3 up = unitOr({0, 0, 0}, glm::cross(glm::cross(b - a, overA + overB), b - a));
+  const float sides[] = {glm::dot(up, overA), glm::dot(up, overB)};
+  const float high = std::max(sides[0], sides[1]), low = std::max(std::min(sides[0], sides[1]), 0.1f * high);
+  std::vector<glm::vec4> texels(at.size(), glm::vec4(0));
+  bool isThere = false;
+  for (const Standing& one : standing) {
+    const float bottom = one.height - one.brush.reach, roof = one.height + one.brush.reach;
+    const float border = float(kGutter) / rows + 2 / rows;
+    const Range touched = rangeOf(bottom / (bottom < 0 ? low : high) + border - 4 / rows,
+                                  roof / (roof < 0 ? high : low) + border, rows, height);
+    for (int y = touched.first; y <= touched.last; ++y)
       for (int x = 0; x < width; ++x) {
-        const size_t i = size_t(row * width + x);
-        const glm::vec3 d = at[i] - splat.position;
-        const glm::vec2 offset(glm::dot(d, onto), glm::dot(d, across));
-        if (glm::dot(offset, offset) > brush.reach * brush.reach) continue;
-        lay(brush, offset, texels[i]);
+        const size_t i = size_t(y * width + x);
+        const glm::vec3 d = at[i] - splats_[one.splat].position;
+        const glm::vec2 offset(glm::dot(d, one.onto), glm::dot(d, one.across));
+        if (glm::dot(offset, offset) > one.brush.reach * one.brush.reach) continue;
+        lay(one.brush, offset, texels[i]);
+        isThere |= texels[i].a > kSeen && x >= kGutter && x < width - kGutter && y >= kGutter;
       }
   }
+  if (!isThere) return {};
 
-  // Paint that would be cut off at the top ends softly; and what is empty goes.
-  int last = -1;
-  for (int y = 0; y < height; ++y) {
-    const float t = (float(y - kGutter) + 0.5f) / content.y;
-    const float soft = glm::clamp((1 - t) / kSoftTop, 0.0f, 1.0f);
-    for (int x = 0; x < width; ++x) {
-      glm::vec4& texel = texels[size_t(y * width + x)];
-      texel *= soft;
-      if (texel.a > kSeen && y >= kGutter && x >= kGutter && x < width - kGutter) last = y;
-    }
-  }
-  if (last < 0) return {};
-  const int rows = std::min(last + 2 - kGutter, int(content.y));
-  top = float(rows) / content.y;
-  const int kept = rows + 2 * kGutter;
+  // Paint that would be cut off at the top of the shell ends softly.
   std::vector<glm::vec4> lying;
-  lying.reserve(size_t(width) * size_t(kept));
-  for (int y = kept; y-- > 0;)
-    lying.insert(lying.end(), texels.begin() + y * width, texels.begin() + (y + 1) * width);
-  return tileOf(lying, whole.x, uint32_t(kept));
+  lying.reserve(texels.size());
+  for (int y = height; y-- > 0;) {
+    const float t = top * (float(y - kGutter) + 0.5f) / rows;
+    const float soft = glm::clamp((1 - t) / kSoftTop, 0.0f, 1.0f);
+    for (int x = 0; x < width; ++x) lying.push_back(texels[size_t(y * width + x)] * soft);
+  }
+  return tileOf(lying, whole.x, uint32_t(height));
 }
 
 }  // namespace scumble::bake

@@ -56,6 +56,9 @@ class Capture {
   // Lays a splat over a texel. `offset`: from its middle, along it and across, metres.
   struct Brush;
   Brush brushOf(const Splat& splat, float sine) const;
+  struct Standing;
+  // `most`: how high the fin is, metres.
+  std::vector<Standing> standingOn(const Fin& fin, float& most) const;
   void lay(const Brush& brush, const glm::vec2& offset, glm::vec4& texel) const;
 
   const Proxy& proxy_;

@@ -31,7 +31,7 @@ class Checkpoint {
   const Piece* find(uint64_t number) const;
   // From any thread.
   void add(uint64_t number, const Piece& piece);
-  // All is done: the file goes.
+  // All is done, or never can be: the file goes.
   void finish();
 
  private:
@@ -43,6 +43,8 @@ class Checkpoint {
   uint64_t key_;
   std::map<uint64_t, Piece> pieces_;
   std::mutex mutex_;
+  bool isOurs_ = false;  // there is none yet, or one that a bake has written
+  size_t good_ = 0;      // bytes of it up to the end of the last whole piece
   bool isOpened_ = false;
   FILE* file_ = nullptr;
 };

@@ -41,6 +41,7 @@ class Baker {
     if (splats_.empty()) return {};
     std::vector<float> fixedOffset;
     for (const PartOptions& part : bake_.parts) fixedOffset.push_back(part.offset);
+    for (float& offset : fixedOffset) offset = std::min(offset, kMostReach * radius_);
     shell_ = makeShell(proxy_, splats_, fixedOffset);
     fins_ = makeFins(proxy_, shell_);
     listWork();
@@ -59,7 +60,14 @@ class Baker {
     for (size_t c = 0; c < proxy_.charts.size(); ++c)
       for (int layer = 0; layer < partOf(primitiveOf(proxy_.charts[c])).layers; ++layer)
         work_.push_back({int(c), layer, 0});
-    for (size_t f = 0; f < fins_.size(); ++f) work_.push_back({-1, 0, f});
+    // Nothing stands on fins with no splat over any triangle around them.
+    std::vector<bool> isNear(proxy_.places.size());
+    for (const Splat& splat : splats_)
+      for (int c = 0; c < 3; ++c) isNear[proxy_.triangles[size_t(splat.triangle)].places[c]] = true;
+    for (size_t f = 0; f < fins_.size(); ++f) {
+      const ProxyEdge& edge = proxy_.edges[fins_[f].edge];
+      if (isNear[edge.a] || isNear[edge.b]) work_.push_back({-1, 0, f});
+    }
   }
 
   glm::uvec2 sizeOf(const Work& work, float texel) const {
@@ -84,7 +92,7 @@ class Baker {
     for (; !fits(coarse); coarse *= 2)
       if (coarse > radius_)
         scene::fail({}, "its triangles do not fit into the texture",
-                    "ask for a larger one, or for fewer layers");
+                    "ask for a larger one (--texture), or for fewer layers");
     for (int i = 0; i < 8; ++i) {
       const float middle = std::sqrt(texel_ * coarse);
       (fits(middle) ? coarse : texel_) = middle;
@@ -92,12 +100,22 @@ class Baker {
     texel_ = coarse;
   }
 
+  // Files may say anything.
+  bool isOf(const Piece& piece, const Work& work) const {
+    const glm::uvec2 most = sizeOf(work, texel_);
+    const Tile& tile = piece.tile;
+    return (tile.width == 0 && tile.height == 0) ||
+           (tile.width == most.x && tile.height > 2 * uint32_t(kGutter) && tile.height <= most.y &&
+            piece.top > 0 && piece.top <= 1);
+  }
+
   void capture() {
     const Capture capture(proxy_, shell_, splats_, options_, texel_);
     pieces_.resize(work_.size());
     std::atomic<size_t> done{0}, resumed{0};
     scene::parallelFor(work_.size(), scene::threadCount(options_.threads), [&](size_t i) {
-      if (const Piece* const known = checkpoint_.find(bake_.firstPiece + i)) {
+      const Piece* const known = checkpoint_.find(bake_.firstPiece + i);
+      if (known && isOf(*known, work_[i])) {
         pieces_[i] = *known;
         ++resumed;
       } else {
@@ -125,8 +143,15 @@ class Baker {
       sizes.emplace_back(piece.tile.width, piece.tile.height);
       tiles.push_back(std::move(piece.tile));
     }
-    // What was captured is no larger than what was to be.
-    packing_ = pack(sizes, options_.textureSize, 2 * options_.textureSize).value();
+    // No tile is larger than it was to be; but rows of others may be, and then they stay where those would
+    // have been.
+    if (std::optional<Packing> packed = pack(sizes, options_.textureSize, options_.textureSize)) {
+      packing_ = std::move(*packed);
+    } else {
+      std::vector<glm::uvec2> planned;
+      for (const Work& work : work_) planned.push_back(sizeOf(work, texel_));
+      packing_ = pack(planned, options_.textureSize, options_.textureSize).value();
+    }
     if (packing_.width == 0) return {};
     report_.width = packing_.width, report_.height = packing_.height;
     gltf::PaintedMesh painted;
@@ -149,6 +174,7 @@ class Baker {
       part.primitive = primitive;
       part.name = bake_.names[primitive] + (isFin ? " fins" : " coat");
       part.layer.fades = isFin;
+      part.isDoubleSided = isFin || bake_.isAlone;
       part.layer.fadeStart = partOf(primitive).fadeStart, part.layer.fadeEnd = partOf(primitive).fadeEnd;
       report_.triangles += part.indices.size() / 3;
       if (isFin) report_.fins += part.indices.size() / 6;

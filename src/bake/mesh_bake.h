@@ -20,6 +20,7 @@ struct MeshBake {
   const scene::Mesh* mesh = nullptr;
   std::vector<std::string> names;  // by primitive: of its material
   std::vector<PartOptions> parts;  // by primitive
+  bool isAlone = false;            // nothing hides the paint on its other side
   uint64_t firstPiece = 0;         // its number in the checkpoint
 };
 

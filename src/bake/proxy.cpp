@@ -68,7 +68,7 @@ class Maker {
         if (placeOf[v] == next) proxy_.places.push_back(primitive.positions[v]);
       }
       std::vector<int>& numbers = proxy_.triangleOf.emplace_back(primitive.indices.size() / 3, -1);
-      for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3) {
+      for (size_t i = 0; i + 2 < primitive.indices.size() && !primitive.isPaint; i += 3) {
         ProxyTriangle t;
         t.primitive = p;
         for (int c = 0; c < 3; ++c)
@@ -114,24 +114,23 @@ class Maker {
         if (a != b) sides[std::minmax(a, b)][a < b ? 0 : 1].push_back({t, e});
       }
     proxy_.edgesAt.resize(proxy_.places.size());
-    for (const auto& [ends, both] : sides)
-      for (size_t i = 0; i < std::max(both[0].size(), both[1].size()); ++i) {
-        ProxyEdge edge{ends.first, ends.second};
-        for (int s = 0; s < 2; ++s)
-          if (i < both[size_t(s)].size()) edge.triangles[size_t(s)] = int(both[size_t(s)][i].triangle);
-        if (edge.triangles[0] < 0) {
-          std::swap(edge.a, edge.b);
-          std::swap(edge.triangles[0], edge.triangles[1]);
-        } else if (edge.triangles[1] >= 0) {
-          const Side &own = both[0][i], &other = both[1][i];
-          proxy_.triangles[own.triangle].across[size_t(own.edge)] = int(other.triangle);
-          proxy_.triangles[other.triangle].across[size_t(other.edge)] = int(own.triangle);
-        }
-        const auto number = uint32_t(proxy_.edges.size());
-        proxy_.edges.push_back(edge);
-        proxy_.edgesAt[edge.a].push_back(number);
-        proxy_.edgesAt[edge.b].push_back(number);
+    for (const auto& [ends, both] : sides) {
+      ProxyEdge edge{ends.first, ends.second};
+      const size_t first = both[0].empty() ? 1 : 0;
+      if (first == 1) std::swap(edge.a, edge.b);
+      const Side& own = both[first][0];
+      edge.triangles[0] = int(own.triangle);
+      if (both[0].size() == 1 && both[1].size() == 1) {
+        const Side& other = both[1][0];
+        edge.triangles[1] = int(other.triangle);
+        proxy_.triangles[own.triangle].across[size_t(own.edge)] = int(other.triangle);
+        proxy_.triangles[other.triangle].across[size_t(other.edge)] = int(own.triangle);
       }
+      const auto number = uint32_t(proxy_.edges.size());
+      proxy_.edges.push_back(edge);
+      proxy_.edgesAt[edge.a].push_back(number);
+      proxy_.edgesAt[edge.b].push_back(number);
+    }
   }
 
   uint32_t thirdPlace(int triangle, const ProxyEdge& edge) const {

@@ -22,11 +22,20 @@ float strokeShade(uint32_t chance, float variation) {
 std::vector<Splat> hungSplats(const scene::Painting& painting, const Proxy& proxy, const BakeOptions& options,
                               float reach, size_t& left) {
   std::vector<float> along;
-  const std::vector<scene::SplatPlace> places = scene::splatPlaces(painting, along);
+  // As many as are drawn where the painting is drawn itself.
+  constexpr double kMostSplats = 4 << 20;
+  float least = scene::kSplatSpacing;
+  while (scene::splatCount(painting, least) > kMostSplats) least *= 2;
+  const std::vector<scene::SplatPlace> places = scene::splatPlaces(painting, along, least);
   std::vector<uint32_t> strokeOf;
   for (uint32_t s = 0; s < painting.strokes.size(); ++s)
     strokeOf.resize(strokeOf.size() + painting.strokes[s].pointCount, s);
-  const scene::NearestPlaces nearest(proxy.primitives);
+  static const scene::Primitive kNothing;
+  std::vector<const scene::Primitive*> surfaces;  // but for paint
+  for (const scene::Primitive* p : proxy.primitives) surfaces.push_back(p->isPaint ? &kNothing : p);
+  const scene::NearestPlaces nearest(surfaces);
+  left = places.size();
+  if (nearest.isEmpty()) return {};
   std::vector<Splat> splats(places.size());
   constexpr size_t kChunk = 4096;
   scene::parallelFor(

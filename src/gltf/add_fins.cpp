@@ -56,7 +56,7 @@ class PaintWriter {
     if (part.layer.fades) paint = {{"fadeStart", part.layer.fadeStart}, {"fadeEnd", part.layer.fadeEnd}};
     return {{"name", part.name},
             {"alphaMode", "BLEND"},
-            {"doubleSided", part.layer.fades},
+            {"doubleSided", part.isDoubleSided},
             {"pbrMetallicRoughness",
              {{"baseColorTexture", {{"index", texture}}}, {"metallicFactor", 0}, {"roughnessFactor", 1}}},
             {"extensions", {{kUnlit, Json::object()}}},
@@ -130,6 +130,17 @@ std::vector<uint8_t> withPaint(const std::string& path, const SceneOptions& opti
     if (own < 0 || size_t(own) >= meshes.size() || meshes[size_t(own)].parts.empty()) continue;
     PaintWriter(file, file.root()["meshes"][m], scene.meshes[size_t(own)]).add(meshes[size_t(own)]);
   }
+  return file.glb("ask for a smaller texture");
+}
+
+std::vector<uint8_t> paintAlone(const Mesh& mesh, const PaintedMesh& painted) {
+  const Json root = {{"asset", {{"version", "2.0"}}},
+                     {"scene", 0},
+                     {"scenes", {{{"nodes", {0}}}}},
+                     {"nodes", {{{"name", mesh.name}, {"mesh", 0}}}},
+                     {"meshes", {{{"name", mesh.name}, {"primitives", Json::array()}}}}};
+  Rewrite file(root);
+  PaintWriter(file, file.root()["meshes"][0], mesh).add(painted);
   return file.glb("ask for a smaller texture");
 }
 

@@ -20,6 +20,7 @@ struct PaintPart {
   std::vector<glm::vec2> uvs;
   std::vector<uint32_t> indices;
   scene::PaintLayer layer;
+  bool isDoubleSided = true;
 };
 
 struct PaintedMesh {
@@ -32,5 +33,8 @@ struct PaintedMesh {
 std::vector<uint8_t> withPaint(const std::string& path, const SceneOptions& options,
                                const scene::SceneData& scene, const std::vector<PaintedMesh>& meshes,
                                scene::ImportWarnings& warnings);
+
+// The same of a mesh that no file has: the paint alone, without the mesh.
+std::vector<uint8_t> paintAlone(const scene::Mesh& mesh, const PaintedMesh& painted);
 
 }  // namespace scumble::gltf

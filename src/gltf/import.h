@@ -3,6 +3,7 @@
 
 #include <map>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "gltf/accessor.h"
@@ -58,6 +59,8 @@ struct OutlineTexture {
   int channel = 0;
 };
 using OutlineTextures = std::map<size_t, OutlineTexture>;
+// What a material's extras say of it as a layer of paint; none where they say nothing, or something wrong.
+std::optional<PaintLayer> paintLayerOf(const JsonView& material);
 // All materials, and the images that materials in use name, decoded.
 OutlineTextures readMaterials(const Import& import, SceneData& scene);
 void readImages(const Import& import, SceneData& scene);

@@ -9,6 +9,8 @@ namespace scumble::gltf {
 
 namespace {
 
+constexpr const char* kPaint = "scumble_paint";
+
 float linearOf(float srgb) {
   return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
 }
@@ -218,31 +220,16 @@ class MaterialReader {
     if (extras == json.json().end() || !extras->is_object()) return;
     if (const auto found = extras->find("scumble_shadowed"); found != extras->end())
       m.shadowedColor = colorOf(*found, json.pathOf("extras.scumble_shadowed"));
-    if (const auto found = extras->find("scumble_paint"); found != extras->end())
-      m.paint = paintOf(*found, m.alphaMode, json.pathOf("extras.scumble_paint"));
+    m.paint = paintLayerOf(json);
+    if (!m.paint && extras->contains(kPaint))
+      import_.warnings.add(
+          json.pathOf(std::string("extras.") + kPaint),
+          "a layer of paint is ignored: it needs alphaMode BLEND, and as far as it fades numbers "
+          "with 0 <= fadeEnd < fadeStart <= 1");
     for (const auto& [key, use] : {std::pair("scumble_lit_texture", &m.litTexture),
                                    std::pair("scumble_shadowed_texture", &m.shadowedTexture)})
       if (const auto found = extras->find(key); found != extras->end())
         *use = namedTexture(*found, json.pathOf(std::string("extras.") + key));
-  }
-
-  std::optional<PaintLayer> paintOf(const Json& json, AlphaMode alpha, const std::string& path) {
-    PaintLayer layer;
-    bool isGood = json.is_object() && alpha == AlphaMode::blend;
-    for (const auto& [key, value] :
-         {std::pair("fadeStart", &layer.fadeStart), std::pair("fadeEnd", &layer.fadeEnd)})
-      if (isGood && json.contains(key)) {
-        layer.fades = true;
-        isGood = json[key].is_number();
-        if (isGood) *value = json[key].get<float>();
-      }
-    isGood = isGood && layer.fadeEnd >= 0 && layer.fadeEnd < layer.fadeStart && layer.fadeStart <= 1;
-    if (isGood) return layer;
-    import_.warnings.add(
-        path,
-        "a layer of paint is ignored: it needs alphaMode BLEND, and as far as it fades numbers "
-        "with 0 <= fadeEnd < fadeStart <= 1");
-    return std::nullopt;
   }
 
   std::optional<glm::vec3> colorOf(const Json& json, const std::string& path) {
@@ -302,6 +289,24 @@ class MaterialReader {
 };
 
 }  // namespace
+
+std::optional<PaintLayer> paintLayerOf(const JsonView& material) {
+  const Json& json = material.json();
+  const auto extras = json.find("extras"), mode = json.find("alphaMode");
+  if (extras == json.end() || !extras->is_object() || !extras->contains(kPaint)) return std::nullopt;
+  const Json& paint = (*extras)[kPaint];
+  if (!paint.is_object() || mode == json.end() || *mode != "BLEND") return std::nullopt;
+  PaintLayer layer;
+  for (const auto& [key, value] :
+       {std::pair("fadeStart", &layer.fadeStart), std::pair("fadeEnd", &layer.fadeEnd)}) {
+    if (!paint.contains(key)) continue;
+    if (!paint[key].is_number()) return std::nullopt;
+    layer.fades = true;
+    *value = paint[key].get<float>();
+  }
+  if (!(layer.fadeEnd >= 0 && layer.fadeEnd < layer.fadeStart && layer.fadeStart <= 1)) return std::nullopt;
+  return layer;
+}
 
 OutlineTextures readMaterials(const Import& import, SceneData& scene) {
   const JsonView list = import.document.list("materials");

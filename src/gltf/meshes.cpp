@@ -35,6 +35,15 @@ void readMorphWeights(const JsonView& json, Mesh& mesh, ImportWarnings& warnings
   }
 }
 
+bool isPaint(const Import& import, const JsonView& primitive) {
+  const JsonView materials = import.document.list("materials");
+  const auto index = primitive.json().find("material");
+  if (index == primitive.json().end() || !index->is_number()) return false;
+  const double number = index->get<double>();
+  return number >= 0 && number < double(materials.size()) &&
+         paintLayerOf(materials.at(size_t(number))).has_value();
+}
+
 }  // namespace
 
 void readMeshes(const Import& import, const Maps& maps, SceneData& scene) {
@@ -71,6 +80,7 @@ void readMeshes(const Import& import, const Maps& maps, SceneData& scene) {
     }
     Primitive& primitive = scene.meshes[task.mesh].own().primitives[task.primitive];
     primitive = readPrimitive(import, task.json, task.warnings);
+    primitive.isPaint = isPaint(import, task.json);
     if (!primitive.indices.empty()) cleanPrimitive(primitive, task.json.path(), task.warnings);
     const size_t count = primitive.vertexCount(), before = vertices.fetch_add(count);
     if (before / kForgottenVertices != (before + count) / kForgottenVertices) import.buffers.forgetFiles();
@@ -106,7 +116,7 @@ void readMeshes(const Import& import, const Maps& maps, SceneData& scene) {
     const auto [mesh, primitive] = finishing[i];
     Primitive& finished = scene.meshes[mesh].own().primitives[primitive];
     finishPrimitive(finished, radii[mesh], import.patternCoordinates);
-    makeLevels(finished);
+    if (!finished.isPaint) makeLevels(finished);
     import.progress.step();
   });
 }

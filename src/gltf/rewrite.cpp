@@ -23,56 +23,73 @@ const char* mimeTypeOf(Bytes bytes) {
   return nullptr;
 }
 
-// Numbers of accessors that a primitive names.
-void addAccessors(const Json& primitive, std::set<size_t>& to) {
-  const auto add = [&](const Json& number) {
-    if (number.is_number_unsigned()) to.insert(number.get<size_t>());
-  };
-  const auto addAll = [&](const Json& attributes) {
-    for (const Json& number : attributes) add(number);
-  };
-  if (primitive.contains("attributes")) addAll(primitive["attributes"]);
-  if (primitive.contains("indices")) add(primitive["indices"]);
-  if (primitive.contains("targets"))
-    for (const Json& target : primitive["targets"]) addAll(target);
+// A number that names something; -1: none. Files write 3 as 3.0 as well.
+int64_t numberOf(const Json& json) {
+  return json.is_number() && json.get<double>() >= 0 ? int64_t(json.get<double>()) : -1;
 }
 
-// Views that something names, anywhere in it.
-void addViews(const Json& json, std::set<size_t>& to) {
-  for (const auto& [key, value] : json.items()) {
-    if (value.is_structured()) addViews(value, to);
-    if (json.is_object() && key == "bufferView" && value.is_number_unsigned()) to.insert(value.get<size_t>());
+// Numbers of accessors under these keys, or under any, wherever in it they are.
+void addNumbers(const Json& json, std::string_view key, std::set<int64_t>& to) {
+  for (const auto& [name, value] : json.items()) {
+    if (value.is_structured()) addNumbers(value, key, to);
+    if (json.is_object() && name == key) to.insert(numberOf(value));
   }
 }
 
+// Accessors that attributes name: those of primitives, of their targets, and of instances.
+void addAttributes(const Json& json, std::set<int64_t>& to) {
+  for (const auto& [name, value] : json.items()) {
+    if (json.is_object() && (name == "attributes" || name == "targets") && value.is_structured()) {
+      const auto addAll = [&](const Json& attributes) {
+        for (const Json& number : attributes)
+          if (number.is_number()) to.insert(numberOf(number));
+      };
+      if (value.is_object()) addAll(value);
+      for (const Json& target : value)
+        if (target.is_object()) addAll(target);
+    }
+    if (value.is_structured()) addAttributes(value, to);
+  }
+}
+
+std::set<int64_t> accessorsOf(const Json& json) {
+  std::set<int64_t> all;
+  addAttributes(json, all);
+  for (const char* key : {"indices", "input", "output", "inverseBindMatrices"}) addNumbers(json, key, all);
+  return all;
+}
+
 // Takes the last entries of a list away as long as all of them are superfluous.
-void cutEnd(Json& list, const std::set<size_t>& superfluous) {
-  while (!list.empty() && superfluous.contains(list.size() - 1)) list.erase(list.size() - 1);
+void cutEnd(Json& list, const std::set<int64_t>& superfluous) {
+  while (!list.empty() && superfluous.contains(int64_t(list.size()) - 1)) list.erase(list.size() - 1);
 }
 
 }  // namespace
 
-Rewrite::Rewrite(const std::string& path, const SceneOptions& options, ImportWarnings& warnings)
-    : warnings_(warnings) {
+Rewrite::Rewrite(const std::string& path, const SceneOptions& options, ImportWarnings& warnings) {
   std::string problem;
   if (!file_.open(path, problem)) fail({}, problem, "give the path of a .gltf or .glb");
   folder_ = std::filesystem::path(path).parent_path().string();
   if (folder_.empty()) folder_ = ".";
   budget_.addBacking(file_.bytes().size());
-  document_ = std::make_unique<Document>(file_.bytes(), warnings_);
+  document_ = std::make_unique<Document>(file_.bytes(), warnings);
   buffers_ = std::make_unique<Buffers>(*document_, &file_, folder_, options.allowOutside, budget_);
   root_ = document_->root().json();
   takeBuffers();
-  takeImages();
+  takeImages(warnings);
   // The file's meshes, as the scene counts them.
   Accessors accessors(*document_, *buffers_, budget_);
   const Progress none;
   ImportProgress progress(none);
-  const Import import{*document_, *buffers_, accessors, budget_, warnings_, progress};
+  const Import import{*document_, *buffers_, accessors, budget_, warnings, progress};
   SceneData nodes;
   Maps maps;
   readNodes(import, options.scene, nodes, maps);
   meshes_ = maps.meshes;
+}
+
+Rewrite::Rewrite(Json root) : root_(std::move(root)) {
+  root_["buffers"] = Json::array({Json::object()});
 }
 
 size_t Rewrite::append(Bytes bytes) {
@@ -134,7 +151,7 @@ void Rewrite::takeBuffers() {
   root_["buffers"] = std::move(buffers);
 }
 
-void Rewrite::takeImages() {
+void Rewrite::takeImages(ImportWarnings& warnings) {
   const JsonView images = document_->list("images");
   for (size_t i = 0; i < images.size(); ++i) {
     const JsonView json = images.at(i);
@@ -147,7 +164,7 @@ void Rewrite::takeImages() {
     const char* type = nullptr;
     if (buffers_->imageFile(uri, json.pathOf("uri"), holder, bytes, problem)) type = mimeTypeOf(bytes);
     if (!type) {
-      warnings_.add(json.pathOf("uri"), "a picture that cannot be read stays outside of the file");
+      warnings.add(json.pathOf("uri"), "a picture that cannot be read stays outside of the file");
       continue;
     }
     Json& image = root_["images"][i];
@@ -179,22 +196,25 @@ void Rewrite::dropStrokes() {
 // Numbers of what stays must stay, since anything may name them: only ends of lists are cut, which is where
 // strokes lie that were added.
 void Rewrite::dropUnused(const std::vector<Json>& dropped) {
-  std::set<size_t> accessors, used;
-  for (const Json& primitive : dropped) addAccessors(primitive, accessors);
-  for (const Json& mesh : root_["meshes"])
-    for (const Json& primitive : mesh["primitives"]) addAccessors(primitive, used);
-  for (const size_t number : used) accessors.erase(number);
+  std::set<int64_t> accessors = accessorsOf(Json(dropped)), views;
+  for (const int64_t number : accessorsOf(root_)) accessors.erase(number);
+  if (!root_.contains("accessors") || !root_.contains("bufferViews")) return;
+  for (const int64_t number : accessors)
+    if (number >= 0 && size_t(number) < root_["accessors"].size())
+      addNumbers(root_["accessors"][size_t(number)], "bufferView", views);
   cutEnd(root_["accessors"], accessors);
-  std::set<size_t> named, views;
-  addViews(root_, named);
-  for (size_t v = 0; v < root_["bufferViews"].size(); ++v)
-    if (!named.contains(v)) views.insert(v);
+  std::set<int64_t> named;
+  addNumbers(root_, "bufferView", named);
+  for (const int64_t number : named) views.erase(number);
+  const size_t before = root_["bufferViews"].size();
   cutEnd(root_["bufferViews"], views);
+  if (root_["bufferViews"].size() == before) return;
   size_t end = 0;
   for (const Json& view : root_["bufferViews"]) {
     const auto reach = [&](const Json& of) {
-      if (of["buffer"] == 0)
-        end = std::max(end, of.value("byteOffset", size_t(0)) + of.value("byteLength", size_t(0)));
+      if (numberOf(of.value("buffer", Json(-1))) == 0)
+        end = std::max(end, size_t(std::max<int64_t>(numberOf(of.value("byteOffset", Json(0))), 0) +
+                                   std::max<int64_t>(numberOf(of.value("byteLength", Json(0))), 0)));
     };
     reach(view);
     if (view.contains("extensions") && view["extensions"].contains("EXT_meshopt_compression"))
@@ -203,7 +223,38 @@ void Rewrite::dropUnused(const std::vector<Json>& dropped) {
   bytes_.resize(std::min(bytes_.size(), end));
 }
 
+// A mesh of strokes alone is none any more.
+void Rewrite::dropEmptyMeshes() {
+  if (!root_.contains("meshes")) return;
+  Json kept = Json::array();
+  std::vector<int64_t> numbers;
+  for (Json& mesh : root_["meshes"]) {
+    const bool isEmpty = !mesh.contains("primitives") || mesh["primitives"].empty();
+    numbers.push_back(isEmpty ? -1 : int64_t(kept.size()));
+    if (!isEmpty) kept.push_back(std::move(mesh));
+  }
+  if (kept.size() == numbers.size()) {
+    root_["meshes"] = std::move(kept);
+    return;
+  }
+  if (root_.contains("nodes"))
+    for (Json& node : root_["nodes"]) {
+      if (!node.is_object() || !node.contains("mesh")) continue;
+      const int64_t mesh = numberOf(node["mesh"]);
+      if (mesh >= 0 && size_t(mesh) < numbers.size() && numbers[size_t(mesh)] >= 0) {
+        node["mesh"] = numbers[size_t(mesh)];
+      } else {
+        for (const char* key : {"mesh", "skin", "weights"}) node.erase(key);
+      }
+    }
+  if (kept.empty())
+    root_.erase("meshes");
+  else
+    root_["meshes"] = std::move(kept);
+}
+
 std::vector<uint8_t> Rewrite::glb(const char* remedy) {
+  dropEmptyMeshes();
   bytes_.resize((bytes_.size() + 3) / 4 * 4);
   root_["buffers"][0] = {{"byteLength", bytes_.size()}};
   std::string json = root_.dump();

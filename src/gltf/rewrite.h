@@ -17,6 +17,9 @@ class Rewrite {
   // scene::ImportFailure.
   Rewrite(const std::string& path, const SceneOptions& options, ImportWarnings& warnings);
 
+  // One that nobody has written yet.
+  explicit Rewrite(Json root);
+
   Json& root() { return root_; }
   // By mesh of the file, which one of the scene that Scene::load makes of it; -1: none.
   const std::vector<int>& meshes() const { return meshes_; }
@@ -34,11 +37,11 @@ class Rewrite {
 
  private:
   void takeBuffers();
-  void takeImages();
+  void takeImages(ImportWarnings& warnings);
   size_t append(Bytes bytes);
   void dropUnused(const std::vector<Json>& dropped);
+  void dropEmptyMeshes();
 
-  ImportWarnings& warnings_;
   FileBytes file_;
   std::string folder_;
   ImportBudget budget_;

@@ -39,7 +39,8 @@ class Surface {
  public:
   Surface(const scene::SceneData& scene, const scene::Mesh& mesh, const MeshPaint& paint)
       : scene_(scene), colors_(paint.colors), posed_(paint.posed) {
-    for (const scene::Primitive& p : mesh.primitives) primitives_.push_back(&p);
+    for (const scene::Primitive& p : mesh.primitives)
+      if (!p.isPaint) primitives_.push_back(&p);
     places_ = std::make_unique<scene::NearestPlaces>(primitives_);
     if (places_->isEmpty()) return;
     field_ = paint.flow == PaintFlow::curvature ? alongCurvature(primitives_, paint.towards)
@@ -206,7 +207,8 @@ std::vector<scene::StrokePoint> strokeFrom(const Surface& surface, const glm::ve
 
 double areaOf(const scene::Mesh& mesh) {
   double area = 0;
-  for (const scene::Primitive& p : mesh.primitives) area += scene::areaOf(p);
+  for (const scene::Primitive& p : mesh.primitives)
+    if (!p.isPaint) area += scene::areaOf(p);
   return area;
 }
 

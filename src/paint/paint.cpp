@@ -63,16 +63,6 @@ struct Painted {
   double area;  // world
 };
 
-// Where a node puts its mesh at rest; of what joints place, about.
-glm::mat4 placeOf(const scene::SceneData& scene, const std::vector<glm::mat4>& world, size_t n) {
-  const scene::Node& node = scene.nodes[n];
-  if (node.skin < 0) return world[n];
-  glm::mat4 sum(0.0f);
-  const std::vector<glm::mat4> joints = scene::jointMatrices(scene.skins[size_t(node.skin)], world);
-  for (const glm::mat4& joint : joints) sum += joint / float(joints.size());
-  return joints.empty() ? glm::mat4(1.0f) : sum;
-}
-
 std::vector<Painted> paintedOf(const scene::SceneData& scene, const std::string& nodes) {
   std::map<size_t, Painted> largest;  // by mesh
   const std::vector<glm::mat4> world = scene::worldMatrices(scene);
@@ -80,7 +70,7 @@ std::vector<Painted> paintedOf(const scene::SceneData& scene, const std::string&
     const scene::Node& node = scene.nodes[n];
     if (node.mesh < 0 || (!nodes.empty() && !matches(nodes, node.name))) continue;
     const auto mesh = size_t(node.mesh);
-    const glm::mat4 placed = placeOf(scene, world, n);
+    const glm::mat4 placed = scene::restPlaceOf(scene, world, n);
     const double scale = std::cbrt(std::abs(double(glm::determinant(glm::mat3(placed)))));
     const Painted here{mesh, n, placed, scale * scale};
     const auto [known, isNew] = largest.try_emplace(mesh, here);

@@ -169,6 +169,14 @@ std::vector<glm::mat4> jointMatrices(const Skin& skin, const std::vector<glm::ma
   return matrices;
 }
 
+glm::mat4 restPlaceOf(const SceneData& scene, const std::vector<glm::mat4>& world, size_t node) {
+  if (scene.nodes[node].skin < 0) return world[node];
+  glm::mat4 sum(0.0f);
+  const std::vector<glm::mat4> joints = jointMatrices(scene.skins[size_t(scene.nodes[node].skin)], world);
+  for (const glm::mat4& joint : joints) sum += joint / float(joints.size());
+  return joints.empty() ? glm::mat4(1.0f) : sum;
+}
+
 glm::vec3 skinnedPosition(const Primitive& primitive, size_t v, const glm::vec3& position,
                           std::span<const glm::mat4> joints) {
   glm::vec3 placed(0.0f);

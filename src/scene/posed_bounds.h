@@ -11,6 +11,9 @@ namespace scumble::scene {
 // inverse bind.
 std::vector<glm::mat4> jointMatrices(const Skin& skin, const std::vector<glm::mat4>& world);
 
+// Where a node puts its mesh at rest; of what joints place, about. `world`: worldMatrices().
+glm::mat4 restPlaceOf(const SceneData& scene, const std::vector<glm::mat4>& world, size_t node);
+
 // Position of vertex `v` in the world under a skin's matrices (linear blend skinning); `position` is where
 // the vertex is in mesh space.
 glm::vec3 skinnedPosition(const Primitive& primitive, size_t v, const glm::vec3& position,

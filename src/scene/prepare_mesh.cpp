@@ -252,6 +252,7 @@ void weldSmoothNormals(Mesh& mesh) {
   entryOf.reserve(count);
   for (size_t k = 0; k < mesh.primitives.size(); ++k) {
     const Primitive& p = mesh.primitives[k];
+    if (p.isPaint) continue;  // what it lies on stays as it is
     for (size_t i = 0; i < p.vertexCount(); ++i) {
       const uint32_t fresh = static_cast<uint32_t>(entries.size());
       const glm::vec3 position = grid(p.positions[i]);
@@ -268,7 +269,8 @@ void weldSmoothNormals(Mesh& mesh) {
   }
   size_t at = 0;
   for (Primitive& p : mesh.primitives)
-    for (glm::vec3& sum : p.smoothNormals) sum = entries[entryOf[at++]].sum;
+    if (!p.isPaint)
+      for (glm::vec3& sum : p.smoothNormals) sum = entries[entryOf[at++]].sum;
 }
 
 Bounds boxOf(const std::vector<glm::vec3>& points) {

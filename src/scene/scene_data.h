@@ -163,6 +163,7 @@ struct Primitive {
   std::vector<glm::vec3> dPdu, dPdv;
   std::vector<uint32_t> indices;  // three a triangle, each < vertexCount()
   int material = 0;               // index into SceneData::materials (index 0 exists always)
+  bool isPaint = false;           // that is a PaintLayer
   // From the finest to the coarsest (makeLevels); none for what was made to be changed.
   std::vector<DetailLevel> levels;
   std::vector<uint32_t> levelIndices;

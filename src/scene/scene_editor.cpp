@@ -121,7 +121,10 @@ Result<MaterialId> SceneEditor::addMaterial(const MaterialDesc& material) {
 Status SceneEditor::setMaterial(MaterialId id, const MaterialDesc& material) {
   if (!isIndex(id, edited_->data.materials.size())) return noSuch("material", int(id));
   return edited_->edit([&]() -> Status {
-    edited_->data.materials[size_t(id)] = materialOf(material, edited_->data);
+    Material changed = materialOf(material, edited_->data);
+    // Of what a description has no words for, a layer of paint stays one, as long as it blends.
+    if (changed.alphaMode == AlphaMode::blend) changed.paint = edited_->data.materials[size_t(id)].paint;
+    edited_->data.materials[size_t(id)] = std::move(changed);
     return Done{};
   });
 }

@@ -110,7 +110,7 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
       item.node = n;
       item.material = uint32_t(primitive.material);
       item.id = uint32_t(n + 1);
-      item.casts = options.casts[item.material];
+      item.casts = options.casts[item.material] && !primitive.isPaint;
       item.extent = &primitive.extent;
       item.shown = shown[n];
       if (node.skin >= 0 && primitive.influences > 0) item.skin = node.skin;

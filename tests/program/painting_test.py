@@ -154,12 +154,26 @@ class Fins(Case):
             self.bad(USAGE, "bake", "painted.glb", "-o", "c.glb", "--part", part)
         self.bad(USAGE, "bake", "painted.glb", "-o", "c.glb", "--part", "Nobody:offset=1", says="Nobody")
 
+    def test_strokes_in_the_air_get_a_hull_or_a_proxy(self):
+        self.tilt(data=sketch(2))
+        self.good("bake", "bird.tilt", "-o", "hull.glb", "--texture", "512", "--hull-cells", "16", "--quiet")
+        self.good("render", "hull.glb", "-o", "hull.png", *TINY)
+        self.assertGreater(self.reds("hull.png"), 20)
+        self.good("bake", "bird.tilt", "--proxy", "box.gltf", "-o", "boxed.glb", "--texture", "512", "--quiet")
+        about = json.loads(self.good("info", "boxed.glb", "--json"))
+        self.assertEqual(about["meshes"], 1)
+        self.good("render", "boxed.glb", "-o", "boxed.png", *TINY)
+
     def test_mistakes(self):
         self.bad(UNUSABLE, "bake", "box.gltf", "-o", "fins.glb", says="scumble paint")
         self.bad(UNUSABLE, "bake", "absent.glb", "-o", "fins.glb")
-        self.tilt()
-        self.bad(UNUSABLE, "bake", "bird.tilt", "-o", "fins.glb", says="no surface")
         self.paint()
+        self.bad(USAGE, "bake", "painted.glb", "-o", "fins.glb", "--hull-cells", "5", says="hull")
+        self.bad(UNUSABLE, "bake", "painted.glb", "-o", "fins.glb", "--proxy", "absent.glb")
+        self.put("proxy.glb", (self.folder / "painted.glb").read_bytes())
+        self.bad(NOT_WRITTEN, "bake", "painted.glb", "-o", "proxy.glb", "--proxy", "proxy.glb", says="one of the inputs")
+        self.put("all.json", json.dumps({"scenes": [{"file": "painted.glb"}]}))
+        self.bad(USAGE, "bake", "all.json", "-o", "fins.glb", says="world")
         self.bad(USAGE, "bake", "painted.glb", "-o", "fins.png", says="fins.glb")
         self.bad(NOT_WRITTEN, "bake", "painted.glb", "-o", "painted.glb", says="one of the inputs")
         self.bad(USAGE, "bake", "painted.glb", "-o", "fins.glb", "--texture", "10")

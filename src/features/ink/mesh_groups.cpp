@@ -9,8 +9,8 @@ std::vector<MeshGroup> meshGroups(const std::vector<world::GeometryItem>& items)
   std::vector<MeshGroup> groups;
   std::map<std::pair<size_t, size_t>, size_t> groupOf;  // by node and instance
   for (uint32_t i = 0; i < items.size(); ++i) {
-    // The ground has no outline, and features draw their own.
-    if (items[i].node == world::GeometryItem::kNoNode) continue;
+    // The ground has no outline, nor has paint, and features draw their own.
+    if (items[i].node == world::GeometryItem::kNoNode || items[i].primitive->isPaint) continue;
     const auto [found, isNew] = groupOf.try_emplace({items[i].node, items[i].instanceOfNode}, groups.size());
     if (isNew) groups.emplace_back();
     groups[found->second].push_back(i);

@@ -49,7 +49,7 @@ std::vector<std::vector<size_t>> StrokesOnGpu::carriers(const std::vector<Geomet
   std::vector<std::vector<size_t>> carriers(paintings_.size());
   for (size_t i = 0; i < items.size(); ++i) {
     const auto found = paintingOf.find({items[i].node, items[i].instanceOfNode});
-    if (found != paintingOf.end() && items[i].primitive->indexCount() > 0)
+    if (found != paintingOf.end() && items[i].primitive->indexCount() > 0 && !items[i].primitive->isPaint)
       carriers[found->second].push_back(i);
   }
   return carriers;
