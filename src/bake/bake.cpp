@@ -10,6 +10,7 @@
 
 #include "bake/mesh_bake.h"
 #include "bake/subjects.h"
+#include "base/file_bytes.h"
 #include "base/name_pattern.h"
 #include "base/usage.h"
 #include "base/whole_file.h"
