@@ -51,10 +51,10 @@ Strokes strokesOf(const scene::SceneData& scene) {
   return strokes;
 }
 
-std::shared_ptr<const scene::Painting> paintingOf(Strokes strokes, const glm::mat4& by) {
+std::shared_ptr<const scene::Painting> paintingOf(const Strokes& strokes, const glm::mat4& by) {
   auto painting = std::make_shared<scene::Painting>();
   scene::ImportWarnings warnings;
-  for (auto& [brush, points] : strokes)
+  for (const auto& [brush, points] : strokes)
     painting->add(brush, moved(points.data(), points.size(), by), "", warnings);
   painting->finish();
   return painting;
@@ -104,8 +104,7 @@ void hangOn(Subjects& subjects, const scene::SceneData& proxy, Strokes strokes) 
   }
   for (Stand& stand : stands)
     if (!stand.strokes.empty())
-      subjects.meshes[stand.mesh].own().painting =
-          paintingOf(std::move(stand.strokes), glm::inverse(stand.place));
+      subjects.meshes[stand.mesh].own().painting = paintingOf(stand.strokes, glm::inverse(stand.place));
 }
 
 }  // namespace

@@ -32,10 +32,9 @@ vec4 surfaceColor(vec4 litRoot, vec4 shadowedRoot, float light, float glow) {
   return vec4(color, 1.0) * coverage;
 }
 
-// Where only what is blended covers the sky its distance is not known, and no air lies before it.
 vec4 inAir(vec4 color, float depthValue, int layer) {
   float distance = eyeDepth(depthValue, layer);
-  float part = colors.air * smoothstep(colors.airStart, colors.airEnd, distance) * float(depthValue > 0.0);
+  float part = colors.air * smoothstep(colors.airStart, colors.airEnd, distance);
   return vec4(mix(color.rgb, colors.horizon * color.a, part), color.a);
 }
 
