@@ -1,7 +1,6 @@
 // scumble bake: fin textures for a painting.
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <memory>

@@ -16,23 +16,17 @@
 #include "bake/fins.h"
 #include "bake/hull.h"
 #include "base/mipmaps.h"
-#include "base/test_folder.h"
 #include "scene/painting.h"
 #include "scumble/paint.h"
 #include "scumble/scene.h"
 #include "tests/support/animated_scene.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/test_scene.h"
 
 namespace scumble::bake {
 namespace {
 
 using namespace test;
-
-struct Files {
-  explicit Files(const std::string& text) : scene(folder.put("scene.gltf", text)) {}
-  TestFolder folder;
-  std::string scene, out = folder.file("out.glb");
-};
 
 std::string contentOf(const std::string& path) {
   std::stringstream content;
@@ -62,7 +56,11 @@ TestMesh corner(float wallLeansBy = 0) {
 // One mesh with everything up to its captures.
 struct Baked {
   Baked(const TestScene& test, float texel, const BakeOptions& given = {})
-      : scene(test.load()), mesh(scene.data().meshes[0]), options(given), proxy(makeProxy(mesh)) {
+      : scene(test.load()),
+        mesh(scene.data().meshes[0]),
+        options(given),
+        proxy(makeProxy(mesh)),
+        capturedTexel(texel) {
     size_t left = 0;
     splats = hungSplats(*mesh.painting, proxy, options, 10, left);
     shell = makeShell(proxy, splats, std::vector<float>(mesh.primitives.size(), 0.0f));
@@ -76,6 +74,7 @@ struct Baked {
   std::vector<Splat> splats;
   Shell shell;
   std::vector<Fin> fins;
+  float capturedTexel;  // metres
   std::unique_ptr<Capture> capture;
 
   // Of a coat, square root of colour and opacity, at a place of space over a triangle.
@@ -86,15 +85,11 @@ struct Baked {
     if (tile.width == 0) return glm::vec4(0);
     const glm::vec3 from = place - proxy.places[t.places[0]];
     const glm::vec2 p = t.flat[0] + glm::vec2(glm::dot(from, t.axisX), glm::dot(from, t.axisY));
-    const glm::vec2 texel = (p - chart.low) / texelSize(tile, chart);
+    const glm::vec2 texel = (p - chart.low) / capturedTexel;
     const int x = int(std::floor(texel.x)) + kGutter,
               y = int(tile.height) - 1 - kGutter - int(std::floor(texel.y));
     const uint8_t* const c = &tile.rgba[4 * (size_t(y) * tile.width + size_t(x))];
     return {float(c[0]) / 255, float(c[1]) / 255, float(c[2]) / 255, float(c[3]) / 255};
-  }
-  glm::vec2 texelSize(const Tile& tile, const Chart& chart) const {
-    const glm::vec2 content(tile.width - 2 * kGutter, tile.height - 2 * kGutter);
-    return glm::max((chart.high - chart.low) / content, glm::vec2((chart.high - chart.low) / content));
   }
 };
 
@@ -396,7 +391,7 @@ TestScene furryBall() {
 }
 
 TEST(Bake, aCutOffBakeGoesOnAndEndsTheSame) {
-  const Files files(furryBall().text());
+  const SceneFiles files(furryBall().text());
   PaintOptions paint;
   paint.style = "fur", paint.splats = 4000;
   const std::string painting = files.folder.file("painted.glb");
@@ -446,7 +441,7 @@ TEST(Bake, aCutOffBakeGoesOnAndEndsTheSame) {
 
 TEST(Bake, whatComesOutHoldsWhatMoves) {
   // Joints and morph targets go along.
-  const Files files(troupe().text());
+  const SceneFiles files(troupe().text());
   PaintOptions paint;
   paint.splats = 3000;
   const std::string painting = files.folder.file("painted.glb");
@@ -480,7 +475,7 @@ TEST(Bake, whatComesOutHoldsWhatMoves) {
 
 TEST(Bake, whatCannotBeBakedSaysWhy) {
   const auto problemOf = [](const std::string& text, const BakeOptions& options = {}) {
-    const Files files(text);
+    const SceneFiles files(text);
     const Result<BakeReport> report = bakeFins(files.scene, files.out, options);
     EXPECT_FALSE(std::filesystem::exists(files.out) && !report);
     return report ? std::string() : report.error().problem;

@@ -142,19 +142,15 @@ void Capture::land(const BakeOptions& options) {
       glm::vec2 along(glm::dot(splat.along, own.axisX), glm::dot(splat.along, own.axisY));
       const float laid = glm::length(along);
       along = laid > kVanishes ? along / laid : own.field;
-      glm::vec3 parts = glm::vec3(1.0f / 3);
-      const glm::vec2 e1 = own.flat[1] - own.flat[0], e2 = own.flat[2] - own.flat[0],
-                      p = splat.foot - own.flat[0];
-      if (const float area = e1.x * e2.y - e1.y * e2.x; area != 0) {
-        parts.y = (p.x * e2.y - p.y * e2.x) / area, parts.z = (e1.x * p.y - e1.y * p.x) / area;
-        parts.x = 1 - parts.y - parts.z;
-      }
+      glm::vec2 foot(0);
       float offset = 0;
-      for (int c = 0; c < 3; ++c) offset += parts[c] * shell_.offsets[own.places[c]];
+      for (int c = 0; c < 3; ++c)
+        foot += splat.parts[c] * own.flat[size_t(c)],
+            offset += splat.parts[c] * shell_.offsets[own.places[c]];
       const float share = offset > 0 ? splat.height / offset : 0.0f;
       const float reach = splat.radius + (float(kGutter) + 1.5f) * texel_;
       std::priority_queue<Step> steps;
-      steps.push({0, splat.triangle, splat.foot, along});
+      steps.push({0, splat.triangle, foot, along});
       while (!steps.empty()) {
         const Step step = steps.top();
         steps.pop();

@@ -40,8 +40,8 @@ class Baker {
     report_.splats = splats_.size();
     if (splats_.empty()) return {};
     std::vector<float> fixedOffset;
-    for (const PartOptions& part : bake_.parts) fixedOffset.push_back(part.offset);
-    for (float& offset : fixedOffset) offset = std::min(offset, kMostReach * radius_);
+    for (const PartOptions& part : bake_.parts)
+      fixedOffset.push_back(std::min(part.offset, kMostReach * radius_));
     shell_ = makeShell(proxy_, splats_, fixedOffset);
     fins_ = makeFins(proxy_, shell_);
     listWork();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/tileable_noise.h"
 #include "scene/nearest_place.h"
 #include "scene/parallel.h"
 #include "scene/splat_places.h"
@@ -22,10 +21,8 @@ float strokeShade(uint32_t chance, float variation) {
 std::vector<Splat> hungSplats(const scene::Painting& painting, const Proxy& proxy, const BakeOptions& options,
                               float reach, size_t& left) {
   std::vector<float> along;
-  // As many as are drawn where the painting is drawn itself.
-  constexpr double kMostSplats = 4 << 20;
   float least = scene::kSplatSpacing;
-  while (scene::splatCount(painting, least) > kMostSplats) least *= 2;
+  while (scene::splatCount(painting, least) > scene::kMostSplats) least *= 2;
   const std::vector<scene::SplatPlace> places = scene::splatPlaces(painting, along, least);
   std::vector<uint32_t> strokeOf;
   for (uint32_t s = 0; s < painting.strokes.size(); ++s)
@@ -52,7 +49,7 @@ std::vector<Splat> hungSplats(const scene::Painting& painting, const Proxy& prox
           };
           const uint32_t next = place.point + (place.toNext > 0 ? 1 : 0);
           const scene::StrokePoint &a = painting.points[place.point], &b = painting.points[next];
-          const uint32_t chance = hash(strokeOf[place.point] * 2654435761u + 17u) & 0xFFFF;
+          const uint32_t chance = scene::strokeChance(strokeOf[place.point]);
           Splat& splat = splats[i];
           splat.position = glm::mix(a.position, b.position, place.toNext);
           const glm::vec3 direction = glm::mix(tangentAt(place.point), tangentAt(next), place.toNext);
@@ -71,14 +68,12 @@ std::vector<Splat> hungSplats(const scene::Painting& painting, const Proxy& prox
           splat.triangle = proxy.triangleOf[foot.primitive][foot.triangle];
           if (splat.triangle < 0) continue;
           const ProxyTriangle& t = proxy.triangles[size_t(splat.triangle)];
-          splat.foot =
-              (1 - foot.at.x - foot.at.y) * t.flat[0] + foot.at.x * t.flat[1] + foot.at.y * t.flat[2];
+          splat.parts = {1 - foot.at.x - foot.at.y, foot.at.x, foot.at.y};
           const glm::vec3 on = foot.mixed(proxy.primitives[foot.primitive]->positions);
           const glm::vec3 away = splat.position - on;
           // Above the surface is where its own normals say, which at edges is on neither side of a plane.
-          const glm::vec3 normal = (1 - foot.at.x - foot.at.y) * proxy.normals[t.places.x] +
-                                   foot.at.x * proxy.normals[t.places.y] +
-                                   foot.at.y * proxy.normals[t.places.z];
+          glm::vec3 normal(0);
+          for (int c = 0; c < 3; ++c) normal += splat.parts[c] * proxy.normals[t.places[c]];
           splat.height = glm::dot(away, normal) < 0 ? -glm::length(away) : glm::length(away);
           const float stroke01 = float(strokeOf[place.point] + 1) / float(painting.strokes.size());
           splat.order = splat.height + options.order * splat.radius * stroke01;

@@ -15,9 +15,9 @@ struct Splat {
   float from = 0, to = 0;                 // of the stroke: to its beginning and its end, radii
   float chance = 0;                       // of the stroke, from 0 to 1
   int brush = 0;
-  // Its place on the proxy: in the plane of a triangle, and metres above it.
+  // Its place on the proxy: what part of it each corner of a triangle has, and metres above it.
   int triangle = -1;
-  glm::vec2 foot{0};
+  glm::vec3 parts{0};
   float height = 0;
   // What is laid down first lies below: by height, and later strokes come forward by a part of their radius.
   float order = 0;

@@ -9,26 +9,19 @@
 #include <filesystem>
 #include <functional>
 
-#include "base/test_folder.h"
 #include "paint/direction_field.h"
 #include "paint/mesh_strokes.h"
 #include "scene/painting.h"
 #include "scene/splat_places.h"
 #include "tests/support/animated_scene.h"
 #include "tests/support/render_test.h"
+#include "tests/support/scene_files.h"
 #include "tests/support/test_scene.h"
 
 namespace scumble::paint {
 namespace {
 
 using namespace test;
-
-// A file, and where its painted copy goes.
-struct Files {
-  explicit Files(const std::string& text) : scene(folder.put("scene.gltf", text)) {}
-  TestFolder folder;
-  std::string scene, out = folder.file("out.glb");
-};
 
 class PaintUnderLook : public RenderTest {};
 
@@ -39,7 +32,7 @@ TestScene ball() {
 }
 
 TEST(Paint, strokesOfEveryStyleLieWhereTheyShould) {
-  const Files files(ball().text());
+  const SceneFiles files(ball().text());
   for (const PaintStyle& style : paintStyles()) {
     PaintOptions options;
     options.style = style.name;
@@ -81,7 +74,7 @@ TEST(Paint, strokesOfEveryStyleLieWhereTheyShould) {
 }
 
 TEST(Paint, theSameEachTime) {
-  const Files files(ball().text());
+  const SceneFiles files(ball().text());
   PaintOptions options;
   options.splats = 5000;
   ASSERT_TRUE(paintScene(files.scene, files.out, options));
@@ -132,7 +125,7 @@ TEST(Paint, coloursComeFromTheSurface) {
   Json json = TestScene::colored("Halves", {1, 1, 1, 1});
   json["pbrMetallicRoughness"]["baseColorTexture"]["index"] = s.texture(halves);
   s.add(gridMesh({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}, 4), s.material(json));
-  const Files files(s.text());
+  const SceneFiles files(s.text());
   PaintOptions options;
   options.splats = 5000;
   options.variation = 0;
@@ -151,7 +144,7 @@ TEST(Paint, coloursComeFromTheSurface) {
 TEST_F(PaintUnderLook, coloursComeFromThePicture) {
   TestScene s = ball();
   s.light({1, 0, 0});
-  const Files files(s.text());
+  const SceneFiles files(s.text());
   PaintOptions options;
   options.splats = 5000;
   options.variation = 0;
@@ -179,7 +172,7 @@ TEST_F(PaintUnderLook, coloursComeFromThePicture) {
 TEST(Paint, whatElseAFileHasStays) {
   AnimatedScene troupe = test::troupe();
   const Scene before = troupe.load();
-  const Files files(troupe.text());
+  const SceneFiles files(troupe.text());
   PaintOptions options;
   options.splats = 4000;
   ASSERT_TRUE(paintScene(files.scene, files.out, options));
@@ -215,7 +208,7 @@ TEST(Paint, onlyNodesThatAreMeant) {
   TestScene s = ball();
   s.add(boxMesh({4, 0, 0}, {5, 1, 1}), -1);
   s.json()["nodes"][0]["name"] = "Ball", s.json()["nodes"][1]["name"] = "Box";
-  const Files files(s.text());
+  const SceneFiles files(s.text());
   PaintOptions options;
   options.splats = 1000;
   options.nodes = "B?x";
@@ -229,7 +222,7 @@ TEST(Paint, onlyNodesThatAreMeant) {
 }
 
 TEST(Paint, whatCannotBeIsSaid) {
-  const Files files(ball().text());
+  const SceneFiles files(ball().text());
   const auto kindOf = [&](const std::function<void(PaintOptions&)>& change, const std::string& scene) {
     PaintOptions options;
     options.splats = 100;
@@ -250,7 +243,7 @@ TEST(Paint, whatCannotBeIsSaid) {
   flat.add(gridMesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), -1);
   TestScene strokesAlone;
   strokesAlone.addStrokes({{{{0, 0, 0}, {1, 0, 0}}}});
-  const Files alone(strokesAlone.text());
+  const SceneFiles alone(strokesAlone.text());
   EXPECT_EQ(kindOf([](PaintOptions&) {}, alone.scene), ErrorKind::unusableFile);
 }
 

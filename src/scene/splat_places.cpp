@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/tileable_noise.h"
+
 namespace scumble::scene {
 
 namespace {
@@ -39,6 +41,10 @@ class StrokeRadii {
 };
 
 }  // namespace
+
+uint32_t strokeChance(size_t stroke) {
+  return hash(uint32_t(stroke) * 2654435761u + 17u) & 0xFFFF;
+}
 
 std::vector<SplatPlace> splatPlaces(const Painting& painting, std::vector<float>& along, float least) {
   along.resize(painting.points.size());

@@ -14,6 +14,12 @@ struct SplatPlace {
 // Between two splats, radii.
 constexpr float kSplatSpacing = 0.25f;
 
+// Of a scene, but for the ends of strokes; more than that, and they lie farther apart.
+constexpr double kMostSplats = 4 << 20;
+
+// What a stroke has by chance, 16 bits of it: the same wherever it is drawn.
+uint32_t strokeChance(size_t stroke);
+
 // Of all strokes, in painting order, so many radii apart: every second one counts more than those between,
 // every fourth more than those, and so on, so that a sparser set is a part of every denser one. `along`: gets
 // by point how far it is from its stroke's beginning, radii.

@@ -13,8 +13,6 @@ namespace scumble::painting {
 
 namespace {
 
-// Of a scene, but for the ends of strokes; more than that, and they lie farther apart.
-constexpr size_t kMostSplats = 4 << 20;
 uint32_t packColor(const glm::vec4& linear) {
   return glm::packUnorm4x8(glm::vec4(glm::sqrt(glm::vec3(linear)), linear.a));
 }
@@ -89,7 +87,7 @@ bool StrokesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader,
     return count;
   };
   float least = scene::kSplatSpacing;
-  while (countAt(least) > double(kMostSplats)) least *= 2;
+  while (countAt(least) > scene::kMostSplats) least *= 2;
   std::map<const scene::Painting*, std::pair<std::vector<scene::SplatPlace>, std::vector<float>>> placesOf;
   for (const auto& [painting, times] : copies) {
     auto& [splats, along] = placesOf[painting];
@@ -111,7 +109,7 @@ bool StrokesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader,
     for (size_t s = 0; s < painting.strokes.size(); ++s) {
       const scene::Stroke& stroke = painting.strokes[s];
       const uint32_t last = stroke.firstPoint + stroke.pointCount - 1;
-      const uint32_t chance = hash(uint32_t(s) * 2654435761u + 17u) & 0xFFFF;
+      const uint32_t chance = scene::strokeChance(s);
       for (uint32_t i = stroke.firstPoint; i <= last; ++i) {
         const scene::StrokePoint& from = painting.points[i];
         shared::StrokePoint point{};
