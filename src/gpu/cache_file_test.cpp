@@ -51,7 +51,7 @@ TEST_F(CacheFile, isNotGivenOnWhenItIsDamaged) {
   EXPECT_TRUE(readCache(cache).empty());
 }
 
-TEST_F(CacheFile, aPipelineCacheOfAHeaderAloneIsNotKept) {
+TEST_F(CacheFile, aPipelineCacheOfNothingIsNotKept) {
   DeviceOptions options;
   options.choice = test::testDevice();
   options.cacheFolder = path();

@@ -398,11 +398,12 @@ void Device::openPipelineCache(const std::string& folder) {
     viewsFile_ = cacheFile(folder, "views", properties);
   }
   const std::vector<char> data = folder.empty() ? std::vector<char>() : readCache(cacheFile_);
-  cachedBytes_ = data.size();
   VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
   info.initialDataSize = data.size();
   info.pInitialData = data.data();
   SCUMBLE_VK(vkCreatePipelineCache(device_, &info, nullptr, &pipelineCache_));
+  // What is there before anything is compiled, some of the driver's own as well, is not worth a file.
+  SCUMBLE_VK(vkGetPipelineCacheData(device_, pipelineCache_, &cachedBytes_, nullptr));
 }
 
 std::string aboutViewDrawing(uint32_t samples, std::optional<ViewDrawing> way) {
@@ -432,8 +433,6 @@ void Device::savePipelineCache() {
   size_t size = 0;
   if (vkGetPipelineCacheData(device_, pipelineCache_, &size, nullptr) != VK_SUCCESS || size == cachedBytes_)
     return;
-  // Mesa's CPU driver keeps no pipelines in it.
-  if (size <= sizeof(VkPipelineCacheHeaderVersionOne)) return;
   std::vector<char> data(size);
   if (vkGetPipelineCacheData(device_, pipelineCache_, &size, data.data()) != VK_SUCCESS) return;
   if (!writeCache(cacheFile_, data))

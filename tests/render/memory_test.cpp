@@ -1,5 +1,5 @@
 // Memory over many frames: what a frame takes it gives back, and a driver that makes shaders of its own for
-// the values of uniforms is given none that move (tests/uniform_branches_test.py says where that would be).
+// the values of uniforms is given none that move (tests/shader_rules_test.py says where that would be).
 #include <cmath>
 #include <cstdio>
 #include <glm/gtc/matrix_transform.hpp>

@@ -7,7 +7,9 @@
 #define SCUMBLE_WATER_GLSL
 
 OceanPoint oceanPoint(ivec2 at) {
-  at = (at % field.grid + field.grid) % field.grid;
+  // By a quotient: what % gives for negative numbers is undefined in Vulkan, and differs in fact.
+  at -= at / field.grid * field.grid;
+  at += field.grid * ivec2(lessThan(at, ivec2(0)));
   return points[at.y * field.grid + at.x];
 }
 

@@ -48,7 +48,7 @@ class ColorTest : public BothEyes {
     const glm::dvec3 horizon(glm::vec3(knobs.horizon)), zenith(glm::vec3(knobs.zenith));
     for (size_t v = 0; v < views.size(); ++v) {
       // Half floats round by 2^-12 of up to 1, twice.
-      Difference difference(1e-3);
+      Difference difference(1.5e-3);
       size_t seenSky = 0, mixed = 0, partly = 0;
       for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {

@@ -78,7 +78,7 @@ TEST_P(BehindTest, hasItsOwnLight) {
       }
     // Eight times light in 8 bits, and square roots of colours in as many; edges of the bar's shadow are
     // filtered.
-    EXPECT_LT(colors.beyondPart(), 0.06) << colors.text();
+    EXPECT_LT(colors.beyondPart(), 0.08) << colors.text();
     EXPECT_LT(colors.mean(), 8e-3) << colors.text();
   }
   EXPECT_GT(light, 20 * viewCount());

@@ -9,10 +9,10 @@
 layout(set = 1, binding = kTileOwnFlags) uniform sampler2DArray ownFlags;
 
 vec4 shade(ivec2 tile, int layer) {
-  ivec2 last = textureSize(ownFlags, 0).xy - 1, first = tile - tile % kTileBlock;
+  ivec2 last = textureSize(ownFlags, 0).xy - 1, first = tile / kTileBlock * kTileBlock;
   uint every = 255u, any = 0u;
   for (int i = 0; i < kTileBlock * kTileBlock; ++i) {
-    ivec2 at = min(first + ivec2(i % kTileBlock, i / kTileBlock), last);
+    ivec2 at = min(first + ivec2(uint(i) % uint(kTileBlock), i / kTileBlock), last);
     uint flags = bitsOf(texelFetch(ownFlags, ivec3(at, layer), 0).r);
     every &= flags;
     any |= flags;

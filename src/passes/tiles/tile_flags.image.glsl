@@ -10,7 +10,7 @@ layout(constant_id = 0) const int kBlurReach = 0;  // 256 times as far as blurre
                                                    // blurred for that
 layout(constant_id = 1) const int kTearReach = 0;  // as far as the warp moves colours, and surfaces are inflated
 layout(constant_id = 2) const int kWanted = 0;     // kWantsTears ...
-const int kShadedReach = kBlurReach / 256, kBlurredReach = kBlurReach % 256;
+const int kShadedReach = kBlurReach / 256, kBlurredReach = kBlurReach - 256 * kShadedReach;
 layout(set = 1, binding = kTileLeast) uniform sampler2DArray leastOfTiles;
 layout(set = 1, binding = kTileMost) uniform sampler2DArray mostOfTiles;
 

@@ -271,7 +271,7 @@ TEST_P(PosedWarpTest, gradientsAndVectorsOfAffinePoses) {
   for (size_t v = 0; v < seen.size(); ++v) {
     const auto hits = rasterised(onScreen(surface, seen[v], kWidth, kHeight, kStay), kWidth, kHeight);
     size_t turned[2] = {}, shallower = 0;
-    Difference uvs(1e-4), gradients(1e-4), exponents(1e-4), vectors(0.05);
+    Difference uvs(1e-3), gradients(1e-4), exponents(1e-4), vectors(0.05);
     atSamePixels(frame, v, hits, surface, 100, [&](int x, int y, const auto& hit) {
       const SurfaceTriangle& triangle = surface[hit.surface];
       const Gradients g = differencesAt(seen[v], triangle, glm::dvec2(x, y) + 0.5);
@@ -323,7 +323,7 @@ TEST_P(PosedWarpTest, gradientsOfBentPoses) {
                            sized(kWidth, kHeight, {"uv-gradient", "id"}));
   for (size_t v = 0; v < seen.size(); ++v) {
     const auto hits = rasterised(onScreen(surface, seen[v], kWidth, kHeight, kStay), kWidth, kHeight);
-    Difference gradients(1e-3);
+    Difference gradients(0.01);  // GPUs interpolate the tangents of corners less finely than CPU drivers
     atSamePixels(frame, v, hits, surface, 300, [&](int x, int y, const auto& hit) {
       const Gradients g = smoothAt(seen[v], surface[hit.surface], hit);
       const double turn = g.u.x * g.v.y - g.u.y * g.v.x;
@@ -332,7 +332,7 @@ TEST_P(PosedWarpTest, gradientsOfBentPoses) {
       gradients.add(off({got.x, got.y}, g.u), 0), gradients.add(off({got.z, got.w}, g.v), 0);
     });
     EXPECT_GT(gradients.count, 4000u);
-    EXPECT_LT(gradients.beyondPart(), 2e-3) << gradients.text();
+    EXPECT_LT(gradients.beyondPart(), 4e-3) << gradients.text();
   }
 }
 

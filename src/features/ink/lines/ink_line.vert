@@ -40,7 +40,7 @@ void findRest(uint number, int view, out vec3 a, out vec3 b, out vec3 across, ou
 }
 
 void main() {
-  int line = gl_VertexIndex / 6, corner = gl_VertexIndex % 6, view = viewIndex();
+  int line = gl_VertexIndex / 6, corner = int(uint(gl_VertexIndex) % 6u), view = viewIndex();
   LineRecord record;
   if (line < kInkRoom)
     record = records[view * kInkRoom + line];

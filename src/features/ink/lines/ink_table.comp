@@ -10,7 +10,7 @@ layout(set = 2, binding = kLineTableImage, rgba32f) writeonly uniform image2DArr
 void main() {
   int line = int(gl_GlobalInvocationID.x), view = int(gl_WorkGroupID.z);
   uint count = command.vertexCount / 6u;
-  ivec3 place = ivec3(line % kLineTableWidth, line / kLineTableWidth * kLineTexels, view);
+  ivec3 place = ivec3(uint(line) % uint(kLineTableWidth), line / kLineTableWidth * kLineTexels, view);
   if (line == 0) {
     ivec3 header = ivec3(0, kLineTableRows * kLineTexels, view);
     float parallel = VIEW_FIELD(orthographic, view);

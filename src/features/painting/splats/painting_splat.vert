@@ -38,7 +38,7 @@ void main() {
   outDepth = vec2(0.0);
   outBrush = 0;
   uint number = uint(gl_VertexIndex) / 6u;
-  int corner = gl_VertexIndex % 6, view = viewIndex();
+  int corner = int(uint(gl_VertexIndex) % 6u), view = viewIndex();
   if (keys[number] == 0xFFFFFFFFu) return;
   Splat splat = splats[order[number]];
   uint next = splat.point + (splat.toNext > 0.0 ? 1u : 0u);

@@ -24,9 +24,9 @@ void main() {
   outPlace = vec2(0.0);
   outStamp = outChance = vec4(0.0);
   outMiddle = vec3(0.0);
-  int number = gl_VertexIndex / 6, corner = gl_VertexIndex % 6;
+  int number = gl_VertexIndex / 6, corner = int(uint(gl_VertexIndex) % 6u);
   AnchorChunk chunk = chunks[number / kAnchorChunk];
-  uint own = uint(number % kAnchorChunk);
+  uint own = uint(number) % uint(kAnchorChunk);
   if (own >= chunk.count) return;
   DrawnAnchor anchor = anchors[chunk.firstAnchor + own];
   vec3 a = vertices[chunk.firstVertex + anchor.a].position, b = vertices[chunk.firstVertex + anchor.b].position,

@@ -1,10 +1,13 @@
 #!/usr/bin/env python3
-"""No shader branches on what comes from uniforms alone.
+"""Rules that all shaders keep.
 
-A CPU driver makes a copy of such a shader for the values that it meets, in each frame anew, and keeps it: a film
-fills the memory. Other drivers lose time. What a uniform would decide is a specialisation constant here.
+- None branches on what comes from uniforms alone. A CPU driver makes a copy of such a shader for the values that it
+  meets, in each frame anew, and keeps it: a film fills the memory. Other drivers lose time. What a uniform would decide is
+  a specialisation constant here.
+- None takes the remainder of numbers with a sign. Vulkan leaves undefined what it is of negative ones, and drivers differ:
+  a sea that was right on two of them was another on a third. Write `uint(a) % uint(b)`, or use a quotient.
 
-    uniform_branches_test.py FOLDER_OF_SPIRV
+    shader_rules_test.py FOLDER_OF_SPIRV
 """
 import pathlib
 import re
@@ -23,10 +26,12 @@ def instructions(text):
 
 class Shader:
     def __init__(self, text):
-        self.definitions, self.conditions, self.known = {}, [], {}
+        self.definitions, self.conditions, self.known, self.remainders = {}, [], {}, []
         for result, op, operands in instructions(text):
             if result:
                 self.definitions[result] = (op, operands)
+            if op in ("OpSMod", "OpSRem") or (op == "OpSpecConstantOp" and operands[1] in ("SMod", "SRem")):
+                self.remainders.append(result)
             if op in ("OpBranchConditional", "OpSwitch"):
                 self.conditions.append(operands[0])
 
@@ -91,6 +96,9 @@ def selfTest():
       %fixedLoop = OpSLessThan %bool %i %fixed
       %chosen = OpPhi %int %zero %before %fixed %body
       %byChosen = OpIEqual %bool %chosen %uniform
+      %signed = OpSMod %int %pixel %uniform
+      %unsigned = OpUMod %uint %pixel %uniform
+      %early = OpSpecConstantOp %int SMod %fixed %zero
                   OpBranchConditional %byUniform %a %b
                   OpBranchConditional %byPixel %a %b
                   OpBranchConditional %byConstant %a %b
@@ -99,6 +107,7 @@ def selfTest():
                   OpBranchConditional %byChosen %a %b
     """)
     assert shader.uniformBranches() == ["%byUniform", "%loop"], shader.uniformBranches()
+    assert shader.remainders == ["%signed", "%early"], shader.remainders
 
 
 def main():
@@ -115,7 +124,10 @@ def main():
             bad += 1
             print(f"{file.stem}: a branch or loop by uniforms alone: {condition} = "
                   f"{' '.join(map(str, shader.definitions[condition]))}")
-    print(f"{len(files)} shaders, {bad} branches by uniforms alone")
+        for remainder in shader.remainders:
+            bad += 1
+            print(f"{file.stem}: the remainder of numbers with a sign: {remainder}")
+    print(f"{len(files)} shaders, {bad} faults")
     return bad > 0
 
 
