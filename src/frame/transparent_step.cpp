@@ -21,13 +21,9 @@ int slotOf(const SetTexture& texture, std::vector<SetTexture>& list) {
   return int(list.size()) - 1;
 }
 
-bool fades(const scene::Material& material) {
-  return material.paint && material.paint->fades;
-}
-
 // What does not fade is there from all sides.
 glm::vec2 fadeOf(const scene::Material& material) {
-  return fades(material) ? glm::vec2(material.paint->fadeStart, material.paint->fadeEnd) : glm::vec2(3, 2);
+  return material.isFin() ? glm::vec2(material.paint->fadeStart, material.paint->fadeEnd) : glm::vec2(3, 2);
 }
 
 // Of so many textures a pipeline is made for: a few numbers, so that one more texture compiles nothing. What
@@ -147,7 +143,7 @@ void TransparentStep::update(uint32_t constant, std::span<const MaterialVariant>
       glm::ivec4 slots;
       for (int i = 0; i < 4; ++i) slots[i] = slotOf(textures[size_t(i)], own.textures);
       own.isVaried |= scene.isVaried(m);
-      own.fades |= fades(scene.material(m));
+      own.fades |= scene.material(m).isFin();
       own.farthest = std::max(own.farthest, farthestOf.at(m));
       const bool varies = variantOf(m).isPainted || variantOf(m).sets != 0;
       rows[m] = {scene.materialData(m),           slots,

@@ -82,6 +82,7 @@ struct Material {
   std::optional<Outline> outline;
   // From extras: {"scumble_paint": {"fadeStart": 0.5, "fadeEnd": 0.2}}; without numbers it does not fade.
   std::optional<PaintLayer> paint;
+  bool isFin() const { return paint && paint->fades; }
 };
 
 constexpr int kMaxMorphTargets = 64;

@@ -19,6 +19,18 @@ float paintFade(vec2 fade, vec3 position, vec3 normal) {
   return t * t * (3.0 - 2.0 * t);
 }
 
+// Whether all eyes are behind a triangle.
+bool isTurnedAway(vec3 positions[3], bool isMirrored) {
+  vec3 front = cross(positions[1] - positions[0], positions[2] - positions[0]) * (isMirrored ? -1.0 : 1.0);
+  float most = -1.0;
+  for (int v = 0; v < kViewCount; ++v) {
+    mat4 toEyeSpace = VIEW_FIELD(worldToEye, v);
+    vec3 along = vec3(toEyeSpace[0][2], toEyeSpace[1][2], toEyeSpace[2][2]);
+    most = max(most, dot(front, mix(VIEW_FIELD(eye, v) - positions[0], along, VIEW_FIELD(orthographic, v))));
+  }
+  return most < 0.0;
+}
+
 // Whether nothing of a triangle shows, whatever its normals are between its corners. The cosine of a mean of vectors is at
 // most that of any two of them, divided by how short such means may be.
 bool isFadedAway(float start, vec3 positions[3], vec3 normals[3]) {

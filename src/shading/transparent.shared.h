@@ -17,6 +17,7 @@ struct TransparentPart {
   uint known;
   uint visible;     // 1: in one of the frame's views
   float fadeStart;  // of fins, as paintFade has it; else 0
+  uint isCoat;      // 1: paint that is not seen from behind
 };
 
 // So many textures at once, that with a pass's own there are no more than any device has for a stage.

@@ -233,7 +233,8 @@ bool SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>
     if (draw.state.varied) isVaried_[item.material] = true;
     if (draw.state.alpha == AlphaMode::blend)
       blended.push_back({&primitive, draw.object, place.firstVertex, item.material, draw.state.varied,
-                         material.paint && material.paint->fades ? material.paint->fadeStart : 0.0f});
+                         material.isFin() ? material.paint->fadeStart : 0.0f,
+                         material.paint && !material.doubleSided});
     triangleCount_ += draw.indexCount / 3;
     if (material.paint) continue;  // no pass draws it but those that blend
     draws.push_back(draw);

@@ -41,7 +41,7 @@ bool TransparentTriangles::update(gpu::Device& device, std::vector<Part> parts,
     for (size_t i = 0; i + 2 < indices.size(); i += 3)
       *triangle++ = {part.firstVertex + glm::uvec3(indices[i], indices[i + 1], indices[i + 2]), p};
     std::fill_n(partOf + part.firstVertex, part.primitive->vertexCount(), p);
-    parts_.as<shared::TransparentPart>()[p] = {part.object, 0u, 0u, part.fadeStart};
+    parts_.as<shared::TransparentPart>()[p] = {part.object, 0u, 0u, part.fadeStart, part.isCoat};
   }
   uploader.flush();
   return true;
@@ -62,7 +62,7 @@ void TransparentTriangles::look(const Viewers& viewers, const std::vector<scene:
     isVisible_ |= isSeen;
     parts_.as<shared::TransparentPart>()[p] = {
         part.object, part.material << 2 | uint32_t(part.varied) << 1 | uint32_t(mirrored[part.object]),
-        isSeen ? 1u : 0u, part.fadeStart};
+        isSeen ? 1u : 0u, part.fadeStart, part.isCoat};
   }
 }
 

@@ -22,6 +22,7 @@ class TransparentTriangles {
     uint32_t material;
     bool varied;
     float fadeStart;  // of a fin, else 0
+    bool isCoat;      // paint that is not seen from behind
     bool operator==(const Part&) const = default;
   };
   // All that there is. Primitives that are the same objects as before have the same triangles. Where there

@@ -7,7 +7,7 @@
 #include "../../shading/transparent.shared.h"
 #include "order.shared.h"
 
-layout(constant_id = 0) const bool kGathers = false;
+layout(constant_id = kPassId) const bool kGathers = false;
 
 layout(local_size_x = kOrderThreads) in;
 layout(set = 1, binding = 0, scalar) readonly buffer Triangles { TransparentTriangle triangles[]; };
@@ -35,7 +35,8 @@ void main() {
     positions[c] = vertex.position;
     normals[c] = decodeNormal(unpackSnorm2x16(vertex.normal));
   }
-  bool isSeen = part.visible != 0 && !(part.fadeStart > 0.0 && isFadedAway(part.fadeStart, positions, normals));
+  bool isSeen = part.visible != 0 && !(part.fadeStart > 0.0 && isFadedAway(part.fadeStart, positions, normals)) &&
+                !(part.isCoat != 0 && isTurnedAway(positions, (part.known & 1u) != 0));
   keys[i] = isSeen ? ~distanceKey((positions[0] + positions[1] + positions[2]) / 3.0) : kUnseen;
   order[i] = i;
 }

@@ -6,6 +6,7 @@
 #include "gpu/prefix_sum.h"
 #include "passes/order/order.shared.h"
 #include "shaders/order_comp.h"
+#include "shading/geometry_constants.shared.h"
 
 namespace scumble::passes {
 
@@ -39,9 +40,10 @@ class Order : public Pass {
     desc.shader = {shaders::order_comp};
     desc.sets = {frame.frameLayout().handle(), layout_.handle()};
     desc.pushConstantBytes = 4;
-    desc.constants = {0};
+    desc.constants.resize(size_t(shared::kPassId) + 1);
+    desc.constants[size_t(shared::kViewCountId)] = frame.configuration().viewCount;
     keys_ = gpu::Pipeline(frame.device(), desc);
-    desc.constants = {1};
+    desc.constants[size_t(shared::kPassId)] = 1;
     gather_ = gpu::Pipeline(frame.device(), desc);
   }
 
