@@ -126,6 +126,11 @@ void addBake(CLI::App& program, int& exitCode) {
   command->add_option("--fade-end", args->options.fadeEnd, "Where they are there in full; less than that")
       ->capture_default_str();
   command
+      ->add_option(
+          "--orders", args->options.orders,
+          "Orders of triangles for engines that sort objects alone, by where the viewer is: 0, 6, 8 or 14")
+      ->capture_default_str();
+  command
       ->add_option("--part", args->parts,
                    "Other numbers for what is made of materials of this name or pattern; repeatable")
       ->type_name("MATERIALS:KEY=VALUE;...")

@@ -38,6 +38,9 @@ struct BakeOptions {
   // Shells of paint over the surface, 1 to 16: one lies on it, more stand where strokes are sparse and long.
   int layers = 1;
   std::vector<BakePart> parts;  // the last one that matches counts
+  // For engines that sort objects and not triangles: orders of each mesh's triangles for viewers in so many
+  // directions, 0, 6, 8 or 14, as index lists that its extras name (docs/fins.md).
+  int orders = 14;
   // As the knobs `painting.*` of these names have them when the painting itself is drawn, and within their
   // ranges.
   float spacing = 0.3f, streaks = 0.7f, dryEnds = 2.0f, variation = 0.12f, order = 0.5f;

@@ -9,6 +9,7 @@
 #include <mutex>
 
 #include "bake/mesh_bake.h"
+#include "bake/orders.h"
 #include "bake/subjects.h"
 #include "base/file_bytes.h"
 #include "base/name_pattern.h"
@@ -63,6 +64,9 @@ Status checkOptions(const BakeOptions& options) {
         !status)
       return status;
   }
+  if (options.orders != 0 && orderDirections(options.orders).empty())
+    return usage("there are no orders for " + std::to_string(options.orders) + " directions",
+                 "give 0, 6, 8 or 14");
   return Done{};
 }
 

@@ -15,6 +15,7 @@
 #include "bake/checkpoint.h"
 #include "bake/fins.h"
 #include "bake/hull.h"
+#include "bake/orders.h"
 #include "base/mipmaps.h"
 #include "scene/painting.h"
 #include "scumble/paint.h"
@@ -349,6 +350,43 @@ TEST(BakeAtlas, tilesNeitherOverlapNorBleed) {
 }
 
 // Around a shell of strokes lies one closed surface, close to them; a single sheet has two sides.
+TEST(BakeOrders, areFromFarToNearOfAllTriangles) {
+  gltf::PaintPart coat, fins;
+  for (int i = 0; i < 30; ++i) {
+    const auto at = [&](int c) {
+      return glm::vec3((7 * i + c) % 11, (5 * i + 3 * c) % 13, (3 * i + c) % 17);
+    };
+    gltf::PaintPart& part = i % 3 == 0 ? fins : coat;
+    for (int c = 0; c < 3; ++c)
+      part.indices.push_back(uint32_t(part.positions.size())), part.positions.push_back(at(c));
+  }
+  const std::vector<gltf::PaintPart> parts{coat, fins};
+  std::vector<glm::vec3> all = coat.positions;
+  all.insert(all.end(), fins.positions.begin(), fins.positions.end());
+  for (const int count : {0, 6, 8, 14}) {
+    const std::vector<glm::vec3> directions = orderDirections(count);
+    ASSERT_EQ(directions.size(), size_t(count));
+    for (size_t i = 0; i < directions.size(); ++i) {
+      EXPECT_NEAR(glm::length(directions[i]), 1, 1e-6);
+      for (size_t j = 0; j < i; ++j) EXPECT_LT(glm::dot(directions[i], directions[j]), 0.6f);
+      const std::vector<uint32_t> order = orderedTowards(parts, directions[i]);
+      ASSERT_EQ(order.size(), 90u);
+      std::vector<uint32_t> seen = order;
+      std::sort(seen.begin(), seen.end());
+      float last = -1e9f;
+      for (uint32_t t = 0; t < 30; ++t) {
+        for (uint32_t c = 0; c < 3; ++c) EXPECT_EQ(seen[3 * t + c], 3 * t + c);
+        EXPECT_EQ(order[3 * t + 1], order[3 * t] + 1) << "triangles stay whole";
+        float nearness = 0;
+        for (uint32_t c = 0; c < 3; ++c) nearness += glm::dot(all[order[3 * t + c]], directions[i]);
+        EXPECT_GE(nearness, last);
+        last = nearness;
+      }
+    }
+  }
+  EXPECT_TRUE(orderDirections(7).empty());
+}
+
 TEST(BakeHull, liesOnTheOutsideOfStrokes) {
   std::vector<TestStroke> around;
   for (int i = 0; i < 24; ++i) {
@@ -501,6 +539,9 @@ TEST(Bake, whatCannotBeBakedSaysWhy) {
   options = {};
   options.fadeStart = 0.2f, options.fadeEnd = 0.3f;
   EXPECT_NE(problemOf(good.text(), options).find("fade"), std::string::npos);
+  options = {};
+  options.orders = 7;
+  EXPECT_NE(problemOf(good.text(), options).find("orders"), std::string::npos);
   options = {};
   options.parts = {{"Nobody"}};
   EXPECT_NE(problemOf(good.text(), options).find("Nobody"), std::string::npos);

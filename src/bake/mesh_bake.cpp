@@ -6,6 +6,7 @@
 #include <map>
 
 #include "bake/atlas.h"
+#include "bake/orders.h"
 #include "scene/import_failure.h"
 #include "scene/parallel.h"
 
@@ -180,6 +181,8 @@ class Baker {
       if (isFin) report_.fins += part.indices.size() / 6;
       painted.parts.push_back(std::move(part));
     }
+    for (const glm::vec3& toViewer : orderDirections(options_.orders))
+      painted.orders.push_back({toViewer, orderedTowards(painted.parts, toViewer)});
     return painted;
   }
 

@@ -30,6 +30,7 @@ class PaintWriter {
     const size_t texture =
         file_.add("textures", {{"source", file_.add("images", image)}, {"sampler", sampler}});
     for (const PaintPart& part : painted.parts) add(part, texture);
+    addOrders(painted);
     Json& used = file_.root()["extensionsUsed"];
     if (!used.is_array()) used = Json::array();
     if (std::find(used.begin(), used.end(), kUnlit) == used.end()) used.push_back(kUnlit);
@@ -49,6 +50,28 @@ class PaintWriter {
     addTargets(part, primitive);
     primitive["material"] = file_.add("materials", materialOf(part, texture));
     mesh_["primitives"].push_back(std::move(primitive));
+  }
+
+  // Accessors that only extras name, as index lists.
+  void addOrders(const PaintedMesh& painted) {
+    if (painted.orders.empty()) return;
+    size_t vertices = 0;
+    for (const PaintPart& part : painted.parts) vertices += part.positions.size();
+    Json orders = Json::array();
+    for (const PaintOrder& order : painted.orders) {
+      const std::vector<uint16_t> shorts(order.indices.begin(), order.indices.end());
+      const bool fits = vertices <= 0xFFFF;
+      orders.push_back({{"toViewer", {order.toViewer.x, order.toViewer.y, order.toViewer.z}},
+                        {"indices", addAccessor(fits ? bytesOf(shorts) : bytesOf(order.indices),
+                                                fits ? kShortType : kIntType, "SCALAR", order.indices.size(),
+                                                0, kIndexData)}});
+    }
+    Json& extras = mesh_["extras"];
+    if (!extras.is_object()) extras = Json::object();
+    Json primitives = Json::array();
+    for (size_t p = 0; p < painted.parts.size(); ++p)
+      primitives.push_back(mesh_["primitives"].size() - painted.parts.size() + p);
+    extras["scumble_orders"] = {{"primitives", std::move(primitives)}, {"orders", std::move(orders)}};
   }
 
   static Json materialOf(const PaintPart& part, size_t texture) {

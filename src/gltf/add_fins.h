@@ -23,9 +23,17 @@ struct PaintPart {
   bool isDoubleSided = true;
 };
 
+// All triangles of all parts in an order for viewers in one direction, of unit length. Vertices are counted
+// through all parts.
+struct PaintOrder {
+  glm::vec3 toViewer;
+  std::vector<uint32_t> indices;
+};
+
 struct PaintedMesh {
-  std::vector<uint8_t> picture;  // a PNG, which all of its parts show
-  std::vector<PaintPart> parts;  // none: the mesh stays as it is
+  std::vector<uint8_t> picture;    // a PNG, which all of its parts show
+  std::vector<PaintPart> parts;    // none: the mesh stays as it is
+  std::vector<PaintOrder> orders;  // become the mesh's extras: {"scumble_orders": ...} (docs/fins.md)
 };
 
 // `meshes`: by mesh of the scene that Scene::load makes of the file. Strokes go out; all else is as it was,

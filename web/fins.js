@@ -1,0 +1,125 @@
+// Paint that `scumble bake` has made, in three.js.
+//
+//     const loader = new GLTFLoader();
+//     loader.register((parser) => new FinsPlugin(parser));
+//     const gltf = await loader.loadAsync('fins.glb');
+//
+// Engines sort blended objects, and not their triangles. The file has orders of all triangles of each painted mesh for viewers
+// in some directions; what is drawn is one mesh instead of its coats and fins, with the order that is nearest. docs/fins.md says
+// what is in the file.
+import { BufferAttribute, DoubleSide, Matrix4, MeshBasicMaterial, Vector3 } from 'three';
+import { mergeGeometries } from 'three/addons/utils/BufferGeometryUtils.js';
+
+const NO_FADE = [3, 2]; // start and end that leave all of it
+
+export class FinsPlugin {
+  constructor(parser) {
+    this.parser = parser;
+    this.name = 'scumble_paint';
+  }
+
+  async afterRoot(gltf) {
+    const { json, associations } = this.parser;
+    const groups = new Map(); // by parent, and there by number of the mesh: what is drawn of its paint
+    for (const scene of gltf.scenes)
+      scene.traverse((object) => {
+        const place = associations.get(object);
+        if (!object.isMesh || place?.primitives === undefined || !isPaint(object)) return;
+        const key = `${object.parent.uuid} ${place.meshes}`;
+        if (!groups.has(key)) groups.set(key, { mesh: place.meshes, layers: new Map() });
+        groups.get(key).layers.set(place.primitives, object);
+      });
+    const made = new Map(); // by number of the mesh
+    for (const { mesh, layers } of groups.values()) {
+      const paint = json.meshes[mesh].extras?.scumble_orders;
+      if (!paint || !paint.primitives.every((number) => layers.has(number))) continue;
+      const objects = paint.primitives.map((number) => layers.get(number));
+      if (!made.has(mesh)) made.set(mesh, this.merged(paint, objects));
+      replace(objects, await made.get(mesh));
+    }
+  }
+
+  // One geometry of all layers, its orders, and its material.
+  async merged(paint, objects) {
+    const geometry = mergeGeometries(objects.map((object) => withFade(object)));
+    geometry.computeBoundingSphere();
+    const orders = await Promise.all(paint.orders.map(async (order) => ({
+      toViewer: new Vector3(...order.toViewer),
+      index: await this.parser.getDependency('accessor', order.indices),
+    })));
+    return { geometry, orders, material: finsMaterial(objects[0].material) };
+  }
+}
+
+function isPaint(object) {
+  return object.material.userData.scumble_paint !== undefined;
+}
+
+// Fade, and whether its back is seen, at each vertex.
+function withFade(object) {
+  const { fadeStart = NO_FADE[0], fadeEnd = NO_FADE[1] } = object.material.userData.scumble_paint;
+  const geometry = object.geometry.clone();
+  const count = geometry.attributes.position.count;
+  const fade = new Float32Array(3 * count);
+  for (let i = 0; i < count; ++i) fade.set([fadeStart, fadeEnd, object.material.side === DoubleSide ? 1 : 0], 3 * i);
+  geometry.setAttribute('paintFade', new BufferAttribute(fade, 3));
+  return geometry;
+}
+
+// The first layer becomes all of them, so that it hangs where it hung, with its skeleton and its morph targets' weights.
+function replace(objects, { geometry, orders, material }) {
+  const mesh = objects[0];
+  for (const other of objects.slice(1)) other.removeFromParent();
+  mesh.geometry = geometry.clone(); // its index is its own
+  mesh.material = material;
+  mesh.userData.scumbleOrder = -1; // which one is drawn
+  mesh.onBeforeRender = (renderer, scene, camera) => {
+    // Both eyes see the same one.
+    const viewer = renderer.xr.isPresenting ? renderer.xr.getCamera() : camera;
+    const number = nearestOrder(orders, directionTo(viewer, mesh));
+    if (number === mesh.userData.scumbleOrder) return;
+    mesh.userData.scumbleOrder = number;
+    mesh.geometry.setIndex(orders[number].index);
+  };
+}
+
+const toLocal = new Matrix4();
+
+// From the middle of the mesh, in its space.
+function directionTo(camera, mesh) {
+  toLocal.copy(mesh.matrixWorld).invert();
+  const direction = new Vector3();
+  if (camera.isOrthographicCamera) return direction.setFromMatrixColumn(camera.matrixWorld, 2).transformDirection(toLocal);
+  return direction.setFromMatrixPosition(camera.matrixWorld).applyMatrix4(toLocal).sub(mesh.geometry.boundingSphere.center).normalize();
+}
+
+function nearestOrder(orders, direction) {
+  let nearest = 0;
+  for (let i = 1; i < orders.length; ++i)
+    if (orders[i].toViewer.dot(direction) > orders[nearest].toViewer.dot(direction)) nearest = i;
+  return nearest;
+}
+
+// Unlit paint that fades by how it faces the viewer (docs/fins.md).
+export function finsMaterial(from) {
+  const material = new MeshBasicMaterial({ map: from.map, color: from.color, transparent: true, depthWrite: false, side: DoubleSide, toneMapped: false });
+  material.name = from.name;
+  material.onBeforeCompile = (shader) => {
+    shader.vertexShader = shader.vertexShader
+      .replace('void main() {', 'attribute vec3 paintFade;\nvarying vec3 vPaintFade, vPaintNormal, vToViewer;\nvoid main() {')
+      .replace('#if defined ( USE_ENVMAP ) || defined ( USE_SKINNING )', '#if 1') // normals, which unlit materials have none of
+      .replace('#include <project_vertex>', `#include <project_vertex>
+        vPaintFade = paintFade;
+        vPaintNormal = transformedNormal;
+        vToViewer = isPerspectiveMatrix(projectionMatrix) ? -mvPosition.xyz : vec3(0.0, 0.0, 1.0);`);
+    shader.fragmentShader = shader.fragmentShader
+      .replace('void main() {', 'varying vec3 vPaintFade, vPaintNormal, vToViewer;\nvoid main() {')
+      .replace('#include <map_fragment>', `#include <map_fragment>
+        if (vPaintFade.z < 0.5 && !gl_FrontFacing) discard;
+        float faces = abs(dot(normalize(vPaintNormal), normalize(vToViewer)));
+        float paintShows = clamp((1.0 - faces - vPaintFade.x) / (vPaintFade.y - vPaintFade.x), 0.0, 1.0);
+        diffuseColor.a *= paintShows * paintShows * (3.0 - 2.0 * paintShows);`);
+  };
+  material.customProgramCacheKey = () => 'scumble_paint';
+  return material;
+}
