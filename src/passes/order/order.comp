@@ -18,7 +18,8 @@ layout(set = 1, binding = 4, scalar) buffer Order { uint order[]; };
 layout(set = 1, binding = 5, scalar) writeonly buffer Indices { uvec3 indices[]; };
 layout(push_constant, scalar) uniform Push { uint count; };
 
-const uint kUnseen = 0xFFFFFFFFu;  // comes last
+// 24 bits tell distances apart by 15 millionths, and sort faster than 32 do.
+const uint kUnseen = 0xFFFFFFu;  // comes last
 
 void main() {
   uint i = (gl_WorkGroupID.x + gl_WorkGroupID.y * gl_NumWorkGroups.x) * kOrderThreads + gl_LocalInvocationID.x;
@@ -37,6 +38,7 @@ void main() {
   }
   bool isSeen = part.visible != 0 && !(part.fadeStart > 0.0 && isFadedAway(part.fadeStart, positions, normals)) &&
                 !(part.isCoat != 0 && isTurnedAway(positions, (part.known & 1u) != 0));
-  keys[i] = isSeen ? ~distanceKey((positions[0] + positions[1] + positions[2]) / 3.0) : kUnseen;
+  uint key = ~distanceKey((positions[0] + positions[1] + positions[2]) / 3.0) >> 8;
+  keys[i] = isSeen ? min(key, kUnseen - 1u) : kUnseen;
   order[i] = i;
 }

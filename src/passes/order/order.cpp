@@ -50,7 +50,7 @@ class Order : public Pass {
   void bind(const gpu::GraphResources&) override {
     const TransparentTriangles& triangles = frame_->scene().transparent();
     if (sort_.most() < std::max(1u, triangles.count()))
-      sort_ = gpu::RadixSort(frame_->device(), triangles.count());
+      sort_ = gpu::RadixSort(frame_->device(), triangles.count(), 24);
     const VkBuffer buffers[] = {
         triangles.triangles(), triangles.parts(),       frame_->scene().geometry().finalCore().handle(),
         sort_.keys().handle(), sort_.values().handle(), triangles.indices()};
