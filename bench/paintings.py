@@ -28,7 +28,7 @@ from surroundings import head, parse  # noqa: E402
 
 FIELD = 34  # degrees
 PASSES = {"order", "painting-order", "painting"}
-FRAMES = {"strokes": 4, "fins": 10}  # of each view; the first one is left out
+FRAMES = {"strokes": 2, "fins": 6}  # of each view; the first one is left out
 
 
 def run(command):

@@ -2,7 +2,7 @@
 """Keeps numbers and lists of the pages what the results and the tree say.
 
     tests/docs_numbers_test.py             exit code 1 with a list if something is wrong
-    tests/docs_numbers_test.py --write     makes the tables of docs/bench.md, docs/ink.md and docs/measure.md again
+    tests/docs_numbers_test.py --write     makes the tables of docs/bench.md, docs/fins.md, docs/ink.md and docs/measure.md again
 
 Tables of numbers in those pages stand below `<!-- table NAME -->` and are made from
 bench/results; every result says when, of what revision and on what machine it was measured. Lines "May include" are those
@@ -21,12 +21,11 @@ import include_table  # noqa: E402
 MARK = re.compile(r"^<!-- table (\S+) -->$")
 
 
-def results(root):
-    return root / "bench" / "results" / "lavapipe-2-cores"
+CPU, GPU = "lavapipe-2-cores", "nvidia-h200"
 
 
-def load(root, name):
-    return json.loads((results(root) / f"{name}.json").read_text(encoding="utf-8"))
+def load(root, name, machine=CPU):
+    return json.loads((root / "bench" / "results" / machine / f"{name}.json").read_text(encoding="utf-8"))
 
 
 # -- Tables: each a heading and rows of text.
@@ -53,6 +52,31 @@ def frames(root):
         frame, yardstick = r["frameMilliseconds"], r["yardstickMilliseconds"]
         yield [scene_name(r), str(r["triangles"]), str(r["samples"]), whole(frame), rough(yardstick), f"{r['ratio']:.1f}",
                goal]
+
+
+def frames_on_gpu(root):
+    yield ["scene", "look", "triangles", "samples", "frame, ms", "yardstick, ms", "ratio", "the longest passes, ms"]
+    for name, look in (("duck-1", ""), ("duck-4", ""), ("spheres-1", ""), ("spheres-4", ""), ("harbour-1", ""), ("harbour-4", ""),
+                       ("spheres-8m-1", ""), ("ink-400k-1", "`ink`"), ("watercolour-200k-1", "`watercolour`"),
+                       ("watercolour-200k-4", "`watercolour`")):
+        r = load(root, name, GPU)
+        longest = sorted(r["passes"], key=lambda each: -each["milliseconds"])[:3]
+        yield [scene_name(r), look, str(r["triangles"]), str(r["samples"]), f"{r['frameMilliseconds']:.2f}",
+               f"{r['yardstickMilliseconds']:.2f}", f"{r['ratio']:.1f}",
+               ", ".join(f"`{each['name']}` {each['milliseconds']:.1f}" for each in longest)]
+
+
+def paintings(machine):
+    def table(root):
+        yield ["painting", "splats", "triangles", "bake, s", "painting, MB", "fins, MB", "strokes, ms", "fins, ms", "faster",
+               "frames a second, strokes", "fins", "FLIP, median", "most"]
+        for r in load(root, "paintings", machine)["results"]:
+            yield [r["subject"], str(r["splats"]), str(r["triangles"]), f"{r['bakeSeconds']:.1f}", f"{r['paintingBytes'] / 1e6:.1f}",
+                   f"{r['finsBytes'] / 1e6:.1f}", rough(r["strokesMilliseconds"]), rough(r["finsMilliseconds"]), f"{r['faster']:.1f}",
+                   rough(r["strokesFramesPerSecond"]), rough(r["finsFramesPerSecond"]), f"{r['flip']['median']:.3f}",
+                   f"{r['flip']['most']:.3f}"]
+
+    return table
 
 
 def metatexture(root):
@@ -183,7 +207,8 @@ def lines(root):
 
 COHERENCE = ["suzanne", "sail-ship", "toycar", "demo"]
 TABLES = {"bench.md": {"frames": frames, "metatexture": metatexture, "start": start, "sequences": sequences, "colorizers": colorizers,
-                       "edits": edits, "ocean": ocean, "looks": looks, "watercolour": watercolour, "finding-lines": finding_lines},
+                       "edits": edits, "ocean": ocean, "looks": looks, "watercolour": watercolour, "finding-lines": finding_lines, "frames-on-gpu": frames_on_gpu},
+          "fins.md": {"paintings": paintings(CPU), "paintings-on-gpu": paintings(GPU)},
           "ink.md": {"lines": lines},
           "measure.md": {"targets": targets, **{name: coherence(name) for name in COHERENCE}}}
 

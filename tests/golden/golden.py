@@ -34,6 +34,7 @@ DRAWN_WITH = "llvmpipe"
 TOLERANCES, ELSEWHERE = (0.006, 0.06, 0.01, 0.01), (0.03, 0.2, 0.15, 0.05)
 LIMITED, LIMITED_ELSEWHERE = {"four-colours", "palette"}, (0.04, 0.65, 0.15, 0.05)
 GENERATORS = {"demo": "demo_scene", "room": "henry_room", "still": "still_life"}
+BAKED = {"fins": "strokes"}  # from which scene
 
 
 def cases():
@@ -44,7 +45,7 @@ def cases():
         if not line:
             continue
         parts = [part.strip() for part in line.split("|")]
-        if len(parts) != 3 or parts[1] not in {*GENERATORS, *scenes.SCENES}:
+        if len(parts) != 3 or parts[1] not in {*GENERATORS, *BAKED, *scenes.SCENES}:
             sys.exit(f"{HERE / 'cases.txt'}:{number}: write it like: name | scene | options")
         result.append((parts[0], parts[1], shlex.split(parts[2])))
     return result
@@ -57,6 +58,9 @@ def scene_file(build, folder, name):
         if look.exists():
             shutil.copy(look, folder / look.name)
         subprocess.run([build / GENERATORS[name], path], check=True, stdout=subprocess.DEVNULL)
+    elif name in BAKED:
+        path = folder / f"{name}.glb"
+        subprocess.run([build / "scumble", "bake", scene_file(build, folder, BAKED[name]), "-o", path, "--texture", "1024", "--quiet"], check=True)
     else:
         path = folder / f"{name}.gltf"
         path.write_text(scenes.SCENES[name]())
