@@ -21,6 +21,8 @@
 #include "scumble/paint.h"
 #include "scumble/scene.h"
 #include "tests/support/animated_scene.h"
+#include "tests/support/asset_files.h"
+#include "tests/support/posed_scene.h"
 #include "tests/support/scene_files.h"
 #include "tests/support/test_scene.h"
 
@@ -509,6 +511,110 @@ TEST(Bake, whatComesOutHoldsWhatMoves) {
     }
   }
   EXPECT_GE(layers, 2u);
+}
+
+// Where all vertices of a primitive are in a pose.
+std::vector<glm::dvec3> placesOf(const PosedPrimitive& posed) {
+  std::vector<glm::dvec3> places;
+  for (size_t v = 0; v < posed.primitive->positions.size(); ++v) {
+    glm::dvec3 place(posed.primitive->positions[v]);
+    for (size_t t = 0; t < posed.morphWeights.size() && t < posed.primitive->morphTargets.size(); ++t)
+      if (const auto& moved = posed.primitive->morphTargets[t].positions; !moved.empty())
+        place += posed.morphWeights[t] * glm::dvec3(moved[v]);
+    places.emplace_back(posed.toWorld[v] * glm::dvec4(place, 1));
+  }
+  return places;
+}
+
+// Coats and the feet of fins lie close to vertices of the surface. Whatever the pose, they stay as close to
+// the same ones. Gives how far these have moved at the most.
+double expectPaintStays(const scene::SceneData& data, const Moments& moments, const std::string& what) {
+  const std::vector<PosedPrimitive> atRest = posedPrimitives(data, {}),
+                                    posed = posedPrimitives(data, moments);
+  double most = 0;
+  size_t feet = 0, strays = 0;
+  for (size_t p = 0; p < atRest.size(); ++p) {
+    const scene::Material& material = data.materials[size_t(atRest[p].primitive->material)];
+    if (!material.paint) continue;
+    std::vector<glm::dvec3> surface, moved;
+    for (size_t q = 0; q < atRest.size(); ++q) {
+      if (atRest[q].id != atRest[p].id || data.materials[size_t(atRest[q].primitive->material)].paint)
+        continue;
+      for (const glm::dvec3& place : placesOf(atRest[q])) surface.push_back(place);
+      for (const glm::dvec3& place : placesOf(posed[q])) moved.push_back(place);
+    }
+    const std::vector<glm::dvec3> paint = placesOf(atRest[p]), paintMoved = placesOf(posed[p]);
+    for (size_t v = 0; v < paint.size(); ++v) {
+      if (material.isFin() && v % 4 >= 2) continue;  // its upper corners
+      double before = 1e9, after = 1e9;
+      for (const glm::dvec3& place : surface) before = std::min(before, glm::distance(place, paint[v]));
+      // Several vertices may lie in one place, and go to several.
+      for (size_t q = 0; q < surface.size(); ++q)
+        if (glm::distance(surface[q], paint[v]) <= 1.01 * before + 1e-6) {
+          after = std::min(after, glm::distance(moved[q], paintMoved[v]));
+          most = std::max(most, glm::distance(moved[q], surface[q]));
+        }
+      ++feet, strays += after > 1.5 * before + 1e-4;
+    }
+  }
+  EXPECT_GT(feet, 10u) << what;
+  // Where forms touch, a vertex of another one may lie as close.
+  EXPECT_LE(strays, feet / 50) << what;
+  return most;
+}
+
+TEST(Bake, paintMovesWithTheSurface) {
+  const auto baked = [](const std::string& scene, uint32_t splats) {
+    const TestFolder folder;
+    PaintOptions paint;
+    paint.style = "fur", paint.splats = splats;
+    const Result<PaintReport> report = paintScene(scene, folder.file("painted.glb"), paint);
+    if (!report) throw std::runtime_error(report.error().message());
+    BakeOptions options;
+    options.textureSize = 1024;
+    const Result<BakeReport> done = bakeFins(folder.file("painted.glb"), folder.file("fins.glb"), options);
+    if (!done) throw std::runtime_error(done.error().message());
+    return Scene::load(folder.file("fins.glb")).value();
+  };
+  const SceneFiles files(troupe().text());
+  const Scene players = baked(files.scene, 3000);
+  double most = 0;
+  for (size_t clip = 0; clip < players.data().clips.size(); ++clip)
+    for (const double part : {0.3, 0.7})
+      most = std::max(most, expectPaintStays(players.data(),
+                                             {{clip, part * double(players.data().clips[clip].duration), 1}},
+                                             "clip " + std::to_string(clip)));
+  EXPECT_GT(most, 0.1);
+
+  // Real ones: the bee with its own clips; the cat and the panda with those that were made for their
+  // skeleton.
+  const auto asset = [](const char* name) { return kAssets / "gltf/characters" / name; };
+  if (!std::filesystem::exists(asset("m2m-fox-animations.glb")))
+    GTEST_SKIP() << "no characters below " << kAssets;
+  const Scene actions = Scene::load(asset("m2m-fox-animations.glb").string()).value();
+  for (const char* name : {"q-Bee.glb", "m2m-fox-cat.glb", "m2m-fox-panda.glb"}) {
+    scene::SceneData data = baked(asset(name).string(), 20000).data();
+    if (data.clips.empty()) {
+      data.clips = actions.data().clips;
+      for (scene::Clip& clip : data.clips) {
+        std::vector<scene::Channel> known;
+        for (scene::Channel& channel : clip.channels) {
+          const std::string& node = actions.data().nodes[channel.node].name;
+          const auto found = std::find_if(data.nodes.begin(), data.nodes.end(),
+                                          [&](const scene::Node& n) { return n.name == node; });
+          if (found == data.nodes.end()) continue;
+          channel.node = uint32_t(found - data.nodes.begin());
+          known.push_back(channel);
+        }
+        clip.channels = known;
+      }
+    }
+    double moves = 0;
+    for (const size_t clip : {size_t(0), data.clips.size() / 2})
+      moves =
+          std::max(moves, expectPaintStays(data, {{clip, 0.4 * double(data.clips[clip].duration), 1}}, name));
+    EXPECT_GT(moves, 0.1) << name;
+  }
 }
 
 TEST(Bake, whatCannotBeBakedSaysWhy) {
