@@ -21,7 +21,7 @@ struct BakeArguments {
   std::string painting, out;
   std::vector<std::string> parts;
   BakeOptions options;
-  bool quiet = false;
+  bool points = false, quiet = false;
 };
 
 // "MATERIALS:offset=0.2;start=0.8;end=0.3;layers=4".
@@ -53,6 +53,17 @@ std::optional<BakePart> parsePart(const std::string& text) {
   return part;
 }
 
+int runPoints(const BakeArguments& args, const std::string& out) {
+  PointsOptions options;
+  options.allowOutside = args.options.allowOutside;
+  const Result<PointsReport> report = writePoints(args.painting, out, options);
+  if (!report) return fail(report.error());
+  if (args.quiet) return kDone;
+  warn(report->warnings);
+  std::puts(fmt::format("{}: {} points", out, report->points).c_str());
+  return kDone;
+}
+
 int run(const BakeArguments& args) {
   BakeOptions options = args.options;
   for (const std::string& text : args.parts) {
@@ -62,12 +73,14 @@ int run(const BakeArguments& args) {
                        "write it like 'Tail*:offset=0.2;start=0.8;end=0.3;layers=2'");
     options.parts.push_back(*part);
   }
-  const std::string out =
-      args.out.empty() ? std::filesystem::path(args.painting).stem().string() + ".fins.glb" : args.out;
+  const std::string out = args.out.empty() ? std::filesystem::path(args.painting).stem().string() +
+                                                 (args.points ? ".points.glb" : ".fins.glb")
+                                           : args.out;
   if (endingOf(out) != ".glb") return failUsage("fins cannot go into '" + out + "'", "name it like fins.glb");
   OutputFiles files(args.options.proxy.empty() ? std::vector{args.painting}
                                                : std::vector{args.painting, args.options.proxy});
   if (const Status status = files.add(out, "-o"); !status) return fail(status.error());
+  if (args.points) return runPoints(args, out);
   constexpr int kSteps = 100;
   std::optional<Progress> progress;
   int done = 0;
@@ -135,6 +148,8 @@ void addBake(CLI::App& program, int& exitCode) {
                    "Other numbers for what is made of materials of this name or pattern; repeatable")
       ->type_name("MATERIALS:KEY=VALUE;...")
       ->allow_extra_args(false);
+  command->add_flag("--points", args->points,
+                    "Instead of fins, a cloud of points as viewers of KHR_gaussian_splatting show it");
   command->add_flag("--allow-outside", args->options.allowOutside,
                     "Let paths in the scene lead out of its folder");
   command->add_flag("--quiet", args->quiet, "No warnings and no progress");

@@ -64,4 +64,21 @@ struct BakeReport {
 SCUMBLE_API Result<BakeReport> bakeFins(const std::string& painting, const std::string& out,
                                         const BakeOptions& options = {});
 
+struct PointsOptions {
+  bool allowOutside = false;  // SceneOptions has it
+  int threads = 0;            // 0: as many as the machine has
+};
+
+struct PointsReport {
+  size_t points = 0;
+  std::vector<std::string> warnings;
+};
+
+// Writes a painting's splats as Gaussians, which viewers of KHR_gaussian_splatting show and others as points:
+// one .glb with what the painting has of meshes, without its strokes, all as it stands at rest. Of splats
+// there remain place, direction, size, colour and opacity (docs/fins.md says what is lost). Fails as bakeFins
+// does.
+SCUMBLE_API Result<PointsReport> writePoints(const std::string& painting, const std::string& out,
+                                             const PointsOptions& options = {});
+
 }  // namespace scumble

@@ -9,6 +9,7 @@ namespace scumble::bake {
 
 struct Splat {
   glm::vec3 position{0}, along{1, 0, 0};  // mesh space; the stroke's direction, unit length
+  glm::vec3 facing{0, 0, 1};              // where its brush faced, unit length
   float radius = 0;                       // metres
   glm::vec3 root{0};                      // the square root of its colour, linear
   float opacity = 1, spacing = 0;         // radii to the next one that counts at least as much
@@ -22,6 +23,9 @@ struct Splat {
   // What is laid down first lies below: by height, and later strokes come forward by a part of their radius.
   float order = 0;
 };
+
+// Of all strokes in painting order, on no surface: so many radii apart, or more where there are too many.
+std::vector<Splat> splatsOf(const scene::Painting& painting, const BakeOptions& options, float least);
 
 // In the order in which they are laid down. What lies deeper below the surface than its radius, or farther
 // from it than `reach`, is left out; `left` counts that.

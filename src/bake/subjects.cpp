@@ -109,6 +109,10 @@ void hangOn(Subjects& subjects, const scene::SceneData& proxy, Strokes strokes) 
 
 }  // namespace
 
+std::shared_ptr<const scene::Painting> paintingInWorld(const scene::SceneData& scene) {
+  return paintingOf(strokesOf(scene), glm::mat4(1.0f));
+}
+
 Result<Subjects> findSubjects(const std::string& path, const BakeOptions& options) {
   SceneOptions sceneOptions;
   sceneOptions.allowOutside = options.allowOutside;
@@ -149,7 +153,7 @@ Result<Subjects> findSubjects(const std::string& path, const BakeOptions& option
   subjects.isHull = true;
   scene::Mesh hull;
   hull.name = painting->data().name;
-  hull.painting = paintingOf(strokesOf(painting->data()), glm::mat4(1.0f));
+  hull.painting = paintingInWorld(painting->data());
   hull.primitives.push_back(hullOf(*hull.painting, options.hullCells));
   subjects.meshes = {hull};
   subjects.materials = {"painting"};

@@ -22,6 +22,9 @@ struct Subjects {
   std::vector<std::string> warnings;
 };
 
+// All strokes of a scene, in the world, as they stand at rest.
+std::shared_ptr<const scene::Painting> paintingInWorld(const scene::SceneData& scene);
+
 // The painting's own meshes; those of the proxy that options name, to each of which go the strokes that lie
 // nearest to it; or where no mesh with strokes has a triangle, a hull.
 Result<Subjects> findSubjects(const std::string& painting, const BakeOptions& options);

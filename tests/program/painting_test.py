@@ -26,6 +26,23 @@ def sketch(strokes=1, cut=None, nan=False):
     return data[:cut]
 
 
+def opened(data):
+    """What a .glb says, and a function that gives an accessor's numbers, element by element."""
+    size = struct.unpack("<I", data[12:16])[0]
+    root, binary = json.loads(data[20:20 + size]), data[28 + size:]
+
+    def numbers(accessor):
+        a = root["accessors"][accessor]
+        view = root["bufferViews"][a["bufferView"]]
+        letter, each = {5121: ("B", 1), 5123: ("H", 2), 5125: ("I", 4), 5126: ("f", 4)}[a["componentType"]]
+        components = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}[a["type"]]
+        stride = view.get("byteStride", each * components)
+        start = view.get("byteOffset", 0) + a.get("byteOffset", 0)
+        return [struct.unpack_from(f"<{components}{letter}", binary, start + i * stride) for i in range(a["count"])]
+
+    return root, numbers
+
+
 class Case(Program):
     def tilt(self, data=None, metadata=None, name="bird.tilt"):
         packed = io.BytesIO()
@@ -134,14 +151,61 @@ class Fins(Case):
         self.assertEqual((self.folder / "again.glb").read_bytes(), first)
         self.assertFalse(list(self.folder.glob("*.part")))
         # What other programs look for.
-        size = struct.unpack("<I", first[12:16])[0]
-        root = json.loads(first[20:20 + size])
+        root, numbers = opened(first)
         layers = [m for m in root["materials"] if "scumble_paint" in m.get("extras", {})]
         self.assertTrue(any("fadeStart" in m["extras"]["scumble_paint"] for m in layers))
         for m in layers:
             self.assertEqual(m["alphaMode"], "BLEND")
             self.assertIn("KHR_materials_unlit", m["extensions"])
         self.assertTrue(all(p.get("mode", 4) == 4 for m in root["meshes"] for p in m["primitives"]))
+        for mesh in root["meshes"]:
+            told = mesh.get("extras", {}).get("scumble_orders")
+            if not told:
+                continue
+            self.assertEqual(len(told["orders"]), 14)
+            first_vertex, triangles = 0, []
+            for number in told["primitives"]:
+                primitive = mesh["primitives"][number]
+                self.assertIn("scumble_paint", root["materials"][primitive["material"]]["extras"])
+                indices = [first_vertex + i[0] for i in numbers(primitive["indices"])]
+                triangles += [tuple(indices[i:i + 3]) for i in range(0, len(indices), 3)]
+                first_vertex += root["accessors"][primitive["attributes"]["POSITION"]]["count"]
+            for order in told["orders"]:
+                self.assertAlmostEqual(sum(x * x for x in order["toViewer"]), 1, 5)
+                indices = [i[0] for i in numbers(order["indices"])]
+                self.assertEqual(sorted(tuple(indices[i:i + 3]) for i in range(0, len(indices), 3)), sorted(triangles))
+        self.assertTrue(any("scumble_orders" in m.get("extras", {}) for m in root["meshes"]))
+        self.good("bake", "painted.glb", "-o", "none.glb", "--texture", "512", "--orders", "0", "--quiet")
+        self.assertNotIn(b"scumble_orders", (self.folder / "none.glb").read_bytes())
+
+    def test_a_painting_as_points(self):
+        self.paint()
+        self.tilt()
+        self.bad(UNUSABLE, "bake", "box.gltf", "--points", "-o", "none.glb", says="scumble paint")
+        self.bad(NOT_WRITTEN, "bake", "painted.glb", "--points", "-o", "absent/points.glb")
+        for painting, meshes in (("painted.glb", 1), ("bird.tilt", 0)):
+            out = self.good("bake", painting, "--points", "-o", "points.glb", warnings=True)
+            root, numbers = opened((self.folder / "points.glb").read_bytes())
+            self.assertEqual(len(root["meshes"]), meshes + 1)
+            self.assertNotIn("animations", root)
+            (primitive,) = root["meshes"][-1]["primitives"]
+            self.assertEqual((primitive["mode"], primitive["extensions"]["KHR_gaussian_splatting"]["kernel"]), (0, "ellipse"))
+            self.assertIn("KHR_gaussian_splatting", root["extensionsUsed"])
+            of = {name.split(":")[-1]: numbers(accessor) for name, accessor in primitive["attributes"].items()}
+            self.assertEqual(len({len(values) for values in of.values()}), 1)
+            self.assertIn(f"{len(of['POSITION'])} points", out)
+            for turn, scale, opacity, color, harmonic in zip(of["ROTATION"], of["SCALE"], of["OPACITY"], of["COLOR_0"],
+                                                              of["SH_DEGREE_0_COEF_0"]):
+                self.assertAlmostEqual(sum(x * x for x in turn), 1, 4)
+                self.assertTrue(all(-12 < s < 2 for s in scale) and scale[2] < scale[0], scale)  # logarithms; flat
+                self.assertTrue(0 <= opacity[0] <= 1 and opacity[0] == color[3])
+                for linear, h in zip(color, harmonic):
+                    srgb = 12.92 * linear if linear <= 0.0031308 else 1.055 * linear ** (1 / 2.4) - 0.055
+                    self.assertAlmostEqual(0.28209479 * h + 0.5, srgb, 4)
+        # The sketch is a line along x, and so are its splats.
+        for (_, y, z), (qx, qy, qz, qw) in zip(of["POSITION"], of["ROTATION"]):
+            self.assertTrue(abs(y) < 1e-4 and abs(z) < 1e-4, (y, z))
+            self.assertAlmostEqual(abs(1 - 2 * (qy * qy + qz * qz)), 1, 4)
 
     def test_parts_have_their_own_numbers(self):
         self.paint()
