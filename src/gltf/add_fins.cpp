@@ -10,7 +10,6 @@ namespace scumble::gltf {
 
 namespace {
 
-constexpr int kShortType = 5123, kIntType = 5125, kFloatType = 5126;  // component types
 constexpr const char* kUnlit = "KHR_materials_unlit";
 
 template <class T>

@@ -12,16 +12,15 @@ namespace scumble::gltf {
 namespace {
 
 constexpr const char* kExtension = "KHR_gaussian_splatting";
-constexpr int kFloats = 5126;                      // a component type
 constexpr double kHarmonic = 0.28209479177387814;  // of degree 0: sqrt(1 / (4 pi))
 
 // A node that shows them, at the root of the file's scene.
 void addCloud(Rewrite& file, const std::string& name, const std::vector<Gaussian>& gaussians) {
-  AttributeWriter positions("POSITION", kFloats, "VEC3", 12), colors("COLOR_0", kFloats, "VEC4", 16),
-      rotations("KHR_gaussian_splatting:ROTATION", kFloats, "VEC4", 16),
-      scales("KHR_gaussian_splatting:SCALE", kFloats, "VEC3", 12),
-      opacities("KHR_gaussian_splatting:OPACITY", kFloats, "SCALAR", 4),
-      harmonics("KHR_gaussian_splatting:SH_DEGREE_0_COEF_0", kFloats, "VEC3", 12);
+  AttributeWriter positions("POSITION", kFloatType, "VEC3", 12), colors("COLOR_0", kFloatType, "VEC4", 16),
+      rotations("KHR_gaussian_splatting:ROTATION", kFloatType, "VEC4", 16),
+      scales("KHR_gaussian_splatting:SCALE", kFloatType, "VEC3", 12),
+      opacities("KHR_gaussian_splatting:OPACITY", kFloatType, "SCALAR", 4),
+      harmonics("KHR_gaussian_splatting:SH_DEGREE_0_COEF_0", kFloatType, "VEC3", 12);
   glm::vec3 low(std::numeric_limits<float>::max()), high(-low);
   for (const Gaussian& g : gaussians) {
     low = glm::min(low, g.position), high = glm::max(high, g.position);

@@ -52,7 +52,8 @@ class Rewrite {
   std::vector<int> meshes_;
 };
 
-constexpr int kVertexData = 34962, kIndexData = 34963;  // targets of views
+constexpr int kVertexData = 34962, kIndexData = 34963;                // targets of views
+constexpr int kShortType = 5123, kIntType = 5125, kFloatType = 5126;  // component types
 
 // What many primitives have of one attribute, in one view; each has an accessor of its own.
 class AttributeWriter {
