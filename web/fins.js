@@ -35,13 +35,15 @@ export class FinsPlugin {
       if (!paint || !paint.primitives.every((number) => layers.has(number))) continue;
       const objects = paint.primitives.map((number) => layers.get(number));
       if (!made.has(mesh)) made.set(mesh, this.merged(paint, objects));
-      replace(objects, await made.get(mesh));
+      const whole = await made.get(mesh);
+      if (whole) replace(objects, whole);
     }
   }
 
-  // One geometry of all layers, its orders, and its material.
+  // One geometry of all layers, its orders, and its material; null where there is none.
   async merged(paint, objects) {
     const geometry = mergeGeometries(objects.map((object) => withFade(object)));
+    if (!geometry) return null; // their vertices have unlike attributes: they stay as they are
     geometry.computeBoundingSphere();
     const orders = await Promise.all(paint.orders.map(async (order) => ({
       toViewer: new Vector3(...order.toViewer),
@@ -83,11 +85,23 @@ function replace(objects, { geometry, orders, material }) {
   };
 }
 
-const toLocal = new Matrix4();
+const toLocal = new Matrix4(), ofBone = new Matrix4();
+
+// Where a mesh at rest is put. Joints place a skinned one, and not its node: the mean of what they do.
+function placeOf(mesh, place) {
+  if (!mesh.isSkinnedMesh) return place.copy(mesh.matrixWorld);
+  const { bones, boneInverses } = mesh.skeleton;
+  place.elements.fill(0);
+  bones.forEach((bone, i) => {
+    ofBone.multiplyMatrices(bone.matrixWorld, boneInverses[i]).multiply(mesh.bindMatrix);
+    for (let e = 0; e < 16; ++e) place.elements[e] += ofBone.elements[e] / bones.length;
+  });
+  return place;
+}
 
 // From the middle of the mesh, in its space.
 function directionTo(camera, mesh) {
-  toLocal.copy(mesh.matrixWorld).invert();
+  placeOf(mesh, toLocal).invert();
   const direction = new Vector3();
   if (camera.isOrthographicCamera) return direction.setFromMatrixColumn(camera.matrixWorld, 2).transformDirection(toLocal);
   return direction.setFromMatrixPosition(camera.matrixWorld).applyMatrix4(toLocal).sub(mesh.geometry.boundingSphere.center).normalize();
@@ -100,25 +114,34 @@ function nearestOrder(orders, direction) {
   return nearest;
 }
 
+function patched(shader, changes) {
+  for (const [from, to] of changes) {
+    if (!shader.includes(from)) console.warn(`fins.js: this three has no '${from}' in its shaders; paint is drawn without its fade`);
+    shader = shader.replace(from, to);
+  }
+  return shader;
+}
+
 // Unlit paint that fades by how it faces the viewer (docs/fins.md).
 export function finsMaterial(from) {
-  const material = new MeshBasicMaterial({ map: from.map, color: from.color, transparent: true, depthWrite: false, side: DoubleSide, toneMapped: false });
+  const material = new MeshBasicMaterial({ map: from.map, color: from.color, transparent: true, depthWrite: false, side: DoubleSide,
+    forceSinglePass: true, toneMapped: from.toneMapped }); // in one pass: two would draw all backs first
   material.name = from.name;
   material.onBeforeCompile = (shader) => {
-    shader.vertexShader = shader.vertexShader
-      .replace('void main() {', 'attribute vec3 paintFade;\nvarying vec3 vPaintFade, vPaintNormal, vToViewer;\nvoid main() {')
-      .replace('#if defined ( USE_ENVMAP ) || defined ( USE_SKINNING )', '#if 1') // normals, which unlit materials have none of
-      .replace('#include <project_vertex>', `#include <project_vertex>
+    shader.vertexShader = patched(shader.vertexShader, [
+      ['void main() {', 'attribute vec3 paintFade;\nvarying vec3 vPaintFade, vPaintNormal, vToViewer;\nvoid main() {'],
+      ['#if defined ( USE_ENVMAP ) || defined ( USE_SKINNING )', '#if 1'], // normals, which unlit materials have none of
+      ['#include <project_vertex>', `#include <project_vertex>
         vPaintFade = paintFade;
         vPaintNormal = transformedNormal;
-        vToViewer = isPerspectiveMatrix(projectionMatrix) ? -mvPosition.xyz : vec3(0.0, 0.0, 1.0);`);
-    shader.fragmentShader = shader.fragmentShader
-      .replace('void main() {', 'varying vec3 vPaintFade, vPaintNormal, vToViewer;\nvoid main() {')
-      .replace('#include <map_fragment>', `#include <map_fragment>
+        vToViewer = isPerspectiveMatrix(projectionMatrix) ? -mvPosition.xyz : vec3(0.0, 0.0, 1.0);`]]);
+    shader.fragmentShader = patched(shader.fragmentShader, [
+      ['void main() {', 'varying vec3 vPaintFade, vPaintNormal, vToViewer;\nvoid main() {'],
+      ['#include <map_fragment>', `#include <map_fragment>
         if (vPaintFade.z < 0.5 && !gl_FrontFacing) discard;
         float faces = abs(dot(normalize(vPaintNormal), normalize(vToViewer)));
         float paintShows = clamp((1.0 - faces - vPaintFade.x) / (vPaintFade.y - vPaintFade.x), 0.0, 1.0);
-        diffuseColor.a *= paintShows * paintShows * (3.0 - 2.0 * paintShows);`);
+        diffuseColor.a *= paintShows * paintShows * (3.0 - 2.0 * paintShows);`]]);
   };
   material.customProgramCacheKey = () => 'scumble_paint';
   return material;

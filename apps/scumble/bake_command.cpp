@@ -76,7 +76,9 @@ int run(const BakeArguments& args) {
   const std::string out = args.out.empty() ? std::filesystem::path(args.painting).stem().string() +
                                                  (args.points ? ".points.glb" : ".fins.glb")
                                            : args.out;
-  if (endingOf(out) != ".glb") return failUsage("fins cannot go into '" + out + "'", "name it like fins.glb");
+  if (endingOf(out) != ".glb")
+    return failUsage((args.points ? "points cannot go into '" : "fins cannot go into '") + out + "'",
+                     args.points ? "name it like points.glb" : "name it like fins.glb");
   OutputFiles files(args.options.proxy.empty() ? std::vector{args.painting}
                                                : std::vector{args.painting, args.options.proxy});
   if (const Status status = files.add(out, "-o"); !status) return fail(status.error());
@@ -113,7 +115,9 @@ void addBake(CLI::App& program, int& exitCode) {
       ->add_option("PAINTING", args->painting,
                    "A glTF with strokes (scumble paint makes them), .tilt or .apa")
       ->required();
-  command->add_option("-o", args->out, "Where it is written (default: the painting's name + .fins.glb)")
+  command
+      ->add_option("-o", args->out,
+                   "Where it is written (default: the painting's name + .fins.glb, or .points.glb)")
       ->type_name("OUT.glb");
   command
       ->add_option(
@@ -148,10 +152,14 @@ void addBake(CLI::App& program, int& exitCode) {
                    "Other numbers for what is made of materials of this name or pattern; repeatable")
       ->type_name("MATERIALS:KEY=VALUE;...")
       ->allow_extra_args(false);
-  command->add_flag("--points", args->points,
-                    "Instead of fins, a cloud of points as viewers of KHR_gaussian_splatting show it");
+  CLI::Option* const points =
+      command->add_flag("--points", args->points,
+                        "Instead of fins, a cloud of points as viewers of KHR_gaussian_splatting show it");
   command->add_flag("--allow-outside", args->options.allowOutside,
                     "Let paths in the scene lead out of its folder");
+  for (const char* fins : {"--proxy", "--hull-cells", "--texture", "--layers", "--fade-start", "--fade-end",
+                           "--orders", "--part"})
+    points->excludes(fins);
   command->add_flag("--quiet", args->quiet, "No warnings and no progress");
   command->footer("Example: scumble bake painted.glb -o fins.glb && scumble render fins.glb");
   command->callback([args, &exitCode] { exitCode = run(*args); });

@@ -53,8 +53,7 @@ Result<PointsReport> writePoints(const std::string& path, const std::string& out
   const Result<Scene> scene = Scene::load(path, sceneOptions);
   if (!scene) return scene.error();
   if (std::filesystem::path(path).extension() == ".json")
-    return usage("a world of several scenes cannot be written anew",
-                 "write the points of its scenes one by one");
+    return usage("a world cannot be written anew", "write the points of its scenes one by one");
   PointsReport report;
   report.warnings = scene->warnings();
   try {
@@ -84,6 +83,9 @@ Result<PointsReport> writePoints(const std::string& path, const std::string& out
   } catch (const std::bad_alloc&) {
     return Error{ErrorKind::unusableFile,     path, 0, "", "needs more memory than there is",
                  "paint it with fewer splats"};
+  } catch (const std::exception& error) {
+    return Error{ErrorKind::internal,      path, 0, "", std::string("writing points failed: ") + error.what(),
+                 "please report this file"};
   }
   return report;
 }

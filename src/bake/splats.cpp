@@ -63,7 +63,7 @@ std::vector<Splat> splatsOf(const scene::Painting& painting, const BakeOptions& 
     splat.chance = float(chance) / 65536;
     splat.brush = int(stroke.brush);
     splat.order =
-        options.order * splat.radius * float(strokeOf[place.point] + 1) / float(painting.strokes.size());
+        options.order * splat.radius * (float(strokeOf[place.point] + 1) / float(painting.strokes.size()));
   });
   return splats;
 }
@@ -90,7 +90,7 @@ std::vector<Splat> hungSplats(const scene::Painting& painting, const Proxy& prox
     glm::vec3 normal(0);
     for (int c = 0; c < 3; ++c) normal += splat.parts[c] * proxy.normals[t.places[c]];
     splat.height = glm::dot(away, normal) < 0 ? -glm::length(away) : glm::length(away);
-    splat.order += splat.height;
+    splat.order = splat.height + splat.order;
     if (splat.height < -splat.radius || splat.height > reach) splat.triangle = -1;
   });
   const size_t before = splats.size();

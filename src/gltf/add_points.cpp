@@ -27,7 +27,7 @@ void addCloud(Rewrite& file, const std::string& name, const std::vector<Gaussian
     positions.put(g.position);
     colors.put(glm::vec4(g.color, g.opacity));
     rotations.put(glm::vec4(g.rotation.x, g.rotation.y, g.rotation.z, g.rotation.w));
-    scales.put(glm::log(g.deviations));
+    scales.put(g.deviations);
     opacities.put(g.opacity);
     glm::vec3 harmonic;
     for (int c = 0; c < 3; ++c) harmonic[c] = float((srgbFromLinear(double(g.color[c])) - 0.5) / kHarmonic);
@@ -52,10 +52,18 @@ void addCloud(Rewrite& file, const std::string& name, const std::vector<Gaussian
   const size_t node = file.add("nodes", {{"name", name}, {"mesh", mesh}});
   Json& root = file.root();
   const size_t scene = root.value("scene", size_t(0));
-  if (root.contains("scenes") && scene < root["scenes"].size())
+  if (root.contains("scenes") && scene < root["scenes"].size()) {
     root["scenes"][scene]["nodes"].push_back(node);
-  else
-    root["scenes"] = Json::array({{{"nodes", {node}}}}), root["scene"] = 0;
+  } else {
+    // A file without scenes shows all of its nodes.
+    std::vector<bool> isChild(root["nodes"].size());
+    for (const Json& parent : root["nodes"])
+      for (const Json& child : parent.value("children", Json::array())) isChild[child.get<size_t>()] = true;
+    Json roots = Json::array();
+    for (size_t n = 0; n < isChild.size(); ++n)
+      if (!isChild[n]) roots.push_back(n);
+    root["scenes"] = Json::array({{{"nodes", roots}}}), root["scene"] = 0;
+  }
   Json& used = root["extensionsUsed"];
   if (!used.is_array()) used = Json::array();
   if (std::find(used.begin(), used.end(), kExtension) == used.end()) used.push_back(kExtension);

@@ -190,6 +190,13 @@ void SceneColorSum::add(const ColorSample& sample) {
   area_ += sample.area;
 }
 
+void SceneColorSum::add(const SceneColorSum& other) {
+  sum_ += other.sum_;
+  squares_ += other.squares_;
+  for (size_t i = 0; i < values_.size(); ++i) values_[i] += other.values_[i];
+  area_ += other.area_;
+}
+
 SceneColors SceneColorSum::colors() const {
   SceneColors colors;
   if (!(area_ > 0)) return colors;

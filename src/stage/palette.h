@@ -99,6 +99,7 @@ struct ColorSample {
 class SceneColorSum {
  public:
   void add(const ColorSample& sample);
+  void add(const SceneColorSum& other);
   SceneColors colors() const;
 
  private:

@@ -68,16 +68,21 @@ void SurfaceColors::look(const std::vector<GeometryItem>& items, const MaterialO
   }
 }
 
-SceneColors SurfaceColors::colors(const std::vector<GeometryItem>& items,
-                                  const MaterialOf& materialOf) const {
-  SceneColorSum sum;
+SceneColors SurfaceColors::colors(const std::vector<GeometryItem>& items, const MaterialOf& materialOf) {
+  SceneColorSum all;
   for (size_t i = 0; i < items.size(); ++i) {
-    if (parts_[i].samples.empty()) continue;
-    const glm::dvec3 base =
+    Part& part = parts_[i];
+    if (part.samples.empty()) continue;
+    const glm::dvec3 factor =
         glm::sqrt(glm::clamp(glm::dvec3(materialOf(items[i].material).baseColor), 0.0, 1.0));
-    for (const ColorSample& sample : parts_[i].samples) sum.add({sample.area, base * sample.root});
+    if (part.factor != factor) {
+      part.factor = factor;
+      part.sum = {};
+      for (const ColorSample& sample : part.samples) part.sum.add({sample.area, factor * sample.root});
+    }
+    all.add(part.sum);
   }
-  return sum.colors();
+  return all.colors();
 }
 
 }  // namespace scumble::world

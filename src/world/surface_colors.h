@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/shared.h"
@@ -22,7 +23,7 @@ class SurfaceColors {
   void look(const std::vector<GeometryItem>& items, const MaterialOf& materialOf,
             const std::vector<Shared<scene::Image>>& images);
   // Of what was looked at last, with the materials' present colours.
-  SceneColors colors(const std::vector<GeometryItem>& items, const MaterialOf& materialOf) const;
+  SceneColors colors(const std::vector<GeometryItem>& items, const MaterialOf& materialOf);
 
  private:
   // An item's points: their colours without the material's factor.
@@ -31,6 +32,9 @@ class SurfaceColors {
     std::shared_ptr<const scene::Image> image;
     glm::mat3 linear{0.0f}, transform{0.0f};
     std::vector<ColorSample> samples;
+    // Of these, with a factor; it has changed where that has.
+    std::optional<glm::dvec3> factor;
+    SceneColorSum sum;
   };
   static Part partOf(const GeometryItem& item, const scene::Material& material,
                      const std::vector<Shared<scene::Image>>& images);

@@ -197,12 +197,13 @@ class Fins(Case):
             for turn, scale, opacity, color, harmonic in zip(of["ROTATION"], of["SCALE"], of["OPACITY"], of["COLOR_0"],
                                                               of["SH_DEGREE_0_COEF_0"]):
                 self.assertAlmostEqual(sum(x * x for x in turn), 1, 4)
-                self.assertTrue(all(-12 < s < 2 for s in scale) and scale[2] < scale[0], scale)  # logarithms; flat
+                self.assertTrue(all(s > 0 for s in scale) and scale[2] < scale[0] == scale[1], scale)  # flat
                 self.assertTrue(0 <= opacity[0] <= 1 and opacity[0] == color[3])
                 for linear, h in zip(color, harmonic):
                     srgb = 12.92 * linear if linear <= 0.0031308 else 1.055 * linear ** (1 / 2.4) - 0.055
                     self.assertAlmostEqual(0.28209479 * h + 0.5, srgb, 4)
-        # The sketch is a line along x, and so are its splats.
+        # The sketch is a line along x, 0.15 m to either side, and so are its splats.
+        self.assertAlmostEqual(max(s[0] for s in of["SCALE"]), 0.5 * 0.15, 4)
         for (_, y, z), (qx, qy, qz, qw) in zip(of["POSITION"], of["ROTATION"]):
             self.assertTrue(abs(y) < 1e-4 and abs(z) < 1e-4, (y, z))
             self.assertAlmostEqual(abs(1 - 2 * (qy * qy + qz * qz)), 1, 4)
