@@ -14,7 +14,7 @@
 #include "base/file_bytes.h"
 #include "base/name_pattern.h"
 #include "base/usage.h"
-#include "base/whole_file.h"
+#include "gltf/write_anew.h"
 #include "scene/import_failure.h"
 #include "scumble/scene.h"
 #include "scumble/version.h"
@@ -136,7 +136,7 @@ Result<BakeReport> bakeFins(const std::string& path, const std::string& out, con
 
   BakeReport report;
   report.warnings = subjects.warnings;
-  try {
+  const Status made = gltf::guarded(path, "baking", "ask for a smaller texture", [&]() -> Status {
     Checkpoint checkpoint(out + ".part", keyOf(subjects, options));
     std::vector<gltf::PaintedMesh> meshes(subjects.meshes.size());
     std::vector<size_t> painted;
@@ -198,23 +198,12 @@ Result<BakeReport> bakeFins(const std::string& path, const std::string& out, con
         subjects.isHull
             ? gltf::paintAlone(subjects.meshes[0], meshes[0])
             : gltf::withPaint(subjects.path, sceneOptions, subjects.scene->data(), meshes, warnings);
-    for (const std::string& line : warnings.lines(subjects.path))
-      if (std::find(report.warnings.begin(), report.warnings.end(), line) == report.warnings.end())
-        report.warnings.push_back(line);
-    WholeFile target(out);
-    target.write(file.data(), file.size());
-    if (const Status status = target.commit(); !status) return status.error();
-    checkpoint.finish();
-  } catch (scene::ImportFailure& failure) {
-    if (failure.error.kind != ErrorKind::cancelled) failure.error.file = path;
-    return failure.error;
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorKind::unusableFile,    path, 0, "", "needs more memory than there is",
-                 "ask for a smaller texture"};
-  } catch (const std::exception& error) {
-    return Error{ErrorKind::internal,      path, 0, "", std::string("baking failed: ") + error.what(),
-                 "please report this file"};
-  }
+    gltf::addNew(report.warnings, warnings, subjects.path);
+    Status status = gltf::putWhole(out, file);
+    if (status) checkpoint.finish();
+    return status;
+  });
+  if (!made) return made.error();
   if (options.progress) options.progress(1);
   return report;
 }

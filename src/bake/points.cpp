@@ -7,9 +7,8 @@
 #include "bake/splats.h"
 #include "bake/subjects.h"
 #include "base/usage.h"
-#include "base/whole_file.h"
 #include "gltf/add_points.h"
-#include "scene/import_failure.h"
+#include "gltf/write_anew.h"
 #include "scumble/bake.h"
 
 namespace scumble {
@@ -56,7 +55,7 @@ Result<PointsReport> writePoints(const std::string& path, const std::string& out
     return usage("a world cannot be written anew", "write the points of its scenes one by one");
   PointsReport report;
   report.warnings = scene->warnings();
-  try {
+  const Status made = gltf::guarded(path, "writing points", "paint it with fewer splats", [&]() -> Status {
     const std::shared_ptr<const scene::Painting> painting = bake::paintingInWorld(scene->data());
     if (painting->strokes.empty())
       return Error{
@@ -71,22 +70,10 @@ Result<PointsReport> writePoints(const std::string& path, const std::string& out
     const std::vector<uint8_t> file = isGltf(path)
                                           ? gltf::withGaussians(path, sceneOptions, gaussians, warnings)
                                           : gltf::gaussiansAlone(scene->data().name, gaussians);
-    for (const std::string& line : warnings.lines(path))
-      if (std::find(report.warnings.begin(), report.warnings.end(), line) == report.warnings.end())
-        report.warnings.push_back(line);
-    WholeFile target(out);
-    target.write(file.data(), file.size());
-    if (const Status status = target.commit(); !status) return status.error();
-  } catch (scene::ImportFailure& failure) {
-    failure.error.file = path;
-    return failure.error;
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorKind::unusableFile,     path, 0, "", "needs more memory than there is",
-                 "paint it with fewer splats"};
-  } catch (const std::exception& error) {
-    return Error{ErrorKind::internal,      path, 0, "", std::string("writing points failed: ") + error.what(),
-                 "please report this file"};
-  }
+    gltf::addNew(report.warnings, warnings, path);
+    return gltf::putWhole(out, file);
+  });
+  if (!made) return made.error();
   return report;
 }
 

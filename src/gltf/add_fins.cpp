@@ -30,9 +30,7 @@ class PaintWriter {
         file_.add("textures", {{"source", file_.add("images", image)}, {"sampler", sampler}});
     for (const PaintPart& part : painted.parts) add(part, texture);
     addOrders(painted);
-    Json& used = file_.root()["extensionsUsed"];
-    if (!used.is_array()) used = Json::array();
-    if (std::find(used.begin(), used.end(), kUnlit) == used.end()) used.push_back(kUnlit);
+    file_.useExtension(kUnlit);
   }
 
  private:

@@ -1,7 +1,5 @@
 #include "gltf/add_points.h"
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "base/srgb.h"
@@ -64,9 +62,7 @@ void addCloud(Rewrite& file, const std::string& name, const std::vector<Gaussian
       if (!isChild[n]) roots.push_back(n);
     root["scenes"] = Json::array({{{"nodes", roots}}}), root["scene"] = 0;
   }
-  Json& used = root["extensionsUsed"];
-  if (!used.is_array()) used = Json::array();
-  if (std::find(used.begin(), used.end(), kExtension) == used.end()) used.push_back(kExtension);
+  file.useExtension(kExtension);
 }
 
 }  // namespace

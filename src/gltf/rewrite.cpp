@@ -99,6 +99,12 @@ size_t Rewrite::append(Bytes bytes) {
   return offset;
 }
 
+void Rewrite::useExtension(const char* name) {
+  Json& used = root_["extensionsUsed"];
+  if (!used.is_array()) used = Json::array();
+  if (std::find(used.begin(), used.end(), name) == used.end()) used.push_back(name);
+}
+
 size_t Rewrite::add(const char* list, Json object) {
   if (!root_.contains(list)) root_[list] = Json::array();
   root_[list].push_back(std::move(object));

@@ -27,6 +27,8 @@ class Rewrite {
   // Takes all strokes out, and what only they have used.
   void dropStrokes();
 
+  // Names an extension among those that are used.
+  void useExtension(const char* name);
   // Adds to a list, which may not be there yet; gives the number.
   size_t add(const char* list, Json object);
   // Bytes as a view. `stride`, `target`: as glTF has them; 0: none.

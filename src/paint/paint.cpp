@@ -10,10 +10,9 @@
 
 #include "base/name_pattern.h"
 #include "base/usage.h"
-#include "base/whole_file.h"
 #include "gltf/add_strokes.h"
+#include "gltf/write_anew.h"
 #include "paint/mesh_strokes.h"
-#include "scene/import_failure.h"
 #include "scene/posed_bounds.h"
 #include "scene/splat_places.h"
 #include "scumble/nearest.h"
@@ -130,7 +129,7 @@ Result<PaintReport> paintScene(const std::string& path, const std::string& out, 
   const StrokeStyle& style = *styleOf(options.style);
   PaintReport report;
   report.warnings = loaded->warnings();
-  try {
+  const Status made = gltf::guarded(path, "painting", "ask for fewer splats", [&]() -> Status {
     std::vector<std::shared_ptr<const scene::Painting>> paintings(scene.meshes.size());
     // After all that is painted already.
     float clock = 0;
@@ -165,22 +164,10 @@ Result<PaintReport> paintScene(const std::string& path, const std::string& out, 
     }
     scene::ImportWarnings warnings;
     const std::vector<uint8_t> file = gltf::withStrokes(path, sceneOptions, scene, paintings, warnings);
-    for (const std::string& line : warnings.lines(path))
-      if (std::find(report.warnings.begin(), report.warnings.end(), line) == report.warnings.end())
-        report.warnings.push_back(line);
-    WholeFile target(out);
-    target.write(file.data(), file.size());
-    if (const Status status = target.commit(); !status) return status.error();
-  } catch (scene::ImportFailure& failure) {
-    failure.error.file = path;
-    return failure.error;
-  } catch (const std::bad_alloc&) {
-    return Error{ErrorKind::unusableFile, path, 0, "", "needs more memory than there is",
-                 "ask for fewer splats"};
-  } catch (const std::exception& error) {
-    return Error{ErrorKind::internal,      path, 0, "", std::string("painting failed: ") + error.what(),
-                 "please report this file"};
-  }
+    gltf::addNew(report.warnings, warnings, path);
+    return gltf::putWhole(out, file);
+  });
+  if (!made) return made.error();
   if (options.progress) options.progress(1);
   return report;
 }
