@@ -6,9 +6,10 @@
 A subject is a painting (.tilt, .apa), or a mesh that is painted first: a file, options of `scumble paint`, and after a colon
 those of `scumble bake`, as one word: 'cat.glb --style fur --splats 200000 : --texture 2048'. Strokes themselves and fins are
 drawn from --views places all around, evenly, which the bake knows nothing of, at --away times the distance from which it
-fills the picture. "ms" is what the paint alone takes, sorted and drawn: the median over views of the median over frames.
+fills the picture. "ms" is what the paint alone takes, sorted and drawn: the median over views of the median over frames (`scumble bench`).
 Frames a second are those of the GPU's passes together. FLIP is what a person would see of the difference, in the mean over the
-picture and in its worst tile of 16 x 16 pixels, as medians over views, and at the most. Options after -- go to `scumble render`.
+picture and in its worst tile of 16 x 16 pixels, as medians over views, and at the most. Options after -- go to `scumble render`
+and `scumble bench`.
 """
 import argparse
 import json
@@ -28,7 +29,7 @@ from surroundings import head, parse  # noqa: E402
 
 FIELD = 34  # degrees
 PASSES = {"order", "painting-order", "painting"}
-FRAMES = {"strokes": 2, "fins": 6}  # of each view; the first one is left out
+RUNS = {"strokes": 3, "fins": 9}  # of each view
 
 
 def run(command):
@@ -78,16 +79,16 @@ def places(program, strokes, count, away):
         yield [m + distance * w for m, w in zip(middle, way)], middle
 
 
-def draw(program, scene, picture, eye, target, frames, size, options):
-    stats = picture.with_suffix(".json")
-    run([program, "render", scene, "-o", picture.parent / f"{picture.name}.####.png", "--frames", f"0..{frames - 1}", "--size", size,
-         "--fov", FIELD, "--eye", ",".join(map(str, eye)), "--target", ",".join(map(str, target)), "--set", "ground.mode=off",
-         "--quiet", "--stats", stats, *options])
-    report = json.loads(stats.read_text())
-    later = report["frames"][1:]
-    return {"picture": picture.parent / f"{picture.name}.0000.png", "device": report["device"],
-            "frame": statistics.median(f["gpuMilliseconds"] for f in later),
-            "paint": statistics.median(sum(p["milliseconds"] for p in f["passes"] if p["name"] in PASSES) for f in later)}
+def draw(program, scene, picture, eye, target, runs, size, options):
+    # Timed apart from the drawing of the picture, the saving of which would take one of few cores.
+    view = [scene, "--size", size, "--fov", FIELD, "--eye", ",".join(map(str, eye)), "--target", ",".join(map(str, target)),
+            "--set", "ground.mode=off", *options]
+    run([program, "render", "-o", picture, "--quiet", *view])
+    timed = picture.with_suffix(".json")
+    run([program, "bench", "--runs", runs, "--json", timed, *view])
+    report = json.loads(timed.read_text())
+    return {"picture": picture, "device": report["device"], "frame": report["frameMilliseconds"],
+            "paint": sum(p["milliseconds"] for p in report["passes"] if p["name"] in PASSES)}
 
 
 def compared(chosen, options, subject, folder):
@@ -97,7 +98,7 @@ def compared(chosen, options, subject, folder):
     drawn, flips = {"strokes": [], "fins": []}, []
     for number, (eye, target) in enumerate(places(program, strokes, chosen.views, chosen.away)):
         for kind, scene in (("strokes", strokes), ("fins", fins)):
-            drawn[kind].append(draw(program, scene, pictures / f"{numbers['subject']}-{number:02}-{kind}", eye, target, FRAMES[kind],
+            drawn[kind].append(draw(program, scene, pictures / f"{numbers['subject']}-{number:02}-{kind}.png", eye, target, RUNS[kind],
                                     chosen.size, options))
         flips.append([float(word) for word in run([Path(program).parent / "compare_pictures", drawn["strokes"][-1]["picture"],
                                                    drawn["fins"][-1]["picture"], "0"]).split()[:2]])

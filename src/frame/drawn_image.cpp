@@ -1,5 +1,7 @@
 #include "frame/drawn_image.h"
 
+#include <cassert>
+
 namespace scumble::frame {
 
 void DrawnImage::declare(FrameBuilder& frame, const std::string& name, VkFormat format, uint32_t samples) {
@@ -12,6 +14,11 @@ void DrawnImage::declare(FrameBuilder& frame, const std::string& name, VkFormat 
   }
   samples_ = frame.use(frame.image(name + " samples", {.format = format, .samples = samples}), drawn);
   image_ = frame.use(image_, isDepth ? gpu::Use::depthResolveTarget : gpu::Use::resolveTarget);
+}
+
+void DrawnImage::declareAgain(FrameBuilder& frame) {
+  assert(samples_ == image_);
+  samples_ = image_ = frame.use(image_, gpu::Use::colorTarget);
 }
 
 gpu::Target DrawnImage::target(const gpu::GraphResources& resources, VkClearValue clear,

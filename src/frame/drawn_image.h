@@ -10,6 +10,8 @@ class DrawnImage {
  public:
   // A use of the step that is being declared.
   void declare(FrameBuilder& frame, const std::string& name, VkFormat format, uint32_t samples = 1);
+  // Of a later step that draws over what is there: of one sample.
+  void declareAgain(FrameBuilder& frame);
   gpu::Handle image() const { return image_; }      // one sample a pixel
   gpu::Handle samples() const { return samples_; }  // the same where there is but one
   gpu::Target target(const gpu::GraphResources& resources, VkClearValue clear = {},

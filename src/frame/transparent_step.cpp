@@ -99,8 +99,10 @@ const gpu::Pipeline& TransparentStep::pipelineFor(const Group& group, uint32_t i
   addVertexInput(desc, kPart | (group.painted.isPainted ? desc_.paintedInputs : desc_.inputs));
   desc.colorFormats = desc_.colorFormats;
   desc.blend = what_ == What::paint ? gpu::Blend::premultiplied : gpu::Blend::over;
-  if (what_ != What::paint) desc.depthFormat = kDepthFormat;
+  desc.depthFormat = kDepthFormat;
   desc.depthWrite = false;
+  // The depth of a pixel is that of some place in it, and a coat lies close to what it covers.
+  if (what_ == What::paint) desc.depthSlack = 2;
   desc.samples = desc_.samples;
   desc.viewMask = desc_.viewMask;
   desc.pushConstantBytes = desc_.viewMask ? 4 : 0;

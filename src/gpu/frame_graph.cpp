@@ -44,6 +44,13 @@ UseInfo useInfo(Use use) {
               VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
               0,
               true};
+    case Use::depthTest:
+      return {kDepthStages,
+              VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT,
+              VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL,
+              VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT,
+              0,
+              false};
     case Use::depthResolveTarget:
       // A depth resolve happens in the colour output stage (Vulkan 1.3, section 8.3.4).
       return {kColorStage | kDepthStages,

@@ -25,6 +25,7 @@ enum class Use : uint8_t {
   sampledByCompute,
   colorTarget,
   depthTarget,
+  depthTest,              // read by the fixed test alone
   resolveTarget,          // of a multisampled colour target
   depthResolveTarget,     // of a multisampled depth target
   storageImageWrite,      // by compute

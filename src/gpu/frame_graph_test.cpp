@@ -175,6 +175,26 @@ TEST(FrameGraph, depthIsWaitedForInBothTestingStages) {
   EXPECT_TRUE(plan[1][0].sourceAccess & VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT);
 }
 
+// What is tested against stays as it is: it is read, after all writes and before what comes next, in a layout
+// of its own.
+TEST(FrameGraph, depthThatIsTestedAgainstIsRead) {
+  FrameGraph graph;
+  Handle depth = graph.addImage("depth", kDepth);
+  addStep(graph, "draw", {{depth, Use::depthTarget}});
+  const uint32_t version = depth.version;
+  addStep(graph, "test", {{depth, Use::depthTest}});
+  EXPECT_EQ(depth.version, version);
+  addStep(graph, "read", {{depth, Use::sampledByFragment}});
+  const auto plan = planAll(graph);
+  ASSERT_EQ(plan[1].size(), 1u);
+  EXPECT_EQ(plan[1][0].newLayout, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
+  EXPECT_TRUE(plan[1][0].sourceAccess & VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT);
+  EXPECT_EQ(plan[1][0].targetAccess, VkAccessFlags2(VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT));
+  ASSERT_EQ(plan[2].size(), 1u);
+  EXPECT_TRUE(plan[2][0].sourceStages & VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT);
+  EXPECT_EQ(plan[2][0].oldLayout, VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL);
+}
+
 // Frames overlap on the device, so the first use waits for the last one of the frame before; and a frame is a
 // pure function, so it discards what that left.
 TEST(FrameGraph, theFirstUseDiscardsAndWaitsForTheFrameBefore) {

@@ -1,6 +1,7 @@
 #include "gpu/pipeline.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
 #include <map>
 #include <set>
@@ -212,6 +213,8 @@ void make(Device& device, const GraphicsPipelineDesc& desc, PipelineStore::Made&
   raster.cullMode = VK_CULL_MODE_NONE;
   raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
   raster.lineWidth = 1.0f;
+  raster.depthBiasEnable = desc.depthSlack != 0;
+  raster.depthBiasSlopeFactor = desc.depthSlack;
   VkPipelineMultisampleStateCreateInfo multisample{VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
   multisample.rasterizationSamples = VkSampleCountFlagBits(desc.samples);
   VkPipelineDepthStencilStateCreateInfo depth{VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO};
@@ -294,6 +297,7 @@ Pipeline::Pipeline(Device& device, const GraphicsPipelineDesc& desc) {
         .number(attribute.offset);
   writer.numbers(desc.colorFormats).number(uint64_t(desc.blend));
   writer.number(desc.depthFormat).number(desc.depthCompare).number(desc.depthWrite);
+  writer.number(std::bit_cast<uint32_t>(desc.depthSlack));
   writer.number(desc.samples).number(desc.viewMask).number(desc.dynamicCulling);
   writer.handles(desc.sets).number(desc.pushConstantBytes);
   PipelineStore::Made& made = device.pipelines().pipeline(std::move(writer.key));

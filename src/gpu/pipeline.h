@@ -83,6 +83,9 @@ struct GraphicsPipelineDesc {
   VkFormat depthFormat = VK_FORMAT_UNDEFINED;  // undefined: no depth test
   VkCompareOp depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
   bool depthWrite = true;
+  // Fragments are tested as if they were nearer by so many times what depth changes over a pixel (reversed
+  // Z).
+  float depthSlack = 0;
   uint32_t samples = 1;
   uint32_t viewMask = 0;        // 0: no multiview
   bool dynamicCulling = false;  // cull mode and front face are set while recording

@@ -10,14 +10,18 @@ namespace {
 void beginRendering(VkCommandBuffer commands, uint32_t firstLayer, uint32_t mask,
                     std::span<const Target> colors, const Target* depth) {
   const auto attachment = [&](const Target& target, VkImageLayout layout, VkResolveModeFlagBits resolveMode) {
-    static constexpr VkAttachmentLoadOp kLoad[] = {
-        VK_ATTACHMENT_LOAD_OP_CLEAR, VK_ATTACHMENT_LOAD_OP_DONT_CARE, VK_ATTACHMENT_LOAD_OP_LOAD};
+    static constexpr VkAttachmentLoadOp kLoad[] = {VK_ATTACHMENT_LOAD_OP_CLEAR,
+                                                   VK_ATTACHMENT_LOAD_OP_DONT_CARE,
+                                                   VK_ATTACHMENT_LOAD_OP_LOAD, VK_ATTACHMENT_LOAD_OP_LOAD};
     VkRenderingAttachmentInfo info{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
     info.imageView = target.image->viewFrom(firstLayer);
     info.imageLayout = layout;
     info.loadOp = kLoad[size_t(target.before)];
-    info.storeOp = target.resolve && !target.keepsSamples ? VK_ATTACHMENT_STORE_OP_DONT_CARE
-                                                          : VK_ATTACHMENT_STORE_OP_STORE;
+    if (target.before == Target::Before::tested)
+      info.storeOp = VK_ATTACHMENT_STORE_OP_NONE;
+    else
+      info.storeOp = target.resolve && !target.keepsSamples ? VK_ATTACHMENT_STORE_OP_DONT_CARE
+                                                            : VK_ATTACHMENT_STORE_OP_STORE;
     info.clearValue = target.clear;
     if (target.resolve) {
       info.resolveMode = resolveMode;
@@ -32,7 +36,10 @@ void beginRendering(VkCommandBuffer commands, uint32_t firstLayer, uint32_t mask
         attachment(color, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_RESOLVE_MODE_AVERAGE_BIT));
   VkRenderingAttachmentInfo depthInfo;
   if (depth)
-    depthInfo = attachment(*depth, VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, VK_RESOLVE_MODE_SAMPLE_ZERO_BIT);
+    depthInfo = attachment(*depth,
+                           depth->before == Target::Before::tested ? VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_OPTIMAL
+                                                                   : VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+                           VK_RESOLVE_MODE_SAMPLE_ZERO_BIT);
 
   const ImageDesc& size = (depth ? depth : &colors[0])->image->desc();
   VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
@@ -76,7 +83,7 @@ void drawViews(VkCommandBuffer commands, const Views& views, std::span<const Tar
   kept.assign(colors.begin(), colors.end());
   for (Target& target : kept) target.before = Target::Before::kept;
   keptDepth = depth ? *depth : Target{};
-  keptDepth.before = Target::Before::kept;
+  if (keptDepth.before != Target::Before::tested) keptDepth.before = Target::Before::kept;
   constexpr VkPipelineStageFlags2 kStages = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT |
                                             VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT |
                                             VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT;

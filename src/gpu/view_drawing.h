@@ -26,7 +26,8 @@ struct Target {
   enum class Before : uint8_t {
     cleared,
     undefined,
-    kept
+    kept,
+    tested                     // depth that stays as it is (Use::depthTest)
   } before = Before::cleared;  // what is in it to begin with
   bool keepsSamples = false;   // they are read later, besides what they are resolved into
 };

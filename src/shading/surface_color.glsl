@@ -32,9 +32,10 @@ vec4 surfaceColor(vec4 litRoot, vec4 shadowedRoot, float light, float glow) {
   return vec4(color, 1.0) * coverage;
 }
 
+// Where nothing has a depth, what is there is blended and lies somewhere before the sky: it is as if near.
 vec4 inAir(vec4 color, float depthValue, int layer) {
   float distance = eyeDepth(depthValue, layer);
-  float part = colors.air * smoothstep(colors.airStart, colors.airEnd, distance);
+  float part = depthValue > 0.0 ? colors.air * smoothstep(colors.airStart, colors.airEnd, distance) : 0.0;
   return vec4(mix(color.rgb, colors.horizon * color.a, part), color.a);
 }
 

@@ -32,6 +32,7 @@ std::string settingPath(const Knob& knob) {
 const std::pair<std::string, Knobs> kNeeds[] = {
     {"animation.", {{"clips.*.play.weight", "1"}}},
     {"background.", {{"background.mode", "look"}, {"ground.mode", "off"}}},
+    {"background.air", {{"background.airStart", "0"}, {"background.airEnd", "0.5"}}},
     {"background.airEnd", {{"background.air", "1"}, {"background.airStart", "0"}}},
     {"blur.depthEdge", {{"blur.radius", "128"}}},
     {"breakup.",

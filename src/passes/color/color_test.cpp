@@ -57,8 +57,11 @@ class ColorTest : public BothEyes {
           const double light = texel(aov(frame, "final-shadow", v), x, y).x;
           glm::dvec3 color = glm::mix(glm::dvec3(shadowed), glm::dvec3(lit), light);
           const double distance = texel(aov(frame, "depth", v), x, y).x;
-          const double air = knobs.air * smoothstep(center + knobs.airStart * radius,
-                                                    center + knobs.airEnd * radius, std::min(distance, 1e30));
+          // What has no depth has no distance, and no air before it.
+          const double air = std::isinf(distance)
+                                 ? 0.0
+                                 : knobs.air * smoothstep(center + knobs.airStart * radius,
+                                                          center + knobs.airEnd * radius, distance);
           color = glm::mix(color, horizon, air);
           const double sine = pixelRay(views[v], x, y, kWidth, kHeight).direction.y;
           const double rise = smoothstep(0, std::sin(glm::radians(double(knobs.height))), sine);
@@ -222,6 +225,31 @@ TEST_F(ColorTest, skyOfAParallelProjection) {
       ASSERT_EQ(texel(aov(frame, "lit"), x, y).w, 0);
       for (int c = 0; c < 3; ++c) EXPECT_NEAR(texel(aov(frame, "color"), x, y)[c], horizon[c], 5e-4);
     }
+}
+
+// What is blended over an empty sky has no depth; it does not dissolve into the horizon as if it were as far.
+TEST_P(ColorTest, panesBeforeTheSkyAreNotInTheAir) {
+  const auto drawn = [&](const char* alphaMode, const char* air) {
+    TestScene s;
+    nlohmann::json pane = TestScene::colored("Pane", {0.8f, 0.1f, 0.1f, 0.6f});
+    pane["alphaMode"] = alphaMode;
+    s.add(gridMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), s.material(pane));
+    // The air begins at the scene's centre, before the pane.
+    s.add(gridMesh({2, -1, 4}, {1, 0, 0}, {0, 2, 0}), s.material(TestScene::colored("Near", glm::vec4(1))));
+    const Scene scene = s.load();
+    return draw(
+        scene,
+        quietLook({{"background.air", air}, {"background.airStart", "0"}, {"background.airEnd", "0.5"}}),
+        viewsFrom(scene, {{0, 0, 9}}, kWidth, kHeight, GetParam()), sized(kWidth, kHeight, {"color"}));
+  };
+  const auto middles = [](const Frame& frame) {
+    std::vector<glm::dvec4> colors;
+    for (size_t v = 0; v < viewCount(); ++v)
+      colors.push_back(texel(aov(frame, "color", v), kWidth / 2, kHeight / 2));
+    return colors;
+  };
+  EXPECT_EQ(middles(drawn("BLEND", "1")), middles(drawn("BLEND", "0")));
+  EXPECT_NE(middles(drawn("OPAQUE", "1")), middles(drawn("OPAQUE", "0")));
 }
 
 // The automatic background goes by the mean of the scene's colours over its surface, as their square roots.

@@ -12,15 +12,14 @@ using namespace frame;
 void Fins::declare(FrameBuilder& frame) {
   frame.use(frame.get(kVertices), gpu::Use::vertexBuffer);
   frame.use(frame.get(kTransparentOrder), gpu::Use::indexBuffer);
-  depth_ = frame.use(frame.get(kDepth), gpu::Use::sampledByFragment);
+  depth_ = frame.use(frame.get(kDepth), gpu::Use::depthTest);
 }
 
 void Fins::create(FrameBuilder& frame, VkFormat format) {
   frame_ = &frame;
   uniforms_ = frame.uniform(sizeof(shared::FinsUniforms));
-  layout_ = gpu::SetLayout(frame.device(),
-                           {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_FRAGMENT_BIT},
-                            {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}});
+  layout_ =
+      gpu::SetLayout(frame.device(), {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_FRAGMENT_BIT}});
   set_ = gpu::DescriptorSets(frame.device(), layout_);
   set_.writeBuffer(0, shared::kFinsBlock, uniforms_.buffer, uniforms_.offset, uniforms_.size);
   GeometryStepDesc desc;
@@ -34,10 +33,11 @@ void Fins::create(FrameBuilder& frame, VkFormat format) {
   step_.create(frame, desc, TransparentStep::What::paint);
 }
 
-void Fins::bind(const gpu::GraphResources& resources) {
-  set_.rewriteTexture(0, shared::kFinsDepth, resources.image(depth_).view(),
-                      frame_->samplers().get({VK_FILTER_NEAREST}));
-  step_.bind();
+void Fins::draw(VkCommandBuffer commands, const gpu::GraphResources& resources,
+                const gpu::Target& paint) const {
+  const gpu::Target depth{&resources.image(depth_), nullptr, {}, gpu::Target::Before::tested};
+  gpu::drawViews(commands, frame_->configuration().views(), {&paint, 1}, &depth,
+                 [&](uint32_t firstView) { step_.draw(commands, &set_, firstView); });
 }
 
 void Fins::update(const FrameInput& input) {

@@ -11,10 +11,9 @@ class Fins {
   // Uses of the step that draws them.
   void declare(frame::FrameBuilder& frame);
   void create(frame::FrameBuilder& frame, VkFormat format);
-  void bind(const gpu::GraphResources& resources);
+  void bind() { step_.bind(); }
   void update(const frame::FrameInput& input);
-  // Into what paint lies in already.
-  void draw(VkCommandBuffer commands, uint32_t firstView) const { step_.draw(commands, &set_, firstView); }
+  void draw(VkCommandBuffer commands, const gpu::GraphResources& resources, const gpu::Target& paint) const;
 
  private:
   frame::FrameBuilder* frame_ = nullptr;

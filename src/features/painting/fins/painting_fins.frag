@@ -5,11 +5,9 @@
 #define TRANSPARENT_TEXTURES
 #include "../../../shading/frame.glsl"
 #include "../../../shading/material.glsl"
-#include "../../../shading/view_index.glsl"
 #include "painting_fins.shared.h"
 
 layout(set = 2, binding = kFinsBlock, scalar) uniform Block { FinsUniforms u; };
-layout(set = 2, binding = kFinsDepth) uniform sampler2DArray depth;
 
 layout(location = 0) in vec2 inUv;
 layout(location = 1) in vec4 inColor;
@@ -23,8 +21,6 @@ layout(location = 0) out vec4 outPaint;
 void main() {
   vec4 color = inColor * sampleSlots(ivec4(inSides.x, -1, -1, -1), inUv, 0.0).values[0];
   float alpha = color.a * u.opacity * paintFade(inFade, inWorld, inNormal);
-  // Depth is that of some place in the pixel, and a coat lies close to what it covers.
-  bool isHidden = gl_FragCoord.z + 1.5 * fwidth(gl_FragCoord.z) < texelFetch(depth, ivec3(gl_FragCoord.xy, viewIndex()), 0).r;
-  if (isHidden || alpha <= 0.0 || (inSides.z != 0 && gl_FrontFacing == (inSides.y != 0))) discard;
+  if (alpha <= 0.0 || (inSides.z != 0 && gl_FrontFacing == (inSides.y != 0))) discard;
   outPaint = vec4(sqrt(clamp(color.rgb, 0.0, 1.0)) * alpha, alpha);
 }

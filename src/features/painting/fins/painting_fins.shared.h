@@ -6,6 +6,6 @@ SHARED_BEGIN
 struct FinsUniforms {
   float opacity;
 };
-const int kFinsBlock = 0, kFinsDepth = 1;
+const int kFinsBlock = 0;
 SHARED_END
 #endif

@@ -42,14 +42,24 @@ class Splats : public Pass {
       frame.use(frame.get(kVertices), gpu::Use::storageBufferRead);
       placedBuffer_ = frame.use(frame.graph().importBuffer("painting points"), gpu::Use::storageBufferWrite);
     }
-    frame.step(name(), [this](VkCommandBuffer commands) { record(commands); });
-    if (isShown_) {
-      frame.use(placedBuffer_, gpu::Use::storageBufferReadByVertex);
-      depth_ = frame.use(frame.get(kDepth), gpu::Use::sampledByFragment);
-      shadowMap_ = frame.use(frame.get(kShadowMap), gpu::Use::sampledByVertex);
+    // Splats sink into what is there, so they read its depth; layers are tested against it, as attachment.
+    if (hasSplatStep()) {
+      frame.step(name(), [this](VkCommandBuffer commands) { recordSplats(commands); });
+      if (isShown_) {
+        frame.use(placedBuffer_, gpu::Use::storageBufferReadByVertex);
+        depth_ = frame.use(frame.get(kDepth), gpu::Use::sampledByFragment);
+        shadowMap_ = frame.use(frame.get(kShadowMap), gpu::Use::sampledByVertex);
+      }
+      paint_.declare(frame, "painting", format());
     }
-    if (hasLayers_) fins_.declare(frame);
-    paint_.declare(frame, "painting", format());
+    if (hasLayers_) {
+      frame.step(name(), [this](VkCommandBuffer commands) { recordLayers(commands); });
+      fins_.declare(frame);
+      if (hasSplatStep())
+        paint_.declareAgain(frame);
+      else
+        paint_.declare(frame, "painting", format());
+    }
     if (isShown_ || hasLayers_) frame.give(kPaint, paint_.image());
     frame.offer(kAovs[0], {paint_.image()});
   }
@@ -57,7 +67,7 @@ class Splats : public Pass {
   void create(FrameBuilder& frame) override {
     frame_ = &frame;
     if (hasLayers_) fins_.create(frame, format());
-    if (!isShown_) return;  // whoever asks for it gets none
+    if (!isShown_) return;
     uniforms_ = frame.uniform(sizeof(shared::PaintingUniforms));
     matrices_ = frame.uniform(paintings_ * sizeof(glm::mat4));
     constexpr VkShaderStageFlags kPlaces = VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_VERTEX_BIT;
@@ -101,7 +111,7 @@ class Splats : public Pass {
 
   void bind(const gpu::GraphResources& resources) override {
     resources_ = &resources;
-    if (hasLayers_) fins_.bind(resources);
+    if (hasLayers_) fins_.bind();
     if (!isShown_) return;
     textures_.rewriteTexture(0, shared::kPaintingDepth, resources.image(depth_).view(),
                              frame_->samplers().get({VK_FILTER_NEAREST}));
@@ -171,12 +181,19 @@ class Splats : public Pass {
     sort_.record(commands, strokes()->splatCount());
   }
 
-  void record(VkCommandBuffer commands) const {
+  // Without either, whoever asks for paint gets none.
+  bool hasSplatStep() const { return isShown_ || !hasLayers_; }
+
+  void recordSplats(VkCommandBuffer commands) const {
     const gpu::Target paint = paint_.target(*resources_);
     gpu::drawViews(commands, configuration_.views(), {&paint, 1}, nullptr, [&](uint32_t firstView) {
       if (isShown_) drawSplats(commands, firstView);
-      if (hasLayers_) fins_.draw(commands, firstView);
     });
+  }
+  void recordLayers(VkCommandBuffer commands) const {
+    const gpu::Target::Before before =
+        hasSplatStep() ? gpu::Target::Before::kept : gpu::Target::Before::cleared;
+    fins_.draw(commands, *resources_, paint_.target(*resources_, {}, before));
   }
 
   // Many thin splats add up; layers of paint are few, and bytes already.
