@@ -42,7 +42,8 @@ TABLE = {
     "src/film": [PUBLIC, "src/base"],
     "src/c": [PUBLIC],
     "src/measure": [PUBLIC, "src/base"],
-    "apps/scumble": [PUBLIC],
+    "apps/viewer": [PUBLIC],
+    "apps/scumble": [PUBLIC, "apps/viewer"],
     "examples": [PUBLIC],
     # The cost of one technique by itself is measured from inside.
     "bench": [*PASS, "examples", "src/passes/*", "src/features/*"],
@@ -52,11 +53,12 @@ TABLE = {
 
 # Tests, and the references that several of a room compare with.
 TEST_FILE = re.compile(r"(_test\.cpp|_reference\.(cpp|h))$")
-TEST_ALSO = ["tests/support"]
+TEST_ALSO = ["tests/support", "src/base/test_folder.h", "src/base/passing_file.h"]
 
 # Libraries by the first part of an angle include; a room that is not listed may use any.
 LIBRARIES = {
     PUBLIC: ["std", "glm"],
+    "apps/viewer": ["std", "system", "glm", "vulkan", "GLFW", "imgui", "fontconfig"],
     "apps/scumble": ["std", "system", "CLI", "fmt", "nlohmann", "cairo"],
     "examples": ["std", "glm", "nlohmann"],
 }

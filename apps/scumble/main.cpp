@@ -41,6 +41,7 @@ int run(int argc, char** argv) {
     program.add_flag("--version", version, "Name the build and the device");
     int exitCode = app::kDone;
     app::addRender(program, exitCode);
+    app::addView(program, exitCode);
     app::addDescriptions(program, exitCode);
     app::addBench(program, exitCode);
     app::addMeasure(program, exitCode);

@@ -1,15 +1,16 @@
 // For programs that bring Vulkan themselves: a renderer on their device, or with what they need on its own
 // one, and frames that are drawn into their images. The only public header that names Vulkan.
 //
-// A renderer uses one queue, and submits to it in begin() and render(); where the program submits to that
-// queue as well, it does so from the same thread, or holds a lock around both (Vulkan: queues are externally
-// synchronised).
+// A renderer uses one queue, and submits to it in begin(), render() and prepare(); where the program submits
+// to that queue as well, it does so from the same thread, or both hold VulkanDevice::queueLock around each
+// submission (Vulkan: queues are externally synchronised).
 #pragma once
 
 #include <vulkan/vulkan.h>
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,9 @@ struct VulkanDevice {
   VkDevice device = VK_NULL_HANDLE;
   VkQueue queue = VK_NULL_HANDLE;
   uint32_t queueFamily = 0;
+  // Whoever uses the queue holds it meanwhile, for as long as a submission takes, not for a whole frame;
+  // outlives the renderer. Null: all calls come from one thread.
+  std::mutex* queueLock = nullptr;
 };
 
 // The features that scumble needs, chained, in the structures of Vulkan's own versions, so that a program can
@@ -60,7 +64,7 @@ SCUMBLE_API Result<std::unique_ptr<Renderer>> createRenderer(const VulkanWishes&
 SCUMBLE_API Result<std::unique_ptr<Renderer>> createRenderer(const VulkanDevice& device,
                                                              const RendererOptions& options = {});
 
-// What a renderer draws with, whoever made it; valid as long as the renderer is.
+// What a renderer draws with, whoever made it; valid as long as the renderer is. It has a queueLock.
 SCUMBLE_API VulkanDevice vulkanDeviceOf(const Renderer& renderer);
 
 // Where one view's picture, or AOV, goes in an image of the program's. The image has the usage

@@ -353,6 +353,7 @@ Result<std::unique_ptr<Device>> Device::adopt(const VulkanDevice& foreign, const
   device->device_ = foreign.device;
   device->queue_ = foreign.queue;
   device->queueFamily_ = foreign.queueFamily;
+  if (foreign.queueLock) device->queueLock_ = foreign.queueLock;
   device->describePhysical();
   if (!device->info_.unusableBecause.empty())
     return Error{ErrorKind::noUsableGpu,
@@ -372,10 +373,12 @@ Result<std::unique_ptr<Device>> Device::adopt(const VulkanDevice& foreign, const
 Device::Device() = default;
 Device::~Device() {
   if (device_) {
-    if (isForeign_)
+    if (isForeign_) {
+      const std::lock_guard lock(*queueLock_);
       vkQueueWaitIdle(queue_);
-    else
+    } else {
       vkDeviceWaitIdle(device_);
+    }
     if (pipelineCache_) vkDestroyPipelineCache(device_, pipelineCache_, nullptr);
     if (pool_) vkDestroyCommandPool(device_, pool_, nullptr);
     pipelines_.reset();
@@ -465,7 +468,9 @@ std::optional<ViewDrawing> Device::viewDrawing(uint32_t samples) {
 }
 
 void Device::waitForSubmissions() {
-  if (underWay_ > 0) SCUMBLE_VK(vkQueueWaitIdle(queue_));
+  if (underWay_ == 0) return;
+  const std::lock_guard lock(*queueLock_);
+  SCUMBLE_VK(vkQueueWaitIdle(queue_));
 }
 
 void Device::submit(VkCommandBuffer commands, const std::function<void(VkCommandBuffer)>& record,
@@ -485,6 +490,7 @@ void Device::submit(VkCommandBuffer commands, const std::function<void(VkCommand
   info.pWaitSemaphoreInfos = around.waits.data();
   info.signalSemaphoreInfoCount = uint32_t(around.signals.size());
   info.pSignalSemaphoreInfos = around.signals.data();
+  const std::lock_guard lock(*queueLock_);
   SCUMBLE_VK(vkQueueSubmit2(queue_, 1, &info, done));
 }
 
@@ -493,8 +499,12 @@ void Device::runOnce(const std::function<void(VkCommandBuffer)>& record) {
                                          VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
   VkCommandBuffer commands;
   SCUMBLE_VK(vkAllocateCommandBuffers(device_, &info, &commands));
-  submit(commands, record, VK_NULL_HANDLE);
-  SCUMBLE_VK(vkQueueWaitIdle(queue_));
+  const VkFenceCreateInfo fenceInfo{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+  VkFence done;
+  SCUMBLE_VK(vkCreateFence(device_, &fenceInfo, nullptr, &done));
+  submit(commands, record, done);
+  SCUMBLE_VK(vkWaitForFences(device_, 1, &done, VK_TRUE, UINT64_MAX));
+  vkDestroyFence(device_, done, nullptr);
   vkFreeCommandBuffers(device_, pool_, 1, &commands);
 }
 

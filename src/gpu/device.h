@@ -5,6 +5,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -79,6 +80,8 @@ class Device {
   VkPhysicalDevice physical() const { return physical_; }
   VkQueue queue() const { return queue_; }
   uint32_t queueFamily() const { return queueFamily_; }
+  // Held around each use of the queue.
+  std::mutex& queueLock() const { return *queueLock_; }
   VkPipelineCache pipelineCache() const { return pipelineCache_; }
   PipelineStore& pipelines() { return *pipelines_; }
   MemoryPool& memory() { return *memory_; }
@@ -137,6 +140,8 @@ class Device {
   VkDevice device_ = VK_NULL_HANDLE;
   VkQueue queue_ = VK_NULL_HANDLE;
   uint32_t queueFamily_ = 0;
+  mutable std::mutex ownQueueLock_;
+  std::mutex* queueLock_ = &ownQueueLock_;
   VkCommandPool pool_ = VK_NULL_HANDLE;
   VkPipelineCache pipelineCache_ = VK_NULL_HANDLE;
   std::string cacheFile_, viewsFile_;

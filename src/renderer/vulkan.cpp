@@ -32,7 +32,8 @@ Result<std::unique_ptr<Renderer>> createRenderer(const VulkanDevice& device, con
 
 VulkanDevice vulkanDeviceOf(const Renderer& renderer) {
   const gpu::Device& device = RendererAccess::device(renderer);
-  return {device.instance(), device.physical(), device.handle(), device.queue(), device.queueFamily()};
+  return {device.instance(), device.physical(),    device.handle(),
+          device.queue(),    device.queueFamily(), &device.queueLock()};
 }
 
 namespace {

@@ -28,7 +28,7 @@ from png import read_png as png  # noqa: E402
 SMALL = ["--size", "160x90", "--samples", "1", "--validate"]
 TINY = ["--size", "32x18", "--samples", "1", "--validate"]
 DONE, OUR_FAULT, USAGE, UNUSABLE, NO_GPU, NOT_WRITTEN = range(6)
-COMMANDS = ["render", "info", "looks", "params", "schema", "devices", "bench", "measure", "paint", "bake"]
+COMMANDS = ["render", "view", "info", "looks", "params", "schema", "devices", "bench", "measure", "paint", "bake"]
 scumble = demo_scene = None
 shared = None  # a folder for what several tests read
 
@@ -191,6 +191,9 @@ class Commands(Program):
             self.assertRegex(text, rf"(^|[\s,]){option}\b", option)
         for default in ("1280x720", "0.063", "24"):
             self.assertIn(default, text)
+
+    def test_a_window_needs_a_display(self):
+        self.bad(NO_GPU, "view", "box.gltf", environment={"DISPLAY": "", "WAYLAND_DISPLAY": ""}, says="`scumble render`")
 
     def test_version_names_build_and_device(self):
         text = self.good("--version")

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstring>
+#include <future>
 #include <glm/gtc/packing.hpp>
+#include <mutex>
 #include <numeric>
 
 #include "scumble/scene_editor.h"
@@ -289,6 +292,31 @@ TEST_F(Vulkan, threeFramesInFlightIntoOwnImages) {
     ASSERT_TRUE(frame.ok());
     EXPECT_EQ(own, frame->layers[0].views[0].pixels) << "frame " << i;
   }
+}
+
+// While somebody else has the queue nothing is submitted to it; and somebody else has it in between, over and
+// over.
+TEST_F(Vulkan, theQueueIsShared) {
+  Program program;
+  std::mutex lock;
+  program.device.queueLock = &lock;
+  const std::unique_ptr<Renderer> renderer = on(program);
+  EXPECT_EQ(vulkanDeviceOf(*renderer).queueLock, &lock);
+  const RenderOptions options = sized(kWidth, kHeight, {}, 4);
+  const auto expected = Vulkan::renderer().render(scene, Look(), 0, views(), options);
+  ASSERT_TRUE(expected.ok());
+  std::unique_lock held(lock);
+  auto drawn =
+      std::async(std::launch::async, [&] { return renderer->render(scene, Look(), 0, views(), options); });
+  EXPECT_EQ(drawn.wait_for(std::chrono::milliseconds(1500)), std::future_status::timeout);
+  held.unlock();
+  while (drawn.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    const std::lock_guard own(lock);
+    expectDone(vkQueueSubmit(program.device.queue, 0, nullptr, VK_NULL_HANDLE));
+  }
+  const auto frame = drawn.get();
+  ASSERT_TRUE(frame.ok()) << frame.error().message();
+  EXPECT_TRUE(sameBytes(frame->layers[0].views[0], expected->layers[0].views[0]));
 }
 
 // An AOV of one view needs what the other does without; and a scene that grows between the frames.

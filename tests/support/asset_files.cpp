@@ -4,7 +4,7 @@
 
 namespace scumble::test {
 
-const std::filesystem::path kAssets = std::filesystem::path(SCUMBLE_SOURCE_DIR) / "../shared/assets";
+const std::filesystem::path kSource = SCUMBLE_SOURCE_DIR, kAssets = kSource / "../shared/assets";
 
 std::vector<std::filesystem::path> filesBelow(const std::filesystem::path& folder,
                                               const std::vector<std::string>& extensions) {

@@ -1,4 +1,4 @@
-// The real files beside the checkout, where they are there.
+// Files of the checkout, and the real ones beside it, where they are there.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace scumble::test {
 
-extern const std::filesystem::path kAssets;
+extern const std::filesystem::path kSource, kAssets;
 
 // All files below a folder with one of these extensions, sorted; none where the folder is not there.
 std::vector<std::filesystem::path> filesBelow(const std::filesystem::path& folder,

@@ -1,0 +1,74 @@
+#include "file_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <mutex>
+
+#include "base/test_folder.h"
+
+namespace scumble::viewer {
+namespace {
+
+class FileWatching : public testing::Test {
+ protected:
+  void save(const std::string& name, const std::string& text) const { folder_.put(name, text); }
+  std::string path(const std::string& name) const { return folder_.file(name); }
+  // What was saved, when something was; empty after a while.
+  std::set<std::string> saved(int milliseconds = 5000) {
+    std::unique_lock lock(mutex_);
+    told_.wait_for(lock, std::chrono::milliseconds(milliseconds), [&] { return isTold_; });
+    isTold_ = false;
+    return watch_.takeSaved();
+  }
+
+  const TestFolder folder_;
+  const std::string first_ = folder_.put("look.json", "1"), other_ = folder_.put("other/look.json", "1");
+  std::mutex mutex_;
+  std::condition_variable told_;
+  bool isTold_ = false;
+  FileWatch watch_{[this] {
+    const std::lock_guard lock(mutex_);
+    isTold_ = true;
+    told_.notify_all();
+  }};
+};
+
+using Names = std::set<std::string>;
+
+TEST_F(FileWatching, tellsOfFilesThatAreWrittenOrRenamedInto) {
+  watch_.watch({path("look.json"), path("not there yet.json")});
+  save("look.json", "2");
+  EXPECT_EQ(saved(), Names{path("look.json")});
+  save("look.json~", "3");
+  std::filesystem::rename(path("look.json~"), path("look.json"));
+  EXPECT_EQ(saved(), Names{path("look.json")});
+  save("not there yet.json", "1");
+  EXPECT_EQ(saved(), Names{path("not there yet.json")});
+}
+
+TEST_F(FileWatching, tellsOfNothingElse) {
+  watch_.watch({path("look.json")});
+  save("another.json", "2");
+  save("other/look.json", "2");
+  EXPECT_EQ(saved(200), Names());
+  save("look.json", "2");
+  EXPECT_EQ(saved(), Names{path("look.json")});
+}
+
+TEST_F(FileWatching, watchesOthersFromThenOn) {
+  watch_.watch({path("look.json")});
+  watch_.watch({path("other/scene.gltf")});
+  save("look.json", "2");
+  EXPECT_EQ(saved(200), Names());
+  save("other/scene.gltf", "2");
+  EXPECT_EQ(saved(), Names{path("other/scene.gltf")});
+  watch_.watch({path("no such folder/look.json"), path("look.json")});
+  save("look.json", "3");
+  EXPECT_EQ(saved(), Names{path("look.json")});
+}
+
+}  // namespace
+}  // namespace scumble::viewer

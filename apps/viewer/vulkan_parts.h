@@ -1,0 +1,83 @@
+// What the window itself has of Vulkan: images and buffers with memory of their own, on the renderer's
+// device. There are a dozen of them, so none shares its memory.
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "scumble/vulkan.h"
+
+namespace scumble::viewer {
+
+// A call that failed, and with what.
+struct VulkanFailure : std::runtime_error {
+  VulkanFailure(const char* call, VkResult code)
+      : std::runtime_error(std::string(call) + " failed with " + std::to_string(int(code))), result(code) {}
+  VkResult result;
+};
+inline void must(VkResult result, const char* call) {
+  if (result < 0) throw VulkanFailure(call, result);
+}
+
+// What is drawn into and sampled, of one layer and one level.
+class Image {
+ public:
+  Image() = default;
+  Image(const VulkanDevice& device, VkFormat format, VkExtent2D extent, VkImageUsageFlags usage);
+  ~Image();
+  Image(Image&& other) noexcept { swap(other); }
+  Image& operator=(Image&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  VkImage handle() const { return image_; }
+  VkImageView view() const { return view_; }
+  VkExtent2D extent() const { return extent_; }
+
+ private:
+  void swap(Image& other) {
+    std::swap(device_, other.device_), std::swap(image_, other.image_), std::swap(memory_, other.memory_);
+    std::swap(view_, other.view_), std::swap(extent_, other.extent_);
+  }
+  VkDevice device_ = VK_NULL_HANDLE;
+  VkImage image_ = VK_NULL_HANDLE;
+  VkDeviceMemory memory_ = VK_NULL_HANDLE;
+  VkImageView view_ = VK_NULL_HANDLE;
+  VkExtent2D extent_{0, 0};
+};
+
+// Written by the CPU as long as it lives.
+class MappedBuffer {
+ public:
+  MappedBuffer() = default;
+  MappedBuffer(const VulkanDevice& device, VkDeviceSize size, VkBufferUsageFlags usage);
+  ~MappedBuffer();
+  MappedBuffer(MappedBuffer&& other) noexcept { swap(other); }
+  MappedBuffer& operator=(MappedBuffer&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+  VkBuffer handle() const { return buffer_; }
+  std::byte* mapped() const { return mapped_; }
+  VkDeviceSize size() const { return size_; }
+
+ private:
+  void swap(MappedBuffer& other) {
+    std::swap(device_, other.device_), std::swap(buffer_, other.buffer_), std::swap(memory_, other.memory_);
+    std::swap(mapped_, other.mapped_), std::swap(size_, other.size_);
+  }
+  VkDevice device_ = VK_NULL_HANDLE;
+  VkBuffer buffer_ = VK_NULL_HANDLE;
+  VkDeviceMemory memory_ = VK_NULL_HANDLE;
+  std::byte* mapped_ = nullptr;
+  VkDeviceSize size_ = 0;
+};
+
+// All that was written before, for what is read or drawn after.
+void imageBarrier(VkCommandBuffer commands, VkImage image, VkImageLayout before, VkImageLayout after);
+
+}  // namespace scumble::viewer
