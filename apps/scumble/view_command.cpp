@@ -117,7 +117,7 @@ void addView(CLI::App& program, int& exitCode) {
   args->picture.addTo(*command);
   command->add_option("--time", args->time, "Seconds at which it begins")->capture_default_str();
   command->footer(
-      "Example: scumble view boat.glb --look ink\nIn the window, H shows what keys and mouse do.");
+      "Example: scumble view boat.glb --look dusk\nIn the window, H shows what keys and mouse do.");
   command->callback([args, &exitCode] { exitCode = run(*args); });
 }
 
