@@ -38,8 +38,7 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-std::string commandOf(const ViewArguments& args, const std::optional<Viewpoint>& viewpoint, double time,
-                      uint32_t width, uint32_t height) {
+std::string commandOf(const ViewArguments& args, const viewer::Shown& shown) {
   std::string text = "scumble render";
   const auto add = [&](const std::string& option, const std::string& value) {
     if (!value.empty()) text += " " + option + " " + quoted(value);
@@ -49,23 +48,25 @@ std::string commandOf(const ViewArguments& args, const std::optional<Viewpoint>&
   if (args.scene.sceneNumber) add("--scene", std::to_string(*args.scene.sceneNumber));
   if (args.scene.patternCoordinates != "auto") add("--pattern-coordinates", args.scene.patternCoordinates);
   if (args.scene.allowOutside) text += " --allow-outside";
-  add("--look", args.look.look), add("--clip", args.look.clip);
+  add("--look", shown.look.empty() ? args.look.look : shown.look), add("--clip", args.look.clip);
   for (const std::string& setting : args.look.settings) add("--set", setting);
+  for (const auto& [path, value] : shown.edits) add("--set", path + "=" + value);
   const auto point = [](const glm::vec3& p) { return fmt::format("{},{},{}", p.x, p.y, p.z); };
   std::optional<float> roll = args.picture.roll, field = args.picture.fov;
-  if (!viewpoint) {
+  if (!shown.viewpoint) {
     add("--camera", args.picture.camera), add("--frame", args.picture.frame),
         add("--orbit", args.picture.orbit);
     add("--eye", args.picture.eye), add("--target", args.picture.target);
   } else {
-    if (viewpoint->orbit) add("--orbit", fmt::format("{},{}", viewpoint->azimuth, viewpoint->elevation));
-    if (viewpoint->eye) add("--eye", point(*viewpoint->eye)), add("--target", point(*viewpoint->target));
-    roll = viewpoint->roll, field = viewpoint->verticalFov;
+    const Viewpoint& from = *shown.viewpoint;
+    if (from.orbit) add("--orbit", fmt::format("{},{}", from.azimuth, from.elevation));
+    if (from.eye) add("--eye", point(*from.eye)), add("--target", point(*from.target));
+    roll = from.roll, field = from.verticalFov;
   }
   if (roll) add("--roll", fmt::format("{}", *roll));
   if (field) add("--fov", fmt::format("{}", *field));
-  if (time != 0) add("--time", fmt::format("{}", time));
-  add("--size", fmt::format("{}x{}", width, height));
+  if (shown.time != 0) add("--time", fmt::format("{}", shown.time));
+  add("--size", fmt::format("{}x{}", shown.width, shown.height));
   if (args.picture.samples != 4) add("--samples", std::to_string(args.picture.samples));
   if (args.picture.seed != 0) add("--seed", std::to_string(args.picture.seed));
   add("--device", args.picture.device);
@@ -85,18 +86,18 @@ int run(const ViewArguments& args) {
 
   viewer::ViewerOptions view;
   view.title = std::filesystem::path(args.scene.files[0]).filename().string();
-  view.sceneFiles = args.scene.files;
-  view.lookFile = lookFileOf(args);
-  view.loadScene = [&] { return args.scene.load(false); };
-  view.loadLook = [&](const Scene& scene) -> Result<Look> {
-    Result<Look> look = args.look.load(args.scene.files[0], false);
-    if (look) look = args.look.withClip(*look, scene);
-    if (look) args.look.warnOfIdle(*look, scene, args.scene.files[0]);
+  view.sources.sceneFiles = args.scene.files;
+  view.sources.lookFile = lookFileOf(args);
+  view.sources.loadScene = [&] { return args.scene.load(false); };
+  view.sources.loadLook = [&](const Scene& scene, const std::string& name) -> Result<Look> {
+    LookArguments from = args.look;
+    if (!name.empty()) from.look = name;
+    Result<Look> look = from.load(args.scene.files[0], false);
+    if (look) look = from.withClip(*look, scene);
+    if (look) from.warnOfIdle(*look, scene, args.scene.files[0]);
     return look;
   };
-  view.command = [&](const std::optional<Viewpoint>& from, double time, uint32_t width, uint32_t height) {
-    return commandOf(args, from, time, width, height);
-  };
+  view.command = [&](const viewer::Shown& shown) { return commandOf(args, shown); };
   view.viewpoint = *viewpoint;
   view.time = args.time;
   view.width = options->width, view.height = options->height;

@@ -14,6 +14,8 @@ enum class Command {
   fullscreen,
   quit,
   copyCommand,
+  undo,
+  redo,
   frameAll,
   lookCamera,
   viewFront,

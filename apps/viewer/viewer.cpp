@@ -6,14 +6,11 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <mutex>
-#include <optional>
 #include <set>
-#include <thread>
 
 #include "bindings.h"
-#include "file_watch.h"
 #include "glfw.h"
+#include "interface.h"
 #include "interface_input.h"
 #include "interface_pass.h"
 #include "navigation.h"
@@ -27,9 +24,9 @@ namespace scumble::viewer {
 
 namespace {
 
-constexpr double kFilmRate = 24;            // pictures a second of what plays
 constexpr double kFrameSeconds = 1 / 60.0;  // of the window, while something moves by itself
 constexpr float kFlySpeed = 0.8f;           // distances to what is looked at, a second
+constexpr float kDragZoom = 12;             // steps over the window's height
 constexpr int kSettling = 3;                // frames after an event until the interface rests
 
 double now() {
@@ -42,11 +39,6 @@ struct Context {
   ~Context() { ImGui::DestroyContext(); }
 };
 
-struct Loaded {
-  std::optional<Scene> scene;  // where it was read anew
-  Look look;
-};
-
 class Viewer {
  public:
   Viewer(const ViewerOptions& options, Window& window, std::unique_ptr<Renderer> renderer)
@@ -54,26 +46,21 @@ class Viewer {
         window_(window),
         maker_(std::move(renderer), Window::wake),
         device_(vulkanDeviceOf(maker_.renderer())),
-        watch_(Window::wake),
+        document_(options.sources, Window::wake),
         input_(window),
-        screen_(device_, window.makeSurface(device_.instance)),
-        playhead_(options.time) {
+        screen_(device_, window.makeSurface(device_.instance)) {
+    playback_.playhead = options.time;
     setStyle(window.contentScale());
     pass_ = std::make_unique<InterfacePass>(device_, screen_.format());
-    load(true);
   }
-  ~Viewer() {
-    if (loader_.joinable()) loader_.join();
-    screen_.settle();
-  }
+  ~Viewer() { screen_.settle(); }
 
   Status run() {
     while (!window_.shouldClose()) {
       window_.wait(untilNextFrame());
       input_.add(window_.takeEvents());
       if (input_.hasMore() || window_.wasTouched()) settling_ = kSettling;
-      if (const Status status = takeLoaded(); !status) return status;
-      takeSaved();
+      if (const Status status = takeDocument(); !status) return status;
       takePictures();
       if (settling_ == 0 && !moves() && !isDue()) continue;
       if (settling_ > 0) --settling_;
@@ -87,10 +74,9 @@ class Viewer {
 
  private:
   // Whether something goes on without anybody doing anything.
-  bool moves() const { return (isPlaying_ && duration_ > 0) || isFlying(); }
+  bool moves() const { return playback_.moves() || !flying_.empty(); }
   // What has moved rests, and is to be drawn in full.
   bool isDue() const { return isCoarse_ && !sharpness_.isMoving(now()); }
-  bool isFlying() const { return !flying_.empty(); }
 
   double untilNextFrame() const {
     if (input_.hasMore()) return 0;
@@ -98,90 +84,24 @@ class Viewer {
     return isCoarse_ ? std::max(sharpness_.untilRest(now()), 0.0) : -1;
   }
 
-  // ---- Files
-
-  void load(bool withScene) {
-    if (loader_.joinable()) {
-      loadsAgain_ = true, loadsSceneAgain_ |= withScene;
-      return;
-    }
-    loader_ = std::thread([this, withScene, scene = scene_] {
-      Result<Loaded> loaded = read(withScene, scene);
-      {
-        const std::lock_guard lock(loadedMutex_);
-        loaded_ = std::move(loaded);
-      }
-      Window::wake();
-    });
-  }
-  Result<Loaded> read(bool withScene, const Scene& scene) const {
-    Loaded loaded;
-    if (withScene) {
-      Result<Scene> anew = options_.loadScene();
-      if (!anew) return anew.error();
-      loaded.scene = std::move(anew).value();
-    }
-    Result<Look> look = options_.loadLook(withScene ? *loaded.scene : scene);
-    if (!look) return look.error();
-    loaded.look = std::move(look).value();
-    return loaded;
-  }
-  std::optional<Result<Loaded>> loadedLast() {
-    const std::lock_guard lock(loadedMutex_);
-    return std::exchange(loaded_, std::nullopt);
-  }
-
-  // The first time all must be right; later what was there stays.
-  Status takeLoaded() {
-    std::optional<Result<Loaded>> last = loadedLast();
-    if (!last) return Done{};
-    loader_.join();
-    Result<Loaded>& loaded = *last;
+  Status takeDocument() {
+    const Result<bool> news = document_.poll();
+    if (!news) return news.error();
+    if (!*news) return Done{};
     settling_ = kSettling;
-    if (loaded) {
-      problem_.clear();
-      if (loaded->scene) takeScene(std::move(*loaded->scene));
-      look_ = std::move(loaded->look);
-      duration_ = playedSeconds(scene_, look_);
-      ++version_;
-    } else if (scene_.empty()) {
-      return loaded.error();
-    } else {
-      problem_ = loaded.error().message();
-    }
-    std::vector<std::string> files = options_.sceneFiles;
-    files.insert(files.end(), scene_.files().begin(), scene_.files().end());
-    if (!options_.lookFile.empty()) files.push_back(options_.lookFile);
-    for (const std::string& file : look_.files()) files.push_back(file);
-    watch_.watch(files);
-    if (std::exchange(loadsAgain_, false)) load(std::exchange(loadsSceneAgain_, false));
-    return Done{};
-  }
-
-  void takeScene(Scene scene) {
-    scene_ = std::move(scene);
-    const SceneSummary summary = scene_.summary();
+    const SceneSummary summary = document_.scene().summary();
     glm::vec3 low, high;
     for (int i = 0; i < 3; ++i) low[i] = float(summary.min[i]), high[i] = float(summary.max[i]);
     centre_ = 0.5f * (low + high), radius_ = std::max(0.5f * glm::distance(low, high), 1e-6f);
-  }
-
-  void takeSaved() {
-    const std::set<std::string> saved = watch_.takeSaved();
-    if (saved.empty()) return;
-    const std::vector<std::string>& own = options_.sceneFiles;
-    const std::vector<std::string>& named = scene_.files();
-    load(std::any_of(saved.begin(), saved.end(), [&](const std::string& file) {
-      return std::find(own.begin(), own.end(), file) != own.end() ||
-             std::find(named.begin(), named.end(), file) != named.end();
-    }));
+    playback_.duration = playedSeconds(document_.scene(), document_.look());
+    return Done{};
   }
 
   // ---- Pictures
 
   void takePictures() {
     if (const auto failure = maker_.takeFailure()) {
-      problem_ = failure->second.message();
+      document_.tell(failure->second.message());
       settling_ = kSettling;
     }
     std::shared_ptr<const Picture> latest = maker_.latest();
@@ -193,21 +113,15 @@ class Viewer {
   }
 
   void wish(const glm::uvec2& full) {
-    if (scene_.empty() || full.x == 0 || full.y == 0) return;
+    if (document_.scene().empty()) return;
     if (moves()) sharpness_.moved(now());
-    isCoarse_ = sharpness_.isMoving(now());
-    const glm::uvec2 size = isCoarse_ ? sharpness_.sizeWhileMoving(full) : full;
+    const glm::uvec2 size = sharpness_.isMoving(now()) ? sharpness_.sizeWhileMoving(full) : full;
     isCoarse_ = size != full;
-    const double time = pictureTime();
-    if (wished_ == Wished{version_, size, time}) return;
-    wished_ = {version_, size, time};
-    maker_.wish({scene_, look_, viewpoint(), time, size, options_.samples, options_.seed});
-  }
-
-  // Frames of a film, or every second one.
-  double pictureTime() const {
-    const double rate = onTwos_ ? kFilmRate / 2 : kFilmRate;
-    return std::floor(playhead_ * rate + 1e-6) / rate;
+    const Wished wished{document_.version(), moves_, size, playback_.pictureTime()};
+    if (wished_ == wished) return;
+    wished_ = wished;
+    maker_.wish({document_.scene(), document_.look(), viewpoint(), wished.time, size, options_.samples,
+                 options_.seed});
   }
 
   Viewpoint viewpoint() const {
@@ -223,24 +137,31 @@ class Viewer {
       isHandHeld_ = true;
     }
     sharpness_.moved(now());
-    ++version_;
+    ++moves_;
     return navigation_;
   }
 
-  void frameFrom(const std::optional<glm::vec2>& azimuthAndElevation) {
-    if (azimuthAndElevation) {
-      hold().lookFrom(azimuthAndElevation->x, azimuthAndElevation->y);
-      return;
-    }
-    // All of it, from where it is seen now.
-    const glm::vec3 away =
-        picture_ ? glm::vec3(glm::inverse(picture_->view.worldToEye)[2]) : glm::vec3(0, 0, 1);
+  void letGo(const std::optional<Viewpoint>& base) {
+    base_ = base, isHandHeld_ = false;
+    ++moves_;
+  }
+
+  // All of it, from where it is seen now.
+  void frameAll() {
+    if (!picture_) return;
+    const glm::vec3 away = glm::normalize(glm::vec3(glm::inverse(picture_->view.worldToEye)[2]));
     Viewpoint all;
     all.orbit = true;
     all.azimuth = glm::degrees(std::atan2(away.x, away.z));
     all.elevation = glm::degrees(std::asin(std::clamp(away.y, -1.0f, 1.0f)));
-    base_ = all, isHandHeld_ = false;
-    ++version_;
+    letGo(all);
+  }
+
+  void copyCommand() const {
+    const glm::uvec2 size = window_.framebufferSize();
+    const bool isOwn = isHandHeld_ || base_;
+    window_.copy(options_.command({isOwn ? std::optional(viewpoint()) : std::nullopt, document_.lookName(),
+                                   document_.edits(), playback_.pictureTime(), size.x, size.y}));
   }
 
   void obey(Command command, bool isRepeated) {
@@ -260,29 +181,35 @@ class Viewer {
       case Command::copyCommand:
         copyCommand();
         break;
+      case Command::undo:
+        document_.undo();
+        break;
+      case Command::redo:
+        document_.redo();
+        break;
       case Command::frameAll:
-        frameFrom(std::nullopt);
+        frameAll();
         break;
       case Command::lookCamera:
-        base_.reset(), isHandHeld_ = false, ++version_;
+        letGo(std::nullopt);
         break;
       case Command::viewFront:
-        frameFrom(glm::vec2(0, 0));
+        hold().lookFrom(0, 0);
         break;
       case Command::viewBack:
-        frameFrom(glm::vec2(180, 0));
+        hold().lookFrom(180, 0);
         break;
       case Command::viewRight:
-        frameFrom(glm::vec2(90, 0));
+        hold().lookFrom(90, 0);
         break;
       case Command::viewLeft:
-        frameFrom(glm::vec2(-90, 0));
+        hold().lookFrom(-90, 0);
         break;
       case Command::viewTop:
-        frameFrom(glm::vec2(0, 90));
+        hold().lookFrom(0, 90);
         break;
       case Command::viewBottom:
-        frameFrom(glm::vec2(0, -90));
+        hold().lookFrom(0, -90);
         break;
       case Command::rollLeft:
         hold().roll(-2);
@@ -297,59 +224,55 @@ class Viewer {
         hold().widen(1.05f);
         break;
       case Command::play:
-        if (!isRepeated) isPlaying_ = !isPlaying_;
+        if (!isRepeated) playback_.isPlaying = !playback_.isPlaying;
         break;
       case Command::stepBack:
-        step(-1);
+        playback_.step(-1);
         break;
       case Command::stepOn:
-        step(1);
+        playback_.step(1);
         break;
       case Command::toStart:
-        playhead_ = 0;
+        playback_.playhead = 0;
         break;
       case Command::onTwos:
-        onTwos_ = !onTwos_;
+        playback_.onTwos = !playback_.onTwos;
         break;
       case Command::slower:
-        speed_ = std::max(speed_ / 2, 1 / 16.0);
+        playback_.goFaster(0.5);
         break;
       case Command::faster:
-        speed_ = std::min(speed_ * 2, 16.0);
+        playback_.goFaster(2);
         break;
-      default:
+      case Command::flyForwards:
+      case Command::flyBack:
+      case Command::flyLeft:
+      case Command::flyRight:
+      case Command::flyDown:
+      case Command::flyUp:
         flying_.insert(command);
         break;
     }
   }
 
-  void copyCommand() {
-    const glm::uvec2 size = window_.framebufferSize();
-    const bool isOwn = isHandHeld_ || base_;
-    window_.copy(
-        options_.command(isOwn ? std::optional(viewpoint()) : std::nullopt, pictureTime(), size.x, size.y));
-  }
-
-  void step(int frames) {
-    const double rate = onTwos_ ? kFilmRate / 2 : kFilmRate;
-    isPlaying_ = false;
-    playhead_ = std::max(std::floor(playhead_ * rate + 1e-6) + frames, 0.0) / rate;
+  void drag(const glm::vec2& way) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (button_ == GLFW_MOUSE_BUTTON_RIGHT)
+      hold().lookAround(way);
+    else if (io.KeyShift)
+      hold().pan(way);
+    else if (io.KeyCtrl)
+      hold().zoom(-kDragZoom * way.y);
+    else
+      hold().orbit(way);
   }
 
   void take(const Event& event, const glm::uvec2& size) {
     const ImGuiIO& io = ImGui::GetIO();
     if (const auto* moved = std::get_if<MouseMoved>(&event)) {
-      const glm::vec2 drag = (moved->to - mouse_) / float(std::max(size.y, 1u));
+      const glm::vec2 way = (moved->to - mouse_) / float(std::max(size.y, 1u));
       mouse_ = moved->to;
-      if (button_ < 0 || !picture_ || drag == glm::vec2(0)) return;
-      if (button_ == GLFW_MOUSE_BUTTON_RIGHT)
-        hold().lookAround(drag);
-      else if (io.KeyShift)
-        hold().pan(drag);
-      else if (io.KeyCtrl)
-        hold().zoom(-12 * drag.y);
-      else
-        hold().orbit(drag);
+      if (button_ >= 0 && picture_ && way != glm::vec2(0)) drag(way);
     } else if (const auto* button = std::get_if<MouseButton>(&event)) {
       if (!button->isDown && button->button == button_) button_ = -1;
       if (button->isDown && button_ < 0 && !io.WantCaptureMouse && button->button <= GLFW_MOUSE_BUTTON_MIDDLE)
@@ -358,7 +281,8 @@ class Viewer {
       if (!io.WantCaptureMouse && picture_ && wheel->steps.y != 0) hold().zoom(wheel->steps.y);
     } else if (const auto* key = std::get_if<Key>(&event)) {
       const std::optional<Command> command = commandOf(key->key, key->modifiers);
-      if (key->isDown && command && !io.WantTextInput) obey(*command, key->isRepeated);
+      if (key->isDown && command && (!io.WantTextInput || *command == Command::quit))
+        obey(*command, key->isRepeated);
       // A key that is let go of may have others beside it by now.
       if (!key->isDown)
         for (const Binding& binding : bindings())
@@ -386,19 +310,17 @@ class Viewer {
     lastFrame_ = time;
     const glm::uvec2 size = window_.framebufferSize();
     const std::vector<Event> events = input_.feed();
-    if (size.x == 0 || size.y == 0) {
-      for (const Event& event : events) take(event, size);
-      return;
-    }
+    const bool isSeen = size.x > 0 && size.y > 0;
     ImGuiIO& io = ImGui::GetIO();
-    io.DisplaySize = {float(size.x), float(size.y)};
+    if (isSeen) io.DisplaySize = {float(size.x), float(size.y)};
     io.DeltaTime = float(seconds);
     ImGui::NewFrame();
     for (const Event& event : events) take(event, size);
-    if (isPlaying_ && duration_ > 0) playhead_ = std::fmod(playhead_ + seconds * speed_, duration_);
+    playback_.advance(seconds);
     fly(seconds);
-    layOut(size);
+    layOut({io.DisplaySize.x, io.DisplaySize.y});
     ImGui::Render();
+    if (!isSeen) return;
     wish(size);
     screen_.draw(size, [&](VkCommandBuffer commands, uint32_t frame) {
       held_[frame] = picture_;
@@ -406,140 +328,69 @@ class Viewer {
     });
   }
 
-  void layOut(const glm::uvec2& size) {
-    const ImVec2 whole(float(size.x), float(size.y));
+  void layOut(const glm::vec2& window) {
     if (picture_) {
       const VkExtent2D extent = picture_->image.extent();
-      const float fit = std::min(whole.x / float(extent.width), whole.y / float(extent.height));
-      const ImVec2 shown(float(extent.width) * fit, float(extent.height) * fit);
-      const ImVec2 low(std::round((whole.x - shown.x) / 2), std::round((whole.y - shown.y) / 2));
-      ImGui::GetBackgroundDrawList()->AddImage(ImTextureID(picture_->image.view()), low,
-                                               {low.x + shown.x, low.y + shown.y});
+      layOutPicture(window, {extent.width, extent.height}, ImTextureID(picture_->image.view()));
+    } else {
+      layOutWaiting(window, document_.scene().empty() ? "Reading the scene" : "Drawing the first picture");
     }
-    const float unit = ImGui::GetFontSize();
-    constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                                        ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                                        ImGuiWindowFlags_AlwaysAutoResize |
-                                        ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
-    if (!picture_) {
-      ImGui::SetNextWindowPos({whole.x / 2, whole.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-      ImGui::Begin("waiting", nullptr, kFixed);
-      ImGui::TextUnformatted(scene_.empty() ? "Reading the scene" : "Drawing the first picture");
-      ImGui::End();
-    }
-    if (duration_ > 0) layOutTime(whole, unit, kFixed);
-    if (!problem_.empty()) {
-      ImGui::SetNextWindowPos({whole.x / 2, unit}, ImGuiCond_Always, {0.5f, 0});
-      ImGui::SetNextWindowSize({std::min(whole.x - 2 * unit, 52 * unit), 0});
-      ImGui::Begin("problem", nullptr, kFixed);
-      ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.95f, 0.6f, 0.5f, 1));
-      ImGui::TextWrapped("%s", problem_.c_str());
-      ImGui::PopStyleColor();
-      ImGui::TextDisabled("What was there before stays.");
-      ImGui::End();
-    }
-    if (showsHelp_) layOutHelp(whole, unit, kFixed);
-    if (showsPanel_) layOutPanel(whole, unit, kFixed);
-  }
-
-  void layOutTime(const ImVec2& whole, float unit, ImGuiWindowFlags flags) {
-    ImGui::SetNextWindowPos({whole.x / 2, whole.y - unit}, ImGuiCond_Always, {0.5f, 1});
-    ImGui::Begin("time", nullptr, flags);
-    if (ImGui::Button(isPlaying_ ? "Pause" : "Play", {4.5f * unit, 0})) isPlaying_ = !isPlaying_;
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(std::clamp(whole.x - 34 * unit, 8 * unit, 40 * unit));
-    float at = float(pictureTime());
-    if (ImGui::SliderFloat("##time", &at, 0, float(duration_), "%.2f s")) {
-      playhead_ = std::clamp(double(at), 0.0, duration_), isPlaying_ = false;
+    bool isTurned = false;
+    if (playback_.duration > 0) isTurned |= layOutTime(window, playback_);
+    if (showsPanel_ && !document_.scene().empty())
+      isTurned |=
+          layOutPanel(window, options_.title, facts(), document_, inspector_, playback_.pictureTime());
+    if (isTurned) {
       sharpness_.moved(now());
+      settling_ = kSettling;
+      playback_.duration = playedSeconds(document_.scene(), document_.look());
     }
-    ImGui::SameLine();
-    ImGui::Text("of %.2f s", duration_);
-    ImGui::SameLine();
-    ImGui::Checkbox("On twos", &onTwos_);
-    if (speed_ != 1) {
-      ImGui::SameLine();
-      ImGui::Text("%g x", speed_);
-    }
-    ImGui::End();
+    if (!document_.problem().empty()) layOutProblem(window, document_.problem());
+    if (showsHelp_) layOutHelp(window);
   }
 
-  void layOutHelp(const ImVec2& whole, float unit, ImGuiWindowFlags flags) {
-    ImGui::SetNextWindowPos({unit, unit});
-    ImGui::SetNextWindowSizeConstraints({0, 0}, {whole.x - 2 * unit, whole.y - 2 * unit});
-    ImGui::Begin("help", nullptr, flags);
-    if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
-      for (const HelpRow& row : helpRows()) {
-        ImGui::TableNextRow();
-        ImGui::TableNextColumn();
-        ImGui::TextUnformatted(row.names.c_str());
-        ImGui::TableNextColumn();
-        ImGui::TextDisabled("%s", row.meaning);
-      }
-      ImGui::EndTable();
-    }
-    ImGui::End();
-  }
-
-  void layOutPanel(const ImVec2& whole, float unit, ImGuiWindowFlags flags) {
-    ImGui::SetNextWindowPos({whole.x - unit, unit}, ImGuiCond_Always, {1, 0});
-    ImGui::Begin("panel", nullptr, flags);
-    ImGui::TextUnformatted(options_.title.c_str());
-    ImGui::PushTextWrapPos(24 * unit);
-    if (!look_.description().empty()) ImGui::TextDisabled("%s", look_.description().c_str());
-    ImGui::PopTextWrapPos();
-    if (picture_) {
-      const VkExtent2D extent = picture_->image.extent();
-      ImGui::Separator();
-      ImGui::Text("%u x %u, %.0f ms", extent.width, extent.height, picture_->milliseconds);
-      const Viewpoint seen = viewpoint();
-      if (seen.eye) ImGui::TextDisabled("eye %.2f, %.2f, %.2f", seen.eye->x, seen.eye->y, seen.eye->z);
-      if (seen.verticalFov) ImGui::TextDisabled("field %.1f degrees", *seen.verticalFov);
-    }
-    ImGui::End();
+  std::string facts() const {
+    if (!picture_) return "";
+    const VkExtent2D extent = picture_->image.extent();
+    return std::to_string(extent.width) + " x " + std::to_string(extent.height) + ", " +
+           std::to_string(int(std::lround(picture_->milliseconds))) + " ms";
   }
 
   const ViewerOptions& options_;
   Window& window_;
   PictureMaker maker_;
   const VulkanDevice device_;
-  FileWatch watch_;
+  Document document_;
   InterfaceInput input_;
   Screen screen_;
   std::unique_ptr<InterfacePass> pass_;
   std::array<std::shared_ptr<const Picture>, Screen::kFrames> held_;  // which frames under way show
 
-  std::thread loader_;
-  std::mutex loadedMutex_;
-  std::optional<Result<Loaded>> loaded_;
-  bool loadsAgain_ = false, loadsSceneAgain_ = false;
-  Scene scene_;
-  Look look_;
   glm::vec3 centre_{0};
   float radius_ = 1;
-  std::string problem_;
 
-  // What the picture shows, and what was last asked for.
+  // What was last asked for.
   struct Wished {
-    uint64_t version = 0;
+    uint64_t version = 0, moves = 0;
     glm::uvec2 size{0};
     double time = 0;
     bool operator==(const Wished&) const = default;
   } wished_;
-  uint64_t version_ = 1;
   std::shared_ptr<const Picture> picture_;
   Sharpness sharpness_;
   bool isCoarse_ = false;
 
   Navigation navigation_;
+  uint64_t moves_ = 0;  // of the camera
   bool isHandHeld_ = false;
   std::optional<Viewpoint> base_;
   glm::vec2 mouse_{0};
   int button_ = -1;
   std::set<Command> flying_;
 
-  double playhead_ = 0, duration_ = 0, speed_ = 1;
-  bool isPlaying_ = false, onTwos_ = false, showsHelp_ = false, showsPanel_ = true;
+  Playback playback_;
+  Inspector inspector_;
+  bool showsHelp_ = false, showsPanel_ = true;
   double lastFrame_ = 0;
   int settling_ = kSettling;
 };

@@ -4,24 +4,26 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <vector>
 
+#include "document.h"
 #include "scumble/renderer.h"
 
 namespace scumble::viewer {
 
+// What a window shows, to be drawn elsewhere.
+struct Shown {
+  std::optional<Viewpoint> viewpoint;  // where it is not ViewerOptions::viewpoint
+  std::string look;                    // as Document::lookName
+  Edits edits;
+  double time = 0;  // seconds
+  uint32_t width = 0, height = 0;
+};
+
 struct ViewerOptions {
-  std::string title;                    // of the scene
-  std::vector<std::string> sceneFiles;  // read anew when one is saved, as are those that they name
-  std::string lookFile;                 // likewise; empty: the look ships
-  // Called from other threads, one of them at a time, and again when a file was saved.
-  std::function<Result<Scene>()> loadScene;
-  std::function<Result<Look>(const Scene& scene)> loadLook;
-  // The words of a shell that draw the same picture: from a viewpoint, or from the one below where it is
-  // empty.
-  std::function<std::string(const std::optional<Viewpoint>& viewpoint, double time, uint32_t width,
-                            uint32_t height)>
-      command;
+  std::string title;  // of the scene
+  DocumentSources sources;
+  // The words of a shell that draw the same picture.
+  std::function<std::string(const Shown& shown)> command;
   Viewpoint viewpoint;  // until somebody moves the camera
   double time = 0;      // seconds
   uint32_t width = 1280, height = 720, samples = 4, seed = 0;

@@ -191,6 +191,45 @@ class Test:
         window.key("0")
         window.until_it_shows(first, "the look's camera again")
 
+        # Another look, and back.
+        window.key("n")
+        for line, name in ((149, "dusk"), (86, None)):
+            screen.hand("mousemove", 400, 57, "click", 1)
+            window.resting()
+            self.keep(f"looks {name}", window)
+            screen.hand("mousemove", 300, line, "click", 1)
+            window.resting()
+            window.key("n")
+            window.until_it_shows(self.rendered(scene, "--look", name) if name else first, f"the look {name}")
+            if name:
+                assert window.copied()[3:5] == ["--look", name], window.copied()
+            window.key("n")
+
+        # A knob, found, turned, undone and turned again.
+        screen.hand("mousemove", 400, 113, "click", 1)
+        window.resting()
+        screen.hand("type", "torn edge")
+        window.resting()
+        self.keep("search", window)
+        screen.hand("mousemove", 433, 206, "mousedown", 1)
+        for x in (436, 441, 446):
+            screen.hand("mousemove", x, 206)
+        screen.hand("mouseup", 1)
+        window.resting()
+        self.keep("knob", window)
+        words = window.copied()
+        assert any(word.startswith("warp.amount=") for word in words), words
+        turned = self.drawn_by(words)
+        assert part_that_differs(turned, first) > 0.02
+        window.key("n")
+        window.until_it_shows(turned, "the picture with another knob")
+        window.key("ctrl+z")
+        window.until_it_shows(first, "the picture before")
+        window.key("ctrl+y")
+        window.until_it_shows(turned, "the knob turned again")
+        window.key("ctrl+z")
+        window.until_it_shows(first, "and undone")
+
         # Saved by writing, by renaming, and broken.
         look.write_text(json.dumps({"shadow": {"threshold": 0.2}, "background": {"mode": "look", "horizon": "#C04030"}}))
         second = self.rendered(scene)

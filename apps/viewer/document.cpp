@@ -1,0 +1,143 @@
+#include "document.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+namespace scumble::viewer {
+
+Document::Document(DocumentSources sources, std::function<void()> wake)
+    : sources_(std::move(sources)), wake_(std::move(wake)), watch_(wake_) {
+  load(true);
+}
+
+Document::~Document() {
+  if (loader_.joinable()) loader_.join();
+}
+
+void Document::load(bool withScene) {
+  if (loader_.joinable()) {
+    loadsAgain_ = true, loadsSceneAgain_ |= withScene;
+    return;
+  }
+  loader_ = std::thread([this, withScene, scene = scene_, lookName = wantedLook_] {
+    Result<Loaded> loaded = read(withScene, scene, lookName);
+    {
+      const std::lock_guard lock(mutex_);
+      loaded_ = std::move(loaded);
+    }
+    wake_();
+  });
+}
+
+Result<Document::Loaded> Document::read(bool withScene, const Scene& scene,
+                                        const std::string& lookName) const {
+  Loaded loaded;
+  if (withScene) {
+    Result<Scene> anew = sources_.loadScene();
+    if (!anew) return anew.error();
+    loaded.scene = std::move(anew).value();
+  }
+  Result<Look> look = sources_.loadLook(withScene ? *loaded.scene : scene, lookName);
+  if (!look) return look.error();
+  loaded.look = std::move(look).value();
+  loaded.lookName = lookName;
+  return loaded;
+}
+
+Result<bool> Document::poll() {
+  std::optional<Result<Loaded>> last;
+  {
+    const std::lock_guard lock(mutex_);
+    last = std::exchange(loaded_, std::nullopt);
+  }
+  if (last) {
+    loader_.join();
+    if (*last) {
+      Loaded& loaded = last->value();
+      problem_.clear();
+      if (loaded.scene) scene_ = std::move(*loaded.scene);
+      saved_ = std::move(loaded.look);
+      lookName_ = std::move(loaded.lookName);
+      apply();
+    } else if (scene_.empty()) {
+      return last->error();
+    } else {
+      problem_ = last->error().message();
+      wantedLook_ = lookName_;
+    }
+    watch();
+    if (std::exchange(loadsAgain_, false)) load(std::exchange(loadsSceneAgain_, false));
+  }
+  const std::set<std::string> saved = watch_.takeSaved();
+  if (!saved.empty()) {
+    const auto isAmong = [](const std::vector<std::string>& files) {
+      return [&files](const std::string& file) {
+        return std::find(files.begin(), files.end(), file) != files.end();
+      };
+    };
+    load(std::any_of(saved.begin(), saved.end(), isAmong(sources_.sceneFiles)) ||
+         std::any_of(saved.begin(), saved.end(), isAmong(scene_.files())));
+  }
+  return last.has_value();
+}
+
+void Document::chooseLook(const std::string& name) {
+  wantedLook_ = name;
+  load(false);
+}
+
+void Document::watch() {
+  std::vector<std::string> files = sources_.sceneFiles;
+  files.insert(files.end(), scene_.files().begin(), scene_.files().end());
+  if (lookName_.empty() && !sources_.lookFile.empty()) files.push_back(sources_.lookFile);
+  for (const std::string& file : saved_.files()) files.push_back(file);
+  watch_.watch(files);
+}
+
+// A step is what is undone at once.
+void Document::begin(const std::string& step) {
+  if (step_ == step) return;
+  step_ = step;
+  undo_.push_back(edits_);
+  redo_.clear();
+}
+
+Status Document::set(const std::string& path, const std::string& value) {
+  // On a copy: what fails changes nothing.
+  Look changed = look_;
+  if (const Status status = changed.set(path, value); !status) return status;
+  begin(path);
+  edits_[path] = value;
+  look_ = std::move(changed);
+  ++version_;
+  return Done{};
+}
+
+void Document::unset(const std::string& path) {
+  if (!edits_.count(path)) return;
+  closeStep();
+  begin(path);
+  closeStep();
+  edits_.erase(path);
+  apply();
+}
+
+bool Document::swap(std::vector<Edits>& from, std::vector<Edits>& to) {
+  closeStep();
+  if (from.empty()) return false;
+  to.push_back(std::exchange(edits_, std::move(from.back())));
+  from.pop_back();
+  apply();
+  return true;
+}
+
+// A file may come to mean other pictures and names: what an edit says then to no effect is left out.
+void Document::apply() {
+  look_ = saved_;
+  for (const auto& [path, value] : edits_)
+    if (const Status status = look_.set(path, value); !status) problem_ = status.error().message();
+  ++version_;
+}
+
+}  // namespace scumble::viewer

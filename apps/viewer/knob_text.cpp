@@ -1,0 +1,74 @@
+#include "knob_text.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+namespace scumble::viewer {
+
+namespace {
+
+std::string inSmallLetters(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return char(std::tolower(c)); });
+  return text;
+}
+
+// IEC 61966-2-1.
+float curveOf(float linear) {
+  const float x = std::clamp(linear, 0.0f, 1.0f);
+  return x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f;
+}
+float linearOf(float curve) {
+  const float x = std::clamp(curve, 0.0f, 1.0f);
+  return x <= 0.04045f ? x / 12.92f : std::pow((x + 0.055f) / 1.055f, 2.4f);
+}
+
+}  // namespace
+
+std::string textOf(double value) {
+  char text[32];
+  // Of a number that was a float, the digits that a float has.
+  const auto asFloat = float(value);
+  const std::to_chars_result end = double(asFloat) == value ? std::to_chars(text, text + sizeof text, asFloat)
+                                                            : std::to_chars(text, text + sizeof text, value);
+  return {text, end.ptr};
+}
+
+std::string textOf(const glm::vec3& value) {
+  return textOf(double(value.x)) + "," + textOf(double(value.y)) + "," + textOf(double(value.z));
+}
+
+glm::vec3 curveOf(const glm::vec3& linear) {
+  return {curveOf(linear.x), curveOf(linear.y), curveOf(linear.z)};
+}
+glm::vec3 linearOf(const glm::vec3& curve) {
+  return {linearOf(curve.x), linearOf(curve.y), linearOf(curve.z)};
+}
+
+std::string hexOf(const glm::vec3& linear) {
+  const glm::ivec3 bytes = glm::ivec3(curveOf(linear) * 255.0f + 0.5f);
+  char text[8];
+  std::snprintf(text, sizeof text, "#%02X%02X%02X", unsigned(bytes.x), unsigned(bytes.y), unsigned(bytes.z));
+  return text;
+}
+
+std::vector<std::string> wordsOf(const Knob& knob) {
+  std::vector<std::string> words;
+  std::stringstream unit(knob.unit);
+  for (std::string word; std::getline(unit, word, '|');) words.push_back(word);
+  return words;
+}
+
+bool isFound(const Knob& knob, const std::string& search) {
+  const std::string text = inSmallLetters(knob.path + " " + knob.meaning + " " + knob.unit);
+  std::stringstream words(inSmallLetters(search));
+  for (std::string word; words >> word;)
+    if (text.find(word) == std::string::npos) return false;
+  return true;
+}
+
+}  // namespace scumble::viewer

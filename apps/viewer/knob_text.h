@@ -1,0 +1,26 @@
+// Values of knobs as texts that Look::set takes, and back.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+#include "scumble/look.h"
+
+namespace scumble::viewer {
+
+// The shortest text of a number that means it again.
+std::string textOf(double value);
+std::string textOf(const glm::vec3& value);  // three numbers
+// Linear RGB as "#RRGGBB", in sRGB's curve; and its bytes from 0 to 1.
+std::string hexOf(const glm::vec3& linear);
+glm::vec3 curveOf(const glm::vec3& linear);
+glm::vec3 linearOf(const glm::vec3& curve);
+
+// The words of a choice, or the pictures that are built in: Knob::unit names them, "a|b|c".
+std::vector<std::string> wordsOf(const Knob& knob);
+
+// Whether a search finds a knob: each of its words is in its path, its meaning or its unit, in whatever case.
+bool isFound(const Knob& knob, const std::string& search);
+
+}  // namespace scumble::viewer
