@@ -23,7 +23,7 @@ struct ViewArguments {
 
 // Where the look comes from, or would come from if somebody saved one beside the scene.
 std::string lookFileOf(const ViewArguments& args) {
-  const std::string name = args.look.lookFor(args.scene.files[0]);
+  std::string name = args.look.lookFor(args.scene.files[0]);
   if (name.find('/') != std::string::npos || endingOf(name) == ".json") return name;
   if (!args.look.look.empty()) return "";
   return std::filesystem::path(args.scene.files[0]).replace_extension(".look.json").string();

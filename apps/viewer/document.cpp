@@ -106,7 +106,7 @@ void Document::begin(const std::string& step) {
 Status Document::set(const std::string& path, const std::string& value) {
   // On a copy: what fails changes nothing.
   Look changed = look_;
-  if (const Status status = changed.set(path, value); !status) return status;
+  if (const Status status = changed.set(path, value); !status) return status.error();
   begin(path);
   edits_[path] = value;
   look_ = std::move(changed);

@@ -60,7 +60,7 @@ class Viewer {
       window_.wait(untilNextFrame());
       input_.add(window_.takeEvents());
       if (input_.hasMore() || window_.wasTouched()) settling_ = kSettling;
-      if (const Status status = takeDocument(); !status) return status;
+      if (const Status status = takeDocument(); !status) return status.error();
       takePictures();
       if (settling_ == 0 && !moves() && !isDue()) continue;
       if (settling_ > 0) --settling_;
