@@ -58,7 +58,7 @@ TEST_ALSO = ["tests/support", "src/base/test_folder.h", "src/base/passing_file.h
 # Libraries by the first part of an angle include; a room that is not listed may use any.
 LIBRARIES = {
     PUBLIC: ["std", "glm"],
-    "apps/viewer": ["std", "system", "glm", "vulkan", "GLFW", "imgui", "fontconfig"],
+    "apps/viewer": ["std", "system", "glm", "nlohmann", "vulkan", "GLFW", "imgui", "fontconfig"],
     "apps/scumble": ["std", "system", "CLI", "fmt", "nlohmann", "cairo"],
     "examples": ["std", "glm", "nlohmann"],
 }

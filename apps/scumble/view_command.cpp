@@ -25,7 +25,6 @@ struct ViewArguments {
 std::string lookFileOf(const ViewArguments& args) {
   std::string name = args.look.lookFor(args.scene.files[0]);
   if (name.find('/') != std::string::npos || endingOf(name) == ".json") return name;
-  if (!args.look.look.empty()) return "";
   return std::filesystem::path(args.scene.files[0]).replace_extension(".look.json").string();
 }
 
@@ -87,6 +86,7 @@ int run(const ViewArguments& args) {
   viewer::ViewerOptions view;
   view.title = std::filesystem::path(args.scene.files[0]).filename().string();
   view.sources.sceneFiles = args.scene.files;
+  view.sources.lookName = args.look.lookFor(args.scene.files[0]);
   view.sources.lookFile = lookFileOf(args);
   view.sources.loadScene = [&] { return args.scene.load(false); };
   view.sources.loadLook = [&](const Scene& scene, const std::string& name) -> Result<Look> {

@@ -14,6 +14,7 @@ constexpr Binding kBindings[] = {
     {GLFW_KEY_F11, 0, Command::fullscreen, "F11", "the whole screen, and back"},
     {GLFW_KEY_Q, kCtrl, Command::quit, "Ctrl+Q", "quit"},
     {GLFW_KEY_C, kCtrl, Command::copyCommand, "Ctrl+C", "copy the command that draws this picture"},
+    {GLFW_KEY_S, kCtrl, Command::save, "Ctrl+S", "save what was turned into the look's file"},
     {GLFW_KEY_Z, kCtrl, Command::undo, "Ctrl+Z", "undo what a knob was turned to"},
     {GLFW_KEY_Y, kCtrl, Command::redo, "Ctrl+Y", "and do it again; so does Ctrl+Shift+Z"},
     {GLFW_KEY_Z, kCtrl | kShift, Command::redo, "Ctrl+Shift+Z", nullptr},

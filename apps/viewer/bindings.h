@@ -14,6 +14,7 @@ enum class Command {
   fullscreen,
   quit,
   copyCommand,
+  save,
   undo,
   redo,
   frameAll,

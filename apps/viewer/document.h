@@ -20,7 +20,9 @@ using Edits = std::map<std::string, std::string>;
 
 struct DocumentSources {
   std::vector<std::string> sceneFiles;  // read anew when one is saved, as are those that they name
-  std::string lookFile;                 // likewise; it need not be there; empty: none
+  std::string lookName;                 // which look the scene is opened with: one that ships, or a file
+  std::string
+      lookFile;  // that file, or where one would be looked for; read anew when it is saved, and saved to
   // Called from other threads, one of them at a time, and again when a file was saved.
   std::function<Result<Scene>()> loadScene;
   // `name`: one that ships, or a file; empty: that which the scene was opened with.
@@ -56,6 +58,10 @@ class Document {
   Status set(const std::string& path, const std::string& value);
   void unset(const std::string& path);  // to what the file says
   void closeStep() { step_.clear(); }
+  // Writes the edits into the look's file (look_text.h), or into a new one that extends a look that ships;
+  // they are the file's then. Gives the file's name. Fails with outputNotWritten, and with unusableFile where
+  // the file is none.
+  Result<std::string> save();
   bool undo() { return swap(undo_, redo_); }
   bool redo() { return swap(redo_, undo_); }
 
@@ -64,6 +70,7 @@ class Document {
     std::optional<Scene> scene;  // where it was read anew
     Look look;
     std::string lookName;
+    Edits written;  // into the look's file, before it was read
   };
   void load(bool withScene);
   Result<Loaded> read(bool withScene, const Scene& scene, const std::string& lookName) const;
@@ -71,6 +78,7 @@ class Document {
   void begin(const std::string& step);
   bool swap(std::vector<Edits>& from, std::vector<Edits>& to);
   void apply();
+  void keepHistory(const Look& before, const Edits& written);
 
   const DocumentSources sources_;
   const std::function<void()> wake_;
@@ -82,9 +90,9 @@ class Document {
   Scene scene_;
   Look saved_, look_;
   uint64_t version_ = 1;
-  std::string lookName_, wantedLook_;
-  std::string problem_, step_;
-  Edits edits_;
+  std::string lookName_, wantedLook_, loadingLook_;
+  std::string problem_, problemFile_, step_;
+  Edits edits_, saving_;
   std::vector<Edits> undo_, redo_;
 };
 

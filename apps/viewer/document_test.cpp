@@ -5,6 +5,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <filesystem>
 
 #include "base/test_folder.h"
 
@@ -22,17 +23,19 @@ constexpr const char* kScene =
 class Documents : public testing::Test {
  protected:
   Document make() {
-    return Document({{scene_},
-                     look_,
-                     [this] { return ++scenes_, Scene::load(scene_); },
-                     [this](const Scene&, const std::string& name) {
-                       return ++looks_, Look::load(name.empty() ? look_ : name);
-                     }},
-                    [this] {
-                      const std::lock_guard lock(mutex_);
-                      ++wakes_;
-                      woken_.notify_all();
-                    });
+    return Document(
+        {{scene_},
+         lookName_.empty() ? look_ : lookName_,
+         folder_.file("a.look.json"),
+         [this] { return ++scenes_, Scene::load(scene_); },
+         [this](const Scene&, const std::string& name) {
+           return ++looks_, Look::load(!name.empty() ? name : lookName_.empty() ? look_ : lookName_);
+         }},
+        [this] {
+          const std::lock_guard lock(mutex_);
+          ++wakes_;
+          woken_.notify_all();
+        });
   }
   // Until there is news.
   testing::AssertionResult changes(Document& document) {
@@ -57,6 +60,7 @@ class Documents : public testing::Test {
   const TestFolder folder_;
   const std::string scene_ = folder_.put("a.gltf", kScene),
                     look_ = folder_.put("a.look.json", lookText("0.25"));
+  std::string lookName_;  // another one that it is opened with
   std::atomic<int> scenes_ = 0, looks_ = 0;
   std::mutex mutex_;
   std::condition_variable woken_;
@@ -142,6 +146,62 @@ TEST_F(Documents, anotherLookTakesThePlaceOfTheFirst) {
   ASSERT_TRUE(changes(document));
   EXPECT_EQ(threshold(document), 0.25);
   EXPECT_EQ(scenes_, 1);
+}
+
+TEST_F(Documents, savesIntoTheFileAndUndoesBeyondThat) {
+  folder_.put("a.look.json", "{\n  // as it was\n  \"shadow\": {\"threshold\": 0.25}\n}\n");
+  Document document = make();
+  ASSERT_TRUE(changes(document));
+  ASSERT_TRUE(document.set("shadow.threshold", "0.5").ok());
+  document.closeStep();
+  ASSERT_TRUE(document.set("shadow.steps", "3").ok());
+  const Result<std::string> saved = document.save();
+  ASSERT_TRUE(saved.ok()) << saved.error().message();
+  EXPECT_EQ(*saved, look_);
+  EXPECT_EQ(contentOf(look_), "{\n  // as it was\n  \"shadow\": {\"threshold\": 0.5, \"steps\": 3}\n}\n");
+  ASSERT_TRUE(changes(document));
+  EXPECT_TRUE(document.edits().empty());
+  EXPECT_EQ(threshold(document), 0.5);
+  EXPECT_TRUE(document.undo());
+  EXPECT_EQ(std::get<int>(document.look().get("shadow.steps").value()), 1);
+  EXPECT_EQ(threshold(document), 0.5);
+  EXPECT_TRUE(document.undo());
+  EXPECT_EQ(threshold(document), 0.25);
+  EXPECT_TRUE(document.redo());
+  EXPECT_TRUE(document.redo());
+  EXPECT_EQ(std::get<int>(document.look().get("shadow.steps").value()), 3);
+  EXPECT_EQ(threshold(document), 0.5);
+}
+
+TEST_F(Documents, aLookThatShipsIsSavedAsOneThatExtendsIt) {
+  lookName_ = "dusk";
+  std::filesystem::remove(look_);
+  Document document = make();
+  ASSERT_TRUE(changes(document));
+  ASSERT_TRUE(document.set("shadow.threshold", "0.5").ok());
+  ASSERT_TRUE(document.save().ok());
+  EXPECT_EQ(contentOf(look_), "{\n  \"extends\": \"dusk\",\n  \"shadow\": { \"threshold\": 0.5 }\n}\n");
+  ASSERT_TRUE(changes(document));
+  EXPECT_EQ(threshold(document), 0.5);
+  EXPECT_EQ(document.lookName(), look_);
+  // What is there already is somebody else's.
+  document.chooseLook("fauve");
+  while (document.lookName() != "fauve") ASSERT_TRUE(changes(document));  // what was saved may be read first
+  const Result<std::string> other = document.save();
+  ASSERT_TRUE(other.ok());
+  EXPECT_EQ(*other, folder_.file("a.fauve.look.json"));
+}
+
+TEST_F(Documents, whatCannotBeSavedStays) {
+  Document document = make();
+  ASSERT_TRUE(changes(document));
+  ASSERT_TRUE(document.set("shadow.threshold", "0.5").ok());
+  folder_.put("a.look.json", "{\"shadow\": 3}");
+  EXPECT_EQ(document.save().error().kind, ErrorKind::unusableFile);
+  EXPECT_EQ(contentOf(look_), "{\"shadow\": 3}");
+  EXPECT_EQ(threshold(document), 0.5);
+  std::filesystem::remove(look_);
+  EXPECT_EQ(document.save().error().kind, ErrorKind::unusableFile);
 }
 
 TEST_F(Documents, aKnobThatIsNotThereChangesNothing) {

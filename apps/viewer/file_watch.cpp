@@ -35,10 +35,9 @@ void FileWatch::watch(const std::vector<std::string>& files) {
     const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
     auto found = folders.find(folder);
     if (found == folders.end()) {
-      const auto had = folders_.find(folder);
-      const int number = had != folders_.end()
-                             ? had->second
-                             : inotify_add_watch(inotify_, folder.c_str(), IN_CLOSE_WRITE | IN_MOVED_TO);
+      // Of a folder that is watched already it is the same number, unless it is another folder of that name
+      // now.
+      const int number = inotify_add_watch(inotify_, folder.c_str(), IN_CLOSE_WRITE | IN_MOVED_TO);
       if (number < 0) continue;
       found = folders.emplace(folder, number).first;
     }

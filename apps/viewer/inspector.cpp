@@ -3,9 +3,9 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <optional>
 
 #include "knob_text.h"
 
@@ -13,25 +13,32 @@ namespace scumble::viewer {
 
 namespace {
 
-constexpr float kWideRange = 200;  // from which on a slider gives small numbers more room
+constexpr float kWideRange = 400;
 
 bool isOfScene(const Knob& knob) {
   return std::find(knob.targets.begin(), knob.targets.end(), "scene") != knob.targets.end();
 }
 
+// Over ranges that a slider would cross in a hand's breadth one drags by parts of what is there.
 std::optional<std::string> slider(const Knob& knob, const KnobValue& value) {
   const float low = std::strtof(knob.min.c_str(), nullptr), high = std::strtof(knob.max.c_str(), nullptr);
+  const bool isWide = high - low > kWideRange;
+  constexpr ImGuiSliderFlags kFlags = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat;
   if (const int* whole = std::get_if<int>(&value)) {
     int turned = *whole;
-    if (!ImGui::SliderInt("##value", &turned, int(low), int(high), "%d", ImGuiSliderFlags_AlwaysClamp))
-      return std::nullopt;
-    return std::to_string(turned);
+    const float speed = std::max(0.1f, 0.01f * float(std::abs(turned)));
+    const bool isTurned = isWide
+                              ? ImGui::DragInt("##value", &turned, speed, int(low), int(high), "%d", kFlags)
+                              : ImGui::SliderInt("##value", &turned, int(low), int(high), "%d", kFlags);
+    return isTurned ? std::optional(std::to_string(turned)) : std::nullopt;
   }
   auto turned = float(std::get<double>(value));
-  const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat |
-                                 (high - low >= kWideRange && low >= 0 ? ImGuiSliderFlags_Logarithmic : 0);
-  if (!ImGui::SliderFloat("##value", &turned, low, high, "%.4g", flags)) return std::nullopt;
-  return textOf(double(std::clamp(turned, low, high)));
+  const float speed = std::max(0.02f, 0.01f * std::abs(turned));
+  const bool isTurned = isWide && low < 0
+                            ? ImGui::DragFloat("##value", &turned, speed, low, high, "%.4g", kFlags)
+                            : ImGui::SliderFloat("##value", &turned, low, high, "%.4g",
+                                                 kFlags | (isWide ? ImGuiSliderFlags_Logarithmic : 0));
+  return isTurned ? std::optional(textOf(double(std::clamp(turned, low, high)))) : std::nullopt;
 }
 
 std::optional<std::string> words(const Knob& knob, const std::string& present) {
@@ -43,15 +50,6 @@ std::optional<std::string> words(const Knob& knob, const std::string& present) {
   return chosen;
 }
 
-std::optional<std::string> letters(const std::string& present) {
-  char text[256];
-  std::strncpy(text, present.c_str(), sizeof text - 1);
-  text[sizeof text - 1] = 0;
-  if (!ImGui::InputText("##value", text, sizeof text, ImGuiInputTextFlags_EnterReturnsTrue))
-    return std::nullopt;
-  return text;
-}
-
 std::optional<std::string> color(const glm::vec3& linear) {
   glm::vec3 curve = curveOf(linear);
   if (!ImGui::ColorEdit3("##value", &curve.x, ImGuiColorEditFlags_DisplayHex)) return std::nullopt;
@@ -60,23 +58,9 @@ std::optional<std::string> color(const glm::vec3& linear) {
 
 std::optional<std::string> vector(const glm::vec3& present) {
   glm::vec3 turned = present;
-  if (!ImGui::InputFloat3("##value", &turned.x, "%.4g", ImGuiInputTextFlags_EnterReturnsTrue))
-    return std::nullopt;
+  const float speed = 0.01f * std::max({1.0f, std::abs(present.x), std::abs(present.y), std::abs(present.z)});
+  if (!ImGui::DragFloat3("##value", &turned.x, speed, 0, 0, "%.4g")) return std::nullopt;
   return textOf(turned);
-}
-
-// What a hand has made of it, if it did.
-std::optional<std::string> widget(const Knob& knob, const KnobValue& value) {
-  if (const bool* toggle = std::get_if<bool>(&value)) {
-    bool turned = *toggle;
-    if (!ImGui::Checkbox("##value", &turned)) return std::nullopt;
-    return turned ? "true" : "false";
-  }
-  if (const auto* triple = std::get_if<glm::vec3>(&value))
-    return knob.type == "color" ? color(*triple) : vector(*triple);
-  if (const auto* word = std::get_if<std::string>(&value))
-    return knob.type == "name" ? letters(*word) : words(knob, *word);
-  return slider(knob, value);
 }
 
 void explain(const Knob& knob) {
@@ -102,6 +86,35 @@ Inspector::Inspector() {
     if (groups_.empty() || groups_.back().name != name) groups_.push_back({name, {}});
     groups_.back().knobs.push_back(std::move(knob));
   }
+}
+
+std::optional<std::string> Inspector::layOutWord(const std::string& present) {
+  const ImGuiID id = ImGui::GetID("##value");
+  if (typedInto_ != id) {
+    std::strncpy(typed_, present.c_str(), sizeof typed_ - 1);
+    typed_[sizeof typed_ - 1] = 0;
+  }
+  char text[sizeof typed_];
+  std::memcpy(text, typed_, sizeof text);
+  ImGui::InputText("##value", text, sizeof text);
+  const bool isDone = ImGui::IsItemDeactivatedAfterEdit();
+  typedInto_ = ImGui::IsItemActive() ? id : typedInto_ == id ? 0 : typedInto_;
+  if (typedInto_ == id) std::memcpy(typed_, text, sizeof text);
+  return isDone ? std::optional<std::string>(text) : std::nullopt;
+}
+
+// What a hand has made of it, if it did.
+std::optional<std::string> Inspector::layOutValue(const Knob& knob, const KnobValue& value) {
+  if (const bool* toggle = std::get_if<bool>(&value)) {
+    bool turned = *toggle;
+    if (!ImGui::Checkbox("##value", &turned)) return std::nullopt;
+    return turned ? "true" : "false";
+  }
+  if (const auto* triple = std::get_if<glm::vec3>(&value))
+    return knob.type == "color" ? color(*triple) : vector(*triple);
+  if (const auto* word = std::get_if<std::string>(&value))
+    return knob.type == "name" ? layOutWord(*word) : words(knob, *word);
+  return slider(knob, value);
 }
 
 bool Inspector::layOut(Document& document, double time) {
@@ -130,7 +143,7 @@ bool Inspector::layOut(Document& document, double time) {
   return isTurned;
 }
 
-bool Inspector::layOutKnob(const Knob& knob, Document& document, double time) const {
+bool Inspector::layOutKnob(const Knob& knob, Document& document, double time) {
   const Result<KnobValue> value = document.look().get(knob.path, time);
   if (!value) return false;
   const float unit = ImGui::GetFontSize();
@@ -143,7 +156,7 @@ bool Inspector::layOutKnob(const Knob& knob, Document& document, double time) co
   if (ImGui::IsItemHovered()) explain(knob);
   ImGui::SameLine(10.5f * unit);
   ImGui::SetNextItemWidth(-4.2f * unit);
-  text = widget(knob, *value);
+  text = layOutValue(knob, *value);
   if (ImGui::IsItemHovered() && !ImGui::IsItemActive() && ImGui::GetIO().KeyAlt) explain(knob);
   if (isEdited) {
     ImGui::SameLine(ImGui::GetContentRegionMax().x - 3.8f * unit);

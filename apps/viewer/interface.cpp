@@ -69,8 +69,7 @@ bool layOutTime(const glm::vec2& window, Playback& playback) {
   const float unit = margin();
   ImGui::SetNextWindowPos({window.x / 2, window.y - unit}, ImGuiCond_Always, {0.5f, 1});
   ImGui::Begin("time", nullptr, kFitting);
-  if (ImGui::Button(playback.isPlaying ? "Pause" : "Play", {4.5f * unit, 0}))
-    playback.isPlaying = !playback.isPlaying;
+  if (ImGui::Button(playback.isPlaying ? "Pause" : "Play", {4.5f * unit, 0})) playback.toggle();
   ImGui::SameLine();
   ImGui::SetNextItemWidth(std::clamp(window.x - 34 * unit, 8 * unit, 40 * unit));
   auto at = float(playback.pictureTime());
@@ -108,7 +107,11 @@ bool layOutPanel(const glm::vec2& window, const std::string& title, const std::s
     ImGui::EndCombo();
   }
   if (!document.look().description().empty()) ImGui::TextWrapped("%s", document.look().description().c_str());
-  if (!facts.empty()) ImGui::TextDisabled("%s", facts.c_str());
+  if (!facts.empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ImGui::TextWrapped("%s", facts.c_str());
+    ImGui::PopStyleColor();
+  }
   ImGui::Separator();
   const bool isTurned = inspector.layOut(document, time);
   ImGui::End();

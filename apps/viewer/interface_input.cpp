@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <set>
+#include <tuple>
 
 #include "glfw.h"
 
@@ -35,16 +36,7 @@ void give(const Event& event, ImGuiIO& io) {
             [&](const MouseWheel& wheel) { io.MouseWheelH += wheel.steps.x, io.MouseWheel += wheel.steps.y; },
             [&](const Key& key) {
               if (key.key >= 0 && key.key < int(std::size(io.KeysDown))) io.KeysDown[key.key] = key.isDown;
-              // Of a modifier itself GLFW tells the state before it.
-              const auto own = [&](int left, int right, int bit) {
-                return key.key == left || key.key == right ? (key.isDown ? bit : -bit) : 0;
-              };
-              int bits = key.modifiers;
-              for (const int change : {own(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL, GLFW_MOD_CONTROL),
-                                       own(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT, GLFW_MOD_SHIFT),
-                                       own(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT, GLFW_MOD_ALT)})
-                bits = change > 0 ? bits | change : bits & ~-change;
-              modifiers(bits);
+              modifiers(modifiersAfter(key));
             },
             [&](const Character& character) { io.AddInputCharacter(character.codepoint); },
             [&](const Dropped&) {},
@@ -57,6 +49,15 @@ void give(const Event& event, ImGuiIO& io) {
 }
 
 }  // namespace
+
+int modifiersAfter(const Key& key) {
+  const std::tuple<int, int, int> own[] = {{GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL, GLFW_MOD_CONTROL},
+                                           {GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT, GLFW_MOD_SHIFT},
+                                           {GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT, GLFW_MOD_ALT}};
+  for (const auto& [left, right, bit] : own)
+    if (key.key == left || key.key == right) return key.isDown ? key.modifiers | bit : key.modifiers & ~bit;
+  return key.modifiers;
+}
 
 size_t distinguishable(const std::deque<Event>& events) {
   bool hasMoved = false, hasPressed = false, hasWheeled = false, hasTyped = false;

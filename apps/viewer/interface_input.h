@@ -24,6 +24,9 @@ class InterfaceInput {
   std::deque<Event> waiting_;
 };
 
+// GLFW's bits of the modifiers that are down after a key: of a modifier itself GLFW tells those before it.
+int modifiersAfter(const Key& key);
+
 // How many of the events one frame can tell apart: at least one, where there is one.
 size_t distinguishable(const std::deque<Event>& events);
 

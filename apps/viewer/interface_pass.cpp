@@ -177,7 +177,8 @@ VkDescriptorSet InterfacePass::setFor(VkImageView view, Slot& slot) {
   return known->second;
 }
 
-void InterfacePass::record(VkCommandBuffer commands, uint32_t frame, const ImDrawData& drawn) {
+void InterfacePass::record(VkCommandBuffer commands, uint32_t frame, const ImDrawData& drawn,
+                           VkExtent2D extent) {
   Slot& slot = slots_[frame];
   for (const VkDescriptorPool pool : slot.pools) vkResetDescriptorPool(device_.device, pool, 0);
   slot.used = 0;
@@ -206,10 +207,10 @@ void InterfacePass::record(VkCommandBuffer commands, uint32_t frame, const ImDra
     std::memcpy(slot.indices.mapped() + firstIndex * sizeof(ImDrawIdx), list.IdxBuffer.Data,
                 size_t(list.IdxBuffer.Size) * sizeof(ImDrawIdx));
     for (const ImDrawCmd& command : list.CmdBuffer) {
-      const float left = std::clamp(command.ClipRect.x, 0.0f, size[0]),
-                  top = std::clamp(command.ClipRect.y, 0.0f, size[1]);
-      const float right = std::clamp(command.ClipRect.z, left, size[0]),
-                  bottom = std::clamp(command.ClipRect.w, top, size[1]);
+      const float left = std::clamp(command.ClipRect.x, 0.0f, float(extent.width)),
+                  top = std::clamp(command.ClipRect.y, 0.0f, float(extent.height));
+      const float right = std::clamp(command.ClipRect.z, left, float(extent.width)),
+                  bottom = std::clamp(command.ClipRect.w, top, float(extent.height));
       const VkRect2D scissor{{int32_t(left), int32_t(top)}, {uint32_t(right - left), uint32_t(bottom - top)}};
       if (command.UserCallback || scissor.extent.width == 0 || scissor.extent.height == 0) continue;
       const VkDescriptorSet set = setFor(VkImageView(command.GetTexID()), slot);

@@ -22,8 +22,9 @@ class InterfacePass {
   InterfacePass(const InterfacePass&) = delete;
   InterfacePass& operator=(const InterfacePass&) = delete;
 
-  // `frame`: as Screen::draw has it. Images that are drawn stay as long as the frame is under way.
-  void record(VkCommandBuffer commands, uint32_t frame, const ImDrawData& drawn);
+  // `frame`: as Screen::draw has it. Images that are drawn stay as long as the frame is under way. `extent`:
+  // of what is drawn into, which may be another one than ImGui knows while a window changes its size.
+  void record(VkCommandBuffer commands, uint32_t frame, const ImDrawData& drawn, VkExtent2D extent);
 
  private:
   // What a frame under way needs.

@@ -56,6 +56,17 @@ std::string hexOf(const glm::vec3& linear) {
   return text;
 }
 
+std::string valueText(const Look& look, const Knob& knob) {
+  const Result<KnobValue> value = look.get(knob.path);
+  if (!value) return "";
+  if (const bool* toggle = std::get_if<bool>(&*value)) return *toggle ? "true" : "false";
+  if (const int* integer = std::get_if<int>(&*value)) return std::to_string(*integer);
+  if (const double* number = std::get_if<double>(&*value)) return textOf(*number);
+  if (const auto* triple = std::get_if<glm::vec3>(&*value))
+    return knob.type == "color" ? hexOf(*triple) : textOf(*triple);
+  return std::get<std::string>(*value);
+}
+
 std::vector<std::string> wordsOf(const Knob& knob) {
   std::vector<std::string> words;
   std::stringstream unit(knob.unit);

@@ -17,6 +17,10 @@ std::string hexOf(const glm::vec3& linear);
 glm::vec3 curveOf(const glm::vec3& linear);
 glm::vec3 linearOf(const glm::vec3& curve);
 
+// What a look says of a knob of the whole scene, as a text that Look::set takes; empty for knobs that there
+// are not.
+std::string valueText(const Look& look, const Knob& knob);
+
 // The words of a choice, or the pictures that are built in: Knob::unit names them, "a|b|c".
 std::vector<std::string> wordsOf(const Knob& knob);
 

@@ -32,12 +32,9 @@ TEST(KnobText, everyDefaultIsReadAgain) {
     if (std::find(knob.targets.begin(), knob.targets.end(), "scene") == knob.targets.end()) continue;
     Look look;
     const KnobValue value = look.get(knob.path).value();
-    std::string text;
-    if (const auto* number = std::get_if<double>(&value)) text = textOf(*number);
-    if (const auto* vector = std::get_if<glm::vec3>(&value))
-      text = knob.type == "color" ? hexOf(*vector) : textOf(*vector);
-    if (text.empty()) continue;
+    const std::string text = valueText(look, knob);
     EXPECT_EQ(text, knob.defaultValue) << knob.path;
+    if (text.empty()) continue;
     ASSERT_TRUE(look.set(knob.path, text).ok()) << knob.path << " = " << text;
     EXPECT_EQ(look.get(knob.path).value(), value) << knob.path;
   }

@@ -8,7 +8,7 @@ namespace scumble::viewer {
 namespace {
 
 constexpr float kTurn = 220;                    // degrees that a drag over the window's height turns
-constexpr float kSteepest = 89.9f;              // degrees; there the vertical still shows as one
+constexpr float kSteepest = 87.4f;              // degrees; steeper, makeViews takes another direction for up
 constexpr float kZoomStep = 6 / 7.f;            // of the way that is left
 constexpr float kNarrowest = 1, kWidest = 150;  // degrees
 

@@ -105,7 +105,6 @@ Result<std::shared_ptr<Picture>> PictureMaker::draw(const Wish& wish) {
     return begun.error();
   const Result<Frame> frame = renderer_->finish();
   if (!frame) return frame.error();
-  picture->view = views.value().front();
   picture->milliseconds = frame->stats.gpuMilliseconds + frame->stats.cpuMilliseconds;
   return picture;
 }

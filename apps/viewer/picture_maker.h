@@ -29,7 +29,6 @@ struct Picture {
 
   Image image;              // VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
   uint64_t number = 0;      // of the wish
-  View view;                // as it was seen
   double milliseconds = 0;  // without what only a first one takes: uploads and compiling
 };
 

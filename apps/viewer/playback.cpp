@@ -13,7 +13,12 @@ constexpr double kSlack = 1e-6;
 }  // namespace
 
 double Playback::pictureTime() const {
-  return std::floor(playhead * rate() + kSlack) / rate();
+  return isPlaying ? std::floor(playhead * rate() + kSlack) / rate() : playhead;
+}
+
+void Playback::toggle() {
+  playhead = pictureTime();
+  isPlaying = !isPlaying;
 }
 
 void Playback::advance(double seconds) {

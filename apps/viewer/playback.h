@@ -14,8 +14,9 @@ struct Playback {
 
   bool moves() const { return isPlaying && duration > 0; }
   double rate() const { return onTwos ? kRate / 2 : kRate; }
-  // Of the picture of a film that is seen at the playhead.
+  // What is seen: the playhead itself, or while it plays that picture of a film.
   double pictureTime() const;
+  void toggle();                 // plays, or stays at the picture that is seen
   void advance(double seconds);  // while it plays, around and around
   void step(int pictures);       // and pauses
   void seek(double time);        // and pauses

@@ -5,13 +5,17 @@
 namespace scumble::viewer {
 namespace {
 
-TEST(Playback, showsPicturesOfAFilm) {
-  Playback playback{.playhead = 1.03};
+TEST(Playback, showsPicturesOfAFilmWhileItPlays) {
+  Playback playback{.playhead = 1.03, .duration = 8};
+  EXPECT_EQ(playback.pictureTime(), 1.03);
+  playback.toggle();
   EXPECT_DOUBLE_EQ(playback.pictureTime(), 1);
   playback.playhead = 1.05;
   EXPECT_DOUBLE_EQ(playback.pictureTime(), 25 / 24.0);
   playback.onTwos = true;
   EXPECT_DOUBLE_EQ(playback.pictureTime(), 1);
+  playback.toggle();
+  EXPECT_DOUBLE_EQ(playback.playhead, 1);  // it stays at what was seen
 }
 
 TEST(Playback, stepsToTheNextPictureAndBack) {

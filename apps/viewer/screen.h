@@ -22,6 +22,7 @@ class Screen {
   Screen& operator=(const Screen&) = delete;
 
   VkFormat format() const { return format_.format; }
+  VkExtent2D extent() const { return extent_; }  // of what is drawn last
   // Draws and shows one frame, over a grey; `frame`: 0 to kFrames - 1, what it had under way before has
   // ended. False where there is nothing to draw on: the window is minimised, or changes its size just now.
   bool draw(const glm::uvec2& size,

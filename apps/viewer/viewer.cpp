@@ -33,6 +33,13 @@ double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+// What goes on while its key is held.
+bool repeats(Command command) {
+  constexpr Command kRepeated[] = {Command::rollLeft, Command::rollRight, Command::narrow, Command::widen,
+                                   Command::stepBack, Command::stepOn,    Command::undo,   Command::redo};
+  return std::find(std::begin(kRepeated), std::end(kRepeated), command) != std::end(kRepeated);
+}
+
 // ImGui's context, as long as the window.
 struct Context {
   Context() { ImGui::CreateContext(); }
@@ -51,6 +58,7 @@ class Viewer {
         screen_(device_, window.makeSurface(device_.instance)) {
     playback_.playhead = options.time;
     setStyle(window.contentScale());
+    ImGui::GetIO().DisplaySize = {float(options.width), float(options.height)};
     pass_ = std::make_unique<InterfacePass>(device_, screen_.format());
   }
   ~Viewer() { screen_.settle(); }
@@ -130,12 +138,23 @@ class Viewer {
 
   // ---- Hands
 
-  // The camera is the hand's from now on, from where the picture sees.
+  // From where it is seen, whether or not that is drawn already.
+  std::optional<View> presentView() const {
+    const glm::uvec2 size = window_.framebufferSize();
+    if (document_.scene().empty() || size.x == 0 || size.y == 0) return std::nullopt;
+    const Result<std::vector<View>> views =
+        makeViews(document_.scene(), viewpoint(), float(size.x) / float(size.y), Stereo::mono, 0.063f,
+                  document_.look(), playback_.pictureTime());
+    return views ? std::optional(views->front()) : std::nullopt;
+  }
+
+  // The camera is the hand's from now on.
   Navigation& hold() {
-    if (!isHandHeld_ && picture_) {
-      navigation_.takeUp(picture_->view, centre_, radius_);
-      isHandHeld_ = true;
-    }
+    if (!isHandHeld_)
+      if (const std::optional<View> view = presentView()) {
+        navigation_.takeUp(*view, centre_, radius_);
+        isHandHeld_ = true;
+      }
     sharpness_.moved(now());
     ++moves_;
     return navigation_;
@@ -148,8 +167,9 @@ class Viewer {
 
   // All of it, from where it is seen now.
   void frameAll() {
-    if (!picture_) return;
-    const glm::vec3 away = glm::normalize(glm::vec3(glm::inverse(picture_->view.worldToEye)[2]));
+    const std::optional<View> view = presentView();
+    if (!view) return;
+    const glm::vec3 away = glm::normalize(glm::vec3(glm::inverse(view->worldToEye)[2]));
     Viewpoint all;
     all.orbit = true;
     all.azimuth = glm::degrees(std::atan2(away.x, away.z));
@@ -164,7 +184,15 @@ class Viewer {
                                    document_.edits(), playback_.pictureTime(), size.x, size.y}));
   }
 
-  void obey(Command command, bool isRepeated) {
+  void save() {
+    const Result<std::string> file = document_.save();
+    if (file)
+      notice_ = "saved to " + *file;
+    else
+      document_.tell(file.error().message());
+  }
+
+  void obey(Command command) {
     switch (command) {
       case Command::help:
         showsHelp_ = !showsHelp_;
@@ -180,6 +208,9 @@ class Viewer {
         break;
       case Command::copyCommand:
         copyCommand();
+        break;
+      case Command::save:
+        save();
         break;
       case Command::undo:
         document_.undo();
@@ -224,7 +255,7 @@ class Viewer {
         hold().widen(1.05f);
         break;
       case Command::play:
-        if (!isRepeated) playback_.isPlaying = !playback_.isPlaying;
+        playback_.toggle();
         break;
       case Command::stepBack:
         playback_.step(-1);
@@ -256,12 +287,11 @@ class Viewer {
   }
 
   void drag(const glm::vec2& way) {
-    const ImGuiIO& io = ImGui::GetIO();
     if (button_ == GLFW_MOUSE_BUTTON_RIGHT)
       hold().lookAround(way);
-    else if (io.KeyShift)
+    else if (modifiers_ & GLFW_MOD_SHIFT)
       hold().pan(way);
-    else if (io.KeyCtrl)
+    else if (modifiers_ & GLFW_MOD_CONTROL)
       hold().zoom(-kDragZoom * way.y);
     else
       hold().orbit(way);
@@ -274,21 +304,24 @@ class Viewer {
       mouse_ = moved->to;
       if (button_ >= 0 && picture_ && way != glm::vec2(0)) drag(way);
     } else if (const auto* button = std::get_if<MouseButton>(&event)) {
+      modifiers_ = button->modifiers;
       if (!button->isDown && button->button == button_) button_ = -1;
       if (button->isDown && button_ < 0 && !io.WantCaptureMouse && button->button <= GLFW_MOUSE_BUTTON_MIDDLE)
         button_ = button->button;
     } else if (const auto* wheel = std::get_if<MouseWheel>(&event)) {
       if (!io.WantCaptureMouse && picture_ && wheel->steps.y != 0) hold().zoom(wheel->steps.y);
     } else if (const auto* key = std::get_if<Key>(&event)) {
+      modifiers_ = modifiersAfter(*key);
       const std::optional<Command> command = commandOf(key->key, key->modifiers);
-      if (key->isDown && command && (!io.WantTextInput || *command == Command::quit))
-        obey(*command, key->isRepeated);
+      if (key->isDown && command && (!key->isRepeated || repeats(*command)) &&
+          (!io.WantTextInput || *command == Command::quit))
+        obey(*command);
       // A key that is let go of may have others beside it by now.
       if (!key->isDown)
         for (const Binding& binding : bindings())
           if (binding.key == key->key) flying_.erase(binding.command);
     } else if (const auto* focus = std::get_if<Focus>(&event)) {
-      if (!focus->isThere) flying_.clear(), button_ = -1;
+      if (!focus->isThere) flying_.clear(), button_ = -1, modifiers_ = 0;
     }
   }
 
@@ -315,16 +348,21 @@ class Viewer {
     if (isSeen) io.DisplaySize = {float(size.x), float(size.y)};
     io.DeltaTime = float(seconds);
     ImGui::NewFrame();
+    // What begins now has not moved since the last frame, which may be long ago.
+    const double moved = moves() ? seconds : 0;
     for (const Event& event : events) take(event, size);
-    playback_.advance(seconds);
-    fly(seconds);
+    playback_.advance(moved);
+    fly(moved);
     layOut({io.DisplaySize.x, io.DisplaySize.y});
     ImGui::Render();
-    if (!isSeen) return;
+    if (!isSeen) {
+      isCoarse_ = false;
+      return;
+    }
     wish(size);
     screen_.draw(size, [&](VkCommandBuffer commands, uint32_t frame) {
       held_[frame] = picture_;
-      pass_->record(commands, frame, *ImGui::GetDrawData());
+      pass_->record(commands, frame, *ImGui::GetDrawData(), screen_.extent());
     });
   }
 
@@ -350,9 +388,10 @@ class Viewer {
   }
 
   std::string facts() const {
-    if (!picture_) return "";
+    if (!picture_) return notice_;
     const VkExtent2D extent = picture_->image.extent();
-    return std::to_string(extent.width) + " x " + std::to_string(extent.height) + ", " +
+    return (notice_.empty() || !document_.edits().empty() ? "" : notice_ + "\n") +
+           std::to_string(extent.width) + " x " + std::to_string(extent.height) + ", " +
            std::to_string(int(std::lround(picture_->milliseconds))) + " ms";
   }
 
@@ -385,11 +424,12 @@ class Viewer {
   bool isHandHeld_ = false;
   std::optional<Viewpoint> base_;
   glm::vec2 mouse_{0};
-  int button_ = -1;
+  int button_ = -1, modifiers_ = 0;
   std::set<Command> flying_;
 
   Playback playback_;
   Inspector inspector_;
+  std::string notice_;  // of what was saved, until something is turned again
   bool showsHelp_ = false, showsPanel_ = true;
   double lastFrame_ = 0;
   int settling_ = kSettling;

@@ -23,7 +23,8 @@ VkDeviceMemory allocate(const VulkanDevice& device, const VkMemoryRequirements& 
 }  // namespace
 
 Image::Image(const VulkanDevice& device, VkFormat format, VkExtent2D extent, VkImageUsageFlags usage)
-    : device_(device.device), extent_(extent) {
+    : Image() {
+  device_ = device.device, extent_ = extent;
   VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
   info.imageType = VK_IMAGE_TYPE_2D;
   info.format = format;
@@ -52,7 +53,8 @@ Image::~Image() {
 }
 
 MappedBuffer::MappedBuffer(const VulkanDevice& device, VkDeviceSize size, VkBufferUsageFlags usage)
-    : device_(device.device), size_(size) {
+    : MappedBuffer() {
+  device_ = device.device, size_ = size;
   VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
   info.size = size;
   info.usage = usage;

@@ -1,6 +1,7 @@
 #include "window.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "glfw.h"
 #include "vulkan_parts.h"
@@ -17,6 +18,15 @@ std::string lastProblem() {
   const char* text = nullptr;
   glfwGetError(&text);
   return text ? text : "no reason is known";
+}
+
+// As keys are labelled, not where they lie: GLFW tells of an American keyboard. Keys without a letter of
+// GLFW's stay.
+int labelled(int key, int scancode) {
+  const char* const name = key < GLFW_KEY_ESCAPE ? glfwGetKeyName(key, scancode) : nullptr;
+  if (!name || name[0] == 0 || name[1] != 0) return key;
+  if (name[0] >= 'a' && name[0] <= 'z') return GLFW_KEY_A + (name[0] - 'a');
+  return std::strchr("',-./;=[\\]`", name[0]) ? int(name[0]) : key;
 }
 
 Error noWindow(const std::string& problem) {
@@ -44,8 +54,9 @@ Result<std::unique_ptr<Window>> Window::open(const std::string& title, uint32_t 
   glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
     self(w).events_.push_back(MouseWheel{{float(x), float(y)}});
   });
-  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int modifiers) {
-    self(w).events_.push_back(Key{key, action != GLFW_RELEASE, action == GLFW_REPEAT, modifiers});
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int modifiers) {
+    self(w).events_.push_back(
+        Key{labelled(key, scancode), action != GLFW_RELEASE, action == GLFW_REPEAT, modifiers});
   });
   glfwSetCharCallback(
       window, [](GLFWwindow* w, unsigned codepoint) { self(w).events_.push_back(Character{codepoint}); });

@@ -113,10 +113,17 @@ class Window:
 
     def copied(self):
         """The command that draws what it shows, as words."""
+        clipboard = ["xclip", "-selection", "clipboard"]
+        subprocess.run([*clipboard, "-i"], input=b"nothing", env=self.screen.environment, check=True, stdout=subprocess.DEVNULL)
         self.key("ctrl+c")
-        time.sleep(0.2)
-        return shlex.split(subprocess.run(["xclip", "-o", "-selection", "clipboard"], env=self.screen.environment, check=True,
-                                          capture_output=True, text=True, timeout=20).stdout)
+        texts = []
+
+        def is_there():
+            done = subprocess.run([*clipboard, "-o"], env=self.screen.environment, capture_output=True, text=True, timeout=20)
+            texts.append(done.stdout)
+            return done.returncode == 0 and done.stdout != "nothing"
+        until(is_there, "something in the clipboard")
+        return shlex.split(texts[-1])
 
     def cpu_seconds(self):
         fields = Path(f"/proc/{self.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
@@ -163,6 +170,7 @@ class Test:
         window.key("n")
         window.until_it_shows(first, "the picture that `scumble render` draws")
 
+        window.resting()
         before = window.cpu_seconds()
         time.sleep(2)
         spent = window.cpu_seconds() - before
@@ -185,7 +193,8 @@ class Test:
             window.until_it_shows(first, f"the look's camera after: {name}")
         # Everything, as `render` frames it.
         window.key("Home")
-        assert part_that_differs(window.resting(), first) > 0.02
+        until(lambda: part_that_differs(window.pixels(), first) > 0.02, "everything in the frame")
+        window.resting()
         self.keep("everything", window)
         window.until_it_shows(self.drawn_by(window.copied()), "what the copied command draws of everything")
         window.key("0")
@@ -194,7 +203,9 @@ class Test:
         # Another look, and back.
         window.key("n")
         for line, name in ((149, "dusk"), (86, None)):
+            before = window.resting()
             screen.hand("mousemove", 400, 57, "click", 1)
+            until(lambda: part_that_differs(window.pixels(), before) > 0.05, "the list of looks")
             window.resting()
             self.keep(f"looks {name}", window)
             screen.hand("mousemove", 300, line, "click", 1)
@@ -227,6 +238,15 @@ class Test:
         window.until_it_shows(first, "the picture before")
         window.key("ctrl+y")
         window.until_it_shows(turned, "the knob turned again")
+        # Saved, which changes nothing else of the file; and undone all the same.
+        look.write_text('{ // mine\n  "shadow": { "threshold": 0.5 }\n}\n')
+        window.resting()
+        window.key("ctrl+s")
+        until(lambda: "warp" in look.read_text(), "the knob in the look's file")
+        amount = next(word for word in words if word.startswith("warp.amount=")).split("=")[1]
+        assert look.read_text() == '{ // mine\n  "shadow": { "threshold": 0.5 },\n  "warp": { "amount": %s }\n}\n' % amount, look.read_text()
+        assert window.resting() == turned == self.rendered(scene), "the picture that was saved"
+        assert not any(word.startswith("warp.") for word in window.copied()), window.copied()
         window.key("ctrl+z")
         window.until_it_shows(first, "and undone")
 

@@ -1,0 +1,166 @@
+#include "look_text.h"
+
+#include <algorithm>
+#include <cctype>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace scumble::viewer {
+
+namespace {
+
+// Where a value stands in a text.
+struct Span {
+  size_t begin = 0, end = 0;
+};
+struct Member {
+  std::string key;
+  size_t begin = 0;  // of the key
+  Span value;
+};
+struct Object {
+  Span span;  // with its braces
+  std::vector<Member> members;
+};
+
+// Over a text that is JSON with comments already.
+class Reader {
+ public:
+  explicit Reader(const std::string& text) : text_(text) {}
+
+  size_t pastBlank(size_t at) const {
+    for (;;) {
+      while (at < text_.size() && std::isspace(static_cast<unsigned char>(text_[at]))) ++at;
+      if (text_.compare(at, 2, "//") == 0)
+        at = std::min(text_.find('\n', at), text_.size());
+      else if (text_.compare(at, 2, "/*") == 0)
+        at = text_.find("*/", at) + 2;
+      else
+        return at;
+    }
+  }
+  size_t pastString(size_t at) const {
+    for (++at; text_[at] != '"'; ++at)
+      if (text_[at] == '\\') ++at;
+    return at + 1;
+  }
+  size_t pastValue(size_t at) const {
+    if (text_[at] == '"') return pastString(at);
+    if (text_[at] != '{' && text_[at] != '[') {
+      while (at < text_.size() && !std::isspace(static_cast<unsigned char>(text_[at])) &&
+             std::string(",]}/").find(text_[at]) == std::string::npos)
+        ++at;
+      return at;
+    }
+    for (int depth = 0;;) {
+      at = pastBlank(at);
+      if (text_[at] == '"') {
+        at = pastString(at);
+        continue;
+      }
+      if (text_[at] == '{' || text_[at] == '[') ++depth;
+      if (text_[at] == '}' || text_[at] == ']') --depth;
+      ++at;
+      if (depth == 0) return at;
+    }
+  }
+  Object object(size_t at) const {
+    Object object{{at, pastValue(at)}, {}};
+    at = pastBlank(at + 1);
+    while (text_[at] != '}') {
+      const size_t key = at;
+      at = pastString(at);
+      Member member{nlohmann::json::parse(text_.substr(key, at - key)).get<std::string>(), key, {}};
+      at = pastBlank(pastBlank(at) + 1);  // the colon
+      member.value = {at, pastValue(at)};
+      at = pastBlank(member.value.end);
+      if (text_[at] == ',') at = pastBlank(at + 1);
+      object.members.push_back(std::move(member));
+    }
+    return object;
+  }
+
+ private:
+  const std::string& text_;
+};
+
+// Of a knob as looks have it in JSON. Words that are no number, truth or list of numbers are strings.
+std::string jsonOf(const std::string& path, const std::string& value) {
+  for (const Knob& knob : Look::knobs()) {
+    if (knob.path != path) continue;
+    if (knob.type == "number" || knob.type == "integer" || knob.type == "toggle") return value;
+    if (knob.type == "vector") return "[" + value + "]";
+    break;
+  }
+  return nlohmann::json(value).dump();
+}
+
+// The blanks with which the line of a place begins, if there is nothing else before it.
+std::optional<std::string> indentationOf(const std::string& text, size_t at) {
+  const size_t line = at == 0 ? std::string::npos : text.rfind('\n', at - 1);
+  const size_t begin = line == std::string::npos ? 0 : line + 1;
+  const std::string before = text.substr(begin, at - begin);
+  return line != std::string::npos && before.find_first_not_of(" \t") == std::string::npos
+             ? std::optional(before)
+             : std::nullopt;
+}
+
+// Adds a member at an object's end, as its others are written: each on a line of its own, or all in one.
+void append(std::string& text, const Object& object, const std::string& member) {
+  if (object.members.empty()) {
+    const std::string inside = text.substr(object.span.begin + 1, object.span.end - object.span.begin - 2);
+    const bool isBare = inside.find_first_not_of(" \t\r\n") == std::string::npos;
+    text.replace(object.span.begin + 1, isBare ? inside.size() : 0,
+                 isBare ? " " + member + " " : " " + member);
+    return;
+  }
+  const Member& last = object.members.back();
+  const std::optional<std::string> indentation = indentationOf(text, last.begin);
+  text.insert(last.value.end, indentation ? ",\n" + *indentation + member : ", " + member);
+}
+
+bool put(std::string& text, const std::string& path, const std::string& json) {
+  const Reader reader(text);
+  Object object = reader.object(reader.pastBlank(0));
+  for (size_t begin = 0;;) {
+    const size_t dot = path.find('.', begin);
+    const std::string name = path.substr(begin, dot == std::string::npos ? dot : dot - begin);
+    // Of keys that stand twice the last one counts.
+    const auto found = std::find_if(object.members.rbegin(), object.members.rend(),
+                                    [&](const Member& member) { return member.key == name; });
+    if (found == object.members.rend()) {
+      std::string member = json;
+      for (size_t end = path.size(); end != std::string::npos && end > begin;) {
+        const size_t before = path.rfind('.', end - 1);
+        const size_t from = before == std::string::npos || before < begin ? begin : before + 1;
+        member = nlohmann::json(path.substr(from, end - from)).dump() + ": " + member;
+        if (from == begin) break;
+        member = "{ " + member + " }";
+        end = before;
+      }
+      append(text, object, member);
+      return true;
+    }
+    if (dot == std::string::npos) {
+      text.replace(found->value.begin, found->value.end - found->value.begin, json);
+      return true;
+    }
+    if (text[found->value.begin] != '{') return false;
+    object = reader.object(found->value.begin);
+    begin = dot + 1;
+  }
+}
+
+}  // namespace
+
+std::optional<std::string> withKnobs(const std::string& text, const Edits& edits) {
+  const bool isEmpty = text.find_first_not_of(" \t\r\n") == std::string::npos;
+  std::string changed = isEmpty ? "{}\n" : text;
+  const nlohmann::json parsed = nlohmann::json::parse(changed, nullptr, false, true);
+  if (!parsed.is_object()) return std::nullopt;
+  for (const auto& [path, value] : edits)
+    if (!put(changed, path, jsonOf(path, value))) return std::nullopt;
+  return changed;
+}
+
+}  // namespace scumble::viewer
