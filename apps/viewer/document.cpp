@@ -48,16 +48,16 @@ void Document::load(bool withScene) {
     loadsAgain_ = true, loadsSceneAgain_ |= withScene;
     return;
   }
-  loader_ = std::thread(
-      [this, withScene, scene = scene_, lookName = wantedLook_, written = std::exchange(saving_, {})] {
-        Result<Loaded> loaded = read(withScene, scene, lookName);
-        if (loaded) loaded->written = written;
-        {
-          const std::lock_guard lock(mutex_);
-          loaded_ = std::move(loaded);
-        }
-        wake_();
-      });
+  loadingLook_ = wantedLook_;
+  written_ = std::exchange(saving_, {});
+  loader_ = std::thread([this, withScene, scene = scene_, lookName = loadingLook_] {
+    Result<Loaded> loaded = read(withScene, scene, lookName);
+    {
+      const std::lock_guard lock(mutex_);
+      loaded_ = std::move(loaded);
+    }
+    wake_();
+  });
 }
 
 Result<Document::Loaded> Document::read(bool withScene, const Scene& scene,
@@ -71,7 +71,6 @@ Result<Document::Loaded> Document::read(bool withScene, const Scene& scene,
   Result<Look> look = sources_.loadLook(withScene ? *loaded.scene : scene, lookName);
   if (!look) return look.error();
   loaded.look = std::move(look).value();
-  loaded.lookName = lookName;
   return loaded;
 }
 
@@ -89,9 +88,9 @@ Result<bool> Document::poll() {
       problemFile_.clear();
       if (loaded.scene) scene_ = std::move(*loaded.scene);
       saved_ = std::move(loaded.look);
-      lookName_ = std::move(loaded.lookName);
+      lookName_ = loadingLook_;
       // What was saved is the file's now, where it was not turned again meanwhile.
-      for (const auto& [path, value] : loaded.written)
+      for (const auto& [path, value] : written_)
         if (const auto edit = edits_.find(path); edit != edits_.end() && edit->second == value)
           edits_.erase(edit);
       apply();

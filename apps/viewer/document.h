@@ -69,8 +69,6 @@ class Document {
   struct Loaded {
     std::optional<Scene> scene;  // where it was read anew
     Look look;
-    std::string lookName;
-    Edits written;  // into the look's file, before it was read
   };
   void load(bool withScene);
   Result<Loaded> read(bool withScene, const Scene& scene, const std::string& lookName) const;
@@ -90,9 +88,10 @@ class Document {
   Scene scene_;
   Look saved_, look_;
   uint64_t version_ = 1;
-  std::string lookName_, wantedLook_, loadingLook_;
+  std::string lookName_, wantedLook_, loadingLook_;  // read, wanted, and being read
   std::string problem_, problemFile_, step_;
-  Edits edits_, saving_;
+  Edits edits_;
+  Edits saving_, written_;  // into the look's file, before the next reading and before the present one
   std::vector<Edits> undo_, redo_;
 };
 

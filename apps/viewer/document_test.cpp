@@ -148,6 +148,18 @@ TEST_F(Documents, anotherLookTakesThePlaceOfTheFirst) {
   EXPECT_EQ(scenes_, 1);
 }
 
+TEST_F(Documents, aLookThatCannotBeReadIsNotReadAgain) {
+  Document document = make();
+  ASSERT_TRUE(changes(document));
+  document.chooseLook("no such look");
+  ASSERT_TRUE(changes(document));
+  EXPECT_NE(document.problem(), "");
+  folder_.put("a.look.json", lookText("0.75"));
+  ASSERT_TRUE(changes(document));
+  EXPECT_EQ(document.problem(), "");
+  EXPECT_EQ(threshold(document), 0.75);
+}
+
 TEST_F(Documents, savesIntoTheFileAndUndoesBeyondThat) {
   folder_.put("a.look.json", "{\n  // as it was\n  \"shadow\": {\"threshold\": 0.25}\n}\n");
   Document document = make();

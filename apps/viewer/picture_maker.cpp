@@ -18,11 +18,11 @@ PictureMaker::~PictureMaker() {
   thread_.join();
 }
 
-uint64_t PictureMaker::wish(Wish wish) {
+void PictureMaker::wish(Wish wish) {
   const std::lock_guard lock(mutex_);
   next_ = std::move(wish);
   changed_.notify_all();
-  return ++number_;
+  ++number_;
 }
 
 std::shared_ptr<const Picture> PictureMaker::latest() const {
@@ -30,7 +30,7 @@ std::shared_ptr<const Picture> PictureMaker::latest() const {
   return latest_;
 }
 
-std::optional<std::pair<uint64_t, Error>> PictureMaker::takeFailure() {
+std::optional<Error> PictureMaker::takeFailure() {
   const std::lock_guard lock(mutex_);
   return std::exchange(failure_, std::nullopt);
 }
@@ -54,7 +54,7 @@ void PictureMaker::run() {
         drawn.value()->number = number;
         latest_ = drawn.value();
       } else {
-        failure_ = {number, drawn.error()};
+        failure_ = drawn.error();
       }
     }
     whenDone_();

@@ -28,7 +28,7 @@ struct Picture {
   static constexpr VkFormat kFormat = VK_FORMAT_R8G8B8A8_UNORM;  // in sRGB's curve
 
   Image image;              // VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
-  uint64_t number = 0;      // of the wish
+  uint64_t number = 0;      // of the wish: they grow
   double milliseconds = 0;  // without what only a first one takes: uploads and compiling
 };
 
@@ -40,12 +40,11 @@ class PictureMaker {
   PictureMaker(const PictureMaker&) = delete;
   PictureMaker& operator=(const PictureMaker&) = delete;
 
-  // Its number: they grow.
-  uint64_t wish(Wish wish);
+  void wish(Wish wish);
   // The last one that is done; null before the first. As long as somebody has it nothing is drawn into it.
   std::shared_ptr<const Picture> latest() const;
-  // What went wrong with the wish of a number, once.
-  std::optional<std::pair<uint64_t, Error>> takeFailure();
+  // What went wrong last, once.
+  std::optional<Error> takeFailure();
   // While no picture is being made.
   const Renderer& renderer() const { return *renderer_; }
 
@@ -63,7 +62,7 @@ class PictureMaker {
   uint64_t number_ = 0;
   bool isEnding_ = false;
   std::shared_ptr<const Picture> latest_;
-  std::optional<std::pair<uint64_t, Error>> failure_;
+  std::optional<Error> failure_;
   std::vector<std::shared_ptr<Picture>> pictures_;  // the thread's own
   std::thread thread_;
 };

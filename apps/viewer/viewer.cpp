@@ -109,7 +109,7 @@ class Viewer {
 
   void takePictures() {
     if (const auto failure = maker_.takeFailure()) {
-      document_.tell(failure->second.message());
+      document_.tell(failure->message());
       settling_ = kSettling;
     }
     std::shared_ptr<const Picture> latest = maker_.latest();

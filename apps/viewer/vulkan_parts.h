@@ -13,11 +13,10 @@
 
 namespace scumble::viewer {
 
-// A call that failed, and with what.
+// A call that failed.
 struct VulkanFailure : std::runtime_error {
   VulkanFailure(const char* call, VkResult code)
-      : std::runtime_error(std::string(call) + " failed with " + std::to_string(int(code))), result(code) {}
-  VkResult result;
+      : std::runtime_error(std::string(call) + " failed with " + std::to_string(int(code))) {}
 };
 inline void must(VkResult result, const char* call) {
   if (result < 0) throw VulkanFailure(call, result);
