@@ -68,13 +68,14 @@ std::optional<std::pair<uint32_t, uint32_t>> parseSize(const std::string& text) 
   return std::pair{*width, *height};
 }
 
-void SceneArguments::addTo(CLI::App& command) {
+void SceneArguments::addTo(CLI::App& command, const std::string& without) {
   command
       .add_option(
           "SCENE", files,
           "glTF 2.0 files (.gltf or .glb), or worlds (.json) that list some with their places; several are "
-          "placed in one world")
-      ->required();
+          "placed in one world" +
+              (without.empty() ? "" : "; without one, " + without))
+      ->required(without.empty());
   command
       .add_option(
           "--place", places,
@@ -95,8 +96,7 @@ void SceneArguments::addTo(CLI::App& command) {
   command.add_flag("--allow-outside", allowOutside, "Let paths in the scene lead out of its folder");
 }
 
-Result<Scene> SceneArguments::load(bool quiet, bool keepsVertices) const {
-  SceneOptions options;
+Result<Scene> SceneArguments::load(bool quiet, SceneOptions options) const {
   if (sceneNumber.value_or(0) < 0)
     return usage("there is no scene " + std::to_string(*sceneNumber),
                  "--scene counts a file's scenes from 0");
@@ -109,7 +109,6 @@ Result<Scene> SceneArguments::load(bool quiet, bool keepsVertices) const {
   if (kind == kinds.end())
     return usage("--pattern-coordinates " + patternCoordinates + " is unknown", "use auto, file or own");
   options.patternCoordinates = kind->second;
-  options.keepsVertices = keepsVertices;
   std::vector<Scene> scenes;
   std::set<std::string> warned;
   for (const std::string& file : files) {
@@ -335,11 +334,23 @@ RendererOptions PictureArguments::rendererOptions() const {
   return options;
 }
 
-std::string cacheFolder() {
-  if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache == '/')
-    return std::string(cache) + "/scumble";
-  if (const char* home = std::getenv("HOME"); home && *home) return std::string(home) + "/.cache/scumble";
+namespace {
+
+// Ours in a base folder of the XDG Base Directory Specification.
+std::string baseFolder(const char* variable, const std::string& inHome) {
+  if (const char* base = std::getenv(variable); base && *base == '/') return std::string(base) + "/scumble";
+  if (const char* home = std::getenv("HOME"); home && *home)
+    return std::string(home) + "/" + inHome + "/scumble";
   return "";
+}
+
+}  // namespace
+
+std::string cacheFolder() {
+  return baseFolder("XDG_CACHE_HOME", ".cache");
+}
+std::string stateFolder() {
+  return baseFolder("XDG_STATE_HOME", ".local/state");
 }
 
 }  // namespace scumble::app

@@ -16,9 +16,11 @@ struct SceneArguments {
   std::optional<int> sceneNumber;
   std::string patternCoordinates = "auto";
 
-  void addTo(CLI::App& command);
-  // All files in one world, at their places; warnings go to stderr. `keepsVertices`: SceneOptions has it.
-  Result<Scene> load(bool quiet, bool keepsVertices = true) const;
+  // `without`: what is meant where no file is given; empty: one must be.
+  void addTo(CLI::App& command, const std::string& without = "");
+  // All files in one world, at their places, as these options ask for and `options` else; warnings go to
+  // stderr.
+  Result<Scene> load(bool quiet, SceneOptions options = {}) const;
 };
 
 struct LookArguments {
@@ -73,5 +75,7 @@ std::optional<std::vector<float>> parseNumbers(const std::string& text);
 // $XDG_CACHE_HOME/scumble or ~/.cache/scumble; empty where neither is known. The XDG Base Directory
 // Specification has a relative path ignored.
 std::string cacheFolder();
+// Likewise $XDG_STATE_HOME/scumble or ~/.local/state/scumble: what outlives a run and is no setting.
+std::string stateFolder();
 
 }  // namespace scumble::app

@@ -303,8 +303,9 @@ int run(RenderArguments args) {
   Result<Look> look = loadLook(args, *background);
   if (!look) return fail(look.error());
   // One renderer draws it, with one look.
-  constexpr bool kKeepsVertices = false;
-  const Result<Scene> scene = args.scene.load(args.quiet, kKeepsVertices);
+  SceneOptions loading;
+  loading.keepsVertices = false;
+  const Result<Scene> scene = args.scene.load(args.quiet, loading);
   if (!scene) return fail(scene.error());
   for (const std::vector<std::string>& read : {look->files(), scene->files()})
     if (const Status status = files.addInputs(read); !status) return fail(status.error());

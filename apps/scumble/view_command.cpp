@@ -1,6 +1,7 @@
 // `scumble view`: a window in which scenes are looked at.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -14,6 +15,8 @@ namespace scumble::app {
 
 namespace {
 
+constexpr int kFilmRate = 24;  // of films that are saved from the window
+
 struct ViewArguments {
   SceneArguments scene;
   LookArguments look;
@@ -21,35 +24,56 @@ struct ViewArguments {
   double time = 0;  // seconds
 };
 
+using Files = std::vector<std::string>;
+
+// What belongs to the scenes that were named on the command line holds as long as they are there.
+SceneArguments sceneOf(const ViewArguments& args, const Files& files) {
+  SceneArguments scene = args.scene;
+  const bool isThere =
+      files.size() >= scene.files.size() && std::equal(scene.files.begin(), scene.files.end(), files.begin());
+  if (!isThere) scene.places.clear(), scene.sceneNumber.reset();
+  scene.files = files;
+  return scene;
+}
+
+LookArguments lookOf(const ViewArguments& args, const viewer::Opened& opened) {
+  LookArguments look = args.look;
+  if (!opened.look.empty()) look.look = opened.look;
+  if (opened.scenes[0] != args.scene.files[0]) look.clip.clear();
+  return look;
+}
+
 // Where the look comes from, or would come from if somebody saved one beside the scene.
-std::string lookFileOf(const ViewArguments& args) {
-  std::string name = args.look.lookFor(args.scene.files[0]);
-  if (name.find('/') != std::string::npos || endingOf(name) == ".json") return name;
-  return std::filesystem::path(args.scene.files[0]).replace_extension(".look.json").string();
+viewer::OwnLook ownLookOf(const ViewArguments& args, const Files& files) {
+  const std::string name = args.look.lookFor(files[0]);
+  if (name.find('/') != std::string::npos || endingOf(name) == ".json") return {name, name};
+  return {name, std::filesystem::path(files[0]).replace_extension(".look.json").string()};
 }
 
-// As a shell takes it.
-std::string quoted(const std::string& word) {
-  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
-  return text + "'";
+Result<Look> loadLook(const ViewArguments& args, const Scene& scene, const viewer::Opened& opened) {
+  const LookArguments from = lookOf(args, opened);
+  Result<Look> look = from.load(opened.scenes[0], false);
+  if (look) look = from.withClip(*look, scene);
+  if (look) from.warnOfIdle(*look, scene, opened.scenes[0]);
+  return look;
 }
 
-std::string commandOf(const ViewArguments& args, const viewer::Shown& shown) {
-  std::string text = "scumble render";
+Files commandOf(const ViewArguments& args, const viewer::Shown& shown) {
+  Files words{"scumble", "render"};
   const auto add = [&](const std::string& option, const std::string& value) {
-    if (!value.empty()) text += " " + option + " " + quoted(value);
+    if (!value.empty()) words.insert(words.end(), {option, value});
   };
-  for (const std::string& file : args.scene.files) text += " " + quoted(file);
-  for (const std::string& place : args.scene.places) add("--place", place);
-  if (args.scene.sceneNumber) add("--scene", std::to_string(*args.scene.sceneNumber));
-  if (args.scene.patternCoordinates != "auto") add("--pattern-coordinates", args.scene.patternCoordinates);
-  if (args.scene.allowOutside) text += " --allow-outside";
-  add("--look", shown.look.empty() ? args.look.look : shown.look), add("--clip", args.look.clip);
-  for (const std::string& setting : args.look.settings) add("--set", setting);
+  const SceneArguments scene = sceneOf(args, shown.opened.scenes);
+  const LookArguments look = lookOf(args, shown.opened);
+  words.insert(words.end(), scene.files.begin(), scene.files.end());
+  for (const std::string& place : scene.places) add("--place", place);
+  if (scene.sceneNumber) add("--scene", std::to_string(*scene.sceneNumber));
+  if (scene.patternCoordinates != "auto") add("--pattern-coordinates", scene.patternCoordinates);
+  if (scene.allowOutside) words.emplace_back("--allow-outside");
+  add("--look", look.look), add("--clip", look.clip);
+  for (const std::string& setting : look.settings) add("--set", setting);
   for (const auto& [path, value] : shown.edits) add("--set", path + "=" + value);
+  add("--background", shown.opened.background);
   const auto point = [](const glm::vec3& p) { return fmt::format("{},{},{}", p.x, p.y, p.z); };
   std::optional<float> roll = args.picture.roll, field = args.picture.fov;
   if (!shown.viewpoint) {
@@ -64,15 +88,38 @@ std::string commandOf(const ViewArguments& args, const viewer::Shown& shown) {
   }
   if (roll) add("--roll", fmt::format("{}", *roll));
   if (field) add("--fov", fmt::format("{}", *field));
-  if (shown.time != 0) add("--time", fmt::format("{}", shown.time));
+  if (shown.film) {
+    if (shown.film->isTurn)
+      add("--turntable", fmt::format("{}", shown.film->seconds));
+    else
+      add("--frames",
+          fmt::format("0..{}", std::max(0, int(std::lround(shown.film->seconds * kFilmRate)) - 1)));
+    add("--fps", std::to_string(kFilmRate));
+  } else if (shown.time != 0) {
+    add("--time", fmt::format("{}", shown.time));
+  }
   add("--size", fmt::format("{}x{}", shown.width, shown.height));
   if (args.picture.samples != 4) add("--samples", std::to_string(args.picture.samples));
   if (args.picture.seed != 0) add("--seed", std::to_string(args.picture.seed));
   add("--device", args.picture.device);
-  return text;
+  return words;
 }
 
-int run(const ViewArguments& args) {
+// The scene that comes with the program: beside it where it was built, and where it was installed.
+std::string demoScene() {
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+  for (const char* const place : {"share/scumble/demo.glb", "../share/scumble/demo.glb"})
+    if (std::filesystem::exists(folder / place, error)) return (folder / place).lexically_normal().string();
+  return "";
+}
+
+int run(ViewArguments args) {
+  if (args.scene.files.empty()) {
+    const std::string demo = demoScene();
+    if (demo.empty()) return failUsage("there is no scene to show", "give one: scumble view boat.glb");
+    args.scene.files.push_back(demo);
+  }
   if (!(std::abs(args.time) < Renderer::kMaxTime))
     return failUsage("--time is out of range", "use a time within a million seconds");
   const Result<RenderOptions> options = args.picture.renderOptions();
@@ -84,25 +131,25 @@ int run(const ViewArguments& args) {
   args.picture.warnOfIdle();
 
   viewer::ViewerOptions view;
-  view.title = std::filesystem::path(args.scene.files[0]).filename().string();
-  view.sources.sceneFiles = args.scene.files;
-  view.sources.lookName = args.look.lookFor(args.scene.files[0]);
-  view.sources.lookFile = lookFileOf(args);
-  view.sources.loadScene = [&] { return args.scene.load(false); };
-  view.sources.loadLook = [&](const Scene& scene, const std::string& name) -> Result<Look> {
-    LookArguments from = args.look;
-    if (!name.empty()) from.look = name;
-    Result<Look> look = from.load(args.scene.files[0], false);
-    if (look) look = from.withClip(*look, scene);
-    if (look) from.warnOfIdle(*look, scene, args.scene.files[0]);
-    return look;
+  view.sources.opened.scenes = args.scene.files;
+  view.sources.loadScene = [&](const Files& files, const scumble::Progress& progress) {
+    SceneOptions options;
+    options.progress = progress;
+    // They are read while somebody writes them.
+    options.mapsFiles = false;
+    return sceneOf(args, files).load(false, options);
   };
+  view.sources.loadLook = [&](const Scene& scene, const viewer::Opened& opened) {
+    return loadLook(args, scene, opened);
+  };
+  view.sources.ownLook = [&](const Files& files) { return ownLookOf(args, files); };
   view.command = [&](const viewer::Shown& shown) { return commandOf(args, shown); };
   view.viewpoint = *viewpoint;
   view.time = args.time;
   view.width = options->width, view.height = options->height;
   view.samples = options->samples, view.seed = options->seed;
   view.renderer = args.picture.rendererOptions();
+  view.stateFolder = stateFolder();
   const Status status = viewer::runViewer(view);
   return status ? kDone : fail(status.error());
 }
@@ -113,7 +160,7 @@ void addView(CLI::App& program, int& exitCode) {
   const auto args = std::make_shared<ViewArguments>();
   CLI::App* const command =
       program.add_subcommand("view", "A window: look at scenes, move the camera, play clips");
-  args->scene.addTo(*command);
+  args->scene.addTo(*command, "the demo");
   args->look.addTo(*command);
   args->picture.addTo(*command);
   command->add_option("--time", args->time, "Seconds at which it begins")->capture_default_str();

@@ -12,12 +12,19 @@ constexpr Binding kBindings[] = {
     {GLFW_KEY_H, 0, Command::help, "H", "this help"},
     {GLFW_KEY_N, 0, Command::panel, "N", "the panel at the side"},
     {GLFW_KEY_F11, 0, Command::fullscreen, "F11", "the whole screen, and back"},
+    {GLFW_KEY_ESCAPE, 0, Command::leave, "Escape", "leave what is open, or picked"},
     {GLFW_KEY_Q, kCtrl, Command::quit, "Ctrl+Q", "quit"},
+    {GLFW_KEY_O, kCtrl, Command::open, "Ctrl+O", "open another scene, or add one"},
+    {GLFW_KEY_F12, 0, Command::make, "F12", "save a picture or a film"},
     {GLFW_KEY_C, kCtrl, Command::copyCommand, "Ctrl+C", "copy the command that draws this picture"},
     {GLFW_KEY_S, kCtrl, Command::save, "Ctrl+S", "save what was turned into the look's file"},
     {GLFW_KEY_Z, kCtrl, Command::undo, "Ctrl+Z", "undo what a knob was turned to"},
     {GLFW_KEY_Y, kCtrl, Command::redo, "Ctrl+Y", "and do it again; so does Ctrl+Shift+Z"},
     {GLFW_KEY_Z, kCtrl | kShift, Command::redo, "Ctrl+Shift+Z", nullptr},
+    {GLFW_KEY_L, 0, Command::looks, "L", "all looks on this scene, to take one"},
+    {GLFW_KEY_V, 0, Command::split, "V", "another look beside it, at a line that is dragged"},
+    {GLFW_KEY_C, 0, Command::compare, "C, held", "as the look is saved"},
+    {GLFW_KEY_P, 0, Command::passes, "P", "what passes put out, their times, and what is under the mouse"},
     {GLFW_KEY_HOME, 0, Command::frameAll, "Home", "frame everything"},
     {GLFW_KEY_F, 0, Command::frameAll, "F", nullptr},
     {GLFW_KEY_KP_0, 0, Command::lookCamera, "Keypad 0", "the camera of look and scene again"},
@@ -63,7 +70,8 @@ std::span<const Binding> bindings() {
 }
 
 std::vector<HelpRow> helpRows() {
-  std::vector<HelpRow> rows{{"Left or middle, dragged", "around what is looked at"},
+  std::vector<HelpRow> rows{{"Left, clicked", "pick what has knobs of its own"},
+                            {"Left or middle, dragged", "around what is looked at"},
                             {"with Shift", "along"},
                             {"with Ctrl, or the wheel", "nearer and farther"},
                             {"Right, dragged", "look around"}};

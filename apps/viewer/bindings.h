@@ -42,6 +42,13 @@ enum class Command {
   flyRight,
   flyDown,
   flyUp,
+  open,
+  make,
+  looks,
+  split,
+  compare,
+  passes,
+  leave,
 };
 
 struct Binding {

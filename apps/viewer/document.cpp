@@ -34,75 +34,90 @@ Status putFile(const std::string& file, const std::string& text) {
 }  // namespace
 
 Document::Document(DocumentSources sources, std::function<void()> wake)
-    : sources_(std::move(sources)), wake_(std::move(wake)), watch_(wake_) {
+    : sources_(std::move(sources)), wake_(std::move(wake)), watch_(wake_), wanted_(sources_.opened) {
   watch();
-  load(true);
+  load(Parts::all);
 }
 
 Document::~Document() {
+  isEnding_ = true;
   if (loader_.joinable()) loader_.join();
 }
 
-void Document::load(bool withScene) {
+void Document::load(Parts parts) {
   if (loader_.joinable()) {
-    loadsAgain_ = true, loadsSceneAgain_ |= withScene;
+    loadsAgain_ = std::max(loadsAgain_.value_or(parts), parts);
     return;
   }
-  loadingLook_ = wantedLook_;
+  loading_ = wanted_;
   written_ = std::exchange(saving_, {});
-  loader_ = std::thread([this, withScene, scene = scene_, lookName = loadingLook_] {
-    Result<Loaded> loaded = read(withScene, scene, lookName);
+  loader_ = std::thread([this, parts, scene = scene_, opened = loading_] {
+    Reading reading = read(parts, scene, opened);
     {
       const std::lock_guard lock(mutex_);
-      loaded_ = std::move(loaded);
+      read_ = std::move(reading);
     }
     wake_();
   });
 }
 
-Result<Document::Loaded> Document::read(bool withScene, const Scene& scene,
-                                        const std::string& lookName) const {
+Document::Reading Document::read(Parts parts, const Scene& scene, const Opened& opened) const {
   Loaded loaded;
-  if (withScene) {
-    Result<Scene> anew = sources_.loadScene();
-    if (!anew) return anew.error();
+  if (parts == Parts::all) {
+    Result<Scene> anew = sources_.loadScene(opened.scenes, [this](double) { return !isEnding_; });
+    if (!anew) return Failed{anew.error(), Concern::scene};
     loaded.scene = std::move(anew).value();
   }
-  Result<Look> look = sources_.loadLook(withScene ? *loaded.scene : scene, lookName);
-  if (!look) return look.error();
+  Result<Look> look = sources_.loadLook(loaded.scene.value_or(scene), opened);
+  if (!look) return Failed{look.error(), Concern::look};
   loaded.look = std::move(look).value();
+  if (!opened.background.empty()) {
+    Result<Image> picture = readPicture(opened.background);
+    if (!picture) return Failed{picture.error(), Concern::background};
+    loaded.background = std::make_shared<const Image>(std::move(picture).value());
+  }
   return loaded;
 }
 
+void Document::take(Loaded loaded) {
+  for (const Concern concern : {Concern::scene, Concern::look, Concern::background}) settle(concern);
+  problemFile_.clear();
+  const bool isOther = !scene_.empty() && opened_.scenes != loading_.scenes;
+  if (loaded.scene) {
+    scene_ = std::move(*loaded.scene);
+    ++sceneVersion_;
+  }
+  saved_ = std::move(loaded.look);
+  background_ = std::move(loaded.background);
+  // Knobs of a look that came with other scenes are theirs.
+  if (isOther && loading_.look.empty()) edits_.clear(), undo_.clear(), redo_.clear(), closeStep();
+  opened_ = loading_;
+  // What was saved is the file's now, where it was not turned again meanwhile.
+  for (const auto& [path, value] : written_)
+    if (const auto edit = edits_.find(path); edit != edits_.end() && edit->second == value)
+      edits_.erase(edit);
+  apply();
+}
+
 Result<bool> Document::poll() {
-  std::optional<Result<Loaded>> last;
+  std::optional<Reading> last;
   {
     const std::lock_guard lock(mutex_);
-    last = std::exchange(loaded_, std::nullopt);
+    last = std::exchange(read_, std::nullopt);
   }
   if (last) {
     loader_.join();
-    if (*last) {
-      Loaded& loaded = last->value();
-      problem_.clear();
-      problemFile_.clear();
-      if (loaded.scene) scene_ = std::move(*loaded.scene);
-      saved_ = std::move(loaded.look);
-      lookName_ = loadingLook_;
-      // What was saved is the file's now, where it was not turned again meanwhile.
-      for (const auto& [path, value] : written_)
-        if (const auto edit = edits_.find(path); edit != edits_.end() && edit->second == value)
-          edits_.erase(edit);
-      apply();
-    } else if (scene_.empty()) {
-      return last->error();
+    if (auto* const loaded = std::get_if<Loaded>(&*last)) {
+      take(std::move(*loaded));
     } else {
-      problem_ = last->error().message();
-      problemFile_ = last->error().file;
-      if (wantedLook_ == loadingLook_) wantedLook_ = lookName_;
+      const Failed& failed = std::get<Failed>(*last);
+      if (scene_.empty()) return failed.error;
+      tell(failed.concern, failed.error.message());
+      problemFile_ = failed.error.file;
+      if (wanted_ == loading_) wanted_ = opened_;
     }
     watch();
-    if (std::exchange(loadsAgain_, false)) load(std::exchange(loadsSceneAgain_, false));
+    if (loadsAgain_) load(*std::exchange(loadsAgain_, std::nullopt));
   }
   const std::set<std::string> saved = watch_.takeSaved();
   if (!saved.empty()) {
@@ -111,21 +126,44 @@ Result<bool> Document::poll() {
         return std::find(files.begin(), files.end(), file) != files.end();
       };
     };
-    load(std::any_of(saved.begin(), saved.end(), isAmong(sources_.sceneFiles)) ||
-         std::any_of(saved.begin(), saved.end(), isAmong(scene_.files())));
+    const bool isOfScene = std::any_of(saved.begin(), saved.end(), isAmong(wanted_.scenes)) ||
+                           std::any_of(saved.begin(), saved.end(), isAmong(scene_.files())) ||
+                           (problems_.count(Concern::scene) && saved.count(problemFile_));
+    load(isOfScene ? Parts::all : Parts::look);
   }
   return last.has_value();
 }
 
-void Document::chooseLook(const std::string& name) {
-  wantedLook_ = name;
-  load(false);
+void Document::want(Opened opened, Parts parts) {
+  wanted_ = std::move(opened);
+  load(parts);
+}
+
+void Document::openScenes(std::vector<std::string> files) {
+  Opened opened = wanted_;
+  opened.scenes = std::move(files);
+  want(std::move(opened), Parts::all);
+}
+
+void Document::openLook(const std::string& name) {
+  Opened opened = wanted_;
+  opened.look = name;
+  want(std::move(opened), Parts::look);
+}
+
+void Document::openBackground(const std::string& file) {
+  Opened opened = wanted_;
+  opened.background = file;
+  want(std::move(opened), Parts::look);
 }
 
 void Document::watch() {
-  std::vector<std::string> files = sources_.sceneFiles;
-  files.insert(files.end(), scene_.files().begin(), scene_.files().end());
-  if (lookName_.empty() && !sources_.lookFile.empty()) files.push_back(sources_.lookFile);
+  const Opened& opened = scene_.empty() ? wanted_ : opened_;
+  std::vector<std::string> files = opened.scenes;
+  if (!scene_.empty()) files.insert(files.end(), scene_.files().begin(), scene_.files().end());
+  if (const std::string own = sources_.ownLook(opened.scenes).file; opened.look.empty() && !own.empty())
+    files.push_back(own);
+  if (!opened.background.empty()) files.push_back(opened.background);
   for (const std::string& file : saved_.files()) files.push_back(file);
   if (!problemFile_.empty()) files.push_back(problemFile_);
   watch_.watch(files);
@@ -143,6 +181,7 @@ Status Document::set(const std::string& path, const std::string& value) {
   // On a copy: what fails changes nothing.
   Look changed = look_;
   if (const Status status = changed.set(path, value); !status) return status.error();
+  settle(Concern::knob);
   begin(path);
   edits_[path] = value;
   look_ = std::move(changed);
@@ -159,9 +198,18 @@ void Document::unset(const std::string& path) {
   apply();
 }
 
+void Document::take(const Edits& edits) {
+  closeStep();
+  begin("many");
+  closeStep();
+  for (const auto& [path, value] : edits) edits_[path] = value;
+  apply();
+}
+
 Result<std::string> Document::save() {
   closeStep();
-  const std::string present = lookName_.empty() ? sources_.lookName : lookName_;
+  const OwnLook own = sources_.ownLook(opened_.scenes);
+  const std::string present = opened_.look.empty() ? own.name : opened_.look;
   std::string file = present, text;
   if (isFile(present)) {
     std::ifstream in(file, std::ios::binary);
@@ -169,7 +217,7 @@ Result<std::string> Document::save() {
     if (!in) return Error{ErrorKind::unusableFile, file, 0, "", "it cannot be read", "it may be gone"};
   } else {
     // A file that is there is another look.
-    file = sources_.lookFile;
+    file = own.file;
     const std::string ending = ".look.json";
     const std::string name = file.substr(0, file.size() - ending.size()) + "." + present;
     for (int number = 1; std::filesystem::exists(file); ++number)
@@ -181,20 +229,19 @@ Result<std::string> Document::save() {
     return Error{ErrorKind::unusableFile,  file, 0, "", "the knobs have no place in it",
                  "mend it, and save again"};
   if (const Status status = putFile(file, *changed); !status) return status.error();
-  if (!isFile(present)) wantedLook_ = file;
+  if (!isFile(present)) wanted_.look = file;
   keepHistory(saved_, edits_);
   saving_ = edits_;
-  load(false);
+  settle(Concern::saving);
+  load(Parts::look);
   return file;
 }
 
 // What was undone before a save is what the file said before, though it says something else now.
 void Document::keepHistory(const Look& before, const Edits& written) {
-  for (const Knob& knob : Look::knobs()) {
-    if (!written.count(knob.path)) continue;
+  for (const auto& [path, value] : written)
     for (std::vector<Edits>* states : {&undo_, &redo_})
-      for (Edits& state : *states) state.try_emplace(knob.path, valueText(before, knob));
-  }
+      for (Edits& state : *states) state.try_emplace(path, valueText(before, path));
 }
 
 bool Document::swap(std::vector<Edits>& from, std::vector<Edits>& to) {
@@ -209,8 +256,9 @@ bool Document::swap(std::vector<Edits>& from, std::vector<Edits>& to) {
 // A file may come to mean other pictures and names: what an edit says then to no effect is left out.
 void Document::apply() {
   look_ = saved_;
+  settle(Concern::knob);
   for (const auto& [path, value] : edits_)
-    if (const Status status = look_.set(path, value); !status) problem_ = status.error().message();
+    if (const Status status = look_.set(path, value); !status) tell(Concern::knob, status.error().message());
   ++version_;
 }
 

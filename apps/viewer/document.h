@@ -1,16 +1,19 @@
-// What the window shows: a scene and a look, from files that are read anew when they are saved, and knobs
-// that were turned by hand, which can be undone.
+// What the window shows: scenes and a look, from files that are read anew when they are saved, and knobs that
+// were turned by hand, which can be undone.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
+#include <variant>
 #include <vector>
 
 #include "file_watch.h"
+#include "scumble/image.h"
 #include "scumble/renderer.h"
 
 namespace scumble::viewer {
@@ -18,45 +21,68 @@ namespace scumble::viewer {
 // Texts of knobs by their paths, as Look::set takes them.
 using Edits = std::map<std::string, std::string>;
 
-struct DocumentSources {
-  std::vector<std::string> sceneFiles;  // read anew when one is saved, as are those that they name
-  std::string lookName;                 // which look the scene is opened with: one that ships, or a file
-  std::string
-      lookFile;  // that file, or where one would be looked for; read anew when it is saved, and saved to
-  // Called from other threads, one of them at a time, and again when a file was saved.
-  std::function<Result<Scene>()> loadScene;
-  // `name`: one that ships, or a file; empty: that which the scene was opened with.
-  std::function<Result<Look>(const Scene& scene, const std::string& name)> loadLook;
+// What is open.
+struct Opened {
+  std::vector<std::string> scenes;  // files, all in one world
+  std::string look;                 // one that ships, or a file; empty: the scenes' own
+  std::string background;           // a picture's file that is behind everything; empty: the sky
+  bool operator==(const Opened&) const = default;
 };
+
+// Where the scenes' own look comes from.
+struct OwnLook {
+  std::string name;  // one that ships, or a file
+  std::string file;  // that file, or where one would be looked for
+};
+
+struct DocumentSources {
+  Opened opened;  // at first
+  // The first two are called from other threads, one of them at a time, and again when a file was saved.
+  std::function<Result<Scene>(const std::vector<std::string>& files, const Progress& progress)> loadScene;
+  std::function<Result<Look>(const Scene& scene, const Opened& opened)> loadLook;
+  std::function<OwnLook(const std::vector<std::string>& files)> ownLook;
+};
+
+// What something that went wrong has to do with. The last one of each is told, until it is better.
+enum class Concern { scene, look, background, knob, saving, picture };
 
 class Document {
  public:
   // `wake`: called from any thread when poll() has something to do.
   Document(DocumentSources sources, std::function<void()> wake);
-  ~Document();
+  ~Document();  // what is being read is given up
   Document(const Document&) = delete;
   Document& operator=(const Document&) = delete;
 
   // Takes what was read since, and begins to read what was saved. True where something is another now. Fails
   // where the first reading did: there is nothing then.
   Result<bool> poll();
+  bool isReading() const { return loader_.joinable(); }
 
+  const Opened& opened() const { return opened_; }
   const Scene& scene() const { return scene_; }  // empty until it was read
-  const Look& look() const { return look_; }     // with the edits
-  uint64_t version() const { return version_; }  // grows with each change
-  const std::string& problem() const {
-    return problem_;
-  }  // with what was saved last; what was there before stays
-  void tell(std::string problem) { problem_ = std::move(problem); }
+  // Grows when other scenes, or other contents of theirs, are there.
+  uint64_t sceneVersion() const { return sceneVersion_; }
+  const Look& look() const { return look_; }        // with the edits
+  const Look& savedLook() const { return saved_; }  // as the file has it
+  const std::shared_ptr<const Image>& background() const { return background_; }
+  uint64_t version() const { return version_; }  // grows with each change of any of them
+  // What is wrong, the most recent of each kind; what was there before stays.
+  const std::map<Concern, std::string>& problems() const { return problems_; }
+  void tell(Concern concern, std::string problem) { problems_[concern] = std::move(problem); }
+  void settle(Concern concern) { problems_.erase(concern); }
 
-  // Which look is below the edits, as loadLook has it; another one, when it was read.
-  const std::string& lookName() const { return lookName_; }
-  void chooseLook(const std::string& name);
+  // Other ones, when they were read. Knobs that were turned stay turned where the look stays.
+  void openScenes(std::vector<std::string> files);
+  void openLook(const std::string& name);
+  void openBackground(const std::string& file);
 
   const Edits& edits() const { return edits_; }
   // Turns a knob. Until closeStep() further turns of it are undone with this one. Fails as Look::set does.
   Status set(const std::string& path, const std::string& value);
   void unset(const std::string& path);  // to what the file says
+  // Turns many, as one step; what a look does not take is left out.
+  void take(const Edits& edits);
   void closeStep() { step_.clear(); }
   // Writes the edits into the look's file (look_text.h), or into a new one that extends a look that ships;
   // they are the file's then. Gives the file's name. Fails with outputNotWritten, and with unusableFile where
@@ -66,12 +92,21 @@ class Document {
   bool redo() { return swap(redo_, undo_); }
 
  private:
+  enum class Parts { look, all };
   struct Loaded {
     std::optional<Scene> scene;  // where it was read anew
     Look look;
+    std::shared_ptr<const Image> background;
   };
-  void load(bool withScene);
-  Result<Loaded> read(bool withScene, const Scene& scene, const std::string& lookName) const;
+  struct Failed {
+    Error error;
+    Concern concern;
+  };
+  using Reading = std::variant<Loaded, Failed>;
+  void want(Opened opened, Parts parts);
+  void load(Parts parts);
+  Reading read(Parts parts, const Scene& scene, const Opened& opened) const;
+  void take(Loaded loaded);
   void watch();
   void begin(const std::string& step);
   bool swap(std::vector<Edits>& from, std::vector<Edits>& to);
@@ -82,14 +117,17 @@ class Document {
   const std::function<void()> wake_;
   FileWatch watch_;
   std::thread loader_;
+  std::atomic<bool> isEnding_ = false;
   std::mutex mutex_;
-  std::optional<Result<Loaded>> loaded_;  // by the loader
-  bool loadsAgain_ = false, loadsSceneAgain_ = false;
+  std::optional<Reading> read_;  // by the loader
+  std::optional<Parts> loadsAgain_;
+  Opened opened_, wanted_, loading_;  // read, wanted, and being read
   Scene scene_;
   Look saved_, look_;
-  uint64_t version_ = 1;
-  std::string lookName_, wantedLook_, loadingLook_;  // read, wanted, and being read
-  std::string problem_, problemFile_, step_;
+  std::shared_ptr<const Image> background_;
+  uint64_t version_ = 1, sceneVersion_ = 0;
+  std::map<Concern, std::string> problems_;
+  std::string problemFile_, step_;
   Edits edits_;
   Edits saving_, written_;  // into the look's file, before the next reading and before the present one
   std::vector<Edits> undo_, redo_;

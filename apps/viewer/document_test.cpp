@@ -20,22 +20,33 @@ constexpr const char* kScene =
   "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri":
   "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
 
+using Files = std::vector<std::string>;
+
 class Documents : public testing::Test {
  protected:
   Document make() {
-    return Document(
-        {{scene_},
-         lookName_.empty() ? look_ : lookName_,
-         folder_.file("a.look.json"),
-         [this] { return ++scenes_, Scene::load(scene_); },
-         [this](const Scene&, const std::string& name) {
-           return ++looks_, Look::load(!name.empty() ? name : lookName_.empty() ? look_ : lookName_);
-         }},
-        [this] {
-          const std::lock_guard lock(mutex_);
-          ++wakes_;
-          woken_.notify_all();
-        });
+    return Document({{{scene_}, "", ""},
+                     [this](const Files& files, const Progress& progress) {
+                       SceneOptions options;
+                       options.progress = progress, options.mapsFiles = false;
+                       return ++scenes_, Scene::load(files[0], options);
+                     },
+                     [this](const Scene&, const Opened& opened) {
+                       return ++looks_,
+                              Look::load(opened.look.empty() ? ownLook(opened.scenes).name : opened.look);
+                     },
+                     [this](const Files& files) { return ownLook(files); }},
+                    [this] {
+                      const std::lock_guard lock(mutex_);
+                      ++wakes_;
+                      woken_.notify_all();
+                    });
+  }
+  OwnLook ownLook(const Files& files) const {
+    const bool isFirst = files[0] == scene_;
+    const std::string file =
+        isFirst ? look_ : std::filesystem::path(files[0]).replace_extension(".look.json").string();
+    return {!isFirst ? "manga" : lookName_.empty() ? look_ : lookName_, file};
   }
   // Until there is news.
   testing::AssertionResult changes(Document& document) {
@@ -49,6 +60,11 @@ class Documents : public testing::Test {
       if (*news) return testing::AssertionSuccess();
     }
     return testing::AssertionFailure() << "nothing has changed";
+  }
+  static std::string problem(const Document& document) {
+    std::string all;
+    for (const auto& [concern, text] : document.problems()) all += text;
+    return all;
   }
   static double threshold(const Document& document) {
     return std::get<double>(document.look().get("shadow.threshold").value());
@@ -89,11 +105,11 @@ TEST_F(Documents, whatCannotBeUsedLeavesWhatWasThere) {
   ASSERT_TRUE(changes(document));
   folder_.put("a.look.json", "{\n\"shadow\": {\"threshhold\": 0.5}}");
   ASSERT_TRUE(changes(document));
-  EXPECT_NE(document.problem().find("a.look.json:2"), std::string::npos) << document.problem();
+  EXPECT_NE(problem(document).find("a.look.json:2"), std::string::npos) << problem(document);
   EXPECT_EQ(threshold(document), 0.25);
   folder_.put("a.look.json", lookText("0.5"));
   ASSERT_TRUE(changes(document));
-  EXPECT_EQ(document.problem(), "");
+  EXPECT_EQ(problem(document), "");
   EXPECT_EQ(threshold(document), 0.5);
 }
 
@@ -134,15 +150,15 @@ TEST_F(Documents, editsWinOverFilesAndAreUndone) {
 TEST_F(Documents, anotherLookTakesThePlaceOfTheFirst) {
   Document document = make();
   ASSERT_TRUE(changes(document));
-  document.chooseLook("dusk");
+  document.openLook("dusk");
   ASSERT_TRUE(changes(document));
-  EXPECT_EQ(document.lookName(), "dusk");
+  EXPECT_EQ(document.opened().look, "dusk");
   EXPECT_EQ(document.look().description(), Look::load("dusk")->description());
-  document.chooseLook("no such look");
+  document.openLook("no such look");
   ASSERT_TRUE(changes(document));
-  EXPECT_NE(document.problem().find("no such look"), std::string::npos);
-  EXPECT_EQ(document.lookName(), "dusk");
-  document.chooseLook("");
+  EXPECT_NE(problem(document).find("no such look"), std::string::npos);
+  EXPECT_EQ(document.opened().look, "dusk");
+  document.openLook("");
   ASSERT_TRUE(changes(document));
   EXPECT_EQ(threshold(document), 0.25);
   EXPECT_EQ(scenes_, 1);
@@ -151,12 +167,12 @@ TEST_F(Documents, anotherLookTakesThePlaceOfTheFirst) {
 TEST_F(Documents, aLookThatCannotBeReadIsNotReadAgain) {
   Document document = make();
   ASSERT_TRUE(changes(document));
-  document.chooseLook("no such look");
+  document.openLook("no such look");
   ASSERT_TRUE(changes(document));
-  EXPECT_NE(document.problem(), "");
+  EXPECT_NE(problem(document), "");
   folder_.put("a.look.json", lookText("0.75"));
   ASSERT_TRUE(changes(document));
-  EXPECT_EQ(document.problem(), "");
+  EXPECT_EQ(problem(document), "");
   EXPECT_EQ(threshold(document), 0.75);
 }
 
@@ -195,10 +211,11 @@ TEST_F(Documents, aLookThatShipsIsSavedAsOneThatExtendsIt) {
   EXPECT_EQ(contentOf(look_), "{\n  \"extends\": \"dusk\",\n  \"shadow\": { \"threshold\": 0.5 }\n}\n");
   ASSERT_TRUE(changes(document));
   EXPECT_EQ(threshold(document), 0.5);
-  EXPECT_EQ(document.lookName(), look_);
+  EXPECT_EQ(document.opened().look, look_);
   // What is there already is somebody else's.
-  document.chooseLook("fauve");
-  while (document.lookName() != "fauve") ASSERT_TRUE(changes(document));  // what was saved may be read first
+  document.openLook("fauve");
+  while (document.opened().look != "fauve")
+    ASSERT_TRUE(changes(document));  // what was saved may be read first
   const Result<std::string> other = document.save();
   ASSERT_TRUE(other.ok());
   EXPECT_EQ(*other, folder_.file("a.fauve.look.json"));
@@ -224,6 +241,95 @@ TEST_F(Documents, aKnobThatIsNotThereChangesNothing) {
   EXPECT_EQ(document.set("shadow.threshold", "9e9").error().kind, ErrorKind::usage);
   EXPECT_EQ(document.version(), version);
   EXPECT_FALSE(document.undo());
+}
+
+TEST_F(Documents, otherScenesComeWithTheirLook) {
+  Document document = make();
+  ASSERT_TRUE(changes(document));
+  const uint64_t scenes = document.sceneVersion();
+  ASSERT_TRUE(document.set("shadow.threshold", "0.5").ok());
+  const std::string other = folder_.put("other.gltf", kScene);
+  document.openScenes({folder_.file("none.gltf")});
+  ASSERT_TRUE(changes(document));
+  EXPECT_TRUE(document.problems().count(Concern::scene)) << problem(document);
+  EXPECT_EQ(document.opened().scenes, Files{scene_});
+  EXPECT_EQ(threshold(document), 0.5);
+  document.openScenes({other});
+  ASSERT_TRUE(changes(document));
+  EXPECT_TRUE(document.problems().empty()) << problem(document);
+  EXPECT_EQ(document.opened().scenes, Files{other});
+  EXPECT_GT(document.sceneVersion(), scenes);
+  EXPECT_TRUE(document.edits().empty()) << "they were those of the other look";
+  EXPECT_FALSE(document.undo());
+  // A look that was chosen stays, and what was turned on it.
+  document.openLook("dusk");
+  ASSERT_TRUE(changes(document));
+  ASSERT_TRUE(document.set("shadow.threshold", "0.5").ok());
+  document.openScenes({scene_});
+  ASSERT_TRUE(changes(document));
+  EXPECT_EQ(document.opened().look, "dusk");
+  EXPECT_EQ(threshold(document), 0.5);
+}
+
+TEST_F(Documents, aPictureBehindEverything) {
+  Document document = make();
+  ASSERT_TRUE(changes(document));
+  const std::string picture = folder_.file("sky.png");
+  ASSERT_TRUE(writePng(picture, {2, 1, {"R", "G", "B"}, {1, 0, 0, 0, 1, 0}}).ok());
+  document.openBackground(picture);
+  ASSERT_TRUE(changes(document));
+  ASSERT_TRUE(document.background());
+  EXPECT_EQ(document.background()->width, 2u);
+  ASSERT_TRUE(writePng(picture, {3, 1, {"R", "G", "B"}, {1, 0, 0, 0, 1, 0, 0, 0, 1}}).ok());
+  ASSERT_TRUE(changes(document));
+  EXPECT_EQ(document.background()->width, 3u);
+  folder_.put("sky.png", "nothing");
+  ASSERT_TRUE(changes(document));
+  EXPECT_TRUE(document.problems().count(Concern::background));
+  EXPECT_EQ(document.background()->width, 3u);
+  document.openBackground("");
+  ASSERT_TRUE(changes(document));
+  EXPECT_FALSE(document.background());
+  EXPECT_TRUE(document.problems().empty()) << problem(document);
+}
+
+TEST_F(Documents, manyKnobsAreOneStep) {
+  Document document = make();
+  ASSERT_TRUE(changes(document));
+  document.take({{"shadow.threshold", "0.5"}, {"shadow.steps", "3"}});
+  EXPECT_EQ(document.edits().size(), 2u);
+  EXPECT_EQ(threshold(document), 0.5);
+  EXPECT_TRUE(document.undo());
+  EXPECT_TRUE(document.edits().empty());
+}
+
+// What is cut off while it is read is told, and read again when it is whole.
+TEST_F(Documents, aSceneThatIsWrittenWhileItIsRead) {
+  Document document = make();
+  ASSERT_TRUE(changes(document));
+  for (size_t size : {0, 1, 200}) {
+    folder_.put("a.gltf", std::string(kScene).substr(0, size));
+    ASSERT_TRUE(changes(document));
+    EXPECT_TRUE(document.problems().count(Concern::scene)) << size;
+  }
+  folder_.put("a.gltf", kScene);
+  ASSERT_TRUE(changes(document));
+  EXPECT_TRUE(document.problems().empty()) << problem(document);
+}
+
+// Every knob of everything that has one, as the window turns it.
+TEST_F(Documents, knobsOfOneMaterialAreSavedBelowIt) {
+  Document document = make();
+  ASSERT_TRUE(changes(document));
+  ASSERT_TRUE(document.set("materials.Paint.001.warp.amount", "2").ok());
+  ASSERT_TRUE(document.save().ok());
+  EXPECT_EQ(contentOf(look_),
+            R"({"shadow": {"threshold": 0.25}, "materials": { "Paint.001": { "warp": { "amount": 2 } } }})");
+  ASSERT_TRUE(changes(document));
+  EXPECT_TRUE(document.edits().empty());
+  EXPECT_EQ(std::get<double>(document.look().get("materials.Paint.001.warp.amount").value()), 2);
+  EXPECT_TRUE(document.undo());
+  EXPECT_NE(std::get<double>(document.look().get("materials.Paint.001.warp.amount").value()), 2);
 }
 
 }  // namespace

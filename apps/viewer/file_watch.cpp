@@ -11,44 +11,79 @@
 
 namespace scumble::viewer {
 
+namespace {
+
+constexpr int kLookMilliseconds = 500;  // between looks for folders that are not there
+
+}  // namespace
+
 FileWatch::FileWatch(std::function<void()> whenSaved) : whenSaved_(std::move(whenSaved)) {
   inotify_ = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
-  stop_ = eventfd(0, EFD_CLOEXEC);
-  if (inotify_ >= 0 && stop_ >= 0) thread_ = std::thread([this] { run(); });
+  wake_ = eventfd(0, EFD_CLOEXEC);
+  if (inotify_ >= 0 && wake_ >= 0) thread_ = std::thread([this] { run(); });
 }
 
 FileWatch::~FileWatch() {
   if (thread_.joinable()) {
-    const uint64_t one = 1;
-    if (write(stop_, &one, sizeof one) == ssize_t(sizeof one)) thread_.join();
+    {
+      const std::lock_guard lock(mutex_);
+      isEnding_ = true;
+    }
+    nudge();
+    thread_.join();
   }
   if (inotify_ >= 0) close(inotify_);
-  if (stop_ >= 0) close(stop_);
+  if (wake_ >= 0) close(wake_);
+}
+
+// The thread, so that it sees what is another now.
+void FileWatch::nudge() const {
+  const uint64_t one = 1;
+  if (wake_ >= 0 && write(wake_, &one, sizeof one) < 0) return;
 }
 
 void FileWatch::watch(const std::vector<std::string>& files) {
-  const std::lock_guard lock(mutex_);
-  std::map<std::string, int> folders;
-  names_.clear();
-  for (const std::string& file : files) {
-    const std::filesystem::path path(file);
-    const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
-    auto found = folders.find(folder);
-    if (found == folders.end()) {
-      // Of a folder that is watched already it is the same number, unless it is another folder of that name
-      // now.
-      const int number = inotify_add_watch(inotify_, folder.c_str(), IN_CLOSE_WRITE | IN_MOVED_TO);
-      if (number < 0) continue;
-      found = folders.emplace(folder, number).first;
+  {
+    const std::lock_guard lock(mutex_);
+    wanted_.clear();
+    for (const std::string& file : files) {
+      const std::filesystem::path path(file);
+      wanted_[path.has_parent_path() ? path.parent_path().string() : "."][path.filename().string()].push_back(
+          file);
     }
-    names_[{found->second, path.filename().string()}].push_back(file);
+    const std::map<std::string, int> before = std::exchange(folders_, {});
+    // Two names of one folder have one number.
+    std::set<int> kept;
+    for (const auto& [folder, names] : wanted_)
+      if (add(folder)) kept.insert(folders_[folder]);
+    for (const auto& [folder, number] : before)
+      if (kept.insert(number).second) inotify_rm_watch(inotify_, number);
   }
-  // Two names of one folder have one number.
-  std::set<int> kept;
-  for (const auto& [folder, number] : folders) kept.insert(number);
-  for (const auto& [folder, number] : folders_)
-    if (kept.insert(number).second) inotify_rm_watch(inotify_, number);
-  folders_ = std::move(folders);
+  nudge();
+}
+
+// Of a folder that is watched already it is the same number, unless it is another folder of that name now.
+bool FileWatch::add(const std::string& folder) {
+  const int number = inotify_add_watch(inotify_, folder.c_str(), IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVE_SELF);
+  if (number < 0) return false;
+  folders_[folder] = number;
+  return true;
+}
+
+// True where one has come, with a file in it.
+bool FileWatch::lookForFolders() {
+  const std::lock_guard lock(mutex_);
+  bool isNews = false;
+  for (const auto& [folder, names] : wanted_) {
+    if (folders_.count(folder) || !add(folder)) continue;
+    std::error_code error;
+    for (const auto& [name, files] : names)
+      if (std::filesystem::exists(std::filesystem::path(folder) / name, error)) {
+        saved_.insert(files.begin(), files.end());
+        isNews = true;
+      }
+  }
+  return isNews;
 }
 
 std::set<std::string> FileWatch::takeSaved() {
@@ -57,15 +92,23 @@ std::set<std::string> FileWatch::takeSaved() {
 }
 
 void FileWatch::run() {
-  pollfd polled[] = {{inotify_, POLLIN, 0}, {stop_, POLLIN, 0}};
+  pollfd polled[] = {{inotify_, POLLIN, 0}, {wake_, POLLIN, 0}};
   for (;;) {
-    if (poll(polled, 2, -1) < 0 && errno != EINTR) return;
-    if (polled[1].revents) return;
-    if (polled[0].revents) read();
+    bool isAllThere = false;
+    {
+      const std::lock_guard lock(mutex_);
+      if (isEnding_) return;
+      isAllThere = folders_.size() == wanted_.size();
+    }
+    if (poll(polled, 2, isAllThere ? -1 : kLookMilliseconds) < 0 && errno != EINTR) return;
+    if (uint64_t count; polled[1].revents && ::read(wake_, &count, sizeof count) < 0) return;
+    bool isNews = polled[0].revents && read();
+    if (!isAllThere) isNews |= lookForFolders();
+    if (isNews) whenSaved_();
   }
 }
 
-void FileWatch::read() {
+bool FileWatch::read() {
   alignas(inotify_event) char buffer[16384];
   bool isNews = false;
   for (ssize_t got; (got = ::read(inotify_, buffer, sizeof buffer)) > 0;) {
@@ -73,16 +116,24 @@ void FileWatch::read() {
     for (const char* at = buffer; at < buffer + got;) {
       inotify_event event;
       std::memcpy(&event, at, sizeof event);
-      const char* const name = at + sizeof event;
-      if (event.len > 0)
-        if (const auto known = names_.find({event.wd, name}); known != names_.end()) {
+      const std::string name = event.len > 0 ? at + sizeof event : "";
+      at += sizeof event + event.len;
+      // It is gone, or elsewhere.
+      const bool isGone = event.mask & (IN_IGNORED | IN_MOVE_SELF);
+      if (event.mask & IN_MOVE_SELF) inotify_rm_watch(inotify_, event.wd);
+      if (isGone) std::erase_if(folders_, [&](const auto& folder) { return folder.second == event.wd; });
+      if (isGone || name.empty()) continue;
+      for (const auto& [folder, number] : folders_) {
+        if (number != event.wd) continue;
+        const auto& names = wanted_[folder];
+        if (const auto known = names.find(name); known != names.end()) {
           saved_.insert(known->second.begin(), known->second.end());
           isNews = true;
         }
-      at += sizeof event + event.len;
+      }
     }
   }
-  if (isNews) whenSaved_();
+  return isNews;
 }
 
 }  // namespace scumble::viewer

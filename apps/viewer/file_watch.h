@@ -20,20 +20,25 @@ class FileWatch {
   FileWatch(const FileWatch&) = delete;
   FileWatch& operator=(const FileWatch&) = delete;
 
-  // These from now on, and no others. Files need not be there; folders that are not are not watched.
+  // These from now on, and no others. Neither files nor folders need to be there; of a folder that comes to
+  // be there, or is another one of its name, all that are in it were saved.
   void watch(const std::vector<std::string>& files);
   // Of those that are watched, as they were named, what was saved since the last call.
   std::set<std::string> takeSaved();
 
  private:
   void run();
-  void read();
+  bool read();
+  void nudge() const;
+  bool add(const std::string& folder);
+  bool lookForFolders();
 
   const std::function<void()> whenSaved_;
-  int inotify_ = -1, stop_ = -1;
+  int inotify_ = -1, wake_ = -1;
   std::mutex mutex_;
-  std::map<std::string, int> folders_;                                     // with inotify's number
-  std::map<std::pair<int, std::string>, std::vector<std::string>> names_;  // by folder and name in it
+  bool isEnding_ = false;
+  std::map<std::string, std::map<std::string, std::vector<std::string>>> wanted_;  // by folder, name in it
+  std::map<std::string, int> folders_;  // those that are there, with inotify's number
   std::set<std::string> saved_;
   std::thread thread_;
 };

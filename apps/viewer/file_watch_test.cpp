@@ -70,5 +70,26 @@ TEST_F(FileWatching, watchesOthersFromThenOn) {
   EXPECT_EQ(saved(), Names{path("look.json")});
 }
 
+TEST_F(FileWatching, foldersComeAndGo) {
+  const std::string file = path("later/look.json");
+  watch_.watch({file});
+  for (int time = 0; time < 2; ++time) {
+    std::filesystem::create_directory(path("later"));
+    save("later/look.json", "2");
+    EXPECT_EQ(saved(), Names{file});
+    EXPECT_EQ(saved(200), Names());
+    save("later/look.json", "3");
+    EXPECT_EQ(saved(), Names{file});
+    if (time == 0)
+      std::filesystem::remove_all(path("later"));
+    else
+      std::filesystem::rename(path("later"), path("elsewhere"));
+  }
+  save("elsewhere/look.json", "4");
+  EXPECT_EQ(saved(200), Names());
+  std::filesystem::rename(path("elsewhere"), path("later"));
+  EXPECT_EQ(saved(), Names{file});
+}
+
 }  // namespace
 }  // namespace scumble::viewer

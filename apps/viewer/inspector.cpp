@@ -15,8 +15,9 @@ namespace {
 
 constexpr float kWideRange = 400;
 
-bool isOfScene(const Knob& knob) {
-  return std::find(knob.targets.begin(), knob.targets.end(), "scene") != knob.targets.end();
+bool isOf(const Knob& knob, const Target& target) {
+  const std::string section = target.section.empty() ? "scene" : target.section;
+  return std::find(knob.targets.begin(), knob.targets.end(), section) != knob.targets.end();
 }
 
 // Over ranges that a slider would cross in a hand's breadth one drags by parts of what is there.
@@ -80,11 +81,10 @@ void explain(const Knob& knob) {
 }  // namespace
 
 Inspector::Inspector() {
-  for (Knob& knob : Look::knobs()) {
-    if (!isOfScene(knob)) continue;
+  for (const Knob& knob : allKnobs()) {
     const std::string name = knob.path.substr(0, knob.path.rfind('.'));
     if (groups_.empty() || groups_.back().name != name) groups_.push_back({name, {}});
-    groups_.back().knobs.push_back(std::move(knob));
+    groups_.back().knobs.push_back(&knob);
   }
 }
 
@@ -117,7 +117,7 @@ std::optional<std::string> Inspector::layOutValue(const Knob& knob, const KnobVa
   return slider(knob, value);
 }
 
-bool Inspector::layOut(Document& document, double time) {
+bool Inspector::layOut(Document& document, const Target& target, double time) {
   ImGui::SetNextItemWidth(-1);
   ImGui::InputTextWithHint("##search", "Search knobs", search_, sizeof search_);
   ImGui::Checkbox("Only those turned here", &onlyTurned_);
@@ -127,15 +127,16 @@ bool Inspector::layOut(Document& document, double time) {
   bool isTurned = false;
   for (const Group& group : groups_) {
     std::vector<const Knob*> shown;
-    for (const Knob& knob : group.knobs)
-      if (isFound(knob, search_) && (!onlyTurned_ || document.edits().count(knob.path)))
-        shown.push_back(&knob);
+    for (const Knob* knob : group.knobs)
+      if (isOf(*knob, target) && isFound(*knob, search_) &&
+          (!onlyTurned_ || document.edits().count(target.path(*knob))))
+        shown.push_back(knob);
     if (shown.empty()) continue;
     if (isSearched) ImGui::SetNextItemOpen(true);
     // What is open while one searches is not what was open before.
     ImGui::PushID(isSearched);
     if (ImGui::CollapsingHeader(group.name.c_str()))
-      for (const Knob* knob : shown) isTurned |= layOutKnob(*knob, document, time);
+      for (const Knob* knob : shown) isTurned |= layOutKnob(*knob, target, document, time);
     ImGui::PopID();
   }
   ImGui::EndChild();
@@ -143,14 +144,15 @@ bool Inspector::layOut(Document& document, double time) {
   return isTurned;
 }
 
-bool Inspector::layOutKnob(const Knob& knob, Document& document, double time) {
-  const Result<KnobValue> value = document.look().get(knob.path, time);
+bool Inspector::layOutKnob(const Knob& knob, const Target& target, Document& document, double time) {
+  const std::string path = target.path(knob);
+  const Result<KnobValue> value = document.look().get(path, time);
   if (!value) return false;
   const float unit = ImGui::GetFontSize();
-  const bool isEdited = document.edits().count(knob.path) > 0;
+  const bool isEdited = document.edits().count(path) > 0;
   std::optional<std::string> text;
   bool isReset = false;
-  ImGui::PushID(knob.path.c_str());
+  ImGui::PushID(path.c_str());
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(knob.path.c_str() + knob.path.rfind('.') + 1);
   if (ImGui::IsItemHovered()) explain(knob);
@@ -164,10 +166,10 @@ bool Inspector::layOutKnob(const Knob& knob, Document& document, double time) {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("What the look says again");
   }
   ImGui::PopID();
-  if (isReset) document.unset(knob.path);
+  if (isReset) document.unset(path);
   if (text)
-    if (const Status status = document.set(knob.path, *text); !status)
-      document.tell(status.error().message());
+    if (const Status status = document.set(path, *text); !status)
+      document.tell(Concern::knob, status.error().message());
   return text || isReset;
 }
 

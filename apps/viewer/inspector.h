@@ -1,4 +1,4 @@
-// The panel of knobs: every one that acts on the whole scene, with its range, unit and meaning.
+// Knobs: all that a target has, with their ranges, units and meanings.
 #pragma once
 
 #include <optional>
@@ -9,18 +9,27 @@
 
 namespace scumble::viewer {
 
+// Whose knobs: of the whole scene, or of one name of a look's section.
+struct Target {
+  std::string section, name;
+  std::string path(const Knob& knob) const {
+    return section.empty() ? knob.path : section + "." + name + "." + knob.path;
+  }
+  bool operator==(const Target&) const = default;
+};
+
 class Inspector {
  public:
   Inspector();
   // Within an ImGui window. True where a knob was turned. `time`: seconds, at which tracks are read.
-  bool layOut(Document& document, double time);
+  bool layOut(Document& document, const Target& target, double time);
 
  private:
   struct Group {
     std::string name;  // what paths begin with
-    std::vector<Knob> knobs;
+    std::vector<const Knob*> knobs;
   };
-  bool layOutKnob(const Knob& knob, Document& document, double time);
+  bool layOutKnob(const Knob& knob, const Target& target, Document& document, double time);
   std::optional<std::string> layOutWord(const std::string& present);
   std::optional<std::string> layOutValue(const Knob& knob, const KnobValue& value);
 

@@ -1,57 +1,92 @@
 #include "interface.h"
 
-#include <imgui.h>
-
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "bindings.h"
+#include "panel.h"
 
 namespace scumble::viewer {
 
 namespace {
 
-constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
-                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
-constexpr ImGuiWindowFlags kFitting = kFixed | ImGuiWindowFlags_AlwaysAutoResize;
-constexpr float kPanelWidth = 25, kTimeHeight = 4.5f;  // in heights of letters
+constexpr float kStrip = 2;  // pixels of the line between two pictures
 
 float margin() {
   return ImGui::GetFontSize();
 }
 
+struct Box {
+  glm::vec2 low, high;
+};
+
+// In the middle of the window, with its aspect kept.
+Box placed(const glm::vec2& window, const glm::vec2& picture) {
+  const glm::vec2 scale = window / picture, shown = picture * std::min(scale.x, scale.y);
+  const glm::vec2 low = glm::round(0.5f * (window - shown));
+  return {low, low + shown};
+}
+
+// That part of it which lies between two places across the window, in pixels.
+void addPart(const Box& box, void* texture, float from, float to) {
+  const float left = std::max(box.low.x, from), right = std::min(box.high.x, to);
+  if (right <= left) return;
+  const float width = box.high.x - box.low.x;
+  ImGui::GetBackgroundDrawList()->AddImage(texture, {left, box.low.y}, {right, box.high.y},
+                                           {(left - box.low.x) / width, 0}, {(right - box.low.x) / width, 1});
+}
+
 }  // namespace
 
-void layOutPicture(const glm::vec2& window, const glm::vec2& picture, void* texture) {
-  const glm::vec2 scale = window / picture, shown = picture * std::min(scale.x, scale.y);
-  const glm::vec2 low = glm::round(0.5f * (window - shown)), high = low + shown;
-  ImGui::GetBackgroundDrawList()->AddImage(texture, {low.x, low.y}, {high.x, high.y});
+void layOutPicture(const glm::vec2& window, const PictureShown& picture, const PictureShown* other,
+                   float split) {
+  const float line = other ? std::round(split * window.x) : window.x;
+  addPart(placed(window, picture.size), picture.texture, 0, line);
+  if (other) addPart(placed(window, other->size), other->texture, line, window.x);
+}
+
+bool layOutSplit(const glm::vec2& window, const std::string& left, const std::string& right, float& split) {
+  const float line = std::round(split * window.x), unit = margin();
+  constexpr ImU32 kLine = IM_COL32(230, 230, 230, 255), kShade = IM_COL32(20, 20, 20, 170);
+  ImDrawList* const list = ImGui::GetBackgroundDrawList();
+  list->AddRectFilled({line - kStrip / 2, 0}, {line + kStrip / 2, window.y}, kLine);
+  const float y = window.y - 6.5f * unit;
+  const auto label = [&](const std::string& text, float x) {
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    list->AddRectFilled({x - 0.4f * unit, y - 0.3f * unit},
+                        {x + size.x + 0.4f * unit, y + size.y + 0.3f * unit}, kShade, 3);
+    list->AddText({x, y}, kLine, text.c_str());
+  };
+  label(left, line - unit - ImGui::CalcTextSize(left.c_str()).x);
+  label(right, line + unit);
+
+  ImGui::SetNextWindowPos({line - 0.5f * unit, 0});
+  ImGui::SetNextWindowSize({unit, window.y});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowMinSize, {1, 1});
+  ImGui::Begin("split", nullptr,
+               kFixedWindow | ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar |
+                   ImGuiWindowFlags_NoBringToFrontOnFocus);
+  ImGui::InvisibleButton("line", {unit, window.y});
+  const bool isDragged = ImGui::IsItemActive() && ImGui::GetIO().MouseDelta.x != 0;
+  if (ImGui::IsItemActive()) split = std::clamp(ImGui::GetIO().MousePos.x / window.x, 0.02f, 0.98f);
+  ImGui::End();
+  ImGui::PopStyleVar(2);
+  return isDragged;
 }
 
 void layOutWaiting(const glm::vec2& window, const std::string& text) {
   ImGui::SetNextWindowPos({window.x / 2, window.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::Begin("waiting", nullptr, kFitting);
+  ImGui::Begin("waiting", nullptr, kFittingWindow);
   ImGui::TextUnformatted(text.c_str());
-  ImGui::End();
-}
-
-void layOutProblem(const glm::vec2& window, const std::string& text) {
-  ImGui::SetNextWindowPos({margin(), margin()});
-  ImGui::SetNextWindowSize(
-      {std::clamp(window.x - (kPanelWidth + 3) * margin(), 16 * margin(), 52 * margin()), 0});
-  ImGui::Begin("problem", nullptr, kFixed);
-  ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.95f, 0.6f, 0.5f, 1));
-  ImGui::TextWrapped("%s", text.c_str());
-  ImGui::PopStyleColor();
-  ImGui::TextDisabled("What was there before stays.");
   ImGui::End();
 }
 
 void layOutHelp(const glm::vec2& window) {
   ImGui::SetNextWindowPos({margin(), margin()});
   ImGui::SetNextWindowSizeConstraints({0, 0}, {window.x - 2 * margin(), window.y - 2 * margin()});
-  ImGui::Begin("help", nullptr, kFitting);
+  ImGui::Begin("help", nullptr, kFittingWindow);
   if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
     for (const HelpRow& row : helpRows()) {
       ImGui::TableNextRow();
@@ -68,7 +103,7 @@ void layOutHelp(const glm::vec2& window) {
 bool layOutTime(const glm::vec2& window, Playback& playback) {
   const float unit = margin();
   ImGui::SetNextWindowPos({window.x / 2, window.y - unit}, ImGuiCond_Always, {0.5f, 1});
-  ImGui::Begin("time", nullptr, kFitting);
+  ImGui::Begin("time", nullptr, kFittingWindow);
   if (ImGui::Button(playback.isPlaying ? "Pause" : "Play", {4.5f * unit, 0})) playback.toggle();
   ImGui::SameLine();
   ImGui::SetNextItemWidth(std::clamp(window.x - 34 * unit, 8 * unit, 40 * unit));
@@ -88,34 +123,57 @@ bool layOutTime(const glm::vec2& window, Playback& playback) {
   return isMoved;
 }
 
-bool layOutPanel(const glm::vec2& window, const std::string& title, const std::string& facts,
-                 Document& document, Inspector& inspector, double time) {
-  const float unit = margin(), width = std::min(kPanelWidth * unit, window.x - 2 * unit);
-  ImGui::SetNextWindowPos({window.x - unit, unit}, ImGuiCond_Always, {1, 0});
-  ImGui::SetNextWindowSize({width, std::max(window.y - (1 + kTimeHeight) * unit, 6 * unit)});
-  ImGui::Begin("panel", nullptr, kFixed);
-  ImGui::TextUnformatted(title.c_str());
-  ImGui::SetNextItemWidth(-1);
-  const std::string& chosen = document.lookName();
-  constexpr const char* kOwn = "the scene's look";
-  if (ImGui::BeginCombo("##look", chosen.empty() ? kOwn : chosen.c_str())) {
-    if (ImGui::Selectable(kOwn, chosen.empty())) document.chooseLook("");
-    for (const ShippedLook& look : Look::shipped()) {
-      if (ImGui::Selectable(look.name.c_str(), look.name == chosen)) document.chooseLook(look.name);
-      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", look.description.c_str());
-    }
-    ImGui::EndCombo();
-  }
-  if (!document.look().description().empty()) ImGui::TextWrapped("%s", document.look().description().c_str());
-  if (!facts.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    ImGui::TextWrapped("%s", facts.c_str());
-    ImGui::PopStyleColor();
-  }
-  ImGui::Separator();
-  const bool isTurned = inspector.layOut(document, time);
+Notices::Notices(const glm::vec2& window) : window_(window), top_(margin()) {}
+
+void Notices::begin(const char* name) {
+  const float width = std::clamp(window_.x - panelWidth(window_) - margin(), 16 * margin(), 52 * margin());
+  ImGui::SetNextWindowPos({margin(), top_});
+  ImGui::SetNextWindowSize({width, 0});
+  ImGui::Begin(name, nullptr, kFixedWindow);
+}
+
+void Notices::end() {
+  top_ += ImGui::GetWindowHeight() + 0.5f * margin();
   ImGui::End();
-  return isTurned;
+}
+
+void Notices::problems(const std::map<Concern, std::string>& problems) {
+  if (problems.empty()) return;
+  begin("problem");
+  ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.95f, 0.6f, 0.5f, 1));
+  for (const auto& [concern, text] : problems) ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
+  ImGui::TextDisabled("What was there before stays.");
+  end();
+}
+
+Notices::Answer Notices::kept(const Recovery::Kept& kept) {
+  Answer answer = Answer::none;
+  begin("kept");
+  ImGui::TextWrapped("%zu knob%s turned here and not saved (%s).", kept.edits.size(),
+                     kept.edits.size() == 1 ? " was" : "s were", kept.when.c_str());
+  if (ImGui::Button("Take")) answer = Answer::take;
+  ImGui::SameLine();
+  if (ImGui::Button("Throw away")) answer = Answer::throwAway;
+  end();
+  return answer;
+}
+
+bool Notices::job(const ExportJob& job) {
+  const ExportJob::State state = job.state();
+  begin("job");
+  if (!state.isDone) {
+    ImGui::TextWrapped("Making %s", job.file().c_str());
+    ImGui::ProgressBar(float(state.part), {-6 * margin(), 0});
+    ImGui::SameLine();
+  } else if (state.problem.empty()) {
+    ImGui::TextWrapped("%s is there.", job.file().c_str());
+  } else {
+    ImGui::TextWrapped("%s: %s", job.file().c_str(), state.problem.c_str());
+  }
+  const bool isClosed = ImGui::Button(state.isDone ? "Close" : "Stop");
+  end();
+  return isClosed;
 }
 
 }  // namespace scumble::viewer

@@ -1,22 +1,59 @@
-// The parts of the interface that lie over the picture. Each is an ImGui window of its own.
+// What lies over the picture, besides the panel and the windows that are opened: the picture itself, the
+// time, the help, and what is told.
 #pragma once
 
+#include <imgui.h>
+
+#include <functional>
 #include <glm/glm.hpp>
 #include <string>
 
-#include "inspector.h"
+#include "document.h"
+#include "export_job.h"
 #include "playback.h"
+#include "recovery.h"
 
 namespace scumble::viewer {
 
-void layOutPicture(const glm::vec2& window, const glm::vec2& picture, void* texture);
+// A part of the interface that stays where it is.
+constexpr ImGuiWindowFlags kFixedWindow = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
+                                          ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                                          ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
+// And one that is as large as what is in it.
+constexpr ImGuiWindowFlags kFittingWindow = kFixedWindow | ImGuiWindowFlags_AlwaysAutoResize;
+
+// The first of the pictures in the middle of the window, as large as it gets; right of `split` (from 0 to 1
+// across the window) the other one, where there is one. Textures are as InterfacePass takes them.
+struct PictureShown {
+  void* texture = nullptr;
+  glm::vec2 size{1};  // pixels
+};
+void layOutPicture(const glm::vec2& window, const PictureShown& picture, const PictureShown* other,
+                   float split);
+// The line between the two, which is dragged; true where it was.
+bool layOutSplit(const glm::vec2& window, const std::string& left, const std::string& right, float& split);
+
 void layOutWaiting(const glm::vec2& window, const std::string& text);
-void layOutProblem(const glm::vec2& window, const std::string& text);
 void layOutHelp(const glm::vec2& window);
-// True where somebody has moved the playhead.
+// True where somebody has moved the time.
 bool layOutTime(const glm::vec2& window, Playback& playback);
-// `facts`: lines about the picture. True where a knob was turned.
-bool layOutPanel(const glm::vec2& window, const std::string& title, const std::string& facts,
-                 Document& document, Inspector& inspector, double time);
+
+// What is told at the left, from the top down: what is wrong, what was kept, what is being made.
+class Notices {
+ public:
+  explicit Notices(const glm::vec2& window);
+  void problems(const std::map<Concern, std::string>& problems);
+  enum class Answer { none, take, throwAway };
+  Answer kept(const Recovery::Kept& kept);
+  // True where somebody has closed it, or stopped it.
+  bool job(const ExportJob& job);
+
+ private:
+  void begin(const char* name);
+  void end();
+
+  glm::vec2 window_;
+  float top_;
+};
 
 }  // namespace scumble::viewer

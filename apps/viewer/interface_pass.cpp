@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <mutex>
 
 #include "shaders/interface_frag.h"
 #include "shaders/interface_vert.h"
@@ -113,42 +112,7 @@ void InterfacePass::uploadLetters() {
   unsigned char* pixels = nullptr;
   int width = 0, height = 0;
   ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
-  const VkExtent2D extent{uint32_t(width), uint32_t(height)};
-  const VkDeviceSize bytes = VkDeviceSize(width) * VkDeviceSize(height) * 4;
-  letters_ = Image(device_, VK_FORMAT_R8G8B8A8_UNORM, extent,
-                   VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
-  const MappedBuffer staging(device_, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
-  std::memcpy(staging.mapped(), pixels, bytes);
-
-  VkCommandPool pool;
-  const VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, 0,
-                                         device_.queueFamily};
-  must(vkCreateCommandPool(device_.device, &poolInfo, nullptr, &pool), "vkCreateCommandPool");
-  VkCommandBuffer commands;
-  const VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool,
-                                             VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
-  must(vkAllocateCommandBuffers(device_.device, &allocate, &commands), "vkAllocateCommandBuffers");
-  const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-  must(vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer");
-  imageBarrier(commands, letters_.handle(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
-  VkBufferImageCopy copy{};
-  copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-  copy.imageExtent = {extent.width, extent.height, 1};
-  vkCmdCopyBufferToImage(commands, staging.handle(), letters_.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                         1, &copy);
-  imageBarrier(commands, letters_.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
-  must(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
-  const VkCommandBufferSubmitInfo submitted{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, nullptr, commands,
-                                            0};
-  VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
-  submit.commandBufferInfoCount = 1, submit.pCommandBufferInfos = &submitted;
-  {
-    const std::lock_guard lock(*device_.queueLock);
-    must(vkQueueSubmit2(device_.queue, 1, &submit, VK_NULL_HANDLE), "vkQueueSubmit2");
-    must(vkQueueWaitIdle(device_.queue), "vkQueueWaitIdle");
-  }
-  vkDestroyCommandPool(device_.device, pool, nullptr);
+  letters_ = uploaded(device_, {uint32_t(width), uint32_t(height)}, pixels);
   ImGui::GetIO().Fonts->SetTexID(ImTextureID(letters_.view()));
 }
 

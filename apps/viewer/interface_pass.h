@@ -43,7 +43,7 @@ class InterfacePass {
   VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   VkPipeline pipeline_ = VK_NULL_HANDLE;
-  Image letters_;
+  DeviceImage letters_;
   std::array<Slot, Screen::kFrames> slots_;
 };
 

@@ -56,14 +56,35 @@ std::string hexOf(const glm::vec3& linear) {
   return text;
 }
 
-std::string valueText(const Look& look, const Knob& knob) {
-  const Result<KnobValue> value = look.get(knob.path);
-  if (!value) return "";
+const std::vector<Knob>& allKnobs() {
+  static const std::vector<Knob> knobs = Look::knobs();
+  return knobs;
+}
+
+std::optional<Setting> settingOf(const std::string& path) {
+  std::optional<Setting> found;
+  const size_t dot = path.find('.');
+  for (const Knob& knob : allKnobs()) {
+    if (knob.path == path) return Setting{"", "", &knob};
+    const std::string section = path.substr(0, dot);
+    if (std::find(knob.targets.begin(), knob.targets.end(), section) == knob.targets.end()) continue;
+    // Names may have dots, so the knob is the shortest tail that is one.
+    if (path.size() < dot + knob.path.size() + 3 || !path.ends_with("." + knob.path)) continue;
+    if (found && found->knob->path.size() < knob.path.size()) continue;
+    found = Setting{section, path.substr(dot + 1, path.size() - knob.path.size() - dot - 2), &knob};
+  }
+  return found;
+}
+
+std::string valueText(const Look& look, const std::string& path) {
+  const std::optional<Setting> setting = settingOf(path);
+  const Result<KnobValue> value = look.get(path);
+  if (!setting || !value) return "";
   if (const bool* toggle = std::get_if<bool>(&*value)) return *toggle ? "true" : "false";
   if (const int* integer = std::get_if<int>(&*value)) return std::to_string(*integer);
   if (const double* number = std::get_if<double>(&*value)) return textOf(*number);
   if (const auto* triple = std::get_if<glm::vec3>(&*value))
-    return knob.type == "color" ? hexOf(*triple) : textOf(*triple);
+    return setting->knob->type == "color" ? hexOf(*triple) : textOf(*triple);
   return std::get<std::string>(*value);
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,9 +18,20 @@ std::string hexOf(const glm::vec3& linear);
 glm::vec3 curveOf(const glm::vec3& linear);
 glm::vec3 linearOf(const glm::vec3& curve);
 
-// What a look says of a knob of the whole scene, as a text that Look::set takes; empty for knobs that there
-// are not.
-std::string valueText(const Look& look, const Knob& knob);
+// All that there are, listed once.
+const std::vector<Knob>& allKnobs();
+
+// A setting's path as Look::set takes it, taken apart: "materials.Paint.001.warp.amount" is "materials",
+// "Paint.001" and the knob "warp.amount", and one of the whole scene has no section.
+struct Setting {
+  std::string section, name;
+  const Knob* knob = nullptr;
+};
+// Nothing where there is no such knob.
+std::optional<Setting> settingOf(const std::string& path);
+
+// What a look says of a setting, as a text that Look::set takes; empty for those that there are not.
+std::string valueText(const Look& look, const std::string& path);
 
 // The words of a choice, or the pictures that are built in: Knob::unit names them, "a|b|c".
 std::vector<std::string> wordsOf(const Knob& knob);

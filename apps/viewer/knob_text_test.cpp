@@ -32,7 +32,7 @@ TEST(KnobText, everyDefaultIsReadAgain) {
     if (std::find(knob.targets.begin(), knob.targets.end(), "scene") == knob.targets.end()) continue;
     Look look;
     const KnobValue value = look.get(knob.path).value();
-    const std::string text = valueText(look, knob);
+    const std::string text = valueText(look, knob.path);
     EXPECT_EQ(text, knob.defaultValue) << knob.path;
     if (text.empty()) continue;
     ASSERT_TRUE(look.set(knob.path, text).ok()) << knob.path << " = " << text;

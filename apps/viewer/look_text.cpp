@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cctype>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <vector>
+
+#include "knob_text.h"
 
 namespace scumble::viewer {
 
@@ -85,14 +88,19 @@ class Reader {
 };
 
 // Of a knob as looks have it in JSON. Words that are no number, truth or list of numbers are strings.
-std::string jsonOf(const std::string& path, const std::string& value) {
-  for (const Knob& knob : Look::knobs()) {
-    if (knob.path != path) continue;
-    if (knob.type == "number" || knob.type == "integer" || knob.type == "toggle") return value;
-    if (knob.type == "vector") return "[" + value + "]";
-    break;
-  }
-  return nlohmann::json(value).dump();
+std::string jsonOf(const Setting& setting, const std::string& value) {
+  const std::string& type = setting.knob->type;
+  if (type == "number" || type == "integer" || type == "toggle") return value;
+  return type == "vector" ? "[" + value + "]" : nlohmann::json(value).dump();
+}
+
+// The keys under which it stands.
+std::vector<std::string> keysOf(const Setting& setting) {
+  std::vector<std::string> keys;
+  if (!setting.section.empty()) keys = {setting.section, setting.name};
+  std::stringstream path(setting.knob->path);
+  for (std::string key; std::getline(path, key, '.');) keys.push_back(key);
+  return keys;
 }
 
 // The blanks with which the line of a place begins, if there is nothing else before it.
@@ -119,35 +127,27 @@ void append(std::string& text, const Object& object, const std::string& member) 
   text.insert(last.value.end, indentation ? ",\n" + *indentation + member : ", " + member);
 }
 
-bool put(std::string& text, const std::string& path, const std::string& json) {
+bool put(std::string& text, const std::vector<std::string>& keys, const std::string& json) {
   const Reader reader(text);
   Object object = reader.object(reader.pastBlank(0));
-  for (size_t begin = 0;;) {
-    const size_t dot = path.find('.', begin);
-    const std::string name = path.substr(begin, dot == std::string::npos ? dot : dot - begin);
+  for (auto key = keys.begin();; ++key) {
     // Of keys that stand twice the last one counts.
     const auto found = std::find_if(object.members.rbegin(), object.members.rend(),
-                                    [&](const Member& member) { return member.key == name; });
+                                    [&](const Member& member) { return member.key == *key; });
+    const bool isKnob = key + 1 == keys.end();
     if (found == object.members.rend()) {
-      std::string member = json;
-      for (size_t end = path.size(); end != std::string::npos && end > begin;) {
-        const size_t before = path.rfind('.', end - 1);
-        const size_t from = before == std::string::npos || before < begin ? begin : before + 1;
-        member = nlohmann::json(path.substr(from, end - from)).dump() + ": " + member;
-        if (from == begin) break;
-        member = "{ " + member + " }";
-        end = before;
-      }
+      std::string member = nlohmann::json(keys.back()).dump() + ": " + json;
+      for (auto outer = keys.end() - 1; outer != key; --outer)
+        member = nlohmann::json(*(outer - 1)).dump() + ": { " + member + " }";
       append(text, object, member);
       return true;
     }
-    if (dot == std::string::npos) {
+    if (isKnob) {
       text.replace(found->value.begin, found->value.end - found->value.begin, json);
       return true;
     }
     if (text[found->value.begin] != '{') return false;
     object = reader.object(found->value.begin);
-    begin = dot + 1;
   }
 }
 
@@ -158,8 +158,10 @@ std::optional<std::string> withKnobs(const std::string& text, const Edits& edits
   std::string changed = isEmpty ? "{}\n" : text;
   const nlohmann::json parsed = nlohmann::json::parse(changed, nullptr, false, true);
   if (!parsed.is_object()) return std::nullopt;
-  for (const auto& [path, value] : edits)
-    if (!put(changed, path, jsonOf(path, value))) return std::nullopt;
+  for (const auto& [path, value] : edits) {
+    const std::optional<Setting> setting = settingOf(path);
+    if (!setting || !put(changed, keysOf(*setting), jsonOf(*setting, value))) return std::nullopt;
+  }
   return changed;
 }
 

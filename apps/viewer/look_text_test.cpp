@@ -79,5 +79,12 @@ TEST(LookText, everyKnobIsReadAgain) {
     EXPECT_EQ(look->get(knob.path).value(), defaults.get(knob.path).value()) << knob.path;
 }
 
+TEST(LookText, knobsOfSomeNamesStandBelowThem) {
+  EXPECT_EQ(with(R"({"materials": {"Paint.001": {"warp": {"amount": 1}}}})",
+                 {{"materials.Paint.001.warp.amount", "2"}, {"materials.Sail*.warp.amount", "3"}}),
+            R"({"materials": {"Paint.001": {"warp": {"amount": 2}}, "Sail*": { "warp": { "amount": 3 } }}})");
+  EXPECT_EQ(withKnobs("{}", {{"materials.Paint.no.knob", "2"}}), std::nullopt);
+}
+
 }  // namespace
 }  // namespace scumble::viewer

@@ -1,6 +1,9 @@
 #include "picture_maker.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "visible.h"
 
 namespace scumble::viewer {
 
@@ -18,16 +21,31 @@ PictureMaker::~PictureMaker() {
   thread_.join();
 }
 
-void PictureMaker::wish(Wish wish) {
+uint64_t PictureMaker::wish(int purpose, Wish wish) {
   const std::lock_guard lock(mutex_);
-  next_ = std::move(wish);
+  const uint64_t number = ++number_;
+  waiting_[purpose] = {number, std::move(wish)};
+  wanted_[purpose] = number;
   changed_.notify_all();
-  ++number_;
+  return number;
 }
 
-std::shared_ptr<const Picture> PictureMaker::latest() const {
+void PictureMaker::forget(int purpose) {
   const std::lock_guard lock(mutex_);
-  return latest_;
+  waiting_.erase(purpose);
+  wanted_.erase(purpose);
+  latest_.erase(purpose);
+}
+
+bool PictureMaker::takeNews() {
+  const std::lock_guard lock(mutex_);
+  return std::exchange(isNews_, false);
+}
+
+std::shared_ptr<const Picture> PictureMaker::latest(int purpose) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = latest_.find(purpose);
+  return found == latest_.end() ? nullptr : found->second;
 }
 
 std::optional<Error> PictureMaker::takeFailure() {
@@ -37,24 +55,28 @@ std::optional<Error> PictureMaker::takeFailure() {
 
 void PictureMaker::run() {
   for (;;) {
-    Wish wish;
-    uint64_t number = 0;
+    Waiting next;
+    int purpose = 0;
     {
       std::unique_lock lock(mutex_);
-      changed_.wait(lock, [&] { return isEnding_ || next_; });
+      changed_.wait(lock, [&] { return isEnding_ || !waiting_.empty(); });
       if (isEnding_) return;
-      wish = std::move(*next_);
-      next_.reset();
-      number = number_;
+      purpose = waiting_.begin()->first;
+      next = std::move(waiting_.begin()->second);
+      waiting_.erase(waiting_.begin());
     }
-    Result<std::shared_ptr<Picture>> drawn = draw(wish);
+    Result<std::shared_ptr<Picture>> drawn = draw(next.wish);
     {
       const std::lock_guard lock(mutex_);
-      if (drawn) {
-        drawn.value()->number = number;
-        latest_ = drawn.value();
-      } else {
-        failure_ = drawn.error();
+      // Nobody wants it any more where its purpose was forgotten.
+      isNews_ = true;
+      if (wanted_.count(purpose)) {
+        if (drawn) {
+          drawn.value()->number = next.number;
+          latest_[purpose] = drawn.value();
+        } else {
+          failure_ = drawn.error();
+        }
       }
     }
     whenDone_();
@@ -71,7 +93,7 @@ std::shared_ptr<Picture> PictureMaker::blank(const glm::uvec2& size) {
   for (const std::shared_ptr<Picture>& picture : pictures_)
     if (picture.use_count() == 1) return picture;
   auto made = std::make_shared<Picture>();
-  made->image = Image(
+  made->image = DeviceImage(
       device_, Picture::kFormat, {size.x, size.y},
       VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
   return pictures_.emplace_back(std::move(made));
@@ -91,6 +113,8 @@ Result<std::shared_ptr<Picture>> PictureMaker::draw(const Wish& wish) {
   RenderOptions options;
   options.width = wish.size.x, options.height = wish.size.y;
   options.samples = wish.samples, options.seed = wish.seed;
+  options.background = wish.background;
+  options.aovs = wish.aovs;
   options.progress = [this](double) {
     const std::lock_guard lock(mutex_);
     return !isEnding_;
@@ -106,6 +130,21 @@ Result<std::shared_ptr<Picture>> PictureMaker::draw(const Wish& wish) {
   const Result<Frame> frame = renderer_->finish();
   if (!frame) return frame.error();
   picture->milliseconds = frame->stats.gpuMilliseconds + frame->stats.cpuMilliseconds;
+  picture->steps = frame->stats.passes;
+  picture->objects = frame->objects, picture->materials = frame->materials;
+  picture->layers.clear();
+  try {
+    for (const std::string& aov : wish.aovs)
+      for (const Frame::Layer& layer : frame->layers)
+        if (layer.name == aov) {
+          const Image& values = layer.views[0];
+          picture->layers.push_back(
+              {aov, values,
+               uploaded(device_, {values.width, values.height}, visibleBytes(values, aov).data())});
+        }
+  } catch (const VulkanFailure& failure) {
+    return Error{ErrorKind::noUsableGpu, "", 0, "", failure.what(), "make the window smaller"};
+  }
   return picture;
 }
 

@@ -1,13 +1,14 @@
-// Draws pictures beside the window, on a thread of its own, so that the window never waits for one. What is
-// wished last is drawn next; what was wished before and has not begun is not drawn at all.
+// Draws pictures beside the window, on a thread of its own, so that the window never waits for one.
 #pragma once
 
 #include <condition_variable>
 #include <functional>
 #include <glm/glm.hpp>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -22,14 +23,24 @@ struct Wish {
   double time = 0;  // seconds
   glm::uvec2 size{0};
   uint32_t samples = 4, seed = 0;
+  std::shared_ptr<const Image> background;
+  std::vector<std::string> aovs;  // to be looked at, and read, beside the picture
 };
 
 struct Picture {
   static constexpr VkFormat kFormat = VK_FORMAT_R8G8B8A8_UNORM;  // in sRGB's curve
 
-  Image image;              // VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
+  struct Layer {
+    std::string aov;
+    Image values;
+    DeviceImage shown;  // as visible.h has it
+  };
+  DeviceImage image;        // VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
   uint64_t number = 0;      // of the wish: they grow
   double milliseconds = 0;  // without what only a first one takes: uploads and compiling
+  std::vector<PassTime> steps;
+  std::vector<Layer> layers;                    // in the wish's order
+  std::vector<std::string> objects, materials;  // Frame's, where one of the layers names them
 };
 
 class PictureMaker {
@@ -40,9 +51,16 @@ class PictureMaker {
   PictureMaker(const PictureMaker&) = delete;
   PictureMaker& operator=(const PictureMaker&) = delete;
 
-  void wish(Wish wish);
+  // `purpose`: pictures of different ones do not replace each other. Of those that wait the one of the lowest
+  // is drawn first; what was wished before for the same one and has not begun is not drawn at all. Gives the
+  // wish's number.
+  uint64_t wish(int purpose, Wish wish);
+  // Neither drawn any more nor kept.
+  void forget(int purpose);
   // The last one that is done; null before the first. As long as somebody has it nothing is drawn into it.
-  std::shared_ptr<const Picture> latest() const;
+  std::shared_ptr<const Picture> latest(int purpose) const;
+  // Whether a picture was done, or one has failed, since the last call.
+  bool takeNews();
   // What went wrong last, once.
   std::optional<Error> takeFailure();
   // While no picture is being made.
@@ -58,10 +76,15 @@ class PictureMaker {
   const std::function<void()> whenDone_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::optional<Wish> next_;
+  struct Waiting {
+    uint64_t number = 0;
+    Wish wish;
+  };
+  std::map<int, Waiting> waiting_;
+  std::map<int, uint64_t> wanted_;  // the last wish of each purpose
   uint64_t number_ = 0;
-  bool isEnding_ = false;
-  std::shared_ptr<const Picture> latest_;
+  bool isEnding_ = false, isNews_ = false;
+  std::map<int, std::shared_ptr<const Picture>> latest_;
   std::optional<Error> failure_;
   std::vector<std::shared_ptr<Picture>> pictures_;  // the thread's own
   std::thread thread_;

@@ -31,14 +31,38 @@ VkSurfaceFormatKHR chosenFormat(const VulkanDevice& device, VkSurfaceKHR surface
   throw VulkanFailure("the choice of a format that the window shows", VK_ERROR_FORMAT_NOT_SUPPORTED);
 }
 
+// One that never waits while the queue is held, where there is one: the window keeps its own pace.
+VkPresentModeKHR chosenMode(const VulkanDevice& device, VkSurfaceKHR surface) {
+  uint32_t count = 0;
+  must(vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical, surface, &count, nullptr),
+       "vkGetPhysicalDeviceSurfacePresentModesKHR");
+  std::vector<VkPresentModeKHR> modes(count);
+  must(vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical, surface, &count, modes.data()),
+       "vkGetPhysicalDeviceSurfacePresentModesKHR");
+  const bool isThere = std::find(modes.begin(), modes.end(), VK_PRESENT_MODE_MAILBOX_KHR) != modes.end();
+  return isThere ? VK_PRESENT_MODE_MAILBOX_KHR : VK_PRESENT_MODE_FIFO_KHR;
+}
+
 }  // namespace
 
 Screen::Screen(const VulkanDevice& device, VkSurfaceKHR surface) : device_(device), surface_(surface) {
+  try {
+    begin();
+  } catch (...) {
+    end();
+    throw;
+  }
+}
+
+void Screen::begin() {
+  const VulkanDevice& device = device_;
+  const VkSurfaceKHR surface = surface_;
   VkBool32 isShown = VK_FALSE;
   must(vkGetPhysicalDeviceSurfaceSupportKHR(device.physical, device.queueFamily, surface, &isShown),
        "vkGetPhysicalDeviceSurfaceSupportKHR");
   if (!isShown) throw VulkanFailure("showing what the device draws", VK_ERROR_FEATURE_NOT_PRESENT);
   format_ = chosenFormat(device, surface);
+  mode_ = chosenMode(device, surface);
   for (Frame& frame : frames_) {
     const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr,
                                        VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, device.queueFamily};
@@ -54,6 +78,10 @@ Screen::Screen(const VulkanDevice& device, VkSurfaceKHR surface) : device_(devic
 
 Screen::~Screen() {
   settle();
+  end();
+}
+
+void Screen::end() {
   drop();
   if (swapchain_) vkDestroySwapchainKHR(device_.device, swapchain_, nullptr);
   for (const Frame& frame : frames_) {
@@ -101,7 +129,7 @@ bool Screen::remake(const glm::uvec2& size) {
   info.compositeAlpha = can.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
                             ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
                             : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
-  info.presentMode = VK_PRESENT_MODE_FIFO_KHR;
+  info.presentMode = mode_;
   info.clipped = VK_TRUE;
   info.oldSwapchain = swapchain_;
   VkSwapchainKHR made = VK_NULL_HANDLE;

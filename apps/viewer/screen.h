@@ -42,6 +42,8 @@ class Screen {
     VkImageView view = VK_NULL_HANDLE;
     VkSemaphore drawn = VK_NULL_HANDLE;
   };
+  void begin();
+  void end();
   bool remake(const glm::uvec2& size);
   void drop();
   void record(const Frame& frame, const Shown& shown, uint32_t number,
@@ -50,6 +52,7 @@ class Screen {
   VulkanDevice device_;
   VkSurfaceKHR surface_;
   VkSurfaceFormatKHR format_{};
+  VkPresentModeKHR mode_ = VK_PRESENT_MODE_FIFO_KHR;
   VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
   VkExtent2D extent_{0, 0};
   bool isOutdated_ = false;

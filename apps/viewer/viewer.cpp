@@ -6,18 +6,24 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 #include "bindings.h"
+#include "dialogs.h"
 #include "glfw.h"
 #include "interface.h"
 #include "interface_input.h"
 #include "interface_pass.h"
+#include "look_sheet.h"
 #include "navigation.h"
-#include "picture_maker.h"
+#include "panel.h"
+#include "passes_strip.h"
+#include "pictures.h"
+#include "recent_files.h"
 #include "screen.h"
-#include "sharpness.h"
 #include "style.h"
+#include "visible.h"
 #include "window.h"
 
 namespace scumble::viewer {
@@ -25,9 +31,12 @@ namespace scumble::viewer {
 namespace {
 
 constexpr double kFrameSeconds = 1 / 60.0;  // of the window, while something moves by itself
+constexpr double kKeepSeconds = 2;          // after a knob was turned, until it is kept in a file
 constexpr float kFlySpeed = 0.8f;           // distances to what is looked at, a second
 constexpr float kDragZoom = 12;             // steps over the window's height
+constexpr float kClick = 0.25f;             // heights of letters that a hand may move while it clicks
 constexpr int kSettling = 3;                // frames after an event until the interface rests
+constexpr int kMostLosses = 3;              // of the device, one after the other
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -46,51 +55,85 @@ struct Context {
   ~Context() { ImGui::DestroyContext(); }
 };
 
+// What is there as long as the device is.
+struct Drawing {
+  Drawing(const ViewerOptions& options, const Window& window, std::unique_ptr<Renderer> renderer)
+      : pictures(std::move(renderer), {options.samples, options.seed}, Window::wake),
+        device(vulkanDeviceOf(pictures.renderer())),
+        screen(device, window.makeSurface(device.instance)),
+        pass(device, screen.format()) {}
+  ~Drawing() { screen.settle(); }
+
+  Pictures pictures;
+  const VulkanDevice device;
+  Screen screen;
+  InterfacePass pass;
+  std::array<std::vector<std::shared_ptr<const Picture>>, Screen::kFrames> held;  // by frames under way
+};
+
 class Viewer {
  public:
-  Viewer(const ViewerOptions& options, Window& window, std::unique_ptr<Renderer> renderer)
+  Viewer(const ViewerOptions& options, Window& window)
       : options_(options),
         window_(window),
-        maker_(std::move(renderer), Window::wake),
-        device_(vulkanDeviceOf(maker_.renderer())),
         document_(options.sources, Window::wake),
         input_(window),
-        screen_(device_, window.makeSurface(device_.instance)) {
+        recovery_(options.stateFolder),
+        recent_(options.stateFolder) {
     playback_.playhead = options.time;
     setStyle(window.contentScale());
     ImGui::GetIO().DisplaySize = {float(options.width), float(options.height)};
-    pass_ = std::make_unique<InterfacePass>(device_, screen_.format());
   }
-  ~Viewer() { screen_.settle(); }
 
-  Status run() {
+  // Until it is closed. Throws VulkanFailure where the device cannot go on; what the window shows stays, and
+  // it can be run again with another one.
+  Status run(std::unique_ptr<Renderer> renderer) {
+    drawing_ = std::make_unique<Drawing>(options_, window_, std::move(renderer));
+    settling_ = kSettling;
     while (!window_.shouldClose()) {
       window_.wait(untilNextFrame());
       input_.add(window_.takeEvents());
       if (input_.hasMore() || window_.wasTouched()) settling_ = kSettling;
       if (const Status status = takeDocument(); !status) return status.error();
       takePictures();
-      if (settling_ == 0 && !moves() && !isDue()) continue;
+      keepEdits(false);
+      if (settling_ == 0 && !moves() && !pictures().isDue(now())) continue;
       if (settling_ > 0) --settling_;
       drawFrame();
     }
-    return maker_.renderer().validationMessages() == 0
+    keepEdits(true);
+    return pictures().renderer().validationMessages() == 0
                ? Status(Done{})
                : Error{ErrorKind::internal, "", 0, "", "the Vulkan validation layers have complained",
                        "see above"};
   }
+  // After run() has thrown.
+  void loseDevice() {
+    keepEdits(true);
+    drawing_.reset();
+    shown_.clear();
+  }
 
  private:
+  Pictures& pictures() { return drawing_->pictures; }
+  const Pictures& pictures() const { return drawing_->pictures; }
+
+  bool isFlying() const {
+    return std::any_of(held_.begin(), held_.end(),
+                       [](Command command) { return command != Command::compare; });
+  }
   // Whether something goes on without anybody doing anything.
-  bool moves() const { return playback_.moves() || !flying_.empty(); }
-  // What has moved rests, and is to be drawn in full.
-  bool isDue() const { return isCoarse_ && !sharpness_.isMoving(now()); }
+  bool moves() const { return playback_.moves() || isFlying(); }
 
   double untilNextFrame() const {
     if (input_.hasMore()) return 0;
     if (settling_ > 0 || moves()) return std::max(lastFrame_ + kFrameSeconds - now(), 0.0);
-    return isCoarse_ ? std::max(sharpness_.untilRest(now()), 0.0) : -1;
+    double wait = pictures().untilDue(now()).value_or(1e9);
+    if (document_.edits() != keptEdits_) wait = std::min(wait, std::max(keepAt_ - now(), 0.0));
+    return wait < 1e9 ? wait : -1;
   }
+
+  // ---- The document
 
   Status takeDocument() {
     const Result<bool> news = document_.poll();
@@ -102,34 +145,106 @@ class Viewer {
     for (int i = 0; i < 3; ++i) low[i] = float(summary.min[i]), high[i] = float(summary.max[i]);
     centre_ = 0.5f * (low + high), radius_ = std::max(0.5f * glm::distance(low, high), 1e-6f);
     playback_.duration = playedSeconds(document_.scene(), document_.look());
+    if (opened_ != document_.opened().scenes) takeScenes();
     return Done{};
+  }
+
+  // Other scenes are there.
+  void takeScenes() {
+    const bool isFirst = opened_.empty();
+    opened_ = document_.opened().scenes;
+    recent_.add(opened_);
+    title_ = std::filesystem::path(opened_[0]).filename().string();
+    if (opened_.size() > 1) title_ += " and " + std::to_string(opened_.size() - 1) + " more";
+    window_.setTitle(title_);
+    panel_.select({});
+    keptEdits_ = {};
+    kept_ = recovery_.find(opened_);
+    if (isFirst) return;
+    letGo(Viewpoint());
+    playback_.playhead = 0;
+  }
+
+  void openScenes(const OpenWish& wish) {
+    keepEdits(true);
+    std::vector<std::string> files = wish.isAdded ? document_.opened().scenes : std::vector<std::string>();
+    files.insert(files.end(), wish.files.begin(), wish.files.end());
+    document_.openScenes(std::move(files));
+  }
+
+  // Edits that are saved nowhere go to a file, a little after the last of them or `atOnce`.
+  void keepEdits(bool atOnce) {
+    if (document_.edits() == keptEdits_) return;
+    if (document_.edits() != lastEdits_) {
+      lastEdits_ = document_.edits();
+      keepAt_ = std::min(keepAt_, now() + kKeepSeconds);
+    }
+    if (!atOnce && now() < keepAt_) return;
+    keptEdits_ = document_.edits();
+    keepAt_ = 1e300;
+    const Status status = recovery_.keep(document_.opened(), keptEdits_);
+    if (!status) document_.tell(Concern::saving, status.error().message());
+  }
+
+  void save() {
+    const Result<std::string> file = document_.save();
+    if (file)
+      notice_ = "saved to " + *file;
+    else
+      document_.tell(Concern::saving, file.error().message());
+  }
+
+  void make(const SaveWish& wish) {
+    Shown shown = presentlyShown(wish.size);
+    if (wish.kind == SaveWish::Kind::film) shown.film = {false, playback_.duration};
+    if (wish.kind == SaveWish::Kind::turn) {
+      shown.film = {true, double(wish.seconds)};
+      if (const std::optional<Viewpoint> around = orbitOfPresent()) shown.viewpoint = around;
+    }
+    std::vector<std::string> words = options_.command(shown);
+    words.insert(words.end(), {"-o", wish.file});
+    job_ = std::make_unique<ExportJob>(words, wish.file, Window::wake);
   }
 
   // ---- Pictures
 
   void takePictures() {
-    if (const auto failure = maker_.takeFailure()) {
-      document_.tell(failure->message());
-      settling_ = kSettling;
+    if (pictures().poll() || (job_ && !job_->state().isDone)) settling_ = kSettling;
+    if (const auto failure = pictures().takeFailure())
+      document_.tell(Concern::picture, failure->message());
+    else if (pictures().shown() && pictures().shown()->number != lastShown_)
+      document_.settle(Concern::picture);
+    if (pictures().shown()) lastShown_ = pictures().shown()->number;
+    if (const auto picked = pictures().takePicked()) {
+      panel_.select(*picked);
+      showsPanel_ = true;
     }
-    std::shared_ptr<const Picture> latest = maker_.latest();
-    if (!latest || (picture_ && latest->number == picture_->number)) return;
-    const VkExtent2D extent = latest->image.extent();
-    sharpness_.drew({extent.width, extent.height}, latest->milliseconds);
-    picture_ = std::move(latest);
-    settling_ = kSettling;
   }
 
   void wish(const glm::uvec2& full) {
     if (document_.scene().empty()) return;
-    if (moves()) sharpness_.moved(now());
-    const glm::uvec2 size = sharpness_.isMoving(now()) ? sharpness_.sizeWhileMoving(full) : full;
-    isCoarse_ = size != full;
-    const Wished wished{document_.version(), moves_, size, playback_.pictureTime()};
-    if (wished_ == wished) return;
-    wished_ = wished;
-    maker_.wish({document_.scene(), document_.look(), viewpoint(), wished.time, size, options_.samples,
-                 options_.seed});
+    if (moves()) pictures().moved(now());
+    pictures().begin(document_, {viewpoint(), moves_, playback_.pictureTime()}, full, now());
+    pictures().askForShown(held_.count(Command::compare) > 0);
+    if (showsSplit_) pictures().askForOther(otherLook_, lookOf(otherLook_));
+    if (showsPasses_) pictures().askForThumbnails(), pictures().askForPass(passes_.chosen());
+    if (showsLooks_) pictures().askForLooks(allLooks());
+    pictures().end();
+  }
+
+  // By name; empty: the scene's own, as it is saved.
+  const Look& lookOf(const std::string& name) {
+    if (name.empty()) return document_.savedLook();
+    const auto [known, isNew] = looks_.try_emplace(name);
+    if (isNew)
+      if (Result<Look> look = Look::load(name)) known->second = std::move(look).value();
+    return known->second;
+  }
+
+  std::vector<std::pair<std::string, Look>> allLooks() {
+    std::vector<std::pair<std::string, Look>> looks;
+    for (const ShippedLook& shipped : Look::shipped()) looks.emplace_back(shipped.name, lookOf(shipped.name));
+    return looks;
   }
 
   Viewpoint viewpoint() const {
@@ -155,7 +270,7 @@ class Viewer {
         navigation_.takeUp(*view, centre_, radius_);
         isHandHeld_ = true;
       }
-    sharpness_.moved(now());
+    pictures().moved(now());
     ++moves_;
     return navigation_;
   }
@@ -165,31 +280,53 @@ class Viewer {
     ++moves_;
   }
 
-  // All of it, from where it is seen now.
-  void frameAll() {
+  // Around what is framed, from where it is seen now.
+  std::optional<Viewpoint> orbitOfPresent() const {
     const std::optional<View> view = presentView();
-    if (!view) return;
+    if (!view) return std::nullopt;
     const glm::vec3 away = glm::normalize(glm::vec3(glm::inverse(view->worldToEye)[2]));
-    Viewpoint all;
-    all.orbit = true;
-    all.azimuth = glm::degrees(std::atan2(away.x, away.z));
-    all.elevation = glm::degrees(std::asin(std::clamp(away.y, -1.0f, 1.0f)));
-    letGo(all);
+    Viewpoint around;
+    around.orbit = true;
+    around.azimuth = glm::degrees(std::atan2(away.x, away.z));
+    around.elevation = glm::degrees(std::asin(std::clamp(away.y, -1.0f, 1.0f)));
+    return around;
   }
 
-  void copyCommand() const {
-    const glm::uvec2 size = window_.framebufferSize();
+  Shown presentlyShown(const glm::uvec2& size) const {
     const bool isOwn = isHandHeld_ || base_;
-    window_.copy(options_.command({isOwn ? std::optional(viewpoint()) : std::nullopt, document_.lookName(),
-                                   document_.edits(), playback_.pictureTime(), size.x, size.y}));
+    return {document_.opened(),
+            isOwn ? std::optional(viewpoint()) : std::nullopt,
+            document_.edits(),
+            playback_.pictureTime(),
+            size.x,
+            size.y,
+            std::nullopt};
   }
 
-  void save() {
-    const Result<std::string> file = document_.save();
-    if (file)
-      notice_ = "saved to " + *file;
+  void openSaveDialog() {
+    saveDialog_.open(document_.opened().scenes[0], window_.framebufferSize(), playback_.duration > 0);
+  }
+
+  // What lies over everything goes first.
+  void leave() {
+    if (openDialog_.isOpen() || saveDialog_.isOpen() || dropDialog_.isOpen())
+      openDialog_.close(), saveDialog_.close(), dropDialog_.close();
+    else if (showsLooks_ || showsHelp_)
+      showsLooks_ = showsHelp_ = false;
+    else if (!passes_.chosen().empty())
+      passes_.choose("");
     else
-      document_.tell(file.error().message());
+      panel_.select({});
+  }
+
+  void take(const Dropped& dropped) {
+    Drop drop = sorted(dropped.files);
+    if (!drop.looks.empty()) document_.openLook(drop.looks.back());
+    if (!drop.others.empty())
+      document_.tell(Concern::scene, drop.others[0] +
+                                         ": it is no scene, look or picture by its name; drop a "
+                                         ".glb, .gltf, .tilt, .json, .png, .jpg or .webp");
+    dropDialog_.open(std::move(drop));
   }
 
   void obey(Command command) {
@@ -207,7 +344,7 @@ class Viewer {
         window_.close();
         break;
       case Command::copyCommand:
-        copyCommand();
+        window_.copy(shellText(options_.command(presentlyShown(window_.framebufferSize()))));
         break;
       case Command::save:
         save();
@@ -219,7 +356,7 @@ class Viewer {
         document_.redo();
         break;
       case Command::frameAll:
-        frameAll();
+        if (const std::optional<Viewpoint> around = orbitOfPresent()) letGo(around);
         break;
       case Command::lookCamera:
         letGo(std::nullopt);
@@ -281,7 +418,27 @@ class Viewer {
       case Command::flyRight:
       case Command::flyDown:
       case Command::flyUp:
-        flying_.insert(command);
+      case Command::compare:
+        held_.insert(command);
+        break;
+      case Command::open:
+        openDialog_.open();
+        break;
+      case Command::make:
+        if (!document_.scene().empty()) openSaveDialog();
+        break;
+      case Command::looks:
+        showsLooks_ = !showsLooks_;
+        break;
+      case Command::split:
+        showsSplit_ = !showsSplit_;
+        break;
+      case Command::passes:
+        showsPasses_ = !showsPasses_;
+        if (!showsPasses_) passes_.choose("");
+        break;
+      case Command::leave:
+        leave();
         break;
     }
   }
@@ -297,43 +454,66 @@ class Viewer {
       hold().orbit(way);
   }
 
+  void press(const MouseButton& button, const glm::uvec2& size) {
+    if (!button.isDown && button.button == button_) {
+      if (isClick_ && button_ == GLFW_MOUSE_BUTTON_LEFT && pictures().shown())
+        pictures().pick(mouse_ / glm::max(glm::vec2(size), 1.0f));
+      button_ = -1;
+    }
+    if (button.isDown && button_ < 0 && !ImGui::GetIO().WantCaptureMouse &&
+        button.button <= GLFW_MOUSE_BUTTON_MIDDLE) {
+      button_ = button.button;
+      pressedAt_ = mouse_;
+      isClick_ = true;
+    }
+  }
+
+  void move(const glm::vec2& to, const glm::uvec2& size) {
+    const glm::vec2 from = isClick_ ? pressedAt_ : mouse_;
+    mouse_ = to;
+    if (button_ < 0 || !pictures().shown()) return;
+    // A hand that clicks is not quite still.
+    if (isClick_ && glm::distance(to, pressedAt_) < kClick * ImGui::GetFontSize()) return;
+    isClick_ = false;
+    if (to != from) drag((to - from) / float(std::max(size.y, 1u)));
+  }
+
   void take(const Event& event, const glm::uvec2& size) {
     const ImGuiIO& io = ImGui::GetIO();
     if (const auto* moved = std::get_if<MouseMoved>(&event)) {
-      const glm::vec2 way = (moved->to - mouse_) / float(std::max(size.y, 1u));
-      mouse_ = moved->to;
-      if (button_ >= 0 && picture_ && way != glm::vec2(0)) drag(way);
+      move(moved->to, size);
     } else if (const auto* button = std::get_if<MouseButton>(&event)) {
       modifiers_ = button->modifiers;
-      if (!button->isDown && button->button == button_) button_ = -1;
-      if (button->isDown && button_ < 0 && !io.WantCaptureMouse && button->button <= GLFW_MOUSE_BUTTON_MIDDLE)
-        button_ = button->button;
+      press(*button, size);
     } else if (const auto* wheel = std::get_if<MouseWheel>(&event)) {
-      if (!io.WantCaptureMouse && picture_ && wheel->steps.y != 0) hold().zoom(wheel->steps.y);
+      if (!io.WantCaptureMouse && pictures().shown() && wheel->steps.y != 0) hold().zoom(wheel->steps.y);
     } else if (const auto* key = std::get_if<Key>(&event)) {
       modifiers_ = modifiersAfter(*key);
       const std::optional<Command> command = commandOf(key->key, key->modifiers);
+      const bool isForAll = command == Command::quit || command == Command::leave;
       if (key->isDown && command && (!key->isRepeated || repeats(*command)) &&
-          (!io.WantTextInput || *command == Command::quit))
+          (!io.WantTextInput || isForAll))
         obey(*command);
       // A key that is let go of may have others beside it by now.
       if (!key->isDown)
         for (const Binding& binding : bindings())
-          if (binding.key == key->key) flying_.erase(binding.command);
+          if (binding.key == key->key) held_.erase(binding.command);
     } else if (const auto* focus = std::get_if<Focus>(&event)) {
-      if (!focus->isThere) flying_.clear(), button_ = -1, modifiers_ = 0;
+      if (!focus->isThere) held_.clear(), button_ = -1, modifiers_ = 0;
+    } else if (const auto* dropped = std::get_if<Dropped>(&event)) {
+      take(*dropped);
     }
   }
 
   void fly(double seconds) {
     glm::vec3 way(0);
     const auto add = [&](Command command, const glm::vec3& direction) {
-      if (flying_.count(command)) way += direction;
+      if (held_.count(command)) way += direction;
     };
     add(Command::flyRight, {1, 0, 0}), add(Command::flyLeft, {-1, 0, 0});
     add(Command::flyUp, {0, 1, 0}), add(Command::flyDown, {0, -1, 0});
     add(Command::flyForwards, {0, 0, 1}), add(Command::flyBack, {0, 0, -1});
-    if (way != glm::vec3(0) && picture_) hold().fly(float(seconds) * kFlySpeed * way);
+    if (way != glm::vec3(0) && pictures().shown()) hold().fly(float(seconds) * kFlySpeed * way);
   }
 
   // ---- A frame of the window
@@ -353,104 +533,227 @@ class Viewer {
     for (const Event& event : events) take(event, size);
     playback_.advance(moved);
     fly(moved);
+    shown_.clear();
     layOut({io.DisplaySize.x, io.DisplaySize.y});
     ImGui::Render();
-    if (!isSeen) {
-      isCoarse_ = false;
-      return;
-    }
+    if (!isSeen) return;
     wish(size);
-    screen_.draw(size, [&](VkCommandBuffer commands, uint32_t frame) {
-      held_[frame] = picture_;
-      pass_->record(commands, frame, *ImGui::GetDrawData(), screen_.extent());
+    drawing_->screen.draw(size, [&](VkCommandBuffer commands, uint32_t frame) {
+      drawing_->held[frame] = shown_;
+      drawing_->pass.record(commands, frame, *ImGui::GetDrawData(), drawing_->screen.extent());
     });
   }
 
+  // What is laid out stays as long as the frame is under way.
+  const Picture* kept(std::shared_ptr<const Picture> picture) {
+    return picture ? shown_.emplace_back(std::move(picture)).get() : nullptr;
+  }
+
+  static PictureShown shownOf(const DeviceImage& image) {
+    const VkExtent2D extent = image.extent();
+    return {ImTextureID(image.view()), {extent.width, extent.height}};
+  }
+
   void layOut(const glm::vec2& window) {
-    if (picture_) {
-      const VkExtent2D extent = picture_->image.extent();
-      layOutPicture(window, {extent.width, extent.height}, ImTextureID(picture_->image.view()));
-    } else {
-      layOutWaiting(window, document_.scene().empty() ? "Reading the scene" : "Drawing the first picture");
-    }
+    layOutPictures(window);
     bool isTurned = false;
     if (playback_.duration > 0) isTurned |= layOutTime(window, playback_);
+    if (showsPasses_) {
+      const float bottom = playback_.duration > 0 ? 4.5f * ImGui::GetFontSize() : 0;
+      passes_.layOut(window, bottom, kept(pictures().thumbnails()), kept(pictures().shown()), pixelFacts());
+    }
     if (showsPanel_ && !document_.scene().empty())
-      isTurned |=
-          layOutPanel(window, options_.title, facts(), document_, inspector_, playback_.pictureTime());
+      isTurned |= panel_.layOut(window, {title_, facts(), playback_.pictureTime()}, document_,
+                                showsSplit_ ? &otherLook_ : nullptr);
+    layOutNotices(window);
+    layOutDialogs(window);
+    if (showsHelp_) layOutHelp(window);
     if (isTurned) {
-      sharpness_.moved(now());
+      pictures().moved(now());
       settling_ = kSettling;
       playback_.duration = playedSeconds(document_.scene(), document_.look());
     }
-    if (!document_.problem().empty()) layOutProblem(window, document_.problem());
-    if (showsHelp_) layOutHelp(window);
+  }
+
+  void layOutPictures(const glm::vec2& window) {
+    const Picture* const picture = kept(pictures().shown());
+    if (!picture) {
+      layOutWaiting(window, document_.scene().empty() ? "Reading the scene" : "Drawing the first picture");
+      return;
+    }
+    PictureShown first = shownOf(picture->image);
+    if (!passes_.chosen().empty())
+      if (const Picture* const pass = kept(pictures().pass()))
+        for (const Picture::Layer& layer : pass->layers)
+          if (layer.aov == passes_.chosen()) first = shownOf(layer.shown);
+    const Picture* const other = showsSplit_ ? kept(pictures().other()) : nullptr;
+    const PictureShown second = other ? shownOf(other->image) : PictureShown();
+    layOutPicture(window, first, other ? &second : nullptr, split_);
+    if (showsSplit_ &&
+        layOutSplit(window, "as it is", otherLook_.empty() ? "as it is saved" : otherLook_, split_))
+      settling_ = kSettling;
+  }
+
+  void layOutNotices(const glm::vec2& window) {
+    Notices notices(window);
+    notices.problems(document_.problems());
+    if (kept_ && document_.opened().scenes == opened_) {
+      const Notices::Answer answer = notices.kept(*kept_);
+      if (answer == Notices::Answer::take) {
+        if (kept_->look != document_.opened().look) document_.openLook(kept_->look);
+        document_.take(kept_->edits);
+      }
+      if (answer == Notices::Answer::throwAway)
+        if (const Status status = recovery_.keep(document_.opened(), document_.edits()); !status)
+          document_.tell(Concern::saving, status.error().message());
+      if (answer != Notices::Answer::none) kept_.reset(), settling_ = kSettling;
+    }
+    if (job_ && notices.job(*job_)) {
+      if (job_->state().isDone)
+        job_.reset();
+      else
+        job_->cancel();
+      settling_ = kSettling;
+    }
+  }
+
+  void layOutDialogs(const glm::vec2& window) {
+    if (showsLooks_) {
+      std::vector<std::string> names;
+      for (const ShippedLook& shipped : Look::shipped()) names.push_back(shipped.name);
+      const auto pictureOf = [&](size_t number) {
+        kept(pictures().look(number));
+        return pictures().look(number);
+      };
+      if (const auto taken = layOutLookSheet(window, names, pictureOf, window.x / window.y)) {
+        document_.openLook(names[*taken]);
+        showsLooks_ = false;
+      }
+    }
+    if (openDialog_.isOpen())
+      if (const auto wish = openDialog_.layOut(window, recent_.files())) openScenes(*wish);
+    if (saveDialog_.isOpen())
+      if (const auto wish = saveDialog_.layOut(window)) make(*wish);
+    if (dropDialog_.isOpen())
+      if (const auto answer = dropDialog_.layOut(window)) {
+        if (answer->scenes) openScenes(*answer->scenes);
+        if (!answer->background.empty()) document_.openBackground(answer->background);
+        if (!answer->knob.empty())
+          if (const Status status = document_.set(answer->knob, answer->picture); !status)
+            document_.tell(Concern::knob, status.error().message());
+      }
+  }
+
+  // What is under the mouse, where the strip of passes is open.
+  std::string pixelFacts() const {
+    const std::shared_ptr<const Picture> pass = pictures().pass();
+    const glm::vec2 window{ImGui::GetIO().DisplaySize.x, ImGui::GetIO().DisplaySize.y};
+    if (!pass || ImGui::GetIO().WantCaptureMouse || glm::any(glm::lessThan(mouse_, glm::vec2(0))) ||
+        glm::any(glm::greaterThanEqual(mouse_, window)))
+      return "";
+    std::string text;
+    // Numbers that have names.
+    const auto named = [](const std::vector<std::string>& names, float number) {
+      return number >= 1 && size_t(number) <= names.size() ? names[size_t(number) - 1] : "nothing";
+    };
+    for (const Picture::Layer& layer : pass->layers) {
+      const glm::uvec2 size{layer.values.width, layer.values.height};
+      const glm::uvec2 at = glm::min(glm::uvec2(mouse_ / window * glm::vec2(size)), size - 1u);
+      text += (text.empty() ? "" : "\n") + layer.aov + ": ";
+      text += layer.aov == "id" ? named(pass->objects, layer.values.at(at.x, at.y, 0)) + ", " +
+                                      named(pass->materials, layer.values.at(at.x, at.y, 1))
+                                : pixelText(layer.values, at.x, at.y);
+    }
+    return text;
   }
 
   std::string facts() const {
-    if (!picture_) return notice_;
-    const VkExtent2D extent = picture_->image.extent();
+    const std::shared_ptr<const Picture>& picture = pictures().shown();
+    if (!picture) return notice_;
+    const VkExtent2D extent = picture->image.extent();
     return (notice_.empty() || !document_.edits().empty() ? "" : notice_ + "\n") +
-           std::to_string(extent.width) + " x " + std::to_string(extent.height) + ", " +
-           std::to_string(int(std::lround(picture_->milliseconds))) + " ms";
+           (held_.count(Command::compare) ? "as it is saved, " : "") + std::to_string(extent.width) + " x " +
+           std::to_string(extent.height) + ", " + std::to_string(int(std::lround(picture->milliseconds))) +
+           " ms";
   }
 
   const ViewerOptions& options_;
   Window& window_;
-  PictureMaker maker_;
-  const VulkanDevice device_;
   Document document_;
   InterfaceInput input_;
-  Screen screen_;
-  std::unique_ptr<InterfacePass> pass_;
-  std::array<std::shared_ptr<const Picture>, Screen::kFrames> held_;  // which frames under way show
+  std::unique_ptr<Drawing> drawing_;
+
+  // Scenes that are open, and what of them is kept outside of their files.
+  std::vector<std::string> opened_;
+  std::string title_;
+  const Recovery recovery_;
+  RecentFiles recent_;
+  std::optional<Recovery::Kept> kept_;  // to be offered
+  Edits keptEdits_, lastEdits_;
+  double keepAt_ = 1e300;
+  std::unique_ptr<ExportJob> job_;
 
   glm::vec3 centre_{0};
   float radius_ = 1;
-
-  // What was last asked for.
-  struct Wished {
-    uint64_t version = 0, moves = 0;
-    glm::uvec2 size{0};
-    double time = 0;
-    bool operator==(const Wished&) const = default;
-  } wished_;
-  std::shared_ptr<const Picture> picture_;
-  Sharpness sharpness_;
-  bool isCoarse_ = false;
+  std::vector<std::shared_ptr<const Picture>> shown_;  // by the frame that is laid out
+  uint64_t lastShown_ = 0;                             // its number
 
   Navigation navigation_;
   uint64_t moves_ = 0;  // of the camera
   bool isHandHeld_ = false;
   std::optional<Viewpoint> base_;
-  glm::vec2 mouse_{0};
+  glm::vec2 mouse_{0}, pressedAt_{0};
+  bool isClick_ = false;
   int button_ = -1, modifiers_ = 0;
-  std::set<Command> flying_;
+  std::set<Command> held_;
 
   Playback playback_;
-  Inspector inspector_;
+  Panel panel_;
+  PassesStrip passes_;
+  OpenDialog openDialog_;
+  SaveDialog saveDialog_;
+  DropDialog dropDialog_;
+  std::map<std::string, Look> looks_;  // that ship
+  std::string otherLook_;              // beside the line; empty: as it is saved
+  float split_ = 0.5f;
   std::string notice_;  // of what was saved, until something is turned again
-  bool showsHelp_ = false, showsPanel_ = true;
+  bool showsHelp_ = false, showsPanel_ = true, showsPasses_ = false, showsLooks_ = false, showsSplit_ = false;
   double lastFrame_ = 0;
   int settling_ = kSettling;
 };
 
-}  // namespace
-
-Status runViewer(const ViewerOptions& options) {
-  Result<std::unique_ptr<Window>> window = Window::open(options.title, options.width, options.height);
-  if (!window) return window.error();
+Result<std::unique_ptr<Renderer>> rendererFor(const ViewerOptions& options) {
   VulkanWishes wishes;
   wishes.instanceExtensions = Window::instanceExtensions();
   wishes.deviceExtensions = {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
-  Result<std::unique_ptr<Renderer>> renderer = createRenderer(wishes, options.renderer);
+  return createRenderer(wishes, options.renderer);
+}
+
+}  // namespace
+
+Status runViewer(const ViewerOptions& options) {
+  const std::string title = std::filesystem::path(options.sources.opened.scenes[0]).filename().string();
+  Result<std::unique_ptr<Window>> window = Window::open(title, options.width, options.height);
+  if (!window) return window.error();
+  Result<std::unique_ptr<Renderer>> renderer = rendererFor(options);
   if (!renderer) return renderer.error();
-  try {
-    const Context context;
-    Viewer viewer(options, **window, std::move(renderer).value());
-    return viewer.run();
-  } catch (const VulkanFailure& failure) {
-    return Error{ErrorKind::noUsableGpu, "", 0, "", failure.what(), "`scumble render` needs no window"};
+  const Context context;
+  Viewer viewer(options, **window);
+  for (int losses = 0;;) {
+    try {
+      return viewer.run(std::move(renderer).value());
+    } catch (const VulkanFailure& failure) {
+      viewer.loseDevice();
+      const Error error{ErrorKind::noUsableGpu,
+                        "",
+                        0,
+                        "",
+                        failure.what(),
+                        "knobs that were turned are kept, and offered at the next start"};
+      if (failure.result != VK_ERROR_DEVICE_LOST || ++losses > kMostLosses) return error;
+      renderer = rendererFor(options);
+      if (!renderer) return error;
+    }
   }
 }
 

@@ -12,22 +12,29 @@ namespace scumble::viewer {
 
 // What a window shows, to be drawn elsewhere.
 struct Shown {
+  Opened opened;
   std::optional<Viewpoint> viewpoint;  // where it is not ViewerOptions::viewpoint
-  std::string look;                    // as Document::lookName
   Edits edits;
   double time = 0;  // seconds
   uint32_t width = 0, height = 0;
+  // A film, instead of the picture at that time: so many seconds of what plays, from its start, or once
+  // around.
+  struct Film {
+    bool isTurn = false;
+    double seconds = 0;
+  };
+  std::optional<Film> film;
 };
 
 struct ViewerOptions {
-  std::string title;  // of the scene
   DocumentSources sources;
-  // The words of a shell that draw the same picture.
-  std::function<std::string(const Shown& shown)> command;
-  Viewpoint viewpoint;  // until somebody moves the camera
+  // The words of the command that draws the same picture, without where it is saved.
+  std::function<std::vector<std::string>(const Shown& shown)> command;
+  Viewpoint viewpoint;  // of the scenes that it is opened with, until somebody moves the camera
   double time = 0;      // seconds
   uint32_t width = 1280, height = 720, samples = 4, seed = 0;
   RendererOptions renderer;
+  std::string stateFolder;  // where it keeps what is not saved, and what was opened last; empty: nowhere
 };
 
 // Until the window is closed. Fails with noUsableGpu where there is no display or no device, and as loading

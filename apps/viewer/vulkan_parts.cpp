@@ -1,5 +1,8 @@
 #include "vulkan_parts.h"
 
+#include <cstring>
+#include <mutex>
+
 namespace scumble::viewer {
 
 namespace {
@@ -22,8 +25,9 @@ VkDeviceMemory allocate(const VulkanDevice& device, const VkMemoryRequirements& 
 
 }  // namespace
 
-Image::Image(const VulkanDevice& device, VkFormat format, VkExtent2D extent, VkImageUsageFlags usage)
-    : Image() {
+DeviceImage::DeviceImage(const VulkanDevice& device, VkFormat format, VkExtent2D extent,
+                         VkImageUsageFlags usage)
+    : DeviceImage() {
   device_ = device.device, extent_ = extent;
   VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
   info.imageType = VK_IMAGE_TYPE_2D;
@@ -45,7 +49,7 @@ Image::Image(const VulkanDevice& device, VkFormat format, VkExtent2D extent, VkI
   must(vkCreateImageView(device_, &view, nullptr, &view_), "vkCreateImageView");
 }
 
-Image::~Image() {
+DeviceImage::~DeviceImage() {
   if (!device_) return;
   vkDestroyImageView(device_, view_, nullptr);
   vkDestroyImage(device_, image_, nullptr);
@@ -73,6 +77,49 @@ MappedBuffer::~MappedBuffer() {
   if (!device_) return;
   vkDestroyBuffer(device_, buffer_, nullptr);
   vkFreeMemory(device_, memory_, nullptr);
+}
+
+DeviceImage uploaded(const VulkanDevice& device, VkExtent2D extent, const uint8_t* bytes) {
+  const VkDeviceSize size = VkDeviceSize(extent.width) * extent.height * 4;
+  DeviceImage image(device, VK_FORMAT_R8G8B8A8_UNORM, extent,
+                    VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+  const MappedBuffer staging(device, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+  std::memcpy(staging.mapped(), bytes, size);
+
+  // Its commands go with it.
+  struct Pool {
+    VkDevice device;
+    VkCommandPool handle = VK_NULL_HANDLE;
+    ~Pool() { vkDestroyCommandPool(device, handle, nullptr); }
+  } pool{device.device};
+  const VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, 0,
+                                         device.queueFamily};
+  must(vkCreateCommandPool(device.device, &poolInfo, nullptr, &pool.handle), "vkCreateCommandPool");
+  VkCommandBuffer commands;
+  const VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr,
+                                             pool.handle, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+  must(vkAllocateCommandBuffers(device.device, &allocate, &commands), "vkAllocateCommandBuffers");
+  const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+  must(vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer");
+  imageBarrier(commands, image.handle(), VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+  VkBufferImageCopy copy{};
+  copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+  copy.imageExtent = {extent.width, extent.height, 1};
+  vkCmdCopyBufferToImage(commands, staging.handle(), image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
+                         &copy);
+  imageBarrier(commands, image.handle(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+  must(vkEndCommandBuffer(commands), "vkEndCommandBuffer");
+  const VkCommandBufferSubmitInfo submitted{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, nullptr, commands,
+                                            0};
+  VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+  submit.commandBufferInfoCount = 1, submit.pCommandBufferInfos = &submitted;
+  {
+    const std::lock_guard lock(*device.queueLock);
+    must(vkQueueSubmit2(device.queue, 1, &submit, VK_NULL_HANDLE), "vkQueueSubmit2");
+    must(vkQueueWaitIdle(device.queue), "vkQueueWaitIdle");
+  }
+  return image;
 }
 
 void imageBarrier(VkCommandBuffer commands, VkImage image, VkImageLayout before, VkImageLayout after) {

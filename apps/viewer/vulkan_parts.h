@@ -16,20 +16,21 @@ namespace scumble::viewer {
 // A call that failed.
 struct VulkanFailure : std::runtime_error {
   VulkanFailure(const char* call, VkResult code)
-      : std::runtime_error(std::string(call) + " failed with " + std::to_string(int(code))) {}
+      : std::runtime_error(std::string(call) + " failed with " + std::to_string(int(code))), result(code) {}
+  VkResult result;
 };
 inline void must(VkResult result, const char* call) {
   if (result < 0) throw VulkanFailure(call, result);
 }
 
 // What is drawn into and sampled, of one layer and one level.
-class Image {
+class DeviceImage {
  public:
-  Image() = default;
-  Image(const VulkanDevice& device, VkFormat format, VkExtent2D extent, VkImageUsageFlags usage);
-  ~Image();
-  Image(Image&& other) noexcept { swap(other); }
-  Image& operator=(Image&& other) noexcept {
+  DeviceImage() = default;
+  DeviceImage(const VulkanDevice& device, VkFormat format, VkExtent2D extent, VkImageUsageFlags usage);
+  ~DeviceImage();
+  DeviceImage(DeviceImage&& other) noexcept { swap(other); }
+  DeviceImage& operator=(DeviceImage&& other) noexcept {
     swap(other);
     return *this;
   }
@@ -38,7 +39,7 @@ class Image {
   VkExtent2D extent() const { return extent_; }
 
  private:
-  void swap(Image& other) {
+  void swap(DeviceImage& other) {
     std::swap(device_, other.device_), std::swap(image_, other.image_), std::swap(memory_, other.memory_);
     std::swap(view_, other.view_), std::swap(extent_, other.extent_);
   }
@@ -48,6 +49,10 @@ class Image {
   VkImageView view_ = VK_NULL_HANDLE;
   VkExtent2D extent_{0, 0};
 };
+
+// An image of 8 bit RGBA with these bytes, row 0 at the top, in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL.
+// Waits for the queue.
+DeviceImage uploaded(const VulkanDevice& device, VkExtent2D extent, const uint8_t* bytes);
 
 // Written by the CPU as long as it lives.
 class MappedBuffer {

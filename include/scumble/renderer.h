@@ -109,6 +109,8 @@ struct Frame {
   // number n is entry n - 1. One entry a node (its number, "node 12", where it has no name; empty where it
   // shows nothing), then "Ground" and the materials of features, empty where none is drawn.
   std::vector<std::string> objects;
+  // What the numbers of materials mean in the AOV `id`, likewise: their names, as looks set knobs for them.
+  std::vector<std::string> materials;
   std::vector<Drawing> drawings;  // one a view, where RenderOptions::drawing
   FrameStats stats;
 };

@@ -30,6 +30,10 @@ struct SceneOptions {
   PatternCoordinates patternCoordinates = PatternCoordinates::automatic;
   int threads = 0;         // for decoding; 0: as many as the machine has
   Progress progress = {};  // of load() and loadFromMemory(); of a world, file by file
+  // False: files are copied to memory as they are opened. Those that are mapped must stay as long as they are
+  // while they are read, since bytes that are cut off then end the program (SIGBUS); of copies it is an
+  // error.
+  bool mapsFiles = true;
   // False: vertices, but for those of skinned and morphed meshes, are dropped from memory as they reach the
   // device of the renderer that draws the scene first with a look without tracks. Meanwhile no other thread
   // may use the scene, nor one that shares its meshes. From then on that renderer alone draws it, where look
@@ -93,7 +97,8 @@ class SCUMBLE_API Scene {
 
   SceneSummary summary() const;
 
-  // Files beside its own that the scene names, whether or not they are there: who writes files spares these.
+  // Files beside its own that the scene names, whether or not they are there, and of several in one world (a
+  // file's that lists them, too) their own: who writes files spares these.
   const std::vector<std::string>& files() const;
   const std::vector<std::string>& warnings() const;  // what was ignored or replaced, each once
   const SceneTimings& timings() const;

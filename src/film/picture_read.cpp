@@ -85,7 +85,7 @@ Result<Image> readPicture(const std::string& path) {
   try {
     FileBytes file;
     std::string problem;
-    if (!file.open(path, problem)) return unusable(path, problem, "check the name");
+    if (!file.open(path, problem, FileAccess::read)) return unusable(path, problem, "check the name");
     const Bytes bytes = file.bytes();
     // Sixteen bits a channel stay what they are.
     if (bytes.size() >= 4 && std::memcmp(bytes.data(), "\x89PNG", 4) == 0) {

@@ -7,11 +7,12 @@
 namespace scumble::gltf {
 
 Buffers::Buffers(const Document& document, const FileBytes* file, std::string folder, bool allowOutside,
-                 ImportBudget& budget)
+                 FileAccess access, ImportBudget& budget)
     : document_(document),
       file_(file),
       folder_(std::move(folder)),
       allowOutside_(allowOutside),
+      access_(access),
       budget_(budget),
       bufferList_(document.list("buffers")),
       viewList_(document.list("bufferViews")),
@@ -41,7 +42,7 @@ void Buffers::load(size_t i, Buffer& buffer) {
     } else {
       std::string problem;
       const std::string file = resolveFileUri(text, folder_, allowOutside_, path);
-      if (!buffer.holder.file.open(file, problem))
+      if (!buffer.holder.file.open(file, problem, access_))
         fail(path, "the buffer \"" + file + "\" " + problem, "put it where the scene expects it");
       bytes = buffer.holder.file.bytes();
       const std::lock_guard lock(filesMutex_);
@@ -171,7 +172,7 @@ bool Buffers::imageFile(const std::string& uri, const std::string& jsonPath, Hol
       return true;
     }
     const std::string file = resolveFileUri(uri, folder_, allowOutside_, jsonPath);
-    if (!holder.file.open(file, problem)) {
+    if (!holder.file.open(file, problem, access_)) {
       problem = "the image \"" + file + "\" " + problem;
       return false;
     }

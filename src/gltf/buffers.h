@@ -20,9 +20,9 @@ using namespace scene;
 
 class Buffers {
  public:
-  // `file`: where the document lies; null: in memory that is somebody else's.
+  // `file`: where the document lies; null: in memory that is somebody else's. `access`: to other files.
   Buffers(const Document& document, const FileBytes* file, std::string folder, bool allowOutside,
-          ImportBudget& budget);
+          FileAccess access, ImportBudget& budget);
 
   // Bytes of buffers[i], exactly its byteLength. Fails when they cannot be had.
   Bytes buffer(size_t i);
@@ -67,6 +67,7 @@ class Buffers {
   const FileBytes* file_;
   std::string folder_;
   bool allowOutside_;
+  FileAccess access_;
   ImportBudget& budget_;
   JsonView bufferList_, viewList_;
   std::deque<Buffer> buffers_;  // deques, because a mutex does not move

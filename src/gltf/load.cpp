@@ -34,6 +34,10 @@ class Stopwatch {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+FileAccess accessOf(const SceneOptions& options) {
+  return options.mapsFiles ? FileAccess::mapped : FileAccess::read;
+}
+
 // `file`: what the bytes are part of; null: of somebody else's memory.
 std::shared_ptr<SceneData> import(Bytes bytes, const FileBytes* file, const std::string& name,
                                   const std::string& folder, const SceneOptions& options,
@@ -46,7 +50,7 @@ std::shared_ptr<SceneData> import(Bytes bytes, const FileBytes* file, const std:
   ImportBudget budget;
   budget.addBacking(bytes.size());
   const Document document(bytes, warnings);
-  Buffers buffers(document, file, folder, options.allowOutside, budget);
+  Buffers buffers(document, file, folder, options.allowOutside, accessOf(options), budget);
   data->files = buffers.files();
   Accessors accessors(document, buffers, budget);
   ImportProgress progress(options.progress);
@@ -165,6 +169,7 @@ Result<Scene> Scene::load(const std::string& path, const SceneOptions& options) 
     Scene scene;
     const auto finish = [&](Result<std::shared_ptr<SceneData>> data) -> Result<Scene> {
       if (!data) return data.error();
+      data.value()->path = path;
       scene.data_ = std::move(data).value();
       return scene;
     };
@@ -177,7 +182,7 @@ Result<Scene> Scene::load(const std::string& path, const SceneOptions& options) 
     Stopwatch watch;
     FileBytes file;
     std::string problem;
-    if (!file.open(path, problem))
+    if (!file.open(path, problem, accessOf(options)))
       return Error{ErrorKind::unusableFile, path, 0, {}, problem, "give the path of a .gltf, .glb or .tilt"};
     scene.timings_.read = watch.lap();
     if (path.ends_with(".json") && !sketch::isSketch(file.bytes()))

@@ -73,7 +73,8 @@ Rewrite::Rewrite(const std::string& path, const SceneOptions& options, ImportWar
   if (folder_.empty()) folder_ = ".";
   budget_.addBacking(file_.bytes().size());
   document_ = std::make_unique<Document>(file_.bytes(), warnings);
-  buffers_ = std::make_unique<Buffers>(*document_, &file_, folder_, options.allowOutside, budget_);
+  buffers_ = std::make_unique<Buffers>(*document_, &file_, folder_, options.allowOutside, FileAccess::mapped,
+                                       budget_);
   root_ = document_->root().json();
   takeBuffers();
   takeImages(warnings);

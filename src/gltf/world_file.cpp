@@ -166,7 +166,7 @@ std::optional<Result<Scene>> loadWorld(const std::string& path, const SceneOptio
                                        const std::vector<std::string>& within) {
   FileBytes file;
   std::string problem;
-  if (!file.open(path, problem)) return std::nullopt;
+  if (!file.open(path, problem, FileAccess::read)) return std::nullopt;
   const Bytes bytes = file.bytes();
   const auto unusable = [&](int line, std::string what, std::string advice) {
     return Result<Scene>(Error{ErrorKind::unusableFile, path, line, "", std::move(what), std::move(advice)});

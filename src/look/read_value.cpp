@@ -25,7 +25,7 @@ Result<LookPicture> loadPicture(const std::string& file) {
   LookPicture picture{file, {}, 0};
   FileBytes bytes;
   std::string problem;
-  if (!bytes.open(file, problem)) return fail(problem);
+  if (!bytes.open(file, problem, FileAccess::read)) return fail(problem);
   uint32_t width = 0, height = 0;
   if (!readImageSize(bytes.bytes(), width, height, problem)) return fail(problem);
   if (width > kMaxPictureSide || height > kMaxPictureSide) return fail("this picture is too large");

@@ -161,10 +161,11 @@ Status Renderer::Impl::begin(const Request& request) {
       geometry.casts.push_back(knobs.of<passes::ShadowMapParams>(m).cast);
     geometry.clips = everPlayed(scene.data(), look);
     geometry.nodes = nodeSettings(scene.data(), now);
-    for (const Aov* const aov : aovs)
-      if (aov->namesObjects &&
-          std::find(options.aovs.begin(), options.aovs.end(), aov->name) != options.aovs.end())
-        next.frame.objects = objectNames(scene.data(), geometry);
+    const bool namesObjects = std::any_of(aovs.begin(), aovs.end(), [&](const Aov* aov) {
+      return aov->namesObjects &&
+             std::find(options.aovs.begin(), options.aovs.end(), aov->name) != options.aovs.end();
+    });
+    if (namesObjects) next.frame.objects = objectNames(scene.data(), geometry);
     const bool drops = !scene.data().keepsVertices && !look.isAnimated() && !request.isRehearsal;
     Resident* const used = useScene(scene, geometry, drops, stats);
     if (!used)
@@ -184,6 +185,7 @@ Status Renderer::Impl::begin(const Request& request) {
 
     // Everything to its place.
     SceneOnGpu& sceneOnGpu = resident.onGpu;
+    if (namesObjects) next.frame.materials = sceneOnGpu.materialNames();
     const std::vector<KnobTable::Material> subjects = sceneOnGpu.knobSubjects();
     knobs.evaluate(subjects);
     sceneOnGpu.pose(look, knobs, time);

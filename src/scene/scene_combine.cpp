@@ -72,6 +72,7 @@ void appendScene(SceneData& all, const SceneData& one, size_t firstNode, const A
   }
   appendNew(all.extensionsUsed, one.extensionsUsed);
   appendNew(all.extensionsNotSupported, one.extensionsNotSupported);
+  if (!one.path.empty()) appendNew(all.files, {one.path});
   appendNew(all.files, one.files);
   appendNew(all.warnings, one.warnings);
 }

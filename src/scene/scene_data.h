@@ -272,6 +272,7 @@ struct Clip {
 
 struct SceneData {
   std::string name;  // the file's name without folder and extension
+  std::string path;  // of the file; empty: in memory, or several
   // Scenes of one family are one that changes (SceneEditor): nodes, meshes and materials of one are those of
   // the others too, as far as both have them. 0: nobody's.
   uint64_t family = 0;

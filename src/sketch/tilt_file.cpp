@@ -51,7 +51,7 @@ std::vector<uint8_t> unpacked(zip_t* zip, const char* name, size_t fileSize) {
 FileBytes opened(const std::filesystem::path& path) {
   FileBytes file;
   std::string problem;
-  if (!file.open(path.string(), problem))
+  if (!file.open(path.string(), problem, FileAccess::read))
     fail(path.filename().string(), problem, "an unzipped .tilt holds metadata.json and data.sketch");
   return file;
 }

@@ -68,6 +68,7 @@ class SceneOnGpu {
   // Materials by index: the scene's, then (with a ground) the ground's, then those of features, then those of
   // nodes for which the look sets something.
   size_t materialCount() const { return materialNames_.size(); }
+  const std::vector<std::string>& materialNames() const { return materialNames_; }
   const std::string& materialName(size_t material) const { return materialNames_[material]; }
   // What the scene has for it; glTF's default material for the ground and for features.
   const scene::Material& material(size_t material) const;

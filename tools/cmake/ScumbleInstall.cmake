@@ -35,5 +35,5 @@ install(FILES ${CMAKE_BINARY_DIR}/scumbleConfig.cmake ${CMAKE_BINARY_DIR}/scumbl
 if(SCUMBLE_TESTS)
   add_custom_target(demo)
   get_property(of_features GLOBAL PROPERTY SCUMBLE_DEMO_PROGRAMS)
-  add_dependencies(demo ${programs} demo_scene henry_room owl still_life ${of_features})
+  add_dependencies(demo ${programs} demo_files henry_room owl still_life ${of_features})
 endif()

@@ -25,13 +25,14 @@ constexpr Aov kFacts[] = {
     {.name = "uv-gradient", .needsFloat = true},
     {.name = "metatexture", .needsFloat = true},
     {.name = "motion", .channels = {"R", "G"}, .needsFloat = true},
-    {.name = "id", .channels = {"R"}, .needsFloat = true, .namesObjects = true},
+    {.name = "id", .channels = {"R", "G"}, .needsFloat = true, .namesObjects = true},
 };
 constexpr size_t kFactCount = std::size(kFacts);
 
 // Mirrors the block of facts.frag.
 struct FactsMaterial {
   MetaTextureUniforms meta;
+  float number;
 };
 
 class Facts : public Pass {
@@ -77,7 +78,7 @@ class Facts : public Pass {
       const auto params = input.knobs.of<WarpMetaTextureParams>(m);
       const MetaTextureUse use =
           metaTextureUse(params, 0b0011, input.look, *examples_, input.uniforms.pixelScale, glm::vec2(0.0f));
-      materials_.write(m, {use.meta.uniforms()});
+      materials_.write(m, {use.meta.uniforms(), float(m + 1)});
       variants.push_back(
           {.features = use.meta.features(), .tangents = tangentOptions(params, input.uniforms)});
     }

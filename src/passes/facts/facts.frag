@@ -54,5 +54,5 @@ void main() {
                         metaTextureGain(meta, metaTextureVariance(meta, chosen)));
   vec2 previous = (inPrevious.xy / inPrevious.w * 0.5 + 0.5) * frame.imageSize;
   outMotion = vec4(gl_FragCoord.xy - previous, 0.0, 1.0);
-  outId = vec4(float(objects[inObject].id));
+  outId = vec4(float(objects[inObject].id), facts.number, 0.0, 1.0);
 }

@@ -1,5 +1,5 @@
-// What the warp pass makes of a material's knobs, for the metatexture AOV.
 struct FactsMaterial {
-  MetaTexture meta;
+  MetaTexture meta;  // what the warp pass makes of its knobs, for the metatexture AOV
+  float number;      // from 1, for the id AOV
 };
 layout(set = 2, binding = 0, scalar) uniform FactsBlock { FactsMaterial facts; };

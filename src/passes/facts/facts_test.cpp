@@ -1,5 +1,6 @@
 // Facts as other programs rely on them: metres, pixels, whole numbers; and what stands where nothing is.
 #include <cmath>
+#include <set>
 
 #include "tests/support/aov.h"
 #include "tests/support/ray_cast.h"
@@ -60,6 +61,37 @@ TEST_P(FactsTest, depthPositionIdAndMotion) {
     EXPECT_LE(depth.beyond, hits / 200) << depth.text();
     EXPECT_LE(motion.beyond, hits / 200) << motion.text();
   }
+}
+
+// Which of a node's materials, and its name as looks know it.
+TEST_F(FactsTest, materialsByNumber) {
+  const Scene scene = stillLife().load();
+  const auto views = viewsFrom(scene, {{2, 2.5f, 6}, {0, 0.8f, 0}}, kWidth, kHeight);
+  const Frame frame = draw(scene, quietLook(), views, sized(kWidth, kHeight, {"id"}));
+  const Image& image = aov(frame, "id");
+  ASSERT_EQ(image.channels, (std::vector<std::string>{"R", "G"}));
+  std::set<std::pair<size_t, std::string>> seen;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const auto node = size_t(image.at(uint32_t(x), uint32_t(y), 0)),
+                 material = size_t(image.at(uint32_t(x), uint32_t(y), 1));
+      ASSERT_EQ(node == 0, material == 0);
+      if (node == 0) continue;
+      ASSERT_LE(material, frame.materials.size());
+      seen.emplace(node, frame.materials[material - 1]);
+    }
+  std::set<std::pair<size_t, std::string>> all;
+  std::set<size_t> nodes;
+  const scene::SceneData& data = scene.data();
+  for (size_t n = 0; n < data.nodes.size(); ++n)
+    if (data.nodes[n].mesh >= 0)
+      for (const scene::Primitive& primitive : data.meshes[size_t(data.nodes[n].mesh)]->primitives)
+        all.emplace(n + 1, data.materials[size_t(primitive.material)].name);
+  for (const auto& [node, material] : seen) {
+    nodes.insert(node);
+    if (node <= data.nodes.size()) EXPECT_TRUE(all.contains({node, material})) << node << " " << material;
+  }
+  EXPECT_GT(nodes.size(), 2u);
 }
 
 TEST_F(FactsTest, nothingMovesWhereTheViewStays) {

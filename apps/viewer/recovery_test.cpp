@@ -1,0 +1,77 @@
+#include "recovery.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "base/test_folder.h"
+#include "recent_files.h"
+
+namespace scumble::viewer {
+namespace {
+
+class Recoveries : public testing::Test {
+ protected:
+  const TestFolder folder_;
+  const Opened opened_{{folder_.put("a.glb", ""), folder_.put("b.glb", "")}, "dusk", ""};
+  const Edits edits_{{"shadow.threshold", "0.5"}, {"materials.\xFF.warp.amount", "2"}};
+};
+
+TEST_F(Recoveries, whatWasKeptIsFoundUntilItIsNothing) {
+  const Recovery recovery(folder_.file("state/of ours"));
+  EXPECT_FALSE(recovery.find(opened_.scenes));
+  ASSERT_TRUE(recovery.keep(opened_, {{"shadow.threshold", "0.5"}}).ok());
+  const auto kept = Recovery(folder_.file("state/of ours")).find(opened_.scenes);
+  ASSERT_TRUE(kept);
+  EXPECT_EQ(kept->look, "dusk");
+  EXPECT_EQ(kept->edits, (Edits{{"shadow.threshold", "0.5"}}));
+  EXPECT_FALSE(kept->when.empty());
+  EXPECT_FALSE(recovery.find({opened_.scenes[0]})) << "other scenes";
+  ASSERT_TRUE(recovery.keep(opened_, {}).ok());
+  EXPECT_FALSE(recovery.find(opened_.scenes));
+}
+
+// Names of files need not be UTF-8.
+TEST_F(Recoveries, whateverTheNames) {
+  const Recovery recovery(folder_.file("state"));
+  EXPECT_TRUE(recovery.keep(opened_, edits_).ok());
+  EXPECT_TRUE(recovery.find(opened_.scenes));
+}
+
+TEST_F(Recoveries, whatIsDamagedOrNowhereIsNothing) {
+  const Recovery recovery(folder_.file("state"));
+  ASSERT_TRUE(recovery.keep(opened_, edits_).ok());
+  std::string file;
+  for (const auto& entry : std::filesystem::directory_iterator(folder_.file("state"))) file = entry.path();
+  for (const char* text : {"", "{", "[]", "{\"scenes\": 3}", "null"}) {
+    folder_.put(std::filesystem::relative(file, folder_.file("")).string(), text);
+    EXPECT_FALSE(recovery.find(opened_.scenes)) << text;
+  }
+  const Recovery nowhere("");
+  EXPECT_TRUE(nowhere.keep(opened_, edits_).ok());
+  EXPECT_FALSE(nowhere.find(opened_.scenes));
+  folder_.put("a file", "");
+  EXPECT_EQ(Recovery(folder_.file("a file/state")).keep(opened_, edits_).error().kind,
+            ErrorKind::outputNotWritten);
+}
+
+TEST_F(Recoveries, recentFilesInTheirOrder) {
+  RecentFiles recent(folder_.file("state"));
+  EXPECT_TRUE(recent.files().empty());
+  const std::string a = std::filesystem::canonical(opened_.scenes[0]),
+                    b = std::filesystem::canonical(opened_.scenes[1]);
+  recent.add({a});
+  recent.add({b});
+  recent.add({a});
+  EXPECT_EQ(RecentFiles(folder_.file("state")).files(), (std::vector<std::string>{a, b}));
+  std::filesystem::remove(b);
+  EXPECT_EQ(recent.files(), std::vector<std::string>{a});
+  for (int i = 0; i < 20; ++i) recent.add({folder_.put("scene " + std::to_string(i), "")});
+  EXPECT_EQ(recent.files().size(), RecentFiles::kMost);
+  folder_.put("state/recent.json", "[3, {");
+  EXPECT_TRUE(recent.files().empty());
+  RecentFiles("").add({a});
+}
+
+}  // namespace
+}  // namespace scumble::viewer
