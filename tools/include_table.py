@@ -64,7 +64,7 @@ LIBRARIES = {
 }
 # The public headers for engines that bring their own device, and for C.
 LIBRARIES_OF_FILE = {"include/scumble/vulkan.h": ["std", "glm", "vulkan"], "include/scumble/scumble.h": ["system"]}
-SYSTEM = {"unistd.h", "fcntl.h", "signal.h", "termios.h", "stdlib.h", "string.h", "stdio.h", "errno.h", "time.h", "poll.h", "stddef.h",
+SYSTEM = {"unistd.h", "spawn.h", "fcntl.h", "signal.h", "termios.h", "stdlib.h", "string.h", "stdio.h", "errno.h", "time.h", "poll.h", "stddef.h",
           "stdint.h", "malloc.h"}
 
 SOURCES = {".h", ".hpp", ".cpp", ".cc", ".inl", ".params", ".glsl", ".vert", ".frag", ".comp", ".geom", ".tesc", ".tese"}

@@ -10,7 +10,7 @@ constexpr int kCtrl = GLFW_MOD_CONTROL, kShift = GLFW_MOD_SHIFT;
 
 constexpr Binding kBindings[] = {
     {GLFW_KEY_H, 0, Command::help, "H", "this help"},
-    {GLFW_KEY_N, 0, Command::panel, "N", "the panel at the side"},
+    {GLFW_KEY_N, 0, Command::panel, "N", "the panels, or the picture alone"},
     {GLFW_KEY_F11, 0, Command::fullscreen, "F11", "the whole screen, and back"},
     {GLFW_KEY_ESCAPE, 0, Command::leave, "Escape", "leave what is open, or picked"},
     {GLFW_KEY_Q, kCtrl, Command::quit, "Ctrl+Q", "quit"},

@@ -110,7 +110,7 @@ std::optional<SaveWish> SaveDialog::layOut(const glm::vec2& window) {
     kind("What plays", SaveWish::Kind::film);
   }
   if (wish_.kind == SaveWish::Kind::turn) {
-    ImGui::SetNextItemWidth(8 * unit);
+    ImGui::SetNextItemWidth(12 * unit);
     ImGui::SliderFloat("##seconds", &wish_.seconds, 1, 60, "%.0f s once around",
                        ImGuiSliderFlags_AlwaysClamp);
   }

@@ -71,6 +71,7 @@ class Document {
   const std::map<Concern, std::string>& problems() const { return problems_; }
   void tell(Concern concern, std::string problem) { problems_[concern] = std::move(problem); }
   void settle(Concern concern) { problems_.erase(concern); }
+  void settleAll() { problems_.clear(); }
 
   // Other ones, when they were read. Knobs that were turned stay turned where the look stays.
   void openScenes(std::vector<std::string> files);

@@ -143,7 +143,7 @@ void Notices::problems(const std::map<Concern, std::string>& problems) {
   ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.95f, 0.6f, 0.5f, 1));
   for (const auto& [concern, text] : problems) ImGui::TextWrapped("%s", text.c_str());
   ImGui::PopStyleColor();
-  ImGui::TextDisabled("What was there before stays.");
+  ImGui::TextDisabled("What was there before stays. Escape puts this away.");
   end();
 }
 

@@ -64,16 +64,21 @@ size_t distinguishable(const std::deque<Event>& events) {
   std::set<int> buttons, keys;
   size_t count = 0;
   for (const Event& event : events) {
-    const bool fits = std::visit(
-        Match{[&](const MouseMoved&) { return !hasPressed && !hasWheeled && (hasMoved = true); },
-              [&](const MouseButton& b) {
-                return !hasWheeled && buttons.insert(b.button).second && (hasPressed = true);
-              },
-              [&](const MouseWheel&) { return !hasPressed && (hasWheeled = true); },
-              [&](const Key& k) { return !hasTyped && (k.isRepeated || keys.insert(k.key).second); },
-              [&](const Character&) { return hasTyped = true; }, [&](const Dropped&) { return true; },
-              [&](const Focus&) { return true; }},
-        event);
+    const bool fits =
+        std::visit(Match{[&](const MouseMoved&) { return !hasPressed && !hasWheeled && (hasMoved = true); },
+                         [&](const MouseButton& b) {
+                           // What is dragged is where it was last before it is let go of.
+                           return !hasWheeled && (b.isDown || !hasMoved) && buttons.insert(b.button).second &&
+                                  (hasPressed = true);
+                         },
+                         [&](const MouseWheel&) { return !hasPressed && (hasWheeled = true); },
+                         // Where letters go is known only when what was pressed has been seen.
+                         [&](const Key& k) {
+                           return !hasTyped && !hasPressed && (k.isRepeated || keys.insert(k.key).second);
+                         },
+                         [&](const Character&) { return hasTyped = true; },
+                         [&](const Dropped&) { return true; }, [&](const Focus&) { return true; }},
+                   event);
     if (!fits) break;
     ++count;
   }

@@ -6,7 +6,6 @@
 #include <cstdio>
 
 #include "interface.h"
-#include "panel.h"
 
 namespace scumble::viewer {
 
@@ -26,11 +25,11 @@ void layOutTimes(const Picture& picture) {
 
 }  // namespace
 
-void PassesStrip::layOut(const glm::vec2& window, float bottom, const Picture* thumbnails,
-                         const Picture* times, const std::string& pixel) {
+void PassesStrip::layOut(const glm::vec2& room, const Picture* thumbnails, const Picture* times,
+                         const std::string& pixel) {
   const float unit = ImGui::GetFontSize(), height = 10.5f * unit;
-  ImGui::SetNextWindowPos({unit, window.y - bottom - unit}, ImGuiCond_Always, {0, 1});
-  ImGui::SetNextWindowSize({std::max(window.x - panelWidth(window) - unit, 16 * unit), height});
+  ImGui::SetNextWindowPos({unit, room.y - unit}, ImGuiCond_Always, {0, 1});
+  ImGui::SetNextWindowSize({std::max(room.x - 2 * unit, 16 * unit), height});
   ImGui::Begin("passes", nullptr, kFixedWindow);
   ImGui::BeginChild("times", {kTimesWidth * unit, 0});
   if (!pixel.empty())

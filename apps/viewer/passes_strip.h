@@ -15,7 +15,8 @@ class PassesStrip {
   void choose(const std::string& aov) { chosen_ = aov; }
   // `thumbnails`: null where they are not there yet. `times`: a picture in full, null likewise. `pixel`: a
   // few words about what is under the mouse, of lines; empty: nothing.
-  void layOut(const glm::vec2& window, float bottom, const Picture* thumbnails, const Picture* times,
+  // `room`: the place in the window that is left to it.
+  void layOut(const glm::vec2& room, const Picture* thumbnails, const Picture* times,
               const std::string& pixel);
 
  private:

@@ -217,7 +217,7 @@ class Viewer {
     if (pictures().shown()) lastShown_ = pictures().shown()->number;
     if (const auto picked = pictures().takePicked()) {
       panel_.select(*picked);
-      showsPanel_ = true;
+      if (!picked->object.empty()) showsPanel_ = true;
     }
   }
 
@@ -313,6 +313,8 @@ class Viewer {
       openDialog_.close(), saveDialog_.close(), dropDialog_.close();
     else if (showsLooks_ || showsHelp_)
       showsLooks_ = showsHelp_ = false;
+    else if (!document_.problems().empty())
+      document_.settleAll();
     else if (!passes_.chosen().empty())
       passes_.choose("");
     else
@@ -557,10 +559,13 @@ class Viewer {
   void layOut(const glm::vec2& window) {
     layOutPictures(window);
     bool isTurned = false;
-    if (playback_.duration > 0) isTurned |= layOutTime(window, playback_);
+    const bool showsTime = showsPanel_ && playback_.duration > 0;
+    if (showsTime) isTurned |= layOutTime(window, playback_);
     if (showsPasses_) {
-      const float bottom = playback_.duration > 0 ? 4.5f * ImGui::GetFontSize() : 0;
-      passes_.layOut(window, bottom, kept(pictures().thumbnails()), kept(pictures().shown()), pixelFacts());
+      const float right = showsPanel_ ? panelWidth(window) - ImGui::GetFontSize() : 0;
+      const float bottom = showsTime ? 4.5f * ImGui::GetFontSize() : 0;
+      passes_.layOut(window - glm::vec2(right, bottom), kept(pictures().thumbnails()),
+                     kept(pictures().shown()), pixelFacts());
     }
     if (showsPanel_ && !document_.scene().empty())
       isTurned |= panel_.layOut(window, {title_, facts(), playback_.pictureTime()}, document_,

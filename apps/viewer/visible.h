@@ -9,10 +9,10 @@
 
 namespace scumble::viewer {
 
-// Bytes of RGBA in sRGB's curve, row 0 at the top, opaque. Colours are put over black; `aov` decides about the
-// others: directions from -1 to 1 become 0 to 1, whole numbers a colour each, motion a hue by its direction,
-// and everything else is stretched from its least finite number to its greatest, near depths lighter; what is
-// one number everywhere is that, from 0 to 1.
+// Bytes of RGBA in sRGB's curve, row 0 at the top, opaque. Colours are put over black; `aov` decides about
+// the others: directions from -1 to 1 become 0 to 1, whole numbers a colour each, motion a hue by its
+// direction, and everything else is stretched from its least finite number to its greatest, near depths
+// lighter; what is one number everywhere is that, from 0 to 1.
 std::vector<uint8_t> visibleBytes(const Image& image, const std::string& aov);
 
 // The numbers of one pixel with the names of their channels, as one line.

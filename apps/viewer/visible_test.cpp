@@ -22,15 +22,15 @@ TEST(Visible, coloursAreThemselvesOverBlack) {
 
 TEST(Visible, numbersAreStretchedOverWhatIsFinite) {
   constexpr float kFar = std::numeric_limits<float>::infinity();
-  EXPECT_EQ(visibleBytes(imageOf({"R"}, {2, 4, 3}), "ink"),
+  EXPECT_EQ(visibleBytes(imageOf({"R"}, {2, 4, 3}), "blur"),
             (Bytes{0, 0, 0, 255, 255, 255, 255, 255, 128, 128, 128, 255}));
   const Bytes depth = visibleBytes(imageOf({"R"}, {2, 4, kFar}), "depth");
   EXPECT_GT(depth[0], depth[4]) << "what is near is lighter";
   EXPECT_GT(depth[4], depth[8]) << "and nothing is black";
-  EXPECT_EQ(visibleBytes(imageOf({"R"}, {0, 0}), "ink"), (Bytes{0, 0, 0, 255, 0, 0, 0, 255}));
+  EXPECT_EQ(visibleBytes(imageOf({"R"}, {0, 0}), "blur"), (Bytes{0, 0, 0, 255, 0, 0, 0, 255}));
   EXPECT_EQ(visibleBytes(imageOf({"R", "G"}, {0, 5, 1, 7}), "uv"), (Bytes{0, 0, 0, 255, 255, 255, 0, 255}));
   const float none = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_EQ(visibleBytes(imageOf({"R"}, {none, none}), "ink").size(), 8u);
+  EXPECT_EQ(visibleBytes(imageOf({"R"}, {none, none}), "blur").size(), 8u);
 }
 
 TEST(Visible, factsHaveColoursOfTheirOwn) {

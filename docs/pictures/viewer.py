@@ -18,7 +18,7 @@ import view_test  # noqa: E402
 def main():
     build = Path(sys.argv[1] if len(sys.argv) > 1 else HERE.parent.parent / "build").resolve()
     view_test.SIZE, view_test.SAMPLES = (1280, 800), "4"
-    with tempfile.TemporaryDirectory() as folder, contextlib.closing(view_test.Screen(1400, 900)) as screen:
+    with tempfile.TemporaryDirectory() as folder, contextlib.closing(view_test.Screen(1400, 900, folder)) as screen:
         scene = Path(folder) / "demo.glb"
         subprocess.run([build / "demo_scene", scene], check=True, capture_output=True)
         window = view_test.Window(screen, build / "scumble", scene, "--time", "3")

@@ -16,15 +16,16 @@ import tempfile
 import time
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent.parent
+HERE = Path(__file__).resolve().parent
 SIZE = (640, 400)
+WIDE = (1000, 640)  # with room for windows beside the panel
 SAMPLES = "1"
 
 
 class Screen:
     """An X server of its own."""
 
-    def __init__(self, width, height):
+    def __init__(self, width, height, state):
         self.size = (width, height)
         read, write = os.pipe()
         self.server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", f"{width}x{height}x24", "-nolisten", "tcp"],
@@ -32,7 +33,7 @@ class Screen:
         os.close(write)
         with os.fdopen(read) as number:
             self.display = ":" + number.readline().strip()
-        self.environment = {**os.environ, "DISPLAY": self.display}
+        self.environment = {**os.environ, "DISPLAY": self.display, "XDG_STATE_HOME": str(state)}
         self.environment.pop("WAYLAND_DISPLAY", None)
 
     def close(self):
@@ -75,11 +76,11 @@ def is_painted(pixels):
 
 
 class Window:
-    def __init__(self, screen, program, *options):
-        self.screen, self.size = screen, SIZE
+    def __init__(self, screen, program, *options, size=None):
+        self.screen, self.size = screen, size or SIZE
         self.started = time.monotonic()
-        self.process = subprocess.Popen([program, "view", *map(str, options), "--size", f"{SIZE[0]}x{SIZE[1]}", "--samples", SAMPLES,
-                                         "--validate"], env=screen.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.process = subprocess.Popen([program, "view", *map(str, options), "--size", f"{self.size[0]}x{self.size[1]}", "--samples",
+                                         SAMPLES, "--validate"], env=screen.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
     def pixels(self):
         return self.screen.pixels(*self.size)
@@ -102,6 +103,22 @@ class Window:
 
     def key(self, *keys):
         self.screen.hand("key", *keys)
+
+    def click(self, x, y):
+        self.screen.hand("mousemove", x, y, "click", 1)
+
+    def number(self, title):
+        return subprocess.run(["xdotool", "search", "--name", title], env=self.screen.environment, check=True, capture_output=True,
+                              text=True).stdout.split()[0]
+
+    def drop(self, title, *files):
+        subprocess.run([sys.executable, HERE / "drop.py", self.number(title), "250", "400", *map(str, files)], env=self.screen.environment,
+                       check=True)
+
+    def shows_more(self, before, part=0.01):
+        """Waits until it differs from a picture, and rests."""
+        until(lambda: part_that_differs(self.pixels(), before) > part, "something else in the window")
+        return self.resting()
 
     def drag(self, button, way, modifier=None):
         x, y = self.size[0] // 2, self.size[1] // 2
@@ -138,11 +155,11 @@ class Test:
     def __init__(self, build, pictures):
         self.program, self.build, self.pictures = build / "scumble", build, pictures
 
-    def rendered(self, scene, *options, size=SIZE):
+    def rendered(self, *words, size=SIZE):
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "picture.png"
-            subprocess.run([self.program, "render", scene, "-o", path, "--size", f"{size[0]}x{size[1]}", "--samples", SAMPLES, "--quiet",
-                            *map(str, options)], check=True, capture_output=True)
+            subprocess.run([self.program, "render", *map(str, words), "-o", path, "--size", f"{size[0]}x{size[1]}", "--samples", SAMPLES,
+                            "--quiet"], check=True, capture_output=True)
             return picture_of(path)
 
     def drawn_by(self, words):
@@ -275,8 +292,7 @@ class Test:
         window.until_it_shows(first, "the first scene again")
 
         # Another size, and the help over it.
-        number = subprocess.run(["xdotool", "search", "--name", "still.glb"], env=screen.environment, check=True, capture_output=True,
-                                text=True).stdout.split()[0]
+        number = window.number("still.glb")
         screen.hand("windowsize", number, 500, 450)
         window.size = (500, 450)
         window.until_it_shows(self.rendered(scene, size=window.size), "the picture of another size")
@@ -315,6 +331,270 @@ class Test:
         window.key("ctrl+q")
         assert window.closed() == (0, "", ""), window.closed()
 
+    def opened(self, screen, *options, size=WIDE):
+        window = Window(screen, self.program, *options, size=size)
+        until(lambda: is_painted(window.pixels()), "a picture in the window")
+        window.resting()
+        return window
+
+    def close(self, window):
+        window.key("ctrl+q")
+        assert window.closed() == (0, "", ""), window.closed()
+
+    def scene(self, folder, program, name):
+        subprocess.run([self.build / program, folder / name], check=True, capture_output=True)
+        return folder / name
+
+    def pick(self, screen, folder):
+        scene = self.scene(folder, "still_life", "picked.glb")
+        first = self.rendered(scene, size=WIDE)
+        window = self.opened(screen, scene)
+        before = window.resting()
+        window.click(380, 380)
+        picked = window.shows_more(before)
+        self.keep("picked", window)
+        # The jug's material has knobs of its own.
+        window.click(800, 178)
+        screen.hand("type", "torn edge")
+        window.resting()
+        self.keep("picked search", window)
+        screen.hand("mousemove", 793, 271, "mousedown", 1)
+        for x in (796, 803, 810):
+            screen.hand("mousemove", x, 271)
+        screen.hand("mouseup", 1)
+        window.shows_more(picked, 0.002)
+        self.keep("picked knob", window)
+        words = window.copied()
+        assert any(word.startswith("materials.Enamel.warp.amount=") for word in words), words
+        window.key("Escape", "n")
+        turned = self.drawn_by(words)
+        window.until_it_shows(turned, "the jug with another edge")
+        assert 0.0005 < part_that_differs(turned, first) < 0.2, part_that_differs(turned, first)
+        # Held, a key shows what the file says.
+        screen.hand("keydown", "c")
+        window.until_it_shows(first, "the picture as the look is saved")
+        screen.hand("keyup", "c")
+        window.until_it_shows(turned, "and as it is")
+        window.key("ctrl+s")
+        look = folder / "picked.look.json"
+        until(look.exists, "a look beside the scene")
+        amount = next(word for word in words if word.startswith("materials.")).split("=")[1]
+        assert json.loads(look.read_text())["materials"] == {"Enamel": {"warp": {"amount": float(amount)}}}, look.read_text()
+        # A click on nothing lets go of it.
+        window.key("n")
+        window.resting()
+        for x, y in ((380, 380), (40, 40)):
+            before = window.resting()
+            window.click(x, y)
+            window.shows_more(before)
+        self.close(window)
+        look.unlink()
+
+    def drops(self, screen, folder):
+        still, demo = self.scene(folder, "still_life", "still life.glb"), self.scene(folder, "demo_scene", "demo.glb")
+        window = self.opened(screen, still)
+        window.key("n")
+        first = self.rendered(still, size=WIDE)
+        window.until_it_shows(first, "the first scene")
+        window.drop("still life.glb", demo)
+        window.shows_more(first)
+        self.keep("dropped scene", window)
+        window.click(297, 240)
+        window.until_it_shows(self.rendered(demo, size=WIDE), "the scene that was dropped")
+        # What is not wanted goes, what is nothing is told, and what was dropped last of looks counts.
+        before = window.pixels()
+        window.drop("demo.glb", still)
+        window.shows_more(before)
+        window.key("Escape")
+        window.until_it_shows(before, "the question put away")
+        window.drop("demo.glb", folder / "notes.txt")
+        window.shows_more(before)
+        self.keep("dropped notes", window)
+        window.key("Escape")
+        window.until_it_shows(before, "the message put away")
+        look = folder / "mine.json"
+        look.write_text(json.dumps({"extends": "dusk", "shadow": {"threshold": 0.7}}))
+        window.drop("demo.glb", look)
+        window.until_it_shows(self.rendered(demo, "--look", look, size=WIDE), "the look that was dropped")
+        # Two scenes in one world.
+        before = window.resting()
+        window.drop("demo.glb", still)
+        window.shows_more(before)
+        window.click(297, 240)
+        alone = self.rendered(still, "--look", look, size=WIDE)
+        window.until_it_shows(alone, "the first scene again")
+        window.drop("still life.glb", demo)
+        window.shows_more(alone)
+        window.click(297, 269)
+        both = self.rendered(still, demo, "--look", look, size=WIDE)
+        assert part_that_differs(both, alone) > 0.005
+        window.until_it_shows(both, "both scenes")
+        self.keep("both scenes", window)
+        window.until_it_shows(self.drawn_by(window.copied()), "what the copied command draws of both")
+        # A picture behind everything.
+        picture = folder / "sky & sea.png"
+        subprocess.run(["ffmpeg", "-v", "error", "-y", "-f", "lavfi", "-i", "gradients=s=320x200:c0=orange:c1=purple:seed=1", "-frames:v",
+                        "1", picture], check=True)
+        window.drop("still life.glb", picture)
+        window.shows_more(both)
+        self.keep("dropped picture", window)
+        window.click(297, 116)
+        window.until_it_shows(self.rendered(still, demo, "--look", look, "--background", picture, size=WIDE), "the picture behind it")
+        window.until_it_shows(self.drawn_by(window.copied()), "what the copied command draws over the picture")
+        self.close(window)
+        # They were opened last.
+        window = self.opened(screen, still)
+        before = window.resting()
+        window.key("ctrl+o")
+        window.shows_more(before)
+        self.keep("open", window)
+        window.click(150, 262)
+        window.resting()
+        window.key("n")
+        window.until_it_shows(self.rendered(demo, size=WIDE), "the scene that was opened last")
+        self.close(window)
+
+    def compare(self, screen, folder):
+        scene = self.scene(folder, "still_life", "compared.glb")
+        window = self.opened(screen, scene)
+        window.key("n")
+        first, dusk = self.rendered(scene, size=WIDE), self.rendered(scene, "--look", "dusk", size=WIDE)
+        window.until_it_shows(first, "the first look")
+        # All looks; the third is taken.
+        window.key("l")
+        until(lambda: part_that_differs(window.pixels(), first) > 0.3, "the sheet of looks")
+        until(lambda: is_painted(window.resting()), "small pictures")
+        time.sleep(2)
+        window.resting()
+        self.keep("all looks", window)
+        window.click(820, 120)
+        window.resting()
+        window.until_it_shows(dusk, "the look that was taken")
+        # Another look at the right of a line, which is dragged.
+        window.key("n", "v")
+        window.resting()
+        window.click(800, 107)
+        window.resting()
+        self.keep("looks to compare", window)
+        window.click(700, 178)
+        window.resting()
+        window.key("n")
+        window.resting()
+        self.keep("compared", window)
+        calm = self.rendered(scene, "--look", "calm-morning", size=WIDE)
+        self.assert_split(window, dusk, calm, 500)
+        screen.hand("mousemove", 500, 100, "mousedown", 1, "mousemove", 400, 100, "mousemove", 300, 100, "mouseup", 1)
+        window.resting()
+        self.keep("compared further left", window)
+        self.assert_split(window, dusk, calm, 300)
+        window.key("v")
+        window.until_it_shows(dusk, "the look alone again")
+        # What passes put out.
+        window.key("p")
+        window.shows_more(dusk)
+        until(lambda: part_that_differs(window.resting(), dusk) > 0.1, "the strip of passes")
+        time.sleep(1)
+        window.resting()
+        self.keep("passes", window)
+        before = window.pixels()
+        window.click(482, 523)
+        window.shows_more(before, 0.3)
+        self.keep("a pass", window)
+        screen.hand("mousemove", 300, 200)
+        window.resting()
+        self.keep("a pixel", window)
+        window.key("Escape")
+        window.key("p")
+        window.until_it_shows(dusk, "the picture again")
+        self.close(window)
+
+    def assert_split(self, window, left, right, line):
+        """Each side of the line is its picture, away from it and its labels."""
+        seen, width = window.pixels(), 3 * window.size[0]
+        for picture, low, high in ((left, 0, line - 20), (right, line + 20, window.size[0])):
+            for y in range(0, 450, 10):
+                assert seen[y * width + 3 * low:y * width + 3 * high] == picture[y * width + 3 * low:y * width + 3 * high], (y, low, high)
+
+    def save(self, screen, folder):
+        scene = self.scene(folder, "still_life", "saved.glb")
+        window = self.opened(screen, scene)
+        window.key("n")
+        first = self.rendered(scene, size=WIDE)
+        window.until_it_shows(first, "the picture")
+        window.drag(1, (80, 10))
+        seen = window.shows_more(first)
+        window.key("F12")
+        window.shows_more(seen)
+        self.keep("save", window)
+        window.click(77, 313)
+        until(lambda: (folder / "saved-1.png").exists(), "the picture that was saved")
+        assert picture_of(folder / "saved-1.png") == seen
+        window.resting()
+        self.keep("saved", window)
+        # A turn, which is stopped.
+        window.key("F12")
+        window.resting()
+        window.click(177, 226)
+        window.resting()
+        self.keep("save a turn", window)
+        window.click(77, 327)
+        children = Path(f"/proc/{window.process.pid}/task/{window.process.pid}/children")
+        until(lambda: children.read_text(), "a film that is being made")
+        time.sleep(1)
+        self.keep("making", window)
+        window.click(521, 57)
+        until(lambda: not children.read_text(), "the end of it")
+        assert not (folder / "saved-turn-1.mp4").exists()
+        window.resting()
+        self.keep("stopped", window)
+        self.close(window)
+
+    def kill(self, screen, folder):
+        scene = self.scene(folder, "still_life", "killed.glb")
+        first = self.rendered(scene, size=WIDE)
+        window = self.opened(screen, scene)
+        window.click(800, 149)
+        screen.hand("type", "torn edge")
+        window.resting()
+        screen.hand("mousemove", 793, 242, "mousedown", 1, "mousemove", 803, 242, "mousemove", 813, 242, "mouseup", 1)
+        window.resting()
+        words = window.copied()
+        assert any(word.startswith("warp.amount=") for word in words), words
+        turned = self.drawn_by(words)
+        assert turned != first
+        time.sleep(3)
+        window.process.kill()
+        window.closed()
+        # Offered, taken, and offered again until it is saved.
+        for answer in ("take", "throw away"):
+            window = self.opened(screen, scene)
+            self.keep(f"recovered, {answer}", window)
+            window.click(45 if answer == "take" else 110, 62)
+            window.resting()
+            window.key("n")
+            window.until_it_shows(turned if answer == "take" else first, answer)
+            self.close(window)
+        window = self.opened(screen, scene)
+        window.key("n")
+        window.until_it_shows(first, "nothing is offered any more")
+        # Hidden, and shown again.
+        number = window.number("killed.glb")
+        screen.hand("windowunmap", number)
+        time.sleep(0.5)
+        screen.hand("windowmap", number)
+        window.until_it_shows(first, "the picture after it was hidden")
+        self.close(window)
+
+    def demo(self, screen, folder):
+        window = self.opened(screen)
+        window.key("n")
+        window.resting()
+        self.keep("demo", window)
+        words = window.copied()
+        assert words[2].endswith("/demo.glb"), words
+        window.key("space")
+        self.close(window)
+
     def mistakes(self, screen, folder):
         def run(*words, environment=screen.environment):
             done = subprocess.run([self.program, "view", *map(str, words)], env=environment, capture_output=True, text=True, timeout=60)
@@ -335,14 +615,19 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("build", type=Path)
     parser.add_argument("--pictures", type=Path, help="keep what the window shows there")
+    parser.add_argument("--only", default="", help="parts whose names have this in them")
     chosen = parser.parse_args()
     if chosen.pictures:
         chosen.pictures.mkdir(parents=True, exist_ok=True)
     test = Test(chosen.build.resolve(), chosen.pictures)
-    with tempfile.TemporaryDirectory(prefix="scumble window ") as folder, contextlib.closing(Screen(1024, 768)) as screen:
-        for part in (test.look_at_a_scene, test.play, test.mistakes):
-            part(screen, Path(folder))
-            print(f"passed  {part.__name__}", flush=True)
+    parts = (test.look_at_a_scene, test.play, test.pick, test.drops, test.compare, test.save, test.kill, test.demo, test.mistakes)
+    with tempfile.TemporaryDirectory(prefix="scumble window ") as name:
+        folder = Path(name)
+        with contextlib.closing(Screen(1024, 768, folder / "state")) as screen:
+            for part in parts:
+                if chosen.only in part.__name__:
+                    part(screen, folder)
+                    print(f"passed  {part.__name__}", flush=True)
     return 0
 
 
