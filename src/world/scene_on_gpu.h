@@ -69,6 +69,11 @@ class SceneOnGpu {
   // nodes for which the look sets something.
   size_t materialCount() const { return materialNames_.size(); }
   const std::vector<std::string>& materialNames() const { return materialNames_; }
+  // From 1 on, of a name in materialNames(): one of the scene's is the same whichever node it is on.
+  size_t materialNumber(size_t material) const {
+    const int base = materialUses_[material].base;
+    return (base >= 0 ? size_t(base) : material) + 1;
+  }
   const std::string& materialName(size_t material) const { return materialNames_[material]; }
   // What the scene has for it; glTF's default material for the ground and for features.
   const scene::Material& material(size_t material) const;

@@ -78,7 +78,7 @@ class Facts : public Pass {
       const auto params = input.knobs.of<WarpMetaTextureParams>(m);
       const MetaTextureUse use =
           metaTextureUse(params, 0b0011, input.look, *examples_, input.uniforms.pixelScale, glm::vec2(0.0f));
-      materials_.write(m, {use.meta.uniforms(), float(m + 1)});
+      materials_.write(m, {use.meta.uniforms(), float(input.scene.materialNumber(m))});
       variants.push_back(
           {.features = use.meta.features(), .tangents = tangentOptions(params, input.uniforms)});
     }
