@@ -98,6 +98,10 @@ Files commandOf(const ViewArguments& args, const viewer::Shown& shown) {
   } else if (shown.time != 0) {
     add("--time", fmt::format("{}", shown.time));
   }
+  if (shown.isStereo) {
+    add("--stereo", "side-by-side");
+    if (args.picture.ipdOption->count() > 0) add("--ipd", fmt::format("{}", args.picture.ipd));
+  }
   add("--size", fmt::format("{}x{}", shown.width, shown.height));
   if (args.picture.samples != 4) add("--samples", std::to_string(args.picture.samples));
   if (args.picture.seed != 0) add("--seed", std::to_string(args.picture.seed));
@@ -128,8 +132,6 @@ int run(ViewArguments args) {
     return failUsage("'" + args.picture.size + "' has no area", "write it like 1280x720");
   const Result<Viewpoint> viewpoint = args.picture.viewpoint();
   if (!viewpoint) return fail(viewpoint.error());
-  args.picture.warnOfIdle();
-
   viewer::ViewerOptions view;
   view.sources.opened.scenes = args.scene.files;
   view.sources.loadScene = [&](const Files& files, const scumble::Progress& progress) {
@@ -148,6 +150,7 @@ int run(ViewArguments args) {
   view.time = args.time;
   view.width = options->width, view.height = options->height;
   view.samples = options->samples, view.seed = options->seed;
+  view.isStereo = args.picture.isStereo(), view.ipd = args.picture.ipd;
   view.renderer = args.picture.rendererOptions();
   view.stateFolder = stateFolder();
   const Status status = viewer::runViewer(view);
@@ -163,6 +166,7 @@ void addView(CLI::App& program, int& exitCode) {
   args->scene.addTo(*command, "the demo");
   args->look.addTo(*command);
   args->picture.addTo(*command);
+  args->picture.addStereoTo(*command);
   command->add_option("--time", args->time, "Seconds at which it begins")->capture_default_str();
   command->footer(
       "Example: scumble view boat.glb --look dusk\nIn the window, H shows what keys and mouse do.");

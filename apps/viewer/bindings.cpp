@@ -25,6 +25,7 @@ constexpr Binding kBindings[] = {
     {GLFW_KEY_V, 0, Command::split, "V", "another look beside it, at a line that is dragged"},
     {GLFW_KEY_C, 0, Command::compare, "C, held", "as the look is saved"},
     {GLFW_KEY_P, 0, Command::passes, "P", "what passes put out, their times, and what is under the mouse"},
+    {GLFW_KEY_B, 0, Command::eyes, "B", "both eyes: side by side, crossed, red and cyan; and one again"},
     {GLFW_KEY_HOME, 0, Command::frameAll, "Home", "frame everything"},
     {GLFW_KEY_F, 0, Command::frameAll, "F", nullptr},
     {GLFW_KEY_KP_0, 0, Command::lookCamera, "Keypad 0", "the camera of look and scene again"},

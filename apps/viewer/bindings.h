@@ -48,6 +48,7 @@ enum class Command {
   split,
   compare,
   passes,
+  eyes,
   leave,
 };
 

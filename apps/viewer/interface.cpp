@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "bindings.h"
+#include "interface_pass.h"
 #include "panel.h"
 
 namespace scumble::viewer {
@@ -44,6 +45,34 @@ void layOutPicture(const glm::vec2& window, const PictureShown& picture, const P
   const float line = other ? std::round(split * window.x) : window.x;
   addPart(placed(window, picture.size), picture.texture, 0, line);
   if (other) addPart(placed(window, other->size), other->texture, line, window.x);
+}
+
+glm::uvec2 viewSize(const glm::uvec2& window, Eyes eyes) {
+  const bool isHalf = eyes == Eyes::sideBySide || eyes == Eyes::crossed;
+  return isHalf ? glm::uvec2(window.x / 2, window.y) : window;
+}
+
+void layOutEyes(const glm::vec2& window, const PictureShown& left, const PictureShown& right, Eyes eyes) {
+  ImDrawList* const list = ImGui::GetBackgroundDrawList();
+  if (eyes == Eyes::anaglyph) {
+    const Box box = placed(window, left.size);
+    const auto add = [&](const PictureShown& picture, ImU32 tint) {
+      list->AddImage(picture.texture, {box.low.x, box.low.y}, {box.high.x, box.high.y}, {0, 0}, {1, 1}, tint);
+    };
+    add(left, IM_COL32(255, 0, 0, 255));
+    list->AddCallback(InterfacePass::kAdd, nullptr);
+    add(right, IM_COL32(0, 255, 255, 255));
+    list->AddCallback(InterfacePass::kOver, nullptr);
+    return;
+  }
+  const glm::vec2 half(std::floor(window.x / 2), window.y);
+  const PictureShown* const pictures[] = {eyes == Eyes::crossed ? &right : &left,
+                                          eyes == Eyes::crossed ? &left : &right};
+  for (int i = 0; i < 2; ++i) {
+    const Box box = placed(half, pictures[i]->size);
+    const float x = float(i) * half.x;
+    list->AddImage(pictures[i]->texture, {box.low.x + x, box.low.y}, {box.high.x + x, box.high.y});
+  }
 }
 
 bool layOutSplit(const glm::vec2& window, const std::string& left, const std::string& right, float& split) {

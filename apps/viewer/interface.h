@@ -30,6 +30,16 @@ struct PictureShown {
 };
 void layOutPicture(const glm::vec2& window, const PictureShown& picture, const PictureShown* other,
                    float split);
+// How two eyes are seen in one window.
+enum class Eyes {
+  one,
+  sideBySide,
+  crossed,  // the right eye's picture at the left
+  anaglyph  // red for the left eye, cyan for the right one
+};
+// Pixels that a view has then.
+glm::uvec2 viewSize(const glm::uvec2& window, Eyes eyes);
+void layOutEyes(const glm::vec2& window, const PictureShown& left, const PictureShown& right, Eyes eyes);
 // The line between the two, which is dragged; true where it was.
 bool layOutSplit(const glm::vec2& window, const std::string& left, const std::string& right, float& split);
 

@@ -20,14 +20,22 @@ void ensure(const VulkanDevice& device, MappedBuffer& buffer, VkDeviceSize bytes
   if (buffer.size() < bytes) buffer = MappedBuffer(device, std::max(kLeastBytes, bytes + bytes / 2), usage);
 }
 
+// Never called: they are told apart by where they are.
+void add(const ImDrawList*, const ImDrawCmd*) {}
+void over(const ImDrawList*, const ImDrawCmd*) {}
+
 }  // namespace
+
+const ImDrawCallback InterfacePass::kAdd = add, InterfacePass::kOver = over;
 
 InterfacePass::InterfacePass(const VulkanDevice& device, VkFormat format) : device_(device) {
   VkSamplerCreateInfo sampler{VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
   sampler.magFilter = sampler.minFilter = VK_FILTER_LINEAR;
   sampler.addressModeU = sampler.addressModeV = sampler.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
   must(vkCreateSampler(device.device, &sampler, nullptr, &sampler_), "vkCreateSampler");
-  makePipeline(format);
+  makeLayout();
+  over_ = makePipeline(format, VK_BLEND_FACTOR_SRC_ALPHA, VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA);
+  add_ = makePipeline(format, VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_ONE);
   uploadLetters();
   ImGui::GetIO().BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;
 }
@@ -35,13 +43,14 @@ InterfacePass::InterfacePass(const VulkanDevice& device, VkFormat format) : devi
 InterfacePass::~InterfacePass() {
   for (const Slot& slot : slots_)
     for (const VkDescriptorPool pool : slot.pools) vkDestroyDescriptorPool(device_.device, pool, nullptr);
-  vkDestroyPipeline(device_.device, pipeline_, nullptr);
+  vkDestroyPipeline(device_.device, over_, nullptr);
+  vkDestroyPipeline(device_.device, add_, nullptr);
   vkDestroyPipelineLayout(device_.device, layout_, nullptr);
   vkDestroyDescriptorSetLayout(device_.device, setLayout_, nullptr);
   vkDestroySampler(device_.device, sampler_, nullptr);
 }
 
-void InterfacePass::makePipeline(VkFormat format) {
+void InterfacePass::makeLayout() {
   const VkDescriptorSetLayoutBinding binding{0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1,
                                              VK_SHADER_STAGE_FRAGMENT_BIT, &sampler_};
   VkDescriptorSetLayoutCreateInfo set{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
@@ -53,7 +62,10 @@ void InterfacePass::makePipeline(VkFormat format) {
   layout.setLayoutCount = layout.pushConstantRangeCount = 1;
   layout.pSetLayouts = &setLayout_, layout.pPushConstantRanges = &push;
   must(vkCreatePipelineLayout(device_.device, &layout, nullptr, &layout_), "vkCreatePipelineLayout");
+}
 
+VkPipeline InterfacePass::makePipeline(VkFormat format, VkBlendFactor source,
+                                       VkBlendFactor destination) const {
   VkPipelineShaderStageCreateInfo stages[2]{};
   const auto stage = [&](VkPipelineShaderStageCreateInfo& at, VkShaderStageFlagBits which,
                          const auto& words) {
@@ -84,8 +96,7 @@ void InterfacePass::makePipeline(VkFormat format) {
   samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
   VkPipelineColorBlendAttachmentState over{};
   over.blendEnable = VK_TRUE;
-  over.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA,
-  over.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+  over.srcColorBlendFactor = source, over.dstColorBlendFactor = destination;
   over.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE,
   over.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
   over.colorWriteMask = 0xF;
@@ -101,11 +112,13 @@ void InterfacePass::makePipeline(VkFormat format) {
   info.pVertexInputState = &input, info.pInputAssemblyState = &assembly, info.pViewportState = &viewport;
   info.pRasterizationState = &raster, info.pMultisampleState = &samples, info.pColorBlendState = &blend;
   info.pDynamicState = &dynamicState, info.layout = layout_;
+  VkPipeline pipeline = VK_NULL_HANDLE;
   const VkResult made =
-      vkCreateGraphicsPipelines(device_.device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_);
+      vkCreateGraphicsPipelines(device_.device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline);
   for (const VkPipelineShaderStageCreateInfo& each : stages)
     vkDestroyShaderModule(device_.device, each.module, nullptr);
   must(made, "vkCreateGraphicsPipelines");
+  return pipeline;
 }
 
 void InterfacePass::uploadLetters() {
@@ -157,7 +170,7 @@ void InterfacePass::record(VkCommandBuffer commands, uint32_t frame, const ImDra
   const float size[] = {drawn.DisplaySize.x, drawn.DisplaySize.y};
   const VkDeviceSize start = 0;
   const VkBuffer vertices = slot.vertices.handle();
-  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_);
+  vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, over_);
   vkCmdSetViewport(commands, 0, 1, &viewport);
   vkCmdPushConstants(commands, layout_, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof size, size);
   vkCmdBindVertexBuffers(commands, 0, 1, &vertices, &start);
@@ -176,6 +189,9 @@ void InterfacePass::record(VkCommandBuffer commands, uint32_t frame, const ImDra
       const float right = std::clamp(command.ClipRect.z, left, float(extent.width)),
                   bottom = std::clamp(command.ClipRect.w, top, float(extent.height));
       const VkRect2D scissor{{int32_t(left), int32_t(top)}, {uint32_t(right - left), uint32_t(bottom - top)}};
+      if (command.UserCallback == kAdd || command.UserCallback == kOver)
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                          command.UserCallback == kAdd ? add_ : over_);
       if (command.UserCallback || scissor.extent.width == 0 || scissor.extent.height == 0) continue;
       const VkDescriptorSet set = setFor(VkImageView(command.GetTexID()), slot);
       vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 1, &set, 0, nullptr);

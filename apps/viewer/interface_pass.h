@@ -3,18 +3,21 @@
 // VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL.
 #pragma once
 
+#include <imgui.h>
+
 #include <array>
 #include <map>
 #include <vector>
 
 #include "screen.h"
 
-struct ImDrawData;
-
 namespace scumble::viewer {
 
 class InterfacePass {
  public:
+  // Callbacks of a list (ImDrawList::AddCallback), which say how what follows them goes on what is there.
+  static const ImDrawCallback kAdd, kOver;
+
   // With the letters that are in ImGui's present context, which this gives their texture. Throws
   // VulkanFailure.
   InterfacePass(const VulkanDevice& device, VkFormat format);
@@ -34,7 +37,8 @@ class InterfacePass {
     size_t used = 0;  // descriptor sets
     std::map<VkImageView, VkDescriptorSet> sets;
   };
-  void makePipeline(VkFormat format);
+  void makeLayout();
+  VkPipeline makePipeline(VkFormat format, VkBlendFactor source, VkBlendFactor destination) const;
   void uploadLetters();
   VkDescriptorSet setFor(VkImageView view, Slot& slot);
 
@@ -42,7 +46,7 @@ class InterfacePass {
   VkSampler sampler_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
-  VkPipeline pipeline_ = VK_NULL_HANDLE;
+  VkPipeline over_ = VK_NULL_HANDLE, add_ = VK_NULL_HANDLE;
   DeviceImage letters_;
   std::array<Slot, Screen::kFrames> slots_;
 };

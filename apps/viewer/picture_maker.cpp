@@ -84,29 +84,35 @@ void PictureMaker::run() {
 }
 
 // One that nobody looks at. Those of other sizes go, but for what is being looked at.
-std::shared_ptr<Picture> PictureMaker::blank(const glm::uvec2& size) {
+std::shared_ptr<Picture> PictureMaker::blank(const glm::uvec2& size, Stereo stereo) {
   const std::lock_guard lock(mutex_);
+  const auto fits = [&](const Picture& picture) {
+    const VkExtent2D extent = picture.image.extent();
+    const bool hasRight = picture.right.handle() != VK_NULL_HANDLE;
+    return extent.width == size.x && extent.height == size.y && hasRight == (stereo == Stereo::stereo);
+  };
   std::erase_if(pictures_, [&](const std::shared_ptr<Picture>& picture) {
-    const VkExtent2D extent = picture->image.extent();
-    return picture.use_count() == 1 && (extent.width != size.x || extent.height != size.y);
+    return picture.use_count() == 1 && !fits(*picture);
   });
   for (const std::shared_ptr<Picture>& picture : pictures_)
     if (picture.use_count() == 1) return picture;
+  constexpr VkImageUsageFlags kUsage =
+      VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
   auto made = std::make_shared<Picture>();
-  made->image = DeviceImage(
-      device_, Picture::kFormat, {size.x, size.y},
-      VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT);
+  made->image = DeviceImage(device_, Picture::kFormat, {size.x, size.y}, kUsage);
+  if (stereo == Stereo::stereo)
+    made->right = DeviceImage(device_, Picture::kFormat, {size.x, size.y}, kUsage);
   return pictures_.emplace_back(std::move(made));
 }
 
 Result<std::shared_ptr<Picture>> PictureMaker::draw(const Wish& wish) {
   const Result<std::vector<View>> views =
-      makeViews(wish.scene, wish.viewpoint, float(wish.size.x) / float(wish.size.y), Stereo::mono, 0.063f,
+      makeViews(wish.scene, wish.viewpoint, float(wish.size.x) / float(wish.size.y), wish.stereo, wish.ipd,
                 wish.look, wish.time);
   if (!views) return views.error();
   std::shared_ptr<Picture> picture;
   try {
-    picture = blank(wish.size);
+    picture = blank(wish.size, wish.stereo);
   } catch (const VulkanFailure& failure) {
     return Error{ErrorKind::noUsableGpu, "", 0, "", failure.what(), "make the window smaller"};
   }
@@ -120,10 +126,14 @@ Result<std::shared_ptr<Picture>> PictureMaker::draw(const Wish& wish) {
     return !isEnding_;
   };
   VulkanTargets targets;
-  VulkanTarget& target = targets.images.emplace_back();
-  target.image = picture->image.handle();
-  target.format = Picture::kFormat;
-  target.extent = picture->image.extent();
+  for (size_t view = 0; view < views->size(); ++view) {
+    const DeviceImage& image = view == 0 ? picture->image : picture->right;
+    VulkanTarget& target = targets.images.emplace_back();
+    target.image = image.handle();
+    target.format = Picture::kFormat;
+    target.extent = image.extent();
+    target.view = view;
+  }
   if (const Status begun = begin(*renderer_, wish.scene, wish.look, wish.time, *views, options, targets);
       !begun)
     return begun.error();
@@ -137,7 +147,7 @@ Result<std::shared_ptr<Picture>> PictureMaker::draw(const Wish& wish) {
     for (const std::string& aov : wish.aovs)
       for (const Frame::Layer& layer : frame->layers)
         if (layer.name == aov) {
-          const Image& values = layer.views[0];
+          const Image& values = layer.views[std::min(wish.aovView, layer.views.size() - 1)];
           picture->layers.push_back(
               {aov, values,
                uploaded(device_, {values.width, values.height}, visibleBytes(values, aov).data())});

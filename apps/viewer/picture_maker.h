@@ -24,7 +24,10 @@ struct Wish {
   glm::uvec2 size{0};
   uint32_t samples = 4, seed = 0;
   std::shared_ptr<const Image> background;
+  Stereo stereo = Stereo::mono;
+  float ipd = 0.063f;             // metres
   std::vector<std::string> aovs;  // to be looked at, and read, beside the picture
+  size_t aovView = 0;             // and of which view
 };
 
 struct Picture {
@@ -35,7 +38,8 @@ struct Picture {
     Image values;
     DeviceImage shown;  // as visible.h has it
   };
-  DeviceImage image;        // VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
+  DeviceImage image;        // VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL; of the left eye where there are two
+  DeviceImage right;        // likewise; none of a picture in mono
   uint64_t number = 0;      // of the wish: they grow
   double milliseconds = 0;  // without what only a first one takes: uploads and compiling
   std::vector<PassTime> steps;
@@ -68,7 +72,7 @@ class PictureMaker {
 
  private:
   void run();
-  std::shared_ptr<Picture> blank(const glm::uvec2& size);
+  std::shared_ptr<Picture> blank(const glm::uvec2& size, Stereo stereo);
   Result<std::shared_ptr<Picture>> draw(const Wish& wish);
 
   const std::unique_ptr<Renderer> renderer_;

@@ -28,38 +28,42 @@ void Pictures::begin(const Document& document, const Moment& moment, const glm::
   isCoarse_ = size_ != full;
   isAsked_.clear();
   if (picking_) {
-    const glm::uvec2 size = glm::max(full / 2u, 1u);
-    Wish wish = wishOf(document.look(), size);
-    wish.aovs = {"id"};
+    Wish wish = wishOf(document.look());
+    wish.size = glm::max(full / 2u, 1u);
+    wish.stereo = moment.stereo;
+    wish.aovs = {"id"}, wish.aovView = pickView_;
     pickNumber_ = maker_.wish(kPick, std::move(wish));
     pickedAt_ = *std::exchange(picking_, std::nullopt);
   }
 }
 
-Wish Pictures::wishOf(const Look& look, const glm::uvec2& size) const {
-  return {
-      document_->scene(),      look, moment_.viewpoint, moment_.time, size, options_.samples, options_.seed,
-      document_->background(), {}};
+Wish Pictures::wishOf(const Look& look) const {
+  Wish wish{document_->scene(), look, moment_.viewpoint, moment_.time};
+  wish.samples = options_.samples, wish.seed = options_.seed;
+  wish.background = document_->background();
+  wish.ipd = options_.ipd;
+  return wish;
 }
 
-void Pictures::ask(int purpose, const glm::uvec2& size, const std::string& what, const Look& look,
-                   std::vector<std::string> aovs) {
+// `what`: of its purpose, besides what is the same for all.
+void Pictures::ask(int purpose, const glm::uvec2& size, const std::string& what, Wish wish) {
   isAsked_.insert(purpose);
-  Asked asked{document_->version(), moment_.moves, moment_.time, size, what};
+  Asked asked{document_->version(), moment_.moves, moment_.time, size, wish.stereo, what};
   const auto before = asked_.find(purpose);
   if (before != asked_.end() && before->second == asked) return;
   asked_[purpose] = std::move(asked);
-  Wish wish = wishOf(look, size);
-  wish.aovs = std::move(aovs);
+  wish.size = size;
   maker_.wish(purpose, std::move(wish));
 }
 
 void Pictures::askForShown(bool savedLook) {
-  ask(kShown, size_, savedLook ? "saved" : "", savedLook ? document_->savedLook() : document_->look());
+  Wish wish = wishOf(savedLook ? document_->savedLook() : document_->look());
+  wish.stereo = moment_.stereo;
+  ask(kShown, size_, savedLook ? "saved" : "", std::move(wish));
 }
 
 void Pictures::askForOther(const std::string& name, const Look& look) {
-  ask(kOther, size_, name, look);
+  ask(kOther, size_, name, wishOf(look));
 }
 
 // As wide as that, at the window's aspect.
@@ -73,13 +77,16 @@ void Pictures::askForThumbnails() {
     isAsked_.insert(kThumbnails);
     return;
   }
-  ask(kThumbnails, smallSize(kThumbnailWidth), "", document_->look(), Renderer::aovNames());
+  Wish wish = wishOf(document_->look());
+  wish.aovs = Renderer::aovNames();
+  ask(kThumbnails, smallSize(kThumbnailWidth), "", std::move(wish));
 }
 
 void Pictures::askForPass(const std::string& aov) {
-  std::vector<std::string> aovs = kFacts;
-  if (!aov.empty() && std::find(aovs.begin(), aovs.end(), aov) == aovs.end()) aovs.push_back(aov);
-  ask(kPass, size_, aov, document_->look(), std::move(aovs));
+  Wish wish = wishOf(document_->look());
+  wish.aovs = kFacts;
+  if (!aov.empty() && std::find(kFacts.begin(), kFacts.end(), aov) == kFacts.end()) wish.aovs.push_back(aov);
+  ask(kPass, size_, aov, std::move(wish));
 }
 
 void Pictures::askForLooks(const std::vector<std::pair<std::string, Look>>& looks) {
@@ -87,7 +94,7 @@ void Pictures::askForLooks(const std::vector<std::pair<std::string, Look>>& look
     if (isCoarse_)
       isAsked_.insert(kLooks + int(i));
     else
-      ask(kLooks + int(i), smallSize(kLookWidth), looks[i].first, looks[i].second);
+      ask(kLooks + int(i), smallSize(kLookWidth), looks[i].first, wishOf(looks[i].second));
 }
 
 void Pictures::end() {
@@ -100,8 +107,9 @@ void Pictures::end() {
   }
 }
 
-void Pictures::pick(const glm::vec2& place) {
+void Pictures::pick(const glm::vec2& place, size_t view) {
   picking_ = place;
+  pickView_ = view;
 }
 
 std::optional<Picked> Pictures::takePicked() {

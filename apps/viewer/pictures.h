@@ -25,10 +25,12 @@ struct Moment {
   Viewpoint viewpoint;
   uint64_t moves = 0;  // grows with each change of the viewpoint
   double time = 0;     // seconds
+  Stereo stereo = Stereo::mono;
 };
 
 struct PictureOptions {
   uint32_t samples = 4, seed = 0;
+  float ipd = 0.063f;  // metres
 };
 
 class Pictures {
@@ -42,8 +44,8 @@ class Pictures {
   bool isDue(double now) const { return isCoarse_ && !sharpness_.isMoving(now); }
   std::optional<double> untilDue(double now) const;
 
-  // Asks for what is to be seen. `full`: pixels of the window. Each frame of the window, in any order; what
-  // is not asked for between two calls of begin() is forgotten.
+  // Asks for what is to be seen. `full`: pixels that one view has in the window. Each frame of the window, in
+  // any order; what is not asked for between two calls of begin() is forgotten.
   void begin(const Document& document, const Moment& moment, const glm::uvec2& full, double now);
   void askForShown(bool savedLook);
   void askForOther(const std::string& name, const Look& look);  // of the same size
@@ -60,8 +62,8 @@ class Pictures {
   std::shared_ptr<const Picture> pass() const { return maker_.latest(kPass); }
   std::shared_ptr<const Picture> look(size_t number) const { return maker_.latest(kLooks + int(number)); }
 
-  // Where, from 0 to 1 across the window.
-  void pick(const glm::vec2& place);
+  // Where, from 0 to 1 across what a view (1: the right eye's) has.
+  void pick(const glm::vec2& place, size_t view);
   // What was picked last, once.
   std::optional<Picked> takePicked();
 
@@ -75,13 +77,13 @@ class Pictures {
     uint64_t version = 0, moves = 0;
     double time = 0;
     glm::uvec2 size{0};
+    Stereo stereo = Stereo::mono;
     std::string what;
     bool operator==(const Asked&) const = default;
   };
-  void ask(int purpose, const glm::uvec2& size, const std::string& what, const Look& look,
-           std::vector<std::string> aovs = {});
+  void ask(int purpose, const glm::uvec2& size, const std::string& what, Wish wish);
   glm::uvec2 smallSize(uint32_t width) const;
-  Wish wishOf(const Look& look, const glm::uvec2& size) const;
+  Wish wishOf(const Look& look) const;
 
   const PictureOptions options_;
   PictureMaker maker_;
@@ -95,6 +97,7 @@ class Pictures {
   glm::uvec2 full_{0}, size_{0};
   std::shared_ptr<const Picture> shown_;
   std::optional<glm::vec2> picking_;  // to be asked for
+  size_t pickView_ = 0;
   glm::vec2 pickedAt_{0};
   uint64_t pickNumber_ = 0;
   std::optional<Picked> picked_;

@@ -58,7 +58,7 @@ struct Context {
 // What is there as long as the device is.
 struct Drawing {
   Drawing(const ViewerOptions& options, const Window& window, std::unique_ptr<Renderer> renderer)
-      : pictures(std::move(renderer), {options.samples, options.seed}, Window::wake),
+      : pictures(std::move(renderer), {options.samples, options.seed, options.ipd}, Window::wake),
         device(vulkanDeviceOf(pictures.renderer())),
         screen(device, window.makeSurface(device.instance)),
         pass(device, screen.format()) {}
@@ -81,6 +81,7 @@ class Viewer {
         recovery_(options.stateFolder),
         recent_(options.stateFolder) {
     playback_.playhead = options.time;
+    if (options.isStereo) eyes_ = Eyes::sideBySide;
     setStyle(window.contentScale());
     ImGui::GetIO().DisplaySize = {float(options.width), float(options.height)};
   }
@@ -224,13 +225,22 @@ class Viewer {
   void wish(const glm::uvec2& full) {
     if (document_.scene().empty()) return;
     if (moves()) pictures().moved(now());
-    pictures().begin(document_, {viewpoint(), moves_, playback_.pictureTime()}, full, now());
+    const Stereo stereo = isSeenByBoth() ? Stereo::stereo : Stereo::mono;
+    pictures().begin(document_, {viewpoint(), moves_, playback_.pictureTime(), stereo}, presentViewSize(full),
+                     now());
     pictures().askForShown(held_.count(Command::compare) > 0);
-    if (showsSplit_) pictures().askForOther(otherLook_, lookOf(otherLook_));
+    if (showsSplit()) pictures().askForOther(otherLook_, lookOf(otherLook_));
     if (showsPasses_) pictures().askForThumbnails(), pictures().askForPass(passes_.chosen());
     if (showsLooks_) pictures().askForLooks(allLooks());
     pictures().end();
   }
+
+  // A pass is seen by one eye.
+  bool isSeenByBoth() const { return eyes_ != Eyes::one && passes_.chosen().empty(); }
+  glm::uvec2 presentViewSize(const glm::uvec2& window) const {
+    return viewSize(window, isSeenByBoth() ? eyes_ : Eyes::one);
+  }
+  bool showsSplit() const { return showsSplit_ && !isSeenByBoth(); }
 
   // By name; empty: the scene's own, as it is saved.
   const Look& lookOf(const std::string& name) {
@@ -255,7 +265,7 @@ class Viewer {
 
   // From where it is seen, whether or not that is drawn already.
   std::optional<View> presentView() const {
-    const glm::uvec2 size = window_.framebufferSize();
+    const glm::uvec2 size = presentViewSize(window_.framebufferSize());
     if (document_.scene().empty() || size.x == 0 || size.y == 0) return std::nullopt;
     const Result<std::vector<View>> views =
         makeViews(document_.scene(), viewpoint(), float(size.x) / float(size.y), Stereo::mono, 0.063f,
@@ -300,11 +310,13 @@ class Viewer {
             playback_.pictureTime(),
             size.x,
             size.y,
-            std::nullopt};
+            std::nullopt,
+            eyes_ != Eyes::one};
   }
 
   void openSaveDialog() {
-    saveDialog_.open(document_.opened().scenes[0], window_.framebufferSize(), playback_.duration > 0);
+    saveDialog_.open(document_.opened().scenes[0], viewSize(window_.framebufferSize(), eyes_),
+                     playback_.duration > 0);
   }
 
   // What lies over everything goes first.
@@ -346,7 +358,7 @@ class Viewer {
         window_.close();
         break;
       case Command::copyCommand:
-        window_.copy(shellText(options_.command(presentlyShown(window_.framebufferSize()))));
+        window_.copy(shellText(options_.command(presentlyShown(viewSize(window_.framebufferSize(), eyes_)))));
         break;
       case Command::save:
         save();
@@ -439,6 +451,9 @@ class Viewer {
         showsPasses_ = !showsPasses_;
         if (!showsPasses_) passes_.choose("");
         break;
+      case Command::eyes:
+        eyes_ = Eyes((int(eyes_) + 1) % 4);
+        break;
       case Command::leave:
         leave();
         break;
@@ -456,10 +471,17 @@ class Viewer {
       hold().orbit(way);
   }
 
+  // Where, across the window.
+  void pick(glm::vec2 place) {
+    const bool isHalf = presentViewSize({2, 1}).x == 1, isAtRight = isHalf && place.x >= 0.5f;
+    if (isHalf) place.x = 2 * place.x - (isAtRight ? 1.0f : 0.0f);
+    pictures().pick(place, isHalf && isAtRight == (eyes_ == Eyes::sideBySide) ? 1 : 0);
+  }
+
   void press(const MouseButton& button, const glm::uvec2& size) {
     if (!button.isDown && button.button == button_) {
       if (isClick_ && button_ == GLFW_MOUSE_BUTTON_LEFT && pictures().shown())
-        pictures().pick(mouse_ / glm::max(glm::vec2(size), 1.0f));
+        pick(mouse_ / glm::max(glm::vec2(size), 1.0f));
       button_ = -1;
     }
     if (button.isDown && button_ < 0 && !ImGui::GetIO().WantCaptureMouse &&
@@ -569,7 +591,7 @@ class Viewer {
     }
     if (showsPanel_ && !document_.scene().empty())
       isTurned |= panel_.layOut(window, {title_, facts(), playback_.pictureTime()}, document_,
-                                showsSplit_ ? &otherLook_ : nullptr);
+                                showsSplit() ? &otherLook_ : nullptr);
     layOutNotices(window);
     layOutDialogs(window);
     if (showsHelp_) layOutHelp(window);
@@ -587,14 +609,18 @@ class Viewer {
       return;
     }
     PictureShown first = shownOf(picture->image);
+    if (isSeenByBoth() && picture->right.handle() != VK_NULL_HANDLE) {
+      layOutEyes(window, first, shownOf(picture->right), eyes_);
+      return;
+    }
     if (!passes_.chosen().empty())
       if (const Picture* const pass = kept(pictures().pass()))
         for (const Picture::Layer& layer : pass->layers)
           if (layer.aov == passes_.chosen()) first = shownOf(layer.shown);
-    const Picture* const other = showsSplit_ ? kept(pictures().other()) : nullptr;
+    const Picture* const other = showsSplit() ? kept(pictures().other()) : nullptr;
     const PictureShown second = other ? shownOf(other->image) : PictureShown();
     layOutPicture(window, first, other ? &second : nullptr, split_);
-    if (showsSplit_ &&
+    if (showsSplit() &&
         layOutSplit(window, "as it is", otherLook_.empty() ? "as it is saved" : otherLook_, split_))
       settling_ = kSettling;
   }
@@ -653,8 +679,8 @@ class Viewer {
   std::string pixelFacts() const {
     const std::shared_ptr<const Picture> pass = pictures().pass();
     const glm::vec2 window{ImGui::GetIO().DisplaySize.x, ImGui::GetIO().DisplaySize.y};
-    if (!pass || ImGui::GetIO().WantCaptureMouse || glm::any(glm::lessThan(mouse_, glm::vec2(0))) ||
-        glm::any(glm::greaterThanEqual(mouse_, window)))
+    if (!pass || isSeenByBoth() || ImGui::GetIO().WantCaptureMouse ||
+        glm::any(glm::lessThan(mouse_, glm::vec2(0))) || glm::any(glm::greaterThanEqual(mouse_, window)))
       return "";
     std::string text;
     // Numbers that have names.
@@ -721,6 +747,7 @@ class Viewer {
   std::map<std::string, Look> looks_;  // that ship
   std::string otherLook_;              // beside the line; empty: as it is saved
   float split_ = 0.5f;
+  Eyes eyes_ = Eyes::one;
   std::string notice_;  // of what was saved, until something is turned again
   bool showsHelp_ = false, showsPanel_ = true, showsPasses_ = false, showsLooks_ = false, showsSplit_ = false;
   double lastFrame_ = 0;

@@ -508,6 +508,41 @@ class Test:
         window.until_it_shows(dusk, "the picture again")
         self.close(window)
 
+    def both_eyes(self, screen, folder):
+        scene = self.scene(folder, "still_life", "eyes.glb")
+        window = self.opened(screen, scene)
+        window.key("n", "b")
+        pair = self.rendered(scene, "--stereo", "side-by-side", size=(WIDE[0] // 2, WIDE[1]))
+        window.until_it_shows(pair, "both eyes side by side")
+        window.until_it_shows(self.drawn_by(window.copied()), "what the copied command draws for both eyes")
+        # The bottle in the right eye's half.
+        window.click(800, 290)
+        picked = window.shows_more(pair)
+        self.keep("picked by both eyes", window)
+        window.key("n", "Escape")
+        window.until_it_shows(pair, "and let go of")
+        window.key("b")
+        width = 3 * WIDE[0]
+        crossed = b"".join(pair[y + width // 2:y + width] + pair[y:y + width // 2] for y in range(0, len(pair), width))
+        window.until_it_shows(crossed, "crossed")
+        window.key("b")
+        with tempfile.TemporaryDirectory() as name:
+            subprocess.run([self.program, "render", scene, "-o", f"{name}/eye.png", "--stereo", "separate", "--size",
+                            f"{WIDE[0]}x{WIDE[1]}", "--samples", SAMPLES, "--quiet"], check=True)
+            left, right = bytearray(picture_of(f"{name}/eye.left.png")), picture_of(f"{name}/eye.right.png")
+        left[1::3], left[2::3] = right[1::3], right[2::3]
+        window.until_it_shows(bytes(left), "red and cyan")
+        self.keep("red and cyan", window)
+        assert picked != pair
+        window.key("b")
+        window.until_it_shows(self.rendered(scene, size=WIDE), "one eye again")
+        self.close(window)
+        window = self.opened(screen, scene, "--stereo", "side-by-side", "--ipd", "0.1")
+        window.key("n")
+        window.until_it_shows(self.rendered(scene, "--stereo", "side-by-side", "--ipd", "0.1", size=(WIDE[0] // 2, WIDE[1])), "eyes apart")
+        window.until_it_shows(self.drawn_by(window.copied()), "what the copied command draws for eyes apart")
+        self.close(window)
+
     def assert_split(self, window, left, right, line):
         """Each side of the line is its picture, away from it and its labels."""
         seen, width = window.pixels(), 3 * window.size[0]
@@ -620,7 +655,7 @@ def main():
     if chosen.pictures:
         chosen.pictures.mkdir(parents=True, exist_ok=True)
     test = Test(chosen.build.resolve(), chosen.pictures)
-    parts = (test.look_at_a_scene, test.play, test.pick, test.drops, test.compare, test.save, test.kill, test.demo, test.mistakes)
+    parts = (test.look_at_a_scene, test.play, test.pick, test.drops, test.compare, test.both_eyes, test.save, test.kill, test.demo, test.mistakes)
     with tempfile.TemporaryDirectory(prefix="scumble window ") as name:
         folder = Path(name)
         with contextlib.closing(Screen(1024, 768, folder / "state")) as screen:
