@@ -93,6 +93,15 @@ def start(root):
                whole(r["peakResidentBytes"] / 2**20)]
 
 
+def window(root):
+    names = {"scumble": "`scumble view`", "f3d": "f3d", "three": "three.js"}
+    yield ["scene", "program", "first picture, s (goal 1)", "answer, ms", "pictures a second, moving", "MiB after 24 edits, and 240"]
+    for r in load(root, "window")["results"]:
+        for program, numbers in r["programs"].items():
+            memory = " and ".join(whole(numbers[key] / 2**20) for key in ("bytesEarly", "bytesLate")) if "edits" in numbers else ""
+            yield [r["scene"], names[program], f"{numbers['first'] / 1000:.2f}", whole(numbers["answer"]), f"{numbers['moving']:.1f}", memory]
+
+
 def sequences(root):
     yield ["scene", "draws", "frames a second", "least to most", "above the sum of GPU passes", "GPU, ms", "CPU, ms", "reading back, ms",
            "writing, ms"]
@@ -206,7 +215,7 @@ def lines(root):
 
 
 COHERENCE = ["suzanne", "sail-ship", "toycar", "demo"]
-TABLES = {"bench.md": {"frames": frames, "metatexture": metatexture, "start": start, "sequences": sequences, "colorizers": colorizers,
+TABLES = {"bench.md": {"frames": frames, "metatexture": metatexture, "start": start, "window": window, "sequences": sequences, "colorizers": colorizers,
                        "edits": edits, "ocean": ocean, "looks": looks, "watercolour": watercolour, "finding-lines": finding_lines, "frames-on-gpu": frames_on_gpu},
           "fins.md": {"paintings": paintings(CPU), "paintings-on-gpu": paintings(GPU)},
           "ink.md": {"lines": lines},
