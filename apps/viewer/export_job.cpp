@@ -45,7 +45,7 @@ std::string freeName(const std::string& file, const std::string& addition, const
   const std::string stem = std::filesystem::path(file).replace_extension().string() + addition;
   std::error_code error;
   for (int number = 1;; ++number) {
-    const std::string name = stem + "-" + std::to_string(number) + ending;
+    std::string name = stem + "-" + std::to_string(number) + ending;
     if (!std::filesystem::exists(name, error)) return name;
   }
 }

@@ -116,18 +116,19 @@ bool FileWatch::read() {
     for (const char* at = buffer; at < buffer + got;) {
       inotify_event event;
       std::memcpy(&event, at, sizeof event);
+      const int number = event.wd;
       const std::string name = event.len > 0 ? at + sizeof event : "";
       at += sizeof event + event.len;
       // It is gone, or elsewhere.
       const bool isGone = event.mask & (IN_IGNORED | IN_MOVE_SELF);
-      if (event.mask & IN_MOVE_SELF) inotify_rm_watch(inotify_, event.wd);
-      if (isGone) std::erase_if(folders_, [&](const auto& folder) { return folder.second == event.wd; });
+      if (event.mask & IN_MOVE_SELF) inotify_rm_watch(inotify_, number);
+      if (isGone) std::erase_if(folders_, [&](const auto& folder) { return folder.second == number; });
       if (isGone || name.empty()) continue;
-      for (const auto& [folder, number] : folders_) {
-        if (number != event.wd) continue;
+      for (const auto& [folder, known] : folders_) {
+        if (known != number) continue;
         const auto& names = wanted_[folder];
-        if (const auto known = names.find(name); known != names.end()) {
-          saved_.insert(known->second.begin(), known->second.end());
+        if (const auto named = names.find(name); named != names.end()) {
+          saved_.insert(named->second.begin(), named->second.end());
           isNews = true;
         }
       }

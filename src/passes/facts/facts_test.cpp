@@ -2,6 +2,7 @@
 #include <cmath>
 #include <set>
 
+#include "scene/scene_data.h"
 #include "tests/support/aov.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
