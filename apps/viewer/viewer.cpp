@@ -111,8 +111,8 @@ class Viewer {
   // After run() has thrown.
   void loseDevice() {
     keepEdits(true);
-    drawing_.reset();
     shown_.clear();
+    drawing_.reset();
   }
 
  private:

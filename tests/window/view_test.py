@@ -76,11 +76,11 @@ def is_painted(pixels):
 
 
 class Window:
-    def __init__(self, screen, program, *options, size=None):
+    def __init__(self, screen, program, *options, size=None, environment=None):
         self.screen, self.size = screen, size or SIZE
         self.started = time.monotonic()
         self.process = subprocess.Popen([program, "view", *map(str, options), "--size", f"{self.size[0]}x{self.size[1]}", "--samples",
-                                         SAMPLES, "--validate"], env=screen.environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                                         SAMPLES, "--validate"], env={**screen.environment, **(environment or {})}, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
     def pixels(self):
         return self.screen.pixels(*self.size)
@@ -331,8 +331,8 @@ class Test:
         window.key("ctrl+q")
         assert window.closed() == (0, "", ""), window.closed()
 
-    def opened(self, screen, *options, size=WIDE):
-        window = Window(screen, self.program, *options, size=size)
+    def opened(self, screen, *options, size=WIDE, environment=None):
+        window = Window(screen, self.program, *options, size=size, environment=environment)
         until(lambda: is_painted(window.pixels()), "a picture in the window")
         window.resting()
         return window
@@ -620,6 +620,31 @@ class Test:
         window.until_it_shows(first, "the picture after it was hidden")
         self.close(window)
 
+    def lose_the_device(self, screen, folder):
+        layers, switch = folder / "layers", folder / "lose it"
+        layers.mkdir()
+        subprocess.run(["g++", "-std=c++20", "-shared", "-fPIC", HERE / "lose_device.cpp", "-o", layers / "lose_device.so"], check=True)
+        (layers / "lose_device.json").write_text(json.dumps({"file_format_version": "1.1.0", "layer": {
+            "name": "VK_LAYER_TEST_lose_device", "type": "INSTANCE", "library_path": "./lose_device.so", "api_version": "1.3.0",
+            "implementation_version": "1", "description": "loses devices"}}))
+        scene = self.scene(folder, "still_life", "lost.glb")
+        window = self.opened(screen, scene, environment={"VK_ADD_LAYER_PATH": str(layers), "LOSE_DEVICE": str(switch),
+                                                         "VK_INSTANCE_LAYERS": "VK_LAYER_TEST_lose_device"})
+        window.key("n")
+        first = self.rendered(scene, size=WIDE)
+        window.until_it_shows(first, "the picture")
+        window.drag(1, (90, 10))
+        turned = window.shows_more(first)
+        for way in ((30, 0), (-30, 0)):
+            switch.touch()
+            window.drag(1, way)
+            until(lambda: not switch.exists(), "the loss of the device")
+            until(lambda: part_that_differs(window.pixels(), turned) > 0.02, "another picture on another device")
+            turned = window.resting()
+            self.keep("another device", window)
+            window.until_it_shows(self.drawn_by(window.copied()), "the picture on another device")
+        self.close(window)
+
     def demo(self, screen, folder):
         window = self.opened(screen)
         window.key("n")
@@ -655,7 +680,7 @@ def main():
     if chosen.pictures:
         chosen.pictures.mkdir(parents=True, exist_ok=True)
     test = Test(chosen.build.resolve(), chosen.pictures)
-    parts = (test.look_at_a_scene, test.play, test.pick, test.drops, test.compare, test.both_eyes, test.save, test.kill, test.demo, test.mistakes)
+    parts = (test.look_at_a_scene, test.play, test.pick, test.drops, test.compare, test.both_eyes, test.save, test.kill, test.lose_the_device, test.demo, test.mistakes)
     with tempfile.TemporaryDirectory(prefix="scumble window ") as name:
         folder = Path(name)
         with contextlib.closing(Screen(1024, 768, folder / "state")) as screen:
