@@ -26,6 +26,7 @@ class Screen:
     """An X server of its own."""
 
     def __init__(self, width, height, state):
+        """`state`: where windows keep what outlives them."""
         self.size = (width, height)
         read, write = os.pipe()
         self.server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", f"{width}x{height}x24", "-nolisten", "tcp"],
@@ -686,6 +687,7 @@ def main():
         with contextlib.closing(Screen(1024, 768, folder / "state")) as screen:
             for part in parts:
                 if chosen.only in part.__name__:
+                    screen.environment["XDG_STATE_HOME"] = str(folder / f"state of {part.__name__}")
                     part(screen, folder)
                     print(f"passed  {part.__name__}", flush=True)
     return 0
