@@ -116,13 +116,20 @@ void layOutHelp(const glm::vec2& window) {
   ImGui::SetNextWindowPos({margin(), margin()});
   ImGui::SetNextWindowSizeConstraints({0, 0}, {window.x - 2 * margin(), window.y - 2 * margin()});
   ImGui::Begin("help", nullptr, kFittingWindow);
-  if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
-    for (const HelpRow& row : helpRows()) {
+  // In two halves where one is too tall.
+  const std::vector<HelpRow> rows = helpRows();
+  const size_t halves =
+      float(rows.size() + 2) * ImGui::GetTextLineHeightWithSpacing() > window.y - 2 * margin() ? 2 : 1;
+  const size_t tall = (rows.size() + halves - 1) / halves;
+  if (ImGui::BeginTable("keys", int(2 * halves), ImGuiTableFlags_SizingFixedFit)) {
+    for (size_t line = 0; line < tall; ++line) {
       ImGui::TableNextRow();
-      ImGui::TableNextColumn();
-      ImGui::TextUnformatted(row.names.c_str());
-      ImGui::TableNextColumn();
-      ImGui::TextDisabled("%s", row.meaning);
+      for (size_t row = line; row < rows.size(); row += tall) {
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(rows[row].names.c_str());
+        ImGui::TableNextColumn();
+        ImGui::TextDisabled("%s", rows[row].meaning);
+      }
     }
     ImGui::EndTable();
   }

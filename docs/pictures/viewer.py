@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Makes docs/pictures/viewer.png: the demo scene in the window, with the help over it, on a screen of Xvfb's.
+"""Makes docs/pictures/viewer.png and viewer-passes.png: the demo scene in the window, with the help over it, and with what
+passes put out and the knobs of a sail, on a screen of Xvfb's.
 
     docs/pictures/viewer.py [BUILD]
 """
@@ -7,12 +8,15 @@ import contextlib
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(HERE.parent.parent / "tests" / "window"))
 import view_test  # noqa: E402
+
+SAIL = (820, 440)
 
 
 def main():
@@ -25,7 +29,13 @@ def main():
         view_test.until(lambda: view_test.is_painted(window.pixels()), "a picture in the window")
         window.key("h")
         window.resting()
-        view_test.Test(build, HERE).keep("viewer", window)
+        test = view_test.Test(build, HERE)
+        test.keep("viewer", window)
+        window.key("h", "p")
+        window.click(*SAIL)
+        time.sleep(5)
+        window.resting()
+        test.keep("viewer-passes", window)
         window.key("ctrl+q")
         window.closed()
 
