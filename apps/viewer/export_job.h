@@ -30,6 +30,7 @@ class ExportJob {
     double part = 0;  // from 0 to 1
     bool isDone = false;
     std::string problem;  // empty where it has ended well
+    bool operator==(const State&) const = default;
   };
   State state() const;
   const std::string& file() const { return file_; }  // that it writes

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "camera.h"
+
 namespace scumble::viewer {
 namespace {
 
@@ -131,6 +133,31 @@ TEST(Navigation, rollAndFieldStayInTheirRanges) {
   for (int i = 0; i < 100; ++i) navigation.roll(50), navigation.widen(2);
   EXPECT_LE(std::abs(*navigation.viewpoint().roll), 180);
   EXPECT_EQ(*navigation.viewpoint().verticalFov, 150);
+}
+
+TEST(Cameras, areTheFirstAnotherOrHeld) {
+  Viewpoint first, other;
+  first.orbit = other.orbit = true;
+  first.azimuth = 10, other.azimuth = 20;
+  Camera camera(first);
+  EXPECT_EQ(camera.viewpoint().azimuth, 10);
+  EXPECT_FALSE(camera.isOther());
+  camera.set(other);
+  EXPECT_EQ(camera.viewpoint().azimuth, 20);
+  EXPECT_TRUE(camera.isOther());
+  const uint64_t moves = camera.moves();
+  camera.hold(std::nullopt).orbit({0.1f, 0});
+  EXPECT_FALSE(camera.isHeld()) << "it is not known from where it is seen";
+  View view;
+  view.worldToEye = glm::translate(glm::mat4(1), glm::vec3(0, 0, -5));
+  view.eyeToClip = perspectiveProjection(0.6f, 1, 0.1f);
+  camera.hold(view).orbit({0.1f, 0});
+  EXPECT_TRUE(camera.isHeld());
+  EXPECT_TRUE(camera.viewpoint().eye);
+  EXPECT_GT(camera.moves(), moves);
+  camera.set(std::nullopt);
+  EXPECT_EQ(camera.viewpoint().azimuth, 10);
+  EXPECT_FALSE(camera.isOther());
 }
 
 }  // namespace

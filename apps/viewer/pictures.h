@@ -44,6 +44,9 @@ class Pictures {
   bool isDue(double now) const { return isCoarse_ && !sharpness_.isMoving(now); }
   std::optional<double> untilDue(double now) const;
 
+  // Nothing is seen for now, so nothing is due.
+  void hide() { isCoarse_ = false; }
+
   // Asks for what is to be seen. `full`: pixels that one view has in the window. Each frame of the window, in
   // any order; what is not asked for between two calls of begin() is forgotten.
   void begin(const Document& document, const Moment& moment, const glm::uvec2& full, double now);

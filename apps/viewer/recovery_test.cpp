@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <filesystem>
+#include <thread>
 
 #include "base/test_folder.h"
 #include "recent_files.h"
+#include "unsaved.h"
 
 namespace scumble::viewer {
 namespace {
@@ -71,6 +74,65 @@ TEST_F(Recoveries, recentFilesInTheirOrder) {
   folder_.put("state/recent.json", "[3, {");
   EXPECT_TRUE(recent.files().empty());
   RecentFiles("").add({a});
+}
+
+// A document without files, whose looks are those that ship.
+class UnsavedKnobs : public Recoveries {
+ protected:
+  static DocumentSources sources(const Opened& opened) {
+    return {opened, [](const auto&, const Progress&) -> Result<Scene> { return Scene::combine({}); },
+            [](const Scene&, const Opened& now) { return Look::load(now.look.empty() ? "fauve" : now.look); },
+            [](const auto&) { return OwnLook(); }};
+  }
+  static void read(Document& document) {
+    for (int turn = 0; turn < 500; ++turn) {
+      const Result<bool> news = document.poll();
+      ASSERT_TRUE(news.ok());
+      if (*news) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    FAIL() << "nothing was read";
+  }
+};
+
+TEST_F(UnsavedKnobs, areKeptInTimeAndOfferedUntilTheyAreAnswered) {
+  const std::string state = folder_.file("state");
+  const Recovery recovery(state);
+  Document document(sources(opened_), [] {});
+  read(document);
+  Unsaved unsaved(state);
+  unsaved.open(document);
+  EXPECT_FALSE(unsaved.offered());
+  ASSERT_TRUE(unsaved.keep(document, 10, false).ok());
+  EXPECT_FALSE(unsaved.untilDue(10)) << "nothing is to be kept: nothing wakes the window";
+  ASSERT_TRUE(document.set("shadow.threshold", "0.5").ok());
+  ASSERT_TRUE(unsaved.keep(document, 10, false).ok());
+  EXPECT_EQ(unsaved.untilDue(10.5), Unsaved::kSeconds - 0.5);
+  // However long somebody goes on.
+  ASSERT_TRUE(document.set("shadow.threshold", "0.6").ok());
+  ASSERT_TRUE(unsaved.keep(document, 11.9, false).ok());
+  EXPECT_FALSE(recovery.find(opened_.scenes));
+  ASSERT_TRUE(unsaved.keep(document, 12, false).ok());
+  EXPECT_EQ(recovery.find(opened_.scenes)->edits, (Edits{{"shadow.threshold", "0.6"}}));
+  EXPECT_FALSE(unsaved.untilDue(12));
+  ASSERT_TRUE(document.set("shadow.steps", "2").ok());
+  ASSERT_TRUE(unsaved.keep(document, 12.1, true).ok());
+  EXPECT_EQ(recovery.find(opened_.scenes)->edits.size(), 2u) << "at once";
+
+  // The next start.
+  for (const bool isTaken : {true, false}) {
+    Document again(sources({opened_.scenes, "manga", ""}), [] {});
+    read(again);
+    Unsaved found(state);
+    found.open(again);
+    ASSERT_TRUE(found.offered());
+    ASSERT_TRUE(found.answer(again, isTaken).ok());
+    EXPECT_FALSE(found.offered());
+    EXPECT_EQ(again.edits().size(), isTaken ? 2u : 0u);
+    if (isTaken) read(again);
+    EXPECT_EQ(again.opened().look, isTaken ? "dusk" : "manga") << "the look that they were turned on";
+  }
+  EXPECT_FALSE(recovery.find(opened_.scenes)) << "thrown away";
 }
 
 }  // namespace

@@ -10,19 +10,20 @@
 #include <set>
 
 #include "bindings.h"
+#include "camera.h"
 #include "dialogs.h"
 #include "glfw.h"
 #include "interface.h"
 #include "interface_input.h"
 #include "interface_pass.h"
 #include "look_sheet.h"
-#include "navigation.h"
 #include "panel.h"
 #include "passes_strip.h"
 #include "pictures.h"
 #include "recent_files.h"
 #include "screen.h"
 #include "style.h"
+#include "unsaved.h"
 #include "visible.h"
 #include "window.h"
 
@@ -31,7 +32,6 @@ namespace scumble::viewer {
 namespace {
 
 constexpr double kFrameSeconds = 1 / 60.0;  // of the window, while something moves by itself
-constexpr double kKeepSeconds = 2;          // after a knob was turned, until it is kept in a file
 constexpr float kFlySpeed = 0.8f;           // distances to what is looked at, a second
 constexpr float kDragZoom = 12;             // steps over the window's height
 constexpr float kClick = 0.25f;             // heights of letters that a hand may move while it clicks
@@ -78,8 +78,9 @@ class Viewer {
         window_(window),
         document_(options.sources, Window::wake),
         input_(window),
-        recovery_(options.stateFolder),
-        recent_(options.stateFolder) {
+        unsaved_(options.stateFolder),
+        recent_(options.stateFolder),
+        camera_(options.viewpoint) {
     playback_.playhead = options.time;
     if (options.isStereo) eyes_ = Eyes::sideBySide;
     setStyle(window.contentScale());
@@ -129,9 +130,9 @@ class Viewer {
   double untilNextFrame() const {
     if (input_.hasMore()) return 0;
     if (settling_ > 0 || moves()) return std::max(lastFrame_ + kFrameSeconds - now(), 0.0);
-    double wait = pictures().untilDue(now()).value_or(1e9);
-    if (document_.edits() != keptEdits_) wait = std::min(wait, std::max(keepAt_ - now(), 0.0));
-    return wait < 1e9 ? wait : -1;
+    const std::optional<double> picture = pictures().untilDue(now()), keeping = unsaved_.untilDue(now());
+    if (picture && keeping) return std::min(*picture, *keeping);
+    return picture ? *picture : keeping.value_or(-1);
   }
 
   // ---- The document
@@ -141,10 +142,7 @@ class Viewer {
     if (!news) return news.error();
     if (!*news) return Done{};
     settling_ = kSettling;
-    const SceneSummary summary = document_.scene().summary();
-    glm::vec3 low, high;
-    for (int i = 0; i < 3; ++i) low[i] = float(summary.min[i]), high[i] = float(summary.max[i]);
-    centre_ = 0.5f * (low + high), radius_ = std::max(0.5f * glm::distance(low, high), 1e-6f);
+    camera_.setBounds(document_.scene().summary());
     playback_.duration = playedSeconds(document_.scene(), document_.look());
     if (opened_ != document_.opened().scenes) takeScenes();
     return Done{};
@@ -159,10 +157,9 @@ class Viewer {
     if (opened_.size() > 1) title_ += " and " + std::to_string(opened_.size() - 1) + " more";
     window_.setTitle(title_);
     panel_.select({});
-    keptEdits_ = {};
-    kept_ = recovery_.find(opened_);
+    unsaved_.open(document_);
     if (isFirst) return;
-    letGo(Viewpoint());
+    camera_.set(Viewpoint());
     playback_.playhead = 0;
   }
 
@@ -173,18 +170,9 @@ class Viewer {
     document_.openScenes(std::move(files));
   }
 
-  // Edits that are saved nowhere go to a file, a little after the last of them or `atOnce`.
   void keepEdits(bool atOnce) {
-    if (document_.edits() == keptEdits_) return;
-    if (document_.edits() != lastEdits_) {
-      lastEdits_ = document_.edits();
-      keepAt_ = std::min(keepAt_, now() + kKeepSeconds);
-    }
-    if (!atOnce && now() < keepAt_) return;
-    keptEdits_ = document_.edits();
-    keepAt_ = 1e300;
-    const Status status = recovery_.keep(document_.opened(), keptEdits_);
-    if (!status) document_.tell(Concern::saving, status.error().message());
+    if (const Status status = unsaved_.keep(document_, now(), atOnce); !status)
+      document_.tell(Concern::saving, status.error().message());
   }
 
   void save() {
@@ -210,7 +198,11 @@ class Viewer {
   // ---- Pictures
 
   void takePictures() {
-    if (pictures().poll() || (job_ && !job_->state().isDone)) settling_ = kSettling;
+    if (pictures().poll()) settling_ = kSettling;
+    if (job_ && !(job_->state() == jobState_)) {
+      jobState_ = job_->state();
+      settling_ = kSettling;
+    }
     if (const auto failure = pictures().takeFailure())
       document_.tell(Concern::picture, failure->message());
     else if (pictures().shown() && pictures().shown()->number != lastShown_)
@@ -226,8 +218,8 @@ class Viewer {
     if (document_.scene().empty()) return;
     if (moves()) pictures().moved(now());
     const Stereo stereo = isSeenByBoth() ? Stereo::stereo : Stereo::mono;
-    pictures().begin(document_, {viewpoint(), moves_, playback_.pictureTime(), stereo}, presentViewSize(full),
-                     now());
+    pictures().begin(document_, {camera_.viewpoint(), camera_.moves(), playback_.pictureTime(), stereo},
+                     presentViewSize(full), now());
     pictures().askForShown(held_.count(Command::compare) > 0);
     if (showsSplit()) pictures().askForOther(otherLook_, lookOf(otherLook_));
     if (showsPasses_) pictures().askForThumbnails(), pictures().askForPass(passes_.chosen());
@@ -257,10 +249,6 @@ class Viewer {
     return looks;
   }
 
-  Viewpoint viewpoint() const {
-    return isHandHeld_ ? navigation_.viewpoint() : base_.value_or(options_.viewpoint);
-  }
-
   // ---- Hands
 
   // From where it is seen, whether or not that is drawn already.
@@ -268,26 +256,15 @@ class Viewer {
     const glm::uvec2 size = presentViewSize(window_.framebufferSize());
     if (document_.scene().empty() || size.x == 0 || size.y == 0) return std::nullopt;
     const Result<std::vector<View>> views =
-        makeViews(document_.scene(), viewpoint(), float(size.x) / float(size.y), Stereo::mono, 0.063f,
+        makeViews(document_.scene(), camera_.viewpoint(), float(size.x) / float(size.y), Stereo::mono, 0.063f,
                   document_.look(), playback_.pictureTime());
     return views ? std::optional(views->front()) : std::nullopt;
   }
 
   // The camera is the hand's from now on.
   Navigation& hold() {
-    if (!isHandHeld_)
-      if (const std::optional<View> view = presentView()) {
-        navigation_.takeUp(*view, centre_, radius_);
-        isHandHeld_ = true;
-      }
     pictures().moved(now());
-    ++moves_;
-    return navigation_;
-  }
-
-  void letGo(const std::optional<Viewpoint>& base) {
-    base_ = base, isHandHeld_ = false;
-    ++moves_;
+    return camera_.hold(camera_.isHeld() ? std::nullopt : presentView());
   }
 
   // Around what is framed, from where it is seen now.
@@ -303,9 +280,8 @@ class Viewer {
   }
 
   Shown presentlyShown(const glm::uvec2& size) const {
-    const bool isOwn = isHandHeld_ || base_;
     return {document_.opened(),
-            isOwn ? std::optional(viewpoint()) : std::nullopt,
+            camera_.isOther() ? std::optional(camera_.viewpoint()) : std::nullopt,
             document_.edits(),
             playback_.pictureTime(),
             size.x,
@@ -370,10 +346,10 @@ class Viewer {
         document_.redo();
         break;
       case Command::frameAll:
-        if (const std::optional<Viewpoint> around = orbitOfPresent()) letGo(around);
+        if (const std::optional<Viewpoint> around = orbitOfPresent()) camera_.set(around);
         break;
       case Command::lookCamera:
-        letGo(std::nullopt);
+        camera_.set(std::nullopt);
         break;
       case Command::viewFront:
         hold().lookFrom(0, 0);
@@ -560,7 +536,10 @@ class Viewer {
     shown_.clear();
     layOut({io.DisplaySize.x, io.DisplaySize.y});
     ImGui::Render();
-    if (!isSeen) return;
+    if (!isSeen) {
+      pictures().hide();
+      return;
+    }
     wish(size);
     drawing_->screen.draw(size, [&](VkCommandBuffer commands, uint32_t frame) {
       drawing_->held[frame] = shown_;
@@ -628,16 +607,13 @@ class Viewer {
   void layOutNotices(const glm::vec2& window) {
     Notices notices(window);
     notices.problems(document_.problems());
-    if (kept_ && document_.opened().scenes == opened_) {
-      const Notices::Answer answer = notices.kept(*kept_);
-      if (answer == Notices::Answer::take) {
-        if (kept_->look != document_.opened().look) document_.openLook(kept_->look);
-        document_.take(kept_->edits);
-      }
-      if (answer == Notices::Answer::throwAway)
-        if (const Status status = recovery_.keep(document_.opened(), document_.edits()); !status)
+    if (unsaved_.offered()) {
+      const Notices::Answer answer = notices.kept(*unsaved_.offered());
+      if (answer != Notices::Answer::none) {
+        if (const Status status = unsaved_.answer(document_, answer == Notices::Answer::take); !status)
           document_.tell(Concern::saving, status.error().message());
-      if (answer != Notices::Answer::none) kept_.reset(), settling_ = kSettling;
+        settling_ = kSettling;
+      }
     }
     if (job_ && notices.job(*job_)) {
       if (job_->state().isDone)
@@ -717,22 +693,15 @@ class Viewer {
   // Scenes that are open, and what of them is kept outside of their files.
   std::vector<std::string> opened_;
   std::string title_;
-  const Recovery recovery_;
+  Unsaved unsaved_;
   RecentFiles recent_;
-  std::optional<Recovery::Kept> kept_;  // to be offered
-  Edits keptEdits_, lastEdits_;
-  double keepAt_ = 1e300;
   std::unique_ptr<ExportJob> job_;
+  ExportJob::State jobState_;  // that is shown
 
-  glm::vec3 centre_{0};
-  float radius_ = 1;
   std::vector<std::shared_ptr<const Picture>> shown_;  // by the frame that is laid out
   uint64_t lastShown_ = 0;                             // its number
 
-  Navigation navigation_;
-  uint64_t moves_ = 0;  // of the camera
-  bool isHandHeld_ = false;
-  std::optional<Viewpoint> base_;
+  Camera camera_;
   glm::vec2 mouse_{0}, pressedAt_{0};
   bool isClick_ = false;
   int button_ = -1, modifiers_ = 0;
@@ -776,13 +745,11 @@ Status runViewer(const ViewerOptions& options) {
       return viewer.run(std::move(renderer).value());
     } catch (const VulkanFailure& failure) {
       viewer.loseDevice();
-      const Error error{ErrorKind::noUsableGpu,
-                        "",
-                        0,
-                        "",
-                        failure.what(),
-                        "knobs that were turned are kept, and offered at the next start"};
-      if (failure.result != VK_ERROR_DEVICE_LOST || ++losses > kMostLosses) return error;
+      const bool isLost = failure.result == VK_ERROR_DEVICE_LOST;
+      const std::string advice = isLost ? "knobs that were turned are kept, and offered at the next start"
+                                        : "`scumble render` needs no window";
+      const Error error{ErrorKind::noUsableGpu, "", 0, "", failure.what(), advice};
+      if (!isLost || ++losses > kMostLosses) return error;
       renderer = rendererFor(options);
       if (!renderer) return error;
     }
