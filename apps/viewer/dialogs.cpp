@@ -27,13 +27,19 @@ std::string nameOf(const std::string& file) {
   return std::filesystem::path(file).filename().string();
 }
 
+// Of folders, too, which come with a slash at the end from some programs.
+std::string withoutSlash(std::string file) {
+  while (file.size() > 1 && file.back() == '/') file.pop_back();
+  return file;
+}
+
 template <size_t kSize>
 void put(char (&typed)[kSize], const std::string& text) {
   std::strncpy(typed, text.c_str(), kSize - 1);
   typed[kSize - 1] = 0;
 }
 
-void begin(const glm::vec2& window, const char* title, float width) {
+void begin(const glm::vec2& window, const char* id, const std::string& title, float width) {
   const float unit = ImGui::GetFontSize();
   // Beside the panel, where there is room for both.
   const float room = window.x - panelWidth(window), wide = std::min(width * unit, window.x - 2 * unit);
@@ -41,9 +47,9 @@ void begin(const glm::vec2& window, const char* title, float width) {
                           {0.5f, 0.5f});
   ImGui::SetNextWindowSize({wide, 0});
   ImGui::SetNextWindowBgAlpha(1);
-  ImGui::SetNextWindowFocus();
-  ImGui::Begin(title, nullptr, kFixedWindow);
-  ImGui::TextUnformatted(title);
+  ImGui::Begin(id, nullptr, kFixedWindow);
+  if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
+  ImGui::TextUnformatted(title.c_str());
   ImGui::Separator();
 }
 
@@ -53,7 +59,7 @@ void begin(const glm::vec2& window, const char* title, float width) {
 
 std::optional<OpenWish> OpenDialog::layOut(const glm::vec2& window, const std::vector<std::string>& recent) {
   std::optional<OpenWish> wish;
-  begin(window, "Open a scene", 36);
+  begin(window, "open", "Open a scene", 36);
   ImGui::TextDisabled("Files can be dropped on the window, too.");
   for (const std::string& file : recent) {
     ImGui::PushID(file.c_str());
@@ -98,7 +104,7 @@ void SaveDialog::name() {
 std::optional<SaveWish> SaveDialog::layOut(const glm::vec2& window) {
   const float unit = ImGui::GetFontSize();
   std::optional<SaveWish> wish;
-  begin(window, "Save a picture or a film", 34);
+  begin(window, "save", "Save a picture or a film", 34);
   const auto kind = [&](const char* label, SaveWish::Kind which) {
     if (ImGui::RadioButton(label, wish_.kind == which)) wish_.kind = which, name();
   };
@@ -140,8 +146,8 @@ std::optional<SaveWish> SaveDialog::layOut(const glm::vec2& window) {
 
 Drop sorted(const std::vector<std::string>& files) {
   Drop drop;
-  for (const std::string& file : files) {
-    const std::string ending = lowerEndingOf(file);
+  for (const std::string& dropped : files) {
+    const std::string file = withoutSlash(dropped), ending = lowerEndingOf(file);
     std::error_code error;
     if (ending == ".png" || ending == ".jpg" || ending == ".jpeg" || ending == ".webp")
       drop.pictures.push_back(file);
@@ -160,7 +166,7 @@ std::optional<DropDialog::Answer> DropDialog::layOut(const glm::vec2& window) {
   std::optional<Answer> answer;
   const bool isScene = !drop_.scenes.empty();
   const std::string& first = isScene ? drop_.scenes[0] : drop_.pictures[0];
-  begin(window, nameOf(first).c_str(), 26);
+  begin(window, "drop", nameOf(first), 26);
   const ImVec2 wide{-1, 0};
   if (isScene) {
     if (ImGui::Button("Open", wide)) answer = {{{drop_.scenes, false}}, "", "", ""};

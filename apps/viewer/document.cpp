@@ -18,17 +18,17 @@ bool isFile(const std::string& look) {
   return look.find('/') != std::string::npos || std::filesystem::path(look).extension() == ".json";
 }
 
-// Beside and then in its place, so that nobody ever reads a half.
-Status putFile(const std::string& file, const std::string& text) {
-  const std::string beside = file + ".tmp";
-  std::ofstream out(beside, std::ios::binary);
-  out << text;
-  out.close();
+// As it stands in a look: pictures by where they lie from the look's folder, if they lie below it.
+std::string inLook(const std::string& path, const std::string& value, const std::string& lookFile) {
+  const std::optional<Setting> setting = settingOf(path);
+  if (!setting || setting->knob->type != "picture" || !std::filesystem::path(value).is_absolute())
+    return value;
   std::error_code error;
-  if (out) std::filesystem::rename(beside, file, error);
-  if (out && !error) return Done{};
-  std::filesystem::remove(beside, error);
-  return Error{ErrorKind::outputNotWritten, file, 0, "", "the look cannot be written", "check its folder"};
+  const std::filesystem::path folder =
+      std::filesystem::weakly_canonical(std::filesystem::absolute(lookFile, error), error).parent_path();
+  const std::filesystem::path from =
+      std::filesystem::weakly_canonical(value, error).lexically_relative(folder);
+  return error || from.empty() || *from.begin() == ".." ? value : from.string();
 }
 
 }  // namespace
@@ -52,13 +52,23 @@ void Document::load(Parts parts) {
   loading_ = wanted_;
   written_ = std::exchange(saving_, {});
   loader_ = std::thread([this, parts, scene = scene_, opened = loading_] {
-    Reading reading = read(parts, scene, opened);
+    Reading reading = tryRead(parts, scene, opened);
     {
       const std::lock_guard lock(mutex_);
       read_ = std::move(reading);
     }
     wake_();
   });
+}
+
+// What no reader has foreseen is a problem like others.
+Document::Reading Document::tryRead(Parts parts, const Scene& scene, const Opened& opened) const {
+  try {
+    return read(parts, scene, opened);
+  } catch (const std::exception& failure) {
+    return Failed{Error{ErrorKind::internal, "", 0, "", failure.what(), "please report this"},
+                  Concern::scene};
+  }
 }
 
 Document::Reading Document::read(Parts parts, const Scene& scene, const Opened& opened) const {
@@ -79,18 +89,27 @@ Document::Reading Document::read(Parts parts, const Scene& scene, const Opened& 
   return loaded;
 }
 
+std::string Document::lookNameOf(const Opened& opened) const {
+  return opened.look.empty() ? sources_.ownLook(opened.scenes).name : opened.look;
+}
+
 void Document::take(Loaded loaded) {
-  for (const Concern concern : {Concern::scene, Concern::look, Concern::background}) settle(concern);
-  problemFile_.clear();
-  const bool isOther = !scene_.empty() && opened_.scenes != loading_.scenes;
+  const auto isRight = [this](Concern concern) { settle(concern), problemFiles_.erase(concern); };
+  isRight(Concern::look), isRight(Concern::background);
+  if (loaded.scene) isRight(Concern::scene);
+  const bool isFirst = scene_.empty();
   if (loaded.scene) {
     scene_ = std::move(*loaded.scene);
     ++sceneVersion_;
   }
   saved_ = std::move(loaded.look);
   background_ = std::move(loaded.background);
-  // Knobs of a look that came with other scenes are theirs.
-  if (isOther && loading_.look.empty()) edits_.clear(), undo_.clear(), redo_.clear(), closeStep();
+  if (!isFirst && lookNameOf(opened_) != lookNameOf(loading_)) {
+    // Knobs of a look that came with other scenes are theirs; and what was undone is the look's own, but for
+    // a save under another name.
+    if (opened_.scenes != loading_.scenes) edits_.clear();
+    if (written_.empty()) undo_.clear(), redo_.clear(), closeStep();
+  }
   opened_ = loading_;
   // What was saved is the file's now, where it was not turned again meanwhile.
   for (const auto& [path, value] : written_)
@@ -113,8 +132,11 @@ Result<bool> Document::poll() {
       const Failed& failed = std::get<Failed>(*last);
       if (scene_.empty()) return failed.error;
       tell(failed.concern, failed.error.message());
-      problemFile_ = failed.error.file;
-      if (wanted_ == loading_) wanted_ = opened_;
+      problemFiles_[failed.concern] = failed.error.file;
+      // Somebody may want something else by now.
+      if (wanted_.scenes == loading_.scenes) wanted_.scenes = opened_.scenes;
+      if (wanted_.look == loading_.look) wanted_.look = opened_.look;
+      if (wanted_.background == loading_.background) wanted_.background = opened_.background;
     }
     watch();
     if (loadsAgain_) load(*std::exchange(loadsAgain_, std::nullopt));
@@ -126,9 +148,10 @@ Result<bool> Document::poll() {
         return std::find(files.begin(), files.end(), file) != files.end();
       };
     };
-    const bool isOfScene = std::any_of(saved.begin(), saved.end(), isAmong(wanted_.scenes)) ||
-                           std::any_of(saved.begin(), saved.end(), isAmong(scene_.files())) ||
-                           (problems_.count(Concern::scene) && saved.count(problemFile_));
+    const bool isOfScene =
+        std::any_of(saved.begin(), saved.end(), isAmong(wanted_.scenes)) ||
+        std::any_of(saved.begin(), saved.end(), isAmong(scene_.files())) ||
+        (problemFiles_.count(Concern::scene) && saved.count(problemFiles_[Concern::scene]));
     load(isOfScene ? Parts::all : Parts::look);
   }
   return last.has_value();
@@ -143,6 +166,12 @@ void Document::openScenes(std::vector<std::string> files) {
   Opened opened = wanted_;
   opened.scenes = std::move(files);
   want(std::move(opened), Parts::all);
+}
+
+void Document::addScenes(const std::vector<std::string>& files) {
+  std::vector<std::string> all = wanted_.scenes;
+  all.insert(all.end(), files.begin(), files.end());
+  openScenes(std::move(all));
 }
 
 void Document::openLook(const std::string& name) {
@@ -165,7 +194,8 @@ void Document::watch() {
     files.push_back(own);
   if (!opened.background.empty()) files.push_back(opened.background);
   for (const std::string& file : saved_.files()) files.push_back(file);
-  if (!problemFile_.empty()) files.push_back(problemFile_);
+  for (const auto& [concern, file] : problemFiles_)
+    if (!file.empty()) files.push_back(file);
   watch_.watch(files);
 }
 
@@ -208,8 +238,14 @@ void Document::take(const Edits& edits) {
 
 Result<std::string> Document::save() {
   closeStep();
-  const OwnLook own = sources_.ownLook(opened_.scenes);
-  const std::string present = opened_.look.empty() ? own.name : opened_.look;
+  if (!(wanted_ == opened_))
+    return Error{ErrorKind::usage,
+                 wanted_.look,
+                 0,
+                 "",
+                 "something else is being read just now",
+                 "save again when it is there"};
+  const std::string present = lookName();
   std::string file = present, text;
   if (isFile(present)) {
     std::ifstream in(file, std::ios::binary);
@@ -217,18 +253,23 @@ Result<std::string> Document::save() {
     if (!in) return Error{ErrorKind::unusableFile, file, 0, "", "it cannot be read", "it may be gone"};
   } else {
     // A file that is there is another look.
-    file = own.file;
+    file = sources_.ownLook(opened_.scenes).file;
     const std::string ending = ".look.json";
     const std::string name = file.substr(0, file.size() - ending.size()) + "." + present;
-    for (int number = 1; std::filesystem::exists(file); ++number)
+    std::error_code error;
+    for (int number = 1; std::filesystem::exists(file, error); ++number)
       file = name + (number > 1 ? "-" + std::to_string(number) : "") + ending;
     text = "{\n  \"extends\": \"" + present + "\"\n}\n";
   }
-  const std::optional<std::string> changed = withKnobs(text, edits_);
+  Edits edits;
+  for (const auto& [path, value] : edits_) edits[path] = inLook(path, value, file);
+  const std::optional<std::string> changed = withKnobs(text, edits);
   if (!changed)
     return Error{ErrorKind::unusableFile,  file, 0, "", "the knobs have no place in it",
                  "mend it, and save again"};
-  if (const Status status = putFile(file, *changed); !status) return status.error();
+  // What could not be read again is not written.
+  if (const Result<Look> again = Look::fromJson(*changed, file); !again) return again.error();
+  if (const Status status = writeText(file, *changed); !status) return status.error();
   if (!isFile(present)) wanted_.look = file;
   keepHistory(saved_, edits_);
   saving_ = edits_;

@@ -60,6 +60,9 @@ class Document {
   bool isReading() const { return loader_.joinable(); }
 
   const Opened& opened() const { return opened_; }
+  // The look that is there, by its name or file, also where it is the scenes' own. Not before the first
+  // reading.
+  std::string lookName() const { return lookNameOf(opened_); }
   const Scene& scene() const { return scene_; }  // empty until it was read
   // Grows when other scenes, or other contents of theirs, are there.
   uint64_t sceneVersion() const { return sceneVersion_; }
@@ -75,6 +78,7 @@ class Document {
 
   // Other ones, when they were read. Knobs that were turned stay turned where the look stays.
   void openScenes(std::vector<std::string> files);
+  void addScenes(const std::vector<std::string>& files);  // to those that are there, or are being read
   void openLook(const std::string& name);
   void openBackground(const std::string& file);
 
@@ -87,7 +91,7 @@ class Document {
   void closeStep() { step_.clear(); }
   // Writes the edits into the look's file (look_text.h), or into a new one that extends a look that ships;
   // they are the file's then. Gives the file's name. Fails with outputNotWritten, and with unusableFile where
-  // the file is none.
+  // the file is none, or could not be read again with them; and while something else is being read.
   Result<std::string> save();
   bool undo() { return swap(undo_, redo_); }
   bool redo() { return swap(redo_, undo_); }
@@ -104,8 +108,10 @@ class Document {
     Concern concern;
   };
   using Reading = std::variant<Loaded, Failed>;
+  std::string lookNameOf(const Opened& opened) const;
   void want(Opened opened, Parts parts);
   void load(Parts parts);
+  Reading tryRead(Parts parts, const Scene& scene, const Opened& opened) const;
   Reading read(Parts parts, const Scene& scene, const Opened& opened) const;
   void take(Loaded loaded);
   void watch();
@@ -128,7 +134,8 @@ class Document {
   std::shared_ptr<const Image> background_;
   uint64_t version_ = 1, sceneVersion_ = 0;
   std::map<Concern, std::string> problems_;
-  std::string problemFile_, step_;
+  std::map<Concern, std::string> problemFiles_;  // that could not be read
+  std::string step_;
   Edits edits_;
   Edits saving_, written_;  // into the look's file, before the next reading and before the present one
   std::vector<Edits> undo_, redo_;

@@ -332,5 +332,102 @@ TEST_F(Documents, knobsOfOneMaterialAreSavedBelowIt) {
   EXPECT_NE(std::get<double>(document.look().get("materials.Paint.001.warp.amount").value()), 2);
 }
 
+// What is wanted meanwhile stays wanted when a reading fails, and what failed does not.
+TEST_F(Documents, aSceneThatCannotBeReadIsNeverTheOpenOne) {
+  Document document = make();
+  ASSERT_TRUE(changes(document));
+  document.openScenes({folder_.file("none.gltf")});
+  document.openLook("dusk");
+  while (document.opened().look != "dusk") ASSERT_TRUE(changes(document));
+  EXPECT_EQ(document.opened().scenes, Files{scene_});
+  EXPECT_EQ(document.lookName(), "dusk");
+}
+
+TEST_F(Documents, nothingIsSavedWhileSomethingElseIsRead) {
+  Document document = make();
+  ASSERT_TRUE(changes(document));
+  ASSERT_TRUE(document.set("shadow.threshold", "0.5").ok());
+  document.openScenes({folder_.put("other.gltf", kScene)});
+  EXPECT_EQ(document.save().error().kind, ErrorKind::usage);
+  EXPECT_EQ(contentOf(look_), lookText("0.25"));
+}
+
+// A look refuses pictures outside of its folder: it would never be read again.
+TEST_F(Documents, whatCouldNotBeReadAgainIsNotWritten) {
+  const TestFolder elsewhere;
+  const Image picture{8, 8, {"R", "G", "B"}, std::vector<float>(192, 0.5f)};
+  const std::string far = elsewhere.file("mark.png"), near = folder_.file("marks/mark.png");
+  folder_.put("marks/of ours", "");
+  ASSERT_TRUE(writePng(far, picture).ok());
+  ASSERT_TRUE(writePng(near, picture).ok());
+  Document document = make();
+  ASSERT_TRUE(changes(document));
+  ASSERT_TRUE(document.set("warp.metatexture.example", far).ok());
+  EXPECT_EQ(document.save().error().kind, ErrorKind::unusableFile);
+  EXPECT_EQ(contentOf(look_), lookText("0.25"));
+  ASSERT_TRUE(document.set("warp.metatexture.example", near).ok());
+  ASSERT_TRUE(document.save().ok());
+  EXPECT_NE(contentOf(look_).find("\"marks/mark.png\""), std::string::npos) << contentOf(look_);
+  ASSERT_TRUE(changes(document));
+  EXPECT_TRUE(document.edits().empty());
+  EXPECT_TRUE(document.problems().empty()) << problem(document);
+}
+
+TEST_F(Documents, scenesThatAreAddedKeepWhatWasTurned) {
+  Document document = make();
+  ASSERT_TRUE(changes(document));
+  ASSERT_TRUE(document.set("shadow.threshold", "0.5").ok());
+  document.addScenes({folder_.put("b.gltf", kScene)});
+  document.addScenes({folder_.put("c.gltf", kScene)});
+  while (document.opened().scenes.size() < 3) ASSERT_TRUE(changes(document));
+  EXPECT_EQ(document.edits().size(), 1u);
+  EXPECT_TRUE(document.undo());
+}
+
+TEST_F(Documents, aLookThatIsReadDoesNotMendTheScene) {
+  Document document = make();
+  ASSERT_TRUE(changes(document));
+  folder_.put("a.gltf", "{");
+  ASSERT_TRUE(changes(document));
+  ASSERT_TRUE(document.problems().count(Concern::scene));
+  folder_.put("a.look.json", lookText("0.5"));
+  ASSERT_TRUE(changes(document));
+  EXPECT_EQ(threshold(document), 0.5);
+  EXPECT_TRUE(document.problems().count(Concern::scene));
+}
+
+TEST_F(Documents, whatWasUndoneIsTheLooksOwn) {
+  Document document = make();
+  ASSERT_TRUE(changes(document));
+  ASSERT_TRUE(document.set("shadow.threshold", "0.5").ok());
+  ASSERT_TRUE(document.save().ok());
+  ASSERT_TRUE(changes(document));
+  document.openLook("dusk");
+  while (document.opened().look != "dusk") ASSERT_TRUE(changes(document));
+  EXPECT_FALSE(document.undo());
+  EXPECT_TRUE(document.edits().empty());
+}
+
+TEST_F(Documents, readersThatThrowAreProblemsLikeOthers) {
+  bool throws = false;
+  Document document({{{scene_}, "", ""},
+                     [&](const Files& files, const Progress&) -> Result<Scene> {
+                       if (throws) throw std::bad_alloc();
+                       return Scene::load(files[0]);
+                     },
+                     [](const Scene&, const Opened&) { return Look::load("dusk"); },
+                     [this](const Files& files) { return ownLook(files); }},
+                    [this] {
+                      const std::lock_guard lock(mutex_);
+                      ++wakes_;
+                      woken_.notify_all();
+                    });
+  ASSERT_TRUE(changes(document));
+  throws = true;
+  document.openScenes({folder_.file("b.gltf")});
+  ASSERT_TRUE(changes(document));
+  EXPECT_TRUE(document.problems().count(Concern::scene));
+}
+
 }  // namespace
 }  // namespace scumble::viewer

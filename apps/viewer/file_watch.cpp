@@ -43,23 +43,51 @@ void FileWatch::nudge() const {
 }
 
 void FileWatch::watch(const std::vector<std::string>& files) {
+  bool isNews = false;
   {
     const std::lock_guard lock(mutex_);
-    wanted_.clear();
+    const auto before = std::exchange(wanted_, {});
     for (const std::string& file : files) {
       const std::filesystem::path path(file);
-      wanted_[path.has_parent_path() ? path.parent_path().string() : "."][path.filename().string()].push_back(
-          file);
+      want(path, file);
+      // Of a link what it leads to is saved.
+      std::error_code error;
+      const std::filesystem::path real = std::filesystem::weakly_canonical(path, error);
+      if (!error && std::filesystem::is_symlink(path, error)) want(real, file);
     }
-    const std::map<std::string, int> before = std::exchange(folders_, {});
+    const std::map<std::string, int> numbers = std::exchange(folders_, {});
     // Two names of one folder have one number.
     std::set<int> kept;
-    for (const auto& [folder, names] : wanted_)
-      if (add(folder)) kept.insert(folders_[folder]);
-    for (const auto& [folder, number] : before)
+    for (const auto& [folder, names] : wanted_) {
+      if (!add(folder)) continue;
+      kept.insert(folders_[folder]);
+      // Another folder of a name that was watched, which nobody has looked into yet.
+      const auto known = numbers.find(folder);
+      if (before.count(folder) && (known == numbers.end() || known->second != folders_[folder]))
+        isNews |= takeThere(folder);
+    }
+    for (const auto& [folder, number] : numbers)
       if (kept.insert(number).second) inotify_rm_watch(inotify_, number);
   }
   nudge();
+  if (isNews) whenSaved_();
+}
+
+void FileWatch::want(const std::filesystem::path& path, const std::string& file) {
+  const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
+  wanted_[folder][path.filename().string()].push_back(file);
+}
+
+// All files of a folder that are there count as saved; true where there are some.
+bool FileWatch::takeThere(const std::string& folder) {
+  bool isNews = false;
+  std::error_code error;
+  for (const auto& [name, files] : wanted_[folder])
+    if (std::filesystem::exists(std::filesystem::path(folder) / name, error)) {
+      saved_.insert(files.begin(), files.end());
+      isNews = true;
+    }
+  return isNews;
 }
 
 // Of a folder that is watched already it is the same number, unless it is another folder of that name now.
@@ -74,15 +102,8 @@ bool FileWatch::add(const std::string& folder) {
 bool FileWatch::lookForFolders() {
   const std::lock_guard lock(mutex_);
   bool isNews = false;
-  for (const auto& [folder, names] : wanted_) {
-    if (folders_.count(folder) || !add(folder)) continue;
-    std::error_code error;
-    for (const auto& [name, files] : names)
-      if (std::filesystem::exists(std::filesystem::path(folder) / name, error)) {
-        saved_.insert(files.begin(), files.end());
-        isNews = true;
-      }
-  }
+  for (const auto& [folder, names] : wanted_)
+    if (!folders_.count(folder) && add(folder)) isNews |= takeThere(folder);
   return isNews;
 }
 

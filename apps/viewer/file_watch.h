@@ -2,6 +2,7 @@
 // renaming it.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -30,7 +31,9 @@ class FileWatch {
   void run();
   bool read();
   void nudge() const;
+  void want(const std::filesystem::path& path, const std::string& file);
   bool add(const std::string& folder);
+  bool takeThere(const std::string& folder);
   bool lookForFolders();
 
   const std::function<void()> whenSaved_;

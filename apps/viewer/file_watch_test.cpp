@@ -92,5 +92,21 @@ TEST_F(FileWatching, foldersComeAndGo) {
   EXPECT_EQ(saved(), Names{file});
 }
 
+TEST_F(FileWatching, aFolderThatWasReplacedIsLookedInto) {
+  const std::vector<std::string> files{path("other/look.json")};
+  watch_.watch(files);
+  std::filesystem::rename(path("other"), path("before"));
+  save("other/look.json", "2");
+  watch_.watch(files);
+  EXPECT_EQ(saved(), Names{files[0]});
+}
+
+TEST_F(FileWatching, ofALinkWhatItLeadsToIsSaved) {
+  std::filesystem::create_symlink(path("other/look.json"), path("link.json"));
+  watch_.watch({path("link.json")});
+  save("other/look.json", "2");
+  EXPECT_EQ(saved(), Names{path("link.json")});
+}
+
 }  // namespace
 }  // namespace scumble::viewer

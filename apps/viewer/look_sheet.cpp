@@ -15,8 +15,8 @@ std::optional<size_t> layOutLookSheet(
   const float unit = ImGui::GetFontSize();
   ImGui::SetNextWindowPos({unit, unit});
   ImGui::SetNextWindowSize({window.x - 2 * unit, window.y - 2 * unit});
-  ImGui::SetNextWindowFocus();
   ImGui::Begin("looks", nullptr, kFixedWindow);
+  if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
   ImGui::TextUnformatted("Looks");
   ImGui::SameLine();
   ImGui::TextDisabled("a click takes one, L or Escape leaves");

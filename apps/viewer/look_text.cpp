@@ -4,6 +4,7 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string_view>
 #include <vector>
 
 #include "knob_text.h"
@@ -11,6 +12,8 @@
 namespace scumble::viewer {
 
 namespace {
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 // Where a value stands in a text.
 struct Span {
@@ -37,7 +40,7 @@ class Reader {
       if (text_.compare(at, 2, "//") == 0)
         at = std::min(text_.find('\n', at), text_.size());
       else if (text_.compare(at, 2, "/*") == 0)
-        at = text_.find("*/", at) + 2;
+        at = text_.find("*/", at + 2) + 2;
       else
         return at;
     }
@@ -129,7 +132,8 @@ void append(std::string& text, const Object& object, const std::string& member) 
 
 bool put(std::string& text, const std::vector<std::string>& keys, const std::string& json) {
   const Reader reader(text);
-  Object object = reader.object(reader.pastBlank(0));
+  Object object =
+      reader.object(reader.pastBlank(text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0));
   for (auto key = keys.begin();; ++key) {
     // Of keys that stand twice the last one counts.
     const auto found = std::find_if(object.members.rbegin(), object.members.rend(),
@@ -153,7 +157,7 @@ bool put(std::string& text, const std::vector<std::string>& keys, const std::str
 
 }  // namespace
 
-std::optional<std::string> withKnobs(const std::string& text, const Edits& edits) {
+std::optional<std::string> withKnobs(const std::string& text, const Edits& edits) try {
   const bool isEmpty = text.find_first_not_of(" \t\r\n") == std::string::npos;
   std::string changed = isEmpty ? "{}\n" : text;
   const nlohmann::json parsed = nlohmann::json::parse(changed, nullptr, false, true);
@@ -163,6 +167,9 @@ std::optional<std::string> withKnobs(const std::string& text, const Edits& edits
     if (!setting || !put(changed, keysOf(*setting), jsonOf(*setting, value))) return std::nullopt;
   }
   return changed;
+} catch (const nlohmann::json::exception&) {
+  // A name that is not UTF-8.
+  return std::nullopt;
 }
 
 }  // namespace scumble::viewer

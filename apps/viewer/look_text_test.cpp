@@ -86,5 +86,13 @@ TEST(LookText, knobsOfSomeNamesStandBelowThem) {
   EXPECT_EQ(withKnobs("{}", {{"materials.Paint.no.knob", "2"}}), std::nullopt);
 }
 
+TEST(LookText, marksAndCommentsOfOtherEditors) {
+  EXPECT_EQ(with("\xEF\xBB\xBF{\"shadow\": {\"threshold\": 1}}", {{"shadow.threshold", "0.5"}}),
+            "\xEF\xBB\xBF{\"shadow\": {\"threshold\": 0.5}}");
+  EXPECT_EQ(with("{/*/ {\"shadow\": 3 */ \"shadow\": {\"threshold\": 1}}", {{"shadow.threshold", "0.5"}}),
+            "{/*/ {\"shadow\": 3 */ \"shadow\": {\"threshold\": 0.5}}");
+  EXPECT_EQ(withKnobs("{}", {{"warp.metatexture.example", "m\xFF.png"}}), std::nullopt);
+}
+
 }  // namespace
 }  // namespace scumble::viewer

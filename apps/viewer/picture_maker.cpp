@@ -54,18 +54,20 @@ std::optional<Error> PictureMaker::takeFailure() {
 }
 
 void PictureMaker::run() {
-  for (;;) {
+  for (int purpose = -1;;) {
     Waiting next;
-    int purpose = 0;
     {
       std::unique_lock lock(mutex_);
       changed_.wait(lock, [&] { return isEnding_ || !waiting_.empty(); });
       if (isEnding_) return;
-      purpose = waiting_.begin()->first;
-      next = std::move(waiting_.begin()->second);
-      waiting_.erase(waiting_.begin());
+      // What moves is always wanted anew: others get their turn between.
+      auto chosen = waiting_.begin();
+      if (chosen->first == purpose && waiting_.size() > 1) ++chosen;
+      purpose = chosen->first;
+      next = std::move(chosen->second);
+      waiting_.erase(chosen);
     }
-    Result<std::shared_ptr<Picture>> drawn = draw(next.wish);
+    Result<std::shared_ptr<Picture>> drawn = tryDraw(next.wish);
     {
       const std::lock_guard lock(mutex_);
       // Nobody wants it any more where its purpose was forgotten.
@@ -103,6 +105,15 @@ std::shared_ptr<Picture> PictureMaker::blank(const glm::uvec2& size, Stereo ster
   if (stereo == Stereo::stereo)
     made->right = DeviceImage(device_, Picture::kFormat, {size.x, size.y}, kUsage);
   return pictures_.emplace_back(std::move(made));
+}
+
+// What nobody has foreseen, such as too little memory, is a problem like others.
+Result<std::shared_ptr<Picture>> PictureMaker::tryDraw(const Wish& wish) {
+  try {
+    return draw(wish);
+  } catch (const std::exception& failure) {
+    return Error{ErrorKind::internal, "", 0, "", failure.what(), "make the window smaller"};
+  }
 }
 
 Result<std::shared_ptr<Picture>> PictureMaker::draw(const Wish& wish) {

@@ -56,8 +56,8 @@ class PictureMaker {
   PictureMaker& operator=(const PictureMaker&) = delete;
 
   // `purpose`: pictures of different ones do not replace each other. Of those that wait the one of the lowest
-  // is drawn first; what was wished before for the same one and has not begun is not drawn at all. Gives the
-  // wish's number.
+  // is drawn first, but none twice while others wait; what was wished before for the same one and has not
+  // begun is not drawn at all. Gives the wish's number.
   uint64_t wish(int purpose, Wish wish);
   // Neither drawn any more nor kept.
   void forget(int purpose);
@@ -73,6 +73,7 @@ class PictureMaker {
  private:
   void run();
   std::shared_ptr<Picture> blank(const glm::uvec2& size, Stereo stereo);
+  Result<std::shared_ptr<Picture>> tryDraw(const Wish& wish);
   Result<std::shared_ptr<Picture>> draw(const Wish& wish);
 
   const std::unique_ptr<Renderer> renderer_;

@@ -33,6 +33,10 @@ std::string numberOf(const std::vector<std::string>& texts) {
   return number;
 }
 
+std::string textOf(const nlohmann::json& json) {
+  return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 std::string textOfTime(int64_t seconds) {
   const auto time = std::time_t(seconds);
   std::tm parts{};
@@ -47,21 +51,23 @@ std::string Recovery::fileOf(const std::vector<std::string>& scenes) const {
   return folder_ + "/unsaved-" + numberOf(whole(scenes)) + ".json";
 }
 
-Status Recovery::keep(const Opened& opened, const Edits& edits) const {
+Status Recovery::keep(const std::vector<std::string>& scenes, const std::string& look,
+                      const Edits& edits) const {
   if (folder_.empty()) return Done{};
-  const std::string file = fileOf(opened.scenes);
+  const std::string file = fileOf(scenes);
   std::error_code error;
   if (edits.empty()) {
     std::filesystem::remove(file, error);
     return Done{};
   }
   std::filesystem::create_directories(folder_, error);
+  const bool isFile = look.find('/') != std::string::npos || look.ends_with(".json");
   const auto now = std::chrono::system_clock::now().time_since_epoch();
-  const nlohmann::json kept{{"scenes", whole(opened.scenes)},
-                            {"look", opened.look},
+  const nlohmann::json kept{{"scenes", whole(scenes)},
+                            {"look", isFile ? whole({look})[0] : look},
                             {"edits", edits},
                             {"seconds", std::chrono::duration_cast<std::chrono::seconds>(now).count()}};
-  return writeText(file, kept.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+  return writeText(file, textOf(kept) + "\n");
 }
 
 std::optional<Recovery::Kept> Recovery::find(const std::vector<std::string>& scenes) const {
@@ -69,7 +75,8 @@ std::optional<Recovery::Kept> Recovery::find(const std::vector<std::string>& sce
   std::ifstream in(fileOf(scenes));
   const nlohmann::json found = nlohmann::json::parse(in, nullptr, false);
   try {
-    if (found.at("scenes").get<std::vector<std::string>>() != whole(scenes)) return std::nullopt;
+    // As it was written: names that are not UTF-8 lose something there.
+    if (textOf(found.at("scenes")) != textOf(whole(scenes))) return std::nullopt;
     Kept kept{found.at("look").get<std::string>(), found.at("edits").get<Edits>(),
               textOfTime(found.at("seconds").get<int64_t>())};
     if (kept.edits.empty()) return std::nullopt;

@@ -15,12 +15,13 @@ class Recovery {
   explicit Recovery(std::string folder) : folder_(std::move(folder)) {}
 
   struct Kept {
-    std::string look;  // Opened::look that they were turned on
+    std::string look;  // that they were turned on, by name or whole path
     Edits edits;
     std::string when;  // "14:32 on 26 November", local time
   };
-  // Of these scenes, until something else is; no edits: nothing any more. Fails with outputNotWritten.
-  Status keep(const Opened& opened, const Edits& edits) const;
+  // Of these scenes, until something else is; no edits: nothing any more. `look`: by name or file. Fails with
+  // outputNotWritten.
+  Status keep(const std::vector<std::string>& scenes, const std::string& look, const Edits& edits) const;
   // What is damaged counts as nothing.
   std::optional<Kept> find(const std::vector<std::string>& scenes) const;
 

@@ -23,27 +23,29 @@ class Recoveries : public testing::Test {
 TEST_F(Recoveries, whatWasKeptIsFoundUntilItIsNothing) {
   const Recovery recovery(folder_.file("state/of ours"));
   EXPECT_FALSE(recovery.find(opened_.scenes));
-  ASSERT_TRUE(recovery.keep(opened_, {{"shadow.threshold", "0.5"}}).ok());
+  ASSERT_TRUE(recovery.keep(opened_.scenes, opened_.look, {{"shadow.threshold", "0.5"}}).ok());
   const auto kept = Recovery(folder_.file("state/of ours")).find(opened_.scenes);
   ASSERT_TRUE(kept);
   EXPECT_EQ(kept->look, "dusk");
   EXPECT_EQ(kept->edits, (Edits{{"shadow.threshold", "0.5"}}));
   EXPECT_FALSE(kept->when.empty());
   EXPECT_FALSE(recovery.find({opened_.scenes[0]})) << "other scenes";
-  ASSERT_TRUE(recovery.keep(opened_, {}).ok());
+  ASSERT_TRUE(recovery.keep(opened_.scenes, opened_.look, {}).ok());
   EXPECT_FALSE(recovery.find(opened_.scenes));
 }
 
 // Names of files need not be UTF-8.
 TEST_F(Recoveries, whateverTheNames) {
   const Recovery recovery(folder_.file("state"));
-  EXPECT_TRUE(recovery.keep(opened_, edits_).ok());
-  EXPECT_TRUE(recovery.find(opened_.scenes));
+  const std::vector<std::string> scenes{folder_.put("boat \xFF.glb", "")};
+  EXPECT_TRUE(recovery.keep(scenes, "dusk", edits_).ok());
+  EXPECT_TRUE(recovery.find(scenes));
+  EXPECT_FALSE(recovery.find(opened_.scenes));
 }
 
 TEST_F(Recoveries, whatIsDamagedOrNowhereIsNothing) {
   const Recovery recovery(folder_.file("state"));
-  ASSERT_TRUE(recovery.keep(opened_, edits_).ok());
+  ASSERT_TRUE(recovery.keep(opened_.scenes, opened_.look, edits_).ok());
   std::string file;
   for (const auto& entry : std::filesystem::directory_iterator(folder_.file("state"))) file = entry.path();
   for (const char* text : {"", "{", "[]", "{\"scenes\": 3}", "null"}) {
@@ -51,10 +53,10 @@ TEST_F(Recoveries, whatIsDamagedOrNowhereIsNothing) {
     EXPECT_FALSE(recovery.find(opened_.scenes)) << text;
   }
   const Recovery nowhere("");
-  EXPECT_TRUE(nowhere.keep(opened_, edits_).ok());
+  EXPECT_TRUE(nowhere.keep(opened_.scenes, "", edits_).ok());
   EXPECT_FALSE(nowhere.find(opened_.scenes));
   folder_.put("a file", "");
-  EXPECT_EQ(Recovery(folder_.file("a file/state")).keep(opened_, edits_).error().kind,
+  EXPECT_EQ(Recovery(folder_.file("a file/state")).keep(opened_.scenes, "", edits_).error().kind,
             ErrorKind::outputNotWritten);
 }
 
@@ -133,6 +135,40 @@ TEST_F(UnsavedKnobs, areKeptInTimeAndOfferedUntilTheyAreAnswered) {
     EXPECT_EQ(again.opened().look, isTaken ? "dusk" : "manga") << "the look that they were turned on";
   }
   EXPECT_FALSE(recovery.find(opened_.scenes)) << "thrown away";
+}
+
+TEST_F(UnsavedKnobs, whatIsOfferedIsNotLostBeforeItIsAnswered) {
+  const Recovery recovery(folder_.file("state"));
+  ASSERT_TRUE(recovery.keep(opened_.scenes, "dusk", {{"shadow.threshold", "0.5"}}).ok());
+  Document document(sources(opened_), [] {});
+  read(document);
+  Unsaved unsaved(folder_.file("state"));
+  unsaved.open(document);
+  ASSERT_TRUE(unsaved.offered());
+  ASSERT_TRUE(document.set("shadow.steps", "2").ok());
+  ASSERT_TRUE(unsaved.keep(document, 1, true).ok());
+  EXPECT_EQ(recovery.find(opened_.scenes)->edits,
+            (Edits{{"shadow.steps", "2"}, {"shadow.threshold", "0.5"}}));
+  ASSERT_TRUE(document.undo());
+  ASSERT_TRUE(unsaved.keep(document, 2, true).ok());
+  EXPECT_EQ(recovery.find(opened_.scenes)->edits, (Edits{{"shadow.threshold", "0.5"}}));
+}
+
+TEST_F(UnsavedKnobs, areThoseOfTheLookThatIsThere) {
+  const Recovery recovery(folder_.file("state"));
+  Document document(sources({opened_.scenes, "", ""}), [] {});
+  read(document);
+  Unsaved unsaved(folder_.file("state"));
+  unsaved.open(document);
+  ASSERT_TRUE(document.set("shadow.steps", "2").ok());
+  document.openLook("manga");
+  read(document);
+  ASSERT_TRUE(unsaved.keep(document, 1, true).ok());
+  EXPECT_EQ(recovery.find(opened_.scenes)->look, "manga");
+  document.openLook("dusk");
+  read(document);
+  ASSERT_TRUE(unsaved.keep(document, 2, true).ok());
+  EXPECT_EQ(recovery.find(opened_.scenes)->look, "dusk") << "the same knobs on another one";
 }
 
 }  // namespace

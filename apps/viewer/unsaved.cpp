@@ -6,30 +6,40 @@
 namespace scumble::viewer {
 
 void Unsaved::open(const Document& document) {
-  kept_.clear();
   dueAt_.reset();
   offered_ = recovery_.find(document.opened().scenes);
+  kept_ = offered_ ? State{offered_->look, offered_->edits} : State();
 }
 
 Status Unsaved::answer(Document& document, bool isTaken) {
   const std::optional<Recovery::Kept> kept = std::exchange(offered_, std::nullopt);
   if (!kept) return Done{};
-  if (!isTaken) return recovery_.keep(document.opened(), document.edits());
-  if (kept->look != document.opened().look) document.openLook(kept->look);
+  if (!isTaken) {
+    kept_ = {document.lookName(), document.edits()};
+    return recovery_.keep(document.opened().scenes, kept_.look, kept_.edits);
+  }
+  if (kept->look != document.lookName()) document.openLook(kept->look);
   document.take(kept->edits);
   return Done{};
 }
 
 Status Unsaved::keep(const Document& document, double now, bool atOnce) {
-  if (document.edits() == kept_) {
+  if (document.scene().empty()) return Done{};
+  // What is offered is not lost before somebody has answered.
+  State state{document.lookName(), document.edits()};
+  if (offered_) {
+    state.edits.insert(offered_->edits.begin(), offered_->edits.end());
+    if (document.edits().empty()) state.look = offered_->look;
+  }
+  if (state.edits == kept_.edits && (state.edits.empty() || state.look == kept_.look)) {
     dueAt_.reset();
     return Done{};
   }
   if (!dueAt_) dueAt_ = now + kSeconds;
   if (!atOnce && now < *dueAt_) return Done{};
-  kept_ = document.edits();
+  kept_ = std::move(state);
   dueAt_.reset();
-  return recovery_.keep(document.opened(), kept_);
+  return recovery_.keep(document.opened().scenes, kept_.look, kept_.edits);
 }
 
 std::optional<double> Unsaved::untilDue(double now) const {

@@ -29,7 +29,10 @@ class Unsaved {
  private:
   const Recovery recovery_;
   std::optional<Recovery::Kept> offered_;
-  Edits kept_;
+  struct State {
+    std::string look;
+    Edits edits;
+  } kept_;
   std::optional<double> dueAt_;
 };
 

@@ -159,15 +159,16 @@ class Viewer {
     panel_.select({});
     unsaved_.open(document_);
     if (isFirst) return;
-    camera_.set(Viewpoint());
+    camera_.set(firstCamera());
     playback_.playhead = 0;
   }
 
   void openScenes(const OpenWish& wish) {
     keepEdits(true);
-    std::vector<std::string> files = wish.isAdded ? document_.opened().scenes : std::vector<std::string>();
-    files.insert(files.end(), wish.files.begin(), wish.files.end());
-    document_.openScenes(std::move(files));
+    if (wish.isAdded)
+      document_.addScenes(wish.files);
+    else
+      document_.openScenes(wish.files);
   }
 
   void keepEdits(bool atOnce) {
@@ -184,6 +185,10 @@ class Viewer {
   }
 
   void make(const SaveWish& wish) {
+    if (job_ && !job_->state().isDone) {
+      document_.tell(Concern::saving, job_->file() + " is being made; wait for it, or stop it");
+      return;
+    }
     Shown shown = presentlyShown(wish.size);
     if (wish.kind == SaveWish::Kind::film) shown.film = {false, playback_.duration};
     if (wish.kind == SaveWish::Kind::turn) {
@@ -267,6 +272,12 @@ class Viewer {
     return camera_.hold(camera_.isHeld() ? std::nullopt : presentView());
   }
 
+  // Of the command line, which knows the scenes that it has opened; others have cameras of their own.
+  std::optional<Viewpoint> firstCamera() const {
+    const bool isFirst = document_.opened().scenes == options_.sources.opened.scenes;
+    return isFirst ? std::nullopt : std::optional(Viewpoint());
+  }
+
   // Around what is framed, from where it is seen now.
   std::optional<Viewpoint> orbitOfPresent() const {
     const std::optional<View> view = presentView();
@@ -334,10 +345,12 @@ class Viewer {
         window_.close();
         break;
       case Command::copyCommand:
-        window_.copy(shellText(options_.command(presentlyShown(viewSize(window_.framebufferSize(), eyes_)))));
+        if (!document_.scene().empty())
+          window_.copy(
+              shellText(options_.command(presentlyShown(viewSize(window_.framebufferSize(), eyes_)))));
         break;
       case Command::save:
-        save();
+        if (!document_.scene().empty()) save();
         break;
       case Command::undo:
         document_.undo();
@@ -349,7 +362,7 @@ class Viewer {
         if (const std::optional<Viewpoint> around = orbitOfPresent()) camera_.set(around);
         break;
       case Command::lookCamera:
-        camera_.set(std::nullopt);
+        camera_.set(firstCamera());
         break;
       case Command::viewFront:
         hold().lookFrom(0, 0);
@@ -625,6 +638,7 @@ class Viewer {
   }
 
   void layOutDialogs(const glm::vec2& window) {
+    if (openDialog_.isOpen() || saveDialog_.isOpen() || dropDialog_.isOpen()) showsLooks_ = false;
     if (showsLooks_) {
       std::vector<std::string> names;
       for (const ShippedLook& shipped : Look::shipped()) names.push_back(shipped.name);
@@ -752,6 +766,14 @@ Status runViewer(const ViewerOptions& options) {
       if (!isLost || ++losses > kMostLosses) return error;
       renderer = rendererFor(options);
       if (!renderer) return error;
+    } catch (const std::exception& failure) {
+      viewer.loseDevice();
+      return Error{ErrorKind::internal,
+                   "",
+                   0,
+                   "",
+                   failure.what(),
+                   "knobs that were turned are kept, and offered at the next start; please report this"};
     }
   }
 }

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <exception>
 #include <utility>
 
 namespace scumble {
@@ -68,7 +69,12 @@ bool FileBytes::map(int file, size_t size, std::string& problem) {
 }
 
 bool FileBytes::read(int file, size_t size, std::string& problem) {
-  copy_.resize(size);
+  try {
+    copy_.resize(size);
+  } catch (const std::exception&) {
+    problem = "needs more memory than there is";
+    return false;
+  }
   for (size_t done = 0; done < size;) {
     const ssize_t got = ::read(file, copy_.data() + done, size - done);
     if (got < 0 && errno == EINTR) continue;
