@@ -40,6 +40,7 @@ LookArguments lookOf(const ViewArguments& args, const viewer::Opened& opened) {
   LookArguments look = args.look;
   if (!opened.look.empty()) look.look = opened.look;
   if (opened.scenes[0] != args.scene.files[0]) look.clip.clear();
+  if (!opened.clip.empty()) look.clip = opened.clip;
   return look;
 }
 
@@ -82,6 +83,7 @@ Files commandOf(const ViewArguments& args, const viewer::Shown& shown) {
     add("--eye", args.picture.eye), add("--target", args.picture.target);
   } else {
     const Viewpoint& from = *shown.viewpoint;
+    add("--camera", from.camera), add("--frame", from.frame);
     if (from.orbit) add("--orbit", fmt::format("{},{}", from.azimuth, from.elevation));
     if (from.eye) add("--eye", point(*from.eye)), add("--target", point(*from.target));
     roll = from.roll, field = from.verticalFov;

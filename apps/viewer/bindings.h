@@ -49,6 +49,7 @@ enum class Command {
   compare,
   passes,
   eyes,
+  nextCamera,
   leave,
 };
 

@@ -137,6 +137,7 @@ Result<bool> Document::poll() {
       if (wanted_.scenes == loading_.scenes) wanted_.scenes = opened_.scenes;
       if (wanted_.look == loading_.look) wanted_.look = opened_.look;
       if (wanted_.background == loading_.background) wanted_.background = opened_.background;
+      if (wanted_.clip == loading_.clip) wanted_.clip = opened_.clip;
     }
     watch();
     if (loadsAgain_) load(*std::exchange(loadsAgain_, std::nullopt));
@@ -164,6 +165,8 @@ void Document::want(Opened opened, Parts parts) {
 
 void Document::openScenes(std::vector<std::string> files) {
   Opened opened = wanted_;
+  // Another scene has other clips.
+  if (opened.scenes[0] != files[0]) opened.clip.clear();
   opened.scenes = std::move(files);
   want(std::move(opened), Parts::all);
 }
@@ -183,6 +186,12 @@ void Document::openLook(const std::string& name) {
 void Document::openBackground(const std::string& file) {
   Opened opened = wanted_;
   opened.background = file;
+  want(std::move(opened), Parts::look);
+}
+
+void Document::openClip(const std::string& clip) {
+  Opened opened = wanted_;
+  opened.clip = clip;
   want(std::move(opened), Parts::look);
 }
 

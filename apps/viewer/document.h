@@ -26,6 +26,7 @@ struct Opened {
   std::vector<std::string> scenes;  // files, all in one world
   std::string look;                 // one that ships, or a file; empty: the scenes' own
   std::string background;           // a picture's file that is behind everything; empty: the sky
+  std::string clip;                 // the only one that plays, by name or number; empty: as the look has it
   bool operator==(const Opened&) const = default;
 };
 
@@ -81,6 +82,7 @@ class Document {
   void addScenes(const std::vector<std::string>& files);  // to those that are there, or are being read
   void openLook(const std::string& name);
   void openBackground(const std::string& file);
+  void openClip(const std::string& clip);
 
   const Edits& edits() const { return edits_; }
   // Turns a knob. Until closeStep() further turns of it are undone with this one. Fails as Look::set does.

@@ -429,5 +429,37 @@ TEST_F(Documents, readersThatThrowAreProblemsLikeOthers) {
   EXPECT_TRUE(document.problems().count(Concern::scene));
 }
 
+TEST_F(Documents, oneOfTheClipsUntilOtherScenesAreThere) {
+  std::vector<std::string> clips;
+  Document document({{{scene_}, "", ""},
+                     [](const Files& files, const Progress&) { return Scene::load(files[0]); },
+                     [&](const Scene&, const Opened& opened) -> Result<Look> {
+                       clips.push_back(opened.clip);
+                       if (opened.clip == "none")
+                         return Error{ErrorKind::usage, "", 0, "", "no such clip", ""};
+                       return Look::load("dusk");
+                     },
+                     [this](const Files& files) { return ownLook(files); }},
+                    [this] {
+                      const std::lock_guard lock(mutex_);
+                      ++wakes_;
+                      woken_.notify_all();
+                    });
+  ASSERT_TRUE(changes(document));
+  document.openClip("Walk");
+  ASSERT_TRUE(changes(document));
+  EXPECT_EQ(document.opened().clip, "Walk");
+  document.openClip("none");
+  ASSERT_TRUE(changes(document));
+  EXPECT_EQ(document.opened().clip, "Walk");
+  EXPECT_TRUE(document.problems().count(Concern::look));
+  document.addScenes({folder_.put("b.gltf", kScene)});
+  ASSERT_TRUE(changes(document));
+  EXPECT_EQ(document.opened().clip, "Walk");
+  document.openScenes({folder_.file("b.gltf")});
+  ASSERT_TRUE(changes(document));
+  EXPECT_EQ(clips, (std::vector<std::string>{"", "Walk", "none", "Walk", ""}));
+}
+
 }  // namespace
 }  // namespace scumble::viewer

@@ -6,7 +6,9 @@
 
 #include <functional>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "document.h"
 #include "export_job.h"
@@ -45,8 +47,13 @@ bool layOutSplit(const glm::vec2& window, const std::string& left, const std::st
 
 void layOutWaiting(const glm::vec2& window, const std::string& text);
 void layOutHelp(const glm::vec2& window);
-// True where somebody has moved the time.
-bool layOutTime(const glm::vec2& window, Playback& playback);
+// What somebody has done to the time, and which of the clips was chosen (empty: as the look has it).
+struct TimeChange {
+  bool isMoved = false;
+  std::optional<std::string> clip;
+};
+TimeChange layOutTime(const glm::vec2& window, Playback& playback, const std::vector<std::string>& clips,
+                      const std::string& clip);
 
 // What is told at the left, from the top down: what is wrong, what was kept, what is being made.
 class Notices {

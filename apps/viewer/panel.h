@@ -20,6 +20,7 @@ class Panel {
   bool layOut(const glm::vec2& window, const Facts& facts, Document& document, std::string* other);
   // Knobs are those of its material from now on, if it has one.
   void select(const Picked& picked);
+  const Picked& picked() const { return picked_; }
 
  private:
   void layOutTargets();

@@ -142,7 +142,14 @@ class Viewer {
     if (!news) return news.error();
     if (!*news) return Done{};
     settling_ = kSettling;
-    camera_.setBounds(document_.scene().summary());
+    if (sceneVersion_ != document_.sceneVersion()) {
+      sceneVersion_ = document_.sceneVersion();
+      summary_ = document_.scene().summary();
+      clips_.clear();
+      for (const SceneSummary::Clip& clip : summary_.clips)
+        clips_.push_back(clip.name.empty() ? std::to_string(clips_.size()) : clip.name);
+      camera_.setBounds(summary_);
+    }
     playback_.duration = playedSeconds(document_.scene(), document_.look());
     if (opened_ != document_.opened().scenes) takeScenes();
     return Done{};
@@ -213,9 +220,12 @@ class Viewer {
     else if (pictures().shown() && pictures().shown()->number != lastShown_)
       document_.settle(Concern::picture);
     if (pictures().shown()) lastShown_ = pictures().shown()->number;
-    if (const auto picked = pictures().takePicked()) {
+    if (auto picked = pictures().takePicked()) {
+      // Looks know nodes that have a name; the ground and the sea are materials alone.
+      const std::vector<std::string>& nodes = summary_.nodeNames;
+      if (std::find(nodes.begin(), nodes.end(), picked->object) == nodes.end()) picked->object.clear();
       panel_.select(*picked);
-      if (!picked->object.empty()) showsPanel_ = true;
+      if (!picked->object.empty() || !picked->material.empty()) showsPanel_ = true;
     }
   }
 
@@ -290,6 +300,24 @@ class Viewer {
     return around;
   }
 
+  // All of it, or what was picked, from where it is seen now.
+  void frame() {
+    std::optional<Viewpoint> around = orbitOfPresent();
+    if (!around) return;
+    around->frame = panel_.picked().object;
+    camera_.set(around);
+  }
+
+  void lookThroughNextCamera() {
+    if (summary_.cameras.empty()) {
+      notice_ = "the scene has no cameras";
+      return;
+    }
+    Viewpoint through;
+    through.camera = std::to_string(nextCamera_++ % summary_.cameras.size());
+    camera_.set(through);
+  }
+
   Shown presentlyShown(const glm::uvec2& size) const {
     return {document_.opened(),
             camera_.isOther() ? std::optional(camera_.viewpoint()) : std::nullopt,
@@ -359,7 +387,7 @@ class Viewer {
         document_.redo();
         break;
       case Command::frameAll:
-        if (const std::optional<Viewpoint> around = orbitOfPresent()) camera_.set(around);
+        frame();
         break;
       case Command::lookCamera:
         camera_.set(firstCamera());
@@ -439,6 +467,9 @@ class Viewer {
       case Command::passes:
         showsPasses_ = !showsPasses_;
         if (!showsPasses_) passes_.choose("");
+        break;
+      case Command::nextCamera:
+        lookThroughNextCamera();
         break;
       case Command::eyes:
         eyes_ = Eyes((int(eyes_) + 1) % 4);
@@ -574,7 +605,11 @@ class Viewer {
     layOutPictures(window);
     bool isTurned = false;
     const bool showsTime = showsPanel_ && playback_.duration > 0;
-    if (showsTime) isTurned |= layOutTime(window, playback_);
+    if (showsTime) {
+      const TimeChange change = layOutTime(window, playback_, clips_, document_.opened().clip);
+      isTurned |= change.isMoved;
+      if (change.clip) document_.openClip(*change.clip);
+    }
     if (showsPasses_) {
       const float right = showsPanel_ ? panelWidth(window) - ImGui::GetFontSize() : 0;
       const float bottom = showsTime ? 4.5f * ImGui::GetFontSize() : 0;
@@ -706,6 +741,10 @@ class Viewer {
 
   // Scenes that are open, and what of them is kept outside of their files.
   std::vector<std::string> opened_;
+  uint64_t sceneVersion_ = 0;
+  SceneSummary summary_;
+  std::vector<std::string> clips_;
+  size_t nextCamera_ = 0;
   std::string title_;
   Unsaved unsaved_;
   RecentFiles recent_;

@@ -381,6 +381,23 @@ class Test:
         until(look.exists, "a look beside the scene")
         amount = next(word for word in words if word.startswith("materials.")).split("=")[1]
         assert json.loads(look.read_text())["materials"] == {"Enamel": {"warp": {"amount": float(amount)}}}, look.read_text()
+        # What was picked fills the frame, and the scene's camera is there again.
+        window.key("n")
+        window.resting()
+        window.click(380, 380)
+        window.resting()
+        window.key("Home", "n")
+        framed = window.shows_more(turned, 0.1)
+        self.keep("framed", window)
+        words = window.copied()
+        assert words[words.index("--frame") + 1] == "Jug", words
+        window.until_it_shows(self.drawn_by(words), "what was picked, framed")
+        window.key("k")
+        window.shows_more(framed, 0.1)
+        words = window.copied()
+        assert words[words.index("--camera") + 1] == "0", words
+        window.until_it_shows(self.drawn_by(words), "the scene's camera")
+        window.key("0", "Escape")
         # A click on nothing lets go of it.
         window.key("n")
         window.resting()
