@@ -113,7 +113,8 @@ class Window:
                               text=True).stdout.split()[0]
 
     def drop(self, title, *files):
-        subprocess.run([sys.executable, HERE / "drop.py", self.number(title), "250", "400", *map(str, files)], env=self.screen.environment,
+        # The platform's Python has the platform's packages.
+        subprocess.run(["/usr/bin/python3", HERE / "drop.py", self.number(title), "250", "400", *map(str, files)], env=self.screen.environment,
                        check=True)
 
     def shows_more(self, before, part=0.01):
