@@ -15,6 +15,7 @@ import functools
 import http.server
 import json
 import random
+import shutil
 import statistics
 import subprocess
 import sys
@@ -181,10 +182,6 @@ class Quiet(http.server.SimpleHTTPRequestHandler):
         pass
 
 
-def is_there(program):
-    return subprocess.run(["which", program], capture_output=True).returncode == 0
-
-
 @contextlib.contextmanager
 def site(scene, folder):
     """A page of three.js that shows the scene; its address."""
@@ -231,9 +228,9 @@ def measure(scene, size, chosen, options):
             process.wait(20)
         look = copy.with_suffix(".look.json")
         one("scumble", command, (lambda screen, process: edit(screen, process, look, chosen.edits)) if chosen.edits else None)
-        if is_there("f3d"):
+        if shutil.which("f3d"):
             one("f3d", ["f3d", "--dry-run", f"--resolution={size[0]},{size[1]}", copy])
-        if is_there("chromium"):
+        if shutil.which("chromium"):
             (folder / "site").mkdir()
             with site(scene, folder / "site") as address:
                 if address:

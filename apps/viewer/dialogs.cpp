@@ -57,11 +57,11 @@ void begin(const glm::vec2& window, const char* id, const std::string& title, fl
 
 // ---- What is to be seen
 
-std::optional<OpenWish> OpenDialog::layOut(const glm::vec2& window, const std::vector<std::string>& recent) {
+std::optional<OpenWish> OpenDialog::layOut(const glm::vec2& window) {
   std::optional<OpenWish> wish;
   begin(window, "open", "Open a scene", 36);
   ImGui::TextDisabled("Files can be dropped on the window, too.");
-  for (const std::string& file : recent) {
+  for (const std::string& file : recent_) {
     ImGui::PushID(file.c_str());
     if (ImGui::Button("Add")) wish = {{file}, true};
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Beside what is there");
@@ -176,9 +176,7 @@ std::optional<DropDialog::Answer> DropDialog::layOut(const glm::vec2& window) {
     ImGui::TextDisabled("Or take it for a knob:");
     ImGui::BeginChild("knobs", {0, 12 * ImGui::GetTextLineHeightWithSpacing()});
     for (const Knob& knob : allKnobs()) {
-      const bool isOfScene =
-          std::find(knob.targets.begin(), knob.targets.end(), "scene") != knob.targets.end();
-      if (knob.type != "picture" || !isOfScene) continue;
+      if (knob.type != "picture" || !isSetFor(knob, "scene")) continue;
       if (ImGui::Selectable(knob.path.c_str())) answer = {{}, "", knob.path, first};
       if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", knob.meaning.c_str());
     }

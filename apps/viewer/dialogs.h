@@ -4,6 +4,7 @@
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "document.h"
@@ -19,13 +20,14 @@ struct OpenWish {
 // Scenes that were opened last, and a place to type one.
 class OpenDialog {
  public:
-  void open() { isOpen_ = true; }
+  void open(std::vector<std::string> recent) { isOpen_ = true, recent_ = std::move(recent); }
   void close() { isOpen_ = false; }
   bool isOpen() const { return isOpen_; }
-  std::optional<OpenWish> layOut(const glm::vec2& window, const std::vector<std::string>& recent);
+  std::optional<OpenWish> layOut(const glm::vec2& window);
 
  private:
   bool isOpen_ = false;
+  std::vector<std::string> recent_;
   char typed_[1024] = "";
 };
 

@@ -14,10 +14,6 @@ namespace scumble::viewer {
 
 namespace {
 
-bool isFile(const std::string& look) {
-  return look.find('/') != std::string::npos || std::filesystem::path(look).extension() == ".json";
-}
-
 // As it stands in a look: pictures by where they lie from the look's folder, if they lie below it.
 std::string inLook(const std::string& path, const std::string& value, const std::string& lookFile) {
   const std::optional<Setting> setting = settingOf(path);
@@ -256,7 +252,7 @@ Result<std::string> Document::save() {
                  "save again when it is there"};
   const std::string present = lookName();
   std::string file = present, text;
-  if (isFile(present)) {
+  if (isLookFile(present)) {
     std::ifstream in(file, std::ios::binary);
     text.assign(std::istreambuf_iterator<char>(in), {});
     if (!in) return Error{ErrorKind::unusableFile, file, 0, "", "it cannot be read", "it may be gone"};
@@ -279,7 +275,7 @@ Result<std::string> Document::save() {
   // What could not be read again is not written.
   if (const Result<Look> again = Look::fromJson(*changed, file); !again) return again.error();
   if (const Status status = writeText(file, *changed); !status) return status.error();
-  if (!isFile(present)) wanted_.look = file;
+  if (!isLookFile(present)) wanted_.look = file;
   keepHistory(saved_, edits_);
   saving_ = edits_;
   settle(Concern::saving);

@@ -36,17 +36,18 @@ class Documents : public testing::Test {
                               Look::load(opened.look.empty() ? ownLook(opened.scenes).name : opened.look);
                      },
                      [this](const Files& files) { return ownLook(files); }},
-                    [this] {
-                      const std::lock_guard lock(mutex_);
-                      ++wakes_;
-                      woken_.notify_all();
-                    });
+                    [this] { wake(); });
   }
   OwnLook ownLook(const Files& files) const {
     const bool isFirst = files[0] == scene_;
     const std::string file =
         isFirst ? look_ : std::filesystem::path(files[0]).replace_extension(".look.json").string();
     return {!isFirst ? "manga" : lookName_.empty() ? look_ : lookName_, file};
+  }
+  void wake() {
+    const std::lock_guard lock(mutex_);
+    ++wakes_;
+    woken_.notify_all();
   }
   // Until there is news.
   testing::AssertionResult changes(Document& document) {
@@ -417,11 +418,7 @@ TEST_F(Documents, readersThatThrowAreProblemsLikeOthers) {
                      },
                      [](const Scene&, const Opened&) { return Look::load("dusk"); },
                      [this](const Files& files) { return ownLook(files); }},
-                    [this] {
-                      const std::lock_guard lock(mutex_);
-                      ++wakes_;
-                      woken_.notify_all();
-                    });
+                    [this] { wake(); });
   ASSERT_TRUE(changes(document));
   throws = true;
   document.openScenes({folder_.file("b.gltf")});
@@ -440,11 +437,7 @@ TEST_F(Documents, oneOfTheClipsUntilOtherScenesAreThere) {
                        return Look::load("dusk");
                      },
                      [this](const Files& files) { return ownLook(files); }},
-                    [this] {
-                      const std::lock_guard lock(mutex_);
-                      ++wakes_;
-                      woken_.notify_all();
-                    });
+                    [this] { wake(); });
   ASSERT_TRUE(changes(document));
   document.openClip("Walk");
   ASSERT_TRUE(changes(document));

@@ -15,11 +15,6 @@ namespace {
 
 constexpr float kWideRange = 400;
 
-bool isOf(const Knob& knob, const Target& target) {
-  const std::string section = target.section.empty() ? "scene" : target.section;
-  return std::find(knob.targets.begin(), knob.targets.end(), section) != knob.targets.end();
-}
-
 // Over ranges that a slider would cross in a hand's breadth one drags by parts of what is there.
 std::optional<std::string> slider(const Knob& knob, const KnobValue& value) {
   const float low = std::strtof(knob.min.c_str(), nullptr), high = std::strtof(knob.max.c_str(), nullptr);
@@ -128,7 +123,7 @@ bool Inspector::layOut(Document& document, const Target& target, double time) {
   for (const Group& group : groups_) {
     std::vector<const Knob*> shown;
     for (const Knob* knob : group.knobs)
-      if (isOf(*knob, target) && isFound(*knob, search_) &&
+      if (isSetFor(*knob, target.section.empty() ? "scene" : target.section) && isFound(*knob, search_) &&
           (!onlyTurned_ || document.edits().count(target.path(*knob))))
         shown.push_back(knob);
     if (shown.empty()) continue;

@@ -61,13 +61,17 @@ const std::vector<Knob>& allKnobs() {
   return knobs;
 }
 
+bool isSetFor(const Knob& knob, const std::string& target) {
+  return std::find(knob.targets.begin(), knob.targets.end(), target) != knob.targets.end();
+}
+
 std::optional<Setting> settingOf(const std::string& path) {
   std::optional<Setting> found;
   const size_t dot = path.find('.');
   for (const Knob& knob : allKnobs()) {
     if (knob.path == path) return Setting{"", "", &knob};
     const std::string section = path.substr(0, dot);
-    if (std::find(knob.targets.begin(), knob.targets.end(), section) == knob.targets.end()) continue;
+    if (!isSetFor(knob, section)) continue;
     // Names may have dots, so the knob is the shortest tail that is one.
     if (path.size() < dot + knob.path.size() + 3 || !path.ends_with("." + knob.path)) continue;
     if (found && found->knob->path.size() < knob.path.size()) continue;

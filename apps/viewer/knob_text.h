@@ -21,6 +21,9 @@ glm::vec3 linearOf(const glm::vec3& curve);
 // All that there are, listed once.
 const std::vector<Knob>& allKnobs();
 
+// Whether it may be set for one of Knob::targets.
+bool isSetFor(const Knob& knob, const std::string& target);
+
 // A setting's path as Look::set takes it, taken apart: "materials.Paint.001.warp.amount" is "materials",
 // "Paint.001" and the knob "warp.amount", and one of the whole scene has no section.
 struct Setting {

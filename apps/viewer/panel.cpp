@@ -51,7 +51,7 @@ void Panel::layOutTargets() {
     if (ImGui::Button(label.c_str())) target_ = target;
     if (isChosen) ImGui::PopStyleColor();
     if (ImGui::IsItemHovered() && !target.section.empty())
-      ImGui::SetTooltip("%s of this %s alone", "Knobs", target.section == "nodes" ? "object" : "material");
+      ImGui::SetTooltip("Knobs of this %s alone", target.section == "nodes" ? "object" : "material");
     ImGui::PopID();
   }
 }

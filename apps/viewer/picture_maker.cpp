@@ -25,7 +25,7 @@ uint64_t PictureMaker::wish(int purpose, Wish wish) {
   const std::lock_guard lock(mutex_);
   const uint64_t number = ++number_;
   waiting_[purpose] = {number, std::move(wish)};
-  wanted_[purpose] = number;
+  wanted_.insert(purpose);
   changed_.notify_all();
   return number;
 }
@@ -111,6 +111,8 @@ std::shared_ptr<Picture> PictureMaker::blank(const glm::uvec2& size, Stereo ster
 Result<std::shared_ptr<Picture>> PictureMaker::tryDraw(const Wish& wish) {
   try {
     return draw(wish);
+  } catch (const VulkanFailure& failure) {
+    return Error{ErrorKind::noUsableGpu, "", 0, "", failure.what(), "make the window smaller"};
   } catch (const std::exception& failure) {
     return Error{ErrorKind::internal, "", 0, "", failure.what(), "make the window smaller"};
   }
@@ -121,12 +123,7 @@ Result<std::shared_ptr<Picture>> PictureMaker::draw(const Wish& wish) {
       makeViews(wish.scene, wish.viewpoint, float(wish.size.x) / float(wish.size.y), wish.stereo, wish.ipd,
                 wish.look, wish.time);
   if (!views) return views.error();
-  std::shared_ptr<Picture> picture;
-  try {
-    picture = blank(wish.size, wish.stereo);
-  } catch (const VulkanFailure& failure) {
-    return Error{ErrorKind::noUsableGpu, "", 0, "", failure.what(), "make the window smaller"};
-  }
+  const std::shared_ptr<Picture> picture = blank(wish.size, wish.stereo);
   RenderOptions options;
   options.width = wish.size.x, options.height = wish.size.y;
   options.samples = wish.samples, options.seed = wish.seed;
@@ -154,18 +151,14 @@ Result<std::shared_ptr<Picture>> PictureMaker::draw(const Wish& wish) {
   picture->steps = frame->stats.passes;
   picture->objects = frame->objects, picture->materials = frame->materials;
   picture->layers.clear();
-  try {
-    for (const std::string& aov : wish.aovs)
-      for (const Frame::Layer& layer : frame->layers)
-        if (layer.name == aov) {
-          const Image& values = layer.views[std::min(wish.aovView, layer.views.size() - 1)];
-          picture->layers.push_back(
-              {aov, values,
-               uploaded(device_, {values.width, values.height}, visibleBytes(values, aov).data())});
-        }
-  } catch (const VulkanFailure& failure) {
-    return Error{ErrorKind::noUsableGpu, "", 0, "", failure.what(), "make the window smaller"};
-  }
+  for (const std::string& aov : wish.aovs)
+    for (const Frame::Layer& layer : frame->layers)
+      if (layer.name == aov) {
+        const Image& values = layer.views[std::min(wish.aovView, layer.views.size() - 1)];
+        picture->layers.push_back(
+            {aov, values,
+             uploaded(device_, {values.width, values.height}, visibleBytes(values, aov).data())});
+      }
   return picture;
 }
 

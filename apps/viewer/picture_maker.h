@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -86,7 +87,7 @@ class PictureMaker {
     Wish wish;
   };
   std::map<int, Waiting> waiting_;
-  std::map<int, uint64_t> wanted_;  // the last wish of each purpose
+  std::set<int> wanted_;  // purposes that were not forgotten
   uint64_t number_ = 0;
   bool isEnding_ = false, isNews_ = false;
   std::map<int, std::shared_ptr<const Picture>> latest_;

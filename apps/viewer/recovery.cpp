@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "look_text.h"
 #include "scumble/image.h"
 
 namespace scumble::viewer {
@@ -61,10 +62,9 @@ Status Recovery::keep(const std::vector<std::string>& scenes, const std::string&
     return Done{};
   }
   std::filesystem::create_directories(folder_, error);
-  const bool isFile = look.find('/') != std::string::npos || look.ends_with(".json");
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   const nlohmann::json kept{{"scenes", whole(scenes)},
-                            {"look", isFile ? whole({look})[0] : look},
+                            {"look", isLookFile(look) ? whole({look})[0] : look},
                             {"edits", edits},
                             {"seconds", std::chrono::duration_cast<std::chrono::seconds>(now).count()}};
   return writeText(file, textOf(kept) + "\n");

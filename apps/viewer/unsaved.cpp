@@ -7,6 +7,7 @@ namespace scumble::viewer {
 
 void Unsaved::open(const Document& document) {
   dueAt_.reset();
+  seen_ = 0;
   offered_ = recovery_.find(document.opened().scenes);
   kept_ = offered_ ? State{offered_->look, offered_->edits} : State();
 }
@@ -24,7 +25,9 @@ Status Unsaved::answer(Document& document, bool isTaken) {
 }
 
 Status Unsaved::keep(const Document& document, double now, bool atOnce) {
-  if (document.scene().empty()) return Done{};
+  // Which look is there is asked of the disk, and the window asks in every frame.
+  if (document.scene().empty() || (document.version() == seen_ && !dueAt_)) return Done{};
+  seen_ = document.version();
   // What is offered is not lost before somebody has answered.
   State state{document.lookName(), document.edits()};
   if (offered_) {

@@ -34,6 +34,7 @@ class Unsaved {
     Edits edits;
   } kept_;
   std::optional<double> dueAt_;
+  uint64_t seen_ = 0;  // Document::version that was looked at last
 };
 
 }  // namespace scumble::viewer

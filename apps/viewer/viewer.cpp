@@ -260,7 +260,7 @@ class Viewer {
 
   std::vector<std::pair<std::string, Look>> allLooks() {
     std::vector<std::pair<std::string, Look>> looks;
-    for (const ShippedLook& shipped : Look::shipped()) looks.emplace_back(shipped.name, lookOf(shipped.name));
+    for (const ShippedLook& shipped : shipped_) looks.emplace_back(shipped.name, lookOf(shipped.name));
     return looks;
   }
 
@@ -453,7 +453,7 @@ class Viewer {
         held_.insert(command);
         break;
       case Command::open:
-        openDialog_.open();
+        openDialog_.open(recent_.files());
         break;
       case Command::make:
         if (!document_.scene().empty()) openSaveDialog();
@@ -676,7 +676,7 @@ class Viewer {
     if (openDialog_.isOpen() || saveDialog_.isOpen() || dropDialog_.isOpen()) showsLooks_ = false;
     if (showsLooks_) {
       std::vector<std::string> names;
-      for (const ShippedLook& shipped : Look::shipped()) names.push_back(shipped.name);
+      for (const ShippedLook& shipped : shipped_) names.push_back(shipped.name);
       const auto pictureOf = [&](size_t number) {
         kept(pictures().look(number));
         return pictures().look(number);
@@ -687,7 +687,7 @@ class Viewer {
       }
     }
     if (openDialog_.isOpen())
-      if (const auto wish = openDialog_.layOut(window, recent_.files())) openScenes(*wish);
+      if (const auto wish = openDialog_.layOut(window)) openScenes(*wish);
     if (saveDialog_.isOpen())
       if (const auto wish = saveDialog_.layOut(window)) make(*wish);
     if (dropDialog_.isOpen())
@@ -766,7 +766,8 @@ class Viewer {
   OpenDialog openDialog_;
   SaveDialog saveDialog_;
   DropDialog dropDialog_;
-  std::map<std::string, Look> looks_;  // that ship
+  const std::vector<ShippedLook> shipped_ = Look::shipped();
+  std::map<std::string, Look> looks_;  // those of them that were compared with
   std::string otherLook_;              // beside the line; empty: as it is saved
   float split_ = 0.5f;
   Eyes eyes_ = Eyes::one;
