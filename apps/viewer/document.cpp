@@ -9,22 +9,31 @@
 
 #include "knob_text.h"
 #include "look_text.h"
+#include "track_edit.h"
 
 namespace scumble::viewer {
 
 namespace {
 
-// As it stands in a look: pictures by where they lie from the look's folder, if they lie below it.
-std::string inLook(const std::string& path, const std::string& value, const std::string& lookFile) {
-  const std::optional<Setting> setting = settingOf(path);
-  if (!setting || setting->knob->type != "picture" || !std::filesystem::path(value).is_absolute())
-    return value;
+// A picture by where it lies from a look's folder, if it lies below it.
+std::string fromFolderOf(const std::string& lookFile, const std::string& value) {
+  if (!std::filesystem::path(value).is_absolute()) return value;
   std::error_code error;
   const std::filesystem::path folder =
       std::filesystem::weakly_canonical(std::filesystem::absolute(lookFile, error), error).parent_path();
   const std::filesystem::path from =
       std::filesystem::weakly_canonical(value, error).lexically_relative(folder);
   return error || from.empty() || *from.begin() == ".." ? value : from.string();
+}
+
+// As it stands in a look.
+std::string inLook(const std::string& path, const std::string& value, const std::string& lookFile) {
+  const std::optional<Setting> setting = settingOf(path);
+  if (!setting || setting->knob->type != "picture") return value;
+  std::optional<KnobTrack> track = trackFrom(path, value);
+  if (!track) return fromFolderOf(lookFile, value);
+  for (KnobTrack::Key& key : track->keys) key.value = fromFolderOf(lookFile, std::get<std::string>(key.value));
+  return textOf(*track, *setting->knob);
 }
 
 }  // namespace
@@ -212,13 +221,14 @@ void Document::begin(const std::string& step) {
   redo_.clear();
 }
 
-Status Document::set(const std::string& path, const std::string& value) {
+Status Document::set(const std::string& step, const Edits& edits) {
   // On a copy: what fails changes nothing.
   Look changed = look_;
-  if (const Status status = changed.set(path, value); !status) return status.error();
+  for (const auto& [path, value] : edits)
+    if (const Status status = changed.set(path, value); !status) return status.error();
   settle(Concern::knob);
-  begin(path);
-  edits_[path] = value;
+  begin(step);
+  for (const auto& [path, value] : edits) edits_[path] = value;
   look_ = std::move(changed);
   ++version_;
   return Done{};

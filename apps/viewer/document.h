@@ -86,7 +86,9 @@ class Document {
 
   const Edits& edits() const { return edits_; }
   // Turns a knob. Until closeStep() further turns of it are undone with this one. Fails as Look::set does.
-  Status set(const std::string& path, const std::string& value);
+  Status set(const std::string& path, const std::string& value) { return set(path, {{path, value}}); }
+  // Turns several at once; until closeStep() further ones of the same step are undone with them.
+  Status set(const std::string& step, const Edits& edits);
   void unset(const std::string& path);  // to what the file says
   // Turns many, as one step; what a look does not take is left out.
   void take(const Edits& edits);

@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <sstream>
 
+#include "track_edit.h"
+
 namespace scumble::viewer {
 
 namespace {
@@ -40,6 +42,15 @@ std::string textOf(double value) {
 
 std::string textOf(const glm::vec3& value) {
   return textOf(double(value.x)) + "," + textOf(double(value.y)) + "," + textOf(double(value.z));
+}
+
+std::string textOf(const KnobValue& value, const Knob& knob) {
+  if (const bool* toggle = std::get_if<bool>(&value)) return *toggle ? "true" : "false";
+  if (const int* integer = std::get_if<int>(&value)) return std::to_string(*integer);
+  if (const double* number = std::get_if<double>(&value)) return textOf(*number);
+  if (const auto* triple = std::get_if<glm::vec3>(&value))
+    return knob.type == "color" ? hexOf(*triple) : textOf(*triple);
+  return std::get<std::string>(value);
 }
 
 glm::vec3 curveOf(const glm::vec3& linear) {
@@ -84,12 +95,8 @@ std::string valueText(const Look& look, const std::string& path) {
   const std::optional<Setting> setting = settingOf(path);
   const Result<KnobValue> value = look.get(path);
   if (!setting || !value) return "";
-  if (const bool* toggle = std::get_if<bool>(&*value)) return *toggle ? "true" : "false";
-  if (const int* integer = std::get_if<int>(&*value)) return std::to_string(*integer);
-  if (const double* number = std::get_if<double>(&*value)) return textOf(*number);
-  if (const auto* triple = std::get_if<glm::vec3>(&*value))
-    return setting->knob->type == "color" ? hexOf(*triple) : textOf(*triple);
-  return std::get<std::string>(*value);
+  const Result<std::optional<KnobTrack>> track = look.track(path);
+  return track && *track ? textOf(**track, *setting->knob) : textOf(*value, *setting->knob);
 }
 
 std::vector<std::string> wordsOf(const Knob& knob) {

@@ -13,6 +13,7 @@ namespace scumble::viewer {
 // The shortest text of a number that means it again.
 std::string textOf(double value);
 std::string textOf(const glm::vec3& value);  // three numbers
+std::string textOf(const KnobValue& value, const Knob& knob);
 // Linear RGB as "#RRGGBB", in sRGB's curve; and its bytes from 0 to 1.
 std::string hexOf(const glm::vec3& linear);
 glm::vec3 curveOf(const glm::vec3& linear);
@@ -33,7 +34,8 @@ struct Setting {
 // Nothing where there is no such knob.
 std::optional<Setting> settingOf(const std::string& path);
 
-// What a look says of a setting, as a text that Look::set takes; empty for those that there are not.
+// What a look says of a setting, as a text that Look::set takes, tracks too; empty for those that there are
+// not.
 std::string valueText(const Look& look, const std::string& path);
 
 // The words of a choice, or the pictures that are built in: Knob::unit names them, "a|b|c".

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "knob_text.h"
+#include "track_edit.h"
 
 namespace scumble::viewer {
 
@@ -91,8 +92,9 @@ class Reader {
   const std::string& text_;
 };
 
-// Of a knob as looks have it in JSON. Words that are no number, truth or list of numbers are strings.
-std::string jsonOf(const Setting& setting, const std::string& value) {
+// Of a setting as looks have it in JSON. Words that are no number, truth or list of numbers are strings.
+std::string jsonOf(const std::string& path, const Setting& setting, const std::string& value) {
+  if (trackFrom(path, value)) return value;
   const std::string& type = setting.knob->type;
   if (type == "number" || type == "integer" || type == "toggle") return value;
   return type == "vector" ? "[" + value + "]" : nlohmann::json(value).dump();
@@ -169,7 +171,7 @@ std::optional<std::string> withKnobs(const std::string& text, const Edits& edits
   if (!parsed.is_object()) return std::nullopt;
   for (const auto& [path, value] : edits) {
     const std::optional<Setting> setting = settingOf(path);
-    if (!setting || !put(changed, keysOf(*setting), jsonOf(*setting, value))) return std::nullopt;
+    if (!setting || !put(changed, keysOf(*setting), jsonOf(path, *setting, value))) return std::nullopt;
   }
   return changed;
 } catch (const nlohmann::json::exception&) {

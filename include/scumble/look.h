@@ -8,6 +8,7 @@
 
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -38,6 +39,21 @@ struct Knob {
 // a vector's itself, and a word for choices, pictures (built in, or a file's path) and names.
 using KnobValue = std::variant<bool, int, double, glm::vec3, std::string>;
 
+// How a knob goes from one key to the next: it stands, goes straight, smoothly through all keys, or smoothly
+// with rests at the ends and where values turn (docs/looks.md).
+enum class Interpolation : uint8_t { step, linear, cubic, ease };
+
+// A knob's value that changes with time.
+struct KnobTrack {
+  struct Key {
+    double time = 0;  // seconds, a billion at most
+    KnobValue value;
+  };
+  std::vector<Key> keys;                                // 1 to 100,000; their times strictly increase
+  Interpolation interpolation = Interpolation::linear;  // `step` alone for what nothing lies between
+  bool repeat = false;  // with the period last - first key's time; otherwise the ends' values stand
+};
+
 // Whether a text is a colour as knobs take them: "#RRGGBB", "#RGB", or one of CSS's names in small letters.
 SCUMBLE_API bool isColor(const std::string& text);
 
@@ -55,10 +71,12 @@ class SCUMBLE_API Look {
 
   // Sets one knob, e.g. ("shadow.threshold", 0.4) or ("materials.Sail*.warp.amount", 2), likewise below
   // "nodes" and "clips"; below "colorizers" and "decorations" a new name declares one. Any knob takes its
-  // value as text, too: "0.4", "true", "#EADFC8", "1,2,3". It wins over the file's values and tracks; a
+  // value as text, too: "0.4", "true", "#EADFC8", "1,2,3", and a track as looks' files have it,
+  // "{\"keys\": [[0, 0.4], [2.5, 0.6]]}". It wins over the file's values and tracks; a
   // setting for some names wins over one for the whole scene; of two alike the later one wins. Fails with
   // ErrorKind::usage, and with unusableFile for pictures.
   Status set(const std::string& path, const KnobValue& value);
+  Status set(const std::string& path, const KnobTrack& track);
   // Takes back what set() has set by this very path: what the file says holds again. Fails with
   // ErrorKind::usage where there is no such knob.
   Status unset(const std::string& path);
@@ -66,6 +84,15 @@ class SCUMBLE_API Look {
   // ("materials.Sail.warp.amount"; of a node what the look says for the scene and for nodes of its name).
   // Fails with ErrorKind::usage where there is no such knob, and for patterns, which have no one value.
   Result<KnobValue> get(const std::string& path, double time = 0) const;
+  // What get() follows as time goes on; nothing where a value holds for ever. Fails as get() does.
+  Result<std::optional<KnobTrack>> track(const std::string& path) const;
+
+  // Settings with tracks by their paths, as set() takes them, in the order of the file; those for patterns of
+  // names too.
+  std::vector<std::string> animated() const;
+  // The names that it declares below "colorizers" or "decorations", in their order; of other sections those
+  // for which it sets something, patterns apart.
+  std::vector<std::string> names(const std::string& section) const;
 
   const std::string& description() const;
   // Files that it was read from: looks, those that it extends too, and pictures.

@@ -127,7 +127,8 @@ SCUMBLE_API scumble_look* scumble_look_create(void);
 SCUMBLE_API scumble_look* scumble_look_load(const char* name_or_file);
 /* `name`: what messages call it; pictures that it names are looked for beside it. */
 SCUMBLE_API scumble_look* scumble_look_from_json(const char* text, const char* name);
-/* Sets one knob, e.g. "shadow.threshold" to "0.4"; wins over what the look says. */
+/* Sets one knob, e.g. "shadow.threshold" to "0.4", or to a track as looks have it,
+   "{\"keys\": [[0, 0.4], [2, 0.6]]}"; wins over what the look says. */
 SCUMBLE_API scumble_status scumble_look_set(scumble_look* look, const char* path, const char* value);
 /* The same with one number (numbers, integers; toggles as 0 or 1) or three (colours, linear; vectors). */
 SCUMBLE_API scumble_status scumble_look_set_numbers(scumble_look* look, const char* path,

@@ -8,6 +8,7 @@
 
 #include "base/color_text.h"
 #include "base/usage.h"
+#include "look/look_json.h"
 #include "look/look_source.h"
 #include "look/read_value.h"
 #include "look/setting_path.h"
@@ -76,6 +77,54 @@ Result<look::Value> typedValue(const look::ParamRow& row, const KnobValue& value
   return look::Value{number, {}};
 }
 
+Result<look::Value> valueFrom(const look::ParamRow& row, const KnobValue& value, look::LookData& data) {
+  const std::string* const text = std::get_if<std::string>(&value);
+  return text ? look::readValue(row, *text, "", data) : typedValue(row, value);
+}
+
+// What is wrong with a setting by hand: its path stands before it, unless it is a file that is wrong.
+Error ofSetting(const std::string& path, Error error) {
+  if (error.file.empty()) error = usage(path + error.jsonPath + ": " + error.problem, error.advice);
+  return error;
+}
+
+// Names may begin like a track.
+bool isTrackText(const look::ParamRow& row, const std::string& text) {
+  if (!text.starts_with('{')) return false;
+  if (row.kind != look::ParamKind::name) return true;
+  const auto parsed = look::Json::parse(text, nullptr, false);
+  return parsed.is_object() && parsed.contains("keys");
+}
+
+Result<look::Track> trackFrom(const look::ParamRow& row, const std::string& text, look::LookData& data) {
+  const look::Json parsed = look::Json::parse(text, nullptr, false);
+  if (!parsed.is_object())
+    return usage("this track is no JSON", "write it like {\"keys\": [[0, VALUE], [2.5, VALUE]]}");
+  const std::string byHand;
+  return look::readTrack(row, parsed, {byHand, ""}, data);
+}
+
+Result<look::Track> trackFrom(const look::ParamRow& row, const KnobTrack& from, look::LookData& data) {
+  if (from.keys.empty() || from.keys.size() > look::kMaxTrackKeys)
+    return usage(fmt::format("a track has {} keys", from.keys.size()),
+                 fmt::format("give it 1 to {}", look::kMaxTrackKeys));
+  if (from.interpolation != Interpolation::step && !look::isSmooth(row.kind))
+    return usage("nothing lies between the values of this knob", "let its track go by steps");
+  look::Track track{{}, from.interpolation, from.repeat};
+  for (const KnobTrack::Key& key : from.keys) {
+    if (!(std::abs(key.time) <= look::kMaxKeyTime))
+      return usage(fmt::format("the time {:g} is out of range", key.time),
+                   "it is in seconds, a billion at most");
+    if (!track.keys.empty() && key.time <= track.keys.back().time)
+      return usage(fmt::format("the time {:g} is not later than the key's before", key.time),
+                   "put keys in the order of time");
+    const Result<look::Value> value = valueFrom(row, key.value, data);
+    if (!value) return value.error();
+    track.keys.push_back({key.time, *value});
+  }
+  return track;
+}
+
 // Names that a look declares count in the order of their first setting: that one stays where it is.
 bool isFirstOfItsName(const std::vector<look::Assignment>& settings, const look::Assignment& setting) {
   const bool declares = setting.target != look::kScene && look::firstSection(setting.target).most > 0 &&
@@ -92,34 +141,61 @@ bool isAlike(const look::Assignment& a, const look::Assignment& b) {
 
 }  // namespace
 
+namespace {
+
+// With one more setting by hand, in place of such as are like it.
+Status add(look::Assignment setting, const std::string& path, look::LookData& data) {
+  setting.byHand = true;
+  std::vector<look::Assignment> kept;
+  for (const look::Assignment& a : data.assignments)
+    if (!isAlike(a, setting) || isFirstOfItsName(data.assignments, a)) kept.push_back(a);
+  data.assignments = std::move(kept);
+  data.assignments.push_back(setting);
+  for (const look::Section& section : look::kSections)
+    if (section.most > 0 && section.target == setting.target &&
+        data.declared(section.target).size() > section.most)
+      return usage(path + ": these are too many " + section.name,
+                   "a look declares " + std::to_string(section.most) + " at most");
+  return Done{};
+}
+
+Status addTrack(look::Assignment setting, Result<look::Track> track, const std::string& path,
+                look::LookData& data) {
+  if (!track) return ofSetting(path, track.error());
+  setting.value = track->at(*setting.row, 0);
+  setting.track = std::make_shared<const look::Track>(std::move(track).value());
+  return add(std::move(setting), path, data);
+}
+
+}  // namespace
+
 Status Look::set(const std::string& path, const KnobValue& value) {
   const std::string* const text = std::get_if<std::string>(&value);
   if ((path + (text ? *text : "")).find('\0') != std::string::npos)
     return usage("a setting holds the character NUL", "leave it out");
-  Result<look::Assignment> assignment = look::parseSettingPath(path);
-  if (!assignment) return assignment.error();
+  Result<look::Assignment> setting = look::parseSettingPath(path);
+  if (!setting) return setting.error();
   auto changed = std::make_shared<look::LookData>(*data_);
-  const Result<look::Value> parsed =
-      text ? look::readValue(*assignment->row, *text, "", *changed) : typedValue(*assignment->row, value);
-  if (!parsed) {
-    Error error = parsed.error();
-    if (error.file.empty()) error.problem = path + ": " + error.problem;
-    return error;
+  Status status = Done{};
+  if (text && isTrackText(*setting->row, *text)) {
+    status = addTrack(*setting, trackFrom(*setting->row, *text, *changed), path, *changed);
+  } else {
+    const Result<look::Value> parsed = valueFrom(*setting->row, value, *changed);
+    if (!parsed) return ofSetting(path, parsed.error());
+    setting->value = *parsed;
+    status = add(*setting, path, *changed);
   }
-  assignment->value = *parsed;
-  assignment->byHand = true;
-  std::vector<look::Assignment> kept;
-  for (const look::Assignment& a : changed->assignments)
-    if (!isAlike(a, *assignment) || isFirstOfItsName(changed->assignments, a)) kept.push_back(a);
-  changed->assignments = std::move(kept);
-  changed->assignments.push_back(*assignment);
-  for (const look::Section& section : look::kSections)
-    if (section.most > 0 && section.target == assignment->target &&
-        changed->declared(section.target).size() > section.most)
-      return usage(path + ": these are too many " + section.name,
-                   "a look declares " + std::to_string(section.most) + " at most");
-  data_ = std::move(changed);
-  return Done{};
+  if (status) data_ = std::move(changed);
+  return status;
+}
+
+Status Look::set(const std::string& path, const KnobTrack& track) {
+  const Result<look::Assignment> setting = look::parseSettingPath(path);
+  if (!setting) return setting.error();
+  auto changed = std::make_shared<look::LookData>(*data_);
+  const Status status = addTrack(*setting, trackFrom(*setting->row, track, *changed), path, *changed);
+  if (status) data_ = std::move(changed);
+  return status;
 }
 
 Status Look::unset(const std::string& path) {
@@ -132,14 +208,17 @@ Status Look::unset(const std::string& path) {
   return Done{};
 }
 
-Result<KnobValue> Look::get(const std::string& path, double time) const {
-  const Result<look::Assignment> knob = look::parseSettingPath(path);
-  if (!knob) return knob.error();
-  if (look::isPattern(knob->pattern))
+namespace {
+
+// A knob of which one thing holds.
+Result<look::Assignment> knobAt(const std::string& path) {
+  Result<look::Assignment> knob = look::parseSettingPath(path);
+  if (knob && look::isPattern(knob->pattern))
     return usage(path + ": what '" + knob->pattern + "' matches has no one value", "ask for one name");
-  const look::ParamRow& row = *knob->row;
-  const look::LookData now = data_->at(time);
-  const look::Value value = now.valueOf(row, *knob->block, knob->target, knob->pattern);
+  return knob;
+}
+
+KnobValue knobValue(const look::ParamRow& row, const look::Value& value, const look::LookData& data) {
   switch (row.kind) {
     case look::ParamKind::toggle:
       return KnobValue(value.number != 0);
@@ -151,13 +230,55 @@ Result<KnobValue> Look::get(const std::string& path, double time) const {
     case look::ParamKind::triple:
       return KnobValue(value.linear);
     case look::ParamKind::name:
-      return KnobValue(now.text(look::Name(value.number)));
+      return KnobValue(data.text(look::Name(value.number)));
     case look::ParamKind::picture:
-      if (value.number < 0) return KnobValue(now.pictures[size_t(-value.number) - 1]->file);
+      if (value.number < 0) return KnobValue(data.pictures[size_t(-value.number) - 1]->file);
       [[fallthrough]];
     default:
       return KnobValue(look::formatValue(row, value.number));
   }
+}
+
+}  // namespace
+
+Result<KnobValue> Look::get(const std::string& path, double time) const {
+  const Result<look::Assignment> knob = knobAt(path);
+  if (!knob) return knob.error();
+  const look::ParamRow& row = *knob->row;
+  const look::Assignment* const setting = data_->settingOf(row, *knob->block, knob->target, knob->pattern);
+  const look::Value value = !setting         ? look::defaultOf(row)
+                            : setting->track ? setting->track->at(row, time)
+                                             : setting->value;
+  return knobValue(row, value, *data_);
+}
+
+Result<std::optional<KnobTrack>> Look::track(const std::string& path) const {
+  const Result<look::Assignment> knob = knobAt(path);
+  if (!knob) return knob.error();
+  const look::Assignment* const setting =
+      data_->settingOf(*knob->row, *knob->block, knob->target, knob->pattern);
+  if (!setting || !setting->track) return std::optional<KnobTrack>();
+  KnobTrack track{{}, setting->track->interpolation, setting->track->repeat};
+  for (const look::Key& key : setting->track->keys)
+    track.keys.push_back({key.time, knobValue(*knob->row, key.value, *data_)});
+  return std::optional(std::move(track));
+}
+
+std::vector<std::string> Look::animated() const {
+  std::vector<std::string> paths;
+  for (const look::Assignment& a : data_->assignments) {
+    if (!a.track) continue;
+    std::string path = std::string(a.block->path) + "." + a.row->name;
+    if (a.target != look::kScene)
+      path = std::string(look::firstSection(a.target).name) + "." + a.pattern + "." + path;
+    if (std::find(paths.begin(), paths.end(), path) == paths.end()) paths.push_back(std::move(path));
+  }
+  return paths;
+}
+
+std::vector<std::string> Look::names(const std::string& section) const {
+  const look::Section* const found = look::findSection(section);
+  return found ? data_->declared(found->target) : std::vector<std::string>();
 }
 
 std::vector<ShippedLook> Look::shipped() {

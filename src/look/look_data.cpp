@@ -124,16 +124,22 @@ void LookData::fillFor(const ParamBlock& block, const std::string& material, std
   }
 }
 
-Value LookData::valueOf(const ParamRow& row, const ParamBlock& block, Target target,
-                        const std::string& name) const {
-  Value value = defaultOf(row);
+const Assignment* LookData::settingOf(const ParamRow& row, const ParamBlock& block, Target target,
+                                      const std::string& name) const {
+  const Assignment* found = nullptr;
   for (const bool byHand : {false, true})
     for (const Target wanted : {kScene, target})
       for (const Assignment& a : assignments)
         if (a.byHand == byHand && sets(a, block, row.name, wanted) &&
             (wanted == kScene || matches(a.pattern, name)))
-          value = a.value;
-  return value;
+          found = &a;
+  return found;
+}
+
+Value LookData::valueOf(const ParamRow& row, const ParamBlock& block, Target target,
+                        const std::string& name) const {
+  const Assignment* const setting = settingOf(row, block, target, name);
+  return setting ? setting->value : defaultOf(row);
 }
 
 const Assignment* LookData::settingOf(const ParamBlock& block, const char* row) const {

@@ -57,7 +57,10 @@ struct LookData {
   void fillFor(const ParamBlock& block, const std::string& material, std::span<const uint32_t> over,
                void* out) const;
 
-  // One row, for the whole scene or for what is called `name`.
+  // The setting of one row that counts for the whole scene, or for what is called `name`; null: none does.
+  const Assignment* settingOf(const ParamRow& row, const ParamBlock& block, Target target,
+                              const std::string& name) const;
+  // What it says, or the default.
   Value valueOf(const ParamRow& row, const ParamBlock& block, Target target, const std::string& name) const;
 
   // The setting of a row that counts for the whole scene; null: none does.

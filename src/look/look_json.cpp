@@ -191,7 +191,7 @@ Result<Value> readJsonValue(const ParamRow& row, const Json& value, const JsonPl
   const std::filesystem::path folder = std::filesystem::path(place.file).parent_path();
   if (row.kind == ParamKind::picture) {
     // A look may come with a scene from anywhere: it reads pictures beside itself and below, and no others.
-    if (leadsOutside(text))
+    if (!place.file.empty() && leadsOutside(text))
       return place.fail("this picture lies outside of the look's folder", "put it beside the look");
     // A track may name a picture many times.
     const std::string file = (folder / text).string();

@@ -41,7 +41,7 @@ using Json = nlohmann::basic_json<IndexedMap>;
 
 // Where in which file something stands.
 struct JsonPlace {
-  const std::string& file;
+  const std::string& file;  // empty: it was set by hand
   std::string path;
 
   JsonPlace member(const std::string& key) const { return {file, path + "." + key}; }
@@ -54,8 +54,6 @@ bool leadsOutside(const std::filesystem::path& path);
 
 // A knob's value; a picture that it names is loaded into `data`, once.
 Result<Value> readJsonValue(const ParamRow& row, const Json& value, const JsonPlace& place, LookData& data);
-
-constexpr size_t kMaxTrackKeys = 100000;
 
 // { "keys": [[0, 0.3], [2.5, 0.5]], "interpolation": "linear", "repeat": false }
 Result<Track> readTrack(const ParamRow& row, const Json& object, const JsonPlace& place, LookData& data);

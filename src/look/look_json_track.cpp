@@ -8,9 +8,6 @@ namespace scumble::look {
 
 namespace {
 
-// Seconds, some 30 years: differences of times stay exact to a ten-thousandth of a frame.
-constexpr double kMaxTime = 1e9;
-
 const std::vector<std::string> kMembers{"keys", "interpolation", "repeat"};
 const std::vector<std::string> kInterpolations{"step", "linear", "cubic", "ease"};
 
@@ -27,7 +24,7 @@ Status readKeys(const ParamRow& row, const Json& keys, const JsonPlace& place, L
     const Json& time = keys[i][0];
     if (!time.is_number()) return here.item(0).fail("a key's time is no number", "write it in seconds");
     const double seconds = time.get<double>();
-    if (!(std::abs(seconds) <= kMaxTime))
+    if (!(std::abs(seconds) <= kMaxKeyTime))
       return here.item(0).fail("this time is out of range", "it is in seconds, a billion at most");
     if (i > 0 && seconds <= out.keys.back().time)
       return here.item(0).fail("this time is not later than the key's before",

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
+#include <limits>
 
 #include "look/look_json.h"
 #include "look/test_rows.h"
@@ -56,13 +57,13 @@ TEST(LookTracks, areReadAsTheyAreWritten) {
   const LookData& data = look.data();
   ASSERT_EQ(data.assignments.size(), 5u);
   const auto track = [&](size_t i) { return *data.assignments[i].track; };
-  EXPECT_EQ(track(0).interpolation, look::Interpolation::linear);
+  EXPECT_EQ(track(0).interpolation, Interpolation::linear);
   EXPECT_FALSE(track(0).repeat);
   EXPECT_EQ(track(0).keys[1].time, 3);
   EXPECT_EQ(track(0).keys[1].value.number, 0.6);
-  EXPECT_EQ(track(1).interpolation, look::Interpolation::cubic);
+  EXPECT_EQ(track(1).interpolation, Interpolation::cubic);
   EXPECT_EQ(track(1).keys[1].value.linear, glm::vec3(1));
-  for (const size_t i : {2u, 3u, 4u}) EXPECT_EQ(track(i).interpolation, look::Interpolation::step);
+  for (const size_t i : {2u, 3u, 4u}) EXPECT_EQ(track(i).interpolation, Interpolation::step);
   EXPECT_TRUE(track(3).repeat);
   EXPECT_FLOAT_EQ(valueOf<float>(data.at(2), "shadow.threshold"), 0.4f);
   EXPECT_FLOAT_EQ(valueOf<float>(data, "shadow.threshold"), 0.2f) << "without a time: as at 0";
@@ -169,8 +170,96 @@ TEST(LookTracks, ofKnobsThatDoNotExistOrHoldElsewhere) {
   EXPECT_NE(elsewhere.error().message().find("whole scene"), std::string::npos);
   const Result<Look> outside = Look::fromJson(nested("play.weight", track), "a.json");
   EXPECT_NE(outside.error().message().find("'clips'"), std::string::npos);
-  // By hand there are values only.
-  EXPECT_FALSE(Look().set("warp.amount", track.dump()).ok());
+}
+
+TEST(LookTracks, byHandAreThoseOfFiles) {
+  for (const Row& row : allRows()) {
+    const std::string path = row.settingPath();
+    const json other = look::isSmooth(row.row->kind) ? sampleOf(*row.row).value : json();
+    json track{{"keys", json::array({json::array({-1, sampleOf(*row.row).value})})}, {"repeat", true}};
+    if (!other.is_null()) track["interpolation"] = "cubic";
+    const Look fromFile = mustRead(nested(path, track));
+    Look asText, typed;
+    const Status status = asText.set(path, track.dump());
+    ASSERT_TRUE(status.ok()) << path << ": " << status.error().message();
+    const auto read = fromFile.track(path);
+    ASSERT_TRUE(read.ok() && *read) << path;
+    EXPECT_EQ((*read)->keys.size(), 1u);
+    EXPECT_EQ((*read)->keys[0].time, -1);
+    EXPECT_TRUE((*read)->repeat);
+    ASSERT_TRUE(typed.set(path, **read).ok()) << path;
+    for (const Look* const look : {&asText, &typed}) {
+      const auto again = look->track(path);
+      ASSERT_TRUE(again.ok() && *again) << path;
+      EXPECT_EQ((*again)->interpolation, (*read)->interpolation) << path;
+      EXPECT_EQ((*again)->keys[0].value, (*read)->keys[0].value) << path;
+      EXPECT_EQ(*look->get(path, 3), *fromFile.get(path, 3)) << path;
+    }
+  }
+}
+
+TEST(LookTracks, byHandWinOverTheFile) {
+  Look look = mustRead(R"({"warp": {"amount": {"keys": [[0, 1], [1, 2]]}}})");
+  ASSERT_TRUE(look.set("warp.amount", R"({"keys": [[0, 3], [2, 5]]})").ok());
+  EXPECT_EQ(std::get<double>(*look.get("warp.amount", 1)), 4);
+  ASSERT_TRUE(look.set("materials.Sail.warp.amount", R"({"keys": [[0, 7], [2, 9]]})").ok());
+  EXPECT_EQ(std::get<double>(*look.get("materials.Sail.warp.amount", 1)), 8);
+  EXPECT_EQ((*look.track("materials.Hull.warp.amount"))->keys[0].value, KnobValue(3.0)) << "the scene's";
+  ASSERT_TRUE(look.set("warp.amount", 6).ok());
+  EXPECT_FALSE(*look.track("warp.amount")) << "a value ends a track";
+  ASSERT_TRUE(look.unset("warp.amount").ok());
+  EXPECT_EQ((*look.track("warp.amount"))->keys.size(), 2u);
+  EXPECT_EQ(std::get<double>(*look.get("warp.amount", 0.5)), 1.5);
+  EXPECT_FALSE(look.track("materials.*.warp.amount").ok());
+  EXPECT_FALSE(look.track("warp.amont").ok());
+}
+
+TEST(LookTracks, areListedByTheirPaths) {
+  Look look = mustRead(R"({"warp": {"amount": {"keys": [[0, 1]]}, "distance": 2},
+                           "materials": {"Sa*": {"warp": {"amount": {"keys": [[0, 1]]}}}},
+                           "colorizers": {"Glow": {"volume": {"radius": {"keys": [[0, 1]]}}}}})");
+  ASSERT_TRUE(look.set("warp.amount", R"({"keys": [[0, 3]]})").ok());
+  EXPECT_EQ(look.animated(), (std::vector<std::string>{"warp.amount", "materials.Sa*.warp.amount",
+                                                       "colorizers.Glow.volume.radius"}));
+  ASSERT_TRUE(look.set("colorizers.Mist.volume.radius", 2).ok());
+  EXPECT_EQ(look.names("colorizers"), (std::vector<std::string>{"Glow", "Mist"}));
+  EXPECT_TRUE(look.names("materials").empty());
+  EXPECT_TRUE(look.names("nothing").empty());
+}
+
+TEST(LookTracks, byHandMayBeWrong) {
+  const struct {
+    const char *path, *text, *said;
+  } cases[] = {{"warp.amount", "{", "no JSON"},
+               {"warp.amount", "{}", "no keys"},
+               {"warp.amount", R"({"keys": [[0, 1], [0, 2]]})", "warp.amount.keys[1][0]: "},
+               {"warp.amount", R"({"keys": [[0, 900]]})", "warp.amount.keys[0][1]: "},
+               {"warp.amount", R"({"keys": [[0, 1]], "interpolation": "bezier"})", "interpolation"},
+               {"warp.amount", R"({"kees": [[0, 1]]})", "'keys'"},
+               {"ground.mode", R"({"keys": [[0, "on"]], "interpolation": "cubic"})", "nothing lies between"}};
+  for (const auto& c : cases) {
+    Look look;
+    const Status status = look.set(c.path, c.text);
+    ASSERT_FALSE(status.ok()) << c.text;
+    EXPECT_EQ(status.error().kind, ErrorKind::usage) << c.text;
+    EXPECT_NE(status.error().message().find(c.said), std::string::npos) << status.error().message();
+    EXPECT_TRUE(look.data().assignments.empty()) << "nothing has changed";
+  }
+  const auto key = [](double time, KnobValue value) { return KnobTrack::Key{time, std::move(value)}; };
+  const double inf = std::numeric_limits<double>::infinity();
+  const KnobTrack wrong[] = {{},
+                             {{key(0, 1.0), key(0, 2.0)}},
+                             {{key(inf, 1.0)}},
+                             {{key(0, 900.0)}},
+                             {{key(0, std::string("much"))}},
+                             {{key(0, true)}}};
+  for (const KnobTrack& track : wrong)
+    EXPECT_EQ(Look().set("warp.amount", track).error().kind, ErrorKind::usage);
+  EXPECT_FALSE(Look().set("ground.mode", KnobTrack{{key(0, std::string("on"))}}).ok()) << "steps alone";
+  // A name may look like a track.
+  Look look;
+  ASSERT_TRUE(look.set("camera.target", std::string("{Lamp}")).ok());
+  EXPECT_EQ(std::get<std::string>(*look.get("camera.target")), "{Lamp}");
 }
 
 TEST(LookTracks, haveALimit) {

@@ -4,10 +4,13 @@
 #include <vector>
 
 #include "look/param.h"
+#include "scumble/look.h"
 
 namespace scumble::look {
 
-enum class Interpolation : uint8_t { step, linear, cubic, ease };
+constexpr size_t kMaxTrackKeys = 100000;
+// Seconds, some 30 years: differences of times stay exact to a ten-thousandth of a frame.
+constexpr double kMaxKeyTime = 1e9;
 
 struct Key {
   double time;  // seconds

@@ -2,10 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "stage/framing.h"
 
 namespace scumble::stage {
+
+namespace {
+
+// Azimuth is measured from the default view, so that "from the left" means the same for every scene.
+float zeroAzimuth(const scene::SceneData& scene) {
+  const glm::vec3 eye = defaultEyeDirection(scene);
+  return std::atan2(eye.x, eye.z);
+}
+
+}  // namespace
 
 glm::vec3 keyLightDirection(const scene::SceneData& scene, const LightParams& params,
                             const std::vector<glm::mat4>& world) {
@@ -17,12 +28,21 @@ glm::vec3 keyLightDirection(const scene::SceneData& scene, const LightParams& pa
       if (glm::length(towards) > 1e-12f) return glm::normalize(towards);
     }
   }
-  // Azimuth is measured from the default view, so that "from the left" means the same for every scene.
-  const glm::vec3 eye = defaultEyeDirection(scene);
-  const float azimuth = std::atan2(eye.x, eye.z) + glm::radians(params.azimuth);
+  const float azimuth = zeroAzimuth(scene) + glm::radians(params.azimuth);
   const float elevation = glm::radians(params.elevation);
   return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
           std::cos(azimuth) * std::cos(elevation)};
+}
+
+glm::vec2 keyLightAngles(const scene::SceneData& scene, const glm::vec3& towardsLight) {
+  const look::ParamBlock& block = LightParams::block();
+  const auto elevation = std::find_if(block.rows.begin(), block.rows.end(), [](const look::ParamRow& row) {
+    return std::string_view(row.name) == "elevation";
+  });
+  const float height = glm::degrees(std::asin(std::clamp(towardsLight.y, -1.0f, 1.0f)));
+  const float around = std::atan2(towardsLight.x, towardsLight.z) - zeroAzimuth(scene);
+  return {glm::degrees(std::remainder(around, 2 * 3.14159265358979f)),
+          std::clamp(height, float(elevation->min), float(elevation->max))};
 }
 
 namespace {

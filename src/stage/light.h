@@ -20,6 +20,9 @@ namespace scumble::stage {
 glm::vec3 keyLightDirection(const scene::SceneData& scene, const LightParams& params,
                             const std::vector<glm::mat4>& world);
 
+// The azimuth and elevation of a light from the look that comes from a direction of unit length.
+glm::vec2 keyLightAngles(const scene::SceneData& scene, const glm::vec3& towardsLight);
+
 // How many point and spot lights nodes carry, of those that are used.
 size_t punctualLightCount(const scene::SceneData& scene);
 // Those lights at a time, in the order of nodes; none where the look turns them off.

@@ -1,0 +1,38 @@
+// Tracks of knobs, as hands make and change them. Times in seconds.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "document.h"
+
+namespace scumble::viewer {
+
+// What a look says of a track, as Look::set takes it: { "keys": [[0, 0.4], [2.5, 0.6]] }
+std::string textOf(const KnobTrack& track, const Knob& knob);
+
+// A text that is a track, and none where Look::set would take it for a value.
+std::optional<KnobTrack> trackFrom(const std::string& path, const std::string& text);
+
+// What keys are set to lies on a grid this fine, and never after the time that was asked for: a step has been
+// taken then. Two keys are farther apart than this.
+constexpr double kKeyGrid = 1e-4, kNearKey = 0.01;
+double onKeyGrid(double time);
+// The key at a time, by its number.
+std::optional<size_t> keyAt(const KnobTrack& track, double time);
+// Where there is one at that time, it gets the value.
+void putKey(KnobTrack& track, double time, const KnobValue& value);
+// Goes to that time, or as near to it as its neighbours let it. Gives where it is then.
+double moveKey(KnobTrack& track, size_t key, double time);
+
+// What a setting (text) becomes where a hand turns it to a value at a time: that, or a track with a key more
+// where it has a track already. Nothing where it is no value.
+std::optional<std::string> turnedAt(const Look& look, const std::string& path, const std::string& value,
+                                    double time);
+// With a key at a time more, or where there is one, with that one less; the last one leaves a value.
+std::optional<std::string> keyToggledAt(const Look& look, const std::string& path, double time);
+// With a key of that value more; where there is no track yet, it begins with that key.
+std::string keyedAt(const Look& look, const std::string& path, const KnobValue& value, double time,
+                    Interpolation interpolation);
+
+}  // namespace scumble::viewer

@@ -1,0 +1,65 @@
+// Where in the world that lies which a look places.
+#include "scumble/placement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "base/usage.h"
+#include "scene/find_node.h"
+#include "scene/posed_bounds.h"
+#include "stage/camera.h"
+#include "stage/framing.h"
+#include "stage/light.h"
+#include "stage/playing.h"
+
+namespace scumble {
+
+using namespace stage;
+
+namespace {
+
+Error emptyScene() {
+  return usage("the scene is empty", "load one with Scene::load");
+}
+
+// Some, once its clips are there: of a node that is.
+glm::mat4 worldOf(const scene::SceneData& scene, int node, const look::LookData& now, double time) {
+  return scene::worldAt(scene, playedClips(scene, now), size_t(node), time);
+}
+
+}  // namespace
+
+Result<glm::mat4> nodeToWorld(const Scene& scene, const std::string& node, const Look& look, double time) {
+  if (scene.empty()) return emptyScene();
+  if (node.empty()) return glm::mat4(1.0f);
+  const int found = scene::findNode(scene.data(), node);
+  if (found < 0) return usage("the scene has no node '" + node + "'", "`scumble info` lists its nodes");
+  return worldOf(scene.data(), found, look.data().at(time), time);
+}
+
+Result<glm::mat4> cameraShiftToWorld(const Scene& scene, const Look& look, double time) {
+  if (scene.empty()) return emptyScene();
+  const look::LookData now = look.data().at(time);
+  const int node = scene::findNode(scene.data(), now.text(now.get<CameraParams>().target));
+  if (node >= 0) return worldOf(scene.data(), node, now, time);
+  const scene::Bounds bounds = scene::playedBounds(scene.data(), everPlayed(scene.data(), look.data()));
+  return glm::translate(glm::mat4(1.0f), bounds.center());
+}
+
+Result<glm::vec3> towardsKeyLight(const Scene& scene, const Look& look, double time) {
+  if (scene.empty()) return emptyScene();
+  const look::LookData now = look.data().at(time);
+  const scene::Pose pose = scene::poseAt(scene.data(), playedClips(scene.data(), now), time);
+  return keyLightDirection(scene.data(), now.get<LightParams>(), pose.world);
+}
+
+Result<glm::vec2> keyLightAngles(const Scene& scene, const glm::vec3& towardsLight) {
+  if (scene.empty()) return emptyScene();
+  const float length = glm::length(towardsLight);
+  if (!(length > 0 && std::isfinite(length)))
+    return usage("this is no direction", "give a vector that has a length");
+  return keyLightAngles(scene.data(), towardsLight / length);
+}
+
+}  // namespace scumble
