@@ -26,6 +26,8 @@ constexpr Binding kBindings[] = {
     {GLFW_KEY_C, 0, Command::compare, "C, held", "as the look is saved"},
     {GLFW_KEY_P, 0, Command::passes, "P", "what passes put out, their times, and what is under the mouse"},
     {GLFW_KEY_B, 0, Command::eyes, "B", "both eyes: side by side, crossed, red and cyan; and one again"},
+    {GLFW_KEY_G, 0, Command::handles, "G", "handles of what the look places: light, colorizers, camera"},
+    {GLFW_KEY_I, 0, Command::key, "I", "a key now: of the knob under the mouse, or of the camera"},
     {GLFW_KEY_HOME, 0, Command::frameAll, "Home", "frame what was picked, or everything"},
     {GLFW_KEY_F, 0, Command::frameAll, "F", nullptr},
     {GLFW_KEY_KP_0, 0, Command::lookCamera, "Keypad 0", "the camera of look and scene again"},
@@ -72,11 +74,10 @@ std::span<const Binding> bindings() {
 }
 
 std::vector<HelpRow> helpRows() {
-  std::vector<HelpRow> rows{{"Left, clicked", "pick what has knobs of its own"},
-                            {"Left or middle, dragged", "around what is looked at"},
-                            {"with Shift", "along"},
-                            {"with Ctrl, or the wheel", "nearer and farther"},
-                            {"Right, dragged", "look around"}};
+  std::vector<HelpRow> rows{
+      {"Left, clicked", "pick what has knobs of its own"},     {"Left, on a handle", "move it"},
+      {"Left or middle, dragged", "around what is looked at"}, {"with Shift", "along"},
+      {"with Ctrl, or the wheel", "nearer and farther"},       {"Right, dragged", "look around"}};
   for (const Binding& binding : kBindings) {
     if (binding.meaning)
       rows.push_back({binding.name, binding.meaning});

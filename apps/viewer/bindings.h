@@ -50,6 +50,8 @@ enum class Command {
   passes,
   eyes,
   nextCamera,
+  handles,
+  key,
   leave,
 };
 

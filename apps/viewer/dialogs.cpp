@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "export_job.h"
+#include "inspector.h"
 #include "interface.h"
 #include "knob_text.h"
 #include "panel.h"
@@ -175,11 +176,22 @@ std::optional<DropDialog::Answer> DropDialog::layOut(const glm::vec2& window) {
     if (ImGui::Button("Put behind everything", wide)) answer = {{}, first, "", ""};
     ImGui::TextDisabled("Or take it for a knob:");
     ImGui::BeginChild("knobs", {0, 12 * ImGui::GetTextLineHeightWithSpacing()});
-    for (const Knob& knob : allKnobs()) {
-      if (knob.type != "picture" || !isSetFor(knob, "scene")) continue;
-      if (ImGui::Selectable(knob.path.c_str())) answer = {{}, "", knob.path, first};
-      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", knob.meaning.c_str());
+    const auto offer = [&](const Target& target) {
+      for (const Knob& knob : allKnobs()) {
+        if (knob.type != "picture" || !isSetFor(knob, target.section.empty() ? "scene" : target.section))
+          continue;
+        ImGui::PushID(target.section.c_str());
+        if (ImGui::Selectable(knob.path.c_str())) answer = {{}, "", target.path(knob), first};
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", knob.meaning.c_str());
+        ImGui::PopID();
+      }
+    };
+    if (!material_.empty()) {
+      ImGui::TextDisabled("Of %s alone:", material_.c_str());
+      offer({"materials", material_});
+      ImGui::TextDisabled("Of everything:");
     }
+    offer({});
     ImGui::EndChild();
   }
   const bool isLeft = ImGui::Button("Cancel", wide);

@@ -67,19 +67,20 @@ Drop sorted(const std::vector<std::string>& files);
 // Asks what dropped scenes are for, where there are some already, and what a picture is for.
 class DropDialog {
  public:
-  // What needs no question is given at once.
-  void open(Drop drop) { drop_ = std::move(drop); }
+  // `material`: that pictures may be for alone, besides the whole scene; empty: none.
+  void open(Drop drop, std::string material) { drop_ = std::move(drop), material_ = std::move(material); }
   void close() { drop_ = {}; }
   bool isOpen() const { return !drop_.scenes.empty() || !drop_.pictures.empty(); }
   struct Answer {
     std::optional<OpenWish> scenes;
     std::string background;     // a picture's file
-    std::string knob, picture;  // that a knob is to be set to
+    std::string knob, picture;  // that a setting is to be, by its path
   };
   std::optional<Answer> layOut(const glm::vec2& window);
 
  private:
   Drop drop_;
+  std::string material_;
 };
 
 }  // namespace scumble::viewer

@@ -32,7 +32,8 @@ std::string inLook(const std::string& path, const std::string& value, const std:
   if (!setting || setting->knob->type != "picture") return value;
   std::optional<KnobTrack> track = trackFrom(path, value);
   if (!track) return fromFolderOf(lookFile, value);
-  for (KnobTrack::Key& key : track->keys) key.value = fromFolderOf(lookFile, std::get<std::string>(key.value));
+  for (KnobTrack::Key& key : track->keys)
+    key.value = fromFolderOf(lookFile, std::get<std::string>(key.value));
   return textOf(*track, *setting->knob);
 }
 

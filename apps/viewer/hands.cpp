@@ -58,14 +58,18 @@ Hands::Grip Hands::grip() const {
 void Hands::press(const MouseButton& button, bool isThere, Doer& doer) {
   modifiers_ = button.modifiers;
   if (!button.isDown && button.button == button_) {
-    if (isClick_ && button_ == GLFW_MOUSE_BUTTON_LEFT && isThere) doer.click(mouse_);
-    button_ = -1;
+    if (isPulling_)
+      doer.letGo();
+    else if (isClick_ && button_ == GLFW_MOUSE_BUTTON_LEFT && isThere)
+      doer.click(mouse_);
+    button_ = -1, isPulling_ = false;
   }
   if (button.isDown && button_ < 0 && !ImGui::GetIO().WantCaptureMouse &&
       button.button <= GLFW_MOUSE_BUTTON_MIDDLE) {
     button_ = button.button;
     pressedAt_ = mouse_;
     isClick_ = true;
+    isPulling_ = button_ == GLFW_MOUSE_BUTTON_LEFT && doer.grab(mouse_);
   }
 }
 
@@ -76,7 +80,11 @@ void Hands::move(const glm::vec2& to, const glm::uvec2& window, bool isThere, Do
   // A hand that clicks is not quite still.
   if (isClick_ && glm::distance(to, pressedAt_) < kClick * ImGui::GetFontSize()) return;
   isClick_ = false;
-  if (to != from) doer.drag(grip(), (to - from) / float(std::max(window.y, 1u)));
+  if (to == from) return;
+  if (isPulling_)
+    doer.pull(to);
+  else
+    doer.drag(grip(), (to - from) / float(std::max(window.y, 1u)));
 }
 
 void Hands::key(const Key& key, Doer& doer) {
@@ -106,7 +114,9 @@ void Hands::take(const Event& event, const glm::uvec2& window, bool isThere, Doe
   } else if (const auto* pressed = std::get_if<Key>(&event)) {
     key(*pressed, doer);
   } else if (const auto* focus = std::get_if<Focus>(&event)) {
-    if (!focus->isThere) held_.clear(), button_ = -1, modifiers_ = 0;
+    if (focus->isThere) return;
+    if (isPulling_) doer.letGo();
+    held_.clear(), button_ = -1, modifiers_ = 0, isPulling_ = false;
   } else if (const auto* dropped = std::get_if<Dropped>(&event)) {
     doer.drop(dropped->files);
   }

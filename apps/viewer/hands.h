@@ -21,6 +21,10 @@ class Hands {
     virtual void drag(Grip grip, const glm::vec2& way) = 0;  // heights of the window, y downwards
     virtual void zoom(float steps) = 0;
     virtual void click(const glm::vec2& place) = 0;  // pixels
+    // Whether something lies there that is pulled instead of the camera, until it is let go.
+    virtual bool grab(const glm::vec2& place) = 0;
+    virtual void pull(const glm::vec2& place) = 0;
+    virtual void letGo() = 0;
     virtual void drop(const std::vector<std::string>& files) = 0;
 
    protected:
@@ -33,7 +37,7 @@ class Hands {
   // Commands that last as long as their key is held.
   bool isHeld(Command command) const { return held_.count(command) > 0; }
   bool isFlying() const;
-  glm::vec3 flight() const;  // to the right, up and forwards, each -1 to 1
+  glm::vec3 flight() const;                          // to the right, up and forwards, each -1 to 1
   const glm::vec2& mouse() const { return mouse_; }  // pixels
 
  private:
@@ -43,7 +47,7 @@ class Hands {
   Grip grip() const;
 
   glm::vec2 mouse_{0}, pressedAt_{0};
-  bool isClick_ = false;
+  bool isClick_ = false, isPulling_ = false;
   int button_ = -1, modifiers_ = 0;
   std::set<Command> held_;
 };

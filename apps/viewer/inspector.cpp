@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "knob_text.h"
+#include "track_edit.h"
 
 namespace scumble::viewer {
 
@@ -73,6 +74,30 @@ void explain(const Knob& knob) {
   ImGui::EndTooltip();
 }
 
+// Whether it has a track, and a key at the time. True where one was wanted, or not wanted any more.
+bool layOutKey(const Look& look, const std::string& path, double time, bool isUnderMouse) {
+  const float unit = ImGui::GetFontSize(), size = 0.3f * unit;
+  const Result<std::optional<KnobTrack>> track = look.track(path);
+  const bool hasTrack = track && *track, isAtKey = hasTrack && keyAt(**track, time);
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const bool isWanted = ImGui::InvisibleButton("key", {0.9f * unit, ImGui::GetFrameHeight()});
+  if (ImGui::IsItemHovered())
+    ImGui::SetTooltip("%s", isAtKey    ? "Take the key at this time away (I)"
+                            : hasTrack ? "A key at this time (I); turning the knob makes one, too"
+                                       : "Let it change with time: a key at this time (I)");
+  if (!hasTrack && !isUnderMouse) return isWanted;
+  const ImVec2 at{low.x + 0.45f * unit, low.y + 0.5f * ImGui::GetFrameHeight()};
+  const ImVec2 left{at.x - size, at.y}, top{at.x, at.y - size}, right{at.x + size, at.y},
+      foot{at.x, at.y + size};
+  constexpr ImU32 kKey = IM_COL32(226, 180, 92, 255);
+  if (isAtKey)
+    ImGui::GetWindowDrawList()->AddQuadFilled(left, top, right, foot, kKey);
+  else
+    ImGui::GetWindowDrawList()->AddQuad(left, top, right, foot,
+                                        hasTrack ? kKey : ImGui::GetColorU32(ImGuiCol_TextDisabled), 1.5f);
+  return isWanted;
+}
+
 }  // namespace
 
 Inspector::Inspector() {
@@ -112,14 +137,15 @@ std::optional<std::string> Inspector::layOutValue(const Knob& knob, const KnobVa
   return slider(knob, value);
 }
 
-bool Inspector::layOut(Document& document, const Target& target, double time) {
+Inspector::Change Inspector::layOut(Document& document, const Target& target, double time) {
+  hovered_.clear();
   ImGui::SetNextItemWidth(-1);
   ImGui::InputTextWithHint("##search", "Search knobs", search_, sizeof search_);
   ImGui::Checkbox("Only those turned here", &onlyTurned_);
   ImGui::Separator();
   ImGui::BeginChild("knobs");
   const bool isSearched = search_[0] != 0 || onlyTurned_;
-  bool isTurned = false;
+  Change change;
   for (const Group& group : groups_) {
     std::vector<const Knob*> shown;
     for (const Knob* knob : group.knobs)
@@ -128,21 +154,24 @@ bool Inspector::layOut(Document& document, const Target& target, double time) {
         shown.push_back(knob);
     if (shown.empty()) continue;
     if (isSearched) ImGui::SetNextItemOpen(true);
+    // What is placed has few.
+    if (target.section == "colorizers" || target.section == "decorations")
+      ImGui::SetNextItemOpen(true, ImGuiCond_Once);
     // What is open while one searches is not what was open before.
     ImGui::PushID(isSearched);
     if (ImGui::CollapsingHeader(group.name.c_str()))
-      for (const Knob* knob : shown) isTurned |= layOutKnob(*knob, target, document, time);
+      for (const Knob* knob : shown) layOutKnob(*knob, target, document, time, change);
     ImGui::PopID();
   }
   ImGui::EndChild();
-  if (!ImGui::IsAnyItemActive()) document.closeStep();
-  return isTurned;
+  return change;
 }
 
-bool Inspector::layOutKnob(const Knob& knob, const Target& target, Document& document, double time) {
+void Inspector::layOutKnob(const Knob& knob, const Target& target, Document& document, double time,
+                           Change& change) {
   const std::string path = target.path(knob);
   const Result<KnobValue> value = document.look().get(path, time);
-  if (!value) return false;
+  if (!value) return;
   const float unit = ImGui::GetFontSize();
   const bool isEdited = document.edits().count(path) > 0;
   std::optional<std::string> text;
@@ -151,6 +180,13 @@ bool Inspector::layOutKnob(const Knob& knob, const Target& target, Document& doc
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(knob.path.c_str() + knob.path.rfind('.') + 1);
   if (ImGui::IsItemHovered()) explain(knob);
+  const ImVec2 low = ImGui::GetItemRectMin();
+  const bool isUnderMouse = ImGui::IsWindowHovered(ImGuiHoveredFlags_AllowWhenBlockedByActiveItem) &&
+                            ImGui::IsMouseHoveringRect(low, {low.x + ImGui::GetContentRegionMax().x,
+                                                             low.y + ImGui::GetFrameHeight()});
+  if (isUnderMouse) hovered_ = path;
+  ImGui::SameLine(9.4f * unit);
+  const bool isKeyed = layOutKey(document.look(), path, time, isUnderMouse);
   ImGui::SameLine(10.5f * unit);
   ImGui::SetNextItemWidth(-4.2f * unit);
   text = layOutValue(knob, *value);
@@ -162,10 +198,14 @@ bool Inspector::layOutKnob(const Knob& knob, const Target& target, Document& doc
   }
   ImGui::PopID();
   if (isReset) document.unset(path);
+  if (isKeyed)
+    text = keyToggledAt(document.look(), path, time), change.keyed = path;
+  else if (text)
+    text = turnedAt(document.look(), path, *text, time).value_or(*text);
   if (text)
     if (const Status status = document.set(path, *text); !status)
       document.tell(Concern::knob, status.error().message());
-  return text || isReset;
+  change.isTurned |= text || isReset;
 }
 
 }  // namespace scumble::viewer

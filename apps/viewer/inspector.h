@@ -21,21 +21,29 @@ struct Target {
 class Inspector {
  public:
   Inspector();
-  // Within an ImGui window. True where a knob was turned. `time`: seconds, at which tracks are read.
-  bool layOut(Document& document, const Target& target, double time);
+  // What a hand has done; `keyed`: the setting whose track has a key more or less.
+  struct Change {
+    bool isTurned = false;
+    std::string keyed;
+  };
+  // Within an ImGui window. `time`: seconds, at which tracks are read, and get keys.
+  Change layOut(Document& document, const Target& target, double time);
+  // The setting whose row is under the mouse; empty: none.
+  const std::string& hovered() const { return hovered_; }
 
  private:
   struct Group {
     std::string name;  // what paths begin with
     std::vector<const Knob*> knobs;
   };
-  bool layOutKnob(const Knob& knob, const Target& target, Document& document, double time);
+  void layOutKnob(const Knob& knob, const Target& target, Document& document, double time, Change& change);
   std::optional<std::string> layOutWord(const std::string& present);
   std::optional<std::string> layOutValue(const Knob& knob, const KnobValue& value);
 
   std::vector<Group> groups_;
   char search_[64] = "";
   bool onlyTurned_ = false;
+  std::string hovered_;
   // What is being typed, until it is left.
   unsigned typedInto_ = 0;
   char typed_[256] = "";

@@ -136,46 +136,6 @@ void layOutHelp(const glm::vec2& window) {
   ImGui::End();
 }
 
-TimeChange layOutTime(const glm::vec2& window, Playback& playback, const std::vector<std::string>& clips,
-                      const std::string& clip) {
-  constexpr const char* kAsTheLook = "as the look has it";
-  const float unit = margin(), clipWidth = clips.size() > 1 ? 11 * unit : 0;
-  TimeChange change;
-  ImGui::SetNextWindowPos({window.x / 2, window.y - unit}, ImGuiCond_Always, {0.5f, 1});
-  ImGui::Begin("time", nullptr, kFittingWindow);
-  if (ImGui::Button(playback.isPlaying ? "Pause" : "Play", {4.5f * unit, 0})) playback.toggle();
-  ImGui::SameLine();
-  ImGui::SetNextItemWidth(std::clamp(window.x - 34 * unit - clipWidth, 8 * unit, 40 * unit));
-  auto at = float(playback.pictureTime());
-  change.isMoved =
-      ImGui::SliderFloat("##time", &at, 0, float(playback.duration), "%.2f s", ImGuiSliderFlags_AlwaysClamp);
-  if (change.isMoved) playback.seek(double(at));
-  ImGui::SameLine();
-  ImGui::Text("of %.2f s", playback.duration);
-  ImGui::SameLine();
-  ImGui::Checkbox("On twos", &playback.onTwos);
-  if (playback.speed != 1) {
-    ImGui::SameLine();
-    ImGui::Text("%g x", playback.speed);
-  }
-  if (clips.size() > 1) {
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(clipWidth - unit);
-    if (ImGui::BeginCombo("##clip", clip.empty() ? kAsTheLook : clip.c_str())) {
-      if (ImGui::Selectable(kAsTheLook, clip.empty())) change.clip = "";
-      for (size_t i = 0; i < clips.size(); ++i) {
-        // Clips may have one name, or none: then it is their number that counts.
-        ImGui::PushID(int(i));
-        if (ImGui::Selectable(clips[i].c_str(), clips[i] == clip)) change.clip = clips[i];
-        ImGui::PopID();
-      }
-      ImGui::EndCombo();
-    }
-  }
-  ImGui::End();
-  return change;
-}
-
 Notices::Notices(const glm::vec2& window) : window_(window), top_(margin()) {}
 
 void Notices::begin(const char* name) {

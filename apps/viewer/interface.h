@@ -1,5 +1,5 @@
-// What lies over the picture, besides the panel and the windows that are opened: the picture itself, the
-// time, the help, and what is told.
+// What lies over the picture, besides the panel, the time and the windows that are opened: the picture
+// itself, the help, and what is told.
 #pragma once
 
 #include <imgui.h>
@@ -12,7 +12,6 @@
 
 #include "document.h"
 #include "export_job.h"
-#include "playback.h"
 #include "recovery.h"
 
 namespace scumble::viewer {
@@ -47,14 +46,6 @@ bool layOutSplit(const glm::vec2& window, const std::string& left, const std::st
 
 void layOutWaiting(const glm::vec2& window, const std::string& text);
 void layOutHelp(const glm::vec2& window);
-// What somebody has done to the time, and which of the clips was chosen (empty: as the look has it).
-struct TimeChange {
-  bool isMoved = false;
-  std::optional<std::string> clip;
-};
-TimeChange layOutTime(const glm::vec2& window, Playback& playback, const std::vector<std::string>& clips,
-                      const std::string& clip);
-
 // What is told at the left, from the top down: what is wrong, what was kept, what is being made.
 class Notices {
  public:

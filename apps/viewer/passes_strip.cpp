@@ -25,8 +25,8 @@ void layOutTimes(const Picture& picture) {
 
 }  // namespace
 
-void PassesStrip::layOut(const glm::vec2& room, const Picture* thumbnails, const Picture* times,
-                         const std::string& pixel) {
+void layOutPasses(const glm::vec2& room, std::string& chosen, const Picture* thumbnails, const Picture* times,
+                  const std::string& pixel) {
   const float unit = ImGui::GetFontSize(), height = 10.5f * unit;
   ImGui::SetNextWindowPos({unit, room.y - unit}, ImGuiCond_Always, {0, 1});
   ImGui::SetNextWindowSize({std::max(room.x - 2 * unit, 16 * unit), height});
@@ -47,9 +47,9 @@ void PassesStrip::layOut(const glm::vec2& room, const Picture* thumbnails, const
     const float width = std::clamp(tall * float(extent.width) / float(extent.height), 2 * unit, 3 * tall);
     ImGui::PushID(label);
     ImGui::BeginGroup();
-    const bool isChosen = chosen_ == aov;
+    const bool isChosen = chosen == aov;
     if (isChosen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-    if (ImGui::ImageButton(ImTextureID(image.view()), {width, tall}, {0, 0}, {1, 1}, 3)) chosen_ = aov;
+    if (ImGui::ImageButton(ImTextureID(image.view()), {width, tall}, {0, 0}, {1, 1}, 3)) chosen = aov;
     if (isChosen) ImGui::PopStyleColor();
     ImGui::TextUnformatted(label);
     ImGui::EndGroup();

@@ -8,19 +8,10 @@
 
 namespace scumble::viewer {
 
-class PassesStrip {
- public:
-  // Which one is seen in full; empty: the picture itself.
-  const std::string& chosen() const { return chosen_; }
-  void choose(const std::string& aov) { chosen_ = aov; }
-  // `thumbnails`: null where they are not there yet. `times`: a picture in full, null likewise. `pixel`: a
-  // few words about what is under the mouse, of lines; empty: nothing.
-  // `room`: the place in the window that is left to it.
-  void layOut(const glm::vec2& room, const Picture* thumbnails, const Picture* times,
-              const std::string& pixel);
-
- private:
-  std::string chosen_;
-};
+// `chosen`: which one is seen in full; empty: the picture itself. `thumbnails`: null where they are not there
+// yet. `times`: a picture in full, null likewise. `pixel`: a few words about what is under the mouse, of
+// lines; empty: nothing. `room`: the place in the window that is left to it.
+void layOutPasses(const glm::vec2& room, std::string& chosen, const Picture* thumbnails, const Picture* times,
+                  const std::string& pixel);
 
 }  // namespace scumble::viewer

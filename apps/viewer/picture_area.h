@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "interface.h"
@@ -19,7 +20,7 @@ class PictureArea {
   void nextEyes() { eyes_ = Eyes((int(eyes_) + 1) % 4); }
   Eyes eyes() const { return eyes_; }
   void choosePass(const std::string& aov) { pass_ = aov; }
-  const std::string& pass() const { return pass_; }  // empty: the picture
+  std::string& pass() { return pass_; }  // empty: the picture
   bool isSeenByBoth() const { return eyes_ != Eyes::one && pass_.empty(); }
 
   void toggleSplit() { isSplit_ = !isSplit_; }

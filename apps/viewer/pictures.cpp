@@ -31,7 +31,7 @@ void Pictures::begin(const Document& document, const Moment& moment, const glm::
     Wish wish = wishOf(document.look());
     wish.size = glm::max(full / 2u, 1u);
     wish.stereo = moment.stereo;
-    wish.aovs = {"id"}, wish.aovView = pickView_;
+    wish.aovs = {"id", "position"}, wish.aovView = pickView_;
     pickNumber_ = maker_.wish(kPick, std::move(wish));
     pickedAt_ = *std::exchange(picking_, std::nullopt);
   }
@@ -118,7 +118,7 @@ std::optional<Picked> Pictures::takePicked() {
 
 bool Pictures::poll() {
   if (std::shared_ptr<const Picture> picture = maker_.latest(kPick);
-      picture && picture->number == pickNumber_ && !picture->layers.empty()) {
+      picture && picture->number == pickNumber_ && picture->layers.size() == 2) {
     const Image& id = picture->layers[0].values;
     const auto x = std::min(uint32_t(pickedAt_.x * float(id.width)), id.width - 1),
                y = std::min(uint32_t(pickedAt_.y * float(id.height)), id.height - 1);
@@ -126,7 +126,10 @@ bool Pictures::poll() {
       const auto number = size_t(id.at(x, y, channel));
       return number > 0 && number <= names.size() ? names[number - 1] : "";
     };
-    picked_ = Picked{name(picture->objects, 0), name(picture->materials, 1)};
+    const Image& place = picture->layers[1].values;
+    picked_ = Picked{name(picture->objects, 0),
+                     name(picture->materials, 1),
+                     {place.at(x, y, 0), place.at(x, y, 1), place.at(x, y, 2)}};
     maker_.forget(kPick);
   }
   if (std::shared_ptr<const Picture> latest = maker_.latest(kShown); latest && latest != shown_) {

@@ -18,6 +18,7 @@ namespace scumble::viewer {
 // What lies at a pixel.
 struct Picked {
   std::string object, material;  // names, as looks set knobs for them; empty: nothing
+  glm::vec3 place{0};            // metres, in the world, where there is something
 };
 
 // From where, and when, everything is seen.

@@ -34,7 +34,7 @@ std::string numberOf(const std::vector<std::string>& texts) {
   return number;
 }
 
-std::string textOf(const nlohmann::json& json) {
+std::string printed(const nlohmann::json& json) {
   return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -67,7 +67,7 @@ Status Recovery::keep(const std::vector<std::string>& scenes, const std::string&
                             {"look", isLookFile(look) ? whole({look})[0] : look},
                             {"edits", edits},
                             {"seconds", std::chrono::duration_cast<std::chrono::seconds>(now).count()}};
-  return writeText(file, textOf(kept) + "\n");
+  return writeText(file, printed(kept) + "\n");
 }
 
 std::optional<Recovery::Kept> Recovery::find(const std::vector<std::string>& scenes) const {
@@ -76,7 +76,7 @@ std::optional<Recovery::Kept> Recovery::find(const std::vector<std::string>& sce
   const nlohmann::json found = nlohmann::json::parse(in, nullptr, false);
   try {
     // As it was written: names that are not UTF-8 lose something there.
-    if (textOf(found.at("scenes")) != textOf(whole(scenes))) return std::nullopt;
+    if (printed(found.at("scenes")) != printed(whole(scenes))) return std::nullopt;
     Kept kept{found.at("look").get<std::string>(), found.at("edits").get<Edits>(),
               textOfTime(found.at("seconds").get<int64_t>())};
     if (kept.edits.empty()) return std::nullopt;

@@ -7,25 +7,25 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <set>
 
-#include "bindings.h"
 #include "camera.h"
 #include "dialogs.h"
-#include "glfw.h"
+#include "handles.h"
+#include "hands.h"
 #include "interface.h"
 #include "interface_input.h"
 #include "interface_pass.h"
 #include "look_sheet.h"
+#include "look_shelf.h"
 #include "panel.h"
 #include "passes_strip.h"
-#include "pictures.h"
+#include "picture_area.h"
 #include "recent_files.h"
 #include "screen.h"
 #include "style.h"
+#include "timeline.h"
+#include "track_edit.h"
 #include "unsaved.h"
-#include "visible.h"
-#include "window.h"
 
 namespace scumble::viewer {
 
@@ -33,20 +33,15 @@ namespace {
 
 constexpr double kFrameSeconds = 1 / 60.0;  // of the window, while something moves by itself
 constexpr float kFlySpeed = 0.8f;           // distances to what is looked at, a second
+constexpr glm::vec2 kAddedAt{0.4f, 0.8f};   // where new things go, across the window
+constexpr float kAddedSize = 0.12f;         // of its height
 constexpr float kDragZoom = 12;             // steps over the window's height
-constexpr float kClick = 0.25f;             // heights of letters that a hand may move while it clicks
+constexpr double kRoomForKeys = 10;         // seconds of a scene in which nothing plays yet but tracks
 constexpr int kSettling = 3;                // frames after an event until the interface rests
 constexpr int kMostLosses = 3;              // of the device, one after the other
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-// What goes on while its key is held.
-bool repeats(Command command) {
-  constexpr Command kRepeated[] = {Command::rollLeft, Command::rollRight, Command::narrow, Command::widen,
-                                   Command::stepBack, Command::stepOn,    Command::undo,   Command::redo};
-  return std::find(std::begin(kRepeated), std::end(kRepeated), command) != std::end(kRepeated);
 }
 
 // ImGui's context, as long as the window.
@@ -71,7 +66,7 @@ struct Drawing {
   std::array<std::vector<std::shared_ptr<const Picture>>, Screen::kFrames> held;  // by frames under way
 };
 
-class Viewer {
+class Viewer : Hands::Doer {
  public:
   Viewer(const ViewerOptions& options, Window& window)
       : options_(options),
@@ -82,7 +77,7 @@ class Viewer {
         recent_(options.stateFolder),
         camera_(options.viewpoint) {
     playback_.playhead = options.time;
-    if (options.isStereo) eyes_ = Eyes::sideBySide;
+    if (options.isStereo) area_.setEyes(Eyes::sideBySide);
     setStyle(window.contentScale());
     ImGui::GetIO().DisplaySize = {float(options.width), float(options.height)};
   }
@@ -112,7 +107,7 @@ class Viewer {
   // After run() has thrown.
   void loseDevice() {
     keepEdits(true);
-    shown_.clear();
+    area_.takeShown();
     drawing_.reset();
   }
 
@@ -120,12 +115,8 @@ class Viewer {
   Pictures& pictures() { return drawing_->pictures; }
   const Pictures& pictures() const { return drawing_->pictures; }
 
-  bool isFlying() const {
-    return std::any_of(held_.begin(), held_.end(),
-                       [](Command command) { return command != Command::compare; });
-  }
   // Whether something goes on without anybody doing anything.
-  bool moves() const { return playback_.moves() || isFlying(); }
+  bool moves() const { return playback_.moves() || hands_.isFlying(); }
 
   double untilNextFrame() const {
     if (input_.hasMore()) return 0;
@@ -150,9 +141,23 @@ class Viewer {
         clips_.push_back(clip.name.empty() ? std::to_string(clips_.size()) : clip.name);
       camera_.setBounds(summary_);
     }
-    playback_.duration = playedSeconds(document_.scene(), document_.look());
     if (opened_ != document_.opened().scenes) takeScenes();
+    setDuration();
     return Done{};
+  }
+
+  // As long as what plays, and as tracks need, if nobody has said it.
+  void setDuration() {
+    const double played = playedSeconds(document_.scene(), document_.look());
+    double keys = 0;
+    bool hasTracks = false;
+    for (const std::string& path : tracksOf(document_.look())) {
+      hasTracks = true;
+      keys = std::max(keys, (*document_.look().track(path))->keys.back().time);
+    }
+    const double needed = std::max(played, keys);
+    playback_.duration =
+        duration_.value_or(hasTracks && played == 0 ? std::max(needed, kRoomForKeys) : needed);
   }
 
   // Other scenes are there.
@@ -165,6 +170,8 @@ class Viewer {
     window_.setTitle(title_);
     panel_.select({});
     unsaved_.open(document_);
+    looks_.forget();
+    duration_.reset();
     if (isFirst) return;
     camera_.set(firstCamera());
     playback_.playhead = 0;
@@ -221,6 +228,7 @@ class Viewer {
       document_.settle(Concern::picture);
     if (pictures().shown()) lastShown_ = pictures().shown()->number;
     if (auto picked = pictures().takePicked()) {
+      if (adding_) return add(*std::exchange(adding_, std::nullopt), picked->place);
       // Looks know nodes that have a name; the ground and the sea are materials alone.
       const std::vector<std::string>& nodes = summary_.nodeNames;
       if (std::find(nodes.begin(), nodes.end(), picked->object) == nodes.end()) picked->object.clear();
@@ -232,43 +240,28 @@ class Viewer {
   void wish(const glm::uvec2& full) {
     if (document_.scene().empty()) return;
     if (moves()) pictures().moved(now());
-    const Stereo stereo = isSeenByBoth() ? Stereo::stereo : Stereo::mono;
+    const Stereo stereo = area_.isSeenByBoth() ? Stereo::stereo : Stereo::mono;
     pictures().begin(document_, {camera_.viewpoint(), camera_.moves(), playback_.pictureTime(), stereo},
-                     presentViewSize(full), now());
-    pictures().askForShown(held_.count(Command::compare) > 0);
-    if (showsSplit()) pictures().askForOther(otherLook_, lookOf(otherLook_));
-    if (showsPasses_) pictures().askForThumbnails(), pictures().askForPass(passes_.chosen());
+                     area_.viewSize(full), now());
+    pictures().askForShown(hands_.isHeld(Command::compare));
+    if (area_.isSplit()) {
+      const std::string& other = area_.otherLook();
+      pictures().askForOther(other, other.empty() ? document_.savedLook() : looks_.look(other));
+    }
+    if (showsPasses_) pictures().askForThumbnails(), pictures().askForPass(area_.pass());
     if (showsLooks_) pictures().askForLooks(allLooks());
     pictures().end();
   }
 
-  // A pass is seen by one eye.
-  bool isSeenByBoth() const { return eyes_ != Eyes::one && passes_.chosen().empty(); }
-  glm::uvec2 presentViewSize(const glm::uvec2& window) const {
-    return viewSize(window, isSeenByBoth() ? eyes_ : Eyes::one);
-  }
-  bool showsSplit() const { return showsSplit_ && !isSeenByBoth(); }
-
-  // By name; empty: the scene's own, as it is saved.
-  const Look& lookOf(const std::string& name) {
-    if (name.empty()) return document_.savedLook();
-    const auto [known, isNew] = looks_.try_emplace(name);
-    if (isNew)
-      if (Result<Look> look = Look::load(name)) known->second = std::move(look).value();
-    return known->second;
-  }
-
   std::vector<std::pair<std::string, Look>> allLooks() {
-    std::vector<std::pair<std::string, Look>> looks;
-    for (const ShippedLook& shipped : shipped_) looks.emplace_back(shipped.name, lookOf(shipped.name));
-    return looks;
+    return looks_.all(options_.sources.ownLook(opened_).name);
   }
 
   // ---- Hands
 
   // From where it is seen, whether or not that is drawn already.
   std::optional<View> presentView() const {
-    const glm::uvec2 size = presentViewSize(window_.framebufferSize());
+    const glm::uvec2 size = area_.viewSize(window_.framebufferSize());
     if (document_.scene().empty() || size.x == 0 || size.y == 0) return std::nullopt;
     const Result<std::vector<View>> views =
         makeViews(document_.scene(), camera_.viewpoint(), float(size.x) / float(size.y), Stereo::mono, 0.063f,
@@ -326,11 +319,11 @@ class Viewer {
             size.x,
             size.y,
             std::nullopt,
-            eyes_ != Eyes::one};
+            area_.eyes() != Eyes::one};
   }
 
   void openSaveDialog() {
-    saveDialog_.open(document_.opened().scenes[0], viewSize(window_.framebufferSize(), eyes_),
+    saveDialog_.open(document_.opened().scenes[0], viewSize(window_.framebufferSize(), area_.eyes()),
                      playback_.duration > 0);
   }
 
@@ -342,23 +335,23 @@ class Viewer {
       showsLooks_ = showsHelp_ = false;
     else if (!document_.problems().empty())
       document_.settleAll();
-    else if (!passes_.chosen().empty())
-      passes_.choose("");
+    else if (!area_.pass().empty())
+      area_.choosePass("");
     else
       panel_.select({});
   }
 
-  void take(const Dropped& dropped) {
-    Drop drop = sorted(dropped.files);
+  void drop(const std::vector<std::string>& files) override {
+    Drop drop = sorted(files);
     if (!drop.looks.empty()) document_.openLook(drop.looks.back());
     if (!drop.others.empty())
       document_.tell(Concern::scene, drop.others[0] +
                                          ": it is no scene, look or picture by its name; drop a "
                                          ".glb, .gltf, .tilt, .json, .png, .jpg or .webp");
-    dropDialog_.open(std::move(drop));
+    dropDialog_.open(std::move(drop), panel_.picked().material);
   }
 
-  void obey(Command command) {
+  void obey(Command command) override {
     switch (command) {
       case Command::help:
         showsHelp_ = !showsHelp_;
@@ -375,7 +368,7 @@ class Viewer {
       case Command::copyCommand:
         if (!document_.scene().empty())
           window_.copy(
-              shellText(options_.command(presentlyShown(viewSize(window_.framebufferSize(), eyes_)))));
+              shellText(options_.command(presentlyShown(viewSize(window_.framebufferSize(), area_.eyes())))));
         break;
       case Command::save:
         if (!document_.scene().empty()) save();
@@ -450,7 +443,12 @@ class Viewer {
       case Command::flyDown:
       case Command::flyUp:
       case Command::compare:
-        held_.insert(command);
+        break;  // as long as their keys are held
+      case Command::handles:
+        showsHandles_ = !showsHandles_;
+        break;
+      case Command::key:
+        key();
         break;
       case Command::open:
         openDialog_.open(recent_.files());
@@ -460,19 +458,20 @@ class Viewer {
         break;
       case Command::looks:
         showsLooks_ = !showsLooks_;
+        looks_.forget();
         break;
       case Command::split:
-        showsSplit_ = !showsSplit_;
+        area_.toggleSplit();
         break;
       case Command::passes:
         showsPasses_ = !showsPasses_;
-        if (!showsPasses_) passes_.choose("");
+        if (!showsPasses_) area_.choosePass("");
         break;
       case Command::nextCamera:
         lookThroughNextCamera();
         break;
       case Command::eyes:
-        eyes_ = Eyes((int(eyes_) + 1) % 4);
+        area_.nextEyes();
         break;
       case Command::leave:
         leave();
@@ -480,84 +479,87 @@ class Viewer {
     }
   }
 
-  void drag(const glm::vec2& way) {
-    if (button_ == GLFW_MOUSE_BUTTON_RIGHT)
-      hold().lookAround(way);
-    else if (modifiers_ & GLFW_MOD_SHIFT)
-      hold().pan(way);
-    else if (modifiers_ & GLFW_MOD_CONTROL)
-      hold().zoom(-kDragZoom * way.y);
-    else
-      hold().orbit(way);
-  }
-
-  // Where, across the window.
-  void pick(glm::vec2 place) {
-    const bool isHalf = presentViewSize({2, 1}).x == 1, isAtRight = isHalf && place.x >= 0.5f;
-    if (isHalf) place.x = 2 * place.x - (isAtRight ? 1.0f : 0.0f);
-    pictures().pick(place, isHalf && isAtRight == (eyes_ == Eyes::sideBySide) ? 1 : 0);
-  }
-
-  void press(const MouseButton& button, const glm::uvec2& size) {
-    if (!button.isDown && button.button == button_) {
-      if (isClick_ && button_ == GLFW_MOUSE_BUTTON_LEFT && pictures().shown())
-        pick(mouse_ / glm::max(glm::vec2(size), 1.0f));
-      button_ = -1;
-    }
-    if (button.isDown && button_ < 0 && !ImGui::GetIO().WantCaptureMouse &&
-        button.button <= GLFW_MOUSE_BUTTON_MIDDLE) {
-      button_ = button.button;
-      pressedAt_ = mouse_;
-      isClick_ = true;
+  void drag(Hands::Grip grip, const glm::vec2& way) override {
+    switch (grip) {
+      case Hands::Grip::orbit:
+        return hold().orbit(way);
+      case Hands::Grip::pan:
+        return hold().pan(way);
+      case Hands::Grip::zoom:
+        return hold().zoom(-kDragZoom * way.y);
+      case Hands::Grip::lookAround:
+        return hold().lookAround(way);
     }
   }
+  void zoom(float steps) override { hold().zoom(steps); }
 
-  void move(const glm::vec2& to, const glm::uvec2& size) {
-    const glm::vec2 from = isClick_ ? pressedAt_ : mouse_;
-    mouse_ = to;
-    if (button_ < 0 || !pictures().shown()) return;
-    // A hand that clicks is not quite still.
-    if (isClick_ && glm::distance(to, pressedAt_) < kClick * ImGui::GetFontSize()) return;
-    isClick_ = false;
-    if (to != from) drag((to - from) / float(std::max(size.y, 1u)));
+  void click(const glm::vec2& place) override {
+    const glm::vec2 window = glm::max(glm::vec2(window_.framebufferSize()), 1.0f);
+    const PictureArea::Place in = area_.placeIn(place / window);
+    pictures().pick(in.place, in.view);
   }
 
-  void take(const Event& event, const glm::uvec2& size) {
-    const ImGuiIO& io = ImGui::GetIO();
-    if (const auto* moved = std::get_if<MouseMoved>(&event)) {
-      move(moved->to, size);
-    } else if (const auto* button = std::get_if<MouseButton>(&event)) {
-      modifiers_ = button->modifiers;
-      press(*button, size);
-    } else if (const auto* wheel = std::get_if<MouseWheel>(&event)) {
-      if (!io.WantCaptureMouse && pictures().shown() && wheel->steps.y != 0) hold().zoom(wheel->steps.y);
-    } else if (const auto* key = std::get_if<Key>(&event)) {
-      modifiers_ = modifiersAfter(*key);
-      const std::optional<Command> command = commandOf(key->key, key->modifiers);
-      const bool isForAll = command == Command::quit || command == Command::leave;
-      if (key->isDown && command && (!key->isRepeated || repeats(*command)) &&
-          (!io.WantTextInput || isForAll))
-        obey(*command);
-      // A key that is let go of may have others beside it by now.
-      if (!key->isDown)
-        for (const Binding& binding : bindings())
-          if (binding.key == key->key) held_.erase(binding.command);
-    } else if (const auto* focus = std::get_if<Focus>(&event)) {
-      if (!focus->isThere) held_.clear(), button_ = -1, modifiers_ = 0;
-    } else if (const auto* dropped = std::get_if<Dropped>(&event)) {
-      take(*dropped);
+  bool grab(const glm::vec2& place) override { return showsHandles() && handles_.grab(place); }
+  void pull(const glm::vec2& place) override {
+    if (const std::optional<Turn> turn = handles_.pull(place)) turned(document_.set(turn->step, turn->edits));
+  }
+  void letGo() override {
+    if (const std::optional<Target> target = handles_.letGo()) panel_.choose(*target), showsPanel_ = true;
+  }
+
+  // Something of the look is another by hand, or could not be.
+  void turned(const Status& status) {
+    if (!status) document_.tell(Concern::knob, status.error().message());
+    pictures().moved(now());
+    settling_ = kSettling;
+    setDuration();
+  }
+
+  // Of the knob under the mouse, or of the camera.
+  void key() {
+    const double time = playback_.pictureTime();
+    document_.closeStep();
+    if (const std::string path = panel_.hovered(); showsPanel_ && !path.empty()) {
+      if (const auto text = keyToggledAt(document_.look(), path, time)) turned(document_.set(path, *text));
+      timeline_.choose(path);
+    } else if (presentView()) {
+      const Result<Turn> turn = cameraKeyed(document_.scene(), document_.look(), hold().viewpoint(), time);
+      turned(turn ? document_.set(turn->step, turn->edits) : Status(turn.error()));
+      if (turn) {
+        // It stands where it stood, and goes where its keys take it.
+        camera_.set(Viewpoint());
+        timeline_.choose("camera.eye");
+        char text[96];
+        std::snprintf(text, sizeof text, "the camera is kept at %.2f s", time);
+        notice_ = text;
+      }
     }
+    document_.closeStep();
+  }
+
+  // Where something was picked, else where something is to be seen below the middle.
+  void add(const Addable& what) {
+    const Picked& picked = panel_.picked();
+    if (!picked.object.empty() || !picked.material.empty()) return add(what, picked.place);
+    adding_ = what;
+    pictures().pick(kAddedAt, 0);
+  }
+  void add(const Addable& what, const glm::vec3& place) {
+    const std::optional<View> view = presentView();
+    if (!view) return;
+    const glm::vec2 window(window_.framebufferSize());
+    const float size = kAddedSize * window.y * Lens(*view, window).pixelSize(place);
+    const Added made = added(what, document_.look(), place, size);
+    document_.closeStep();
+    turned(document_.set(made.target.name, made.edits));
+    document_.closeStep();
+    panel_.choose(made.target);
+    showsHandles_ = true;
   }
 
   void fly(double seconds) {
-    glm::vec3 way(0);
-    const auto add = [&](Command command, const glm::vec3& direction) {
-      if (held_.count(command)) way += direction;
-    };
-    add(Command::flyRight, {1, 0, 0}), add(Command::flyLeft, {-1, 0, 0});
-    add(Command::flyUp, {0, 1, 0}), add(Command::flyDown, {0, -1, 0});
-    add(Command::flyForwards, {0, 0, 1}), add(Command::flyBack, {0, 0, -1});
-    if (way != glm::vec3(0) && pictures().shown()) hold().fly(float(seconds) * kFlySpeed * way);
+    if (const glm::vec3 way = hands_.flight(); way != glm::vec3(0) && pictures().shown())
+      hold().fly(float(seconds) * kFlySpeed * way);
   }
 
   // ---- A frame of the window
@@ -574,10 +576,11 @@ class Viewer {
     ImGui::NewFrame();
     // What begins now has not moved since the last frame, which may be long ago.
     const double moved = moves() ? seconds : 0;
-    for (const Event& event : events) take(event, size);
+    const bool isThere = pictures().shown() != nullptr;
+    for (const Event& event : events) hands_.take(event, size, isThere, *this);
     playback_.advance(moved);
     fly(moved);
-    shown_.clear();
+    area_.takeShown();
     layOut({io.DisplaySize.x, io.DisplaySize.y});
     ImGui::Render();
     if (!isSeen) {
@@ -586,70 +589,61 @@ class Viewer {
     }
     wish(size);
     drawing_->screen.draw(size, [&](VkCommandBuffer commands, uint32_t frame) {
-      drawing_->held[frame] = shown_;
+      drawing_->held[frame] = area_.takeShown();
       drawing_->pass.record(commands, frame, *ImGui::GetDrawData(), drawing_->screen.extent());
     });
   }
 
-  // What is laid out stays as long as the frame is under way.
-  const Picture* kept(std::shared_ptr<const Picture> picture) {
-    return picture ? shown_.emplace_back(std::move(picture)).get() : nullptr;
-  }
-
-  static PictureShown shownOf(const DeviceImage& image) {
-    const VkExtent2D extent = image.extent();
-    return {ImTextureID(image.view()), {extent.width, extent.height}};
-  }
-
   void layOut(const glm::vec2& window) {
-    layOutPictures(window);
-    bool isTurned = false;
-    const bool showsTime = showsPanel_ && playback_.duration > 0;
-    if (showsTime) {
-      const TimeChange change = layOutTime(window, playback_, clips_, document_.opened().clip);
-      isTurned |= change.isMoved;
-      if (change.clip) document_.openClip(*change.clip);
-    }
+    if (!pictures().shown())
+      layOutWaiting(window, document_.scene().empty() ? "Reading the scene" : "Drawing the first picture");
+    if (area_.layOut(window, pictures())) settling_ = kSettling;
+    layOutHandles(window);
+    bool isTurned = layOutTimeline(window);
     if (showsPasses_) {
       const float right = showsPanel_ ? panelWidth(window) - ImGui::GetFontSize() : 0;
-      const float bottom = showsTime ? 4.5f * ImGui::GetFontSize() : 0;
-      passes_.layOut(window - glm::vec2(right, bottom), kept(pictures().thumbnails()),
-                     kept(pictures().shown()), pixelFacts());
+      layOutPasses(window - glm::vec2(right, showsTime() ? timeline_.height() : 0), area_.pass(),
+                   area_.keep(pictures().thumbnails()), area_.keep(pictures().shown()),
+                   area_.pixelFacts(hands_.mouse(), pictures()));
     }
-    if (showsPanel_ && !document_.scene().empty())
-      isTurned |= panel_.layOut(window, {title_, facts(), playback_.pictureTime()}, document_,
-                                showsSplit() ? &otherLook_ : nullptr);
+    if (showsPanel_ && !document_.scene().empty()) {
+      const Panel::Change change = panel_.layOut(
+          window, {title_, facts(), playback_.pictureTime(), showsTime() ? timeline_.height() : 0}, document_,
+          area_.isSplit() ? &area_.otherLook() : nullptr);
+      isTurned |= change.isTurned;
+      if (!change.keyed.empty()) timeline_.choose(change.keyed);
+      if (change.added) add(*change.added);
+    }
     layOutNotices(window);
     layOutDialogs(window);
     if (showsHelp_) layOutHelp(window);
-    if (isTurned) {
-      pictures().moved(now());
-      settling_ = kSettling;
-      playback_.duration = playedSeconds(document_.scene(), document_.look());
-    }
+    if (isTurned) turned(Done{});
+    // What is turned without a pause is undone at once.
+    if (!ImGui::IsAnyItemActive() && !handles_.isHeld()) document_.closeStep();
   }
 
-  void layOutPictures(const glm::vec2& window) {
-    const Picture* const picture = kept(pictures().shown());
-    if (!picture) {
-      layOutWaiting(window, document_.scene().empty() ? "Reading the scene" : "Drawing the first picture");
-      return;
-    }
-    PictureShown first = shownOf(picture->image);
-    if (isSeenByBoth() && picture->right.handle() != VK_NULL_HANDLE) {
-      layOutEyes(window, first, shownOf(picture->right), eyes_);
-      return;
-    }
-    if (!passes_.chosen().empty())
-      if (const Picture* const pass = kept(pictures().pass()))
-        for (const Picture::Layer& layer : pass->layers)
-          if (layer.aov == passes_.chosen()) first = shownOf(layer.shown);
-    const Picture* const other = showsSplit() ? kept(pictures().other()) : nullptr;
-    const PictureShown second = other ? shownOf(other->image) : PictureShown();
-    layOutPicture(window, first, other ? &second : nullptr, split_);
-    if (showsSplit() &&
-        layOutSplit(window, "as it is", otherLook_.empty() ? "as it is saved" : otherLook_, split_))
-      settling_ = kSettling;
+  bool showsTime() const { return showsPanel_ && playback_.duration > 0; }
+  bool layOutTimeline(const glm::vec2& window) {
+    if (!showsTime()) return false;
+    const Timeline::Change change = timeline_.layOut(window, playback_, clips_, document_);
+    if (change.clip) document_.openClip(*change.clip);
+    if (change.duration) duration_ = change.duration, setDuration();
+    return change.isMoved || change.isTurned;
+  }
+
+  // Where both eyes are seen, nothing lies at one place.
+  bool showsHandles() const {
+    return showsHandles_ && area_.viewSize({2, 1}).x == 2 && !area_.isSeenByBoth();
+  }
+  void layOutHandles(const glm::vec2& window) {
+    const std::optional<View> view = showsHandles() && pictures().shown() ? presentView() : std::nullopt;
+    if (view)
+      handles_.layOut(window,
+                      {*view, document_.scene(), summary_, document_.look(), playback_.pictureTime(),
+                       panel_.target(), !camera_.isOther()},
+                      hands_.mouse());
+    else
+      handles_.hide();
   }
 
   void layOutNotices(const glm::vec2& window) {
@@ -676,9 +670,9 @@ class Viewer {
     if (openDialog_.isOpen() || saveDialog_.isOpen() || dropDialog_.isOpen()) showsLooks_ = false;
     if (showsLooks_) {
       std::vector<std::string> names;
-      for (const ShippedLook& shipped : shipped_) names.push_back(shipped.name);
+      for (const auto& [name, look] : allLooks()) names.push_back(name);
       const auto pictureOf = [&](size_t number) {
-        kept(pictures().look(number));
+        area_.keep(pictures().look(number));
         return pictures().look(number);
       };
       if (const auto taken = layOutLookSheet(window, names, pictureOf, window.x / window.y)) {
@@ -700,37 +694,14 @@ class Viewer {
       }
   }
 
-  // What is under the mouse, where the strip of passes is open.
-  std::string pixelFacts() const {
-    const std::shared_ptr<const Picture> pass = pictures().pass();
-    const glm::vec2 window{ImGui::GetIO().DisplaySize.x, ImGui::GetIO().DisplaySize.y};
-    if (!pass || isSeenByBoth() || ImGui::GetIO().WantCaptureMouse ||
-        glm::any(glm::lessThan(mouse_, glm::vec2(0))) || glm::any(glm::greaterThanEqual(mouse_, window)))
-      return "";
-    std::string text;
-    // Numbers that have names.
-    const auto named = [](const std::vector<std::string>& names, float number) {
-      return number >= 1 && size_t(number) <= names.size() ? names[size_t(number) - 1] : "nothing";
-    };
-    for (const Picture::Layer& layer : pass->layers) {
-      const glm::uvec2 size{layer.values.width, layer.values.height};
-      const glm::uvec2 at = glm::min(glm::uvec2(mouse_ / window * glm::vec2(size)), size - 1u);
-      text += (text.empty() ? "" : "\n") + layer.aov + ": ";
-      text += layer.aov == "id" ? named(pass->objects, layer.values.at(at.x, at.y, 0)) + ", " +
-                                      named(pass->materials, layer.values.at(at.x, at.y, 1))
-                                : pixelText(layer.values, at.x, at.y);
-    }
-    return text;
-  }
-
   std::string facts() const {
     const std::shared_ptr<const Picture>& picture = pictures().shown();
     if (!picture) return notice_;
     const VkExtent2D extent = picture->image.extent();
     return (notice_.empty() || !document_.edits().empty() ? "" : notice_ + "\n") +
-           (held_.count(Command::compare) ? "as it is saved, " : "") + std::to_string(extent.width) + " x " +
-           std::to_string(extent.height) + ", " + std::to_string(int(std::lround(picture->milliseconds))) +
-           " ms";
+           (hands_.isHeld(Command::compare) ? "as it is saved, " : "") + std::to_string(extent.width) +
+           " x " + std::to_string(extent.height) + ", " +
+           std::to_string(int(std::lround(picture->milliseconds))) + " ms";
   }
 
   const ViewerOptions& options_;
@@ -751,28 +722,25 @@ class Viewer {
   std::unique_ptr<ExportJob> job_;
   ExportJob::State jobState_;  // that is shown
 
-  std::vector<std::shared_ptr<const Picture>> shown_;  // by the frame that is laid out
-  uint64_t lastShown_ = 0;                             // its number
+  uint64_t lastShown_ = 0;  // the picture's number
 
   Camera camera_;
-  glm::vec2 mouse_{0}, pressedAt_{0};
-  bool isClick_ = false;
-  int button_ = -1, modifiers_ = 0;
-  std::set<Command> held_;
+  Hands hands_;
+  Handles handles_;
+  std::optional<Addable> adding_;  // as soon as it is known where
 
   Playback playback_;
+  std::optional<double> duration_;  // that somebody has set
+  PictureArea area_;
   Panel panel_;
-  PassesStrip passes_;
+  Timeline timeline_;
   OpenDialog openDialog_;
   SaveDialog saveDialog_;
   DropDialog dropDialog_;
-  const std::vector<ShippedLook> shipped_ = Look::shipped();
-  std::map<std::string, Look> looks_;  // those of them that were compared with
-  std::string otherLook_;              // beside the line; empty: as it is saved
-  float split_ = 0.5f;
-  Eyes eyes_ = Eyes::one;
+  LookShelf looks_;
   std::string notice_;  // of what was saved, until something is turned again
-  bool showsHelp_ = false, showsPanel_ = true, showsPasses_ = false, showsLooks_ = false, showsSplit_ = false;
+  bool showsHelp_ = false, showsPanel_ = true, showsPasses_ = false, showsLooks_ = false,
+       showsHandles_ = false;
   double lastFrame_ = 0;
   int settling_ = kSettling;
 };

@@ -9,7 +9,7 @@
 namespace scumble {
 namespace {
 
-void expectNear(const glm::vec3& actual, const glm::vec3& expected, float within = 1e-5f) {
+void expectAt(const glm::vec3& actual, const glm::vec3& expected, float within = 1e-5f) {
   EXPECT_LT(glm::distance(actual, expected), within)
       << actual.x << ", " << actual.y << ", " << actual.z << " for " << expected.x << ", " << expected.y
       << ", " << expected.z;
@@ -22,9 +22,9 @@ TEST(Placement, ofNodesGoesWithTheirClips) {
     EXPECT_TRUE(world.ok()) << world.error().message();
     return world ? glm::vec3(*world * glm::vec4(1, 0, 0, 1)) : glm::vec3(NAN);
   };
-  expectNear(at("", 0.5), {1, 0, 0});
-  expectNear(at("Bird", 0), {0, 3, -1});
-  expectNear(at("Bird", 0.25), {1, 3, -1});
+  expectAt(at("", 0.5), {1, 0, 0});
+  expectAt(at("Bird", 0), {0, 3, -1});
+  expectAt(at("Bird", 0.25), {1, 3, -1});
   EXPECT_EQ(nodeToWorld(scene, "Brid").error().kind, ErrorKind::usage);
   EXPECT_EQ(nodeToWorld(Scene(), "").error().kind, ErrorKind::usage);
 }
@@ -45,7 +45,7 @@ TEST(Placement, ofTheCamerasShiftIsWhatItLooksAt) {
       const auto views = makeViews(scene, {}, 1.5f, Stereo::mono, 0.063f, look, time);
       ASSERT_TRUE(views.ok());
       const glm::vec3 seen = views->front().worldToEye * glm::vec4(place, 1);
-      expectNear(seen, {0, 0, -glm::distance(place, eye)}, 1e-4f);
+      expectAt(seen, {0, 0, -glm::distance(place, eye)}, 1e-4f);
     }
   EXPECT_EQ(cameraShiftToWorld(Scene(), Look()).error().kind, ErrorKind::usage);
 }
