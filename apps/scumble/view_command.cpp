@@ -22,6 +22,7 @@ struct ViewArguments {
   LookArguments look;
   PictureArguments picture;
   double time = 0;  // seconds
+  std::string shaders;
 };
 
 using Files = std::vector<std::string>;
@@ -154,6 +155,7 @@ int run(ViewArguments args) {
   view.samples = options->samples, view.seed = options->seed;
   view.isStereo = args.picture.isStereo(), view.ipd = args.picture.ipd;
   view.renderer = args.picture.rendererOptions();
+  view.shaderBuild = args.shaders;
   view.stateFolder = stateFolder();
   const Status status = viewer::runViewer(view);
   return status ? kDone : fail(status.error());
@@ -170,6 +172,10 @@ void addView(CLI::App& program, int& exitCode) {
   args->picture.addTo(*command);
   args->picture.addStereoTo(*command);
   command->add_option("--time", args->time, "Seconds at which it begins")->capture_default_str();
+  command
+      ->add_option("--shaders", args->shaders,
+                   "A folder of a build, whose shaders are read anew as they are saved")
+      ->type_name("BUILD");
   command->footer(
       "Example: scumble view boat.glb --look dusk\nIn the window, H shows what keys and mouse do.");
   command->callback([args, &exitCode] { exitCode = run(*args); });

@@ -45,7 +45,7 @@ struct DocumentSources {
 };
 
 // What something that went wrong has to do with. The last one of each is told, until it is better.
-enum class Concern { scene, look, background, knob, saving, picture };
+enum class Concern { scene, look, background, knob, saving, picture, shader };
 
 class Document {
  public:

@@ -55,7 +55,7 @@ void FileWatch::watch(const std::vector<std::string>& files) {
       const std::filesystem::path real = std::filesystem::weakly_canonical(path, error);
       if (!error && std::filesystem::is_symlink(path, error)) want(real, file);
     }
-    const std::map<std::string, int> numbers = std::exchange(folders_, {});
+    const std::map<std::string, int> numbers = std::exchange(folders_, {}), above = std::exchange(above_, {});
     // Two names of one folder have one number.
     std::set<int> kept;
     for (const auto& [folder, names] : wanted_) {
@@ -66,8 +66,10 @@ void FileWatch::watch(const std::vector<std::string>& files) {
       if (before.count(folder) && (known == numbers.end() || known->second != folders_[folder]))
         isNews |= takeThere(folder);
     }
-    for (const auto& [folder, number] : numbers)
-      if (kept.insert(number).second) inotify_rm_watch(inotify_, number);
+    for (const auto& [folder, number] : above_) kept.insert(number);
+    for (const auto* const last : {&numbers, &above})
+      for (const auto& [folder, number] : *last)
+        if (kept.insert(number).second) inotify_rm_watch(inotify_, number);
   }
   nudge();
   if (isNews) whenSaved_();
@@ -95,7 +97,28 @@ bool FileWatch::add(const std::string& folder) {
   const int number = inotify_add_watch(inotify_, folder.c_str(), IN_CLOSE_WRITE | IN_MOVED_TO | IN_MOVE_SELF);
   if (number < 0) return false;
   folders_[folder] = number;
+  std::error_code error;
+  std::filesystem::path up = std::filesystem::absolute(folder, error).lexically_normal();
+  for (up = up.parent_path(); up != up.root_path(); up = up.parent_path())
+    if (const int one = inotify_add_watch(inotify_, up.c_str(), IN_MOVE_SELF | IN_MASK_ADD); one >= 0)
+      above_[up.string()] = one;
   return true;
+}
+
+// A folder is gone, or elsewhere, with all that lies in it.
+void FileWatch::loseWhatLay(int number) {
+  std::erase_if(folders_, [&](const auto& folder) { return folder.second == number; });
+  for (const auto& [up, known] : above_) {
+    if (known != number) continue;
+    std::erase_if(folders_, [&, &path = up](const auto& folder) {
+      std::error_code error;
+      const std::string whole = std::filesystem::absolute(folder.first, error).lexically_normal().string();
+      const bool isBelow = whole.starts_with(path + "/");
+      if (isBelow) inotify_rm_watch(inotify_, folder.second);
+      return isBelow;
+    });
+  }
+  std::erase_if(above_, [&](const auto& folder) { return folder.second == number; });
 }
 
 // True where one has come, with a file in it.
@@ -143,7 +166,7 @@ bool FileWatch::read() {
       // It is gone, or elsewhere.
       const bool isGone = event.mask & (IN_IGNORED | IN_MOVE_SELF);
       if (event.mask & IN_MOVE_SELF) inotify_rm_watch(inotify_, number);
-      if (isGone) std::erase_if(folders_, [&](const auto& folder) { return folder.second == number; });
+      if (isGone) loseWhatLay(number);
       if (isGone || name.empty()) continue;
       for (const auto& [folder, known] : folders_) {
         if (known != number) continue;

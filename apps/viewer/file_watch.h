@@ -33,6 +33,7 @@ class FileWatch {
   void nudge() const;
   void want(const std::filesystem::path& path, const std::string& file);
   bool add(const std::string& folder);
+  void loseWhatLay(int number);
   bool takeThere(const std::string& folder);
   bool lookForFolders();
 
@@ -42,6 +43,7 @@ class FileWatch {
   bool isEnding_ = false;
   std::map<std::string, std::map<std::string, std::vector<std::string>>> wanted_;  // by folder, name in it
   std::map<std::string, int> folders_;  // those that are there, with inotify's number
+  std::map<std::string, int> above_;    // folders above those, which may be moved with all that is in them
   std::set<std::string> saved_;
   std::thread thread_;
 };

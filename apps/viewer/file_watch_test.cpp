@@ -92,6 +92,24 @@ TEST_F(FileWatching, foldersComeAndGo) {
   EXPECT_EQ(saved(), Names{file});
 }
 
+TEST_F(FileWatching, aFolderAboveMayBeMoved) {
+  std::filesystem::create_directories(path("above/in/it"));
+  const std::string file = path("above/in/it/look.json");
+  watch_.watch({file, path("other/look.json")});
+  save("above/in/it/look.json", "1");
+  EXPECT_EQ(saved(), Names{file});
+  std::filesystem::rename(path("above"), path("elsewhere"));
+  save("elsewhere/in/it/look.json", "2");
+  EXPECT_EQ(saved(200), Names()) << "that is another file";
+  save("other/look.json", "2");
+  EXPECT_EQ(saved(), Names{path("other/look.json")}) << "others go on";
+  std::filesystem::rename(path("elsewhere"), path("above"));
+  EXPECT_EQ(saved(), Names{file});
+  while (!saved(200).empty()) continue;
+  save("above/in/it/look.json", "3");
+  EXPECT_EQ(saved(), Names{file});
+}
+
 TEST_F(FileWatching, aFolderThatWasReplacedIsLookedInto) {
   const std::vector<std::string> files{path("other/look.json")};
   watch_.watch(files);

@@ -22,6 +22,7 @@
 #include "picture_area.h"
 #include "recent_files.h"
 #include "screen.h"
+#include "shader_build.h"
 #include "style.h"
 #include "timeline.h"
 #include "track_edit.h"
@@ -82,12 +83,14 @@ class Viewer : Hands::Doer {
     ImGui::GetIO().DisplaySize = {float(options.width), float(options.height)};
   }
 
-  // Until it is closed. Throws VulkanFailure where the device cannot go on; what the window shows stays, and
-  // it can be run again with another one.
-  Status run(std::unique_ptr<Renderer> renderer) {
+  enum class End { closed, otherShaders };
+  // Until it is closed, or wants a renderer with other shaders. Throws VulkanFailure where the device cannot
+  // go on; what the window shows stays, and it can be run again with another one.
+  Result<End> run(std::unique_ptr<Renderer> renderer) {
     drawing_ = std::make_unique<Drawing>(options_, window_, std::move(renderer));
     settling_ = kSettling;
     while (!window_.shouldClose()) {
+      if (hasOtherShaders()) return ended(End::otherShaders);
       window_.wait(untilNextFrame());
       input_.add(window_.takeEvents());
       if (input_.hasMore() || window_.wasTouched()) settling_ = kSettling;
@@ -99,12 +102,11 @@ class Viewer : Hands::Doer {
       drawFrame();
     }
     keepEdits(true);
-    return pictures().renderer().validationMessages() == 0
-               ? Status(Done{})
-               : Error{ErrorKind::internal, "", 0, "", "the Vulkan validation layers have complained",
-                       "see above"};
+    return ended(End::closed);
   }
-  // After run() has thrown.
+  // Shaders are compiled as they are saved from now on.
+  void setShaders(std::unique_ptr<ShaderBuild> shaders) { shaders_ = std::move(shaders); }
+  // After run() has thrown, or wants other shaders.
   void loseDevice() {
     keepEdits(true);
     area_.takeShown();
@@ -114,6 +116,22 @@ class Viewer : Hands::Doer {
  private:
   Pictures& pictures() { return drawing_->pictures; }
   const Pictures& pictures() const { return drawing_->pictures; }
+
+  Result<End> ended(End end) const {
+    if (pictures().renderer().validationMessages() == 0) return end;
+    return Error{ErrorKind::internal, "", 0, "", "the Vulkan validation layers have complained", "see above"};
+  }
+
+  bool hasOtherShaders() {
+    const std::optional<Status> done = shaders_ ? shaders_->poll() : std::nullopt;
+    if (!done) return false;
+    settling_ = kSettling;
+    if (*done)
+      document_.settle(Concern::shader);
+    else
+      document_.tell(Concern::shader, done->error().problem);
+    return done->ok();
+  }
 
   // Whether something goes on without anybody doing anything.
   bool moves() const { return playback_.moves() || hands_.isFlying(); }
@@ -709,6 +727,7 @@ class Viewer : Hands::Doer {
   Document document_;
   InterfaceInput input_;
   std::unique_ptr<Drawing> drawing_;
+  std::unique_ptr<ShaderBuild> shaders_;
 
   // Scenes that are open, and what of them is kept outside of their files.
   std::vector<std::string> opened_;
@@ -745,11 +764,13 @@ class Viewer : Hands::Doer {
   int settling_ = kSettling;
 };
 
-Result<std::unique_ptr<Renderer>> rendererFor(const ViewerOptions& options) {
+Result<std::unique_ptr<Renderer>> rendererFor(const ViewerOptions& options, const std::string& shaderFolder) {
   VulkanWishes wishes;
   wishes.instanceExtensions = Window::instanceExtensions();
   wishes.deviceExtensions = {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
-  return createRenderer(wishes, options.renderer);
+  RendererOptions renderer = options.renderer;
+  renderer.shaderFolder = shaderFolder;
+  return createRenderer(wishes, renderer);
 }
 
 }  // namespace
@@ -758,13 +779,28 @@ Status runViewer(const ViewerOptions& options) {
   const std::string title = std::filesystem::path(options.sources.opened.scenes[0]).filename().string();
   Result<std::unique_ptr<Window>> window = Window::open(title, options.width, options.height);
   if (!window) return window.error();
-  Result<std::unique_ptr<Renderer>> renderer = rendererFor(options);
+  std::string shaderFolder;
+  std::unique_ptr<ShaderBuild> shaders;
+  if (!options.shaderBuild.empty()) {
+    Result<std::unique_ptr<ShaderBuild>> build = ShaderBuild::open(options.shaderBuild, Window::wake);
+    if (!build) return build.error();
+    shaders = std::move(build).value();
+    shaderFolder = shaders->folder();
+  }
+  Result<std::unique_ptr<Renderer>> renderer = rendererFor(options, shaderFolder);
   if (!renderer) return renderer.error();
   const Context context;
   Viewer viewer(options, **window);
+  viewer.setShaders(std::move(shaders));
+
   for (int losses = 0;;) {
     try {
-      return viewer.run(std::move(renderer).value());
+      const Result<Viewer::End> end = viewer.run(std::move(renderer).value());
+      if (!end) return end.error();
+      if (*end == Viewer::End::closed) return Done{};
+      viewer.loseDevice();
+      renderer = rendererFor(options, shaderFolder);
+      if (!renderer) return renderer.error();
     } catch (const VulkanFailure& failure) {
       viewer.loseDevice();
       const bool isLost = failure.result == VK_ERROR_DEVICE_LOST;
@@ -772,7 +808,7 @@ Status runViewer(const ViewerOptions& options) {
                                         : "`scumble render` needs no window";
       const Error error{ErrorKind::noUsableGpu, "", 0, "", failure.what(), advice};
       if (!isLost || ++losses > kMostLosses) return error;
-      renderer = rendererFor(options);
+      renderer = rendererFor(options, shaderFolder);
       if (!renderer) return error;
     } catch (const std::exception& failure) {
       viewer.loseDevice();

@@ -37,6 +37,7 @@ struct ViewerOptions {
   bool isStereo = false;  // at first
   float ipd = 0.063f;     // metres
   RendererOptions renderer;
+  std::string shaderBuild;  // the folder of a build whose shaders are compiled as they are saved; empty: none
   std::string stateFolder;  // where it keeps what is not saved, and what was opened last; empty: nowhere
 };
 

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -33,6 +34,9 @@ struct DeviceOptions {
   std::function<void(VulkanFeatures&)> features;  // switches on more than scumble requires; may be empty
   Log log;  // empty: messages of the validation layers go to stderr, and others nowhere
 };
+
+// SPIR-V in place of shaders that the build compiled, by where the words of those stand.
+using ShaderReplacements = std::map<const uint32_t*, std::vector<uint32_t>>;
 
 struct DeviceInfo {
   std::string name, driver;
@@ -84,6 +88,9 @@ class Device {
   std::mutex& queueLock() const { return *queueLock_; }
   VkPipelineCache pipelineCache() const { return pipelineCache_; }
   PipelineStore& pipelines() { return *pipelines_; }
+  // Before anything is made of them.
+  void replaceShaders(ShaderReplacements replacements) { replacements_ = std::move(replacements); }
+  const ShaderReplacements& replacedShaders() const { return replacements_; }
   MemoryPool& memory() { return *memory_; }
   const DeviceInfo& info() const { return info_; }
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
@@ -147,6 +154,7 @@ class Device {
   std::string cacheFile_, viewsFile_;
   size_t cachedBytes_ = 0;
   std::unique_ptr<PipelineStore> pipelines_;
+  ShaderReplacements replacements_;
   std::unique_ptr<MemoryPool> memory_;
   DeviceInfo info_;
   VkPhysicalDeviceLimits limits_{};

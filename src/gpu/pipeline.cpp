@@ -13,6 +13,9 @@ namespace {
 class ShaderModule {
  public:
   ShaderModule(Device& device, Shader shader) : device_(device) {
+    if (const auto other = device.replacedShaders().find(shader.words.data());
+        other != device.replacedShaders().end())
+      shader.words = other->second;
     VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     info.codeSize = shader.words.size_bytes();
     info.pCode = shader.words.data();

@@ -174,8 +174,8 @@ struct RendererAccess {
   static bool isHeldElsewhere(const Scene& scene) { return scene.data_.use_count() > 1; }
   static Status begin(Renderer& renderer, const renderer::Request& request);
   static Result<Frame> render(Renderer& renderer, const renderer::Request& request);
-  static std::unique_ptr<Renderer> create(std::unique_ptr<gpu::Device> device,
-                                          const RendererOptions& options);
+  static Result<std::unique_ptr<Renderer>> create(Result<std::unique_ptr<gpu::Device>> made,
+                                                  const RendererOptions& options);
 };
 
 }  // namespace scumble

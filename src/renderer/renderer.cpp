@@ -4,6 +4,8 @@
 
 #include "renderer/gpu_list.h"
 #include "renderer/impl.h"
+#include "renderer/shader_table.h"
+#include "scumble/vulkan.h"
 #include "stage/playing.h"
 
 namespace scumble {
@@ -14,8 +16,15 @@ using namespace renderer;
 Renderer::Renderer() = default;
 Renderer::~Renderer() = default;
 
-std::unique_ptr<Renderer> RendererAccess::create(std::unique_ptr<gpu::Device> device,
-                                                 const RendererOptions& options) {
+Result<std::unique_ptr<Renderer>> RendererAccess::create(Result<std::unique_ptr<gpu::Device>> made,
+                                                         const RendererOptions& options) {
+  if (!made) return made.error();
+  std::unique_ptr<gpu::Device> device = std::move(made).value();
+  if (!options.shaderFolder.empty()) {
+    Result<gpu::ShaderReplacements> shaders = renderer::readShaders(options.shaderFolder);
+    if (!shaders) return shaders.error();
+    device->replaceShaders(std::move(shaders).value());
+  }
   device->log(LogLevel::information, "drawing on " + device->info().name + ", " + device->info().driver);
   std::unique_ptr<Renderer> created(new Renderer);
   created->impl_ = std::make_unique<Renderer::Impl>(std::move(device), options);
@@ -23,14 +32,7 @@ std::unique_ptr<Renderer> RendererAccess::create(std::unique_ptr<gpu::Device> de
 }
 
 Result<std::unique_ptr<Renderer>> Renderer::create(const RendererOptions& options) {
-  gpu::DeviceOptions deviceOptions;
-  deviceOptions.choice = options.device;
-  deviceOptions.validation = options.validation;
-  deviceOptions.cacheFolder = options.cacheFolder;
-  deviceOptions.log = options.log;
-  Result<std::unique_ptr<gpu::Device>> device = gpu::Device::create(deviceOptions);
-  if (!device) return device.error();
-  return RendererAccess::create(std::move(device).value(), options);
+  return createRenderer(VulkanWishes(), options);
 }
 
 Result<Frame> Renderer::render(const Scene& scene, const Look& look, double time,

@@ -17,17 +17,13 @@ Result<std::unique_ptr<Renderer>> createRenderer(const VulkanWishes& wishes, con
   deviceOptions.instanceExtensions = wishes.instanceExtensions;
   deviceOptions.deviceExtensions = wishes.deviceExtensions;
   deviceOptions.features = wishes.features;
-  Result<std::unique_ptr<gpu::Device>> device = gpu::Device::create(deviceOptions);
-  if (!device) return device.error();
-  return RendererAccess::create(std::move(device).value(), options);
+  return RendererAccess::create(gpu::Device::create(deviceOptions), options);
 }
 
 Result<std::unique_ptr<Renderer>> createRenderer(const VulkanDevice& device, const RendererOptions& options) {
   if (!device.instance || !device.physical || !device.device || !device.queue)
     return usage("a part of the device is null", "give instance, physical device, device and queue");
-  Result<std::unique_ptr<gpu::Device>> adopted = gpu::Device::adopt(device, options.cacheFolder, options.log);
-  if (!adopted) return adopted.error();
-  return RendererAccess::create(std::move(adopted).value(), options);
+  return RendererAccess::create(gpu::Device::adopt(device, options.cacheFolder, options.log), options);
 }
 
 VulkanDevice vulkanDeviceOf(const Renderer& renderer) {

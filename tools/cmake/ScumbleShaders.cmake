@@ -19,6 +19,41 @@ function(scumble_compile_shader source name stage defines)
   # A target of its own, because a custom command's output is known in its own folder only.
   add_custom_target(shader_${name} DEPENDS ${header})
   add_dependencies(scumble shader_${name})
+  set_property(GLOBAL APPEND PROPERTY SCUMBLE_SHADERS ${name})
+  list(JOIN defines "\", \"" words)
+  set(command "\"${Vulkan_GLSLC_EXECUTABLE}\", \"--target-env=vulkan1.3\", \"-O\", \"-fshader-stage=${stage}\"")
+  if(defines)
+    string(APPEND command ", \"${words}\"")
+  endif()
+  set_property(GLOBAL APPEND_STRING PROPERTY SCUMBLE_SHADER_COMMANDS
+    "  {\"name\": \"${name}\", \"source\": \"${source}\", \"command\": [${command}]},\n")
+endfunction()
+
+# After all shaders are known: a table of them for the library, and generated/shaders/commands.json, which says
+# how each is compiled, for who compiles them while a program runs.
+function(scumble_shader_table)
+  set(dir ${CMAKE_BINARY_DIR}/generated/shaders)
+  get_property(names GLOBAL PROPERTY SCUMBLE_SHADERS)
+  get_property(commands GLOBAL PROPERTY SCUMBLE_SHADER_COMMANDS)
+  set(includes "")
+  set(rows "")
+  foreach(name ${names})
+    string(APPEND includes "#include \"shaders/${name}.h\"\n")
+    string(APPEND rows "    {\"${name}\", shaders::${name}},\n")
+  endforeach()
+  file(CONFIGURE OUTPUT ${dir}/shader_table.cpp CONTENT "#include \"renderer/shader_table.h\"
+
+@includes@
+namespace scumble::renderer {
+std::span<const NamedShader> shaderTable() {
+  static constexpr NamedShader kTable[] = {
+@rows@  };
+  return kTable;
+}
+}  // namespace scumble::renderer
+" @ONLY)
+  target_sources(scumble PRIVATE ${dir}/shader_table.cpp)
+  file(CONFIGURE OUTPUT ${dir}/commands.json CONTENT "[\n@commands@  {\"validator\": \"${SPIRV_VAL}\"}\n]\n" @ONLY)
 endfunction()
 
 function(scumble_shaders)
