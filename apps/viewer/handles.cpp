@@ -87,8 +87,8 @@ glm::vec3 rotationTo(const glm::vec3& up) {
 // Four digits say it.
 float rounded(float number) {
   if (number == 0 || !std::isfinite(number)) return number;
-  const float grain = std::pow(10.0f, std::floor(std::log10(std::abs(number))) - 3);
-  return std::round(number / grain) * grain;
+  const double digits = std::pow(10.0, 3 - std::floor(std::log10(std::abs(double(number)))));
+  return float(std::round(double(number) * digits) / digits);
 }
 glm::vec3 rounded(const glm::vec3& numbers) {
   return {rounded(numbers.x), rounded(numbers.y), rounded(numbers.z)};
@@ -141,7 +141,7 @@ Result<Turn> cameraKeyed(const Scene& scene, const Look& look, const Viewpoint& 
   turn.edits["camera.mode"] = "eye";
   key("camera.eye", *from.eye);
   key("camera.shift", pointIn(glm::inverse(*space), *from.target));
-  key("camera.roll", double(from.roll.value_or(0)));
+  key("camera.roll", std::round(1e3 * double(from.roll.value_or(0))) / 1e3);
   key("camera.fov", double(from.verticalFov.value_or(34)));
   return turn;
 }

@@ -15,16 +15,18 @@ const std::vector<std::string> kFacts{"depth", "position", "normal", "uv", "id"}
 
 Pictures::Pictures(std::unique_ptr<Renderer> renderer, const PictureOptions& options,
                    std::function<void()> whenDone)
-    : options_(options), maker_(std::move(renderer), std::move(whenDone)) {}
+    : options_(options), isOnCpu_(renderer->gpu().isCpu), maker_(std::move(renderer), std::move(whenDone)) {}
 
 std::optional<double> Pictures::untilDue(double now) const {
-  if (!isCoarse_) return std::nullopt;
+  if (!isCoarse_ || !shown_) return std::nullopt;
   return std::max(sharpness_.untilRest(now), 0.0);
 }
 
 void Pictures::begin(const Document& document, const Moment& moment, const glm::uvec2& full, double now) {
   document_ = &document, moment_ = moment, full_ = full;
   size_ = sharpness_.isMoving(now) ? sharpness_.sizeWhileMoving(full) : full;
+  // Where pictures are slow, the first one comes soon.
+  if (!shown_ && isOnCpu_) size_ = Sharpness::coarsest(full);
   isCoarse_ = size_ != full;
   isAsked_.clear();
   if (picking_) {

@@ -42,7 +42,7 @@ class Pictures {
   // What is shown moves, or moved just now; so it is drawn coarsely for a while.
   void moved(double now) { sharpness_.moved(now); }
   // It rests, and is to be drawn in full; and in how many seconds it will be.
-  bool isDue(double now) const { return isCoarse_ && !sharpness_.isMoving(now); }
+  bool isDue(double now) const { return isCoarse_ && shown_ && !sharpness_.isMoving(now); }
   std::optional<double> untilDue(double now) const;
 
   // Nothing is seen for now, so nothing is due.
@@ -90,6 +90,7 @@ class Pictures {
   Wish wishOf(const Look& look) const;
 
   const PictureOptions options_;
+  const bool isOnCpu_;
   PictureMaker maker_;
   Sharpness sharpness_;
   bool isCoarse_ = false;

@@ -89,6 +89,7 @@ Result<std::unique_ptr<ShaderBuild>> ShaderBuild::open(const std::string& build,
       const fs::path built = shaders / (name + ".spv");
       shader.sources = dependenciesIn(contentsOf(built.string() + ".d"));
       if (shader.sources.empty()) shader.sources = {shader.source};
+      for (std::string& source : shader.sources) source = fs::path(source).lexically_normal().string();
       std::error_code error;
       const auto when = fs::last_write_time(built, error);
       for (const std::string& source : shader.sources)

@@ -19,8 +19,8 @@ void Sharpness::drew(const glm::uvec2& size, double milliseconds) {
 glm::uvec2 Sharpness::sizeWhileMoving(const glm::uvec2& full) const {
   const double whole = perPixel_ * double(full.x) * double(full.y);
   uint32_t over = 1;
-  while (over < 4 && whole > kMovingMilliseconds * over * over) over *= 2;
-  return glm::max((full + (over - 1)) / over, glm::uvec2(1));
+  while (over < kCoarsest && whole > kMovingMilliseconds * over * over) over *= 2;
+  return part(full, over);
 }
 
 }  // namespace scumble::viewer

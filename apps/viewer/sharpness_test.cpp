@@ -24,6 +24,11 @@ TEST(Sharpness, whatIsSlowMovesInHalvesAndQuarters) {
   EXPECT_EQ(sharpness.sizeWhileMoving(kFull), glm::uvec2(320, 180));
 }
 
+TEST(Sharpness, theFirstPictureIsCoarse) {
+  EXPECT_EQ(Sharpness::coarsest(kFull), glm::uvec2(320, 180));
+  EXPECT_EQ(Sharpness::coarsest({1, 3}), glm::uvec2(1));
+}
+
 // Of a small picture much time is the same as of a large one: it must not make the next ones small as well.
 TEST(Sharpness, smallPicturesSayNothingAboutLargeOnes) {
   Sharpness sharpness;

@@ -57,7 +57,9 @@ void drawCurve(const Lane& lane, const KnobTrack& track, const Look& look, const
                             ImGui::GetColorU32(ImVec4(curve.x, curve.y, curve.z, 1)));
       continue;
     }
-    const float part = most > least ? (number(*value).value_or(least) - least) / (most - least) : 0.5f;
+    // What rounding alone tells apart is one value.
+    const bool isFlat = most - least <= 1e-4f * std::max(1.0f, std::abs(most));
+    const float part = isFlat ? 0.5f : (number(*value).value_or(least) - least) / (most - least);
     const glm::vec2 place(x, lane.low.y + lane.size.y * (0.82f - 0.64f * std::clamp(part, -0.2f, 1.2f)));
     if (i > 0) list->AddLine({last.x, last.y}, {place.x, place.y}, kCurve, 1.2f);
     last = place;

@@ -57,7 +57,7 @@ std::optional<KnobTrack> trackFrom(const std::string& path, const std::string& t
 }
 
 double onKeyGrid(double time) {
-  return std::floor(time / kKeyGrid + 1e-6) * kKeyGrid;
+  return std::floor(time * kKeysPerSecond + 1e-6) / kKeysPerSecond;
 }
 
 std::optional<size_t> keyAt(const KnobTrack& track, double time) {

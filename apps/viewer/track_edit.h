@@ -16,7 +16,7 @@ std::optional<KnobTrack> trackFrom(const std::string& path, const std::string& t
 
 // What keys are set to lies on a grid this fine, and never after the time that was asked for: a step has been
 // taken then. Two keys are farther apart than this.
-constexpr double kKeyGrid = 1e-4, kNearKey = 0.01;
+constexpr double kKeysPerSecond = 10000, kNearKey = 0.01;
 double onKeyGrid(double time);
 // The key at a time, by its number.
 std::optional<size_t> keyAt(const KnobTrack& track, double time);

@@ -65,11 +65,11 @@ TEST(KnobTextOfTracks, keysComeAndGo) {
 TEST(KnobTextOfTracks, keysStayInTheirOrder) {
   KnobTrack track;
   for (const double time : {1.0, 2.0, 3.0}) putKey(track, time, time);
-  EXPECT_NEAR(moveKey(track, 1, 2.5), 2.5, kKeyGrid);
-  EXPECT_NEAR(moveKey(track, 1, 7), 3 - 2 * kNearKey, 2 * kKeyGrid);
-  EXPECT_NEAR(moveKey(track, 1, -7), 1 + 2 * kNearKey, 2 * kKeyGrid);
-  EXPECT_NEAR(moveKey(track, 2, 9), 9, kKeyGrid);
-  EXPECT_NEAR(moveKey(track, 0, 0), 0, kKeyGrid);
+  EXPECT_NEAR(moveKey(track, 1, 2.5), 2.5, 1 / kKeysPerSecond);
+  EXPECT_NEAR(moveKey(track, 1, 7), 3 - 2 * kNearKey, 2 / kKeysPerSecond);
+  EXPECT_NEAR(moveKey(track, 1, -7), 1 + 2 * kNearKey, 2 / kKeysPerSecond);
+  EXPECT_NEAR(moveKey(track, 2, 9), 9, 1 / kKeysPerSecond);
+  EXPECT_NEAR(moveKey(track, 0, 0), 0, 1 / kKeysPerSecond);
   for (size_t i = 1; i < track.keys.size(); ++i) EXPECT_LT(track.keys[i - 1].time, track.keys[i].time);
   // A picture's own time has reached a key that was set there.
   for (int picture = 0; picture < 500; ++picture) EXPECT_LE(onKeyGrid(picture / 24.0), picture / 24.0);

@@ -151,6 +151,8 @@ class Viewer : Hands::Doer {
     if (!news) return news.error();
     if (!*news) return Done{};
     settling_ = kSettling;
+    // What was saved is seen soon, and then in full.
+    pictures().moved(now());
     if (sceneVersion_ != document_.sceneVersion()) {
       sceneVersion_ = document_.sceneVersion();
       summary_ = document_.scene().summary();

@@ -10,6 +10,7 @@ import contextlib
 import json
 import os
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -29,7 +30,7 @@ class Screen:
         """`state`: where windows keep what outlives them."""
         self.size = (width, height)
         read, write = os.pipe()
-        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", f"{width}x{height}x24", "-nolisten", "tcp"],
+        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-screen", "0", f"{width}x{height}x24", "-nolisten", "tcp", "-noreset"],
                                        pass_fds=[write], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(write)
         with os.fdopen(read) as number:
@@ -639,6 +640,285 @@ class Test:
         window.until_it_shows(first, "the picture after it was hidden")
         self.close(window)
 
+    def knob_of(self, words, path):
+        """What the copied command sets a knob to; nothing where it does not."""
+        texts = [words[i + 1] for i, word in enumerate(words[:-1]) if word == "--set" and words[i + 1].startswith(path + "=")]
+        assert len(texts) <= 1, texts
+        return texts[0].split("=", 1)[1] if texts else None
+
+    def keys(self, screen, folder):
+        scene = self.scene(folder, "still_life", "keyed.glb")
+        first = self.rendered(scene, size=WIDE)
+        window = self.opened(screen, scene)
+
+        def track(path):
+            text = self.knob_of(window.copied(), path)
+            return json.loads(text) if text and text.startswith("{") else text
+        # A knob under the mouse gets a key; there is a time from then on.
+        window.click(800, 149)
+        screen.hand("type", "torn edge")
+        screen.hand("key", "Return")
+        window.resting()
+        screen.hand("mousemove", 640, 242)
+        window.resting()
+        window.key("i")
+        window.resting()
+        self.keep("key", window)
+        begin = track("warp.amount")
+        assert begin["keys"][0][0] == 0 and len(begin["keys"]) == 1, begin
+        # Turned at another time, it has another key.
+        window.click(430, 604)
+        window.resting()
+        screen.hand("mousemove", 793, 242, "mousedown", 1, "mousemove", 803, 242, "mousemove", 823, 242, "mouseup", 1)
+        window.resting()
+        self.keep("two keys", window)
+        words = window.copied()
+        two = track("warp.amount")
+        assert len(two["keys"]) == 2 and two["keys"][1][0] > 1 and two["keys"][1][1] > two["keys"][0][1], two
+        turned = self.drawn_by(words)
+        assert part_that_differs(turned, first) > 0.01
+        window.key("n")
+        window.until_it_shows(turned, "the picture at the second key")
+        window.key("shift+Left")
+        window.until_it_shows(first, "the picture at the first key")
+        window.key("n")
+        window.resting()
+        # The second key is dragged to another time, which is undone at once.
+        lane, begin, end = 540, 222, 958
+        seconds = 10
+        x = begin + (end - begin) * two["keys"][1][0] / seconds
+        screen.hand("mousemove", round(x), lane, "mousedown", 1)
+        for step in range(1, 6):
+            screen.hand("mousemove", round(x) + 20 * step, lane)
+        screen.hand("mouseup", 1)
+        window.resting()
+        self.keep("a key dragged", window)
+        later = track("warp.amount")
+        assert len(later["keys"]) == 2 and later["keys"][1][0] > two["keys"][1][0] + 0.5, (two, later)
+        window.key("ctrl+z")
+        window.resting()
+        assert track("warp.amount") == two, track("warp.amount")
+        # How it goes from one to the other.
+        window.click(120, 573)
+        window.resting()
+        self.keep("interpolations", window)
+        window.click(52, 524)
+        window.resting()
+        assert track("warp.amount") == {**two, "interpolation": "cubic"}, track("warp.amount")
+        window.key("ctrl+z")
+        window.resting()
+        # It has one value again.
+        window.click(350, 573)
+        window.resting()
+        assert isinstance(track("warp.amount"), str), track("warp.amount")
+        window.key("ctrl+z")
+        window.resting()
+        assert track("warp.amount") == two
+        window.key("ctrl+s")
+        look = folder / "keyed.look.json"
+        until(look.exists, "a look beside the scene")
+        assert json.loads(look.read_text())["warp"]["amount"] == two, look.read_text()
+        self.close(window)
+        look.unlink()
+
+    def way(self, screen, folder):
+        scene = self.scene(folder, "still_life", "filmed.glb")
+        window = self.opened(screen, scene)
+        screen.hand("mousemove", 250, 200)
+        first = window.resting()
+        window.key("i")
+        window.shows_more(first)
+        self.keep("the camera's first key", window)
+        window.click(430, 604)
+        window.resting()
+        window.drag(1, (120, -20))
+        window.resting()
+        screen.hand("mousemove", 250, 200)
+        window.key("i")
+        window.resting()
+        self.keep("the camera's second key", window)
+        words = window.copied()
+        eye = json.loads(self.knob_of(words, "camera.eye"))
+        assert len(eye["keys"]) == 2 and eye["interpolation"] == "ease", eye
+        assert self.knob_of(words, "camera.mode") == "eye" and "--eye" not in words, words
+        window.key("n")
+        second = self.drawn_by(words)
+        window.until_it_shows(second, "the picture at the second key")
+        window.key("Left", "Left", "Left", "Left", "Left", "Left", "Left", "Left")
+        between = window.shows_more(second)
+        window.until_it_shows(self.drawn_by(window.copied()), "the picture on the way")
+        assert part_that_differs(between, second) > 0.02
+        # From elsewhere the way is seen, and a key of it is pulled.
+        window.key("n")
+        window.key("1")
+        for _ in range(6):
+            screen.hand("mousemove", 300, 250, "click", 5)
+        window.resting()
+        before = window.pixels()
+        window.key("g")
+        window.shows_more(before, 0.002)
+        self.keep("the camera's way", window)
+        self.close(window)
+
+    def place(self, screen, folder):
+        scene = self.scene(folder, "still_life", "placed.glb")
+        first = self.rendered(scene, size=WIDE)
+        window = self.opened(screen, scene)
+        before = window.resting()
+        window.click(963, 30)
+        window.resting()
+        self.keep("to be added", window)
+        window.click(930, 72)
+        window.shows_more(before)
+        self.keep("added", window)
+        words = window.copied()
+        centre = [float(number) for number in self.knob_of(words, "colorizers.Sphere.volume.center").split(",")]
+        drawn = self.drawn_by(words)
+        assert part_that_differs(drawn, first) > 0.005, "what was added is not to be seen"
+        # It lies where the picture was below the middle: there it is pulled, and its size too.
+        screen.hand("mousemove", 400, 512, "mousedown", 1, "mousemove", 380, 500, "mousemove", 340, 440, "mouseup", 1)
+        window.resting()
+        self.keep("pulled", window)
+        words = window.copied()
+        pulled = [float(number) for number in self.knob_of(words, "colorizers.Sphere.volume.center").split(",")]
+        assert pulled != centre and pulled[1] > centre[1], (centre, pulled)
+        window.key("ctrl+z")
+        window.resting()
+        assert [float(number) for number in self.knob_of(window.copied(), "colorizers.Sphere.volume.center").split(",")] == centre
+        window.key("ctrl+y")
+        window.resting()
+        # The light, on its disc in the middle.
+        azimuth = self.knob_of(window.copied(), "light.azimuth")
+        assert azimuth is None
+        self.keep("light", window)
+        light = self.light_at(window)
+        screen.hand("mousemove", *light, "mousedown", 1, "mousemove", light[0] + 20, light[1], "mousemove", light[0] + 60, light[1] - 20, "mouseup", 1)
+        window.resting()
+        self.keep("another light", window)
+        words = window.copied()
+        assert self.knob_of(words, "light.source") == "look" and self.knob_of(words, "light.azimuth"), words
+        window.key("n", "g")
+        turned = self.drawn_by(words)
+        window.until_it_shows(turned, "what was placed and lit, without handles")
+        assert part_that_differs(turned, drawn) > 0.02
+        window.key("n", "ctrl+z")
+        window.resting()
+        assert self.knob_of(window.copied(), "light.azimuth") is None, "one step of undoing"
+        self.close(window)
+
+    def light_at(self, window):
+        """The middle of what has the light's colour."""
+        pixels, width = window.pixels(), window.size[0]
+        found = [(i % width, i // width) for i in range(width * window.size[1]) if pixels[3 * i:3 * i + 3] == bytes((255, 226, 120))]
+        assert len(found) > 50, "there is no light's handle"
+        return sum(x for x, _ in found) // len(found), sum(y for _, y in found) // len(found)
+
+    def shaders(self, screen, folder):
+        """A copy of the sources is compiled as it is saved."""
+        source, build = folder / "sources", folder / "shader build"
+        shutil.copytree(self.build.parent / "src", source / "src")
+        shutil.copytree(self.build / "generated/shaders", build / "generated/shaders")
+        here, there = str(self.build.parent / "src"), str(source / "src")
+        for file in (build / "generated/shaders").iterdir():
+            if file.name.endswith(".d") or file.name == "commands.json":
+                text = file.read_text()
+                escaped = there.replace(" ", "\\ ") if file.name.endswith(".d") else there
+                text = text.replace(here, escaped)
+                file.write_text(text)
+        for file in (build / "generated/shaders").glob("*.spv"):
+            os.utime(file)
+        scene = self.scene(folder, "still_life", "shaded.glb")
+        window = self.opened(screen, scene, "--shaders", build)
+        window.key("n")
+        first = self.rendered(scene, size=WIDE)
+        window.until_it_shows(first, "the picture")
+        shader = source / "src/passes/final_color/final_color.image.glsl"
+        text = shader.read_text()
+        changed = text[:text.rindex("return ")] + "return vec4(1, 0, 1, 1) * " + text[text.rindex("return ") + len("return "):]
+        assert changed != text
+        shader.write_text(changed)
+        start = time.monotonic()
+        until(lambda: sum(window.pixels()[1::3 * 97]) == 0, "the picture with another shader, without green")
+        print(f"a shader that was saved: seen after {1000 * (time.monotonic() - start):.0f} ms")
+        other = window.resting()
+        self.keep("another shader", window)
+        shader.write_text(changed.replace("return vec4(1, 0, 1, 1)", "return nothing"))
+        until(lambda: window.pixels() != other, "a complaint")
+        assert part_that_differs(window.resting(), other) < 0.3, "the last good picture does not stay"
+        self.keep("a broken shader", window)
+        shader.write_text(text)
+        window.until_it_shows(first, "the first picture again")
+        self.close(window)
+
+    def managed(self, screen, folder):
+        """Under a window manager."""
+        scene = self.scene(folder, "still_life", "managed.glb")
+        manager = subprocess.Popen(["openbox", "--sm-disable"], env=screen.environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            until(lambda: subprocess.run(["xdotool", "get_desktop"], env=screen.environment, capture_output=True).returncode == 0, "a window manager")
+            window = Window(screen, self.program, scene)
+
+            def shows(picture):
+                """Wherever on the screen."""
+                seen, line, width = screen.pixels(*screen.size), 3 * SIZE[0], 3 * screen.size[0]
+                begin = seen.find(picture[:line])
+                return begin >= 0 and all(seen[begin + y * width:begin + y * width + line] == picture[y * line:(y + 1) * line]
+                                          for y in range(SIZE[1]))
+
+            def is_visible():
+                return subprocess.run(["xdotool", "search", "--onlyvisible", "--name", "managed.glb"], env=screen.environment,
+                                      capture_output=True).returncode == 0
+            until(is_visible, "a window")
+            number = window.number("managed.glb")
+            screen.hand("windowactivate", "--sync", number)
+            window.key("n")
+            first = self.rendered(scene)
+            until(lambda: shows(first), "the picture")
+            screen.hand("windowminimize", "--sync", number)
+            until(lambda: not is_visible(), "the window minimised")
+            time.sleep(0.5)
+            before = window.cpu_seconds()
+            time.sleep(1)
+            assert window.cpu_seconds() - before <= 0.03, "a window that is minimised works"
+            screen.hand("windowactivate", "--sync", number)
+            until(lambda: shows(first), "the picture after the window was minimised")
+            window.key("F11")
+            full = self.rendered(scene, size=screen.size)
+            until(lambda: screen.pixels(*screen.size) == full, "the picture over the whole screen")
+            window.key("F11")
+            until(lambda: shows(first), "the picture in its window again")
+            window.key("ctrl+q")
+            assert window.closed() == (0, "", ""), window.closed()
+        finally:
+            manager.terminate()
+            manager.wait()
+
+    def fine_monitor(self, screen, folder):
+        """On a monitor with twice as fine pixels all that is read is twice as large."""
+        scene = self.scene(folder, "still_life", "fine.glb")
+
+        def panel(dpi, size):
+            with contextlib.closing(Screen(*size, folder / "state of fine")) as fine:
+                subprocess.run(["/usr/bin/python3", "-c", f"""
+from Xlib import Xatom, display
+screen = display.Display()
+screen.screen().root.change_property(Xatom.RESOURCE_MANAGER, Xatom.STRING, 8, b"Xft.dpi:\\t{dpi}")
+screen.sync()"""], env=fine.environment, check=True)
+                window = self.opened(fine, scene, size=size)
+                self.keep(f"{dpi} dots an inch", window)
+                shown = window.pixels()
+                window.key("n")
+                bare = window.resting()
+                self.close(window)
+            width = size[0]
+            rows = [y for y in range(size[1]) if shown[3 * width * y:3 * width * (y + 1)] != bare[3 * width * y:3 * width * (y + 1)]]
+            middle = rows[len(rows) // 2]
+            columns = [x for x in range(width) if shown[3 * (width * middle + x):3 * (width * middle + x) + 3] !=
+                       bare[3 * (width * middle + x):3 * (width * middle + x) + 3]]
+            return width - columns[0]
+        coarse, fine = panel(96, (1920, 1080)), panel(192, (3840, 2160))
+        assert abs(fine / coarse - 2) < 0.02, (coarse, fine)
+
     def lose_the_device(self, screen, folder):
         layers, switch = folder / "layers", folder / "lose it"
         layers.mkdir()
@@ -699,7 +979,8 @@ def main():
     if chosen.pictures:
         chosen.pictures.mkdir(parents=True, exist_ok=True)
     test = Test(chosen.build.resolve(), chosen.pictures)
-    parts = (test.look_at_a_scene, test.play, test.pick, test.drops, test.compare, test.both_eyes, test.save, test.kill, test.lose_the_device, test.demo, test.mistakes)
+    parts = (test.look_at_a_scene, test.play, test.pick, test.drops, test.compare, test.both_eyes, test.save, test.kill, test.keys, test.way, test.place, test.shaders,
+             test.managed, test.fine_monitor, test.lose_the_device, test.demo, test.mistakes)
     with tempfile.TemporaryDirectory(prefix="scumble window ") as name:
         folder = Path(name)
         with contextlib.closing(Screen(1024, 768, folder / "state")) as screen:
