@@ -180,7 +180,7 @@ void LookArguments::warnOfIdle(const Look& from, const Scene& scene, const std::
   // A look that ships is for many scenes; a file that was named, or that lies beside the scene, is for this
   // one.
   const std::string name = lookFor(sceneFile);
-  const bool isFile = name.find('/') != std::string::npos || endingOf(name) == ".json";
+  const bool isFile = isLookFile(name);
   // A line for each name; for each of the other kinds one.
   const std::vector<Finding> findings = check(scene, from, isFile);
   for (auto one = findings.begin(); one != findings.end();) {

@@ -48,7 +48,7 @@ LookArguments lookOf(const ViewArguments& args, const viewer::Opened& opened) {
 // Where the look comes from, or would come from if somebody saved one beside the scene.
 viewer::OwnLook ownLookOf(const ViewArguments& args, const Files& files) {
   const std::string name = args.look.lookFor(files[0]);
-  if (name.find('/') != std::string::npos || endingOf(name) == ".json") return {name, name};
+  if (isLookFile(name)) return {name, name};
   return {name, std::filesystem::path(files[0]).replace_extension(".look.json").string()};
 }
 

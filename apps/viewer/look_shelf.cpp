@@ -1,7 +1,5 @@
 #include "look_shelf.h"
 
-#include "look_text.h"
-
 namespace scumble::viewer {
 
 const Look& LookShelf::look(const std::string& nameOrFile) {

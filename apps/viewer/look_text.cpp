@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string_view>
@@ -159,10 +158,6 @@ bool put(std::string& text, const std::vector<std::string>& keys, const std::str
 }
 
 }  // namespace
-
-bool isLookFile(const std::string& look) {
-  return look.find('/') != std::string::npos || std::filesystem::path(look).extension() == ".json";
-}
 
 std::optional<std::string> withKnobs(const std::string& text, const Edits& edits) try {
   const bool isEmpty = text.find_first_not_of(" \t\r\n") == std::string::npos;

@@ -9,9 +9,6 @@
 
 namespace scumble::viewer {
 
-// Whether a look is meant by a file's name, and not by that of one that ships.
-bool isLookFile(const std::string& look);
-
 // The text with knobs set to what the edits say. What stands there for them is replaced, tracks too; what
 // does not stand there is added at the end of the group that it belongs to. Nothing where the text is no JSON
 // object (with comments), or where a group that a knob belongs to is something else than an object. An empty

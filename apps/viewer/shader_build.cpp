@@ -138,7 +138,7 @@ std::string ShaderBuild::compileOne(const std::string& name) const {
   const std::string out = (fs::path(folder_) / (name + ".new")).string();
   std::vector<std::string> words = shader.command;
   words.insert(words.end(), {"-o", out, shader.source});
-  const std::string complaint = complaintOf(words);
+  std::string complaint = complaintOf(words);
   if (!complaint.empty() || validator_.empty()) return complaint;
   return complaintOf({validator_, "--target-env", "vulkan1.3", "--scalar-block-layout", out});
 }

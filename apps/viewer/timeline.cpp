@@ -162,7 +162,8 @@ void Timeline::layOutLane(const std::string& path, const KnobTrack& track, Playb
   ImDrawList* const list = ImGui::GetWindowDrawList();
   // The end of a path says most.
   std::string name = path;
-  while (name.size() > 1 && ImGui::CalcTextSize(name.c_str()).x > (kNames - 1) * unit) name.erase(0, 1);
+  while (name.size() > 3 && ImGui::CalcTextSize(name.c_str()).x > (kNames - 1) * unit)
+    name = ".." + name.substr(name.starts_with("..") ? 3 : 1);
   list->AddText({begin.x + 0.2f * unit, begin.y + 0.3f * unit}, ImGui::GetColorU32(ImGuiCol_Text),
                 name.c_str());
   list->AddRectFilled({lane.low.x, lane.low.y}, {lane.low.x + lane.size.x, lane.low.y + lane.size.y},

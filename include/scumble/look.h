@@ -54,6 +54,9 @@ struct KnobTrack {
   bool repeat = false;  // with the period last - first key's time; otherwise the ends' values stand
 };
 
+// Whether Look::load takes this for a file (it has a '/', or ends in .json), or for the name of one that ships.
+SCUMBLE_API bool isLookFile(const std::string& nameOrFile);
+
 // Whether a text is a colour as knobs take them: "#RRGGBB", "#RGB", or one of CSS's names in small letters.
 SCUMBLE_API bool isColor(const std::string& text);
 

@@ -32,6 +32,11 @@ const std::vector<std::string>& Look::warnings() const {
   return data_->warnings;
 }
 
+bool isLookFile(const std::string& nameOrFile) {
+  return nameOrFile.find('/') != std::string::npos ||
+         (nameOrFile.size() > 5 && nameOrFile.compare(nameOrFile.size() - 5, 5, ".json") == 0);
+}
+
 bool isColor(const std::string& text) {
   return parseColor(text).has_value();
 }
@@ -193,7 +198,7 @@ Status Look::set(const std::string& path, const KnobTrack& track) {
   const Result<look::Assignment> setting = look::parseSettingPath(path);
   if (!setting) return setting.error();
   auto changed = std::make_shared<look::LookData>(*data_);
-  const Status status = addTrack(*setting, trackFrom(*setting->row, track, *changed), path, *changed);
+  Status status = addTrack(*setting, trackFrom(*setting->row, track, *changed), path, *changed);
   if (status) data_ = std::move(changed);
   return status;
 }

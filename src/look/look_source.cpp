@@ -44,11 +44,6 @@ std::string identityOf(const std::string& nameOrFile) {
 
 }  // namespace
 
-bool isLookFile(const std::string& nameOrFile) {
-  return nameOrFile.find('/') != std::string::npos ||
-         (nameOrFile.size() > 5 && nameOrFile.compare(nameOrFile.size() - 5, 5, ".json") == 0);
-}
-
 Result<LookSource> findLook(const std::string& nameOrFile) {
   if (!isLookFile(nameOrFile)) return shippedLook(nameOrFile);
   std::error_code ignored;

@@ -10,9 +10,6 @@ struct LookSource {
   std::string text;
 };
 
-// Whether this names a file rather than a look that ships.
-bool isLookFile(const std::string& nameOrFile);
-
 // Fails with unusableFile for files and with usage for unknown names.
 Result<LookSource> findLook(const std::string& nameOrFile);
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "scumble/view.h"
-#include "stage/test_pond.h"
+#include "tests/support/pond_gltf.h"
 
 namespace scumble {
 namespace {

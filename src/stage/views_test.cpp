@@ -6,7 +6,7 @@
 #include "scumble/view.h"
 #include "stage/framing.h"
 #include "stage/seen_views.h"
-#include "stage/test_pond.h"
+#include "tests/support/pond_gltf.h"
 
 namespace scumble {
 namespace {

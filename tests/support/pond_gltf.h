@@ -1,4 +1,4 @@
-// A scene with something still and something that moves, for the tests of this room.
+// Tests only: a scene with something still and something that moves.
 #pragma once
 
 #include "tests/support/loaded_test_gltf.h"
