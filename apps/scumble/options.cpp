@@ -10,6 +10,7 @@
 #include "placements.h"
 #include "report.h"
 #include "scumble/check.h"
+#include "stereo_layout.h"
 
 namespace scumble::app {
 
@@ -225,7 +226,7 @@ void PictureArguments::addTo(CLI::App& command) {
 }
 
 void PictureArguments::addStereoTo(CLI::App& command) {
-  command.add_option("--stereo", stereo, "Two views: side-by-side, over-under or separate");
+  command.add_option("--stereo", stereo, "Two views: " + stereoLayoutNames());
   ipdOption = command.add_option("--ipd", ipd, "Distance between the eyes, metres")->capture_default_str();
 }
 
@@ -262,8 +263,7 @@ Result<RenderOptions> PictureArguments::renderOptions() const {
     return usage("--samples " + std::to_string(samples) + " is neither 1 nor 4", "use --samples 4");
   options.samples = uint32_t(samples);
   options.seed = seed;
-  if (isStereo() && stereo != "side-by-side" && stereo != "over-under" && stereo != "separate")
-    return usage("'" + stereo + "' is no stereo layout", "use side-by-side, over-under or separate");
+  if (const auto layout = stereoLayoutOf(stereo); !layout) return layout.error();
   return options;
 }
 

@@ -22,12 +22,6 @@ std::string withPart(const std::string& path, const std::string& part, const std
   return (p.parent_path() / (p.stem().string() + "." + part + extension)).string();
 }
 
-// All views in one picture; `made` holds it where it has to be made.
-const Image& arrange(const std::vector<Image>& views, const std::string& layout, Image& made) {
-  if (views.size() < 2) return views[0];
-  return made = layout == "over-under" ? overUnder(views[0], views[1]) : sideBySide(views[0], views[1]);
-}
-
 // Whether a file is what writeSvg() writes of this size, to its end.
 bool isWholeSvg(const std::string& path, uint32_t width, uint32_t height) {
   std::ifstream in(path, std::ios::binary);
@@ -40,12 +34,11 @@ bool isWholeSvg(const std::string& path, uint32_t width, uint32_t height) {
 }  // namespace
 
 Result<OutputPlan> OutputPlan::make(const std::string& given, const std::string& sceneFile,
-                                    const std::string& layout, bool hasFrames, const RenderOptions& options) {
+                                    const StereoLayout* layout, bool hasFrames,
+                                    const RenderOptions& options) {
   OutputPlan plan;
   plan.layout = layout;
   plan.path = given.empty() ? fs::path(sceneFile).stem().string() + ".png" : given;
-  plan.separateEyes = layout == "separate";
-  plan.viewCount = layout.empty() ? 1 : 2;
   plan.width = options.width, plan.height = options.height;
   plan.aovs = options.aovs;
   const Result<const OutputFormat*> format = formatOf(plan.path);
@@ -55,6 +48,10 @@ Result<OutputPlan> OutputPlan::make(const std::string& given, const std::string&
     return usage("'" + plan.path + "' names a sequence of films", "name one film, or name.####.png");
   if (plan.kind() == OutputKind::film && !options.aovs.empty())
     return usage("a film holds the picture only", "write AOVs to name.####.exr");
+  if (layout && layout->isInTurns && plan.kind() != OutputKind::film && !plan.isSequence())
+    return usage("two eyes take turns in a film, and '" + plan.path + "' is none", "name it like boat.gif");
+  if (layout && !layout->arrangeDrawing && !layout->isSeparate && plan.kind() == OutputKind::drawing)
+    return usage(std::string("a drawing cannot be ") + layout->name, "use side-by-side, or write a picture");
   if (plan.isSequence() && !hasFrames)
     return usage("'" + plan.path + "' names a sequence, but there is no range of frames",
                  "add --frames A..B, or name one picture");
@@ -105,9 +102,8 @@ std::vector<std::string> OutputPlan::files(const std::string& framePath_) const 
 }
 
 bool OutputPlan::isThere(const std::string& framePath_) const {
-  const bool together = viewCount > 1 && !separateEyes && kind() != OutputKind::exr;
-  const uint32_t across = together && layout != "over-under" ? 2 : 1;
-  const uint32_t down = together && layout == "over-under" ? 2 : 1;
+  const bool isTogether = layout && kind() != OutputKind::exr;
+  const uint32_t across = isTogether ? layout->across : 1, down = isTogether ? layout->down : 1;
   const std::vector<std::string> all = files(framePath_), pictures = picturePaths(framePath_);
   const auto isWhole = [&](const std::string& file) {
     return kind() == OutputKind::drawing ? isWholeSvg(file, width * across, height * down)
@@ -118,45 +114,55 @@ bool OutputPlan::isThere(const std::string& framePath_) const {
                      [](const std::string& file) { return isWholePicture(file); });
 }
 
-Status OutputPlan::write(const Frame& frame, const std::string& framePath_) const {
+Status OutputPlan::write(const Frame& frame, const std::string& framePath_, int number) const {
   const std::vector<std::string> paths = picturePaths(framePath_);
-  for (size_t file = 0; file < paths.size(); ++file)
-    if (const Status status = kind() == OutputKind::picture   ? writePicture(frame, file, paths[file])
-                              : kind() == OutputKind::drawing ? writeDrawing(frame, file, paths[file])
+  for (size_t file = 0; file < paths.size(); ++file) {
+    const Part part = partOf(frame, file, number);
+    if (const Status status = kind() == OutputKind::picture   ? writePicture(part, paths[file])
+                              : kind() == OutputKind::drawing ? writeDrawing(part, paths[file])
                                                               : writeLayeredExr(frame, file, paths[file]);
         !status)
-      return status.error();
-  return Done{};
-}
-
-const Image& OutputPlan::imageOf(const Frame::Layer& layer, size_t file, Image& made) const {
-  return asFiles() && layer.views.size() > 1 ? layer.views[file] : arrange(layer.views, layout, made);
-}
-
-Status OutputPlan::writeAovsBeside(const Frame& frame, size_t file, const std::string& path_) const {
-  Image made;
-  for (size_t i = 1; i < frame.layers.size(); ++i) {
-    const std::string& name = frame.layers[i].name;
-    const ImageLayer layer{name == kCryptomatte ? name : "", "", &imageOf(frame.layers[i], file, made),
-                           isHalf(name)};
-    if (const Status status = writeLayers(frame, withPart(path_, name, ".exr"), {layer}); !status)
       return status.error();
   }
   return Done{};
 }
 
-Status OutputPlan::writePicture(const Frame& frame, size_t file, const std::string& path_) const {
-  if (const Status status = writeAovsBeside(frame, file, path_); !status) return status.error();
-  Image made;
-  return format->write(path_, imageOf(frame.layers[0], file, made), quality);
+OutputPlan::Part OutputPlan::partOf(const Frame& frame, size_t file, int number) const {
+  if (!layout) return {frame, 0};
+  if (layout->isSeparate) return {frame, file};
+  return {frame, layout->isInTurns ? std::optional(eyeInTurn(number, fps)) : std::nullopt};
 }
 
-Status OutputPlan::writeDrawing(const Frame& frame, size_t file, const std::string& path_) const {
-  if (const Status status = writeAovsBeside(frame, file, path_); !status) return status.error();
-  const std::vector<Drawing>& views = frame.drawings;
-  if (views.size() < 2 || asFiles()) return writeSvg(path_, views[views.size() < 2 ? 0 : file], svg);
-  return writeSvg(
-      path_, layout == "over-under" ? overUnder(views[0], views[1]) : sideBySide(views[0], views[1]), svg);
+const Image& OutputPlan::imageOf(const Frame::Layer& layer, const Part& part, Image& made) const {
+  // Some, like the shadow map, are the same for both.
+  if (part.view || layer.views.size() < 2) return layer.views[layer.views.size() < 2 ? 0 : *part.view];
+  const bool isPicture = &layer == &part.frame.layers[0];
+  return made = (isPicture ? layout->arrange : layout->arrangeFacts)(layer.views[0], layer.views[1]);
+}
+
+Status OutputPlan::writeAovsBeside(const Part& part, const std::string& path_) const {
+  Image made;
+  for (size_t i = 1; i < part.frame.layers.size(); ++i) {
+    const std::string& name = part.frame.layers[i].name;
+    const ImageLayer layer{name == kCryptomatte ? name : "", "", &imageOf(part.frame.layers[i], part, made),
+                           isHalf(name)};
+    if (const Status status = writeLayers(part.frame, withPart(path_, name, ".exr"), {layer}); !status)
+      return status.error();
+  }
+  return Done{};
+}
+
+Status OutputPlan::writePicture(const Part& part, const std::string& path_) const {
+  if (const Status status = writeAovsBeside(part, path_); !status) return status.error();
+  Image made;
+  return format->write(path_, imageOf(part.frame.layers[0], part, made), quality);
+}
+
+Status OutputPlan::writeDrawing(const Part& part, const std::string& path_) const {
+  if (const Status status = writeAovsBeside(part, path_); !status) return status.error();
+  const std::vector<Drawing>& views = part.frame.drawings;
+  if (part.view) return writeSvg(path_, views[*part.view], svg);
+  return writeSvg(path_, layout->arrangeDrawing(views[0], views[1]), svg);
 }
 
 Status OutputPlan::writeLayeredExr(const Frame& frame, size_t file, const std::string& path_) const {
@@ -169,26 +175,28 @@ Status OutputPlan::writeLayeredExr(const Frame& frame, size_t file, const std::s
       const ImageLayer alone{"", "", &layer.views[0], isHalf(layer.name)};
       if (const Status status = writeLayers(frame, withPart(path_, layer.name, ".exr"), {alone}); !status)
         return status.error();
-    } else if (asFiles() || viewCount == 1) {
-      layers.push_back({layer.name, "", &layer.views[viewCount == 1 ? 0 : file], isHalf(layer.name)});
+    } else if (asFiles() || !layout) {
+      layers.push_back({layer.name, "", &layer.views[layout ? file : 0], isHalf(layer.name)});
     } else {
-      for (size_t view = 0; view < viewCount; ++view)
+      for (size_t view = 0; view < viewCount(); ++view)
         layers.push_back({layer.name, kEyes[view], &layer.views[view], isHalf(layer.name)});
     }
   }
   return writeLayers(frame, path_, layers);
 }
 
-Result<FilmOutput> FilmOutput::create(const OutputPlan& plan, double fps) {
+Result<FilmOutput> FilmOutput::create(const OutputPlan& plan) {
   FilmOptions options;
   options.width = plan.width, options.height = plan.height;
-  options.fps = fps;
+  options.fps = plan.fps;
   options.quality = plan.quality;
   options.format = plan.format->film;
   FilmOutput output;
-  output.layout_ = plan.layout;
-  if (plan.layout == "side-by-side") options.width *= 2, options.layout = FilmLayout::sideBySide;
-  if (plan.layout == "over-under") options.height *= 2, options.layout = FilmLayout::overUnder;
+  output.plan_ = plan;
+  if (plan.layout) {
+    options.width *= plan.layout->across, options.height *= plan.layout->down;
+    options.layout = plan.layout->film;
+  }
   for (const std::string& path : plan.picturePaths(plan.path)) {
     Result<std::unique_ptr<FilmWriter>> film = FilmWriter::create(path, options);
     if (!film) return film.error();
@@ -197,11 +205,11 @@ Result<FilmOutput> FilmOutput::create(const OutputPlan& plan, double fps) {
   return output;
 }
 
-Status FilmOutput::add(const Frame& frame) {
-  const std::vector<Image>& views = frame.layers[0].views;
+Status FilmOutput::add(const Frame& frame, int number) {
   Image made;
   for (size_t i = 0; i < films_.size(); ++i)
-    if (const Status status = films_[i]->add(films_.size() > 1 ? views[i] : arrange(views, layout_, made));
+    if (const Status status =
+            films_[i]->add(plan_.imageOf(frame.layers[0], plan_.partOf(frame, i, number), made));
         !status)
       return status.error();
   return Done{};

@@ -10,6 +10,7 @@
 #include "scumble/drawing.h"
 #include "scumble/film.h"
 #include "scumble/renderer.h"
+#include "stereo_layout.h"
 
 namespace scumble::app {
 
@@ -19,19 +20,19 @@ std::string numbered(const std::string& path, int number);
 struct OutputPlan {
   std::string path;  // as given, or made from the scene's name
   const OutputFormat* format = nullptr;
-  std::optional<int> quality;  // default: the format's
-  bool separateEyes = false;
-  std::string layout;  // "", "side-by-side", "over-under" or "separate"
-  size_t viewCount = 1;
-  uint32_t width = 0, height = 0;  // of one view
+  std::optional<int> quality;            // default: the format's
+  const StereoLayout* layout = nullptr;  // null: one view
+  double fps = 24;                       // of films and sequences
+  uint32_t width = 0, height = 0;        // of one view
   std::vector<std::string> aovs;
   bool half = false;  // EXR: layers that 16 bits are enough for
   ExrOptions exr;
   SvgOptions svg;
 
-  // Fails with usage for a name whose ending is not known.
+  // Fails with usage for a name whose ending is not known, and for what a layout cannot be.
   static Result<OutputPlan> make(const std::string& given, const std::string& sceneFile,
-                                 const std::string& layout, bool hasFrames, const RenderOptions& options);
+                                 const StereoLayout* layout, bool hasFrames, const RenderOptions& options);
+  size_t viewCount() const { return layout ? 2 : 1; }
 
   // The path of frame `number`: #### is replaced by the number, zero-padded.
   std::string framePath(std::optional<int> number) const;
@@ -46,33 +47,39 @@ struct OutputPlan {
   bool isThere(const std::string& framePath) const;
 
   // Writes the picture and its AOVs: layers of an EXR, or beside another picture as NAME.AOV.exr. The picture
-  // comes last: where it is, the others are.
-  Status write(const Frame& frame, const std::string& framePath) const;
+  // comes last: where it is, the others are. `number`: of the frame.
+  Status write(const Frame& frame, const std::string& framePath, int number) const;
 
  private:
   friend class FilmOutput;
-  bool asFiles() const { return separateEyes && viewCount > 1; }
+  bool asFiles() const { return layout && layout->isSeparate; }
   bool isFileOfItsOwn(const std::string& aov) const;
   bool isHalf(const std::string& layer) const { return half && !Renderer::needsFloat(layer); }
   Status writeLayers(const Frame& frame, const std::string& path,
                      const std::vector<ImageLayer>& layers) const;
-  // Of a layer, what goes into a file; `made` holds it where it has to be made.
-  const Image& imageOf(const Frame::Layer& layer, size_t file, Image& made) const;
-  Status writeAovsBeside(const Frame& frame, size_t file, const std::string& path) const;
-  Status writePicture(const Frame& frame, size_t file, const std::string& path) const;
-  Status writeDrawing(const Frame& frame, size_t file, const std::string& path) const;
+  // What of a frame goes into one of its files: a view that has it alone, or all of them.
+  struct Part {
+    const Frame& frame;
+    std::optional<size_t> view;
+  };
+  Part partOf(const Frame& frame, size_t file, int number) const;
+  // Of a layer, that; `made` holds it where it has to be made.
+  const Image& imageOf(const Frame::Layer& layer, const Part& part, Image& made) const;
+  Status writeAovsBeside(const Part& part, const std::string& path) const;
+  Status writePicture(const Part& part, const std::string& path) const;
+  Status writeDrawing(const Part& part, const std::string& path) const;
   Status writeLayeredExr(const Frame& frame, size_t file, const std::string& path) const;
 };
 
 // A film, or two where each eye has its own.
 class FilmOutput {
  public:
-  static Result<FilmOutput> create(const OutputPlan& plan, double fps);
-  Status add(const Frame& frame);
+  static Result<FilmOutput> create(const OutputPlan& plan);
+  Status add(const Frame& frame, int number);
   Status finish();
 
  private:
-  std::string layout_;
+  OutputPlan plan_;
   std::vector<std::unique_ptr<FilmWriter>> films_;
 };
 

@@ -46,6 +46,7 @@ struct RenderArguments {
 
 constexpr int kMostFrame = 10'000'000;
 constexpr double kMostTurn = 86400;   // seconds
+constexpr int kStillTurns = 16;       // of eyes, in a film of what stands still
 constexpr unsigned kMostWriters = 4;  // beyond them disks are slower than encoders
 
 // "3..17"; nothing when it is not of that form.
@@ -151,8 +152,11 @@ Result<std::vector<int>> frameNumbers(const RenderArguments& args, const OutputP
   std::vector<int> numbers;
   if (args.frames.empty()) {
     if (output.kind() != OutputKind::film && !output.isSequence()) return numbers;
-    const double frames =
+    double frames =
         args.picture.turntable ? framesOfTurn(args) : std::ceil(playedSeconds(scene, look) * args.fps - 1e-3);
+    // What stands still is seen from both sides often enough.
+    if (!(frames >= 1) && output.layout && output.layout->isInTurns)
+      frames = kStillTurns * framesInTurn(args.fps);
     if (!(frames >= 1))
       return Error{ErrorKind::usage,
                    "",
@@ -256,9 +260,12 @@ int run(RenderArguments args) {
   if (!background) return fail(background.error());
   Result<RenderOptions> options = renderOptions(args, *background);
   if (!options) return fail(options.error());
-  Result<OutputPlan> output = OutputPlan::make(args.output, args.scene.files[0], args.picture.stereo,
+  const Result<const StereoLayout*> layout = stereoLayoutOf(args.picture.stereo);
+  if (!layout) return fail(layout.error());
+  Result<OutputPlan> output = OutputPlan::make(args.output, args.scene.files[0], *layout,
                                                !args.frames.empty() || args.picture.turntable, *options);
   if (!output) return fail(output.error());
+  output->fps = args.fps;
   output->quality = args.quality;
   if (const Status status = output->format->checkQuality(args.quality); !status) return fail(status.error());
   if (const Status status = readExrOptions(args.exr, *output); !status) return fail(status.error());
@@ -344,7 +351,7 @@ int run(RenderArguments args) {
   // Draw, and write beside it: pictures on several threads, a film in order.
   std::optional<FilmOutput> film;
   if (isFilm) {
-    Result<FilmOutput> created = FilmOutput::create(*output, args.fps);
+    Result<FilmOutput> created = FilmOutput::create(*output);
     if (!created) return fail(created.error());
     film = std::move(created).value();
   }
@@ -353,9 +360,9 @@ int run(RenderArguments args) {
   FrameWriter writer(
       writers,
       [&](const Frame& frame, int number) {
-        return film ? film->add(frame)
-                    : output->write(frame,
-                                    output->framePath(isPicture ? std::nullopt : std::optional(number)));
+        return film ? film->add(frame, number)
+                    : output->write(
+                          frame, output->framePath(isPicture ? std::nullopt : std::optional(number)), number);
       },
       [&](int number) { progress.done("frame " + std::to_string(number)); });
   nlohmann::json frameStats = nlohmann::json::array();
@@ -382,7 +389,7 @@ int run(RenderArguments args) {
                                 {"driver", (*renderer)->gpu().driver},
                                 {"size", {options->width, options->height}},
                                 {"samples", options->samples},
-                                {"views", output->viewCount},
+                                {"views", output->viewCount()},
                                 {"import",
                                  {{"read", import.read},
                                   {"parse", import.parse},

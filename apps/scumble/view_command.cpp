@@ -101,8 +101,8 @@ Files commandOf(const ViewArguments& args, const viewer::Shown& shown) {
   } else if (shown.time != 0) {
     add("--time", fmt::format("{}", shown.time));
   }
-  if (shown.isStereo) {
-    add("--stereo", "side-by-side");
+  if (!shown.stereo.empty()) {
+    add("--stereo", shown.stereo);
     if (args.picture.ipdOption->count() > 0) add("--ipd", fmt::format("{}", args.picture.ipd));
   }
   add("--size", fmt::format("{}x{}", shown.width, shown.height));
@@ -153,7 +153,7 @@ int run(ViewArguments args) {
   view.time = args.time;
   view.width = options->width, view.height = options->height;
   view.samples = options->samples, view.seed = options->seed;
-  view.isStereo = args.picture.isStereo(), view.ipd = args.picture.ipd;
+  view.stereo = args.picture.stereo, view.ipd = args.picture.ipd;
   view.renderer = args.picture.rendererOptions();
   view.shaderBuild = args.shaders;
   view.stateFolder = stateFolder();

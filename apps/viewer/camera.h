@@ -18,6 +18,7 @@ class Camera {
   bool isOther() const { return isHeld_ || base_; }
   uint64_t moves() const { return moves_; }  // grows with each change
 
+  const glm::vec3& centre() const { return centre_; }  // of the scene
   // What hands go around.
   void setBounds(const SceneSummary& summary);
   // Hands have it from now on, from where it is seen at present (nothing: that is not known yet).

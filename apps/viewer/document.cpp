@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
@@ -15,26 +16,32 @@ namespace scumble::viewer {
 
 namespace {
 
-// A picture by where it lies from a look's folder, if it lies below it.
-std::string fromFolderOf(const std::string& lookFile, const std::string& value) {
-  if (!std::filesystem::path(value).is_absolute()) return value;
+// A picture by where it lies from a look's folder, if it lies below it; by hand it is from the present one.
+std::string fromFolderOf(const std::string& lookFile, const Knob& knob, const std::string& value) {
+  const std::vector<std::string> builtIn = wordsOf(knob);
+  if (std::find(builtIn.begin(), builtIn.end(), value) != builtIn.end()) return value;
   std::error_code error;
   const std::filesystem::path folder =
       std::filesystem::weakly_canonical(std::filesystem::absolute(lookFile, error), error).parent_path();
-  const std::filesystem::path from =
-      std::filesystem::weakly_canonical(value, error).lexically_relative(folder);
-  return error || from.empty() || *from.begin() == ".." ? value : from.string();
+  const std::filesystem::path whole =
+      std::filesystem::weakly_canonical(std::filesystem::absolute(value, error), error);
+  const std::filesystem::path from = whole.lexically_relative(folder);
+  return error || from.empty() || *from.begin() == ".." ? whole.string() : from.string();
 }
 
 // As it stands in a look.
-std::string inLook(const std::string& path, const std::string& value, const std::string& lookFile) {
+std::string inLook(const std::string& path, const std::string& value, const std::string& lookFile) try {
   const std::optional<Setting> setting = settingOf(path);
   if (!setting || setting->knob->type != "picture") return value;
-  std::optional<KnobTrack> track = trackFrom(path, value);
-  if (!track) return fromFolderOf(lookFile, value);
-  for (KnobTrack::Key& key : track->keys)
-    key.value = fromFolderOf(lookFile, std::get<std::string>(key.value));
-  return textOf(*track, *setting->knob);
+  if (!isTrackText(value)) return fromFolderOf(lookFile, *setting->knob, value);
+  const nlohmann::json from = nlohmann::json::parse(value);
+  KnobTrack track{{}, Interpolation::step, from.value("repeat", false)};
+  for (const nlohmann::json& key : from["keys"])
+    track.keys.push_back(
+        {key.at(0).get<double>(), fromFolderOf(lookFile, *setting->knob, key.at(1).get<std::string>())});
+  return textOf(track, *setting->knob).value_or(value);
+} catch (const nlohmann::json::exception&) {
+  return value;
 }
 
 }  // namespace

@@ -374,6 +374,28 @@ TEST_F(Documents, whatCouldNotBeReadAgainIsNotWritten) {
   EXPECT_TRUE(document.problems().empty()) << problem(document);
 }
 
+// Whatever the present folder is: those of a hand are from there, those of a file from its folder.
+TEST_F(Documents, tracksOfPicturesAreSavedByWhereTheyLie) {
+  folder_.put("marks/of ours", "");
+  const std::string mark = folder_.file("marks/mark.png");
+  ASSERT_TRUE(writePng(mark, {8, 8, {"R", "G", "B"}, std::vector<float>(192, 0.5f)}).ok());
+  for (const std::string& named : {mark, std::filesystem::relative(mark).string()}) {
+    folder_.put("a.look.json", lookText("0.25"));
+    Document document = make();
+    ASSERT_TRUE(changes(document));
+    const std::string track = R"({ "keys": [[0, "paper"], [1.5, ")" + named + R"("]], "repeat": true })";
+    ASSERT_TRUE(document.set("warp.metatexture.example", track).ok());
+    const Result<std::string> saved = document.save();
+    ASSERT_TRUE(saved.ok()) << saved.error().message();
+    EXPECT_NE(contentOf(look_).find(R"({ "keys": [[0, "paper"], [1.5, "marks/mark.png"]], "repeat": true })"),
+              std::string::npos)
+        << contentOf(look_);
+    ASSERT_TRUE(changes(document));
+    EXPECT_TRUE(document.edits().empty());
+    EXPECT_TRUE(document.problems().empty()) << problem(document);
+  }
+}
+
 TEST_F(Documents, scenesThatAreAddedKeepWhatWasTurned) {
   Document document = make();
   ASSERT_TRUE(changes(document));

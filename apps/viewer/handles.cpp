@@ -32,10 +32,16 @@ constexpr ImU32 kAxes[] = {IM_COL32(214, 92, 84, 255), IM_COL32(118, 178, 90, 25
 struct PlaceKnobs {
   std::string section, group, place, choice;
   std::vector<std::string> words;  // of the choice
-  bool has(const std::string& knob) const {
-    return std::any_of(allKnobs().begin(), allKnobs().end(), [&](const Knob& each) {
+  const Knob* find(const std::string& knob) const {
+    const auto found = std::find_if(allKnobs().begin(), allKnobs().end(), [&](const Knob& each) {
       return each.path == group + "." + knob && isSetFor(each, section);
     });
+    return found == allKnobs().end() ? nullptr : &*found;
+  }
+  // Whether a knob has something to do with what is of this kind: its meaning says so.
+  bool isOf(const std::string& knob, const std::string& word) const {
+    const Knob* const found = find(knob);
+    return found && found->meaning.find(word) != std::string::npos;
   }
 };
 
@@ -122,8 +128,8 @@ Added added(const Addable& what, const Look& look, const glm::vec3& place, float
   const float wide = std::max(rounded(size), 0.05f);
   set(knobs->group + "." + knobs->choice, what.word);
   set(knobs->group + "." + knobs->place, textOf(rounded(place)));
-  set(knobs->group + ".radius", textOf(double(wide)));
-  set(knobs->group + ".size", textOf(glm::vec3(wide)));
+  if (knobs->isOf("radius", what.word)) set(knobs->group + ".radius", textOf(double(wide)));
+  if (knobs->isOf("size", what.word)) set(knobs->group + ".size", textOf(glm::vec3(wide)));
   if (knobs->group != "volume") return made;
   // What does nothing would not be seen.
   set("grade.tint", "#FFC070");
@@ -136,7 +142,7 @@ Result<Turn> cameraKeyed(const Scene& scene, const Look& look, const Viewpoint& 
   if (!space) return space.error();
   Turn turn{"camera", {}};
   const auto key = [&](const char* path, const KnobValue& value) {
-    turn.edits[path] = keyedAt(look, path, value, time, Interpolation::ease);
+    if (const auto text = keyedAt(look, path, value, time, Interpolation::ease)) turn.edits[path] = *text;
   };
   turn.edits["camera.mode"] = "eye";
   key("camera.eye", *from.eye);
@@ -213,12 +219,13 @@ class Handles::Maker {
     if (!space) return;
     const glm::vec3 centre = pointIn(*space, *place);
     const Target target{knobs.section, name};
-    const bool isChosen = chosen_ == target, isLevel = !knobs.has("rotation");
+    const bool isChosen = chosen_ == target, isLevel = !knobs.find("rotation");
     const glm::mat4 toSpace = glm::inverse(*space);
     const auto put = [=, this](const glm::vec3& world) {
       return turned(base + knobs.place, textOf(rounded(pointIn(toSpace, world))));
     };
-    drawShape(base, word, *space, centre, isChosen ? kThing : (kThing & 0x00FFFFFF) | 0x90000000);
+    const float radius = knobs.isOf("radius", word) ? float(value<double>(base + "radius").value_or(0)) : 0;
+    drawShape(base, word, radius, *space, centre, isChosen ? kThing : (kThing & 0x00FFFFFF) | 0x90000000);
     add(base + knobs.place, centre, kThing, isChosen ? 0.42f : 0.34f, name, target,
         [=, this](const glm::vec2& pixel) {
           if (!isLevel) return put(lens_.draggedFreely(centre, pixel));
@@ -238,19 +245,17 @@ class Handles::Maker {
             return along ? put(centre + *along - tip) : Edits();
           });
     }
-    addSizes(base, word, *space, centre, target);
+    addSizes(base, word, radius, *space, centre, target);
   }
 
   // What the knobs of a shape say of it, in the world.
   glm::mat3 axesOf(const std::string& base, const glm::mat4& space) const {
     return glm::mat3(space) * turnedBy(value<glm::vec3>(base + "rotation").value_or(glm::vec3(0)));
   }
-  float radiusAt(const std::string& base) const { return float(value<double>(base + "radius").value_or(0)); }
 
-  void drawShape(const std::string& base, const std::string& word, const glm::mat4& space,
+  void drawShape(const std::string& base, const std::string& word, float radius, const glm::mat4& space,
                  const glm::vec3& centre, ImU32 color) {
     const glm::mat3 axes = axesOf(base, space);
-    const float radius = radiusAt(base);
     if (word == "sphere" || word == "ellipsoid") {
       const glm::vec3 size =
           word == "sphere" ? glm::vec3(radius) : value<glm::vec3>(base + "size").value_or(glm::vec3(0));
@@ -291,7 +296,7 @@ class Handles::Maker {
     }
   }
 
-  void addSizes(const std::string& base, const std::string& word, const glm::mat4& space,
+  void addSizes(const std::string& base, const std::string& word, float radius, const glm::mat4& space,
                 const glm::vec3& centre, const Target& target) {
     const glm::mat3 axes = axesOf(base, space);
     // A number that is a way along an axis.
@@ -318,7 +323,7 @@ class Handles::Maker {
             });
       }
     } else if (word == "capsule") {
-      addLength("radius", axes[0], radiusAt(base));
+      addLength("radius", axes[0], radius);
       addLength("length", axes[1], float(value<double>(base + "length").value_or(0)));
     } else if (word == "half-space") {
       const std::optional<glm::vec2> middle = lens_.pixelOf(centre);
@@ -329,12 +334,12 @@ class Handles::Maker {
                      const glm::vec3 rotation = rotationTo(glm::normalize(toSpace * up));
                      return turned(base + "rotation", textOf(rounded(rotation)));
                    });
-    } else if (radiusAt(base) > 0) {
+    } else if (radius > 0) {
       // Of a sphere beside it, as it is seen; of rings on the level.
       const bool isSphere = word == "sphere";
       const float scale = glm::length(glm::mat3(space)[0]);
       const glm::vec3 beside = isSphere ? lens_.right() * scale : glm::mat3(space)[0];
-      addLength("radius", beside, radiusAt(base));
+      addLength("radius", beside, radius);
     }
   }
 
@@ -394,10 +399,14 @@ class Handles::Maker {
       char label[32];
       std::snprintf(label, sizeof label, "%.2f s", keys[i].time);
       add("camera.eye" + std::to_string(i), place, kCamera, 0.38f, label, std::nullopt,
-          [=, this, moved = **track](const glm::vec2& pixel) {
-            KnobTrack changed = moved;
+          [=, this](const glm::vec2& pixel) {
+            // Of as many keys as there are, each would have a copy of all.
+            const auto present = look_.track("camera.eye");
+            if (!present || !*present) return Edits();
+            KnobTrack changed = **present;
             changed.keys[i].value = rounded(lens_.draggedFreely(place, pixel));
-            return Edits{{"camera.eye", textOf(changed, *settingOf("camera.eye")->knob)}};
+            const auto text = textOf(changed, *settingOf("camera.eye")->knob);
+            return text ? Edits{{"camera.eye", *text}} : Edits();
           });
     }
   }
@@ -426,6 +435,7 @@ void Handles::hide() {
 
 void Handles::layOut(const glm::vec2& window, const Now& now, const glm::vec2& mouse) {
   // What is held calls upon its maker.
+  shown_.clear();
   maker_ = std::make_unique<Maker>(window, now);
   shown_ = maker_->make();
   const float unit = ImGui::GetFontSize();

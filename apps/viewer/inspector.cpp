@@ -198,14 +198,17 @@ void Inspector::layOutKnob(const Knob& knob, const Target& target, Document& doc
   }
   ImGui::PopID();
   if (isReset) document.unset(path);
+  const bool isTurned = isKeyed || text;
   if (isKeyed)
-    text = keyToggledAt(document.look(), path, time), change.keyed = path;
+    text = keyToggledAt(document.look(), path, time);
   else if (text)
-    text = turnedAt(document.look(), path, *text, time).value_or(*text);
-  if (text)
-    if (const Status status = document.set(path, *text); !status)
-      document.tell(Concern::knob, status.error().message());
-  change.isTurned |= text || isReset;
+    text = turnedAt(document.look(), path, *text, time);
+  if (isTurned) {
+    if (text && isTrackText(*text)) change.keyed = path;
+    const Status status = text ? document.set(path, *text) : Status(noTrackOf(path));
+    if (!status) document.tell(Concern::knob, status.error().message());
+  }
+  change.isTurned |= isTurned || isReset;
 }
 
 }  // namespace scumble::viewer

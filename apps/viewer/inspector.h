@@ -21,7 +21,7 @@ struct Target {
 class Inspector {
  public:
   Inspector();
-  // What a hand has done; `keyed`: the setting whose track has a key more or less.
+  // What a hand has done; `keyed`: the setting whose track has other keys.
   struct Change {
     bool isTurned = false;
     std::string keyed;

@@ -47,6 +47,22 @@ void layOutPicture(const glm::vec2& window, const PictureShown& picture, const P
   if (other) addPart(placed(window, other->size), other->texture, line, window.x);
 }
 
+namespace {
+
+constexpr const char* kEyeLayouts[] = {"", "side-by-side", "crossed", "anaglyph"};  // by Eyes
+
+}  // namespace
+
+std::string layoutOf(Eyes eyes) {
+  return kEyeLayouts[size_t(eyes)];
+}
+
+Eyes eyesOf(const std::string& layout) {
+  for (const Eyes eyes : {Eyes::one, Eyes::crossed, Eyes::anaglyph})
+    if (layout == kEyeLayouts[size_t(eyes)]) return eyes;
+  return Eyes::sideBySide;
+}
+
 glm::uvec2 viewSize(const glm::uvec2& window, Eyes eyes) {
   const bool isHalf = eyes == Eyes::sideBySide || eyes == Eyes::crossed;
   return isHalf ? glm::uvec2(window.x / 2, window.y) : window;

@@ -38,6 +38,9 @@ enum class Eyes {
   crossed,  // the right eye's picture at the left
   anaglyph  // red for the left eye, cyan for the right one
 };
+// The name of that for `render --stereo`, empty for one; and back, side by side for those that no window has.
+std::string layoutOf(Eyes eyes);
+Eyes eyesOf(const std::string& layout);
 // Pixels that a view has then.
 glm::uvec2 viewSize(const glm::uvec2& window, Eyes eyes);
 void layOutEyes(const glm::vec2& window, const PictureShown& left, const PictureShown& right, Eyes eyes);

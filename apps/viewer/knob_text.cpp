@@ -96,7 +96,8 @@ std::string valueText(const Look& look, const std::string& path) {
   const Result<KnobValue> value = look.get(path);
   if (!setting || !value) return "";
   const Result<std::optional<KnobTrack>> track = look.track(path);
-  return track && *track ? textOf(**track, *setting->knob) : textOf(*value, *setting->knob);
+  if (track && *track) return textOf(**track, *setting->knob).value_or("");
+  return textOf(*value, *setting->knob);
 }
 
 std::vector<std::string> wordsOf(const Knob& knob) {

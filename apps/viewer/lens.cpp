@@ -15,7 +15,7 @@ constexpr float kQuarter = 1.5707963f;  // of a turn
 
 Lens::Lens(const View& view, const glm::vec2& window)
     : worldToClip_(view.eyeToClip * view.worldToEye),
-      clipToWorld_(glm::mat4(glm::inverse(glm::dmat4(view.eyeToClip) * glm::dmat4(view.worldToEye)))),
+      clipToWorld_(glm::inverse(glm::dmat4(view.worldToEye)) * glm::inverse(glm::dmat4(view.eyeToClip))),
       eyeToWorld_(glm::transpose(glm::mat3(view.worldToEye))),
       window_(window) {
   for (int i = 0; i < 3; ++i) eyeToWorld_[i] = glm::normalize(eyeToWorld_[i]);
@@ -30,12 +30,12 @@ std::optional<glm::vec2> Lens::pixelOf(const glm::vec3& place) const {
 Lens::Ray Lens::rayAt(const glm::vec2& pixel) const {
   const glm::vec2 clip = pixel / window_ * 2.0f - 1.0f;
   // Depth is reversed: 1 is near, and nearly 0 is far away.
-  const auto at = [&](float depth) {
-    const glm::vec4 place = clipToWorld_ * glm::vec4(clip, depth, 1);
-    return glm::vec3(place) / place.w;
+  const auto at = [&](double depth) {
+    const glm::dvec4 place = clipToWorld_ * glm::dvec4(clip, depth, 1);
+    return glm::dvec3(place) / place.w;
   };
-  const glm::vec3 near = at(1), far = at(0.5f);
-  return {near, glm::normalize(far - near)};
+  const glm::dvec3 near = at(1), far = at(0.5);
+  return {glm::vec3(near), glm::vec3(glm::normalize(far - near))};
 }
 
 float Lens::pixelSize(const glm::vec3& place) const {

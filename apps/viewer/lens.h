@@ -38,7 +38,8 @@ class Lens {
   glm::vec3 directionAt(const glm::vec2& disc) const;
 
  private:
-  glm::mat4 worldToClip_, clipToWorld_;
+  glm::mat4 worldToClip_;
+  glm::dmat4 clipToWorld_;  // of near planes that are a thousandth of the way to what is seen
   glm::mat3 eyeToWorld_;
   glm::vec2 window_;
 };

@@ -43,6 +43,17 @@ TEST(VisibleLens, raysGoThroughThePixelsOfPlaces) {
     }
 }
 
+// A near plane close to the eye, far from the world's origin.
+TEST(VisibleLens, raysAreExactWhereverOneStands) {
+  View view;
+  const glm::vec3 eye(104, -30, 60), target(100, -31, 55);
+  view.worldToEye = glm::lookAt(eye, target, glm::vec3(0, 1, 0));
+  view.eyeToClip = perspectiveProjection(0.7f, kWindow.x / kWindow.y, 1e-4f);
+  const Lens lens(view, kWindow);
+  for (const glm::vec2 mouse : {glm::vec2(400, 225), glm::vec2(10, 440), glm::vec2(700, 30)})
+    EXPECT_LT(glm::distance(*lens.pixelOf(lens.draggedFreely(target, mouse)), mouse), 0.1f);
+}
+
 TEST(VisibleLens, aPixelIsAsWideAsItLooks) {
   const Lens lens = turned();
   const glm::vec3 place(0.5f, 1, 0);

@@ -92,8 +92,8 @@ class Reader {
 };
 
 // Of a setting as looks have it in JSON. Words that are no number, truth or list of numbers are strings.
-std::string jsonOf(const std::string& path, const Setting& setting, const std::string& value) {
-  if (trackFrom(path, value)) return value;
+std::string jsonOf(const Setting& setting, const std::string& value) {
+  if (isTrackText(value)) return value;
   const std::string& type = setting.knob->type;
   if (type == "number" || type == "integer" || type == "toggle") return value;
   return type == "vector" ? "[" + value + "]" : nlohmann::json(value).dump();
@@ -166,7 +166,7 @@ std::optional<std::string> withKnobs(const std::string& text, const Edits& edits
   if (!parsed.is_object()) return std::nullopt;
   for (const auto& [path, value] : edits) {
     const std::optional<Setting> setting = settingOf(path);
-    if (!setting || !put(changed, keysOf(*setting), jsonOf(path, *setting, value))) return std::nullopt;
+    if (!setting || !put(changed, keysOf(*setting), jsonOf(*setting, value))) return std::nullopt;
   }
   return changed;
 } catch (const nlohmann::json::exception&) {

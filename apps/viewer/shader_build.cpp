@@ -25,9 +25,10 @@ std::string contentsOf(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// What a command has said, where it has failed; empty: it has not.
-std::string complaintOf(const std::vector<std::string>& words) {
-  FILE* const pipe = popen((shellText(words) + " 2>&1").c_str(), "re");
+// What a command has said, where it has failed; empty: it has not. It runs in a folder.
+std::string complaintOf(const fs::path& folder, const std::vector<std::string>& words) {
+  const std::string command = "cd " + shellText({folder.string()}) + " && " + shellText(words) + " 2>&1";
+  FILE* const pipe = popen(command.c_str(), "re");
   if (!pipe) return words[0] + " cannot be started";
   std::string said;
   char part[4096];
@@ -39,6 +40,12 @@ std::string complaintOf(const std::vector<std::string>& words) {
   const size_t begin = error == std::string::npos ? 0 : said.rfind('\n', error) + 1;
   std::string line = said.substr(begin, said.find('\n', begin) - begin);
   return line.empty() ? words[0] + " has failed" : line;
+}
+
+// Files by what they are called in a folder.
+std::vector<std::string> wholeNames(const fs::path& folder, std::vector<std::string> files) {
+  for (std::string& file : files) file = (folder / file).lexically_normal().string();
+  return files;
 }
 
 }  // namespace
@@ -75,7 +82,6 @@ ShaderBuild::~ShaderBuild() {
 Result<std::unique_ptr<ShaderBuild>> ShaderBuild::open(const std::string& build, std::function<void()> wake) {
   const fs::path shaders = fs::path(build) / "generated/shaders", list = shaders / "commands.json";
   std::unique_ptr<ShaderBuild> made(new ShaderBuild(std::move(wake)));
-  std::set<std::string> all;
   try {
     for (const nlohmann::json& one : nlohmann::json::parse(contentsOf(list))) {
       if (one.contains("validator")) {
@@ -89,12 +95,11 @@ Result<std::unique_ptr<ShaderBuild>> ShaderBuild::open(const std::string& build,
       const fs::path built = shaders / (name + ".spv");
       shader.sources = dependenciesIn(contentsOf(built.string() + ".d"));
       if (shader.sources.empty()) shader.sources = {shader.source};
-      for (std::string& source : shader.sources) source = fs::path(source).lexically_normal().string();
+      shader.sources = wholeNames(fs::path(shader.source).parent_path(), shader.sources);
       std::error_code error;
       const auto when = fs::last_write_time(built, error);
       for (const std::string& source : shader.sources)
         if (error || fs::last_write_time(source, error) > when) made->waiting_.insert(name);
-      all.insert(shader.sources.begin(), shader.sources.end());
       made->shaders_.emplace(name, std::move(shader));
     }
   } catch (const std::exception&) {
@@ -112,7 +117,7 @@ Result<std::unique_ptr<ShaderBuild>> ShaderBuild::open(const std::string& build,
   if (error || !mkdtemp(pattern.data()))
     return Error{ErrorKind::outputNotWritten, pattern, 0, "", "the folder cannot be made", "set TMPDIR"};
   made->folder_ = pattern;
-  made->watch_.watch({all.begin(), all.end()});
+  made->watchSources();
   return made;
 }
 
@@ -122,25 +127,47 @@ std::optional<Status> ShaderBuild::poll() {
     const std::lock_guard lock(mutex_);
     done = std::exchange(done_, std::nullopt);
   }
-  if (done) compiler_.join();
+  if (done) {
+    compiler_.join();
+    watchSources();
+  }
   if (const std::set<std::string> saved = watch_.takeSaved(); !saved.empty())
     for (const auto& [name, shader] : shaders_)
       if (std::any_of(shader.sources.begin(), shader.sources.end(),
                       [&](const std::string& source) { return saved.count(source) > 0; }))
         waiting_.insert(name);
-  if (!waiting_.empty() && !compiler_.joinable())
+  // Nothing else is put there until somebody has taken what is.
+  if (!done && !waiting_.empty() && !compiler_.joinable())
     compiler_ = std::thread([this, names = std::exchange(waiting_, {})] { compile(names); });
   return done;
+}
+
+// All that shaders include, which may be others than before.
+void ShaderBuild::watchSources() {
+  std::set<std::string> all;
+  for (auto& [name, shader] : shaders_) {
+    const std::vector<std::string> sources =
+        dependenciesIn(contentsOf(fs::path(folder_) / (name + ".new.d")));
+    if (!sources.empty()) shader.sources = wholeNames(fs::path(shader.source).parent_path(), sources);
+    all.insert(shader.sources.begin(), shader.sources.end());
+  }
+  watch_.watch({all.begin(), all.end()});
 }
 
 std::string ShaderBuild::compileOne(const std::string& name) const {
   const Shader& shader = shaders_.at(name);
   const std::string out = (fs::path(folder_) / (name + ".new")).string();
+  // In the source's folder, since the compiler's rules for make know no spaces in names.
+  const fs::path source(shader.source), folder = source.parent_path();
   std::vector<std::string> words = shader.command;
-  words.insert(words.end(), {"-o", out, shader.source});
-  std::string complaint = complaintOf(words);
+  words.insert(words.end(), {"-MD", "-MF", out + ".d", "-o", out, source.filename().string()});
+  std::string complaint = complaintOf(folder, words);
+  // It calls files by what they are called there.
+  const std::string file = complaint.substr(0, complaint.find(':'));
+  if (file.starts_with("../") || file == source.filename())
+    complaint.replace(0, file.size(), (folder / file).lexically_normal().string());
   if (!complaint.empty() || validator_.empty()) return complaint;
-  return complaintOf({validator_, "--target-env", "vulkan1.3", "--scalar-block-layout", out});
+  return complaintOf(folder, {validator_, "--target-env", "vulkan1.3", "--scalar-block-layout", out});
 }
 
 // All of them, or none.

@@ -41,6 +41,7 @@ class ShaderBuild {
     std::vector<std::string> sources;  // with all that it includes
   };
   explicit ShaderBuild(std::function<void()> wake);
+  void watchSources();
   void compile(const std::set<std::string>& names);
   std::string compileOne(const std::string& name) const;
 

@@ -13,21 +13,23 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 TEST(VisibleShaderBuild, readsRulesOfMake) {
-  using Names = std::vector<std::string>;
-  EXPECT_EQ(dependenciesIn("out.h: a.glsl b/c.glsl\n"), (Names{"a.glsl", "b/c.glsl"}));
-  EXPECT_EQ(dependenciesIn("out.h: a\\ b.glsl \\\n  c.glsl"), (Names{"a b.glsl", "c.glsl"}));
+  using Files = std::vector<std::string>;
+  EXPECT_EQ(dependenciesIn("out.h: a.glsl b/c.glsl\n"), (Files{"a.glsl", "b/c.glsl"}));
+  EXPECT_EQ(dependenciesIn("out.h: a\\ b.glsl \\\n  c.glsl"), (Files{"a b.glsl", "c.glsl"}));
   EXPECT_TRUE(dependenciesIn("").empty());
   EXPECT_TRUE(dependenciesIn("out.h:").empty());
 }
 
 class Building : public testing::Test {
  protected:
-  // A compiler that copies, and complains of what is broken: COMPILER -o OUT SOURCE.
+  // A compiler that copies, and complains of what is broken.
   void SetUp() override {
-    const std::string script = folder_.put("glslc", R"(#!/bin/sh
-if grep -q broken "$3"; then echo "$3:7: error: 'x' : undeclared"; echo "$3:9: error: more"; exit 1; fi
-cp "$3" "$2"
-)");
+    const std::string script = folder_.put("glslc", R"sh(#!/bin/sh
+# -MD -MF RULE -o OUT SOURCE; the source names what it includes in its second line.
+if grep -q broken "$6"; then echo "$6:7: error: 'x' : undeclared"; echo "$6:9: error: more"; exit 1; fi
+echo "out: $(echo "$6" | sed 's/ /\\ /g') $(sed -n 2p "$6")" > "$3"
+cp "$6" "$5"
+)sh");
     std::filesystem::permissions(script, std::filesystem::perms::owner_all);
     std::string list = "[";
     for (const char* const name : {"one", "two"})
@@ -99,6 +101,21 @@ TEST_F(Building, compilesWhatWasSavedAndKeepsWhatWasGood) {
     EXPECT_FALSE(std::filesystem::exists(build->folder() + "/two.spv"));
   }
   EXPECT_FALSE(std::filesystem::exists(folder)) << "it goes with the window";
+}
+
+TEST_F(Building, followsWhatIsIncludedAnew) {
+  const auto build = opened();
+  folder_.put("new.glsl", "1");
+  folder_.put("one.frag", "first\n" + escaped(folder_.file("new.glsl")));
+  ASSERT_TRUE(waited(*build)->ok());
+  folder_.put("new.glsl", "2");
+  ASSERT_TRUE(waited(*build)) << "it is watched";
+  folder_.put("both.glsl", "2");
+  ASSERT_TRUE(waited(*build)) << "the other one includes it still";
+  folder_.put("two.frag", "second");
+  ASSERT_TRUE(waited(*build)->ok());
+  folder_.put("both.glsl", "3");
+  EXPECT_FALSE(waited(*build, 300)) << "nobody includes it any more";
 }
 
 TEST_F(Building, compilesWhatIsNewerThanTheBuild) {

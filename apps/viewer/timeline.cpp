@@ -72,6 +72,7 @@ std::vector<std::string> tracksOf(const Look& look) {
   std::vector<std::string> paths;
   for (const std::string& path : look.animated())
     if (const auto track = look.track(path); track && *track) paths.push_back(path);
+  std::sort(paths.begin(), paths.end());
   return paths;
 }
 
@@ -192,7 +193,7 @@ void Timeline::layOutLane(const std::string& path, const KnobTrack& track, Playb
       const double picture = 1 / playback.rate();
       const double wanted = std::clamp(lane.timeAt(ImGui::GetIO().MousePos.x), 0.0, playback.duration);
       playback.seek(moveKey(moved, i, std::round(wanted / picture) * picture));
-      put(moved, document, change);
+      put(path, moved, document, change);
     }
     if (ImGui::IsItemHovered())
       ImGui::SetTooltip("%.2f s: %s", track.keys[i].time,
@@ -219,7 +220,7 @@ void Timeline::layOutChosen(const KnobTrack& track, double time, Document& docum
       if (ImGui::Selectable(kNamesOf[i], size_t(track.interpolation) == i)) {
         KnobTrack changed = track;
         changed.interpolation = Interpolation(i);
-        put(changed, document, change);
+        put(chosen_, changed, document, change);
       }
     ImGui::EndCombo();
   }
@@ -229,13 +230,12 @@ void Timeline::layOutChosen(const KnobTrack& track, double time, Document& docum
   if (ImGui::Checkbox("Repeats", &repeats)) {
     KnobTrack changed = track;
     changed.repeat = repeats;
-    put(changed, document, change);
+    put(chosen_, changed, document, change);
   }
   ImGui::SameLine();
   const auto set = [&](const std::optional<std::string>& text) {
-    if (!text) return;
     document.closeStep();
-    if (const Status status = document.set(chosen_, *text); !status)
+    if (const Status status = text ? document.set(chosen_, *text) : Status(noTrackOf(chosen_)); !status)
       document.tell(Concern::knob, status.error().message());
     document.closeStep();
     change.isTurned = true;
@@ -250,9 +250,10 @@ void Timeline::layOutChosen(const KnobTrack& track, double time, Document& docum
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("What it is at the present time, for ever");
 }
 
-void Timeline::put(const KnobTrack& track, Document& document, Change& change) {
-  if (const Status status = document.set(chosen_, textOf(track, *settingOf(chosen_)->knob)); !status)
-    document.tell(Concern::knob, status.error().message());
+void Timeline::put(const std::string& path, const KnobTrack& track, Document& document, Change& change) {
+  const std::optional<std::string> text = textOf(track, *settingOf(path)->knob);
+  const Status status = text ? document.set(path, *text) : Status(noTrackOf(path));
+  if (!status) document.tell(Concern::knob, status.error().message());
   change.isTurned = true;
 }
 

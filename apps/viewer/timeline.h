@@ -33,7 +33,7 @@ class Timeline {
   void layOutLane(const std::string& path, const KnobTrack& track, Playback& playback, Document& document,
                   Change& change);
   void layOutChosen(const KnobTrack& track, double time, Document& document, Change& change);
-  void put(const KnobTrack& track, Document& document, Change& change);
+  void put(const std::string& path, const KnobTrack& track, Document& document, Change& change);
 
   std::string chosen_;
   std::optional<size_t> key_;  // of the chosen track
@@ -41,7 +41,7 @@ class Timeline {
   float height_ = 0;
 };
 
-// Settings whose tracks count, but for those of patterns of names.
+// Settings whose tracks count by their paths, sorted, but for those of patterns of names.
 std::vector<std::string> tracksOf(const Look& look);
 
 }  // namespace scumble::viewer

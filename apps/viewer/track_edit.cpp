@@ -41,7 +41,7 @@ std::optional<KnobValue> valueFrom(const std::string& path, const std::string& t
 
 }  // namespace
 
-std::string textOf(const KnobTrack& track, const Knob& knob) {
+std::optional<std::string> textOf(const KnobTrack& track, const Knob& knob) try {
   std::string keys;
   for (const KnobTrack::Key& key : track.keys)
     keys += (keys.empty() ? "[" : ", [") + textOf(key.time) + ", " + jsonOf(key.value, knob) + "]";
@@ -49,6 +49,23 @@ std::string textOf(const KnobTrack& track, const Knob& knob) {
   if (track.interpolation != usualFor(knob))
     text += std::string(", \"interpolation\": \"") + kInterpolations[size_t(track.interpolation)] + "\"";
   return text + (track.repeat ? ", \"repeat\": true }" : " }");
+} catch (const nlohmann::json::exception&) {
+  return std::nullopt;
+}
+
+Error noTrackOf(const std::string& path) {
+  return {ErrorKind::usage,
+          "",
+          0,
+          "",
+          path + ": a file's name is no UTF-8, and has no place in a track",
+          "give the file another name"};
+}
+
+bool isTrackText(const std::string& text) {
+  const auto parsed =
+      text.starts_with('{') ? nlohmann::json::parse(text, nullptr, false) : nlohmann::json(nullptr);
+  return parsed.is_object() && parsed.contains("keys");
 }
 
 std::optional<KnobTrack> trackFrom(const std::string& path, const std::string& text) {
@@ -61,9 +78,11 @@ double onKeyGrid(double time) {
 }
 
 std::optional<size_t> keyAt(const KnobTrack& track, double time) {
+  std::optional<size_t> nearest;
+  const auto away = [&](size_t i) { return std::abs(track.keys[i].time - time); };
   for (size_t i = 0; i < track.keys.size(); ++i)
-    if (std::abs(track.keys[i].time - time) < kNearKey) return i;
-  return std::nullopt;
+    if (away(i) < kNearKey && (!nearest || away(i) < away(*nearest))) nearest = i;
+  return nearest;
 }
 
 void putKey(KnobTrack& track, double time, const KnobValue& value) {
@@ -111,8 +130,8 @@ std::optional<std::string> keyToggledAt(const Look& look, const std::string& pat
   return textOf(*track, *setting->knob);
 }
 
-std::string keyedAt(const Look& look, const std::string& path, const KnobValue& value, double time,
-                    Interpolation interpolation) {
+std::optional<std::string> keyedAt(const Look& look, const std::string& path, const KnobValue& value,
+                                   double time, Interpolation interpolation) {
   KnobTrack track = trackOf(look, path).value_or(KnobTrack{{}, interpolation});
   putKey(track, time, value);
   return textOf(track, *settingOf(path)->knob);

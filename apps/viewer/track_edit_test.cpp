@@ -33,6 +33,12 @@ TEST(KnobTextOfTracks, meansTheSameAgain) {
     }
     EXPECT_TRUE(trackFrom(path, written));
   }
+  EXPECT_TRUE(isTrackText("{\"keys\": 1}"));
+  for (const char* const text : {"2", "{", "{}", "{Lamp}", "[1]", ""})
+    EXPECT_FALSE(isTrackText(text)) << text;
+  // Names of files need not be UTF-8.
+  const KnobTrack odd{{{0, std::string("caf\xE9.png")}}, Interpolation::step};
+  EXPECT_FALSE(textOf(odd, *settingOf("texture.metatexture.example")->knob));
   EXPECT_FALSE(trackFrom("warp.amount", "2"));
   EXPECT_FALSE(trackFrom("warp.amount", "{\"keys\": []}"));
   EXPECT_FALSE(trackFrom("camera.target", "{Lamp}")) << "a name";
@@ -73,6 +79,11 @@ TEST(KnobTextOfTracks, keysStayInTheirOrder) {
   for (size_t i = 1; i < track.keys.size(); ++i) EXPECT_LT(track.keys[i - 1].time, track.keys[i].time);
   // A picture's own time has reached a key that was set there.
   for (int picture = 0; picture < 500; ++picture) EXPECT_LE(onKeyGrid(picture / 24.0), picture / 24.0);
+  // Of two that are near the nearer one.
+  const KnobTrack pair{{{4.992, 1.0}, {5, 2.0}}};
+  EXPECT_EQ(keyAt(pair, 5), 1u);
+  EXPECT_EQ(keyAt(pair, 4.993), 0u);
+  EXPECT_FALSE(keyAt(pair, 5.02));
   // No room is left between two.
   KnobTrack narrow{{{0, 1.0}, {1e-3, 2.0}, {2e-3, 3.0}}};
   moveKey(narrow, 1, 1);

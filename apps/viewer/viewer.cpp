@@ -78,7 +78,7 @@ class Viewer : Hands::Doer {
         recent_(options.stateFolder),
         camera_(options.viewpoint) {
     playback_.playhead = options.time;
-    if (options.isStereo) area_.setEyes(Eyes::sideBySide);
+    if (!options.stereo.empty()) area_.setEyes(eyesOf(options.stereo));
     setStyle(window.contentScale());
     ImGui::GetIO().DisplaySize = {float(options.width), float(options.height)};
   }
@@ -109,6 +109,7 @@ class Viewer : Hands::Doer {
   // After run() has thrown, or wants other shaders.
   void loseDevice() {
     keepEdits(true);
+    adding_.reset();
     area_.takeShown();
     drawing_.reset();
   }
@@ -162,20 +163,14 @@ class Viewer : Hands::Doer {
       camera_.setBounds(summary_);
     }
     if (opened_ != document_.opened().scenes) takeScenes();
-    setDuration();
     return Done{};
   }
 
   // As long as what plays, and as tracks need, if nobody has said it.
   void setDuration() {
     const double played = playedSeconds(document_.scene(), document_.look());
-    double keys = 0;
-    bool hasTracks = false;
-    for (const std::string& path : tracksOf(document_.look())) {
-      hasTracks = true;
-      keys = std::max(keys, (*document_.look().track(path))->keys.back().time);
-    }
-    const double needed = std::max(played, keys);
+    const double needed = std::max(played, document_.look().lastKeyTime());
+    const bool hasTracks = !document_.look().animated().empty();
     playback_.duration =
         duration_.value_or(hasTracks && played == 0 ? std::max(needed, kRoomForKeys) : needed);
   }
@@ -192,6 +187,8 @@ class Viewer : Hands::Doer {
     unsaved_.open(document_);
     looks_.forget();
     duration_.reset();
+    adding_.reset();
+    setDuration();
     if (isFirst) return;
     camera_.set(firstCamera());
     playback_.playhead = 0;
@@ -248,7 +245,11 @@ class Viewer : Hands::Doer {
       document_.settle(Concern::picture);
     if (pictures().shown()) lastShown_ = pictures().shown()->number;
     if (auto picked = pictures().takePicked()) {
-      if (adding_) return add(*std::exchange(adding_, std::nullopt), picked->place);
+      if (adding_) {
+        const bool isNothing = picked->object.empty() && picked->material.empty();
+        return add(*std::exchange(adding_, std::nullopt),
+                   isNothing ? std::nullopt : std::optional(picked->place));
+      }
       // Looks know nodes that have a name; the ground and the sea are materials alone.
       const std::vector<std::string>& nodes = summary_.nodeNames;
       if (std::find(nodes.begin(), nodes.end(), picked->object) == nodes.end()) picked->object.clear();
@@ -339,7 +340,7 @@ class Viewer : Hands::Doer {
             size.x,
             size.y,
             std::nullopt,
-            area_.eyes() != Eyes::one};
+            layoutOf(area_.eyes())};
   }
 
   void openSaveDialog() {
@@ -515,13 +516,19 @@ class Viewer : Hands::Doer {
 
   void click(const glm::vec2& place) override {
     const glm::vec2 window = glm::max(glm::vec2(window_.framebufferSize()), 1.0f);
+    adding_.reset();
     const PictureArea::Place in = area_.placeIn(place / window);
     pictures().pick(in.place, in.view);
   }
 
   bool grab(const glm::vec2& place) override { return showsHandles() && handles_.grab(place); }
   void pull(const glm::vec2& place) override {
-    if (const std::optional<Turn> turn = handles_.pull(place)) turned(document_.set(turn->step, turn->edits));
+    const std::optional<Turn> turn = handles_.pull(place);
+    if (!turn) return;
+    if (std::any_of(turn->edits.begin(), turn->edits.end(),
+                    [](const auto& edit) { return isTrackText(edit.second); }))
+      pause();
+    turned(document_.set(turn->step, turn->edits));
   }
   void letGo() override {
     if (const std::optional<Target> target = handles_.letGo()) panel_.choose(*target), showsPanel_ = true;
@@ -532,15 +539,25 @@ class Viewer : Hands::Doer {
     if (!status) document_.tell(Concern::knob, status.error().message());
     pictures().moved(now());
     settling_ = kSettling;
-    setDuration();
   }
 
-  // Of the knob under the mouse, or of the camera.
+  // Keys are set at a time: what is turned while it plays would leave one at each picture.
+  void pause() {
+    if (playback_.isPlaying) playback_.seek(playback_.pictureTime());
+  }
+
+  // Of the knob under the mouse, of the track that is edited, or of the camera. Not of what is held just now.
   void key() {
+    if (ImGui::IsAnyItemActive() || handles_.isHeld() || document_.scene().empty()) return;
+    pause();
     const double time = playback_.pictureTime();
+    const bool isOverPicture = !ImGui::GetIO().WantCaptureMouse;
+    const std::string path = showsPanel_ && !panel_.hovered().empty() ? panel_.hovered() : timeline_.chosen();
     document_.closeStep();
-    if (const std::string path = panel_.hovered(); showsPanel_ && !path.empty()) {
-      if (const auto text = keyToggledAt(document_.look(), path, time)) turned(document_.set(path, *text));
+    if (!isOverPicture) {
+      if (path.empty()) return;
+      const auto text = keyToggledAt(document_.look(), path, time);
+      turned(text ? document_.set(path, *text) : Status(noTrackOf(path)));
       timeline_.choose(path);
     } else if (presentView()) {
       const Result<Turn> turn = cameraKeyed(document_.scene(), document_.look(), hold().viewpoint(), time);
@@ -564,11 +581,16 @@ class Viewer : Hands::Doer {
     adding_ = what;
     pictures().pick(kAddedAt, 0);
   }
-  void add(const Addable& what, const glm::vec3& place) {
+  // Nothing: there is nothing to be seen; so it lies there as far away as the scene's middle.
+  void add(const Addable& what, const std::optional<glm::vec3>& seen) {
     const std::optional<View> view = presentView();
     if (!view) return;
     const glm::vec2 window(window_.framebufferSize());
-    const float size = kAddedSize * window.y * Lens(*view, window).pixelSize(place);
+    const Lens lens(*view, window);
+    const Lens::Ray ray = lens.rayAt(kAddedAt * window);
+    const glm::vec3 eye(glm::inverse(view->worldToEye)[3]);
+    const glm::vec3 place = seen.value_or(ray.from + glm::distance(eye, camera_.centre()) * ray.way);
+    const float size = kAddedSize * window.y * lens.pixelSize(place);
     const Added made = added(what, document_.look(), place, size);
     document_.closeStep();
     turned(document_.set(made.target.name, made.edits));
@@ -596,6 +618,7 @@ class Viewer : Hands::Doer {
     ImGui::NewFrame();
     // What begins now has not moved since the last frame, which may be long ago.
     const double moved = moves() ? seconds : 0;
+    if (lookVersion_ != document_.version()) lookVersion_ = document_.version(), setDuration();
     const bool isThere = pictures().shown() != nullptr;
     for (const Event& event : events) hands_.take(event, size, isThere, *this);
     playback_.advance(moved);
@@ -631,7 +654,7 @@ class Viewer : Hands::Doer {
           window, {title_, facts(), playback_.pictureTime(), showsTime() ? timeline_.height() : 0}, document_,
           area_.isSplit() ? &area_.otherLook() : nullptr);
       isTurned |= change.isTurned;
-      if (!change.keyed.empty()) timeline_.choose(change.keyed);
+      if (!change.keyed.empty()) pause(), timeline_.choose(change.keyed);
       if (change.added) add(*change.added);
     }
     layOutNotices(window);
@@ -651,6 +674,12 @@ class Viewer : Hands::Doer {
     return change.isMoved || change.isTurned;
   }
 
+  // Whether nobody else says where the camera is.
+  bool isThroughTheLook() const {
+    const Viewpoint from = camera_.viewpoint();
+    return from.camera.empty() && from.frame.empty() && !from.orbit && !from.turntable && !from.eye &&
+           !from.target;
+  }
   // Where both eyes are seen, nothing lies at one place.
   bool showsHandles() const {
     return showsHandles_ && area_.viewSize({2, 1}).x == 2 && !area_.isSeenByBoth();
@@ -660,7 +689,7 @@ class Viewer : Hands::Doer {
     if (view)
       handles_.layOut(window,
                       {*view, document_.scene(), summary_, document_.look(), playback_.pictureTime(),
-                       panel_.target(), !camera_.isOther()},
+                       panel_.target(), isThroughTheLook()},
                       hands_.mouse());
     else
       handles_.hide();
@@ -708,9 +737,12 @@ class Viewer : Hands::Doer {
       if (const auto answer = dropDialog_.layOut(window)) {
         if (answer->scenes) openScenes(*answer->scenes);
         if (!answer->background.empty()) document_.openBackground(answer->background);
-        if (!answer->knob.empty())
-          if (const Status status = document_.set(answer->knob, answer->picture); !status)
-            document_.tell(Concern::knob, status.error().message());
+        if (!answer->knob.empty()) {
+          pause();
+          const auto text =
+              turnedAt(document_.look(), answer->knob, answer->picture, playback_.pictureTime());
+          turned(text ? document_.set(answer->knob, *text) : Status(noTrackOf(answer->knob)));
+        }
       }
   }
 
@@ -733,7 +765,7 @@ class Viewer : Hands::Doer {
 
   // Scenes that are open, and what of them is kept outside of their files.
   std::vector<std::string> opened_;
-  uint64_t sceneVersion_ = 0;
+  uint64_t sceneVersion_ = 0, lookVersion_ = 0;  // that are known here
   SceneSummary summary_;
   std::vector<std::string> clips_;
   size_t nextCamera_ = 0;

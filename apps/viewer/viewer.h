@@ -24,7 +24,7 @@ struct Shown {
     double seconds = 0;
   };
   std::optional<Film> film;
-  bool isStereo = false;  // side by side; sizes are those of one view
+  std::string stereo;  // how both eyes lie in it, as `render --stereo` takes it; empty: one eye
 };
 
 struct ViewerOptions {
@@ -34,8 +34,8 @@ struct ViewerOptions {
   Viewpoint viewpoint;  // of the scenes that it is opened with, until somebody moves the camera
   double time = 0;      // seconds
   uint32_t width = 1280, height = 720, samples = 4, seed = 0;
-  bool isStereo = false;  // at first
-  float ipd = 0.063f;     // metres
+  std::string stereo;  // how both eyes are seen at first, where the window knows that; empty: one is
+  float ipd = 0.063f;  // metres
   RendererOptions renderer;
   std::string shaderBuild;  // the folder of a build whose shaders are compiled as they are saved; empty: none
   std::string stateFolder;  // where it keeps what is not saved, and what was opened last; empty: nowhere

@@ -105,5 +105,8 @@ SCUMBLE_API Status writeText(const std::string& path, const std::string& text);
 // Two pictures in one: left | right, or left over right.
 SCUMBLE_API Image sideBySide(const Image& left, const Image& right);
 SCUMBLE_API Image overUnder(const Image& left, const Image& right);
+// For glasses that are red and cyan: the first channel (red) of the left eye's picture, the others of the
+// right one's, and of alphas (A) the greater. A right one of another size or of other channels counts as 0.
+SCUMBLE_API Image anaglyph(const Image& left, const Image& right);
 
 }  // namespace scumble

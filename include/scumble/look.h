@@ -54,7 +54,8 @@ struct KnobTrack {
   bool repeat = false;  // with the period last - first key's time; otherwise the ends' values stand
 };
 
-// Whether Look::load takes this for a file (it has a '/', or ends in .json), or for the name of one that ships.
+// Whether Look::load takes this for a file (it has a '/', or ends in .json), or for the name of one that
+// ships.
 SCUMBLE_API bool isLookFile(const std::string& nameOrFile);
 
 // Whether a text is a colour as knobs take them: "#RRGGBB", "#RGB", or one of CSS's names in small letters.
@@ -90,9 +91,11 @@ class SCUMBLE_API Look {
   // What get() follows as time goes on; nothing where a value holds for ever. Fails as get() does.
   Result<std::optional<KnobTrack>> track(const std::string& path) const;
 
-  // Settings with tracks by their paths, as set() takes them, in the order of the file; those for patterns of
-  // names too.
+  // Settings with tracks by their paths, as set() takes them, each once, in no order; those for patterns of
+  // names too, and those that a value by hand wins over (track() tells).
   std::vector<std::string> animated() const;
+  // Seconds of the last key of all of them; 0 where there is none later.
+  double lastKeyTime() const;
   // The names that it declares below "colorizers" or "decorations", in their order; of other sections those
   // for which it sets something, patterns apart.
   std::vector<std::string> names(const std::string& section) const;

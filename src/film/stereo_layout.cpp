@@ -40,7 +40,34 @@ Image blank(uint32_t width, uint32_t height, const Image& like) {
   return image;
 }
 
+// Of alphas the greater counts: from 0 on, bits of halves have the order of their numbers.
+template <class Number>
+void mix(const std::vector<Number>& right, const Image& of, std::vector<Number>& into, size_t alpha) {
+  const size_t channels = of.channels.size();
+  for (size_t i = 0; i < std::min(right.size(), into.size()); ++i) {
+    const size_t channel = i % channels;
+    if (channel == alpha)
+      into[i] = std::max(into[i], right[i]);
+    else if (channel > 0)
+      into[i] = right[i];
+  }
+}
+
 }  // namespace
+
+Image anaglyph(const Image& left, const Image& right) {
+  Image fitted = blank(left.width, left.height, left);
+  if (right.width == left.width && right.height == left.height &&
+      right.channels.size() == left.channels.size())
+    paste(right, 0, 0, &fitted);
+  Image both = left;
+  const auto alpha = std::find(both.channels.begin(), both.channels.end(), "A");
+  const size_t at = size_t(alpha - both.channels.begin());
+  mix(fitted.pixels, both, both.pixels, at);
+  mix(fitted.halves, both, both.halves, at);
+  mix(fitted.codes, both, both.codes, at);
+  return both;
+}
 
 Image sideBySide(const Image& left, const Image& right) {
   Image both = blank(left.width + right.width, std::max(left.height, right.height), left);

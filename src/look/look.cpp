@@ -148,6 +148,11 @@ bool isAlike(const look::Assignment& a, const look::Assignment& b) {
 
 namespace {
 
+Result<look::Assignment> settingAt(const std::string& path) {
+  if (path.find('\0') != std::string::npos) return usage("a setting holds the character NUL", "leave it out");
+  return look::parseSettingPath(path);
+}
+
 // With one more setting by hand, in place of such as are like it.
 Status add(look::Assignment setting, const std::string& path, look::LookData& data) {
   setting.byHand = true;
@@ -176,9 +181,7 @@ Status addTrack(look::Assignment setting, Result<look::Track> track, const std::
 
 Status Look::set(const std::string& path, const KnobValue& value) {
   const std::string* const text = std::get_if<std::string>(&value);
-  if ((path + (text ? *text : "")).find('\0') != std::string::npos)
-    return usage("a setting holds the character NUL", "leave it out");
-  Result<look::Assignment> setting = look::parseSettingPath(path);
+  Result<look::Assignment> setting = settingAt(path);
   if (!setting) return setting.error();
   auto changed = std::make_shared<look::LookData>(*data_);
   Status status = Done{};
@@ -195,7 +198,7 @@ Status Look::set(const std::string& path, const KnobValue& value) {
 }
 
 Status Look::set(const std::string& path, const KnobTrack& track) {
-  const Result<look::Assignment> setting = look::parseSettingPath(path);
+  const Result<look::Assignment> setting = settingAt(path);
   if (!setting) return setting.error();
   auto changed = std::make_shared<look::LookData>(*data_);
   Status status = addTrack(*setting, trackFrom(*setting->row, track, *changed), path, *changed);
@@ -279,6 +282,13 @@ std::vector<std::string> Look::animated() const {
     if (std::find(paths.begin(), paths.end(), path) == paths.end()) paths.push_back(std::move(path));
   }
   return paths;
+}
+
+double Look::lastKeyTime() const {
+  double last = 0;
+  for (const look::Assignment& a : data_->assignments)
+    if (a.track) last = std::max(last, a.track->keys.back().time);
+  return last;
 }
 
 std::vector<std::string> Look::names(const std::string& section) const {

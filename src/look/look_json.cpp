@@ -193,13 +193,10 @@ Result<Value> readJsonValue(const ParamRow& row, const Json& value, const JsonPl
     // A look may come with a scene from anywhere: it reads pictures beside itself and below, and no others.
     if (!place.file.empty() && leadsOutside(text))
       return place.fail("this picture lies outside of the look's folder", "put it beside the look");
-    // A track may name a picture many times.
-    const std::string file = (folder / text).string();
-    for (size_t i = 0; i < data.pictures.size(); ++i)
-      if (data.pictures[i]->file == file) return Value{-1 - double(i), {}};
   }
   Result<Value> parsed = readValue(row, text, folder.string(), data);
   if (parsed) return parsed;
+  if (place.file.empty() && !parsed.error().file.empty()) return parsed;
   const std::string problem = parsed.error().problem;
   return place.fail(parsed.error().file.empty() ? problem : "'" + text + "': " + problem,
                     parsed.error().advice);

@@ -3,6 +3,7 @@
 
 #include <cstring>
 #include <limits>
+#include <set>
 
 #include "look/look_json.h"
 #include "look/test_rows.h"
@@ -219,8 +220,14 @@ TEST(LookTracks, areListedByTheirPaths) {
                            "materials": {"Sa*": {"warp": {"amount": {"keys": [[0, 1]]}}}},
                            "colorizers": {"Glow": {"volume": {"radius": {"keys": [[0, 1]]}}}}})");
   ASSERT_TRUE(look.set("warp.amount", R"({"keys": [[0, 3]]})").ok());
-  EXPECT_EQ(look.animated(), (std::vector<std::string>{"warp.amount", "materials.Sa*.warp.amount",
-                                                       "colorizers.Glow.volume.radius"}));
+  const std::vector<std::string> animated = look.animated();
+  EXPECT_EQ(
+      std::set<std::string>(animated.begin(), animated.end()),
+      (std::set<std::string>{"warp.amount", "materials.Sa*.warp.amount", "colorizers.Glow.volume.radius"}));
+  EXPECT_EQ(animated.size(), 3u);
+  EXPECT_EQ(look.lastKeyTime(), 0);
+  ASSERT_TRUE(look.set("materials.Sb*.warp.amount", R"({"keys": [[-5, 3], [2.5, 1]]})").ok());
+  EXPECT_EQ(look.lastKeyTime(), 2.5);
   ASSERT_TRUE(look.set("colorizers.Mist.volume.radius", 2).ok());
   EXPECT_EQ(look.names("colorizers"), (std::vector<std::string>{"Glow", "Mist"}));
   EXPECT_TRUE(look.names("materials").empty());
@@ -256,6 +263,14 @@ TEST(LookTracks, byHandMayBeWrong) {
   for (const KnobTrack& track : wrong)
     EXPECT_EQ(Look().set("warp.amount", track).error().kind, ErrorKind::usage);
   EXPECT_FALSE(Look().set("ground.mode", KnobTrack{{key(0, std::string("on"))}}).ok()) << "steps alone";
+  // Files are told as files are, and NUL is in nothing.
+  const Status gone = Look().set("texture.metatexture.example", R"({"keys": [[0, "gone.png"]]})");
+  EXPECT_EQ(gone.error().kind, ErrorKind::unusableFile);
+  EXPECT_EQ(gone.error().file, "gone.png");
+  EXPECT_FALSE(Look().set("camera.target", R"({"keys": [[0, "a\u0000b"]]})").ok());
+  EXPECT_FALSE(
+      Look().set("camera.target", KnobTrack{{key(0, std::string("a\0b", 3))}, Interpolation::step}).ok());
+  EXPECT_FALSE(Look().set(std::string("warp.amount\0", 12), KnobTrack{{key(0, 1.0)}}).ok());
   // A name may look like a track.
   Look look;
   ASSERT_TRUE(look.set("camera.target", std::string("{Lamp}")).ok());

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "base/image_decode.h"
+#include "base/usage.h"
 
 namespace scumble::look {
 
@@ -39,6 +40,7 @@ Result<LookPicture> loadPicture(const std::string& file) {
 
 Result<Value> readValue(const ParamRow& row, const std::string& text, const std::string& folder,
                         LookData& data) {
+  if (text.find('\0') != std::string::npos) return usage("a setting holds the character NUL", "leave it out");
   if (row.kind == ParamKind::name) {
     if (text.empty()) return Value{};
     const auto known = std::find(data.texts.begin(), data.texts.end(), text);
@@ -50,7 +52,11 @@ Result<Value> readValue(const ParamRow& row, const std::string& text, const std:
   if (parsed || row.kind != ParamKind::picture) return parsed;
   // A word without a dot is a slip in a built-in name rather than a file.
   if (text.find('.') == std::string::npos) return parsed;
-  Result<LookPicture> picture = loadPicture((std::filesystem::path(folder) / text).string());
+  // A track may name a picture many times.
+  const std::string file = (std::filesystem::path(folder) / text).string();
+  for (size_t i = 0; i < data.pictures.size(); ++i)
+    if (data.pictures[i]->file == file) return Value{-1 - double(i), {}};
+  Result<LookPicture> picture = loadPicture(file);
   if (!picture) return picture.error();
   data.pictures.push_back(std::make_shared<const LookPicture>(std::move(picture).value()));
   return Value{-double(data.pictures.size()), {}};

@@ -300,6 +300,20 @@ class Films(Film):
         self.assertIn("two.right.mp4", self.new_files())
         self.assertNotIn("two.mp4", self.new_files())
 
+    def test_eyes_take_turns(self):
+        self.draw("-o", "turn.####.png", "--frames", "0..7", "--stereo", "wiggle")
+        self.draw("-o", "eye.####.png", "--frames", "0..7", "--stereo", "separate")
+        for number in range(8):
+            eye = "right" if number // 3 % 2 else "left"
+            self.same(self.bytes(f"turn.{number:04}.png"), self.bytes(f"eye.{number:04}.{eye}.png"))
+        # What stands still is seen for a while.
+        self.good("render", "box.gltf", "-o", "still.gif", "--stereo", "wiggle", *TINY, "--quiet")
+        self.assertEqual(probe(self.folder / "still.gif", "stream=nb_read_frames")["streams"][0]["nb_read_frames"], "48")
+        self.draw("-o", "red.mp4", "--frames", "0..1", "--stereo", "anaglyph")
+        stream = probe(self.folder / "red.mp4", "stream=width,height:stream_side_data")["streams"][0]
+        self.assertEqual((stream["width"], stream["height"]), (32, 18))
+        self.assertEqual(stream.get("side_data_list", []), [])
+
     def test_quality_is_constant_quality(self):
         sizes = []
         for quality in ("0", "16", "45"):

@@ -711,6 +711,21 @@ class Stereo(Program):
         self.same(over[3], left[3] + right[3])
         self.different(left[3], right[3])
 
+    def test_for_glasses_and_for_who_can_squint(self):
+        self.render("box.gltf", "-o", "two.png", "--stereo", "separate", "--aov", "depth")
+        self.render("box.gltf", "-o", "red.png", "--stereo", "anaglyph", "--aov", "depth")
+        self.render("box.gltf", "-o", "crossed.png", "--stereo", "crossed")
+        left, right, red, crossed = (png(self.folder / n) for n in ("two.left.png", "two.right.png", "red.png", "crossed.png"))
+        self.assertEqual((red[:2], crossed[:2]), ((160, 90), (320, 90)))
+        for mixed, one, other in zip(red[3], left[3], right[3]):
+            self.same([mixed[0::3], mixed[1::3], mixed[2::3]], [one[0::3], other[1::3], other[2::3]])
+        self.same(crossed[3], [other + one for one, other in zip(left[3], right[3])])
+        # What is no colour lies side by side.
+        self.assertEqual(exr(self.folder / "red.depth.exr")["dataWindow"], (0, 0, 319, 89))
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.png", "--stereo", "wiggle", *TINY, says="boat.gif")
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.svg", "--stereo", "anaglyph", *TINY, says="drawing")
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.png", "--stereo", "anaglif", *TINY, says="'anaglyph'")
+
     def test_no_distance_no_difference(self):
         self.render("box.gltf", "-o", "two.png", "--stereo", "separate", "--ipd", "0")
         self.same(png(self.folder / "two.left.png")[3], png(self.folder / "two.right.png")[3])

@@ -545,6 +545,7 @@ class Test:
         width = 3 * WIDE[0]
         crossed = b"".join(pair[y + width // 2:y + width] + pair[y:y + width // 2] for y in range(0, len(pair), width))
         window.until_it_shows(crossed, "crossed")
+        window.until_it_shows(self.drawn_by(window.copied()), "what the copied command draws crossed")
         window.key("b")
         with tempfile.TemporaryDirectory() as name:
             subprocess.run([self.program, "render", scene, "-o", f"{name}/eye.png", "--stereo", "separate", "--size",
@@ -552,6 +553,7 @@ class Test:
             left, right = bytearray(picture_of(f"{name}/eye.left.png")), picture_of(f"{name}/eye.right.png")
         left[1::3], left[2::3] = right[1::3], right[2::3]
         window.until_it_shows(bytes(left), "red and cyan")
+        window.until_it_shows(self.drawn_by(window.copied()), "what the copied command draws in red and cyan")
         self.keep("red and cyan", window)
         assert picked != pair
         window.key("b")
