@@ -740,7 +740,7 @@ class Stereo(Program):
         self.bad(USAGE, "render", "box.gltf", "-o", "x.png", "--stereo", "separate", "--ipd", "-1", *TINY)
         self.bad(USAGE, "render", "box.gltf", "-o", "x.png", "--stereo", "wiggle", *TINY, says="boat.gif")
         self.bad(USAGE, "render", "box.gltf", "-o", "x.svg", "--stereo", "anaglyph", *TINY, says="drawing")
-        self.bad(USAGE, "render", "box.gltf", "-o", "x.png", "--stereo", "anaglif", *TINY, says="'anaglyph'")
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.png", "--stereo", "anaglyp", *TINY, says="'anaglyph'")
 
 
 class Drawings(Program):
