@@ -131,6 +131,30 @@ TEST_F(Sameness, aPairWithoutDistanceIsOneView) {
           << largestDifference(aov(pair, name, v), aov(alone, name));
 }
 
+// No pass knows which of two eyes is the left one: their middle, from which marks are placed, is the same.
+TEST_F(Sameness, eyesThatAreExchangedAreLayersExchanged) {
+  NOT_WITH_SANITIZERS();
+  const Scene scene = richScene().load();
+  const auto views = viewsFrom(scene, {{2, 2.5f, 6}, {0, 0.8f, 0}}, kWidth, kHeight, Stereo::stereo);
+  const std::vector<View> exchanged{views[1], views[0]};
+  std::vector<std::string> names = perViewAovs();
+  names.push_back("");
+  for (const ShippedLook& shipped : Look::shipped()) {
+    const Look look = *Look::load(shipped.name);
+    RenderOptions options = sized(kWidth, kHeight, Renderer::aovNames(), 4);
+    options.previousViews = views;
+    const Frame pair = draw(scene, look, views, options);
+    options.previousViews = exchanged;
+    const Frame other = draw(scene, look, exchanged, options);
+    EXPECT_FALSE(sameBytes(aov(pair, "", 0), aov(pair, "", 1))) << shipped.name;
+    for (const std::string& name : names)
+      for (size_t v = 0; v < 2; ++v)
+        EXPECT_TRUE(sameBytes(aov(pair, name, v), aov(other, name, 1 - v)))
+            << shipped.name << ", " << name << ", eye " << v << ", by up to "
+            << largestDifference(aov(pair, name, v), aov(other, name, 1 - v));
+  }
+}
+
 // Image passes as fragment shaders and as compute shaders: within what half floats round.
 TEST_P(Sameness, fragmentAndComputeGiveOnePicture) {
   const Scene scene = richScene().load();
