@@ -212,12 +212,10 @@ void Timeline::layOutChosen(const KnobTrack& track, double time, Document& docum
   if (!setting) return;
   if (key_ && *key_ >= track.keys.size()) key_.reset();
   ImGui::SetNextItemWidth(7 * unit);
-  constexpr const char* kNamesOf[] = {"step", "linear", "cubic", "ease"};
-  const std::string& type = setting->knob->type;
-  const bool isSmooth = type == "number" || type == "integer" || type == "color" || type == "vector";
-  if (ImGui::BeginCombo("##interpolation", kNamesOf[size_t(track.interpolation)])) {
-    for (size_t i = 0; i < (isSmooth ? 4u : 1u); ++i)
-      if (ImGui::Selectable(kNamesOf[i], size_t(track.interpolation) == i)) {
+
+  if (ImGui::BeginCombo("##interpolation", kInterpolations[size_t(track.interpolation)])) {
+    for (size_t i = 0; i < (isSmooth(*setting->knob) ? 4u : 1u); ++i)
+      if (ImGui::Selectable(kInterpolations[i], size_t(track.interpolation) == i)) {
         KnobTrack changed = track;
         changed.interpolation = Interpolation(i);
         put(chosen_, changed, document, change);

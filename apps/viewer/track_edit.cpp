@@ -10,12 +10,6 @@ namespace scumble::viewer {
 
 namespace {
 
-constexpr const char* kInterpolations[] = {"step", "linear", "cubic", "ease"};
-
-bool isSmooth(const Knob& knob) {
-  return knob.type == "number" || knob.type == "integer" || knob.type == "color" || knob.type == "vector";
-}
-
 Interpolation usualFor(const Knob& knob) {
   return isSmooth(knob) ? Interpolation::linear : Interpolation::step;
 }
@@ -40,6 +34,10 @@ std::optional<KnobValue> valueFrom(const std::string& path, const std::string& t
 }
 
 }  // namespace
+
+bool isSmooth(const Knob& knob) {
+  return knob.type == "number" || knob.type == "integer" || knob.type == "color" || knob.type == "vector";
+}
 
 std::optional<std::string> textOf(const KnobTrack& track, const Knob& knob) try {
   std::string keys;

@@ -8,6 +8,10 @@
 
 namespace scumble::viewer {
 
+// By Interpolation, as looks call them; and whether a knob takes others than the first.
+inline constexpr const char* kInterpolations[] = {"step", "linear", "cubic", "ease"};
+bool isSmooth(const Knob& knob);
+
 // What a look says of a track, as Look::set takes it: { "keys": [[0, 0.4], [2.5, 0.6]] }. Nothing where a
 // word in it is no UTF-8, as files' names may be: JSON has no place for it.
 std::optional<std::string> textOf(const KnobTrack& track, const Knob& knob);

@@ -681,9 +681,7 @@ class Viewer : Hands::Doer {
            !from.target;
   }
   // Where both eyes are seen, nothing lies at one place.
-  bool showsHandles() const {
-    return showsHandles_ && area_.viewSize({2, 1}).x == 2 && !area_.isSeenByBoth();
-  }
+  bool showsHandles() const { return showsHandles_ && !area_.isSeenByBoth(); }
   void layOutHandles(const glm::vec2& window) {
     const std::optional<View> view = showsHandles() && pictures().shown() ? presentView() : std::nullopt;
     if (view)
