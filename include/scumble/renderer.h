@@ -59,9 +59,9 @@ struct RendererOptions {
   uint64_t sceneBudget = uint64_t(1) << 29;
   // Empty: messages of the validation layers go to stderr, and others nowhere.
   Log log;
-  // For who works on shaders: SPIR-V files NAME.spv in this folder take the place of the library's own shaders
-  // of those names, which are those in a build's generated/shaders. Empty: none do. What is in them is checked
-  // by nobody but the validation layers; a folder or file that is none is ErrorKind::unusableFile.
+  // For who works on shaders: SPIR-V files NAME.spv in this folder take the place of the library's own
+  // shaders of those names, which are those in a build's generated/shaders. Empty: none do. What is in them
+  // is checked by nobody but the validation layers; a folder or file that is none is ErrorKind::unusableFile.
   std::string shaderFolder;
   // Changes which passes draw the picture, for passes that live outside of the library
   // (src/renderer/pass_list.h, which is not installed); called once.
