@@ -853,7 +853,11 @@ class Test:
         self.close(window)
 
     def managed(self, screen, folder):
-        """Under a window manager."""
+        """Under a window manager, on a screen of its own: what it leaves there when it ends is in the way of others."""
+        with contextlib.closing(Screen(1024, 768, folder / "state of managed")) as own:
+            self.under_a_manager(own, folder)
+
+    def under_a_manager(self, screen, folder):
         scene = self.scene(folder, "still_life", "managed.glb")
         manager = subprocess.Popen(["openbox", "--sm-disable"], env=screen.environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         try:
