@@ -93,10 +93,10 @@ class Window:
             return self.pixels() == picture
         return until(same, what, seconds)
 
-    def resting(self):
-        """What it shows when it does not change any more."""
+    def resting(self, quiet=0.7):
+        """What it shows when it has not changed for so many seconds."""
         last, since = self.pixels(), time.monotonic()
-        while time.monotonic() - since < 0.7:
+        while time.monotonic() - since < quiet:
             time.sleep(0.1)
             now = self.pixels()
             if now != last:
@@ -337,7 +337,7 @@ class Test:
     def opened(self, screen, *options, size=WIDE, environment=None):
         window = Window(screen, self.program, *options, size=size, environment=environment)
         until(lambda: is_painted(window.pixels()), "a picture in the window")
-        window.resting()
+        window.resting(1.5)  # the first one is coarse
         return window
 
     def close(self, window):
