@@ -16,11 +16,12 @@ namespace scumble::viewer {
 
 namespace {
 
-constexpr float kReach = 0.75f;  // heights of letters around a handle where it is taken
-constexpr float kArrow = 4.5f;   // of an axis, likewise
-constexpr int kRing = 48;        // corners of a circle
-constexpr int kWay = 96;         // corners of the camera's way
-constexpr float kDisc = 5;       // radius of a disc of directions (Lens::discOf), in heights of letters
+constexpr float kReach = 0.75f;      // heights of letters around a handle where it is taken
+constexpr float kArrow = 4.5f;       // of an axis, likewise
+constexpr int kRing = 48;            // corners of a circle
+constexpr int kWay = 96;             // corners of the camera's way
+constexpr float kLeastSize = 1e-4f;  // meters, of what is added
+constexpr float kDisc = 5;           // radius of a disc of directions (Lens::discOf), in heights of letters
 constexpr ImU32 kThing = IM_COL32(226, 180, 92, 255), kSun = IM_COL32(255, 226, 120, 255),
                 kCamera = IM_COL32(122, 184, 226, 255), kShade = IM_COL32(20, 20, 20, 150),
                 kText = IM_COL32(240, 240, 240, 255);
@@ -125,7 +126,7 @@ Added added(const Addable& what, const Look& look, const glm::vec3& place, float
   const auto set = [&](const std::string& knob, const std::string& value) {
     if (const auto setting = settingOf(path + knob)) made.edits[path + knob] = value;
   };
-  const float wide = std::max(rounded(size), 0.05f);
+  const float wide = std::max(rounded(size), kLeastSize);
   set(knobs->group + "." + knobs->choice, what.word);
   set(knobs->group + "." + knobs->place, textOf(rounded(place)));
   if (knobs->isOf("radius", what.word)) set(knobs->group + ".radius", textOf(double(wide)));
@@ -299,29 +300,30 @@ class Handles::Maker {
   void addSizes(const std::string& base, const std::string& word, float radius, const glm::mat4& space,
                 const glm::vec3& centre, const Target& target) {
     const glm::mat3 axes = axesOf(base, space);
-    // A number that is a way along an axis.
-    const auto addLength = [&](const std::string& knob, const glm::vec3& axis, float length) {
+    // A way along an axis; what it is pulled to is set by `change`.
+    using Change = std::function<Edits(float)>;
+    const auto addWayAlong = [&](const std::string& id, const glm::vec3& axis, float length,
+                                 const Change& change) {
       const float scale = glm::length(axis);
       if (!(scale > 0)) return;
-      add(base + knob, centre + axis * length, kThing, 0.3f, "", target, [=, this](const glm::vec2& pixel) {
+      add(base + id, centre + axis * length, kThing, 0.3f, "", target, [=, this](const glm::vec2& pixel) {
         const auto along = lens_.draggedAlong(centre, axis / scale, pixel);
         const float pulled = along ? rounded(std::abs(glm::dot(*along - centre, axis)) / (scale * scale)) : 0;
-        return pulled > 0 ? turned(base + knob, textOf(double(pulled))) : Edits();
+        return pulled > 0 ? change(pulled) : Edits();
       });
+    };
+    const auto addLength = [&](const std::string& knob, const glm::vec3& axis, float length) {
+      addWayAlong(knob, axis, length,
+                  [=, this](float pulled) { return turned(base + knob, textOf(double(pulled))); });
     };
     if (word == "ellipsoid" || word == "box") {
       const glm::vec3 size = value<glm::vec3>(base + "size").value_or(glm::vec3(0));
-      for (int i = 0; i < 3; ++i) {
-        const float scale = glm::length(axes[i]);
-        if (!(scale > 0)) continue;
-        add(base + "size" + std::to_string(i), centre + axes[i] * size[i], kThing, 0.3f, "", target,
-            [=, this](const glm::vec2& pixel) {
-              const auto along = lens_.draggedAlong(centre, axes[i] / scale, pixel);
-              glm::vec3 pulled = size;
-              if (along) pulled[i] = rounded(std::abs(glm::dot(*along - centre, axes[i])) / (scale * scale));
-              return pulled[i] > 0 ? turned(base + "size", textOf(pulled)) : Edits();
-            });
-      }
+      for (int i = 0; i < 3; ++i)
+        addWayAlong("size" + std::to_string(i), axes[i], size[i], [=, this](float pulled) {
+          glm::vec3 changed = size;
+          changed[i] = pulled;
+          return turned(base + "size", textOf(changed));
+        });
     } else if (word == "capsule") {
       addLength("radius", axes[0], radius);
       addLength("length", axes[1], float(value<double>(base + "length").value_or(0)));

@@ -46,6 +46,11 @@ TEST(VisibleHandles, whatIsAddedHasANameOfItsOwnAndAPlace) {
   }
   EXPECT_TRUE(sections.count("colorizers"));
   EXPECT_GE(sized, 3 * 3) << "spheres, capsules and half-spaces at least";
+  // In a scene of millimetres too.
+  const Added small = added(addables().front(), Look(), {0, 0, 0}, 0.003f);
+  with(Look(), small.edits);
+  EXPECT_TRUE(std::any_of(small.edits.begin(), small.edits.end(),
+                          [](const auto& edit) { return edit.second == "0.003"; }));
 }
 
 // The look's camera stands where the hand's did.

@@ -66,11 +66,6 @@ bool isTrackText(const std::string& text) {
   return parsed.is_object() && parsed.contains("keys");
 }
 
-std::optional<KnobTrack> trackFrom(const std::string& path, const std::string& text) {
-  Look look;
-  return text.starts_with('{') && look.set(path, text) ? trackOf(look, path) : std::nullopt;
-}
-
 double onKeyGrid(double time) {
   return std::floor(time * kKeysPerSecond + 1e-6) / kKeysPerSecond;
 }

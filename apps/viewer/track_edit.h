@@ -21,9 +21,6 @@ Error noTrackOf(const std::string& path);
 // Whether a setting's text is a track, whatever is in it.
 bool isTrackText(const std::string& text);
 
-// A text that is a track, and none where Look::set would take it for a value.
-std::optional<KnobTrack> trackFrom(const std::string& path, const std::string& text);
-
 // What keys are set to lies on a grid this fine, and never after the time that was asked for: a step has been
 // taken then. Keys that hands make are farther apart than kNearKey.
 constexpr double kKeysPerSecond = 10000, kNearKey = 0.01;
