@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "../viewer/viewer.h"
 #include "commands.h"
@@ -39,7 +40,7 @@ SceneArguments sceneOf(const ViewArguments& args, const Files& files) {
 
 LookArguments lookOf(const ViewArguments& args, const viewer::Opened& opened) {
   LookArguments look = args.look;
-  if (!opened.look.empty()) look.look = opened.look;
+  look.look = opened.look;
   if (opened.scenes[0] != args.scene.files[0]) look.clip.clear();
   if (!opened.clip.empty()) look.clip = opened.clip;
   return look;
@@ -137,6 +138,8 @@ int run(ViewArguments args) {
   if (!viewpoint) return fail(viewpoint.error());
   viewer::ViewerOptions view;
   view.sources.opened.scenes = args.scene.files;
+  // One that is asked for is chosen, as in the window: the scene's own is another.
+  view.sources.opened.look = std::exchange(args.look.look, "");
   view.sources.loadScene = [&](const Files& files, const scumble::Progress& progress) {
     SceneOptions options;
     options.progress = progress;

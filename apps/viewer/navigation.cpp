@@ -11,6 +11,7 @@ constexpr float kTurn = 220;                    // degrees that a drag over the 
 constexpr float kSteepest = 87.4f;              // degrees; steeper, makeViews takes another direction for up
 constexpr float kZoomStep = 6 / 7.f;            // of the way that is left
 constexpr float kNarrowest = 1, kWidest = 150;  // degrees
+constexpr float kLevel = 1e-3f;                 // degrees; what is less is rounding
 
 float azimuthOf(const glm::vec3& away) {
   return glm::degrees(std::atan2(away.x, away.z));
@@ -41,6 +42,7 @@ void Navigation::takeUp(const View& view, const glm::vec3& centre, float radius)
   roll_ = 0;
   const Axes level = axes();
   roll_ = glm::degrees(std::atan2(glm::dot(up, level.right), glm::dot(up, level.up)));
+  if (std::abs(roll_) < kLevel) roll_ = 0;
 }
 
 Navigation::Axes Navigation::axes() const {

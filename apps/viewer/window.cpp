@@ -17,7 +17,9 @@ Window& self(GLFWwindow* window) {
 std::string lastProblem() {
   const char* text = nullptr;
   glfwGetError(&text);
-  return text ? text : "no reason is known";
+  std::string problem = text ? text : "no reason is known";
+  problem.erase(problem.find_last_not_of(' ') + 1);
+  return problem;
 }
 
 // As keys are labelled, not where they lie: GLFW tells of an American keyboard. Keys without a letter of
