@@ -42,8 +42,9 @@ TABLE = {
     "src/film": [PUBLIC, "src/base"],
     "src/c": [PUBLIC],
     "src/measure": [PUBLIC, "src/base"],
+    "src/xr": [PUBLIC],
     "apps/viewer": [PUBLIC],
-    "apps/scumble": [PUBLIC, "apps/viewer"],
+    "apps/scumble": [PUBLIC, "apps/viewer", "src/xr"],
     "examples": [PUBLIC],
     # The cost of one technique by itself is measured from inside.
     "bench": [*PASS, "examples", "src/passes/*", "src/features/*"],
@@ -58,13 +59,14 @@ TEST_ALSO = ["tests/support", "src/base/test_folder.h", "src/base/passing_file.h
 # Libraries by the first part of an angle include; a room that is not listed may use any.
 LIBRARIES = {
     PUBLIC: ["std", "glm"],
+    "src/xr": ["std", "system", "glm", "vulkan", "openxr"],
     "apps/viewer": ["std", "system", "glm", "nlohmann", "vulkan", "GLFW", "imgui", "fontconfig"],
     "apps/scumble": ["std", "system", "CLI", "fmt", "nlohmann", "cairo"],
     "examples": ["std", "glm", "nlohmann"],
 }
 # The public headers for engines that bring their own device, and for C.
 LIBRARIES_OF_FILE = {"include/scumble/vulkan.h": ["std", "glm", "vulkan"], "include/scumble/scumble.h": ["system"]}
-SYSTEM = {"unistd.h", "spawn.h", "fcntl.h", "signal.h", "termios.h", "stdlib.h", "string.h", "stdio.h", "errno.h", "time.h", "poll.h", "stddef.h",
+SYSTEM = {"unistd.h", "spawn.h", "fcntl.h", "signal.h", "termios.h", "stdlib.h", "string.h", "stdio.h", "errno.h", "dlfcn.h", "time.h", "poll.h", "stddef.h",
           "stdint.h", "malloc.h"}
 
 SOURCES = {".h", ".hpp", ".cpp", ".cc", ".inl", ".params", ".glsl", ".vert", ".frag", ".comp", ".geom", ".tesc", ".tese"}

@@ -7,6 +7,7 @@ namespace scumble::app {
 
 void addRender(CLI::App& program, int& exitCode);
 void addView(CLI::App& program, int& exitCode);
+void addXr(CLI::App& program, int& exitCode);
 void addBench(CLI::App& program, int& exitCode);
 void addMeasure(CLI::App& program, int& exitCode);
 void addPaint(CLI::App& program, int& exitCode);

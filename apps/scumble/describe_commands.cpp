@@ -9,6 +9,7 @@
 #include "options.h"
 #include "output_files.h"
 #include "report.h"
+#include "xr/show.h"
 
 namespace scumble::app {
 
@@ -151,6 +152,13 @@ int devices() {
     for (const std::string& workaround : gpu.workarounds) print(fmt::format("      {}\n", workaround));
     any |= gpu.wouldBeUsed;
   }
+  const Result<xr::Headset> headset = xr::findHeadset();
+  if (headset && !headset->lack)
+    print(fmt::format("headset: {}, on {}\n", headset->name, headset->runtime));
+  else if (headset)
+    print(fmt::format("headset: none, on {}: {}\n", headset->runtime, headset->lack->problem));
+  else
+    print(fmt::format("headset: none: {}\n", headset.error().problem));
   if (!any)
     return fail(Error{ErrorKind::noUsableGpu, "", 0, "", "no usable Vulkan 1.3 device was found",
                       "the package mesa-vulkan-drivers has a driver that runs on any CPU"});
@@ -193,7 +201,7 @@ void addDescriptions(CLI::App& program, int& exitCode) {
     exitCode = kDone;
   });
 
-  CLI::App* devicesCommand = program.add_subcommand("devices", "The GPUs found, and which one would be used");
+  CLI::App* devicesCommand = program.add_subcommand("devices", "The GPUs found, which one would be used, and the headset");
   devicesCommand->footer("Example: scumble devices");
   devicesCommand->callback([&exitCode] { exitCode = devices(); });
 }

@@ -42,6 +42,7 @@ int run(int argc, char** argv) {
     int exitCode = app::kDone;
     app::addRender(program, exitCode);
     app::addView(program, exitCode);
+    app::addXr(program, exitCode);
     app::addDescriptions(program, exitCode);
     app::addBench(program, exitCode);
     app::addMeasure(program, exitCode);

@@ -198,6 +198,17 @@ void LookArguments::warnOfIdle(const Look& from, const Scene& scene, const std::
 }
 
 void PictureArguments::addTo(CLI::App& command) {
+  addStandpointTo(command);
+  command.add_option("--roll", roll, "Degrees, clockwise (default: the look's camera.roll)");
+  command.add_option(
+      "--fov", fov,
+      "Vertical field of view, degrees (default: the look's camera.fov, the scene's camera's, else 34)");
+  command.add_option("--size", size, "Width and height in pixels")->type_name("WxH")->capture_default_str();
+  command.add_option("--device", device, "A GPU by name or number, or cpu (`scumble devices` lists them)");
+  addQualityTo(command);
+}
+
+void PictureArguments::addStandpointTo(CLI::App& command) {
   command.add_option(
       "--camera", camera,
       "A camera of the scene, by name or number (default: the look's camera, else the scene's first, else a "
@@ -212,13 +223,10 @@ void PictureArguments::addTo(CLI::App& command) {
       ->type_name("AZ,EL[,DIST]");
   command.add_option("--eye", eye, "Where the camera stands, metres")->type_name("X,Y,Z");
   command.add_option("--target", target, "What it looks at, metres")->type_name("X,Y,Z");
-  command.add_option("--roll", roll, "Degrees, clockwise (default: the look's camera.roll)");
-  command.add_option(
-      "--fov", fov,
-      "Vertical field of view, degrees (default: the look's camera.fov, the scene's camera's, else 34)");
-  command.add_option("--size", size, "Width and height in pixels")->type_name("WxH")->capture_default_str();
+}
+
+void PictureArguments::addQualityTo(CLI::App& command) {
   command.add_option("--samples", samples, "Anti-aliasing: 1 or 4")->capture_default_str();
-  command.add_option("--device", device, "A GPU by name or number, or cpu (`scumble devices` lists them)");
   command.add_option("--seed", seed, "Moves every pattern; the same seed gives the same picture")
       ->capture_default_str();
   command.add_flag("--validate", validate,

@@ -53,7 +53,10 @@ struct PictureArguments {
   bool validate = false;
 
   void addTo(CLI::App& command);
-  void addStereoTo(CLI::App& command);     // for commands that draw one view or two
+  // Of these, for commands whose views have a size of their own.
+  void addStandpointTo(CLI::App& command);  // where the camera is and what it looks at
+  void addQualityTo(CLI::App& command);     // samples, seed, validation
+  void addStereoTo(CLI::App& command);      // for commands that draw one view or two
   void addTurntableTo(CLI::App& command);  // for commands that draw films
   bool isStereo() const { return !stereo.empty(); }
   Result<RenderOptions> renderOptions() const;

@@ -141,11 +141,11 @@ int run(ViewArguments args) {
   // One that is asked for is chosen, as in the window: the scene's own is another.
   view.sources.opened.look = std::exchange(args.look.look, "");
   view.sources.loadScene = [&](const Files& files, const scumble::Progress& progress) {
-    SceneOptions options;
-    options.progress = progress;
+    SceneOptions reading;
+    reading.progress = progress;
     // They are read while somebody writes them.
-    options.mapsFiles = false;
-    return sceneOf(args, files).load(false, options);
+    reading.mapsFiles = false;
+    return sceneOf(args, files).load(false, reading);
   };
   view.sources.loadLook = [&](const Scene& scene, const viewer::Opened& opened) {
     return loadLook(args, scene, opened);

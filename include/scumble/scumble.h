@@ -160,6 +160,7 @@ typedef struct scumble_view {
   int32_t node;           /* of the scene, that it rides on; -1: none */
   uint32_t width, height; /* pixels; 0, 0: as the options say */
   int32_t rig;            /* whose eye it is */
+  int32_t is_level;       /* 1: it does not tilt with its node */
 } scumble_view;
 
 /* Where the camera stands. Start from scumble_viewpoint_default. */

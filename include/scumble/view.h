@@ -24,6 +24,9 @@ struct View {
   // The scene's node that the view hangs on: where a feature (the sea) moves that, the view goes with it, and
   // worldToEye is from where it is without them. -1: none.
   int node = -1;
+  // Of what its node does it goes up, down, along and around the vertical, and does not tilt: for headsets,
+  // whose wearers know where down is.
+  bool isLevel = false;
   // Pixels, 1 to 16384; 0, 0: as RenderOptions says for all.
   glm::uvec2 size{0, 0};
   // Whose eye it is: what decides where marks lie, and where shadows are finest, is found once for all views

@@ -55,6 +55,12 @@ SCUMBLE_API std::string whyUnusable(VkPhysicalDevice physical);
 struct VulkanWishes {
   std::vector<std::string> instanceExtensions, deviceExtensions;
   std::function<void(VulkanFeatures&)> features;
+  // Who makes the instance and the device, and chooses among devices, where that is not Vulkan itself and
+  // RendererOptions::device (runtimes of headsets do it); of what scumble needs, to which they may add. All
+  // three or none; they throw nothing. The renderer destroys instance and device.
+  std::function<Result<VkInstance>(const VkInstanceCreateInfo&)> createInstance;
+  std::function<Result<VkPhysicalDevice>(VkInstance)> choosePhysical;
+  std::function<Result<VkDevice>(VkPhysicalDevice, const VkDeviceCreateInfo&)> createDevice;
 };
 SCUMBLE_API Result<std::unique_ptr<Renderer>> createRenderer(const VulkanWishes& wishes,
                                                              const RendererOptions& options = {});

@@ -121,6 +121,7 @@ View toView(const scumble_view& view) {
   result.node = view.node;
   result.size = {view.width, view.height};
   result.rig = view.rig;
+  result.isLevel = view.is_level != 0;
   return result;
 }
 
@@ -131,6 +132,7 @@ scumble_view toView(const View& view) {
   result.node = view.node;
   result.width = view.size.x, result.height = view.size.y;
   result.rig = view.rig;
+  result.is_level = view.isLevel;
   return result;
 }
 

@@ -128,9 +128,9 @@ DeviceInfo describe(VkPhysicalDevice physical) {
   return info;
 }
 
-Result<VkInstance> createInstance(bool validation, const std::vector<std::string>& wanted = {}) {
+Result<VkInstance> createInstance(bool validation, const VulkanWishes& wishes = {}) {
   std::vector<const char*> layers, extensions;
-  for (const std::string& name : wanted) extensions.push_back(name.c_str());
+  for (const std::string& name : wishes.instanceExtensions) extensions.push_back(name.c_str());
   const VkValidationFeatureEnableEXT enabled[] = {
       VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
   VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
@@ -163,6 +163,7 @@ Result<VkInstance> createInstance(bool validation, const std::vector<std::string
   info.ppEnabledLayerNames = layers.data();
   info.enabledExtensionCount = uint32_t(extensions.size());
   info.ppEnabledExtensionNames = extensions.data();
+  if (wishes.createInstance) return wishes.createInstance(info);
   VkInstance instance;
   const VkResult result = vkCreateInstance(&info, nullptr, &instance);
   if (result != VK_SUCCESS)
@@ -277,6 +278,16 @@ void Device::describePhysical() {
                       properties.limits.framebufferDepthSampleCounts & VK_SAMPLE_COUNT_4_BIT;
 }
 
+Status Device::checkUsable() const {
+  if (info_.unusableBecause.empty()) return Done{};
+  return Error{ErrorKind::noUsableGpu,
+               "",
+               0,
+               "",
+               "the device '" + info_.name + "' cannot be used: " + info_.unusableBecause,
+               "see `scumble devices`"};
+}
+
 void Device::createParts(const std::string& cacheFolder) {
   const VkCommandPoolCreateInfo info{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr,
                                      VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, queueFamily_};
@@ -286,21 +297,34 @@ void Device::createParts(const std::string& cacheFolder) {
   openPipelineCache(cacheFolder);
 }
 
+namespace {
+
+Result<VkPhysicalDevice> choosePhysical(VkInstance instance, const std::string& choice) {
+  const std::vector<VkPhysicalDevice> candidates = physicalDevices(instance);
+  std::vector<DeviceInfo> infos;
+  for (VkPhysicalDevice physical : candidates) infos.push_back(describe(physical));
+  const Result<size_t> chosen = chooseDevice(infos, choice);
+  if (!chosen) return chosen.error();
+  return candidates[*chosen];
+}
+
+}  // namespace
+
 Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
-  Result<VkInstance> instance = createInstance(options.validation, options.instanceExtensions);
+  const VulkanWishes& wishes = options.wishes ? *options.wishes : VulkanWishes();
+  Result<VkInstance> instance = createInstance(options.validation, wishes);
   if (!instance) return instance.error();
   std::unique_ptr<Device> device(new Device);
   device->log_ = options.log;
   device->instance_ = *instance;
 
-  // Choose the GPU.
-  const std::vector<VkPhysicalDevice> candidates = physicalDevices(device->instance_);
-  std::vector<DeviceInfo> infos;
-  for (VkPhysicalDevice physical : candidates) infos.push_back(describe(physical));
-  const Result<size_t> choice = chooseDevice(infos, options.choice);
-  if (!choice) return choice.error();
-  device->physical_ = candidates[*choice];
+  const Result<VkPhysicalDevice> chosen = wishes.choosePhysical
+                                              ? wishes.choosePhysical(device->instance_)
+                                              : choosePhysical(device->instance_, options.choice);
+  if (!chosen) return chosen.error();
+  device->physical_ = *chosen;
   device->describePhysical();
+  if (const Status status = device->checkUsable(); !status) return status.error();
 
   try {
     if (options.validation) {
@@ -325,16 +349,22 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
     queueInfo.pQueuePriorities = &priority;
     VulkanFeatures features;
     requireVulkanFeatures(features);
-    if (options.features) options.features(features);
+    if (wishes.features) wishes.features(features);
     std::vector<const char*> extensions;
-    for (const std::string& name : options.deviceExtensions) extensions.push_back(name.c_str());
+    for (const std::string& name : wishes.deviceExtensions) extensions.push_back(name.c_str());
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
     info.pNext = &features.core;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queueInfo;
     info.enabledExtensionCount = uint32_t(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
-    SCUMBLE_VK(vkCreateDevice(device->physical_, &info, nullptr, &device->device_));
+    if (wishes.createDevice) {
+      const Result<VkDevice> made = wishes.createDevice(device->physical_, info);
+      if (!made) return made.error();
+      device->device_ = *made;
+    } else {
+      SCUMBLE_VK(vkCreateDevice(device->physical_, &info, nullptr, &device->device_));
+    }
     vkGetDeviceQueue(device->device_, device->queueFamily_, 0, &device->queue_);
     device->createParts(options.cacheFolder);
   } catch (const VulkanError& error) {
@@ -355,13 +385,7 @@ Result<std::unique_ptr<Device>> Device::adopt(const VulkanDevice& foreign, const
   device->queueFamily_ = foreign.queueFamily;
   if (foreign.queueLock) device->queueLock_ = foreign.queueLock;
   device->describePhysical();
-  if (!device->info_.unusableBecause.empty())
-    return Error{ErrorKind::noUsableGpu,
-                 "",
-                 0,
-                 "",
-                 "the device '" + device->info_.name + "' cannot be used: " + device->info_.unusableBecause,
-                 "see `scumble devices`"};
+  if (const Status status = device->checkUsable(); !status) return status.error();
   try {
     device->createParts(cacheFolder);
   } catch (const VulkanError& error) {

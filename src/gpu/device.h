@@ -21,7 +21,7 @@ namespace scumble {
 
 // Of scumble/vulkan.h.
 struct VulkanDevice;
-struct VulkanFeatures;
+struct VulkanWishes;
 
 namespace gpu {
 
@@ -29,9 +29,8 @@ struct DeviceOptions {
   std::string choice;  // part of a name, a number in the order of listDevices(), "cpu", or empty: the best
   bool validation = false;  // core and synchronisation validation; noUsableGpu where the layer is absent
   std::string cacheFolder;  // where compiled pipelines and what the probe found are kept; empty: nowhere
-  // What somebody wants of the device besides; a device without the extensions is no usable GPU.
-  std::vector<std::string> instanceExtensions, deviceExtensions;
-  std::function<void(VulkanFeatures&)> features;  // switches on more than scumble requires; may be empty
+  // What somebody wants of the device besides; a device without the extensions is no usable GPU. May be null.
+  const VulkanWishes* wishes = nullptr;
   Log log;  // empty: messages of the validation layers go to stderr, and others nowhere
 };
 
@@ -137,6 +136,7 @@ class Device {
  private:
   Device();
   void describePhysical();
+  Status checkUsable() const;
   void createParts(const std::string& cacheFolder);
   void openPipelineCache(const std::string& folder);
 

@@ -42,10 +42,8 @@ std::vector<std::string> objectNames(const scene::SceneData& scene, const Geomet
 }
 
 // Views that hang on nodes, where features move those.
-std::vector<View> carried(std::vector<View> views, const SceneMotion& motion) {
-  for (View& view : views)
-    if (view.node >= 0) view.worldToEye *= glm::inverse(motion.movedBy(size_t(view.node)));
-  return views;
+std::vector<View> carried(const std::vector<View>& views, const SceneMotion& motion) {
+  return carriedBy([&](int node) { return motion.movedBy(size_t(node)); }, views);
 }
 
 // The picture behind everything has texels for the largest of all views.
@@ -285,7 +283,7 @@ void Renderer::Impl::latch(const Request& request, const SceneMotion& motion, co
   std::string problem;
   if (views.size() != request.views.size()) problem = "there are more or fewer views than before";
   for (size_t i = 0; i < views.size() && problem.empty(); ++i) {
-    views[i].node = request.views[i].node;
+    views[i].node = request.views[i].node, views[i].isLevel = request.views[i].isLevel;
     problem = problemWith(views[i]);
   }
   if (!problem.empty()) {

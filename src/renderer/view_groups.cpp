@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <map>
 
 #include "shading/frame.shared.h"
 
@@ -65,6 +67,34 @@ View middleOf(const std::vector<View>& views) {
   glm::mat4 eyeToWorld = glm::mat4_cast(turn);
   eyeToWorld[3] = place;
   return {glm::inverse(eyeToWorld), projection};
+}
+
+namespace {
+
+// A motion of whoever stands at a place and does not tilt with it.
+glm::mat4 levelled(const glm::mat4& moved, const glm::vec3& place) {
+  const glm::vec3 to = moved * glm::vec4(place, 1);
+  // The turn about the vertical that is in a turn: of its quaternion w and y are what it has of it.
+  const glm::quat turn = glm::quat_cast(glm::mat3(moved));
+  const float angle = 2 * std::atan2(turn.y, turn.w);
+  const glm::mat4 none(1);
+  return glm::translate(none, to) * glm::rotate(none, angle, glm::vec3(0, 1, 0)) *
+         glm::translate(none, -place);
+}
+
+}  // namespace
+
+std::vector<View> carriedBy(const std::function<glm::mat4(int node)>& movedBy, std::vector<View> views) {
+  std::map<int, glm::vec3> middles;
+  for (const View& view : views)
+    if (view.node >= 0 && view.isLevel && !middles.count(view.rig))
+      middles[view.rig] = glm::vec3(glm::inverse(middleOf(rigOf(view.rig, views)).worldToEye)[3]);
+  for (View& view : views) {
+    if (view.node < 0) continue;
+    const glm::mat4 moved = movedBy(view.node);
+    view.worldToEye *= glm::inverse(view.isLevel ? levelled(moved, middles[view.rig]) : moved);
+  }
+  return views;
 }
 
 stage::Viewers viewersOf(const std::vector<View>& all, const std::vector<ViewGroup>& groups,

@@ -1,6 +1,7 @@
 // Views that are drawn together: of one size and one rig, at most as many as shaders know at once.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "scumble/view.h"
@@ -24,6 +25,10 @@ std::vector<View> rigOf(int rig, const std::vector<View>& all);
 
 // The view between all eyes: what decides where marks lie is seen from there.
 View middleOf(const std::vector<View>& views);
+
+// Views that hang on nodes, with what moves those in the world. Level ones do not tilt with it, and all of a
+// rig go the way of its middle.
+std::vector<View> carriedBy(const std::function<glm::mat4(int node)>& movedBy, std::vector<View> views);
 
 // Whether depth and size do not depend on the distance.
 bool isParallel(const View& view);

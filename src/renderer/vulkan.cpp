@@ -14,9 +14,7 @@ Result<std::unique_ptr<Renderer>> createRenderer(const VulkanWishes& wishes, con
   deviceOptions.validation = options.validation;
   deviceOptions.cacheFolder = options.cacheFolder;
   deviceOptions.log = options.log;
-  deviceOptions.instanceExtensions = wishes.instanceExtensions;
-  deviceOptions.deviceExtensions = wishes.deviceExtensions;
-  deviceOptions.features = wishes.features;
+  deviceOptions.wishes = &wishes;
   return RendererAccess::create(gpu::Device::create(deviceOptions), options);
 }
 

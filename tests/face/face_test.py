@@ -20,7 +20,7 @@ WIDTH, HEIGHT = 96, 54
 
 class View(ctypes.Structure):
     _fields_ = [("world_to_eye", ctypes.c_float * 16), ("eye_to_clip", ctypes.c_float * 16), ("node", ctypes.c_int32),
-                ("width", ctypes.c_uint32), ("height", ctypes.c_uint32), ("rig", ctypes.c_int32)]
+                ("width", ctypes.c_uint32), ("height", ctypes.c_uint32), ("rig", ctypes.c_int32), ("is_level", ctypes.c_int32)]
 
 
 class Viewpoint(ctypes.Structure):

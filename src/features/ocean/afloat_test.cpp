@@ -130,6 +130,37 @@ TEST_P(Afloat, aCameraOnABoatSeesTheBoatStandAndTheHorizonMove) {
   EXPECT_GT(standing, 40u);
 }
 
+// A level one goes up and down with it, and the horizon stays straight and where it is.
+TEST_P(Afloat, aLevelViewOnABoatKeepsTheHorizon) {
+  const Scene scene = boatWithCamera().load();
+  const int ocean = int(scene.data().nodes.size()) + 2;
+  const Look rides = stormy({{"nodes.Boat.float.rides", "on"}, {"ocean.speed", "2"}});
+  // By column, the highest row of the sea; how far apart they are over times.
+  const auto swing = [&](bool isLevel) {
+    std::vector<int> least(kAfloatWidth, kAfloatHeight), most(kAfloatWidth, 0);
+    for (const double time : {0.4, 3.1, 6.7}) {
+      std::vector<View> views = camera(scene, rides, time);
+      for (View& view : views) {
+        view.isLevel = isLevel;
+        // Straight ahead, from high above the waves.
+        view.worldToEye = glm::inverse(glm::translate(glm::mat4(1), {0, 60, 0}));
+      }
+      const Frame frame = drawFrom(scene, rides, time, views, sized(kAfloatWidth, kAfloatHeight, {"id"}));
+      for (int x = 0; x < kAfloatWidth; ++x)
+        for (int y = 0; y < kAfloatHeight; ++y)
+          if (int(texel(aov(frame, "id"), x, y).x) == ocean) {
+            least[size_t(x)] = std::min(least[size_t(x)], y), most[size_t(x)] = std::max(most[size_t(x)], y);
+            break;
+          }
+    }
+    int apart = 0;
+    for (size_t x = 0; x < least.size(); ++x) apart = std::max(apart, most[x] - least[x]);
+    return apart;
+  };
+  EXPECT_LE(swing(true), 1);
+  EXPECT_GT(swing(false), 4);
+}
+
 TEST_F(Afloat, aViewNamesTheNodeThatItHangsOn) {
   const Scene scene = boatWithCamera().load();
   const auto nodeOf = [&](const Viewpoint& viewpoint) {

@@ -1,0 +1,48 @@
+// The runtime that is there, and its headset.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scumble/result.h"
+#include "scumble/vulkan.h"
+#include "xr/functions.h"
+
+namespace scumble::xr {
+
+class Instance {
+ public:
+  // Asks for XR_KHR_vulkan_enable2, and for what else of use there is. Fails with noUsableGpu where there is
+  // no loader, no runtime, or one without Vulkan.
+  static Result<std::unique_ptr<Instance>> create();
+  ~Instance();
+  Instance(const Instance&) = delete;
+  Instance& operator=(const Instance&) = delete;
+
+  const Functions& call() const { return call_; }
+  XrInstance handle() const { return instance_; }
+  bool has(const std::string& extension) const;
+  // With its version.
+  const std::string& runtime() const { return runtime_; }
+
+  // Looks for a headset, which may have been switched on by now. Throws XrFailure.
+  void findHeadset();
+  XrSystemId system() const { return system_; }
+  const std::string& headset() const { return headset_; }
+
+  // Who makes Vulkan's instance and device: the runtime does, so that it can add what it needs. The instance
+  // outlives who uses them.
+  VulkanWishes vulkan() const;
+
+ private:
+  Instance() = default;
+
+  Functions call_;
+  XrInstance instance_ = XR_NULL_HANDLE;
+  XrSystemId system_ = XR_NULL_SYSTEM_ID;
+  std::vector<std::string> extensions_;  // that were switched on
+  std::string runtime_, headset_;
+};
+
+}  // namespace scumble::xr

@@ -1,0 +1,56 @@
+#include "xr/place.h"
+
+#include <cmath>
+
+namespace scumble::xr {
+
+namespace {
+
+glm::quat aboutVertical(float angle) {
+  return {std::cos(0.5f * angle), 0, std::sin(0.5f * angle), 0};
+}
+
+}  // namespace
+
+Pose poseOf(const XrPosef& pose) {
+  const XrQuaternionf& q = pose.orientation;
+  return {glm::normalize(glm::quat(q.w, q.x, q.y, q.z)), {pose.position.x, pose.position.y, pose.position.z}};
+}
+
+XrPosef xrOf(const Pose& pose) {
+  return {{pose.turn.x, pose.turn.y, pose.turn.z, pose.turn.w}, {pose.place.x, pose.place.y, pose.place.z}};
+}
+
+Stand standAt(const View& camera, float scale, float eyeHeight) {
+  const glm::mat4 toWorld = glm::inverse(camera.worldToEye);
+  const glm::vec3 back(toWorld[2]), up(toWorld[1]);
+  // Of one that looks straight down, what is up in its picture lies ahead.
+  const bool isSteep = std::hypot(back.x, back.z) < 1e-3f;
+  const glm::vec3 ahead = isSteep ? (back.y > 0 ? up : -up) : -back;
+  return {glm::vec3(toWorld[3]) - glm::vec3(0, eyeHeight * scale, 0), std::atan2(-ahead.x, -ahead.z), scale};
+}
+
+View viewOf(const Stand& stand, const Pose& eye, const XrFovf& angles, float nearPlane) {
+  const glm::quat heading = aboutVertical(stand.heading);
+  glm::mat4 toWorld = glm::mat4_cast(heading * eye.turn);
+  toWorld[3] = glm::vec4(stand.place + stand.scale * (heading * eye.place), 1);
+  View view;
+  view.worldToEye = glm::inverse(toWorld);
+  view.eyeToClip = projectionOf(angles, nearPlane);
+  return view;
+}
+
+glm::mat4 projectionOf(const XrFovf& angles, float nearPlane) {
+  const float left = std::tan(angles.angleLeft), right = std::tan(angles.angleRight);
+  const float up = std::tan(angles.angleUp), down = std::tan(angles.angleDown);
+  glm::mat4 p(0.0f);
+  p[0][0] = 2 / (right - left);
+  p[2][0] = (right + left) / (right - left);
+  p[1][1] = -2 / (up - down);  // y down
+  p[2][1] = -(up + down) / (up - down);
+  p[2][3] = -1;
+  p[3][2] = nearPlane;
+  return p;
+}
+
+}  // namespace scumble::xr

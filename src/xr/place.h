@@ -1,0 +1,36 @@
+// Where heads are in the scene: poses and angles as OpenXR has them, as views. Arithmetic alone.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "scumble/view.h"
+#include "xr/openxr.h"
+
+namespace scumble::xr {
+
+struct Pose {
+  glm::quat turn{1, 0, 0, 0};
+  glm::vec3 place{0};  // metres
+};
+Pose poseOf(const XrPosef& pose);
+XrPosef xrOf(const Pose& pose);
+
+// The room that somebody wears a headset in, in the scene: its origin and its z axis (backwards), level.
+struct Stand {
+  glm::vec3 place{0};  // metres, of the room's origin
+  float heading = 0;   // radians about y
+  float scale = 1;     // so many metres of the scene are one of the room
+};
+
+// Where a camera is, level: what it looks at lies straight ahead. A room whose origin is a head's place
+// stands with it at the camera; one whose origin lies on the floor, `eyeHeight` metres of the room below it.
+Stand standAt(const View& camera, float scale, float eyeHeight);
+
+// An eye of the room as a view of the scene.
+View viewOf(const Stand& stand, const Pose& eye, const XrFovf& angles, float nearPlane);
+
+// Off-centre, depth reversed, the far plane infinite (scumble/view.h).
+glm::mat4 projectionOf(const XrFovf& angles, float nearPlane);
+
+}  // namespace scumble::xr

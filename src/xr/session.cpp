@@ -1,0 +1,272 @@
+#include "xr/session.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "xr/failure.h"
+
+namespace scumble::xr {
+
+namespace {
+
+constexpr XrViewConfigurationType kViews = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
+
+XrPosef nowhereElse() {
+  return xrOf(Pose());
+}
+
+}  // namespace
+
+Session::Session(const Instance& instance, const VulkanDevice& device, const SessionOptions& options)
+    : instance_(instance), call_(instance.call()) {
+  try {
+    XrGraphicsBindingVulkan2KHR binding{XR_TYPE_GRAPHICS_BINDING_VULKAN2_KHR};
+    binding.instance = device.instance;
+    binding.physicalDevice = device.physical;
+    binding.device = device.device;
+    binding.queueFamilyIndex = device.queueFamily;
+    binding.queueIndex = 0;
+    const XrSessionCreateInfo info{XR_TYPE_SESSION_CREATE_INFO, &binding, 0, instance.system()};
+    must(call_.CreateSession(instance.handle(), &info, &session_), "xrCreateSession");
+    createSpace(options.isStanding);
+    const auto modes = listed<XrEnvironmentBlendMode>(
+        "xrEnumerateEnvironmentBlendModes",
+        [&](uint32_t capacity, uint32_t* count, XrEnvironmentBlendMode* all) {
+          return call_.EnumerateEnvironmentBlendModes(instance_.handle(), instance_.system(), kViews,
+                                                      capacity, count, all);
+        });
+    // In the order of the runtime's preference.
+    const bool canCover = std::find(modes.begin(), modes.end(), blend_) != modes.end();
+    if (!canCover && !modes.empty()) blend_ = modes.front();
+    createSwapchains();
+    chooseRefreshRate(options.refreshRate);
+  } catch (...) {
+    destroy();
+    throw;
+  }
+}
+
+Session::~Session() {
+  destroy();
+}
+
+void Session::destroy() {
+  for (const Swapchain& swapchain : swapchains_) call_.DestroySwapchain(swapchain.handle);
+  if (space_) call_.DestroySpace(space_);
+  if (session_) call_.DestroySession(session_);
+}
+
+void Session::createSpace(bool isStanding) {
+  const auto spaces = listed<XrReferenceSpaceType>(
+      "xrEnumerateReferenceSpaces", [&](uint32_t capacity, uint32_t* count, XrReferenceSpaceType* all) {
+        return call_.EnumerateReferenceSpaces(session_, capacity, count, all);
+      });
+  const XrReferenceSpaceType wanted =
+      isStanding ? XR_REFERENCE_SPACE_TYPE_STAGE : XR_REFERENCE_SPACE_TYPE_LOCAL;
+  if (std::find(spaces.begin(), spaces.end(), wanted) == spaces.end())
+    throw XrFailure("xrEnumerateReferenceSpaces", XR_ERROR_REFERENCE_SPACE_UNSUPPORTED);
+  const XrReferenceSpaceCreateInfo info{XR_TYPE_REFERENCE_SPACE_CREATE_INFO, nullptr, wanted, nowhereElse()};
+  must(call_.CreateReferenceSpace(session_, &info, &space_), "xrCreateReferenceSpace");
+}
+
+void Session::createSwapchains() {
+  const auto eyes = listed<XrViewConfigurationView>(
+      "xrEnumerateViewConfigurationViews",
+      [&](uint32_t capacity, uint32_t* count, XrViewConfigurationView* all) {
+        return call_.EnumerateViewConfigurationViews(instance_.handle(), instance_.system(), kViews, capacity,
+                                                     count, all);
+      },
+      {XR_TYPE_VIEW_CONFIGURATION_VIEW});
+  if (eyes.size() != kEyes)
+    throw XrFailure("xrEnumerateViewConfigurationViews", XR_ERROR_VIEW_CONFIGURATION_TYPE_UNSUPPORTED);
+  // Both are drawn at once: so they have one size.
+  for (const XrViewConfigurationView& eye : eyes)
+    size_ = glm::max(size_, glm::uvec2(eye.recommendedImageRectWidth, eye.recommendedImageRectHeight));
+  for (const XrViewConfigurationView& eye : eyes)
+    size_ = glm::min(size_, glm::uvec2(eye.maxImageRectWidth, eye.maxImageRectHeight));
+
+  const auto formats =
+      listed<int64_t>("xrEnumerateSwapchainFormats", [&](uint32_t capacity, uint32_t* count, int64_t* all) {
+        return call_.EnumerateSwapchainFormats(session_, capacity, count, all);
+      });
+  // The first one that the runtime likes of those that tell light: runtimes take others for linear.
+  const auto isSrgb = [](int64_t format) {
+    return format == VK_FORMAT_R8G8B8A8_SRGB || format == VK_FORMAT_B8G8R8A8_SRGB;
+  };
+  auto chosen = std::find_if(formats.begin(), formats.end(), isSrgb);
+  if (chosen == formats.end())
+    chosen = std::find(formats.begin(), formats.end(), int64_t(VK_FORMAT_R16G16B16A16_SFLOAT));
+  if (chosen == formats.end())
+    throw XrFailure("xrEnumerateSwapchainFormats", XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED);
+  format_ = VkFormat(*chosen);
+
+  // Runtimes that have no images of layers have two of one.
+  try {
+    swapchains_.push_back(createSwapchain(size_, kEyes));
+  } catch (const XrFailure& failure) {
+    if (failure.result() == XR_ERROR_INSTANCE_LOST || failure.result() == XR_ERROR_SESSION_LOST) throw;
+    for (size_t eye = 0; eye < kEyes; ++eye) swapchains_.push_back(createSwapchain(size_, 1));
+  }
+}
+
+Session::Swapchain Session::createSwapchain(const glm::uvec2& size, uint32_t layers) const {
+  XrSwapchainCreateInfo info{XR_TYPE_SWAPCHAIN_CREATE_INFO};
+  info.usageFlags = XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT | XR_SWAPCHAIN_USAGE_SAMPLED_BIT;
+  info.format = format_;
+  info.sampleCount = info.faceCount = info.mipCount = 1;
+  info.width = size.x, info.height = size.y;
+  info.arraySize = layers;
+  Swapchain made;
+  must(call_.CreateSwapchain(session_, &info, &made.handle), "xrCreateSwapchain");
+  try {
+    for (const XrSwapchainImageVulkan2KHR& image : listed<XrSwapchainImageVulkan2KHR>(
+             "xrEnumerateSwapchainImages",
+             [&](uint32_t capacity, uint32_t*count, XrSwapchainImageVulkan2KHR*all) {
+               return call_.EnumerateSwapchainImages(made.handle, capacity, count,
+                                                     reinterpret_cast<XrSwapchainImageBaseHeader*>(all));
+             },
+             {XR_TYPE_SWAPCHAIN_IMAGE_VULKAN2_KHR}))
+      made.images.push_back(image.image);
+  } catch (...) {
+    call_.DestroySwapchain(made.handle);
+    throw;
+  }
+  return made;
+}
+
+void Session::chooseRefreshRate(float wished) {
+  if (!instance_.has(XR_FB_DISPLAY_REFRESH_RATE_EXTENSION_NAME) || !call_.EnumerateDisplayRefreshRatesFB)
+    return;
+  const auto rates =
+      listed<float>("xrEnumerateDisplayRefreshRatesFB", [&](uint32_t capacity, uint32_t* count, float* all) {
+        return call_.EnumerateDisplayRefreshRatesFB(session_, capacity, count, all);
+      });
+  if (rates.empty()) return;
+  const float nearest = *std::min_element(rates.begin(), rates.end(), [&](float a, float b) {
+    return std::abs(a - wished) < std::abs(b - wished);
+  });
+  if (wished > 0) must(call_.RequestDisplayRefreshRateFB(session_, nearest), "xrRequestDisplayRefreshRateFB");
+  must(call_.GetDisplayRefreshRateFB(session_, &refreshRate_), "xrGetDisplayRefreshRateFB");
+}
+
+News Session::follow() {
+  News news;
+  while (true) {
+    XrEventDataBuffer event{XR_TYPE_EVENT_DATA_BUFFER};
+    if (must(call_.PollEvent(instance_.handle(), &event), "xrPollEvent") == XR_EVENT_UNAVAILABLE) return news;
+    if (event.type == XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING)
+      throw XrFailure("xrPollEvent", XR_ERROR_INSTANCE_LOST);
+    if (event.type == XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING) {
+      news.isRecentred = true;
+    } else if (event.type == XR_TYPE_EVENT_DATA_DISPLAY_REFRESH_RATE_CHANGED_FB) {
+      refreshRate_ =
+          reinterpret_cast<const XrEventDataDisplayRefreshRateChangedFB&>(event).toDisplayRefreshRate;
+    } else if (event.type == kTypeUserPresenceChanged) {
+      isWorn_ = reinterpret_cast<const XrEventDataUserPresenceChanged&>(event).isUserPresent == XR_TRUE;
+    } else if (event.type == XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED) {
+      state_ = reinterpret_cast<const XrEventDataSessionStateChanged&>(event).state;
+      if (state_ == XR_SESSION_STATE_READY) {
+        const XrSessionBeginInfo info{XR_TYPE_SESSION_BEGIN_INFO, nullptr, kViews};
+        must(call_.BeginSession(session_, &info), "xrBeginSession");
+        isRunning_ = true;
+      } else if (state_ == XR_SESSION_STATE_STOPPING) {
+        isRunning_ = false;
+        must(call_.EndSession(session_), "xrEndSession");
+      }
+      isOver_ = isOver_ || state_ == XR_SESSION_STATE_EXITING;
+      isLost_ = isLost_ || state_ == XR_SESSION_STATE_LOSS_PENDING;
+      if (isOver_ || isLost_) isRunning_ = false;
+    }
+  }
+}
+
+void Session::requestEnd() {
+  if (!isRunning_) {
+    isOver_ = true;
+    return;
+  }
+  must(call_.RequestExitSession(session_), "xrRequestExitSession");
+}
+
+Moment Session::begin() {
+  const XrFrameWaitInfo wait{XR_TYPE_FRAME_WAIT_INFO};
+  XrFrameState state{XR_TYPE_FRAME_STATE};
+  must(call_.WaitFrame(session_, &wait, &state), "xrWaitFrame");
+  const XrFrameBeginInfo begin{XR_TYPE_FRAME_BEGIN_INFO};
+  must(call_.BeginFrame(session_, &begin), "xrBeginFrame");
+  Moment moment;
+  moment.display = state.predictedDisplayTime;
+  moment.shouldRender = state.shouldRender == XR_TRUE;
+  if (moment.shouldRender) moment.isPlaced = locate(moment);
+  return moment;
+}
+
+bool Session::locate(Moment& moment) const {
+  const XrViewLocateInfo info{XR_TYPE_VIEW_LOCATE_INFO, nullptr, kViews, moment.display, space_};
+  XrViewState state{XR_TYPE_VIEW_STATE};
+  std::array<XrView, kEyes> views;
+  views.fill({XR_TYPE_VIEW});
+  uint32_t count = 0;
+  must(call_.LocateViews(session_, &info, &state, kEyes, &count, views.data()), "xrLocateViews");
+  constexpr XrViewStateFlags kKnown = XR_VIEW_STATE_POSITION_VALID_BIT | XR_VIEW_STATE_ORIENTATION_VALID_BIT;
+  if ((state.viewStateFlags & kKnown) != kKnown || count != kEyes) return false;
+  for (size_t eye = 0; eye < kEyes; ++eye) moment.eyes[eye] = {poseOf(views[eye].pose), views[eye].fov};
+  return true;
+}
+
+std::vector<VulkanTarget> Session::acquire() {
+  for (Swapchain& swapchain : swapchains_) {
+    const XrSwapchainImageAcquireInfo acquire{XR_TYPE_SWAPCHAIN_IMAGE_ACQUIRE_INFO};
+    must(call_.AcquireSwapchainImage(swapchain.handle, &acquire, &swapchain.acquired),
+         "xrAcquireSwapchainImage");
+    const XrSwapchainImageWaitInfo wait{XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO, nullptr, XR_INFINITE_DURATION};
+    must(call_.WaitSwapchainImage(swapchain.handle, &wait), "xrWaitSwapchainImage");
+  }
+  hasAcquired_ = true;
+  std::vector<VulkanTarget> targets(kEyes);
+  for (size_t eye = 0; eye < kEyes; ++eye) {
+    const bool isLayer = swapchains_.size() == 1;
+    const Swapchain& swapchain = swapchains_[isLayer ? 0 : eye];
+    VulkanTarget& target = targets[eye];
+    target.image = swapchain.images.at(swapchain.acquired);
+    target.format = format_;
+    target.extent = {size_.x, size_.y};
+    target.layer = isLayer ? uint32_t(eye) : 0;
+    // As runtimes want them back (XR_KHR_vulkan_enable2).
+    target.after = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    target.view = eye;
+  }
+  return targets;
+}
+
+void Session::end(const Moment& moment, bool isDrawn) {
+  if (hasAcquired_)
+    for (const Swapchain& swapchain : swapchains_) {
+      const XrSwapchainImageReleaseInfo release{XR_TYPE_SWAPCHAIN_IMAGE_RELEASE_INFO};
+      must(call_.ReleaseSwapchainImage(swapchain.handle, &release), "xrReleaseSwapchainImage");
+    }
+  std::array<XrCompositionLayerProjectionView, kEyes> views;
+  for (size_t eye = 0; eye < kEyes; ++eye) {
+    const bool isLayer = swapchains_.size() == 1;
+    views[eye] = {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW};
+    views[eye].pose = xrOf(moment.eyes[eye].pose);
+    views[eye].fov = moment.eyes[eye].angles;
+    views[eye].subImage.swapchain = swapchains_[isLayer ? 0 : eye].handle;
+    views[eye].subImage.imageRect = {{0, 0}, {int32_t(size_.x), int32_t(size_.y)}};
+    views[eye].subImage.imageArrayIndex = isLayer ? uint32_t(eye) : 0;
+  }
+  XrCompositionLayerProjection projection{XR_TYPE_COMPOSITION_LAYER_PROJECTION};
+  projection.space = space_;
+  projection.viewCount = kEyes;
+  projection.views = views.data();
+  const auto* const layer = reinterpret_cast<const XrCompositionLayerBaseHeader*>(&projection);
+  XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO};
+  info.displayTime = moment.display;
+  info.environmentBlendMode = blend_;
+  info.layerCount = isDrawn && hasAcquired_ ? 1 : 0;
+  info.layers = &layer;
+  hasAcquired_ = false;
+  must(call_.EndFrame(session_, &info), "xrEndFrame");
+}
+
+}  // namespace scumble::xr

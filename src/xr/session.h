@@ -1,0 +1,95 @@
+// A session with a headset: when it wants frames, from where they are seen, and the images that they go into.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "xr/instance.h"
+#include "xr/place.h"
+
+namespace scumble::xr {
+
+constexpr size_t kEyes = 2;
+
+struct SessionOptions {
+  bool isStanding = false;  // places are from the floor's middle; else from where the head was first
+  float refreshRate = 0;    // frames a second that are wished for; 0: as the runtime has it
+};
+
+struct Eye {
+  Pose pose;  // in the room
+  XrFovf angles{};
+};
+
+// A frame that was begun.
+struct Moment {
+  XrTime display = 0;         // when it will be seen, on the runtime's clock, nanoseconds
+  bool shouldRender = false;  // else nobody sees it
+  bool isPlaced = false;      // where the eyes are is known
+  std::array<Eye, kEyes> eyes;
+};
+
+// What has happened since the last look.
+struct News {
+  bool isRecentred = false;
+};
+
+class Session {
+ public:
+  // On the device that Instance::vulkan() has made. Throws XrFailure, as all calls here do.
+  Session(const Instance& instance, const VulkanDevice& device, const SessionOptions& options);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  // Follows what the runtime says, begins and ends the session as it wants.
+  News follow();
+  bool isRunning() const { return isRunning_; }  // frames are begun and ended
+  bool isFocused() const { return state_ == XR_SESSION_STATE_FOCUSED; }
+  bool isWorn() const { return isWorn_; }  // as far as the runtime tells
+  bool isOver() const { return isOver_; }  // the runtime, or requestEnd(), has ended it
+  bool isLost() const { return isLost_; }  // another one may be made
+  // Asks for its end, which comes by follow().
+  void requestEnd();
+
+  // Waits for the runtime's pace, and begins a frame, which is ended in any case.
+  Moment begin();
+  // The eyes at that moment, as the runtime knows by now.
+  bool locate(Moment& moment) const;
+  // Images to draw into: of each eye, as targets of views 0 and 1. They are taken until end().
+  std::vector<VulkanTarget> acquire();
+  // `isDrawn`: what was acquired is shown as seen from the moment's eyes; else nothing is.
+  void end(const Moment& moment, bool isDrawn);
+
+  glm::uvec2 size() const { return size_; }           // of an eye, pixels
+  float refreshRate() const { return refreshRate_; }  // frames a second; 0: the runtime does not tell
+
+ private:
+  struct Swapchain {
+    XrSwapchain handle = XR_NULL_HANDLE;
+    std::vector<VkImage> images;
+    uint32_t acquired = 0;
+  };
+  void createSpace(bool isStanding);
+  void createSwapchains();
+  Swapchain createSwapchain(const glm::uvec2& size, uint32_t layers) const;
+  void chooseRefreshRate(float wished);
+  void destroy();
+
+  const Instance& instance_;
+  const Functions& call_;
+  XrSession session_ = XR_NULL_HANDLE;
+  XrSpace space_ = XR_NULL_HANDLE;
+  XrSessionState state_ = XR_SESSION_STATE_UNKNOWN;
+  XrEnvironmentBlendMode blend_ = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
+  VkFormat format_ = VK_FORMAT_UNDEFINED;
+  glm::uvec2 size_{0};
+  std::vector<Swapchain> swapchains_;  // one of two layers, or one for each eye
+  float refreshRate_ = 0;
+  bool isRunning_ = false, isWorn_ = true, isOver_ = false, isLost_ = false, hasAcquired_ = false;
+};
+
+}  // namespace scumble::xr

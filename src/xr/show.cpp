@@ -1,0 +1,190 @@
+#include "xr/show.h"
+
+#include <chrono>
+#include <thread>
+
+#include "xr/failure.h"
+#include "xr/session.h"
+
+namespace scumble::xr {
+
+namespace {
+
+constexpr float kNearPlane = 0.05f;  // metres of the room
+constexpr float kEyeHeight = 1.6f;   // metres of the room
+constexpr auto kRest = std::chrono::milliseconds(10);
+constexpr auto kPatience = std::chrono::minutes(1);
+constexpr size_t kUnderWay = 2;  // frames that the device may have at once: it need not wait for the CPU
+
+class Show {
+ public:
+  explicit Show(const ShowOptions& options) : options_(options) {}
+
+  Result<ShowReport> run() {
+    Result<std::unique_ptr<Instance>> instance = Instance::create();
+    if (!instance) return instance.error();
+    instance_ = std::move(instance).value();
+    instance_->findHeadset();
+    Result<std::unique_ptr<Renderer>> renderer = createRenderer(instance_->vulkan(), options_.renderer);
+    if (!renderer) return renderer.error();
+    renderer_ = std::move(renderer).value();
+    do {
+      const Status status = runSession();
+      if (!status) return status.error();
+    } while (isLost_ && findAgain());
+    report_.validationMessages = renderer_->validationMessages();
+    return report_;
+  }
+
+ private:
+  struct FramesEnd {
+    Show& show;
+    ~FramesEnd() { (void)show.finish(0); }
+  };
+
+  bool isEnding() const {
+    return (options_.frames && report_.frames >= *options_.frames) ||
+           (options_.isEnding && options_.isEnding());
+  }
+  void tell(const std::string& line) const {
+    if (options_.tell) options_.tell(line);
+  }
+
+  // Waits for a headset that was lost. Throws XrFailure where it does not come.
+  bool findAgain() {
+    tell("the headset was lost; waiting for it");
+    for (const auto start = std::chrono::steady_clock::now();;) {
+      if (isEnding()) return false;
+      try {
+        instance_->findHeadset();
+        return true;
+      } catch (const XrFailure& failure) {
+        const bool comesBack = failure.result() == XR_ERROR_FORM_FACTOR_UNAVAILABLE;
+        if (!comesBack || std::chrono::steady_clock::now() - start > kPatience) throw;
+      }
+      std::this_thread::sleep_for(kRest);
+    }
+  }
+
+  Status runSession() {
+    Status status = Done{};
+    try {
+      Session session(*instance_, vulkanDeviceOf(*renderer_), {options_.isStanding, options_.refreshRate});
+      const FramesEnd end{*this};  // before its images go
+      status = runFrames(session);
+      isLost_ = session.isLost();
+    } catch (const XrFailure& failure) {
+      if (failure.result() != XR_ERROR_SESSION_LOST) throw;
+      isLost_ = true;
+    }
+    return status;
+  }
+
+  Status runFrames(Session& session) {
+    tell(instance_->headset() + " on " + instance_->runtime() + ": twice " +
+         std::to_string(session.size().x) + "x" + std::to_string(session.size().y) +
+         (session.refreshRate() > 0 ? " at " + std::to_string(int(session.refreshRate() + 0.5f)) + " Hz"
+                                    : ""));
+    for (bool isAsked = false; !session.isOver() && !session.isLost();) {
+      session.follow();
+      if (!isAsked && isEnding()) {
+        session.requestEnd();
+        isAsked = true;
+      }
+      if (!session.isRunning()) {
+        std::this_thread::sleep_for(kRest);
+        continue;
+      }
+      Moment moment = session.begin();
+      // In any case a frame that was begun is ended.
+      Result<bool> drawn = false;
+      if (moment.shouldRender && moment.isPlaced && !isAsked) drawn = draw(session, moment);
+      session.end(moment, drawn && *drawn);
+      if (!drawn) return drawn.error();
+      if (*drawn) ++report_.frames;
+    }
+    return Done{};
+  }
+
+  Result<bool> draw(Session& session, Moment& moment) {
+    if (!firstDisplay_) firstDisplay_ = moment.display;
+    const double time = options_.time + double(moment.display - *firstDisplay_) * 1e-9;
+    const Result<std::vector<View>> camera =
+        makeViews(options_.scene, options_.viewpoint, 1, Stereo::mono, 0, options_.look, time);
+    if (!camera) return camera.error();
+    const Stand stand = standAt(camera->front(), options_.scale, options_.isStanding ? kEyeHeight : 0);
+    const auto viewsOf = [&](const Moment& seen) {
+      std::vector<View> views;
+      for (const Eye& eye : seen.eyes) {
+        View& view = views.emplace_back(viewOf(stand, eye.pose, eye.angles, kNearPlane * stand.scale));
+        view.node = camera->front().node;
+        view.isLevel = true;
+      }
+      return views;
+    };
+    RenderOptions options;
+    options.width = session.size().x, options.height = session.size().y;
+    options.samples = options_.samples, options.seed = options_.seed;
+    // What is shown is told with the eyes that it was drawn from.
+    options.latch = [&](std::vector<View>& views) {
+      Moment latest = moment;
+      if (!session.locate(latest)) return;
+      moment = latest;
+      views = viewsOf(moment);
+    };
+    if (const Status status = finish(kUnderWay - 1); !status) return status.error();
+    VulkanTargets targets;
+    targets.images = session.acquire();
+    if (const Status status = scumble::begin(*renderer_, options_.scene, options_.look, time, viewsOf(moment),
+                                             options, targets);
+        !status)
+      return status.error();
+    ++begun_;
+    return true;
+  }
+
+  // Until no more than so many frames are under way.
+  Status finish(size_t most) {
+    for (; begun_ > most; --begun_)
+      if (const Result<Frame> frame = renderer_->finish(); !frame) {
+        begun_ = 0;
+        return frame.error();
+      }
+    return Done{};
+  }
+
+  const ShowOptions& options_;
+  // The runtime has made the renderer's device: so it ends later.
+  std::unique_ptr<Instance> instance_;
+  std::unique_ptr<Renderer> renderer_;
+  std::optional<XrTime> firstDisplay_;
+  size_t begun_ = 0;
+  bool isLost_ = false;
+  ShowReport report_;
+};
+
+}  // namespace
+
+Result<Headset> findHeadset() {
+  const Result<std::unique_ptr<Instance>> instance = Instance::create();
+  if (!instance) return instance.error();
+  Headset found;
+  found.runtime = (*instance)->runtime();
+  try {
+    (*instance)->findHeadset();
+    found.name = (*instance)->headset();
+  } catch (const XrFailure& failure) {
+    found.lack = errorOf(failure);
+  }
+  return found;
+}
+
+Result<ShowReport> show(const ShowOptions& options) {
+  try {
+    return Show(options).run();
+  } catch (const XrFailure& failure) {
+    return errorOf(failure);
+  }
+}
+
+}  // namespace scumble::xr

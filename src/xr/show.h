@@ -1,0 +1,48 @@
+// A scene in a headset: what `scumble xr` does. OpenXR 1.0, through the loader that is installed, and
+// XR_KHR_vulkan_enable2.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "scumble/renderer.h"
+
+namespace scumble::xr {
+
+// What is there.
+struct Headset {
+  std::string runtime;        // its name and version
+  std::string name;           // of the headset; empty: the runtime has none now
+  std::optional<Error> lack;  // what cannot be had of it
+};
+// Fails with noUsableGpu where there is no loader, no runtime, or one without Vulkan.
+Result<Headset> findHeadset();
+
+struct ShowOptions {
+  Scene scene;
+  Look look;
+  // The camera: who wears the headset is at its place, looks where it does, and keeps the horizon.
+  Viewpoint viewpoint;
+  double time = 0;          // seconds, when the first frame is seen; it goes on from there
+  bool isStanding = false;  // the floor lies 1.6 m below the camera; else the head is at the camera
+  float scale = 1;          // metres of the scene that are one of the room
+  float refreshRate = 90;   // frames a second, as near as the headset has it; 0: as it is
+  uint32_t samples = 4, seed = 0;
+  RendererOptions renderer;        // `device` means nothing: the runtime chooses
+  std::optional<uint64_t> frames;  // ends when so many were drawn; none: when the runtime or somebody ends it
+  std::function<bool()> isEnding;  // asked once a frame: whether somebody ends it
+  std::function<void(const std::string&)> tell;  // a line for who is at the keyboard
+};
+
+struct ShowReport {
+  uint64_t frames = 0;  // that were drawn
+  int validationMessages = 0;
+};
+// Returns when the session has ended. A session that is lost begins anew as soon as the headset is there
+// again; where that takes longer than a minute, and where the runtime ends, it fails with noUsableGpu.
+Result<ShowReport> show(const ShowOptions& options);
+
+}  // namespace scumble::xr

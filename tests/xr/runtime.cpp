@@ -1,0 +1,813 @@
+// An OpenXR runtime without a headset, for tests: a head that goes where a script says, and what was shown to
+// it kept as pictures. It is as strict as OpenXR allows, and writes down every mistake.
+//
+// SCUMBLE_TEST_XR names the script, a JSON object:
+//   record        folder for report.json, and frame-NNNN-{left,right}.ppm of each frame that was shown
+//   size          of an eye, pixels; angles: of each eye, [left, right, up, down] in radians
+//   poses         of the head, by frame, [x, y, z, qx, qy, qz, qw]; the last one stays; ipd: metres
+//   latch         metres by which the head has moved whenever the same frame is located again
+//   formats       Vulkan's numbers, in the runtime's order
+//   layers        whether swapchains may have more than one (true); stage: whether there is a floor (true)
+//   vulkan        whether it takes Vulkan (true); headset: whether one is there (true)
+//   refreshRates  frames a second that it offers; without them it has no such extension
+//   comesBack     after how many xrGetSystem a headset that was lost is there again
+//   events        [{"frame": N, "event": ...}], as frame N is waited for: hide, show, blur, focus, stop,
+//   exit,
+//                 loseSession, loseInstance, recentre, takeOff, putOn
+//   fail          {"xrCreateSession": -2}: calls that give this result
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <deque>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "xr/openxr.h"
+
+namespace {
+
+using Json = nlohmann::json;
+
+// The loader's side of a runtime, which Debian's headers leave out.
+struct NegotiateLoaderInfo {
+  int structType;
+  uint32_t structVersion;
+  size_t structSize;
+  uint32_t minInterfaceVersion, maxInterfaceVersion;
+  XrVersion minApiVersion, maxApiVersion;
+};
+struct NegotiateRuntimeRequest {
+  int structType;
+  uint32_t structVersion;
+  size_t structSize;
+  uint32_t runtimeInterfaceVersion;
+  XrVersion runtimeApiVersion;
+  PFN_xrGetInstanceProcAddr getInstanceProcAddr;
+};
+
+constexpr XrTime kFirstDisplay = 1'000'000'000;
+constexpr XrSystemId kSystem = 7;
+const auto kInstance = reinterpret_cast<XrInstance>(0x11);
+const auto kSession = reinterpret_cast<XrSession>(0x22);
+
+struct Space {
+  XrReferenceSpaceType type;
+};
+
+struct Swapchain {
+  VkFormat format;
+  VkExtent2D extent;
+  uint32_t layers;
+  std::vector<VkImage> images;
+  std::vector<VkDeviceMemory> memory;
+  uint32_t next = 0;
+  int acquired = -1, released = -1;
+  bool isWaited = false;
+};
+
+struct Runtime {
+  Json script, report;
+  std::string record;
+  bool hasInstance = false, askedRequirements = false;
+  std::set<std::string> extensions;
+  std::deque<XrEventDataBuffer> events;
+  int searches = 0;
+  bool isLost = false;
+  // Of the session.
+  bool hasSession = false, isRunning = false, wantsExit = false;
+  XrSessionState state = XR_SESSION_STATE_UNKNOWN;
+  VkInstance vulkan = VK_NULL_HANDLE;
+  VkPhysicalDevice physical = VK_NULL_HANDLE;
+  VkDevice device = VK_NULL_HANDLE;
+  VkQueue queue = VK_NULL_HANDLE;
+  uint32_t family = 0;
+  std::set<Space*> spaces;
+  std::set<Swapchain*> swapchains;
+  float refreshRate = 72;
+  // Of the frame.
+  int frame = -1;  // that was waited for
+  XrTime display = 0;
+  bool isWaited = false, isBegun = false;
+  int located = 0;
+  std::array<XrView, 2> eyes{};
+
+  Runtime() {
+    if (const char* const file = std::getenv("SCUMBLE_TEST_XR")) {
+      std::ifstream in(file);
+      script = Json::parse(in, nullptr, false);
+    }
+    if (!script.is_object()) script = Json::object();
+    record = script.value("record", "");
+    report = {
+        {"frames", Json::array()}, {"mistakes", Json::array()}, {"calls", Json::array()}, {"ended", false}};
+  }
+  ~Runtime() { write(); }
+
+  void write() const {
+    if (!record.empty()) std::ofstream(record + "/report.json") << report.dump(1);
+  }
+  XrResult mistake(const std::string& text, XrResult result) {
+    report["mistakes"].push_back(text);
+    write();
+    return result;
+  }
+  bool offersRates() const { return script.contains("refreshRates"); }
+};
+
+Runtime& runtime() {
+  static Runtime made;
+  return made;
+}
+
+// What the script makes of a call; each is written down.
+XrResult begun(const char* call) {
+  Runtime& r = runtime();
+  r.report["calls"].push_back(call);
+  if (r.script.contains("fail") && r.script["fail"].contains(call))
+    return XrResult(r.script["fail"][call].get<int>());
+  return XR_SUCCESS;
+}
+#define BEGIN(call)       \
+  [[maybe_unused]] Runtime& r = runtime(); \
+  if (const XrResult scripted = begun(call); scripted != XR_SUCCESS) return scripted
+#define NEED(condition, text, result) \
+  if (!(condition)) return r.mistake(text, result)
+
+template <class T>
+XrResult give(const std::vector<T>& all, uint32_t capacity, uint32_t* count, T* out) {
+  *count = uint32_t(all.size());
+  if (capacity == 0) return XR_SUCCESS;
+  if (capacity < all.size()) return XR_ERROR_SIZE_INSUFFICIENT;
+  std::copy(all.begin(), all.end(), out);
+  return XR_SUCCESS;
+}
+
+void post(const void* event, size_t size) {
+  XrEventDataBuffer buffer{XR_TYPE_EVENT_DATA_BUFFER};
+  std::memcpy(static_cast<void*>(&buffer), event, size);
+  runtime().events.push_back(buffer);
+}
+
+void goTo(XrSessionState state) {
+  runtime().state = state;
+  const XrEventDataSessionStateChanged event{XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED, nullptr, kSession,
+                                             state, 1};
+  post(&event, sizeof event);
+}
+
+// ---- Instance
+
+XrResult XRAPI_CALL EnumerateInstanceExtensionProperties(const char*, uint32_t capacity, uint32_t* count,
+                                                         XrExtensionProperties* out) {
+  BEGIN("xrEnumerateInstanceExtensionProperties");
+  std::vector<std::string> names;
+  if (r.script.value("vulkan", true)) names.emplace_back(XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME);
+  if (r.offersRates()) names.emplace_back(XR_FB_DISPLAY_REFRESH_RATE_EXTENSION_NAME);
+  names.emplace_back(kUserPresenceExtension);
+  std::vector<XrExtensionProperties> all;
+  for (const std::string& name : names) {
+    XrExtensionProperties& one = all.emplace_back(XrExtensionProperties{XR_TYPE_EXTENSION_PROPERTIES});
+    std::strncpy(one.extensionName, name.c_str(), XR_MAX_EXTENSION_NAME_SIZE - 1);
+    one.extensionVersion = 1;
+  }
+  for (uint32_t i = 0; i < capacity; ++i)
+    NEED(out[i].type == XR_TYPE_EXTENSION_PROPERTIES, "an extension's structure has no type",
+         XR_ERROR_VALIDATION_FAILURE);
+  return give(all, capacity, count, out);
+}
+
+XrResult XRAPI_CALL CreateInstance(const XrInstanceCreateInfo* info, XrInstance* instance) {
+  BEGIN("xrCreateInstance");
+  NEED(!r.hasInstance, "a second instance", XR_ERROR_LIMIT_REACHED);
+  for (uint32_t i = 0; i < info->enabledExtensionCount; ++i)
+    r.extensions.insert(info->enabledExtensionNames[i]);
+  r.hasInstance = true;
+  *instance = kInstance;
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL DestroyInstance(XrInstance) {
+  BEGIN("xrDestroyInstance");
+  NEED(!r.hasSession, "the instance is destroyed before its session", XR_SUCCESS);
+  r.hasInstance = false;
+  r.report["ended"] = true;
+  r.write();
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL GetInstanceProperties(XrInstance, XrInstanceProperties* properties) {
+  BEGIN("xrGetInstanceProperties");
+  properties->runtimeVersion = XR_MAKE_VERSION(1, 2, 3);
+  std::strcpy(properties->runtimeName, "Test runtime");
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL PollEvent(XrInstance, XrEventDataBuffer* event) {
+  Runtime& r = runtime();
+  NEED(event->type == XR_TYPE_EVENT_DATA_BUFFER, "xrPollEvent gets no buffer", XR_ERROR_VALIDATION_FAILURE);
+  if (r.events.empty()) return XR_EVENT_UNAVAILABLE;
+  *event = r.events.front();
+  r.events.pop_front();
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL GetSystem(XrInstance, const XrSystemGetInfo* info, XrSystemId* system) {
+  BEGIN("xrGetSystem");
+  NEED(info->formFactor == XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY, "no headset is asked for",
+       XR_ERROR_FORM_FACTOR_UNSUPPORTED);
+  if (!r.script.value("headset", true)) return XR_ERROR_FORM_FACTOR_UNAVAILABLE;
+  if (r.isLost && ++r.searches <= r.script.value("comesBack", 0)) return XR_ERROR_FORM_FACTOR_UNAVAILABLE;
+  *system = kSystem;
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL GetSystemProperties(XrInstance, XrSystemId, XrSystemProperties* properties) {
+  BEGIN("xrGetSystemProperties");
+  std::strcpy(properties->systemName, "Cardboard head");
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL EnumerateViewConfigurations(XrInstance, XrSystemId, uint32_t capacity, uint32_t* count,
+                                                XrViewConfigurationType* out) {
+  BEGIN("xrEnumerateViewConfigurations");
+  return give<XrViewConfigurationType>({XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO}, capacity, count, out);
+}
+
+XrResult XRAPI_CALL EnumerateViewConfigurationViews(XrInstance, XrSystemId, XrViewConfigurationType,
+                                                    uint32_t capacity, uint32_t* count,
+                                                    XrViewConfigurationView* out) {
+  BEGIN("xrEnumerateViewConfigurationViews");
+  const auto size = r.script.value("size", std::array<uint32_t, 2>{64, 64});
+  const XrViewConfigurationView one{
+      XR_TYPE_VIEW_CONFIGURATION_VIEW, nullptr, size[0], 4096, size[1], 4096, 1, 4};
+  return give<XrViewConfigurationView>({one, one}, capacity, count, out);
+}
+
+XrResult XRAPI_CALL EnumerateEnvironmentBlendModes(XrInstance, XrSystemId, XrViewConfigurationType,
+                                                   uint32_t capacity, uint32_t* count,
+                                                   XrEnvironmentBlendMode* out) {
+  BEGIN("xrEnumerateEnvironmentBlendModes");
+  return give<XrEnvironmentBlendMode>({XR_ENVIRONMENT_BLEND_MODE_OPAQUE}, capacity, count, out);
+}
+
+// ---- Vulkan
+
+XrResult XRAPI_CALL GetVulkanGraphicsRequirements2(XrInstance, XrSystemId,
+                                                   XrGraphicsRequirementsVulkan2KHR* needs) {
+  BEGIN("xrGetVulkanGraphicsRequirements2KHR");
+  r.askedRequirements = true;
+  needs->minApiVersionSupported = XR_MAKE_VERSION(1, 0, 0);
+  needs->maxApiVersionSupported = XR_MAKE_VERSION(1, 3, 0);
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL CreateVulkanInstance(XrInstance, const XrVulkanInstanceCreateInfoKHR* info,
+                                         VkInstance* instance, VkResult* result) {
+  BEGIN("xrCreateVulkanInstanceKHR");
+  NEED(r.askedRequirements, "Vulkan's instance before its requirements",
+       XR_ERROR_GRAPHICS_REQUIREMENTS_CALL_MISSING);
+  const auto create =
+      reinterpret_cast<PFN_vkCreateInstance>(info->pfnGetInstanceProcAddr(nullptr, "vkCreateInstance"));
+  *result = create(info->vulkanCreateInfo, info->vulkanAllocator, instance);
+  r.vulkan = *instance;
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL GetVulkanGraphicsDevice2(XrInstance, const XrVulkanGraphicsDeviceGetInfoKHR* info,
+                                             VkPhysicalDevice* physical) {
+  BEGIN("xrGetVulkanGraphicsDevice2KHR");
+  NEED(info->vulkanInstance == r.vulkan, "a device of another instance", XR_ERROR_VALIDATION_FAILURE);
+  uint32_t count = 1;
+  vkEnumeratePhysicalDevices(info->vulkanInstance, &count, physical);
+  r.physical = *physical;
+  return count == 1 ? XR_SUCCESS : XR_ERROR_RUNTIME_FAILURE;
+}
+
+XrResult XRAPI_CALL CreateVulkanDevice(XrInstance, const XrVulkanDeviceCreateInfoKHR* info, VkDevice* device,
+                                       VkResult* result) {
+  BEGIN("xrCreateVulkanDeviceKHR");
+  NEED(info->vulkanPhysicalDevice == r.physical, "not the runtime's device", XR_ERROR_VALIDATION_FAILURE);
+  // A runtime that synchronises by timelines needs the program to switch them on.
+  bool hasTimelines = false;
+  for (auto* next = static_cast<const VkBaseInStructure*>(info->vulkanCreateInfo->pNext); next;
+       next = next->pNext)
+    if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES)
+      hasTimelines = reinterpret_cast<const VkPhysicalDeviceVulkan12Features*>(next)->timelineSemaphore;
+  NEED(hasTimelines, "timeline semaphores are not switched on", XR_ERROR_VALIDATION_FAILURE);
+  const auto create =
+      reinterpret_cast<PFN_vkCreateDevice>(info->pfnGetInstanceProcAddr(r.vulkan, "vkCreateDevice"));
+  *result = create(info->vulkanPhysicalDevice, info->vulkanCreateInfo, info->vulkanAllocator, device);
+  r.device = *device;
+  return XR_SUCCESS;
+}
+
+// ---- Session
+
+XrResult XRAPI_CALL CreateSession(XrInstance, const XrSessionCreateInfo* info, XrSession* session) {
+  BEGIN("xrCreateSession");
+  NEED(!r.hasSession, "a second session", XR_ERROR_LIMIT_REACHED);
+  const auto* const binding = static_cast<const XrGraphicsBindingVulkan2KHR*>(info->next);
+  NEED(binding && binding->type == XR_TYPE_GRAPHICS_BINDING_VULKAN2_KHR, "a session without Vulkan",
+       XR_ERROR_GRAPHICS_DEVICE_INVALID);
+  NEED(binding->instance == r.vulkan && binding->physicalDevice == r.physical && binding->device == r.device,
+       "a session on another device", XR_ERROR_GRAPHICS_DEVICE_INVALID);
+  r.family = binding->queueFamilyIndex;
+  vkGetDeviceQueue(r.device, r.family, binding->queueIndex, &r.queue);
+  r.hasSession = true, r.isRunning = false, r.isLost = false, r.searches = 0;
+  *session = kSession;
+  goTo(XR_SESSION_STATE_IDLE);
+  goTo(XR_SESSION_STATE_READY);
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL DestroySession(XrSession) {
+  BEGIN("xrDestroySession");
+  NEED(r.spaces.empty() && r.swapchains.empty(), "a session's spaces and swapchains outlive it", XR_SUCCESS);
+  r.hasSession = r.isRunning = r.isWaited = r.isBegun = false;
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL BeginSession(XrSession, const XrSessionBeginInfo* info) {
+  BEGIN("xrBeginSession");
+  NEED(r.state == XR_SESSION_STATE_READY, "a session is begun that is not ready", XR_ERROR_SESSION_NOT_READY);
+  NEED(info->primaryViewConfigurationType == XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO,
+       "a session of other views", XR_ERROR_VIEW_CONFIGURATION_TYPE_UNSUPPORTED);
+  r.isRunning = true;
+  goTo(XR_SESSION_STATE_SYNCHRONIZED);
+  goTo(XR_SESSION_STATE_VISIBLE);
+  goTo(XR_SESSION_STATE_FOCUSED);
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL EndSession(XrSession) {
+  BEGIN("xrEndSession");
+  NEED(r.state == XR_SESSION_STATE_STOPPING, "a session is ended that is not stopping",
+       XR_ERROR_SESSION_NOT_STOPPING);
+  NEED(!r.isBegun, "a session is ended within a frame", XR_SUCCESS);
+  r.isRunning = r.isWaited = false;
+  goTo(XR_SESSION_STATE_IDLE);
+  goTo(r.wantsExit ? XR_SESSION_STATE_EXITING : XR_SESSION_STATE_READY);
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL RequestExitSession(XrSession) {
+  BEGIN("xrRequestExitSession");
+  NEED(r.isRunning, "an end is asked for of what does not run", XR_ERROR_SESSION_NOT_RUNNING);
+  r.wantsExit = true;
+  goTo(XR_SESSION_STATE_VISIBLE);
+  goTo(XR_SESSION_STATE_SYNCHRONIZED);
+  goTo(XR_SESSION_STATE_STOPPING);
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL EnumerateReferenceSpaces(XrSession, uint32_t capacity, uint32_t* count,
+                                             XrReferenceSpaceType* out) {
+  BEGIN("xrEnumerateReferenceSpaces");
+  std::vector<XrReferenceSpaceType> all{XR_REFERENCE_SPACE_TYPE_VIEW, XR_REFERENCE_SPACE_TYPE_LOCAL};
+  if (r.script.value("stage", true)) all.push_back(XR_REFERENCE_SPACE_TYPE_STAGE);
+  return give(all, capacity, count, out);
+}
+
+XrResult XRAPI_CALL CreateReferenceSpace(XrSession, const XrReferenceSpaceCreateInfo* info, XrSpace* space) {
+  BEGIN("xrCreateReferenceSpace");
+  auto* const made = new Space{info->referenceSpaceType};
+  r.spaces.insert(made);
+  *space = reinterpret_cast<XrSpace>(made);
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL DestroySpace(XrSpace space) {
+  BEGIN("xrDestroySpace");
+  auto* const old = reinterpret_cast<Space*>(space);
+  NEED(r.spaces.erase(old) == 1, "a space is destroyed twice", XR_ERROR_HANDLE_INVALID);
+  delete old;
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL EnumerateRates(XrSession, uint32_t capacity, uint32_t* count, float* out) {
+  BEGIN("xrEnumerateDisplayRefreshRatesFB");
+  return give(r.script["refreshRates"].get<std::vector<float>>(), capacity, count, out);
+}
+
+XrResult XRAPI_CALL GetRate(XrSession, float* rate) {
+  BEGIN("xrGetDisplayRefreshRateFB");
+  *rate = r.refreshRate;
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL RequestRate(XrSession, float rate) {
+  BEGIN("xrRequestDisplayRefreshRateFB");
+  const auto rates = r.script["refreshRates"].get<std::vector<float>>();
+  NEED(std::find(rates.begin(), rates.end(), rate) != rates.end(), "a rate that is not offered",
+       XR_ERROR_DISPLAY_REFRESH_RATE_UNSUPPORTED_FB);
+  r.refreshRate = rate;
+  r.report["refreshRate"] = rate;
+  return XR_SUCCESS;
+}
+
+// ---- Swapchains
+
+void mustBe(VkResult result) {
+  if (result != VK_SUCCESS) runtime().mistake("Vulkan: " + std::to_string(int(result)), XR_SUCCESS);
+}
+
+uint32_t memoryType(uint32_t allowed, VkMemoryPropertyFlags wanted) {
+  VkPhysicalDeviceMemoryProperties properties;
+  vkGetPhysicalDeviceMemoryProperties(runtime().physical, &properties);
+  for (uint32_t i = 0; i < properties.memoryTypeCount; ++i)
+    if ((allowed & (1u << i)) && (properties.memoryTypes[i].propertyFlags & wanted) == wanted) return i;
+  return 0;
+}
+
+void barrier(VkCommandBuffer commands, VkImage image, uint32_t layers, VkImageLayout before,
+             VkImageLayout after) {
+  VkImageMemoryBarrier2 one{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+  one.srcStageMask = one.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+  one.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+  one.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+  one.oldLayout = before, one.newLayout = after;
+  one.srcQueueFamilyIndex = one.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  one.image = image;
+  one.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, layers};
+  VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+  info.imageMemoryBarrierCount = 1, info.pImageMemoryBarriers = &one;
+  vkCmdPipelineBarrier2(commands, &info);
+}
+
+template <class Record>
+void runOnQueue(const Record& record) {
+  Runtime& r = runtime();
+  const VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, 0, r.family};
+  VkCommandPool pool;
+  mustBe(vkCreateCommandPool(r.device, &poolInfo, nullptr, &pool));
+  const VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool,
+                                             VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+  VkCommandBuffer commands;
+  mustBe(vkAllocateCommandBuffers(r.device, &allocate, &commands));
+  const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+  mustBe(vkBeginCommandBuffer(commands, &begin));
+  record(commands);
+  mustBe(vkEndCommandBuffer(commands));
+  const VkCommandBufferSubmitInfo one{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, nullptr, commands, 0};
+  VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+  submit.commandBufferInfoCount = 1, submit.pCommandBufferInfos = &one;
+  mustBe(vkQueueSubmit2(r.queue, 1, &submit, VK_NULL_HANDLE));
+  mustBe(vkQueueWaitIdle(r.queue));
+  vkDestroyCommandPool(r.device, pool, nullptr);
+}
+
+XrResult XRAPI_CALL EnumerateSwapchainFormats(XrSession, uint32_t capacity, uint32_t* count, int64_t* out) {
+  BEGIN("xrEnumerateSwapchainFormats");
+  return give(
+      r.script.value("formats", std::vector<int64_t>{VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R8G8B8A8_SRGB}),
+      capacity, count, out);
+}
+
+XrResult XRAPI_CALL CreateSwapchain(XrSession, const XrSwapchainCreateInfo* info, XrSwapchain* swapchain) {
+  BEGIN("xrCreateSwapchain");
+  if (info->arraySize > 1 && !r.script.value("layers", true)) return XR_ERROR_FEATURE_UNSUPPORTED;
+  NEED(info->sampleCount == 1 && info->faceCount == 1 && info->mipCount == 1, "a swapchain of another kind",
+       XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED);
+  auto made = std::make_unique<Swapchain>();
+  made->format = VkFormat(info->format);
+  made->extent = {info->width, info->height};
+  made->layers = info->arraySize;
+  for (int i = 0; i < 3; ++i) {
+    VkImageCreateInfo image{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
+    image.imageType = VK_IMAGE_TYPE_2D;
+    image.format = made->format;
+    image.extent = {info->width, info->height, 1};
+    image.mipLevels = 1, image.arrayLayers = info->arraySize;
+    image.samples = VK_SAMPLE_COUNT_1_BIT;
+    image.usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    if (info->usageFlags & XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT)
+      image.usage |= VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    if (info->usageFlags & XR_SWAPCHAIN_USAGE_SAMPLED_BIT) image.usage |= VK_IMAGE_USAGE_SAMPLED_BIT;
+    mustBe(vkCreateImage(r.device, &image, nullptr, &made->images.emplace_back()));
+    VkMemoryRequirements needs;
+    vkGetImageMemoryRequirements(r.device, made->images.back(), &needs);
+    const VkMemoryAllocateInfo allocate{
+        VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.size,
+        memoryType(needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)};
+    mustBe(vkAllocateMemory(r.device, &allocate, nullptr, &made->memory.emplace_back()));
+    mustBe(vkBindImageMemory(r.device, made->images.back(), made->memory.back(), 0));
+    runOnQueue([&](VkCommandBuffer commands) {
+      barrier(commands, made->images.back(), made->layers, VK_IMAGE_LAYOUT_UNDEFINED,
+              VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+    });
+  }
+  r.report["swapchains"].push_back({{"format", info->format}, {"layers", info->arraySize}});
+  *swapchain = reinterpret_cast<XrSwapchain>(made.get());
+  r.swapchains.insert(made.release());
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL DestroySwapchain(XrSwapchain swapchain) {
+  BEGIN("xrDestroySwapchain");
+  auto* const old = reinterpret_cast<Swapchain*>(swapchain);
+  NEED(r.swapchains.erase(old) == 1, "a swapchain is destroyed twice", XR_ERROR_HANDLE_INVALID);
+  // Frames that draw into it must be over: the validation layers tell where they are not.
+  for (const VkImage image : old->images) vkDestroyImage(r.device, image, nullptr);
+  for (const VkDeviceMemory memory : old->memory) vkFreeMemory(r.device, memory, nullptr);
+  delete old;
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL EnumerateSwapchainImages(XrSwapchain swapchain, uint32_t capacity, uint32_t* count,
+                                             XrSwapchainImageBaseHeader* out) {
+  BEGIN("xrEnumerateSwapchainImages");
+  const auto& images = reinterpret_cast<Swapchain*>(swapchain)->images;
+  *count = uint32_t(images.size());
+  if (capacity == 0) return XR_SUCCESS;
+  auto* const all = reinterpret_cast<XrSwapchainImageVulkan2KHR*>(out);
+  for (size_t i = 0; i < images.size(); ++i) {
+    NEED(all[i].type == XR_TYPE_SWAPCHAIN_IMAGE_VULKAN2_KHR, "an image's structure has no type",
+         XR_ERROR_VALIDATION_FAILURE);
+    all[i].image = images[i];
+  }
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL AcquireSwapchainImage(XrSwapchain swapchain, const XrSwapchainImageAcquireInfo*,
+                                          uint32_t* index) {
+  BEGIN("xrAcquireSwapchainImage");
+  auto& from = *reinterpret_cast<Swapchain*>(swapchain);
+  NEED(from.acquired < 0, "an image is acquired before the last one was released",
+       XR_ERROR_CALL_ORDER_INVALID);
+  from.acquired = int(from.next);
+  from.next = (from.next + 1) % uint32_t(from.images.size());
+  from.isWaited = false;
+  *index = uint32_t(from.acquired);
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL WaitSwapchainImage(XrSwapchain swapchain, const XrSwapchainImageWaitInfo*) {
+  BEGIN("xrWaitSwapchainImage");
+  auto& from = *reinterpret_cast<Swapchain*>(swapchain);
+  NEED(from.acquired >= 0 && !from.isWaited, "an image is waited for that was not acquired",
+       XR_ERROR_CALL_ORDER_INVALID);
+  from.isWaited = true;
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL ReleaseSwapchainImage(XrSwapchain swapchain, const XrSwapchainImageReleaseInfo*) {
+  BEGIN("xrReleaseSwapchainImage");
+  auto& from = *reinterpret_cast<Swapchain*>(swapchain);
+  NEED(from.acquired >= 0 && from.isWaited, "an image is released that was not waited for",
+       XR_ERROR_CALL_ORDER_INVALID);
+  from.released = std::exchange(from.acquired, -1);
+  return XR_SUCCESS;
+}
+
+// ---- Frames
+
+void happen(const std::string& event) {
+  Runtime& r = runtime();
+  if (event == "hide") goTo(XR_SESSION_STATE_VISIBLE), goTo(XR_SESSION_STATE_SYNCHRONIZED);
+  if (event == "show") goTo(XR_SESSION_STATE_VISIBLE), goTo(XR_SESSION_STATE_FOCUSED);
+  if (event == "blur") goTo(XR_SESSION_STATE_VISIBLE);
+  if (event == "focus") goTo(XR_SESSION_STATE_FOCUSED);
+  if (event == "exit") r.wantsExit = true;
+  if (event == "stop" || event == "exit")
+    goTo(XR_SESSION_STATE_VISIBLE), goTo(XR_SESSION_STATE_SYNCHRONIZED), goTo(XR_SESSION_STATE_STOPPING);
+  if (event == "loseSession") r.isLost = true, goTo(XR_SESSION_STATE_LOSS_PENDING);
+  if (event == "loseInstance") {
+    const XrEventDataInstanceLossPending lost{XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING, nullptr, 0};
+    post(&lost, sizeof lost);
+  }
+  if (event == "recentre") {
+    const XrEventDataReferenceSpaceChangePending changed{XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING,
+                                                         nullptr,
+                                                         kSession,
+                                                         XR_REFERENCE_SPACE_TYPE_LOCAL,
+                                                         0,
+                                                         XR_FALSE,
+                                                         {}};
+    post(&changed, sizeof changed);
+  }
+  if (event == "takeOff" || event == "putOn") {
+    const XrEventDataUserPresenceChanged changed{kTypeUserPresenceChanged, nullptr, kSession,
+                                                 XrBool32(event == "putOn")};
+    post(&changed, sizeof changed);
+  }
+}
+
+XrResult XRAPI_CALL WaitFrame(XrSession, const XrFrameWaitInfo*, XrFrameState* state) {
+  BEGIN("xrWaitFrame");
+  NEED(r.isRunning, "a frame of a session that does not run", XR_ERROR_SESSION_NOT_RUNNING);
+  NEED(!r.isWaited, "a frame is waited for twice", XR_ERROR_CALL_ORDER_INVALID);
+  ++r.frame;
+  if (r.script.contains("events"))
+    for (const Json& event : r.script["events"])
+      if (event["frame"] == r.frame) happen(event["event"]);
+  const auto period = XrDuration(1e9 / double(r.refreshRate));
+  r.display = kFirstDisplay + r.frame * period;
+  r.isWaited = true;
+  r.located = 0;
+  state->predictedDisplayTime = r.display;
+  state->predictedDisplayPeriod = period;
+  state->shouldRender =
+      r.state == XR_SESSION_STATE_VISIBLE || r.state == XR_SESSION_STATE_FOCUSED ? XR_TRUE : XR_FALSE;
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL BeginFrame(XrSession, const XrFrameBeginInfo*) {
+  BEGIN("xrBeginFrame");
+  NEED(r.isWaited, "a frame is begun that was not waited for", XR_ERROR_CALL_ORDER_INVALID);
+  NEED(!r.isBegun, "a frame is begun within another", XR_ERROR_CALL_ORDER_INVALID);
+  r.isWaited = false, r.isBegun = true;
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL LocateViews(XrSession, const XrViewLocateInfo* info, XrViewState* state,
+                                uint32_t capacity, uint32_t* count, XrView* out) {
+  BEGIN("xrLocateViews");
+  NEED(r.spaces.count(reinterpret_cast<Space*>(info->space)) == 1, "eyes in no space",
+       XR_ERROR_HANDLE_INVALID);
+  NEED(info->displayTime == r.display, "eyes at another time than the frame's", XR_ERROR_TIME_INVALID);
+  *count = 2;
+  if (capacity == 0) return XR_SUCCESS;
+  state->viewStateFlags = XR_VIEW_STATE_POSITION_VALID_BIT | XR_VIEW_STATE_ORIENTATION_VALID_BIT |
+                          XR_VIEW_STATE_POSITION_TRACKED_BIT | XR_VIEW_STATE_ORIENTATION_TRACKED_BIT;
+  std::array<float, 7> head{0, 0, 0, 0, 0, 0, 1};
+  if (const Json poses = r.script.value("poses", Json::array()); !poses.empty())
+    head = poses[std::min(size_t(r.frame), poses.size() - 1)].get<std::array<float, 7>>();
+  const auto latch = r.script.value("latch", std::array<float, 3>{0, 0, 0});
+  for (size_t i = 0; i < 3; ++i) head[i] += float(r.located) * latch[i];
+  ++r.located;
+  // The head's own x axis, for its eyes.
+  const float x = head[3], y = head[4], z = head[5], w = head[6];
+  const std::array<float, 3> side{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)};
+  const float half = 0.5f * r.script.value("ipd", 0.064f);
+  for (size_t eye = 0; eye < 2; ++eye) {
+    NEED(out[eye].type == XR_TYPE_VIEW, "a view's structure has no type", XR_ERROR_VALIDATION_FAILURE);
+    const float along = eye == 0 ? -half : half;
+    XrView& view = r.eyes[eye];
+    view = {XR_TYPE_VIEW};
+    view.pose = {{x, y, z, w},
+                 {head[0] + along * side[0], head[1] + along * side[1], head[2] + along * side[2]}};
+    const auto angles = r.script.contains("angles") ? r.script["angles"][eye].get<std::array<float, 4>>()
+                                                    : std::array<float, 4>{-0.5f, 0.5f, 0.5f, -0.5f};
+    view.fov = {angles[0], angles[1], angles[2], angles[3]};
+    out[eye].pose = view.pose, out[eye].fov = view.fov;
+  }
+  return XR_SUCCESS;
+}
+
+// Eight bits a channel, as they are stored.
+void savePicture(const Swapchain& from, uint32_t layer, const XrRect2Di& rect, const std::string& file) {
+  Runtime& r = runtime();
+  const bool isBgra = from.format == VK_FORMAT_B8G8R8A8_SRGB;
+  if (!isBgra && from.format != VK_FORMAT_R8G8B8A8_SRGB) return;
+  const auto width = uint32_t(rect.extent.width), height = uint32_t(rect.extent.height);
+  VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+  info.size = VkDeviceSize(width) * height * 4;
+  info.usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+  VkBuffer buffer;
+  mustBe(vkCreateBuffer(r.device, &info, nullptr, &buffer));
+  VkMemoryRequirements needs;
+  vkGetBufferMemoryRequirements(r.device, buffer, &needs);
+  const VkMemoryAllocateInfo allocate{
+      VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.size,
+      memoryType(needs.memoryTypeBits,
+                 VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT)};
+  VkDeviceMemory memory;
+  mustBe(vkAllocateMemory(r.device, &allocate, nullptr, &memory));
+  mustBe(vkBindBufferMemory(r.device, buffer, memory, 0));
+  const VkImage image = from.images[size_t(from.released)];
+  runOnQueue([&](VkCommandBuffer commands) {
+    barrier(commands, image, from.layers, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+            VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    VkBufferImageCopy copy{};
+    copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, layer, 1};
+    copy.imageOffset = {rect.offset.x, rect.offset.y, 0};
+    copy.imageExtent = {width, height, 1};
+    vkCmdCopyImageToBuffer(commands, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer, 1, &copy);
+    barrier(commands, image, from.layers, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+            VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+  });
+  void* mapped = nullptr;
+  mustBe(vkMapMemory(r.device, memory, 0, VK_WHOLE_SIZE, 0, &mapped));
+  const auto* const bytes = static_cast<const uint8_t*>(mapped);
+  std::ofstream out(file, std::ios::binary);
+  out << "P6\n" << width << " " << height << "\n255\n";
+  for (size_t i = 0; i < size_t(width) * height; ++i)
+    for (const size_t channel : {isBgra ? 2 : 0, 1, isBgra ? 0 : 2}) out.put(char(bytes[4 * i + channel]));
+  vkFreeMemory(r.device, memory, nullptr);
+  vkDestroyBuffer(r.device, buffer, nullptr);
+}
+
+XrResult XRAPI_CALL EndFrame(XrSession, const XrFrameEndInfo* info) {
+  BEGIN("xrEndFrame");
+  NEED(r.isBegun, "a frame is ended that was not begun", XR_ERROR_CALL_ORDER_INVALID);
+  NEED(info->displayTime == r.display, "a frame ends at another time", XR_ERROR_TIME_INVALID);
+  NEED(info->environmentBlendMode == XR_ENVIRONMENT_BLEND_MODE_OPAQUE, "a blend mode that is not offered",
+       XR_ERROR_ENVIRONMENT_BLEND_MODE_UNSUPPORTED);
+  r.isBegun = false;
+  Json frame{
+      {"frame", r.frame}, {"display", r.display}, {"layers", info->layerCount}, {"eyes", Json::array()}};
+  for (uint32_t l = 0; l < info->layerCount; ++l) {
+    const auto* const layer = reinterpret_cast<const XrCompositionLayerProjection*>(info->layers[l]);
+    NEED(layer->type == XR_TYPE_COMPOSITION_LAYER_PROJECTION && layer->viewCount == 2,
+         "a layer of another kind", XR_ERROR_LAYER_INVALID);
+    NEED(r.spaces.count(reinterpret_cast<Space*>(layer->space)) == 1, "a layer in no space",
+         XR_ERROR_HANDLE_INVALID);
+    NEED(r.located > 0, "a layer of eyes that were not located", XR_ERROR_POSE_INVALID);
+    for (uint32_t eye = 0; eye < 2; ++eye) {
+      const XrCompositionLayerProjectionView& view = layer->views[eye];
+      auto* const from = reinterpret_cast<Swapchain*>(view.subImage.swapchain);
+      NEED(view.type == XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW && r.swapchains.count(from) == 1,
+           "a view of no swapchain", XR_ERROR_HANDLE_INVALID);
+      NEED(from->released >= 0 && from->acquired < 0, "a view of an image that was not released",
+           XR_ERROR_LAYER_INVALID);
+      const XrRect2Di& rect = view.subImage.imageRect;
+      NEED(rect.offset.x >= 0 && rect.offset.y >= 0 && rect.extent.width > 0 && rect.extent.height > 0 &&
+               uint32_t(rect.offset.x + rect.extent.width) <= from->extent.width &&
+               uint32_t(rect.offset.y + rect.extent.height) <= from->extent.height &&
+               view.subImage.imageArrayIndex < from->layers,
+           "a view reaches out of its image", XR_ERROR_SWAPCHAIN_RECT_INVALID);
+      // What is shown was drawn from where the runtime has last said that the eyes are.
+      const XrVector3f &a = view.pose.position, &b = r.eyes[eye].pose.position;
+      NEED(std::hypot(a.x - b.x, a.y - b.y, a.z - b.z) < 1e-5f, "a view is from elsewhere than its eye",
+           XR_SUCCESS);
+      NEED(!std::memcmp(&view.fov, &r.eyes[eye].fov, sizeof view.fov),
+           "a view of other angles than its eye's", XR_SUCCESS);
+      char name[64];
+      std::snprintf(name, sizeof name, "frame-%04d-%s.ppm", r.frame, eye == 0 ? "left" : "right");
+      if (!r.record.empty()) savePicture(*from, view.subImage.imageArrayIndex, rect, r.record + "/" + name);
+      frame["eyes"].push_back(
+          {{"place", {a.x, a.y, a.z}}, {"size", {rect.extent.width, rect.extent.height}}, {"picture", name}});
+    }
+  }
+  r.report["frames"].push_back(frame);
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL GetInstanceProcAddr(XrInstance instance, const char* name, PFN_xrVoidFunction* function) {
+#define ENTRY(name, function) \
+  { "xr" #name, reinterpret_cast<PFN_xrVoidFunction>(&function) }
+#define SAME(name) ENTRY(name, name)
+  static const std::map<std::string, PFN_xrVoidFunction> kAll{
+      ENTRY(GetInstanceProcAddr, GetInstanceProcAddr),
+      SAME(EnumerateInstanceExtensionProperties),
+      SAME(CreateInstance),
+      SAME(DestroyInstance),
+      SAME(GetInstanceProperties),
+      SAME(PollEvent),
+      SAME(GetSystem),
+      SAME(GetSystemProperties),
+      SAME(EnumerateViewConfigurations),
+      SAME(EnumerateViewConfigurationViews),
+      SAME(EnumerateEnvironmentBlendModes),
+      ENTRY(GetVulkanGraphicsRequirements2KHR, GetVulkanGraphicsRequirements2),
+      ENTRY(CreateVulkanInstanceKHR, CreateVulkanInstance),
+      ENTRY(GetVulkanGraphicsDevice2KHR, GetVulkanGraphicsDevice2),
+      ENTRY(CreateVulkanDeviceKHR, CreateVulkanDevice),
+      SAME(CreateSession),
+      SAME(DestroySession),
+      SAME(BeginSession),
+      SAME(EndSession),
+      SAME(RequestExitSession),
+      SAME(EnumerateReferenceSpaces),
+      SAME(CreateReferenceSpace),
+      SAME(DestroySpace),
+      ENTRY(EnumerateDisplayRefreshRatesFB, EnumerateRates),
+      ENTRY(GetDisplayRefreshRateFB, GetRate),
+      ENTRY(RequestDisplayRefreshRateFB, RequestRate),
+      SAME(EnumerateSwapchainFormats),
+      SAME(CreateSwapchain),
+      SAME(DestroySwapchain),
+      SAME(EnumerateSwapchainImages),
+      SAME(AcquireSwapchainImage),
+      SAME(WaitSwapchainImage),
+      SAME(ReleaseSwapchainImage),
+      SAME(WaitFrame),
+      SAME(BeginFrame),
+      SAME(LocateViews),
+      SAME(EndFrame),
+  };
+  (void)instance;
+  const auto found = kAll.find(name);
+  const bool isRate = std::strstr(name, "RefreshRate");
+  *function = found == kAll.end() || (isRate && !runtime().offersRates()) ? nullptr : found->second;
+  return *function ? XR_SUCCESS : XR_ERROR_FUNCTION_UNSUPPORTED;
+}
+
+}  // namespace
+
+extern "C" __attribute__((visibility("default"))) XrResult xrNegotiateLoaderRuntimeInterface(
+    const NegotiateLoaderInfo* info, NegotiateRuntimeRequest* request) {
+  if (info->minInterfaceVersion > 1 || info->maxInterfaceVersion < 1) return XR_ERROR_INITIALIZATION_FAILED;
+  request->runtimeInterfaceVersion = 1;
+  request->runtimeApiVersion = XR_MAKE_VERSION(1, 0, 20);
+  request->getInstanceProcAddr = &GetInstanceProcAddr;
+  return XR_SUCCESS;
+}

@@ -1,0 +1,289 @@
+#!/usr/bin/env python3
+"""`scumble xr` against a runtime without a headset (runtime.cpp): what is shown, in which order it is asked for, and what goes wrong.
+
+    tests/xr/xr_test.py SCUMBLE DEMO_SCENE FOLDER [unittest's options]     FOLDER: a build's xr_test
+
+The runtime is as strict as OpenXR allows and keeps what it was shown as pictures. Every call that draws runs under the
+validation layers.
+"""
+import json
+import math
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
+from png import read_png  # noqa: E402
+
+DONE, OUR_FAULT, USAGE, UNUSABLE, NO_GPU = range(5)
+SIZE = (96, 64)
+CAMERA = ["--eye", "9,2.5,14", "--target", "0,2.5,0"]
+UP, ACROSS = 0.4, math.atan(math.tan(0.4) * SIZE[0] / SIZE[1])  # radians, to all sides
+ANGLES = [[-ACROSS, ACROSS, UP, -UP]] * 2
+UNORM, SRGB, BGRA_SRGB, HALF = 37, 43, 50, 97  # VkFormat
+AHEAD = [0, 0, 0, 0, 0, 0, 1]
+scumble = demo_scene = build = None
+shared = None  # a folder for what several tests read
+
+
+def ppm(path):
+    data = Path(path).read_bytes()
+    kind, size, most, pixels = data.split(b"\n", 3)
+    assert (kind, most) == (b"P6", b"255"), path
+    width, height = map(int, size.split())
+    assert len(pixels) == width * height * 3, path
+    return pixels
+
+
+def alike(a, b, levels=1):
+    """The part of the bytes that differ by no more than so many levels."""
+    assert len(a) == len(b)
+    return sum(abs(x - y) <= levels for x, y in zip(a, b)) / len(a)
+
+
+class Xr(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="scumble xr "))
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def environment(self, script):
+        """With a runtime that does as the script says; its report is what `report` reads."""
+        self.record = self.folder / f"record {len(list(self.folder.iterdir()))}"
+        self.record.mkdir()
+        file = self.record / "script.json"
+        file.write_text(json.dumps({"record": str(self.record), "size": SIZE, "angles": ANGLES, "poses": [AHEAD], **script}))
+        return {**os.environ, "XDG_CACHE_HOME": str(shared / "cache"), "XR_RUNTIME_JSON": str(build / "runtime.json"),
+                "SCUMBLE_TEST_XR": str(file)}
+
+    def report(self):
+        return json.loads((self.record / "report.json").read_text())
+
+    def picture(self, frame, eye="left"):
+        return ppm(self.record / f"frame-{frame:04d}-{eye}.ppm")
+
+    def call(self, *words, frames=1, **script):
+        return subprocess.run([scumble, "xr", demo_scene, *CAMERA, "--samples", "1", "--validate", "--frames", str(frames), *words],
+                              env=self.environment(script), capture_output=True, text=True, timeout=200)
+
+    def shown(self, *words, frames=1, **script):
+        """Runs to the end; the frames that were shown, without a mistake."""
+        done = self.call(*words, frames=frames, **script)
+        self.assertEqual((done.returncode, done.stdout), (DONE, ""), done.stderr)
+        self.assertRegex(done.stderr, r"\Ascumble: Cardboard head on Test runtime 1\.2\.3: twice 96x64[^\n]*\n")
+        report = self.report()
+        self.assertEqual(report["mistakes"], [])
+        self.assertTrue(report["ended"])
+        return [frame for frame in report["frames"] if frame["layers"]]
+
+    def bad(self, code, *words, says, **script):
+        done = self.call(*words, **script)
+        self.assertEqual(done.returncode, code, done.stderr)
+        lines = [line for line in done.stderr.splitlines() if not line.startswith("scumble: Cardboard head")]
+        self.assertEqual(len(lines), 1, done.stderr)
+        self.assertRegex(lines[0], r"\Ascumble: error: ")
+        self.assertIn(says, lines[0])
+        return done
+
+    def rendered(self, *words, camera=CAMERA):
+        """What `scumble render` draws for both eyes."""
+        out = self.folder / "rendered.png"
+        subprocess.run([scumble, "render", demo_scene, *camera, "--fov", str(math.degrees(2 * UP)), "--size", f"{SIZE[0]}x{SIZE[1]}",
+                        "--samples", "1", "--stereo", "separate", "--ipd", "0.064", "-o", str(out), "--quiet", *words],
+                       check=True, env={**os.environ, "XDG_CACHE_HOME": str(shared / "cache")})
+        pixels = []
+        for eye in ("left", "right"):
+            width, height, channels, rows = read_png(self.folder / f"rendered.{eye}.png")
+            self.assertEqual((width, height), SIZE)
+            pixels.append(b"".join(row[i:i + 3] for row in rows for i in range(0, len(row), channels)))
+        return pixels
+
+    # -- What is shown
+
+    def test_a_headset_shows_what_render_draws(self):
+        frames = self.shown(frames=3, refreshRates=[60, 72, 90, 120])
+        self.assertEqual([frame["frame"] for frame in frames], [0, 1, 2])
+        self.assertEqual(self.report()["refreshRate"], 90)
+        self.assertEqual(self.report()["swapchains"], [{"format": SRGB, "layers": 2}], "UNORM is what runtimes take for light")
+        for eye, wanted in zip(("left", "right"), self.rendered()):
+            self.assertGreater(alike(self.picture(0, eye), wanted), 0.999, eye)
+        self.assertLess(alike(self.picture(0, "left"), self.picture(0, "right")), 0.999, "one eye is shown twice")
+        # Time goes on as frames are seen.
+        for eye, wanted in zip(("left", "right"), self.rendered("--time", str(2 / 90))):
+            self.assertGreater(alike(self.picture(2, eye), wanted), 0.999, eye)
+        self.assertLess(alike(self.picture(0), self.picture(2)), 0.999, "nothing moves")
+
+    def test_the_same_script_gives_the_same_bytes(self):
+        poses = [[0.01 * i, 0.02 * i, 0, 0, math.sin(0.05 * i), 0, math.cos(0.05 * i)] for i in range(3)]
+        self.shown(frames=3, poses=poses)
+        first = [self.picture(i, eye) for i in range(3) for eye in ("left", "right")]
+        self.shown(frames=3, poses=poses)
+        self.assertTrue(first == [self.picture(i, eye) for i in range(3) for eye in ("left", "right")])
+
+    def test_eyes_in_one_place_see_the_same(self):
+        self.shown(ipd=0)
+        self.assertTrue(self.picture(0, "left") == self.picture(0, "right"))
+
+    def test_runtimes_without_layers_have_two_swapchains(self):
+        self.shown()
+        wanted = [self.picture(0, eye) for eye in ("left", "right")]
+        self.shown(layers=False)
+        self.assertEqual([chain["layers"] for chain in self.report()["swapchains"]], [1, 1])
+        self.assertTrue(wanted == [self.picture(0, eye) for eye in ("left", "right")])
+
+    def test_the_runtime_says_which_format(self):
+        self.shown()
+        wanted = self.picture(0)
+        self.shown(formats=[HALF, BGRA_SRGB, SRGB])
+        self.assertEqual(self.report()["swapchains"][0]["format"], BGRA_SRGB)
+        self.assertTrue(wanted == self.picture(0))
+        self.shown(formats=[UNORM, HALF])
+        self.assertEqual(self.report()["swapchains"][0]["format"], HALF)
+        self.bad(NO_GPU, formats=[UNORM], says="XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED")
+
+    def test_heads_go_and_turn(self):
+        # A step to the right is a camera further right.
+        self.shown(poses=[[2, 0, 0, 0, 0, 0, 1]])
+        ahead = (-9 / math.hypot(9, 14), -14 / math.hypot(9, 14))
+        right = (-ahead[1], ahead[0])
+        place = f"{9 + 2 * right[0]},2.5,{14 + 2 * right[1]}"
+        target = f"{2 * right[0]},2.5,{2 * right[1]}"
+        for eye, wanted in zip(("left", "right"), self.rendered(camera=["--eye", place, "--target", target])):
+            self.assertGreater(alike(self.picture(0, eye), wanted, 2), 0.998, eye)
+        # In a room of ten metres a metre it takes a tenth of that.
+        self.shown("--scale", "10", poses=[[0.2, 0, 0, 0, 0, 0, 1]], ipd=0.0064)
+        for eye, wanted in zip(("left", "right"), self.rendered(camera=["--eye", place, "--target", target])):
+            self.assertGreater(alike(self.picture(0, eye), wanted, 2), 0.99, eye)
+
+    def test_a_floor_lies_below_the_camera(self):
+        self.shown()
+        wanted = self.picture(0)
+        self.shown("--standing", poses=[[0, 1.6, 0, 0, 0, 0, 1]])
+        self.assertGreater(alike(self.picture(0), wanted), 0.999)
+        self.bad(NO_GPU, "--standing", stage=False, says="XR_ERROR_REFERENCE_SPACE_UNSUPPORTED")
+
+    def test_the_newest_poses_are_drawn(self):
+        self.shown()
+        still = self.picture(0)
+        # The runtime refuses layers from elsewhere than where it has last said that the eyes are.
+        frames = self.shown(latch=[0.3, 0, 0])
+        self.assertAlmostEqual(frames[0]["eyes"][0]["place"][0], 0.3 - 0.032, 5)
+        self.assertLess(alike(self.picture(0), still), 0.99, "the picture is from where the head was before")
+
+    def test_eyes_may_look_out_of_the_middle(self):
+        self.shown(angles=[[-0.9, 0.6, 0.5, -0.7], [-0.6, 0.9, 0.5, -0.7]])
+        self.assertLess(alike(self.picture(0, "left"), self.picture(0, "right")), 0.9)
+
+    # -- Sessions
+
+    def test_what_nobody_sees_is_not_drawn(self):
+        frames = self.shown(frames=4, events=[{"frame": 1, "event": "hide"}, {"frame": 4, "event": "show"}])
+        # A state is known once it was asked for: the frame that is under way is still seen.
+        self.assertEqual(len(frames), 4)
+        empty = [frame["frame"] for frame in self.report()["frames"] if not frame["layers"]]
+        self.assertTrue(set(empty) >= {2, 3}, empty)
+
+    def test_sessions_stop_and_begin_again(self):
+        frames = self.shown(frames=5, events=[{"frame": 1, "event": "stop"}])
+        self.assertEqual(len(frames), 5)
+        self.assertEqual(self.report()["calls"].count("xrBeginSession"), 2)
+        self.assertEqual(self.report()["calls"].count("xrCreateSession"), 1)
+
+    def test_the_runtime_may_end_it(self):
+        frames = self.shown(frames=1000, events=[{"frame": 2, "event": "exit"}])
+        self.assertLess(len(frames), 5)
+
+    def test_a_session_that_is_lost_begins_anew(self):
+        done = self.call(frames=4, events=[{"frame": 1, "event": "loseSession"}], comesBack=3)
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        self.assertIn("the headset was lost", done.stderr)
+        report = self.report()
+        self.assertEqual(report["mistakes"], [])
+        self.assertEqual(sum(frame["layers"] for frame in report["frames"]), 4)
+        self.assertEqual(report["calls"].count("xrCreateSession"), 2)
+        self.assertTrue(report["ended"])
+
+    def test_a_keyboard_ends_it(self):
+        process = subprocess.Popen([scumble, "xr", demo_scene, "--samples", "1", "--validate", "--quiet"], env=self.environment({}),
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        until = time.monotonic() + 60
+        while not (self.record / "frame-0001-right.ppm").exists() and time.monotonic() < until:
+            time.sleep(0.05)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.communicate(timeout=60), ("", ""))
+        self.assertEqual(process.returncode, DONE)
+        report = self.report()
+        self.assertEqual(report["mistakes"], [])
+        self.assertTrue(report["ended"])
+        self.assertEqual(report["calls"].count("xrRequestExitSession"), 1)
+
+    # -- What goes wrong
+
+    def test_what_is_missing_is_told_in_a_line(self):
+        self.bad(NO_GPU, headset=False, says="the runtime has no headset")
+        self.bad(NO_GPU, vulkan=False, says="does not take Vulkan")
+        for words in ([], ["--quiet"]):
+            for runtime, preload, says in (("/no/such.json", "", "no OpenXR runtime is there"),
+                                           (str(build / "runtime.json"), str(build / "libscumble_no_loader.so"), "is not installed")):
+                environment = {**self.environment({}), "XR_RUNTIME_JSON": runtime, "LD_PRELOAD": preload}
+                # Also where nothing else could be read.
+                done = subprocess.run([scumble, "xr", "no.glb", *words], env=environment, capture_output=True, text=True, timeout=60)
+                self.assertEqual((done.returncode, done.stdout), (NO_GPU, ""), done.stderr)
+                self.assertRegex(done.stderr, r"\Ascumble: error: [^\n]+\n\Z")
+                self.assertIn(says, done.stderr)
+
+    def test_calls_that_fail_end_it(self):
+        for call, result, says in (("xrCreateInstance", -1, "XR_ERROR_VALIDATION_FAILURE"),
+                                   ("xrCreateVulkanInstanceKHR", -2, "the runtime has ended"),
+                                   ("xrGetVulkanGraphicsDevice2KHR", -2, "xrGetVulkanGraphicsDevice2KHR"),
+                                   ("xrCreateVulkanDeviceKHR", -2, "xrCreateVulkanDeviceKHR"),
+                                   ("xrCreateSession", -38, "XR_ERROR_GRAPHICS_DEVICE_INVALID"),
+                                   ("xrCreateReferenceSpace", -2, "xrCreateReferenceSpace"),
+                                   ("xrEnumerateSwapchainImages", -2, "xrEnumerateSwapchainImages"),
+                                   ("xrCreateSwapchain", -2, "xrCreateSwapchain"),
+                                   ("xrBeginSession", -2, "xrBeginSession"),
+                                   ("xrLocateViews", -2, "xrLocateViews"),
+                                   ("xrAcquireSwapchainImage", -2, "xrAcquireSwapchainImage"),
+                                   ("xrWaitFrame", -13, "the runtime has ended"),
+                                   ("xrEndFrame", -2, "xrEndFrame")):
+            with self.subTest(call=call):
+                done = self.bad(NO_GPU, fail={call: result}, says=says)
+                self.assertIn(f"({call}: ", done.stderr)
+                self.assertEqual(self.report()["mistakes"], [])
+
+    def test_an_instance_that_is_lost_ends_it(self):
+        self.bad(NO_GPU, frames=1000, events=[{"frame": 2, "event": "loseInstance"}], says="the runtime has ended")
+
+    def test_words_that_make_no_sense(self):
+        for words in (["--scale", "0"], ["--scale", "nan"], ["--rate", "-1"], ["--samples", "3"], ["--time", "1e9"], ["--eye", "1,2"],
+                      ["--fov", "40"], ["--frames", "-1"], ["--look", "no-such-look"]):
+            with self.subTest(words=words):
+                done = self.call(*words)
+                self.assertEqual(done.returncode, USAGE, done.stderr)
+                self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+
+    def test_devices_lists_the_headset(self):
+        def listed(**script):
+            environment = self.environment(script)
+            environment["XR_RUNTIME_JSON"] = script.get("runtime", environment["XR_RUNTIME_JSON"])
+            done = subprocess.run([scumble, "devices"], env=environment, capture_output=True, text=True, timeout=60)
+            self.assertEqual((done.returncode, done.stderr), (DONE, ""))
+            return done.stdout.splitlines()[-1]
+        self.assertEqual(listed(), "headset: Cardboard head, on Test runtime 1.2.3")
+        self.assertIn("headset: none, on Test runtime 1.2.3: the runtime has no headset", listed(headset=False))
+        self.assertIn("headset: none: no OpenXR runtime is there", listed(runtime="/no/such.json"))
+
+
+if __name__ == "__main__":
+    scumble, demo_program, build = (Path(word).resolve() for word in sys.argv[1:4])
+    with tempfile.TemporaryDirectory(prefix="scumble xr shared ") as folder:
+        shared = Path(folder)
+        demo_scene = shared / "demo.glb"
+        subprocess.run([demo_program, demo_scene], check=True, capture_output=True)
+        unittest.main(argv=[sys.argv[0], *sys.argv[4:]])
