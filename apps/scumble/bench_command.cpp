@@ -13,6 +13,7 @@
 #include "output_files.h"
 #include "report.h"
 #include "scumble/yardstick.h"
+#include "xr/show.h"
 
 namespace scumble::app {
 
@@ -25,7 +26,7 @@ struct BenchArguments {
   JsonOption json;
   int runs = 9;
   double time = 0;  // seconds
-  bool moving = false;
+  bool moving = false, xr = false;
   double bandwidth = 1000;  // of the GPU that is planned for, gigabytes a second
 };
 
@@ -37,6 +38,13 @@ std::vector<double> timesOf(const BenchArguments& args) {
   for (int turn = 0; turn <= args.runs; ++turn)
     times.push_back(args.moving ? args.time + (turn - 1) / kFramesASecond : args.time);
   return times;
+}
+
+Result<std::vector<View>> viewsAt(const BenchArguments& args, const Scene& scene, const Look& look,
+                                  double time) {
+  if (!args.xr) return args.picture.views(scene, look, time);
+  const Result<Viewpoint> viewpoint = args.picture.viewpoint();
+  return viewpoint ? xr::usualEyes(scene, look, *viewpoint, time) : viewpoint.error();
 }
 
 double median(std::vector<double> values) {
@@ -56,7 +64,7 @@ int run(const BenchArguments& args) {
   inputs.push_back(args.look.lookFor(args.scene.files[0]));
   OutputFiles files(inputs);
   if (const Status status = files.add(args.json.file(), "--json"); !status) return fail(status.error());
-  const Result<RenderOptions> options = args.picture.renderOptions();
+  Result<RenderOptions> options = args.picture.renderOptions();
   if (!options) return fail(options.error());
   Result<Look> look = args.look.load(args.scene.files[0], false);
   if (!look) return fail(look.error());
@@ -66,8 +74,9 @@ int run(const BenchArguments& args) {
     if (const Status status = files.addInputs(read); !status) return fail(status.error());
   look = args.look.withClip(*look, *scene);
   if (!look) return fail(look.error());
-  const Result<std::vector<View>> still = args.picture.views(*scene, *look, args.time);
+  const Result<std::vector<View>> still = viewsAt(args, *scene, *look, args.time);
   if (!still) return fail(still.error());
+  if (args.xr) options.value().width = still->front().size.x, options.value().height = still->front().size.y;
   const bool viewsGo = args.moving && viewsMove(*scene, args.picture.viewpoint().value(), *look);
   args.look.warnOfIdle(*look, *scene, args.scene.files[0]);
   args.picture.warnOfIdle();
@@ -78,16 +87,16 @@ int run(const BenchArguments& args) {
   if (!yardstick) return fail(yardstick.error());
 
   // Paint and yardstick in turns.
-  std::vector<double> frame, plainFrame, ratios;
+  std::vector<double> frame, plainFrame, ratios, cpu;
   std::map<std::string, std::vector<double>> passes;
   std::map<std::string, PassTime> traffic;  // of the last frame: its images are those of all
   uint64_t bytes = 0, fetches = 0;
   std::vector<std::string> order;
-  uint64_t triangles = 0;
+  uint64_t triangles = 0, drawCalls = 0;
   // The first turn compiles pipelines and is not counted.
   for (int i = 0; i <= args.runs; ++i) {
     const double time = times[size_t(i)];
-    const Result<std::vector<View>> views = viewsGo ? args.picture.views(*scene, *look, time) : still;
+    const Result<std::vector<View>> views = viewsGo ? viewsAt(args, *scene, *look, time) : still;
     if (!views) return fail(views.error());
     const Result<Frame> painted = (*painter)->render(*scene, *look, time, *views, *options);
     if (!painted) return fail(painted.error());
@@ -115,9 +124,10 @@ int run(const BenchArguments& args) {
       all += pass.milliseconds;
     }
     frame.push_back(all);
+    cpu.push_back(painted->stats.cpuMilliseconds);
     plainFrame.push_back(once);
     ratios.push_back(all / once);
-    triangles = painted->stats.triangles;
+    triangles = painted->stats.triangles, drawCalls = painted->stats.drawCalls;
   }
 
   // Medians and spreads, as JSON and as text.
@@ -149,6 +159,8 @@ int run(const BenchArguments& args) {
                               {"runs", args.runs},
                               {"passes", passReport},
                               {"frameMilliseconds", median(frame)},
+                              {"cpuMilliseconds", median(cpu)},
+                              {"drawCalls", drawCalls},
                               {"yardstickMilliseconds", median(plainFrame)},
                               {"ratio", median(ratios)},
                               {"imageBytes", bytes},
@@ -174,6 +186,8 @@ int run(const BenchArguments& args) {
                   double(traffic[name].bytesWritten) / pixels, double(traffic[name].fetches) / pixels);
     std::printf("  %-14s %9.2f ms\n  %-14s %9.2f ms\n  %-14s %9.2f\n", "frame", median(frame), "yardstick",
                 median(plainFrame), "ratio", median(ratios));
+    std::printf("  %-14s %9.2f ms beside it; %llu draws\n", "CPU", median(cpu),
+                static_cast<unsigned long long>(drawCalls));
     std::printf(
         "  %-14s %9.1f bytes a pixel: %.3f ms at %g GB/s, without vertices and textures; %.1f fetches\n",
         "images", double(bytes) / pixels, planned, args.bandwidth, double(fetches) / pixels);
@@ -191,6 +205,10 @@ void addBench(CLI::App& program, int& exitCode) {
   args->look.addTo(*command);
   args->picture.addTo(*command);
   args->picture.addStereoTo(*command);
+  command
+      ->add_flag("--xr", args->xr,
+                 "Two eyes of a headset at the camera, 2064x2208 each, instead of --size and --stereo")
+      ->excludes("--size", "--stereo", "--ipd", "--fov", "--roll");
   command->add_option("--runs", args->runs, "Frames to take the median of")->capture_default_str();
   command->add_option("--time", args->time, "Seconds; with --moving those of the first frame")
       ->capture_default_str();

@@ -201,7 +201,8 @@ void addDescriptions(CLI::App& program, int& exitCode) {
     exitCode = kDone;
   });
 
-  CLI::App* devicesCommand = program.add_subcommand("devices", "The GPUs found, which one would be used, and the headset");
+  CLI::App* devicesCommand =
+      program.add_subcommand("devices", "The GPUs found, which one would be used, and the headset");
   devicesCommand->footer("Example: scumble devices");
   devicesCommand->callback([&exitCode] { exitCode = devices(); });
 }

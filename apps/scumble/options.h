@@ -57,7 +57,7 @@ struct PictureArguments {
   void addStandpointTo(CLI::App& command);  // where the camera is and what it looks at
   void addQualityTo(CLI::App& command);     // samples, seed, validation
   void addStereoTo(CLI::App& command);      // for commands that draw one view or two
-  void addTurntableTo(CLI::App& command);  // for commands that draw films
+  void addTurntableTo(CLI::App& command);   // for commands that draw films
   bool isStereo() const { return !stereo.empty(); }
   Result<RenderOptions> renderOptions() const;
   Result<Viewpoint> viewpoint() const;

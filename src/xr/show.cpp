@@ -165,6 +165,19 @@ class Show {
 
 }  // namespace
 
+Result<std::vector<View>> usualEyes(const Scene& scene, const Look& look, const Viewpoint& viewpoint,
+                                    double time) {
+  const Result<std::vector<View>> camera = makeViews(scene, viewpoint, 1, Stereo::mono, 0, look, time);
+  if (!camera) return camera.error();
+  const Stand stand = standAt(camera->front(), 1, 0);
+  const float out = glm::radians(54.0f), in = glm::radians(40.0f), up = glm::radians(44.0f),
+              down = glm::radians(55.0f), half = 0.5f * 0.063f;
+  std::vector<View> eyes{viewOf(stand, {{1, 0, 0, 0}, {-half, 0, 0}}, {-out, in, up, -down}, kNearPlane),
+                         viewOf(stand, {{1, 0, 0, 0}, {half, 0, 0}}, {-in, out, up, -down}, kNearPlane)};
+  for (View& eye : eyes) eye.size = {2064, 2208}, eye.node = camera->front().node, eye.isLevel = true;
+  return eyes;
+}
+
 Result<Headset> findHeadset() {
   const Result<std::unique_ptr<Instance>> instance = Instance::create();
   if (!instance) return instance.error();

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "scumble/renderer.h"
 
@@ -20,6 +21,12 @@ struct Headset {
 };
 // Fails with noUsableGpu where there is no loader, no runtime, or one without Vulkan.
 Result<Headset> findHeadset();
+
+// Both eyes of a head that looks straight ahead from a camera, as headsets of 2023 see: 2064 x 2208 pixels
+// each, 94 degrees wide and 99 high, more of them outwards and down. For measuring without one. Fails as
+// makeViews does.
+Result<std::vector<View>> usualEyes(const Scene& scene, const Look& look, const Viewpoint& viewpoint,
+                                    double time);
 
 struct ShowOptions {
   Scene scene;

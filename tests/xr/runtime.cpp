@@ -135,7 +135,7 @@ XrResult begun(const char* call) {
     return XrResult(r.script["fail"][call].get<int>());
   return XR_SUCCESS;
 }
-#define BEGIN(call)       \
+#define BEGIN(call)                        \
   [[maybe_unused]] Runtime& r = runtime(); \
   if (const XrResult scripted = begun(call); scripted != XR_SUCCESS) return scripted
 #define NEED(condition, text, result) \
