@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "commands.h"
 #include "options.h"
@@ -52,7 +53,17 @@ int run(const XrArguments& args) {
   if (!args.quiet) args.look.warnOfIdle(*look, *scene, args.scene.files[0]);
 
   xr::ShowOptions show;
-  show.scene = *scene, show.look = *look, show.viewpoint = *viewpoint;
+  show.scene = *scene, show.viewpoint = *viewpoint;
+  show.looks.emplace_back(args.look.lookFor(args.scene.files[0]), *look);
+  for (const ShippedLook& shipped : Look::shipped()) {
+    if (shipped.name == show.looks.front().first) continue;
+    LookArguments other = args.look;
+    other.look = shipped.name;
+    Result<Look> loaded = other.load(args.scene.files[0], true);
+    if (loaded) loaded = other.withClip(*loaded, *scene);
+    if (!loaded) return fail(loaded.error());
+    show.looks.emplace_back(shipped.name, std::move(loaded).value());
+  }
   show.time = args.time;
   show.isStanding = args.standing;
   show.scale = args.scale, show.refreshRate = args.rate;

@@ -42,7 +42,16 @@ namespace scumble::xr {
   F(GetVulkanGraphicsRequirements2KHR) \
   F(CreateVulkanInstanceKHR)           \
   F(GetVulkanGraphicsDevice2KHR)       \
-  F(CreateVulkanDeviceKHR)
+  F(CreateVulkanDeviceKHR)             \
+  F(StringToPath)                      \
+  F(CreateActionSet)                   \
+  F(DestroyActionSet)                  \
+  F(CreateAction)                      \
+  F(SuggestInteractionProfileBindings) \
+  F(AttachSessionActionSets)           \
+  F(SyncActions)                       \
+  F(GetActionStateBoolean)             \
+  F(GetActionStateVector2f)
 
 // Null where the runtime does not have their extension.
 #define SCUMBLE_XR_OPTIONAL_FUNCTIONS(F) \

@@ -4,13 +4,9 @@
 
 namespace scumble::xr {
 
-namespace {
-
 glm::quat aboutVertical(float angle) {
   return {std::cos(0.5f * angle), 0, std::sin(0.5f * angle), 0};
 }
-
-}  // namespace
 
 Pose poseOf(const XrPosef& pose) {
   const XrQuaternionf& q = pose.orientation;
@@ -19,6 +15,10 @@ Pose poseOf(const XrPosef& pose) {
 
 XrPosef xrOf(const Pose& pose) {
   return {{pose.turn.x, pose.turn.y, pose.turn.z, pose.turn.w}, {pose.place.x, pose.place.y, pose.place.z}};
+}
+
+Pose between(const Pose& a, const Pose& b) {
+  return {glm::normalize(glm::slerp(a.turn, b.turn, 0.5f)), 0.5f * (a.place + b.place)};
 }
 
 Stand standAt(const View& camera, float scale, float eyeHeight) {

@@ -16,12 +16,17 @@ struct Pose {
 Pose poseOf(const XrPosef& pose);
 XrPosef xrOf(const Pose& pose);
 
+// Half way: a head, of its eyes.
+Pose between(const Pose& a, const Pose& b);
+
 // The room that somebody wears a headset in, in the scene: its origin and its z axis (backwards), level.
 struct Stand {
   glm::vec3 place{0};  // metres, of the room's origin
   float heading = 0;   // radians about y
   float scale = 1;     // so many metres of the scene are one of the room
 };
+
+glm::quat aboutVertical(float angle);  // radians, from z to x
 
 // Where a camera is, level: what it looks at lies straight ahead. A room whose origin is a head's place
 // stands with it at the camera; one whose origin lies on the floor, `eyeHeight` metres of the room below it.

@@ -40,6 +40,7 @@ Session::Session(const Instance& instance, const VulkanDevice& device, const Ses
     if (!canCover && !modes.empty()) blend_ = modes.front();
     createSwapchains();
     chooseRefreshRate(options.refreshRate);
+    hands_ = std::make_unique<Hands>(instance, session_);
   } catch (...) {
     destroy();
     throw;
@@ -51,6 +52,7 @@ Session::~Session() {
 }
 
 void Session::destroy() {
+  hands_.reset();
   for (const Swapchain& swapchain : swapchains_) call_.DestroySwapchain(swapchain.handle);
   if (space_) call_.DestroySpace(space_);
   if (session_) call_.DestroySession(session_);

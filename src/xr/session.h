@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "xr/hands.h"
 #include "xr/instance.h"
 #include "xr/place.h"
 
@@ -59,6 +60,8 @@ class Session {
   Moment begin();
   // The eyes at that moment, as the runtime knows by now.
   bool locate(Moment& moment) const;
+  // What hands say, once a frame.
+  HandsState hands() { return hands_->follow(isFocused()); }
   // Images to draw into: of each eye, as targets of views 0 and 1. They are taken until end().
   std::vector<VulkanTarget> acquire();
   // `isDrawn`: what was acquired is shown as seen from the moment's eyes; else nothing is.
@@ -88,6 +91,7 @@ class Session {
   VkFormat format_ = VK_FORMAT_UNDEFINED;
   glm::uvec2 size_{0};
   std::vector<Swapchain> swapchains_;  // one of two layers, or one for each eye
+  std::unique_ptr<Hands> hands_;
   float refreshRate_ = 0;
   bool isRunning_ = false, isWorn_ = true, isOver_ = false, isLost_ = false, hasAcquired_ = false;
 };

@@ -1,17 +1,20 @@
 #include "xr/show.h"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
 #include "xr/failure.h"
 #include "xr/session.h"
+#include "xr/walk.h"
 
 namespace scumble::xr {
 
 namespace {
 
-constexpr float kNearPlane = 0.05f;  // metres of the room
-constexpr float kEyeHeight = 1.6f;   // metres of the room
+constexpr float kNearPlane = 0.05f;   // metres of the room
+constexpr float kEyeHeight = 1.6f;    // metres of the room
+constexpr double kLongestStep = 0.1;  // seconds of walking at once, however late a frame is
 constexpr auto kRest = std::chrono::milliseconds(10);
 constexpr auto kPatience = std::chrono::minutes(1);
 constexpr size_t kUnderWay = 2;  // frames that the device may have at once: it need not wait for the CPU
@@ -86,7 +89,8 @@ class Show {
          (session.refreshRate() > 0 ? " at " + std::to_string(int(session.refreshRate() + 0.5f)) + " Hz"
                                     : ""));
     for (bool isAsked = false; !session.isOver() && !session.isLost();) {
-      session.follow();
+      // Whoever recentres wants to be where the camera is.
+      if (session.follow().isRecentred) walk_.reset();
       if (!isAsked && isEnding()) {
         session.requestEnd();
         isAsked = true;
@@ -106,13 +110,35 @@ class Show {
     return Done{};
   }
 
+  // When it is in the scene, which stands still while somebody pauses it or does not wear the headset.
+  double timeAt(const Session& session, const HandsState& hands, XrTime display) {
+    isPaused_ = isPaused_ != hands.pauses;
+    if (!lastDisplay_) lastDisplay_ = display;
+    if (isPaused_ || !session.isWorn()) stood_ += display - *lastDisplay_;
+    lastDisplay_ = display;
+    if (!firstDisplay_) firstDisplay_ = display;
+    return options_.time + double(display - *firstDisplay_ - stood_) * 1e-9;
+  }
+
+  const Look& chosenLook(const HandsState& hands) {
+    if (hands.nextLook) {
+      look_ = (look_ + 1) % options_.looks.size();
+      tell("look: " + options_.looks[look_].first);
+    }
+    return options_.looks[look_].second;
+  }
+
   Result<bool> draw(Session& session, Moment& moment) {
-    if (!firstDisplay_) firstDisplay_ = moment.display;
-    const double time = options_.time + double(moment.display - *firstDisplay_) * 1e-9;
+    const double sinceLast = lastDisplay_ ? double(moment.display - *lastDisplay_) * 1e-9 : 0;
+    const HandsState hands = session.hands();
+    const double time = timeAt(session, hands, moment.display);
+    const Look& look = chosenLook(hands);
     const Result<std::vector<View>> camera =
-        makeViews(options_.scene, options_.viewpoint, 1, Stereo::mono, 0, options_.look, time);
+        makeViews(options_.scene, options_.viewpoint, 1, Stereo::mono, 0, look, time);
     if (!camera) return camera.error();
-    const Stand stand = standAt(camera->front(), options_.scale, options_.isStanding ? kEyeHeight : 0);
+    const Stand origin = standAt(camera->front(), options_.scale, options_.isStanding ? kEyeHeight : 0);
+    walk_.go(origin, between(moment.eyes[0].pose, moment.eyes[1].pose), hands.steering, float(std::min(sinceLast, kLongestStep)));
+    const Stand stand = walk_.on(origin);
     const auto viewsOf = [&](const Moment& seen) {
       std::vector<View> views;
       for (const Eye& eye : seen.eyes) {
@@ -135,8 +161,8 @@ class Show {
     if (const Status status = finish(kUnderWay - 1); !status) return status.error();
     VulkanTargets targets;
     targets.images = session.acquire();
-    if (const Status status = scumble::begin(*renderer_, options_.scene, options_.look, time, viewsOf(moment),
-                                             options, targets);
+    if (const Status status =
+            scumble::begin(*renderer_, options_.scene, look, time, viewsOf(moment), options, targets);
         !status)
       return status.error();
     ++begun_;
@@ -157,7 +183,11 @@ class Show {
   // The runtime has made the renderer's device: so it ends later.
   std::unique_ptr<Instance> instance_;
   std::unique_ptr<Renderer> renderer_;
-  std::optional<XrTime> firstDisplay_;
+  std::optional<XrTime> firstDisplay_, lastDisplay_;
+  XrDuration stood_ = 0;
+  bool isPaused_ = false;
+  size_t look_ = 0;
+  Walk walk_;
   size_t begun_ = 0;
   bool isLost_ = false;
   ShowReport report_;

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scumble/renderer.h"
@@ -30,7 +31,8 @@ Result<std::vector<View>> usualEyes(const Scene& scene, const Look& look, const 
 
 struct ShowOptions {
   Scene scene;
-  Look look;
+  // What it looks like, and what a hand may have instead, by their names: there is one at least.
+  std::vector<std::pair<std::string, Look>> looks;
   // The camera: who wears the headset is at its place, looks where it does, and keeps the horizon.
   Viewpoint viewpoint;
   double time = 0;          // seconds, when the first frame is seen; it goes on from there

@@ -14,7 +14,8 @@
 //   events        [{"frame": N, "event": ...}], as frame N is waited for: hide, show, blur, focus, stop,
 //   exit,
 //                 loseSession, loseInstance, recentre, takeOff, putOn
-//   fail          {"xrCreateSession": -2}: calls that give this result
+//   hands         {"walk": [[x, y], ...], "turn": ..., "pause": [0, 1, ...], "look": ...} by frame; the last
+//   one stays fail          {"xrCreateSession": -2}: calls that give this result
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -57,9 +58,15 @@ constexpr XrTime kFirstDisplay = 1'000'000'000;
 constexpr XrSystemId kSystem = 7;
 const auto kInstance = reinterpret_cast<XrInstance>(0x11);
 const auto kSession = reinterpret_cast<XrSession>(0x22);
+const auto kActionSet = reinterpret_cast<XrActionSet>(0x33);
 
 struct Space {
   XrReferenceSpaceType type;
+};
+
+struct Action {
+  std::string name;
+  XrActionType type;
 };
 
 struct Swapchain {
@@ -92,6 +99,11 @@ struct Runtime {
   std::set<Space*> spaces;
   std::set<Swapchain*> swapchains;
   float refreshRate = 72;
+  // Of the hands.
+  std::vector<std::string> paths;
+  std::vector<std::unique_ptr<Action>> actions;
+  bool hasActions = false, isAttached = false;
+  int lastSync = -1, syncBefore = -1;
   // Of the frame.
   int frame = -1;  // that was waited for
   XrTime display = 0;
@@ -331,7 +343,7 @@ XrResult XRAPI_CALL CreateSession(XrInstance, const XrSessionCreateInfo* info, X
 XrResult XRAPI_CALL DestroySession(XrSession) {
   BEGIN("xrDestroySession");
   NEED(r.spaces.empty() && r.swapchains.empty(), "a session's spaces and swapchains outlive it", XR_SUCCESS);
-  r.hasSession = r.isRunning = r.isWaited = r.isBegun = false;
+  r.hasSession = r.isRunning = r.isWaited = r.isBegun = r.isAttached = false;
   return XR_SUCCESS;
 }
 
@@ -567,6 +579,110 @@ XrResult XRAPI_CALL ReleaseSwapchainImage(XrSwapchain swapchain, const XrSwapcha
   return XR_SUCCESS;
 }
 
+// ---- Hands
+
+XrResult XRAPI_CALL StringToPath(XrInstance, const char* text, XrPath* path) {
+  BEGIN("xrStringToPath");
+  const auto found = std::find(r.paths.begin(), r.paths.end(), text);
+  *path = XrPath(found - r.paths.begin()) + 1;
+  if (found == r.paths.end()) r.paths.emplace_back(text);
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL CreateActionSet(XrInstance, const XrActionSetCreateInfo* info, XrActionSet* set) {
+  BEGIN("xrCreateActionSet");
+  NEED(info->actionSetName[0] && info->localizedActionSetName[0], "a set of actions has no name",
+       XR_ERROR_NAME_INVALID);
+  *set = kActionSet;
+  r.hasActions = true, r.isAttached = false;
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL DestroyActionSet(XrActionSet) {
+  BEGIN("xrDestroyActionSet");
+  NEED(r.hasActions, "a set of actions is destroyed twice", XR_ERROR_HANDLE_INVALID);
+  r.actions.clear();
+  r.hasActions = false;
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL CreateAction(XrActionSet, const XrActionCreateInfo* info, XrAction* action) {
+  BEGIN("xrCreateAction");
+  NEED(!r.isAttached, "an action for a set that is attached", XR_ERROR_ACTIONSETS_ALREADY_ATTACHED);
+  const std::string name = info->actionName;
+  NEED(!name.empty() &&
+           name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-_./") == std::string::npos,
+       "an action's name is none of OpenXR's", XR_ERROR_PATH_FORMAT_INVALID);
+  for (const auto& other : r.actions)
+    NEED(other->name != name, "two actions of one name", XR_ERROR_NAME_DUPLICATED);
+  r.actions.push_back(std::make_unique<Action>(Action{name, info->actionType}));
+  *action = reinterpret_cast<XrAction>(r.actions.back().get());
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL Suggest(XrInstance, const XrInteractionProfileSuggestedBinding* suggested) {
+  BEGIN("xrSuggestInteractionProfileBindings");
+  NEED(!r.isAttached, "bindings for actions that are attached", XR_ERROR_ACTIONSETS_ALREADY_ATTACHED);
+  const std::string profile = r.paths.at(suggested->interactionProfile - 1);
+  NEED(suggested->countSuggestedBindings > 0, "no bindings for " + profile, XR_ERROR_VALIDATION_FAILURE);
+  for (uint32_t i = 0; i < suggested->countSuggestedBindings; ++i) {
+    const XrActionSuggestedBinding& one = suggested->suggestedBindings[i];
+    const std::string input = r.paths.at(one.binding - 1);
+    const auto* const action = reinterpret_cast<const Action*>(one.action);
+    const bool isStick = input.ends_with("thumbstick") || input.ends_with("trackpad");
+    NEED(input.starts_with("/user/hand/") && isStick == (action->type == XR_ACTION_TYPE_VECTOR2F_INPUT),
+         profile + ": " + input + " is nothing for " + action->name, XR_ERROR_PATH_UNSUPPORTED);
+  }
+  // One that knows fewer makers.
+  if (profile.find("valve") != std::string::npos) return XR_ERROR_PATH_UNSUPPORTED;
+  r.report["profiles"].push_back(profile);
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL Attach(XrSession, const XrSessionActionSetsAttachInfo* info) {
+  BEGIN("xrAttachSessionActionSets");
+  NEED(!r.isAttached && info->countActionSets == 1, "actions are attached twice",
+       XR_ERROR_ACTIONSETS_ALREADY_ATTACHED);
+  r.isAttached = true;
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL Sync(XrSession, const XrActionsSyncInfo*) {
+  BEGIN("xrSyncActions");
+  NEED(r.isAttached, "actions are asked for that are not attached", XR_ERROR_ACTIONSET_NOT_ATTACHED);
+  NEED(r.lastSync < r.frame, "hands are asked twice in a frame", XR_SUCCESS);
+  if (r.state != XR_SESSION_STATE_FOCUSED) return XR_SESSION_NOT_FOCUSED;
+  r.syncBefore = r.lastSync;
+  r.lastSync = r.frame;
+  return XR_SUCCESS;
+}
+
+// What the script has of an action at a frame; null where it has nothing.
+Json handAt(XrAction action, int frame) {
+  Runtime& r = runtime();
+  const std::string& name = reinterpret_cast<const Action*>(action)->name;
+  const Json hands = r.script.value("hands", Json::object());
+  if (!hands.contains(name) || frame < 0) return nullptr;
+  return hands[name][std::min(size_t(frame), hands[name].size() - 1)];
+}
+
+XrResult XRAPI_CALL GetBoolean(XrSession, const XrActionStateGetInfo* info, XrActionStateBoolean* state) {
+  BEGIN("xrGetActionStateBoolean");
+  const Json now = handAt(info->action, r.lastSync), before = handAt(info->action, r.syncBefore);
+  state->isActive = !now.is_null();
+  state->currentState = state->isActive && now != 0;
+  state->changedSinceLastSync = state->currentState != XrBool32(!before.is_null() && before != 0);
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL GetVector2f(XrSession, const XrActionStateGetInfo* info, XrActionStateVector2f* state) {
+  BEGIN("xrGetActionStateVector2f");
+  const Json now = handAt(info->action, r.lastSync);
+  state->isActive = !now.is_null();
+  if (state->isActive) state->currentState = {now[0], now[1]};
+  return XR_SUCCESS;
+}
+
 // ---- Frames
 
 void happen(const std::string& event) {
@@ -793,6 +909,15 @@ XrResult XRAPI_CALL GetInstanceProcAddr(XrInstance instance, const char* name, P
       SAME(BeginFrame),
       SAME(LocateViews),
       SAME(EndFrame),
+      SAME(StringToPath),
+      SAME(CreateActionSet),
+      SAME(DestroyActionSet),
+      SAME(CreateAction),
+      ENTRY(SuggestInteractionProfileBindings, Suggest),
+      ENTRY(AttachSessionActionSets, Attach),
+      ENTRY(SyncActions, Sync),
+      ENTRY(GetActionStateBoolean, GetBoolean),
+      ENTRY(GetActionStateVector2f, GetVector2f),
   };
   (void)instance;
   const auto found = kAll.find(name);

@@ -180,6 +180,64 @@ class Xr(unittest.TestCase):
         self.shown(angles=[[-0.9, 0.6, 0.5, -0.7], [-0.6, 0.9, 0.5, -0.7]])
         self.assertLess(alike(self.picture(0, "left"), self.picture(0, "right")), 0.9)
 
+    # -- Hands
+
+    def test_sticks_walk_and_turn(self):
+        self.shown()
+        still = self.picture(0)
+        # A second and a half straight on at full speed, from the second frame on: 2.25 m.
+        steps = 136
+        self.shown(frames=steps, refreshRates=[90], hands={"walk": [[0, 1]]})
+        away = math.hypot(9, 14)
+        place = [9 - 9 / away * 2.25, 14 - 14 / away * 2.25]
+        wanted = self.rendered("--time", str((steps - 1) / 90), camera=["--eye", f"{place[0]},2.5,{place[1]}", "--target", "0,2.5,0"])
+        self.assertGreater(alike(self.picture(steps - 1), wanted[0], 2), 0.99)
+        # Turned to the right by thirty degrees, once for a push that lasts.
+        self.shown(frames=3, hands={"turn": [[0, 0], [0.9, 0]]})
+        angle = math.atan2(-9, -14) - math.radians(30)
+        target = f"{9 + math.sin(angle)},2.5,{14 + math.cos(angle)}"
+        wanted = self.rendered("--time", str(2 / 72), camera=["--eye", "9,2.5,14", "--target", target])
+        self.assertGreater(alike(self.picture(2), wanted[0], 2), 0.99)
+        self.assertLess(alike(self.picture(2), still, 2), 0.9)
+        self.assertIn("/interaction_profiles/oculus/touch_controller", self.report()["profiles"])
+
+    def test_whoever_recentres_is_back_at_the_camera(self):
+        self.shown(frames=4)
+        wanted = self.picture(3)
+        self.shown(frames=4, hands={"walk": [[0, 1], [0, 1], [0, 0]], "turn": [[0, 0], [1, 0]]},
+                   events=[{"frame": 2, "event": "recentre"}])
+        self.assertTrue(self.picture(3) == wanted)
+        self.shown(frames=4, hands={"walk": [[0, 1], [0, 1], [0, 0]], "turn": [[0, 0], [1, 0]]})
+        self.assertFalse(self.picture(3) == wanted)
+
+    def test_time_stands_still(self):
+        self.shown(frames=4)
+        second, third = self.picture(1), self.picture(2)
+        # Paused as the third frame is asked for, and going on with the fourth.
+        self.shown(frames=5, hands={"pause": [0, 0, 1, 1, 0]})
+        self.assertTrue([self.picture(i) == second for i in (1, 2, 3, 4)] == [True] * 4)
+        self.shown(frames=5, hands={"pause": [0, 0, 1, 0, 1]})
+        self.assertTrue(self.picture(4) == third, "it does not go on from where it stood")
+        # Nobody wears it.
+        self.shown(frames=6, events=[{"frame": 1, "event": "takeOff"}, {"frame": 3, "event": "putOn"}])
+        self.assertTrue(self.picture(2) == self.picture(3))
+        self.assertFalse(self.picture(5) == self.picture(3))
+
+    def test_a_button_takes_the_next_look(self):
+        done = self.call("--look", "manga", frames=3, hands={"look": [0, 1, 1], "pause": [1]})
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        self.assertEqual(done.stderr.splitlines()[1:], ["scumble: look: age-of-sail"])
+        self.assertEqual(self.report()["mistakes"], [])
+        self.assertGreater(alike(self.picture(0), self.rendered("--look", "manga")[0]), 0.999)
+        self.assertGreater(alike(self.picture(2), self.rendered("--look", "age-of-sail")[0]), 0.999)
+
+    def test_hands_are_others_without_the_focus(self):
+        self.shown(frames=6)
+        wanted = [self.picture(i) for i in range(6)]
+        # A push is not seen before the focus is back, and its event has come.
+        self.shown(frames=6, hands={"turn": [[1, 0]]}, events=[{"frame": 0, "event": "blur"}, {"frame": 3, "event": "focus"}])
+        self.assertEqual([self.picture(i) == wanted[i] for i in range(6)], [True, True, True, True, False, False])
+
     # -- Sessions
 
     def test_what_nobody_sees_is_not_drawn(self):
