@@ -20,7 +20,7 @@ struct XrArguments {
   LookArguments look;
   PictureArguments picture;
   double time = 0;  // seconds
-  bool standing = false, quiet = false;
+  bool standing = false, vignette = true, quiet = false;
   float scale = 1, rate = 90;
   std::optional<uint64_t> frames;
 };
@@ -65,7 +65,7 @@ int run(const XrArguments& args) {
     show.looks.emplace_back(shipped.name, std::move(loaded).value());
   }
   show.time = args.time;
-  show.isStanding = args.standing;
+  show.isStanding = args.standing, show.hasVignette = args.vignette;
   show.scale = args.scale, show.refreshRate = args.rate;
   show.samples = quality->samples, show.seed = quality->seed;
   show.renderer = args.picture.rendererOptions();
@@ -98,6 +98,8 @@ void addXr(CLI::App& program, int& exitCode) {
       "The floor of your room lies 1.6 m below the camera; else your head is where the camera is");
   command->add_option("--scale", args->scale, "Metres of the scene that are one of your room")
       ->capture_default_str();
+  command->add_flag("--vignette,!--no-vignette", args->vignette,
+                    "Whether it is dark around what you look at while a stick moves you (default: it is)");
   command->add_option("--rate", args->rate, "Frames a second, as near as the headset has it; 0: as it is")
       ->capture_default_str();
   command->add_option("--frames", args->frames, "End when so many were drawn");

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "xr/failure.h"
+#include "xr/upload.h"
 
 namespace scumble::xr {
 
@@ -41,6 +42,7 @@ Session::Session(const Instance& instance, const VulkanDevice& device, const Ses
     createSwapchains();
     chooseRefreshRate(options.refreshRate);
     hands_ = std::make_unique<Hands>(instance, session_);
+    if (options.hasVignette) vignette_ = std::make_unique<Vignette>(instance, session_, device, format_);
   } catch (...) {
     destroy();
     throw;
@@ -53,6 +55,7 @@ Session::~Session() {
 
 void Session::destroy() {
   hands_.reset();
+  vignette_.reset();
   for (const Swapchain& swapchain : swapchains_) call_.DestroySwapchain(swapchain.handle);
   if (space_) call_.DestroySpace(space_);
   if (session_) call_.DestroySession(session_);
@@ -121,14 +124,7 @@ Session::Swapchain Session::createSwapchain(const glm::uvec2& size, uint32_t lay
   Swapchain made;
   must(call_.CreateSwapchain(session_, &info, &made.handle), "xrCreateSwapchain");
   try {
-    for (const XrSwapchainImageVulkan2KHR& image : listed<XrSwapchainImageVulkan2KHR>(
-             "xrEnumerateSwapchainImages",
-             [&](uint32_t capacity, uint32_t*count, XrSwapchainImageVulkan2KHR*all) {
-               return call_.EnumerateSwapchainImages(made.handle, capacity, count,
-                                                     reinterpret_cast<XrSwapchainImageBaseHeader*>(all));
-             },
-             {XR_TYPE_SWAPCHAIN_IMAGE_VULKAN2_KHR}))
-      made.images.push_back(image.image);
+    made.images = imagesOf(call_, made.handle);
   } catch (...) {
     call_.DestroySwapchain(made.handle);
     throw;
@@ -241,7 +237,7 @@ std::vector<VulkanTarget> Session::acquire() {
   return targets;
 }
 
-void Session::end(const Moment& moment, bool isDrawn) {
+void Session::end(const Moment& moment, bool isDrawn, float darkness) {
   if (hasAcquired_)
     for (const Swapchain& swapchain : swapchains_) {
       const XrSwapchainImageReleaseInfo release{XR_TYPE_SWAPCHAIN_IMAGE_RELEASE_INFO};
@@ -261,12 +257,17 @@ void Session::end(const Moment& moment, bool isDrawn) {
   projection.space = space_;
   projection.viewCount = kEyes;
   projection.views = views.data();
-  const auto* const layer = reinterpret_cast<const XrCompositionLayerBaseHeader*>(&projection);
+  const auto vignette = vignette_ ? vignette_->layer(darkness) : std::nullopt;
+  std::vector<const XrCompositionLayerBaseHeader*> layers;
+  if (isDrawn && hasAcquired_) {
+    layers.push_back(reinterpret_cast<const XrCompositionLayerBaseHeader*>(&projection));
+    if (vignette) layers.push_back(reinterpret_cast<const XrCompositionLayerBaseHeader*>(&*vignette));
+  }
   XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO};
   info.displayTime = moment.display;
   info.environmentBlendMode = blend_;
-  info.layerCount = isDrawn && hasAcquired_ ? 1 : 0;
-  info.layers = &layer;
+  info.layerCount = uint32_t(layers.size());
+  info.layers = layers.data();
   hasAcquired_ = false;
   must(call_.EndFrame(session_, &info), "xrEndFrame");
 }

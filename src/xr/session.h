@@ -10,6 +10,7 @@
 #include "xr/hands.h"
 #include "xr/instance.h"
 #include "xr/place.h"
+#include "xr/vignette.h"
 
 namespace scumble::xr {
 
@@ -18,6 +19,7 @@ constexpr size_t kEyes = 2;
 struct SessionOptions {
   bool isStanding = false;  // places are from the floor's middle; else from where the head was first
   float refreshRate = 0;    // frames a second that are wished for; 0: as the runtime has it
+  bool hasVignette = true;  // end() may darken what lies around
 };
 
 struct Eye {
@@ -64,8 +66,9 @@ class Session {
   HandsState hands() { return hands_->follow(isFocused()); }
   // Images to draw into: of each eye, as targets of views 0 and 1. They are taken until end().
   std::vector<VulkanTarget> acquire();
-  // `isDrawn`: what was acquired is shown as seen from the moment's eyes; else nothing is.
-  void end(const Moment& moment, bool isDrawn);
+  // `isDrawn`: what was acquired is shown as seen from the moment's eyes; else nothing is. `darkness`: as
+  // Vignette::layer has it.
+  void end(const Moment& moment, bool isDrawn, float darkness);
 
   glm::uvec2 size() const { return size_; }           // of an eye, pixels
   float refreshRate() const { return refreshRate_; }  // frames a second; 0: the runtime does not tell
@@ -92,6 +95,7 @@ class Session {
   glm::uvec2 size_{0};
   std::vector<Swapchain> swapchains_;  // one of two layers, or one for each eye
   std::unique_ptr<Hands> hands_;
+  std::unique_ptr<Vignette> vignette_;
   float refreshRate_ = 0;
   bool isRunning_ = false, isWorn_ = true, isOver_ = false, isLost_ = false, hasAcquired_ = false;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <thread>
 
 #include "xr/failure.h"
@@ -15,6 +16,7 @@ namespace {
 constexpr float kNearPlane = 0.05f;   // metres of the room
 constexpr float kEyeHeight = 1.6f;    // metres of the room
 constexpr double kLongestStep = 0.1;  // seconds of walking at once, however late a frame is
+constexpr double kDarkening = 0.1;    // seconds
 constexpr auto kRest = std::chrono::milliseconds(10);
 constexpr auto kPatience = std::chrono::minutes(1);
 constexpr size_t kUnderWay = 2;  // frames that the device may have at once: it need not wait for the CPU
@@ -72,7 +74,8 @@ class Show {
   Status runSession() {
     Status status = Done{};
     try {
-      Session session(*instance_, vulkanDeviceOf(*renderer_), {options_.isStanding, options_.refreshRate});
+      Session session(*instance_, vulkanDeviceOf(*renderer_),
+                      {options_.isStanding, options_.refreshRate, options_.hasVignette});
       const FramesEnd end{*this};  // before its images go
       status = runFrames(session);
       isLost_ = session.isLost();
@@ -103,7 +106,7 @@ class Show {
       // In any case a frame that was begun is ended.
       Result<bool> drawn = false;
       if (moment.shouldRender && moment.isPlaced && !isAsked) drawn = draw(session, moment);
-      session.end(moment, drawn && *drawn);
+      session.end(moment, drawn && *drawn, darkness_);
       if (!drawn) return drawn.error();
       if (*drawn) ++report_.frames;
     }
@@ -137,8 +140,12 @@ class Show {
         makeViews(options_.scene, options_.viewpoint, 1, Stereo::mono, 0, look, time);
     if (!camera) return camera.error();
     const Stand origin = standAt(camera->front(), options_.scale, options_.isStanding ? kEyeHeight : 0);
-    walk_.go(origin, between(moment.eyes[0].pose, moment.eyes[1].pose), hands.steering, float(std::min(sinceLast, kLongestStep)));
+    walk_.go(origin, between(moment.eyes[0].pose, moment.eyes[1].pose), hands.steering,
+             float(std::min(sinceLast, kLongestStep)));
     const Stand stand = walk_.on(origin);
+    // It comes and goes within a quarter of a second or so; what is not seen is not drawn.
+    darkness_ += (walk_.motion() - darkness_) * float(1 - std::exp(-sinceLast / kDarkening));
+    if (darkness_ < 0.01f) darkness_ = 0;
     const auto viewsOf = [&](const Moment& seen) {
       std::vector<View> views;
       for (const Eye& eye : seen.eyes) {
@@ -188,6 +195,7 @@ class Show {
   bool isPaused_ = false;
   size_t look_ = 0;
   Walk walk_;
+  float darkness_ = 0;
   size_t begun_ = 0;
   bool isLost_ = false;
   ShowReport report_;

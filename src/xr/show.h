@@ -38,6 +38,7 @@ struct ShowOptions {
   double time = 0;          // seconds, when the first frame is seen; it goes on from there
   bool isStanding = false;  // the floor lies 1.6 m below the camera; else the head is at the camera
   float scale = 1;          // metres of the scene that are one of the room
+  bool hasVignette = true;  // while hands move who wears it, it is dark around what is looked at
   float refreshRate = 90;   // frames a second, as near as the headset has it; 0: as it is
   uint32_t samples = 4, seed = 0;
   RendererOptions renderer;        // `device` means nothing: the runtime chooses

@@ -502,6 +502,8 @@ XrResult XRAPI_CALL CreateSwapchain(XrSession, const XrSwapchainCreateInfo* info
     image.usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     if (info->usageFlags & XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT)
       image.usage |= VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    if (info->usageFlags & XR_SWAPCHAIN_USAGE_TRANSFER_DST_BIT)
+      image.usage |= VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     if (info->usageFlags & XR_SWAPCHAIN_USAGE_SAMPLED_BIT) image.usage |= VK_IMAGE_USAGE_SAMPLED_BIT;
     mustBe(vkCreateImage(r.device, &image, nullptr, &made->images.emplace_back()));
     VkMemoryRequirements needs;
@@ -778,11 +780,9 @@ XrResult XRAPI_CALL LocateViews(XrSession, const XrViewLocateInfo* info, XrViewS
   return XR_SUCCESS;
 }
 
-// Eight bits a channel, as they are stored.
-void savePicture(const Swapchain& from, uint32_t layer, const XrRect2Di& rect, const std::string& file) {
+// Eight bits a channel, four of them a pixel, as they are stored.
+std::vector<uint8_t> bytesOf(const Swapchain& from, uint32_t layer, const XrRect2Di& rect) {
   Runtime& r = runtime();
-  const bool isBgra = from.format == VK_FORMAT_B8G8R8A8_SRGB;
-  if (!isBgra && from.format != VK_FORMAT_R8G8B8A8_SRGB) return;
   const auto width = uint32_t(rect.extent.width), height = uint32_t(rect.extent.height);
   VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
   info.size = VkDeviceSize(width) * height * 4;
@@ -812,13 +812,44 @@ void savePicture(const Swapchain& from, uint32_t layer, const XrRect2Di& rect, c
   });
   void* mapped = nullptr;
   mustBe(vkMapMemory(r.device, memory, 0, VK_WHOLE_SIZE, 0, &mapped));
-  const auto* const bytes = static_cast<const uint8_t*>(mapped);
-  std::ofstream out(file, std::ios::binary);
-  out << "P6\n" << width << " " << height << "\n255\n";
-  for (size_t i = 0; i < size_t(width) * height; ++i)
-    for (const size_t channel : {isBgra ? 2 : 0, 1, isBgra ? 0 : 2}) out.put(char(bytes[4 * i + channel]));
+  const auto* const start = static_cast<const uint8_t*>(mapped);
+  std::vector<uint8_t> bytes(start, start + info.size);
   vkFreeMemory(r.device, memory, nullptr);
   vkDestroyBuffer(r.device, buffer, nullptr);
+  return bytes;
+}
+
+void savePicture(const Swapchain& from, uint32_t layer, const XrRect2Di& rect, const std::string& file) {
+  const bool isBgra = from.format == VK_FORMAT_B8G8R8A8_SRGB;
+  if (!isBgra && from.format != VK_FORMAT_R8G8B8A8_SRGB) return;
+  const std::vector<uint8_t> bytes = bytesOf(from, layer, rect);
+  std::ofstream out(file, std::ios::binary);
+  out << "P6\n" << rect.extent.width << " " << rect.extent.height << "\n255\n";
+  for (size_t i = 0; i < bytes.size(); i += 4)
+    for (const size_t channel : {isBgra ? 2 : 0, 1, isBgra ? 0 : 2}) out.put(char(bytes[i + channel]));
+}
+
+// A picture that goes with the head.
+XrResult lookAtQuad(const XrCompositionLayerQuad& quad, Json& frame) {
+  Runtime& r = runtime();
+  auto* const from = reinterpret_cast<Swapchain*>(quad.subImage.swapchain);
+  auto* const space = reinterpret_cast<Space*>(quad.space);
+  NEED(r.swapchains.count(from) == 1 && from->released >= 0 && from->acquired < 0,
+       "a quad of an image that was not released", XR_ERROR_LAYER_INVALID);
+  NEED(r.spaces.count(space) == 1 && space->type == XR_REFERENCE_SPACE_TYPE_VIEW, "a quad that stays behind",
+       XR_ERROR_HANDLE_INVALID);
+  NEED(quad.layerFlags == XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT, "a quad that covers all",
+       XR_ERROR_LAYER_INVALID);
+  Json one{{"size", quad.size.width}, {"distance", -quad.pose.position.z}};
+  if (from->format == VK_FORMAT_R8G8B8A8_SRGB) {
+    const std::vector<uint8_t> bytes = bytesOf(*from, 0, quad.subImage.imageRect);
+    const auto width = size_t(quad.subImage.imageRect.extent.width);
+    // From the middle to the right.
+    for (size_t x = width / 2; x < width; ++x) one["alpha"].push_back(bytes[4 * (width / 2 * width + x) + 3]);
+    one["light"] = *std::max_element(bytes.begin(), bytes.begin() + 3);
+  }
+  frame["quads"].push_back(one);
+  return XR_SUCCESS;
 }
 
 XrResult XRAPI_CALL EndFrame(XrSession, const XrFrameEndInfo* info) {
@@ -831,6 +862,12 @@ XrResult XRAPI_CALL EndFrame(XrSession, const XrFrameEndInfo* info) {
   Json frame{
       {"frame", r.frame}, {"display", r.display}, {"layers", info->layerCount}, {"eyes", Json::array()}};
   for (uint32_t l = 0; l < info->layerCount; ++l) {
+    if (info->layers[l]->type == XR_TYPE_COMPOSITION_LAYER_QUAD) {
+      const XrResult result =
+          lookAtQuad(*reinterpret_cast<const XrCompositionLayerQuad*>(info->layers[l]), frame);
+      if (result != XR_SUCCESS) return result;
+      continue;
+    }
     const auto* const layer = reinterpret_cast<const XrCompositionLayerProjection*>(info->layers[l]);
     NEED(layer->type == XR_TYPE_COMPOSITION_LAYER_PROJECTION && layer->viewCount == 2,
          "a layer of another kind", XR_ERROR_LAYER_INVALID);

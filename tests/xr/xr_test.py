@@ -110,7 +110,7 @@ class Xr(unittest.TestCase):
         frames = self.shown(frames=3, refreshRates=[60, 72, 90, 120])
         self.assertEqual([frame["frame"] for frame in frames], [0, 1, 2])
         self.assertEqual(self.report()["refreshRate"], 90)
-        self.assertEqual(self.report()["swapchains"], [{"format": SRGB, "layers": 2}], "UNORM is what runtimes take for light")
+        self.assertEqual(self.report()["swapchains"], [{"format": SRGB, "layers": 2}, {"format": SRGB, "layers": 1}], "UNORM is what runtimes take for light")
         for eye, wanted in zip(("left", "right"), self.rendered()):
             self.assertGreater(alike(self.picture(0, eye), wanted), 0.999, eye)
         self.assertLess(alike(self.picture(0, "left"), self.picture(0, "right")), 0.999, "one eye is shown twice")
@@ -134,7 +134,7 @@ class Xr(unittest.TestCase):
         self.shown()
         wanted = [self.picture(0, eye) for eye in ("left", "right")]
         self.shown(layers=False)
-        self.assertEqual([chain["layers"] for chain in self.report()["swapchains"]], [1, 1])
+        self.assertEqual([chain["layers"] for chain in self.report()["swapchains"]], [1, 1, 1])
         self.assertTrue(wanted == [self.picture(0, eye) for eye in ("left", "right")])
 
     def test_the_runtime_says_which_format(self):
@@ -209,6 +209,27 @@ class Xr(unittest.TestCase):
         self.assertTrue(self.picture(3) == wanted)
         self.shown(frames=4, hands={"walk": [[0, 1], [0, 1], [0, 0]], "turn": [[0, 0], [1, 0]]})
         self.assertFalse(self.picture(3) == wanted)
+
+    def test_it_is_dark_around_while_sticks_move_one(self):
+        still = [[0, 0]] * 4
+        self.shown(frames=60, hands={"walk": still + [[0, 1]] * 12 + still})
+        frames = self.report()["frames"][:60]
+        self.assertTrue(all("quads" not in frame for frame in frames[:4]), "dark at rest")
+        self.assertEqual([frame["layers"] for frame in frames[5:16]], [2] * 11)
+        self.assertTrue(all("quads" not in frame for frame in frames[-2:]), "it stays")
+        sizes = [frame["quads"][0]["size"] for frame in frames[5:16]]
+        self.assertEqual(sizes, sorted(sizes, reverse=True), "it does not close")
+        quad = frames[15]["quads"][0]
+        self.assertEqual(quad["light"], 0)
+        # As dark as it gets: free in the middle, black from 45 degrees on, by the tangent of where it is.
+        alpha = [value / 255 for value in quad["alpha"]]
+        at = lambda degrees: alpha[int(math.tan(math.radians(degrees)) * quad["distance"] / (quad["size"] / 2) * len(alpha))]  # noqa: E731
+        self.assertEqual(at(0), 0)
+        self.assertEqual(at(20), 0)
+        self.assertGreater(at(52), 0.9)
+        self.assertEqual(alpha, sorted(alpha))
+        self.shown("--no-vignette", frames=8, hands={"walk": [[0, 1]]})
+        self.assertTrue(all(frame["layers"] == 1 for frame in self.report()["frames"][:8]))
 
     def test_time_stands_still(self):
         self.shown(frames=4)

@@ -1,0 +1,122 @@
+#include "xr/upload.h"
+
+#include <cstring>
+#include <mutex>
+
+#include "xr/failure.h"
+
+namespace scumble::xr {
+
+namespace {
+
+void mustBe(VkResult result) {
+  if (result != VK_SUCCESS) throw XrFailure("a picture for the headset", XR_ERROR_OUT_OF_MEMORY);
+}
+
+// What an upload needs while it lasts.
+struct Upload {
+  VkDevice device;
+  VkBuffer buffer = VK_NULL_HANDLE;
+  VkDeviceMemory memory = VK_NULL_HANDLE;
+  VkCommandPool pool = VK_NULL_HANDLE;
+  VkCommandBuffer commands = VK_NULL_HANDLE;
+
+  Upload(const VulkanDevice& on, const std::vector<uint8_t>& bytes) : device(on.device) {
+    try {
+      begin(on, bytes);
+    } catch (...) {
+      end();
+      throw;
+    }
+  }
+  ~Upload() { end(); }
+
+  void end() const {
+    vkDestroyCommandPool(device, pool, nullptr);
+    vkDestroyBuffer(device, buffer, nullptr);
+    vkFreeMemory(device, memory, nullptr);
+  }
+
+  void begin(const VulkanDevice& on, const std::vector<uint8_t>& bytes) {
+    VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+    info.size = bytes.size();
+    info.usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
+    mustBe(vkCreateBuffer(device, &info, nullptr, &buffer));
+    VkMemoryRequirements needs;
+    vkGetBufferMemoryRequirements(device, buffer, &needs);
+    VkPhysicalDeviceMemoryProperties types;
+    vkGetPhysicalDeviceMemoryProperties(on.physical, &types);
+    constexpr VkMemoryPropertyFlags kMapped =
+        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    // Vulkan promises one.
+    uint32_t type = 0;
+    while (!(needs.memoryTypeBits & (1u << type)) ||
+           (types.memoryTypes[type].propertyFlags & kMapped) != kMapped)
+      ++type;
+    const VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.size, type};
+    mustBe(vkAllocateMemory(device, &allocate, nullptr, &memory));
+    mustBe(vkBindBufferMemory(device, buffer, memory, 0));
+    void* mapped = nullptr;
+    mustBe(vkMapMemory(device, memory, 0, VK_WHOLE_SIZE, 0, &mapped));
+    std::memcpy(mapped, bytes.data(), bytes.size());
+    vkUnmapMemory(device, memory);
+    const VkCommandPoolCreateInfo poolInfo{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr, 0,
+                                           on.queueFamily};
+    mustBe(vkCreateCommandPool(device, &poolInfo, nullptr, &pool));
+    const VkCommandBufferAllocateInfo one{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool,
+                                          VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
+    mustBe(vkAllocateCommandBuffers(device, &one, &commands));
+  }
+};
+
+void toLayout(VkCommandBuffer commands, VkImage image, VkImageLayout before, VkImageLayout after) {
+  VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
+  barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+  barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+  barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+  barrier.oldLayout = before, barrier.newLayout = after;
+  barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.image = image;
+  barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+  VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+  info.imageMemoryBarrierCount = 1, info.pImageMemoryBarriers = &barrier;
+  vkCmdPipelineBarrier2(commands, &info);
+}
+
+}  // namespace
+
+std::vector<VkImage> imagesOf(const Functions& call, XrSwapchain swapchain) {
+  std::vector<VkImage> images;
+  for (const XrSwapchainImageVulkan2KHR& image : listed<XrSwapchainImageVulkan2KHR>(
+           "xrEnumerateSwapchainImages",
+           [&](uint32_t capacity, uint32_t*count, XrSwapchainImageVulkan2KHR*all) {
+             return call.EnumerateSwapchainImages(swapchain, capacity, count,
+                                                  reinterpret_cast<XrSwapchainImageBaseHeader*>(all));
+           },
+           {XR_TYPE_SWAPCHAIN_IMAGE_VULKAN2_KHR}))
+    images.push_back(image.image);
+  return images;
+}
+
+void upload(const VulkanDevice& device, VkImage image, VkExtent2D extent, const std::vector<uint8_t>& bytes) {
+  const Upload with(device, bytes);
+  const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+  mustBe(vkBeginCommandBuffer(with.commands, &begin));
+  toLayout(with.commands, image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+  VkBufferImageCopy copy{};
+  copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+  copy.imageExtent = {extent.width, extent.height, 1};
+  vkCmdCopyBufferToImage(with.commands, with.buffer, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+  toLayout(with.commands, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+           VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+  mustBe(vkEndCommandBuffer(with.commands));
+  const VkCommandBufferSubmitInfo one{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, nullptr, with.commands,
+                                      0};
+  VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+  submit.commandBufferInfoCount = 1, submit.pCommandBufferInfos = &one;
+  const std::lock_guard lock(*device.queueLock);
+  mustBe(vkQueueSubmit2(device.queue, 1, &submit, VK_NULL_HANDLE));
+  mustBe(vkQueueWaitIdle(device.queue));
+}
+
+}  // namespace scumble::xr
