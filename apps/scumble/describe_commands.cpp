@@ -152,11 +152,13 @@ int devices() {
     for (const std::string& workaround : gpu.workarounds) print(fmt::format("      {}\n", workaround));
     any |= gpu.wouldBeUsed;
   }
-  const Result<xr::Headset> headset = xr::findHeadset();
-  if (headset && !headset->lack)
-    print(fmt::format("headset: {}, on {}\n", headset->name, headset->runtime));
+  // Runtimes are other people's programs: what is known is told before.
+  std::fflush(stdout);
+  const auto headset = xr::Headset::find();
+  if (headset && !(*headset)->lack())
+    print(fmt::format("headset: {}, on {}\n", (*headset)->name(), (*headset)->runtime()));
   else if (headset)
-    print(fmt::format("headset: none, on {}: {}\n", headset->runtime, headset->lack->problem));
+    print(fmt::format("headset: none, on {}: {}\n", (*headset)->runtime(), (*headset)->lack()->problem));
   else
     print(fmt::format("headset: none: {}\n", headset.error().problem));
   if (!any)

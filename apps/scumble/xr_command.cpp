@@ -40,9 +40,9 @@ int run(const XrArguments& args) {
   const Result<Viewpoint> viewpoint = args.picture.viewpoint();
   if (!viewpoint) return fail(viewpoint.error());
   // Without a headset nothing needs to be read.
-  const Result<xr::Headset> headset = xr::findHeadset();
+  const auto headset = xr::Headset::find();
   if (!headset) return fail(headset.error());
-  if (headset->lack) return fail(*headset->lack);
+  if ((*headset)->lack()) return fail(*(*headset)->lack());
 
   Result<Look> look = args.look.load(args.scene.files[0], args.quiet);
   if (!look) return fail(look.error());
@@ -64,6 +64,11 @@ int run(const XrArguments& args) {
     if (!loaded) return fail(loaded.error());
     show.looks.emplace_back(shipped.name, std::move(loaded).value());
   }
+  // Cameras are looks' as well.
+  for (const auto& [name, each] : show.looks) {
+    const auto views = makeViews(*scene, *viewpoint, 1, Stereo::mono, 0, each, args.time);
+    if (!views) return fail(views.error());
+  }
   show.time = args.time;
   show.isStanding = args.standing, show.hasVignette = args.vignette;
   show.scale = args.scale, show.refreshRate = args.rate;
@@ -73,8 +78,12 @@ int run(const XrArguments& args) {
   show.isEnding = [] { return interrupted != 0; };
   if (!args.quiet)
     show.tell = [](const std::string& line) { std::fprintf(stderr, "scumble: %s\n", line.c_str()); };
-  std::signal(SIGINT, [](int) { interrupted = 1; });
-  const Result<xr::ShowReport> report = xr::show(show);
+  std::signal(SIGINT, [](int) {
+    interrupted = 1;
+    // A runtime that does not answer cannot be asked to end; who asks twice means it.
+    std::signal(SIGINT, SIG_DFL);
+  });
+  const Result<xr::ShowReport> report = (*headset)->show(show);
   std::signal(SIGINT, SIG_DFL);
   if (!report) return fail(report.error());
   if (report->validationMessages > 0)

@@ -368,7 +368,12 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceOptions& options) {
     vkGetDeviceQueue(device->device_, device->queueFamily_, 0, &device->queue_);
     device->createParts(options.cacheFolder);
   } catch (const VulkanError& error) {
-    return Error{ErrorKind::noUsableGpu, "", 0, "", error.message(), "choose another device with --device"};
+    return Error{ErrorKind::noUsableGpu,
+                 "",
+                 0,
+                 "",
+                 error.message(),
+                 wishes.choosePhysical ? "" : "choose another device with --device"};
   }
   return device;
 }

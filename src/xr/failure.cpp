@@ -41,10 +41,14 @@ Error errorOf(const XrFailure& failure) {
     case XR_ERROR_FORM_FACTOR_UNSUPPORTED:
       return error("the runtime has no headset", "plug it in and switch it on");
     case XR_ERROR_INSTANCE_LOST:
-    case XR_ERROR_RUNTIME_FAILURE:
       return error("the runtime has ended", "start it again");
+    case XR_ERROR_INITIALIZATION_FAILED:
+    case XR_ERROR_LIMIT_REACHED:
+      return error("the runtime cannot start", "see whether another program has the headset");
+    case XR_ERROR_API_LAYER_NOT_PRESENT:
+      return error("a layer of OpenXR that is asked for is not there", "see XR_ENABLE_API_LAYERS");
     default:
-      return error("the headset's runtime has failed", "");
+      return error("the headset's runtime has failed", "start it again");
   }
 }
 

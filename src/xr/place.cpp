@@ -10,7 +10,9 @@ glm::quat aboutVertical(float angle) {
 
 Pose poseOf(const XrPosef& pose) {
   const XrQuaternionf& q = pose.orientation;
-  return {glm::normalize(glm::quat(q.w, q.x, q.y, q.z)), {pose.position.x, pose.position.y, pose.position.z}};
+  const glm::quat turn(q.w, q.x, q.y, q.z);
+  // None at all leaves no numbers.
+  return {turn * (1 / glm::length(turn)), {pose.position.x, pose.position.y, pose.position.z}};
 }
 
 XrPosef xrOf(const Pose& pose) {
@@ -28,6 +30,17 @@ Stand standAt(const View& camera, float scale, float eyeHeight) {
   const bool isSteep = std::hypot(back.x, back.z) < 1e-3f;
   const glm::vec3 ahead = isSteep ? (back.y > 0 ? up : -up) : -back;
   return {glm::vec3(toWorld[3]) - glm::vec3(0, eyeHeight * scale, 0), std::atan2(-ahead.x, -ahead.z), scale};
+}
+
+bool canBeSeenFrom(const Pose& eye, const XrFovf& angles) {
+  const glm::quat& turn = eye.turn;
+  for (const float number : {turn.x, turn.y, turn.z, turn.w, eye.place.x, eye.place.y, eye.place.z})
+    if (!(std::abs(number) < 1e6f)) return false;
+  const auto isBetween = [](float low, float high) {
+    constexpr float kMost = 1.55f;  // nearly a right angle
+    return low >= -kMost && high <= kMost && high - low > 1e-3f;
+  };
+  return isBetween(angles.angleLeft, angles.angleRight) && isBetween(angles.angleDown, angles.angleUp);
 }
 
 View viewOf(const Stand& stand, const Pose& eye, const XrFovf& angles, float nearPlane) {

@@ -32,6 +32,9 @@ glm::quat aboutVertical(float angle);  // radians, from z to x
 // stands with it at the camera; one whose origin lies on the floor, `eyeHeight` metres of the room below it.
 Stand standAt(const View& camera, float scale, float eyeHeight);
 
+// Whether there is a view for an eye: what runtimes tell need not make sense while they start, or are lost.
+bool canBeSeenFrom(const Pose& eye, const XrFovf& angles);
+
 // An eye of the room as a view of the scene.
 View viewOf(const Stand& stand, const Pose& eye, const XrFovf& angles, float nearPlane);
 

@@ -61,6 +61,34 @@ TEST(PlaceOfHeads, aHeadAtACameraSeesWhatTheCameraDoes) {
     }
 }
 
+TEST(PlaceOfHeads, whatRuntimesTellNeedNotMakeSense) {
+  const XrFovf angles{-0.8f, 0.7f, 0.9f, -0.6f};
+  EXPECT_TRUE(canBeSeenFrom({}, angles));
+  EXPECT_TRUE(canBeSeenFrom({{0.6f, 0, 0.8f, 0}, {3, -2, 900}}, angles));
+  for (const XrPosef& pose : {XrPosef{{0, 0, 0, 0}, {0, 0, 0}}, XrPosef{{0, 0, 0, 1}, {0, NAN, 0}},
+                              XrPosef{{0, 0, 0, 1}, {INFINITY, 0, 0}}, XrPosef{{NAN, 0, 0, 1}, {0, 0, 0}}})
+    EXPECT_FALSE(canBeSeenFrom(poseOf(pose), angles));
+  for (const XrFovf& wrong :
+       {XrFovf{0, 0, 0, 0}, XrFovf{-0.8f, 0.7f, -0.6f, 0.9f}, XrFovf{0.7f, -0.8f, 0.9f, -0.6f},
+        XrFovf{-0.8f, 1.6f, 0.9f, -0.6f}, XrFovf{-0.8f, NAN, 0.9f, -0.6f}})
+    EXPECT_FALSE(canBeSeenFrom({}, wrong));
+}
+
+TEST(PlaceOfHeads, posesGoBackAsTheyCame) {
+  const XrPosef pose{{0.1f, -0.2f, 0.3f, 0.927362f}, {1, -2, 3}};
+  const XrPosef back = xrOf(poseOf(pose));
+  EXPECT_NEAR(back.orientation.x, 0.1f, 1e-6f);
+  EXPECT_NEAR(back.orientation.y, -0.2f, 1e-6f);
+  EXPECT_NEAR(back.orientation.z, 0.3f, 1e-6f);
+  EXPECT_NEAR(back.orientation.w, 0.927362f, 1e-6f);
+  EXPECT_EQ(back.position.x, 1);
+  EXPECT_EQ(back.position.y, -2);
+  EXPECT_EQ(back.position.z, 3);
+  // Of a pose that turns about y, what is ahead goes to the left.
+  const glm::vec3 ahead = poseOf({{0, 0.70710678f, 0, 0.70710678f}, {}}).turn * glm::vec3(0, 0, -1);
+  EXPECT_NEAR(ahead.x, -1, 1e-6f);
+}
+
 // The horizon is where it is, whatever the camera does.
 TEST(PlaceOfHeads, standsAreLevel) {
   const Scene scene = loaded(scene::quad());

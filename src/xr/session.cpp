@@ -54,6 +54,17 @@ Session::~Session() {
 }
 
 void Session::destroy() {
+  // Runtimes do not like what was begun and never ended.
+  for (const Swapchain& swapchain : swapchains_) {
+    const XrSwapchainImageReleaseInfo release{XR_TYPE_SWAPCHAIN_IMAGE_RELEASE_INFO};
+    if (swapchain.acquired) call_.ReleaseSwapchainImage(swapchain.handle, &release);
+  }
+  if (isBegun_) {
+    XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO};
+    info.displayTime = display_;
+    info.environmentBlendMode = blend_;
+    call_.EndFrame(session_, &info);
+  }
   hands_.reset();
   vignette_.reset();
   for (const Swapchain& swapchain : swapchains_) call_.DestroySwapchain(swapchain.handle);
@@ -66,11 +77,11 @@ void Session::createSpace(bool isStanding) {
       "xrEnumerateReferenceSpaces", [&](uint32_t capacity, uint32_t* count, XrReferenceSpaceType* all) {
         return call_.EnumerateReferenceSpaces(session_, capacity, count, all);
       });
-  const XrReferenceSpaceType wanted =
-      isStanding ? XR_REFERENCE_SPACE_TYPE_STAGE : XR_REFERENCE_SPACE_TYPE_LOCAL;
-  if (std::find(spaces.begin(), spaces.end(), wanted) == spaces.end())
+  spaceType_ = isStanding ? XR_REFERENCE_SPACE_TYPE_STAGE : XR_REFERENCE_SPACE_TYPE_LOCAL;
+  if (std::find(spaces.begin(), spaces.end(), spaceType_) == spaces.end())
     throw XrFailure("xrEnumerateReferenceSpaces", XR_ERROR_REFERENCE_SPACE_UNSUPPORTED);
-  const XrReferenceSpaceCreateInfo info{XR_TYPE_REFERENCE_SPACE_CREATE_INFO, nullptr, wanted, nowhereElse()};
+  const XrReferenceSpaceCreateInfo info{XR_TYPE_REFERENCE_SPACE_CREATE_INFO, nullptr, spaceType_,
+                                        nowhereElse()};
   must(call_.CreateReferenceSpace(session_, &info, &space_), "xrCreateReferenceSpace");
 }
 
@@ -133,18 +144,26 @@ Session::Swapchain Session::createSwapchain(const glm::uvec2& size, uint32_t lay
 }
 
 void Session::chooseRefreshRate(float wished) {
-  if (!instance_.has(XR_FB_DISPLAY_REFRESH_RATE_EXTENSION_NAME) || !call_.EnumerateDisplayRefreshRatesFB)
-    return;
-  const auto rates =
-      listed<float>("xrEnumerateDisplayRefreshRatesFB", [&](uint32_t capacity, uint32_t* count, float* all) {
-        return call_.EnumerateDisplayRefreshRatesFB(session_, capacity, count, all);
-      });
-  if (rates.empty()) return;
-  const float nearest = *std::min_element(rates.begin(), rates.end(), [&](float a, float b) {
-    return std::abs(a - wished) < std::abs(b - wished);
-  });
-  if (wished > 0) must(call_.RequestDisplayRefreshRateFB(session_, nearest), "xrRequestDisplayRefreshRateFB");
-  must(call_.GetDisplayRefreshRateFB(session_, &refreshRate_), "xrGetDisplayRefreshRateFB");
+  const bool isThere = instance_.has(XR_FB_DISPLAY_REFRESH_RATE_EXTENSION_NAME) &&
+                       call_.EnumerateDisplayRefreshRatesFB && call_.RequestDisplayRefreshRateFB &&
+                       call_.GetDisplayRefreshRateFB;
+  if (!isThere) return;
+  try {
+    must(call_.GetDisplayRefreshRateFB(session_, &refreshRate_), "xrGetDisplayRefreshRateFB");
+    const auto rates = listed<float>(
+        "xrEnumerateDisplayRefreshRatesFB", [&](uint32_t capacity, uint32_t* count, float* all) {
+          return call_.EnumerateDisplayRefreshRatesFB(session_, capacity, count, all);
+        });
+    if (rates.empty() || !(wished > 0)) return;
+    const float nearest = *std::min_element(rates.begin(), rates.end(), [&](float a, float b) {
+      return std::abs(a - wished) < std::abs(b - wished);
+    });
+    must(call_.RequestDisplayRefreshRateFB(session_, nearest), "xrRequestDisplayRefreshRateFB");
+    refreshRate_ = nearest;
+  } catch (const XrFailure& failure) {
+    // Runtimes may refuse it, and show frames all the same.
+    if (failure.result() == XR_ERROR_INSTANCE_LOST || failure.result() == XR_ERROR_SESSION_LOST) throw;
+  }
 }
 
 News Session::follow() {
@@ -155,7 +174,8 @@ News Session::follow() {
     if (event.type == XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING)
       throw XrFailure("xrPollEvent", XR_ERROR_INSTANCE_LOST);
     if (event.type == XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING) {
-      news.isRecentred = true;
+      const auto& change = reinterpret_cast<const XrEventDataReferenceSpaceChangePending&>(event);
+      if (change.referenceSpaceType == spaceType_) news.recentredAt = change.changeTime;
     } else if (event.type == XR_TYPE_EVENT_DATA_DISPLAY_REFRESH_RATE_CHANGED_FB) {
       refreshRate_ =
           reinterpret_cast<const XrEventDataDisplayRefreshRateChangedFB&>(event).toDisplayRefreshRate;
@@ -192,6 +212,7 @@ Moment Session::begin() {
   must(call_.WaitFrame(session_, &wait, &state), "xrWaitFrame");
   const XrFrameBeginInfo begin{XR_TYPE_FRAME_BEGIN_INFO};
   must(call_.BeginFrame(session_, &begin), "xrBeginFrame");
+  isBegun_ = true, display_ = state.predictedDisplayTime;
   Moment moment;
   moment.display = state.predictedDisplayTime;
   moment.shouldRender = state.shouldRender == XR_TRUE;
@@ -208,25 +229,30 @@ bool Session::locate(Moment& moment) const {
   must(call_.LocateViews(session_, &info, &state, kEyes, &count, views.data()), "xrLocateViews");
   constexpr XrViewStateFlags kKnown = XR_VIEW_STATE_POSITION_VALID_BIT | XR_VIEW_STATE_ORIENTATION_VALID_BIT;
   if ((state.viewStateFlags & kKnown) != kKnown || count != kEyes) return false;
-  for (size_t eye = 0; eye < kEyes; ++eye) moment.eyes[eye] = {poseOf(views[eye].pose), views[eye].fov};
+  std::array<Eye, kEyes> eyes;
+  for (size_t eye = 0; eye < kEyes; ++eye) {
+    eyes[eye] = {poseOf(views[eye].pose), views[eye].fov};
+    if (!canBeSeenFrom(eyes[eye].pose, eyes[eye].angles)) return false;
+  }
+  moment.eyes = eyes;
   return true;
 }
 
 std::vector<VulkanTarget> Session::acquire() {
   for (Swapchain& swapchain : swapchains_) {
     const XrSwapchainImageAcquireInfo acquire{XR_TYPE_SWAPCHAIN_IMAGE_ACQUIRE_INFO};
-    must(call_.AcquireSwapchainImage(swapchain.handle, &acquire, &swapchain.acquired),
-         "xrAcquireSwapchainImage");
+    uint32_t index = 0;
+    must(call_.AcquireSwapchainImage(swapchain.handle, &acquire, &index), "xrAcquireSwapchainImage");
+    swapchain.acquired = index;
     const XrSwapchainImageWaitInfo wait{XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO, nullptr, XR_INFINITE_DURATION};
     must(call_.WaitSwapchainImage(swapchain.handle, &wait), "xrWaitSwapchainImage");
   }
-  hasAcquired_ = true;
   std::vector<VulkanTarget> targets(kEyes);
   for (size_t eye = 0; eye < kEyes; ++eye) {
     const bool isLayer = swapchains_.size() == 1;
     const Swapchain& swapchain = swapchains_[isLayer ? 0 : eye];
     VulkanTarget& target = targets[eye];
-    target.image = swapchain.images.at(swapchain.acquired);
+    target.image = swapchain.images.at(*swapchain.acquired);
     target.format = format_;
     target.extent = {size_.x, size_.y};
     target.layer = isLayer ? uint32_t(eye) : 0;
@@ -237,12 +263,17 @@ std::vector<VulkanTarget> Session::acquire() {
   return targets;
 }
 
+void Session::release() {
+  for (Swapchain& swapchain : swapchains_) {
+    if (!swapchain.acquired) continue;
+    swapchain.acquired.reset();
+    const XrSwapchainImageReleaseInfo release{XR_TYPE_SWAPCHAIN_IMAGE_RELEASE_INFO};
+    must(call_.ReleaseSwapchainImage(swapchain.handle, &release), "xrReleaseSwapchainImage");
+  }
+}
+
 void Session::end(const Moment& moment, bool isDrawn, float darkness) {
-  if (hasAcquired_)
-    for (const Swapchain& swapchain : swapchains_) {
-      const XrSwapchainImageReleaseInfo release{XR_TYPE_SWAPCHAIN_IMAGE_RELEASE_INFO};
-      must(call_.ReleaseSwapchainImage(swapchain.handle, &release), "xrReleaseSwapchainImage");
-    }
+  release();
   std::array<XrCompositionLayerProjectionView, kEyes> views;
   for (size_t eye = 0; eye < kEyes; ++eye) {
     const bool isLayer = swapchains_.size() == 1;
@@ -259,7 +290,7 @@ void Session::end(const Moment& moment, bool isDrawn, float darkness) {
   projection.views = views.data();
   const auto vignette = vignette_ ? vignette_->layer(darkness) : std::nullopt;
   std::vector<const XrCompositionLayerBaseHeader*> layers;
-  if (isDrawn && hasAcquired_) {
+  if (isDrawn) {
     layers.push_back(reinterpret_cast<const XrCompositionLayerBaseHeader*>(&projection));
     if (vignette) layers.push_back(reinterpret_cast<const XrCompositionLayerBaseHeader*>(&*vignette));
   }
@@ -268,7 +299,7 @@ void Session::end(const Moment& moment, bool isDrawn, float darkness) {
   info.environmentBlendMode = blend_;
   info.layerCount = uint32_t(layers.size());
   info.layers = layers.data();
-  hasAcquired_ = false;
+  isBegun_ = false;
   must(call_.EndFrame(session_, &info), "xrEndFrame");
 }
 

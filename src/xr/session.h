@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -36,8 +37,9 @@ struct Moment {
 };
 
 // What has happened since the last look.
+constexpr XrTime kNever = std::numeric_limits<XrTime>::max();
 struct News {
-  bool isRecentred = false;
+  XrTime recentredAt = kNever;  // from frames on that are seen then, the room's origin is another
 };
 
 class Session {
@@ -66,6 +68,8 @@ class Session {
   HandsState hands() { return hands_->follow(isFocused()); }
   // Images to draw into: of each eye, as targets of views 0 and 1. They are taken until end().
   std::vector<VulkanTarget> acquire();
+  // Gives the images back outside of a frame.
+  void release();
   // `isDrawn`: what was acquired is shown as seen from the moment's eyes; else nothing is. `darkness`: as
   // Vignette::layer has it.
   void end(const Moment& moment, bool isDrawn, float darkness);
@@ -77,7 +81,7 @@ class Session {
   struct Swapchain {
     XrSwapchain handle = XR_NULL_HANDLE;
     std::vector<VkImage> images;
-    uint32_t acquired = 0;
+    std::optional<uint32_t> acquired;  // and not released
   };
   void createSpace(bool isStanding);
   void createSwapchains();
@@ -89,6 +93,7 @@ class Session {
   const Functions& call_;
   XrSession session_ = XR_NULL_HANDLE;
   XrSpace space_ = XR_NULL_HANDLE;
+  XrReferenceSpaceType spaceType_ = XR_REFERENCE_SPACE_TYPE_LOCAL;
   XrSessionState state_ = XR_SESSION_STATE_UNKNOWN;
   XrEnvironmentBlendMode blend_ = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
   VkFormat format_ = VK_FORMAT_UNDEFINED;
@@ -97,7 +102,8 @@ class Session {
   std::unique_ptr<Hands> hands_;
   std::unique_ptr<Vignette> vignette_;
   float refreshRate_ = 0;
-  bool isRunning_ = false, isWorn_ = true, isOver_ = false, isLost_ = false, hasAcquired_ = false;
+  XrTime display_ = 0;  // of the frame that was begun
+  bool isRunning_ = false, isWorn_ = true, isOver_ = false, isLost_ = false, isBegun_ = false;
 };
 
 }  // namespace scumble::xr

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <thread>
 
+#include "xr/clock.h"
 #include "xr/failure.h"
 #include "xr/session.h"
 #include "xr/walk.h"
@@ -18,19 +19,17 @@ constexpr float kEyeHeight = 1.6f;    // metres of the room
 constexpr double kLongestStep = 0.1;  // seconds of walking at once, however late a frame is
 constexpr double kDarkening = 0.1;    // seconds
 constexpr auto kRest = std::chrono::milliseconds(10);
-constexpr auto kPatience = std::chrono::minutes(1);
+constexpr auto kPatience = std::chrono::minutes(1);     // for a headset that was lost
+constexpr auto kEndPatience = std::chrono::seconds(5);  // for a runtime that is asked to end
 constexpr size_t kUnderWay = 2;  // frames that the device may have at once: it need not wait for the CPU
 
 class Show {
  public:
-  explicit Show(const ShowOptions& options) : options_(options) {}
+  Show(Instance& instance, const ShowOptions& options)
+      : options_(options), instance_(instance), clock_(options.time) {}
 
   Result<ShowReport> run() {
-    Result<std::unique_ptr<Instance>> instance = Instance::create();
-    if (!instance) return instance.error();
-    instance_ = std::move(instance).value();
-    instance_->findHeadset();
-    Result<std::unique_ptr<Renderer>> renderer = createRenderer(instance_->vulkan(), options_.renderer);
+    Result<std::unique_ptr<Renderer>> renderer = createRenderer(instance_.vulkan(), options_.renderer);
     if (!renderer) return renderer.error();
     renderer_ = std::move(renderer).value();
     do {
@@ -42,6 +41,7 @@ class Show {
   }
 
  private:
+  using Watch = std::chrono::steady_clock;
   struct FramesEnd {
     Show& show;
     ~FramesEnd() { (void)show.finish(0); }
@@ -55,29 +55,40 @@ class Show {
     if (options_.tell) options_.tell(line);
   }
 
-  // Waits for a headset that was lost. Throws XrFailure where it does not come.
+  // Waits for a headset that was lost. Throws XrFailure where it does not come, or goes again and again.
   bool findAgain() {
-    tell("the headset was lost; waiting for it");
-    for (const auto start = std::chrono::steady_clock::now();;) {
-      if (isEnding()) return false;
+    if (!lostSince_) {
+      lostSince_ = Watch::now();
+      tell("the headset was lost; waiting for it");
+    }
+    while (!isEnding()) {
+      std::this_thread::sleep_for(kRest);
+      const bool isPatient = Watch::now() - *lostSince_ < kPatience;
+      if (!isPatient) throw XrFailure("xrGetSystem", XR_ERROR_FORM_FACTOR_UNAVAILABLE);
       try {
-        instance_->findHeadset();
+        instance_.findHeadset();
         return true;
       } catch (const XrFailure& failure) {
-        const bool comesBack = failure.result() == XR_ERROR_FORM_FACTOR_UNAVAILABLE;
-        if (!comesBack || std::chrono::steady_clock::now() - start > kPatience) throw;
+        if (failure.result() != XR_ERROR_FORM_FACTOR_UNAVAILABLE) throw;
       }
-      std::this_thread::sleep_for(kRest);
     }
+    return false;
   }
 
   Status runSession() {
     Status status = Done{};
     try {
-      Session session(*instance_, vulkanDeviceOf(*renderer_),
+      Session session(instance_, vulkanDeviceOf(*renderer_),
                       {options_.isStanding, options_.refreshRate, options_.hasVignette});
       const FramesEnd end{*this};  // before its images go
-      status = runFrames(session);
+      if (!lostSince_) {
+        tell(instance_.headset() + " on " + instance_.runtime() + ": twice " +
+             std::to_string(session.size().x) + "x" + std::to_string(session.size().y) +
+             (session.refreshRate() > 0 ? " at " + std::to_string(int(session.refreshRate() + 0.5f)) + " Hz"
+                                        : ""));
+        status = warmUp(session);
+      }
+      if (status) status = runFrames(session);
       isLost_ = session.isLost();
     } catch (const XrFailure& failure) {
       if (failure.result() != XR_ERROR_SESSION_LOST) throw;
@@ -86,71 +97,91 @@ class Show {
     return status;
   }
 
+  // A frame that nobody sees, before the runtime waits for any: uploads and pipelines take a while.
+  Status warmUp(Session& session) {
+    Moment moment;
+    moment.eyes.fill({Pose(), {-0.8f, 0.8f, 0.8f, -0.8f}});
+    Status status = begin(session, standNow(), moment, {});
+    if (const Status finished = finish(0); status.ok()) status = finished;
+    session.release();
+    return status;
+  }
+
   Status runFrames(Session& session) {
-    tell(instance_->headset() + " on " + instance_->runtime() + ": twice " +
-         std::to_string(session.size().x) + "x" + std::to_string(session.size().y) +
-         (session.refreshRate() > 0 ? " at " + std::to_string(int(session.refreshRate() + 0.5f)) + " Hz"
-                                    : ""));
-    for (bool isAsked = false; !session.isOver() && !session.isLost();) {
-      // Whoever recentres wants to be where the camera is.
-      if (session.follow().isRecentred) walk_.reset();
-      if (!isAsked && isEnding()) {
+    XrTime recentring = kNever;
+    std::optional<Watch::time_point> askedAt;
+    while (!session.isOver() && !session.isLost()) {
+      recentring = std::min(recentring, session.follow().recentredAt);
+      if (!askedAt && isEnding()) {
         session.requestEnd();
-        isAsked = true;
+        askedAt = Watch::now();
       }
+      // A runtime that does not answer is left.
+      if (askedAt && Watch::now() - *askedAt > kEndPatience) return Done{};
       if (!session.isRunning()) {
         std::this_thread::sleep_for(kRest);
         continue;
       }
       Moment moment = session.begin();
-      // In any case a frame that was begun is ended.
-      Result<bool> drawn = false;
-      if (moment.shouldRender && moment.isPlaced && !isAsked) drawn = draw(session, moment);
-      session.end(moment, drawn && *drawn, darkness_);
-      if (!drawn) return drawn.error();
-      if (*drawn) ++report_.frames;
+      const HandsState hands = session.hands();
+      isPaused_ = isPaused_ != hands.pauses;
+      clock_.go(moment.display, isPaused_ || !session.isWorn() || !moment.shouldRender);
+      // Whoever recentres wants to be where the camera is.
+      if (moment.display >= recentring) {
+        walk_.reset();
+        recentring = kNever;
+      }
+      const bool isSeen = moment.shouldRender && moment.isPlaced && !askedAt;
+      const Status drawn = isSeen ? draw(session, moment, hands) : Done{};
+      session.end(moment, isSeen && drawn.ok(), darkness_);
+      if (!drawn) return drawn;
+      if (isSeen) ++report_.frames, lostSince_.reset();
     }
     return Done{};
   }
 
-  // When it is in the scene, which stands still while somebody pauses it or does not wear the headset.
-  double timeAt(const Session& session, const HandsState& hands, XrTime display) {
-    isPaused_ = isPaused_ != hands.pauses;
-    if (!lastDisplay_) lastDisplay_ = display;
-    if (isPaused_ || !session.isWorn()) stood_ += display - *lastDisplay_;
-    lastDisplay_ = display;
-    if (!firstDisplay_) firstDisplay_ = display;
-    return options_.time + double(display - *firstDisplay_ - stood_) * 1e-9;
+  const Look& look() const { return options_.looks[look_].second; }
+
+  // The camera's, which has a place in the scene and may hang on something.
+  struct Camera {
+    Stand stand;
+    int node = -1;
+  };
+  Result<Camera> standNow() const {
+    const Result<std::vector<View>> views =
+        makeViews(options_.scene, options_.viewpoint, 1, Stereo::mono, 0, look(), clock_.time());
+    if (!views) return views.error();
+    return Camera{standAt(views->front(), options_.scale, options_.isStanding ? kEyeHeight : 0),
+                  views->front().node};
   }
 
-  const Look& chosenLook(const HandsState& hands) {
+  Status draw(Session& session, Moment& moment, const HandsState& hands) {
     if (hands.nextLook) {
       look_ = (look_ + 1) % options_.looks.size();
       tell("look: " + options_.looks[look_].first);
     }
-    return options_.looks[look_].second;
-  }
-
-  Result<bool> draw(Session& session, Moment& moment) {
-    const double sinceLast = lastDisplay_ ? double(moment.display - *lastDisplay_) * 1e-9 : 0;
-    const HandsState hands = session.hands();
-    const double time = timeAt(session, hands, moment.display);
-    const Look& look = chosenLook(hands);
-    const Result<std::vector<View>> camera =
-        makeViews(options_.scene, options_.viewpoint, 1, Stereo::mono, 0, look, time);
+    const double sinceLast = clock_.sinceLast();
+    const Result<Camera> camera = standNow();
     if (!camera) return camera.error();
-    const Stand origin = standAt(camera->front(), options_.scale, options_.isStanding ? kEyeHeight : 0);
-    walk_.go(origin, between(moment.eyes[0].pose, moment.eyes[1].pose), hands.steering,
+    walk_.go(camera->stand, between(moment.eyes[0].pose, moment.eyes[1].pose), hands.steering,
              float(std::min(sinceLast, kLongestStep)));
-    const Stand stand = walk_.on(origin);
     // It comes and goes within a quarter of a second or so; what is not seen is not drawn.
     darkness_ += (walk_.motion() - darkness_) * float(1 - std::exp(-sinceLast / kDarkening));
     if (darkness_ < 0.01f) darkness_ = 0;
+    return begin(session, camera, moment, [&](Moment& latest) { return session.locate(latest); });
+  }
+
+  // Sends a frame. `locate`: where the eyes are by now, asked at the last moment; what is shown is told with
+  // the eyes that it was drawn from.
+  Status begin(Session& session, const Result<Camera>& camera, Moment& moment,
+               const std::function<bool(Moment&)>& locate) {
+    if (!camera) return camera.error();
+    const Stand stand = walk_.on(camera->stand);
     const auto viewsOf = [&](const Moment& seen) {
       std::vector<View> views;
       for (const Eye& eye : seen.eyes) {
         View& view = views.emplace_back(viewOf(stand, eye.pose, eye.angles, kNearPlane * stand.scale));
-        view.node = camera->front().node;
+        view.node = camera->node;
         view.isLevel = true;
       }
       return views;
@@ -158,22 +189,16 @@ class Show {
     RenderOptions options;
     options.width = session.size().x, options.height = session.size().y;
     options.samples = options_.samples, options.seed = options_.seed;
-    // What is shown is told with the eyes that it was drawn from.
     options.latch = [&](std::vector<View>& views) {
-      Moment latest = moment;
-      if (!session.locate(latest)) return;
-      moment = latest;
-      views = viewsOf(moment);
+      if (locate && locate(moment)) views = viewsOf(moment);
     };
-    if (const Status status = finish(kUnderWay - 1); !status) return status.error();
+    if (const Status status = finish(kUnderWay - 1); !status) return status;
     VulkanTargets targets;
     targets.images = session.acquire();
-    if (const Status status =
-            scumble::begin(*renderer_, options_.scene, look, time, viewsOf(moment), options, targets);
-        !status)
-      return status.error();
-    ++begun_;
-    return true;
+    const Status status =
+        scumble::begin(*renderer_, options_.scene, look(), clock_.time(), viewsOf(moment), options, targets);
+    if (status) ++begun_;
+    return status;
   }
 
   // Until no more than so many frames are under way.
@@ -187,17 +212,16 @@ class Show {
   }
 
   const ShowOptions& options_;
-  // The runtime has made the renderer's device: so it ends later.
-  std::unique_ptr<Instance> instance_;
+  Instance& instance_;
   std::unique_ptr<Renderer> renderer_;
-  std::optional<XrTime> firstDisplay_, lastDisplay_;
-  XrDuration stood_ = 0;
+  Clock clock_;
   bool isPaused_ = false;
   size_t look_ = 0;
   Walk walk_;
   float darkness_ = 0;
   size_t begun_ = 0;
   bool isLost_ = false;
+  std::optional<Watch::time_point> lostSince_;  // until a frame is shown again
   ShowReport report_;
 };
 
@@ -216,23 +240,34 @@ Result<std::vector<View>> usualEyes(const Scene& scene, const Look& look, const 
   return eyes;
 }
 
-Result<Headset> findHeadset() {
-  const Result<std::unique_ptr<Instance>> instance = Instance::create();
-  if (!instance) return instance.error();
-  Headset found;
-  found.runtime = (*instance)->runtime();
+Headset::Headset(std::unique_ptr<Instance> instance) : instance_(std::move(instance)) {
   try {
-    (*instance)->findHeadset();
-    found.name = (*instance)->headset();
+    instance_->findHeadset();
   } catch (const XrFailure& failure) {
-    found.lack = errorOf(failure);
+    lack_ = errorOf(failure);
   }
-  return found;
 }
 
-Result<ShowReport> show(const ShowOptions& options) {
+Headset::~Headset() = default;
+
+Result<std::unique_ptr<Headset>> Headset::find() {
+  Result<std::unique_ptr<Instance>> instance = Instance::create();
+  if (!instance) return instance.error();
+  return std::unique_ptr<Headset>(new Headset(std::move(instance).value()));
+}
+
+const std::string& Headset::runtime() const {
+  return instance_->runtime();
+}
+
+const std::string& Headset::name() const {
+  return instance_->headset();
+}
+
+Result<ShowReport> Headset::show(const ShowOptions& options) {
+  if (lack_) return *lack_;
   try {
-    return Show(options).run();
+    return Show(*instance_, options).run();
   } catch (const XrFailure& failure) {
     return errorOf(failure);
   }

@@ -14,15 +14,6 @@
 
 namespace scumble::xr {
 
-// What is there.
-struct Headset {
-  std::string runtime;        // its name and version
-  std::string name;           // of the headset; empty: the runtime has none now
-  std::optional<Error> lack;  // what cannot be had of it
-};
-// Fails with noUsableGpu where there is no loader, no runtime, or one without Vulkan.
-Result<Headset> findHeadset();
-
 // Both eyes of a head that looks straight ahead from a camera, as headsets of 2023 see: 2064 x 2208 pixels
 // each, 94 degrees wide and 99 high, more of them outwards and down. For measuring without one. Fails as
 // makeViews does.
@@ -51,8 +42,30 @@ struct ShowReport {
   uint64_t frames = 0;  // that were drawn
   int validationMessages = 0;
 };
-// Returns when the session has ended. A session that is lost begins anew as soon as the headset is there
-// again; where that takes longer than a minute, and where the runtime ends, it fails with noUsableGpu.
-Result<ShowReport> show(const ShowOptions& options);
+class Instance;
+
+// The runtime that is there, and its headset.
+class Headset {
+ public:
+  // Fails with noUsableGpu where there is no loader, no runtime, or one without Vulkan.
+  static Result<std::unique_ptr<Headset>> find();
+  ~Headset();
+  Headset(const Headset&) = delete;
+  Headset& operator=(const Headset&) = delete;
+
+  const std::string& runtime() const;  // its name and version
+  const std::string& name() const;     // of the headset; empty: the runtime has none now
+  const std::optional<Error>& lack() const { return lack_; }  // why it has none
+
+  // Returns when the session has ended. A session that is lost begins anew as soon as the headset is there
+  // again; where no frame is seen for a minute then, and where the runtime ends, it fails with noUsableGpu.
+  Result<ShowReport> show(const ShowOptions& options);
+
+ private:
+  explicit Headset(std::unique_ptr<Instance> instance);
+
+  std::unique_ptr<Instance> instance_;
+  std::optional<Error> lack_;
+};
 
 }  // namespace scumble::xr

@@ -1,21 +1,28 @@
 // An OpenXR runtime without a headset, for tests: a head that goes where a script says, and what was shown to
 // it kept as pictures. It is as strict as OpenXR allows, and writes down every mistake.
 //
-// SCUMBLE_TEST_XR names the script, a JSON object:
+// SCUMBLE_TEST_XR names the script, a JSON object. What goes by frame keeps its last value.
 //   record        folder for report.json, and frame-NNNN-{left,right}.ppm of each frame that was shown
-//   size          of an eye, pixels; angles: of each eye, [left, right, up, down] in radians
-//   poses         of the head, by frame, [x, y, z, qx, qy, qz, qw]; the last one stays; ipd: metres
+//   size, angles  of an eye, pixels; of each eye, [left, right, up, down] in radians
+//   poses, ipd    of the head, by frame, [x, y, z, qx, qy, qz, qw]; metres between its eyes
 //   latch         metres by which the head has moved whenever the same frame is located again
+//   latchTurn     radians about y by which it has turned then
+//   floor         how far the head is from the origin of STAGE beyond that of LOCAL, [x, y, z]
+//   flags         what is known of where the eyes are, by frame (XrViewStateFlags)
 //   formats       Vulkan's numbers, in the runtime's order
-//   layers        whether swapchains may have more than one (true); stage: whether there is a floor (true)
-//   vulkan        whether it takes Vulkan (true); headset: whether one is there (true)
+//   layers        whether swapchains may have more than one (true)
+//   stage         whether there is a floor (true)
+//   vulkan        whether it takes Vulkan (true)
+//   headset       whether one is there (true)
 //   refreshRates  frames a second that it offers; without them it has no such extension
 //   comesBack     after how many xrGetSystem a headset that was lost is there again
+//   hands         {"walk": [[x, y], ...], "turn": ..., "pause": [0, 1, ...], "look": ...} by frame
 //   events        [{"frame": N, "event": ...}], as frame N is waited for: hide, show, blur, focus, stop,
 //   exit,
-//                 loseSession, loseInstance, recentre, takeOff, putOn
-//   hands         {"walk": [[x, y], ...], "turn": ..., "pause": [0, 1, ...], "look": ...} by frame; the last
-//   one stays fail          {"xrCreateSession": -2}: calls that give this result
+//                 loseSession, loseInstance, recentre, redrawFloor, takeOff, putOn
+//   mute          true: it is asked to end, and does not answer
+//   fail          {"xrCreateSession": -2, "xrLocateViews": [-2, 3]}: calls that give this result, always or
+//                 from the third on
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -83,6 +90,7 @@ struct Swapchain {
 struct Runtime {
   Json script, report;
   std::string record;
+  std::map<std::string, int> failing;
   bool hasInstance = false, askedRequirements = false;
   std::set<std::string> extensions;
   std::deque<XrEventDataBuffer> events;
@@ -131,6 +139,11 @@ struct Runtime {
     write();
     return result;
   }
+  // What fails by the script cannot be done rightly after it.
+  bool mayFail(const char* call) const {
+    const Json fail = script.value("fail", Json::object());
+    return fail.contains(call);
+  }
   bool offersRates() const { return script.contains("refreshRates"); }
 };
 
@@ -143,8 +156,11 @@ Runtime& runtime() {
 XrResult begun(const char* call) {
   Runtime& r = runtime();
   r.report["calls"].push_back(call);
-  if (r.script.contains("fail") && r.script["fail"].contains(call))
-    return XrResult(r.script["fail"][call].get<int>());
+  const Json fail = r.script.value("fail", Json::object());
+  if (!fail.contains(call)) return XR_SUCCESS;
+  const Json& how = fail[call];
+  if (how.is_number()) return XrResult(how.get<int>());
+  if (++r.failing[call] >= how[1].get<int>()) return XrResult(how[0].get<int>());
   return XR_SUCCESS;
 }
 #define BEGIN(call)                        \
@@ -275,6 +291,8 @@ XrResult XRAPI_CALL EnumerateEnvironmentBlendModes(XrInstance, XrSystemId, XrVie
 XrResult XRAPI_CALL GetVulkanGraphicsRequirements2(XrInstance, XrSystemId,
                                                    XrGraphicsRequirementsVulkan2KHR* needs) {
   BEGIN("xrGetVulkanGraphicsRequirements2KHR");
+  NEED(r.extensions.count(XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME) == 1, "Vulkan without its extension",
+       XR_ERROR_FUNCTION_UNSUPPORTED);
   r.askedRequirements = true;
   needs->minApiVersionSupported = XR_MAKE_VERSION(1, 0, 0);
   needs->maxApiVersionSupported = XR_MAKE_VERSION(1, 3, 0);
@@ -342,6 +360,9 @@ XrResult XRAPI_CALL CreateSession(XrInstance, const XrSessionCreateInfo* info, X
 
 XrResult XRAPI_CALL DestroySession(XrSession) {
   BEGIN("xrDestroySession");
+  NEED(!r.isBegun || r.mayFail("xrEndFrame"), "a session is destroyed within a frame", XR_SUCCESS);
+  // What it had to say is of nobody any more.
+  r.events.clear();
   NEED(r.spaces.empty() && r.swapchains.empty(), "a session's spaces and swapchains outlive it", XR_SUCCESS);
   r.hasSession = r.isRunning = r.isWaited = r.isBegun = r.isAttached = false;
   return XR_SUCCESS;
@@ -373,6 +394,7 @@ XrResult XRAPI_CALL EndSession(XrSession) {
 XrResult XRAPI_CALL RequestExitSession(XrSession) {
   BEGIN("xrRequestExitSession");
   NEED(r.isRunning, "an end is asked for of what does not run", XR_ERROR_SESSION_NOT_RUNNING);
+  if (r.script.value("mute", false)) return XR_SUCCESS;
   r.wantsExit = true;
   goTo(XR_SESSION_STATE_VISIBLE);
   goTo(XR_SESSION_STATE_SYNCHRONIZED);
@@ -528,6 +550,8 @@ XrResult XRAPI_CALL DestroySwapchain(XrSwapchain swapchain) {
   BEGIN("xrDestroySwapchain");
   auto* const old = reinterpret_cast<Swapchain*>(swapchain);
   NEED(r.swapchains.erase(old) == 1, "a swapchain is destroyed twice", XR_ERROR_HANDLE_INVALID);
+  NEED(old->acquired < 0 || r.mayFail("xrReleaseSwapchainImage"),
+       "a swapchain is destroyed with an image acquired", XR_SUCCESS);
   // Frames that draw into it must be over: the validation layers tell where they are not.
   for (const VkImage image : old->images) vkDestroyImage(r.device, image, nullptr);
   for (const VkDeviceMemory memory : old->memory) vkFreeMemory(r.device, memory, nullptr);
@@ -622,6 +646,41 @@ XrResult XRAPI_CALL CreateAction(XrActionSet, const XrActionCreateInfo* info, Xr
   return XR_SUCCESS;
 }
 
+// What controllers have, by the specification (its section 6.4), as far as anybody asks for it: of one hand,
+// or both.
+bool isOf(const std::string& profile, const std::string& input) {
+  static const std::map<std::string, std::array<std::vector<std::string>, 3>> kInputs{
+      {"khr/simple_controller", {{{"select/click", "menu/click"}, {}, {}}}},
+      {"oculus/touch_controller",
+       {{{"squeeze/value", "trigger/value", "thumbstick", "thumbstick/click"},
+         {"x/click", "y/click", "menu/click"},
+         {"a/click", "b/click"}}}},
+      {"valve/index_controller",
+       {{{"a/click", "b/click", "squeeze/value", "trigger/click", "trigger/value", "thumbstick",
+          "thumbstick/click", "trackpad"},
+         {},
+         {}}}},
+      {"microsoft/motion_controller",
+       {{{"menu/click", "squeeze/click", "trigger/value", "thumbstick", "thumbstick/click", "trackpad",
+          "trackpad/click"},
+         {},
+         {}}}},
+      {"htc/vive_controller",
+       {{{"squeeze/click", "menu/click", "trigger/click", "trigger/value", "trackpad", "trackpad/click"},
+         {},
+         {}}}}};
+  const std::string kProfiles = "/interaction_profiles/";
+  const auto found =
+      profile.starts_with(kProfiles) ? kInputs.find(profile.substr(kProfiles.size())) : kInputs.end();
+  if (found == kInputs.end()) return false;
+  const auto& [both, left, right] = found->second;
+  for (const auto& [hand, own] : {std::pair("left", &left), std::pair("right", &right)})
+    for (const auto* const inputs : {&both, own})
+      for (const std::string& one : *inputs)
+        if (input == "/user/hand/" + std::string(hand) + "/input/" + one) return true;
+  return false;
+}
+
 XrResult XRAPI_CALL Suggest(XrInstance, const XrInteractionProfileSuggestedBinding* suggested) {
   BEGIN("xrSuggestInteractionProfileBindings");
   NEED(!r.isAttached, "bindings for actions that are attached", XR_ERROR_ACTIONSETS_ALREADY_ATTACHED);
@@ -632,7 +691,7 @@ XrResult XRAPI_CALL Suggest(XrInstance, const XrInteractionProfileSuggestedBindi
     const std::string input = r.paths.at(one.binding - 1);
     const auto* const action = reinterpret_cast<const Action*>(one.action);
     const bool isStick = input.ends_with("thumbstick") || input.ends_with("trackpad");
-    NEED(input.starts_with("/user/hand/") && isStick == (action->type == XR_ACTION_TYPE_VECTOR2F_INPUT),
+    NEED(isOf(profile, input) && isStick == (action->type == XR_ACTION_TYPE_VECTOR2F_INPUT),
          profile + ": " + input + " is nothing for " + action->name, XR_ERROR_PATH_UNSUPPORTED);
   }
   // One that knows fewer makers.
@@ -701,14 +760,13 @@ void happen(const std::string& event) {
     const XrEventDataInstanceLossPending lost{XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING, nullptr, 0};
     post(&lost, sizeof lost);
   }
-  if (event == "recentre") {
-    const XrEventDataReferenceSpaceChangePending changed{XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING,
-                                                         nullptr,
-                                                         kSession,
-                                                         XR_REFERENCE_SPACE_TYPE_LOCAL,
-                                                         0,
-                                                         XR_FALSE,
-                                                         {}};
+  if (event == "recentre" || event == "redrawFloor") {
+    XrEventDataReferenceSpaceChangePending changed{XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING};
+    changed.session = kSession;
+    changed.referenceSpaceType =
+        event == "recentre" ? XR_REFERENCE_SPACE_TYPE_LOCAL : XR_REFERENCE_SPACE_TYPE_STAGE;
+    // It holds from the frame after the next one on.
+    changed.changeTime = r.display + 2 * XrDuration(1e9 / double(r.refreshRate));
     post(&changed, sizeof changed);
   }
   if (event == "takeOff" || event == "putOn") {
@@ -723,11 +781,11 @@ XrResult XRAPI_CALL WaitFrame(XrSession, const XrFrameWaitInfo*, XrFrameState* s
   NEED(r.isRunning, "a frame of a session that does not run", XR_ERROR_SESSION_NOT_RUNNING);
   NEED(!r.isWaited, "a frame is waited for twice", XR_ERROR_CALL_ORDER_INVALID);
   ++r.frame;
+  const auto period = XrDuration(1e9 / double(r.refreshRate));
+  r.display = kFirstDisplay + r.frame * period;
   if (r.script.contains("events"))
     for (const Json& event : r.script["events"])
       if (event["frame"] == r.frame) happen(event["event"]);
-  const auto period = XrDuration(1e9 / double(r.refreshRate));
-  r.display = kFirstDisplay + r.frame * period;
   r.isWaited = true;
   r.located = 0;
   state->predictedDisplayTime = r.display;
@@ -753,13 +811,26 @@ XrResult XRAPI_CALL LocateViews(XrSession, const XrViewLocateInfo* info, XrViewS
   NEED(info->displayTime == r.display, "eyes at another time than the frame's", XR_ERROR_TIME_INVALID);
   *count = 2;
   if (capacity == 0) return XR_SUCCESS;
-  state->viewStateFlags = XR_VIEW_STATE_POSITION_VALID_BIT | XR_VIEW_STATE_ORIENTATION_VALID_BIT |
-                          XR_VIEW_STATE_POSITION_TRACKED_BIT | XR_VIEW_STATE_ORIENTATION_TRACKED_BIT;
+  const auto flags = r.script.value("flags", std::vector<XrViewStateFlags>{15});
+  state->viewStateFlags = flags[std::min(size_t(r.frame), flags.size() - 1)];
   std::array<float, 7> head{0, 0, 0, 0, 0, 0, 1};
   if (const Json poses = r.script.value("poses", Json::array()); !poses.empty())
     head = poses[std::min(size_t(r.frame), poses.size() - 1)].get<std::array<float, 7>>();
   const auto latch = r.script.value("latch", std::array<float, 3>{0, 0, 0});
-  for (size_t i = 0; i < 3; ++i) head[i] += float(r.located) * latch[i];
+  const bool isOnFloor = reinterpret_cast<Space*>(info->space)->type == XR_REFERENCE_SPACE_TYPE_STAGE;
+  const auto floor = r.script.value("floor", std::array<float, 3>{0, 0, 0});
+  for (size_t i = 0; i < 3; ++i) head[i] += float(r.located) * latch[i] + (isOnFloor ? floor[i] : 0);
+  if (const float turn = 0.5f * float(r.located) * r.script.value("latchTurn", 0.0f); turn != 0) {
+    // About y, after what it is.
+    const float c = std::cos(turn), t = std::sin(turn);
+    head = {head[0],
+            head[1],
+            head[2],
+            c * head[3] + t * head[5],
+            c * head[4] + t * head[6],
+            c * head[5] - t * head[3],
+            c * head[6] - t * head[4]};
+  }
   ++r.located;
   // The head's own x axis, for its eyes.
   const float x = head[3], y = head[4], z = head[5], w = head[6];
@@ -891,6 +962,9 @@ XrResult XRAPI_CALL EndFrame(XrSession, const XrFrameEndInfo* info) {
       const XrVector3f &a = view.pose.position, &b = r.eyes[eye].pose.position;
       NEED(std::hypot(a.x - b.x, a.y - b.y, a.z - b.z) < 1e-5f, "a view is from elsewhere than its eye",
            XR_SUCCESS);
+      const XrQuaternionf &p = view.pose.orientation, &q = r.eyes[eye].pose.orientation;
+      NEED(std::abs(p.x * q.x + p.y * q.y + p.z * q.z + p.w * q.w) > 1 - 1e-6f,
+           "a view is turned otherwise than its eye", XR_SUCCESS);
       NEED(!std::memcmp(&view.fov, &r.eyes[eye].fov, sizeof view.fov),
            "a view of other angles than its eye's", XR_SUCCESS);
       char name[64];

@@ -164,7 +164,7 @@ class Xr(unittest.TestCase):
     def test_a_floor_lies_below_the_camera(self):
         self.shown()
         wanted = self.picture(0)
-        self.shown("--standing", poses=[[0, 1.6, 0, 0, 0, 0, 1]])
+        self.shown("--standing", floor=[0, 1.6, 0])
         self.assertGreater(alike(self.picture(0), wanted), 0.999)
         self.bad(NO_GPU, "--standing", stage=False, says="XR_ERROR_REFERENCE_SPACE_UNSUPPORTED")
 
@@ -175,10 +175,24 @@ class Xr(unittest.TestCase):
         frames = self.shown(latch=[0.3, 0, 0])
         self.assertAlmostEqual(frames[0]["eyes"][0]["place"][0], 0.3 - 0.032, 5)
         self.assertLess(alike(self.picture(0), still), 0.99, "the picture is from where the head was before")
+        self.shown(latchTurn=0.2)
+        self.assertLess(alike(self.picture(0), still), 0.99)
 
     def test_eyes_may_look_out_of_the_middle(self):
         self.shown(angles=[[-0.9, 0.6, 0.5, -0.7], [-0.6, 0.9, 0.5, -0.7]])
         self.assertLess(alike(self.picture(0, "left"), self.picture(0, "right")), 0.9)
+
+    def test_eyes_that_nobody_knows_of_see_nothing(self):
+        known, placed, turned = 15, 2, 1
+        frames = self.shown(frames=2, flags=[known, 0, placed, turned, known])
+        self.assertEqual([frame["frame"] for frame in frames], [0, 4])
+        # Nor do eyes of which nonsense is told.
+        for script in ({"angles": [[0, 0, 0, 0]] * 2}, {"angles": [[-ACROSS, ACROSS, -UP, UP]] * 2}, {"poses": [[0] * 7]}):
+            self.assertEqual(self.shown(frames=9, events=[{"frame": 3, "event": "exit"}], **script), [])
+
+    def test_a_rate_may_be_refused(self):
+        self.shown(refreshRates=[72, 90], fail={"xrRequestDisplayRefreshRateFB": -8})
+        self.shown(refreshRates=[72, 90], fail={"xrEnumerateDisplayRefreshRatesFB": -8})
 
     # -- Hands
 
@@ -204,11 +218,19 @@ class Xr(unittest.TestCase):
     def test_whoever_recentres_is_back_at_the_camera(self):
         self.shown(frames=4)
         wanted = self.picture(3)
-        self.shown(frames=4, hands={"walk": [[0, 1], [0, 1], [0, 0]], "turn": [[0, 0], [1, 0]]},
-                   events=[{"frame": 2, "event": "recentre"}])
+        hands = {"walk": [[0, 1], [0, 1], [0, 0]], "turn": [[0, 0], [1, 0]]}
+        self.shown(frames=4, hands=hands)
+        gone = [self.picture(2), self.picture(3)]
+        self.assertFalse(gone[1] == wanted)
+        # As soon as the room has its new origin, and not before.
+        self.shown(frames=4, hands=hands, events=[{"frame": 1, "event": "recentre"}])
+        self.assertTrue(self.picture(2) == gone[0])
         self.assertTrue(self.picture(3) == wanted)
-        self.shown(frames=4, hands={"walk": [[0, 1], [0, 1], [0, 0]], "turn": [[0, 0], [1, 0]]})
-        self.assertFalse(self.picture(3) == wanted)
+        # The floor is nothing to somebody who sits.
+        self.shown(frames=4, hands=hands, events=[{"frame": 1, "event": "redrawFloor"}])
+        self.assertTrue(self.picture(3) == gone[1])
+        self.shown("--standing", frames=4, floor=[0, 1.6, 0], hands=hands, events=[{"frame": 1, "event": "redrawFloor"}])
+        self.assertGreater(alike(self.picture(3), wanted), 0.999)
 
     def test_it_is_dark_around_while_sticks_move_one(self):
         still = [[0, 0]] * 4
@@ -243,6 +265,16 @@ class Xr(unittest.TestCase):
         self.shown(frames=6, events=[{"frame": 1, "event": "takeOff"}, {"frame": 3, "event": "putOn"}])
         self.assertTrue(self.picture(2) == self.picture(3))
         self.assertFalse(self.picture(5) == self.picture(3))
+        # Whoever takes it off may see nothing from then on, and something only after it is on again.
+        self.shown(frames=4, events=[{"frame": 1, "event": "takeOff"}, {"frame": 1, "event": "hide"}, {"frame": 8, "event": "putOn"},
+                                     {"frame": 10, "event": "show"}])
+        shown = [frame["frame"] for frame in self.report()["frames"] if frame["layers"]]
+        self.assertEqual(shown[0], 0)
+        self.assertGreater(shown[-2], 9)
+        later = [self.picture(frame) for frame in shown]
+        self.assertTrue(second in later[:3] and third in later, "what nobody saw has gone on")
+        # And where there is no more of it.
+        self.shown("--time", "999999.98", frames=9)
 
     def test_a_button_takes_the_next_look(self):
         done = self.call("--look", "manga", frames=3, hands={"look": [0, 1, 1], "pause": [1]})
@@ -288,6 +320,25 @@ class Xr(unittest.TestCase):
         self.assertEqual(report["calls"].count("xrCreateSession"), 2)
         self.assertTrue(report["ended"])
 
+    def test_a_session_that_is_lost_again_and_again_does_not_spin(self):
+        for call in ("xrWaitFrame", "xrCreateSession"):
+            with self.subTest(call=call):
+                process = subprocess.Popen([scumble, "xr", demo_scene, "--samples", "1", "--quiet"],
+                                           env=self.environment({"fail": {call: -17}}), stderr=subprocess.PIPE, text=True)
+                time.sleep(4)
+                self.assertIsNone(process.poll())
+                process.send_signal(signal.SIGINT)
+                self.assertEqual((process.communicate(timeout=60)[1], process.returncode), ("", DONE))
+                self.assertLess(self.report()["calls"].count("xrCreateSession"), 500)
+                self.assertEqual(self.report()["mistakes"], [])
+
+    def test_a_runtime_that_does_not_answer_is_left(self):
+        start = time.monotonic()
+        done = self.call(mute=True)
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        self.assertLess(time.monotonic() - start, 30)
+        self.assertEqual(self.report()["mistakes"], [])
+
     def test_a_keyboard_ends_it(self):
         process = subprocess.Popen([scumble, "xr", demo_scene, "--samples", "1", "--validate", "--quiet"], env=self.environment({}),
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
@@ -319,7 +370,8 @@ class Xr(unittest.TestCase):
 
     def test_calls_that_fail_end_it(self):
         for call, result, says in (("xrCreateInstance", -1, "XR_ERROR_VALIDATION_FAILURE"),
-                                   ("xrCreateVulkanInstanceKHR", -2, "the runtime has ended"),
+                                   ("xrCreateInstance", -6, "the runtime cannot start"),
+                                   ("xrCreateVulkanInstanceKHR", -2, "start it again"),
                                    ("xrGetVulkanGraphicsDevice2KHR", -2, "xrGetVulkanGraphicsDevice2KHR"),
                                    ("xrCreateVulkanDeviceKHR", -2, "xrCreateVulkanDeviceKHR"),
                                    ("xrCreateSession", -38, "XR_ERROR_GRAPHICS_DEVICE_INVALID"),
@@ -327,25 +379,33 @@ class Xr(unittest.TestCase):
                                    ("xrEnumerateSwapchainImages", -2, "xrEnumerateSwapchainImages"),
                                    ("xrCreateSwapchain", -2, "xrCreateSwapchain"),
                                    ("xrBeginSession", -2, "xrBeginSession"),
+                                   ("xrSyncActions", -2, "xrSyncActions"),
                                    ("xrLocateViews", -2, "xrLocateViews"),
+                                   ("xrLocateViews", [-2, 2], "xrLocateViews"),
                                    ("xrAcquireSwapchainImage", -2, "xrAcquireSwapchainImage"),
+                                   ("xrAcquireSwapchainImage", [-2, 3], "xrAcquireSwapchainImage"),
+                                   ("xrReleaseSwapchainImage", [-2, 3], "xrReleaseSwapchainImage"),
                                    ("xrWaitFrame", -13, "the runtime has ended"),
                                    ("xrEndFrame", -2, "xrEndFrame")):
-            with self.subTest(call=call):
+            with self.subTest(call=call, result=result):
                 done = self.bad(NO_GPU, fail={call: result}, says=says)
                 self.assertIn(f"({call}: ", done.stderr)
-                self.assertEqual(self.report()["mistakes"], [])
+                report = self.report()
+                self.assertEqual(report["mistakes"], [])
+                self.assertEqual(report["calls"].count("xrBeginFrame"), report["calls"].count("xrEndFrame"))
 
     def test_an_instance_that_is_lost_ends_it(self):
         self.bad(NO_GPU, frames=1000, events=[{"frame": 2, "event": "loseInstance"}], says="the runtime has ended")
 
     def test_words_that_make_no_sense(self):
         for words in (["--scale", "0"], ["--scale", "nan"], ["--rate", "-1"], ["--samples", "3"], ["--time", "1e9"], ["--eye", "1,2"],
-                      ["--fov", "40"], ["--frames", "-1"], ["--look", "no-such-look"]):
+                      ["--fov", "40"], ["--frames", "-1"], ["--camera", "zzz"], ["--frame", "zzz"], ["--look", "no-such-look"]):
             with self.subTest(words=words):
                 done = self.call(*words)
                 self.assertEqual(done.returncode, USAGE, done.stderr)
                 self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+                if (self.record / "report.json").exists():
+                    self.assertNotIn("xrCreateSession", self.report()["calls"], "a session was begun for nothing")
 
     def test_devices_lists_the_headset(self):
         def listed(**script):
