@@ -84,7 +84,7 @@ class Show {
       if (!lostSince_) {
         tell(instance_.headset() + " on " + instance_.runtime() + ": twice " +
              std::to_string(session.size().x) + "x" + std::to_string(session.size().y) +
-             (session.refreshRate() > 0 ? " at " + std::to_string(int(session.refreshRate() + 0.5f)) + " Hz"
+             (session.refreshRate() > 0 ? " at " + std::to_string(std::lround(session.refreshRate())) + " Hz"
                                         : ""));
         status = warmUp(session);
       }
@@ -132,7 +132,7 @@ class Show {
         recentring = kNever;
       }
       const bool isSeen = moment.shouldRender && moment.isPlaced && !askedAt;
-      const Status drawn = isSeen ? draw(session, moment, hands) : Done{};
+      Status drawn = isSeen ? draw(session, moment, hands) : Done{};
       session.end(moment, isSeen && drawn.ok(), darkness_);
       if (!drawn) return drawn;
       if (isSeen) ++report_.frames, lostSince_.reset();
@@ -192,10 +192,10 @@ class Show {
     options.latch = [&](std::vector<View>& views) {
       if (locate && locate(moment)) views = viewsOf(moment);
     };
-    if (const Status status = finish(kUnderWay - 1); !status) return status;
+    if (Status status = finish(kUnderWay - 1); !status) return status;
     VulkanTargets targets;
     targets.images = session.acquire();
-    const Status status =
+    Status status =
         scumble::begin(*renderer_, options_.scene, look(), clock_.time(), viewsOf(moment), options, targets);
     if (status) ++begun_;
     return status;

@@ -193,7 +193,7 @@ void goTo(XrSessionState state) {
 
 // ---- Instance
 
-XrResult XRAPI_CALL EnumerateInstanceExtensionProperties(const char*, uint32_t capacity, uint32_t* count,
+XrResult XRAPI_CALL enumerateInstanceExtensionProperties(const char*, uint32_t capacity, uint32_t* count,
                                                          XrExtensionProperties* out) {
   BEGIN("xrEnumerateInstanceExtensionProperties");
   std::vector<std::string> names;
@@ -212,7 +212,7 @@ XrResult XRAPI_CALL EnumerateInstanceExtensionProperties(const char*, uint32_t c
   return give(all, capacity, count, out);
 }
 
-XrResult XRAPI_CALL CreateInstance(const XrInstanceCreateInfo* info, XrInstance* instance) {
+XrResult XRAPI_CALL createInstance(const XrInstanceCreateInfo* info, XrInstance* instance) {
   BEGIN("xrCreateInstance");
   NEED(!r.hasInstance, "a second instance", XR_ERROR_LIMIT_REACHED);
   for (uint32_t i = 0; i < info->enabledExtensionCount; ++i)
@@ -222,7 +222,7 @@ XrResult XRAPI_CALL CreateInstance(const XrInstanceCreateInfo* info, XrInstance*
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL DestroyInstance(XrInstance) {
+XrResult XRAPI_CALL destroyInstance(XrInstance) {
   BEGIN("xrDestroyInstance");
   NEED(!r.hasSession, "the instance is destroyed before its session", XR_SUCCESS);
   r.hasInstance = false;
@@ -231,14 +231,14 @@ XrResult XRAPI_CALL DestroyInstance(XrInstance) {
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL GetInstanceProperties(XrInstance, XrInstanceProperties* properties) {
+XrResult XRAPI_CALL getInstanceProperties(XrInstance, XrInstanceProperties* properties) {
   BEGIN("xrGetInstanceProperties");
   properties->runtimeVersion = XR_MAKE_VERSION(1, 2, 3);
   std::strcpy(properties->runtimeName, "Test runtime");
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL PollEvent(XrInstance, XrEventDataBuffer* event) {
+XrResult XRAPI_CALL pollEvent(XrInstance, XrEventDataBuffer* event) {
   Runtime& r = runtime();
   NEED(event->type == XR_TYPE_EVENT_DATA_BUFFER, "xrPollEvent gets no buffer", XR_ERROR_VALIDATION_FAILURE);
   if (r.events.empty()) return XR_EVENT_UNAVAILABLE;
@@ -247,7 +247,7 @@ XrResult XRAPI_CALL PollEvent(XrInstance, XrEventDataBuffer* event) {
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL GetSystem(XrInstance, const XrSystemGetInfo* info, XrSystemId* system) {
+XrResult XRAPI_CALL getSystem(XrInstance, const XrSystemGetInfo* info, XrSystemId* system) {
   BEGIN("xrGetSystem");
   NEED(info->formFactor == XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY, "no headset is asked for",
        XR_ERROR_FORM_FACTOR_UNSUPPORTED);
@@ -257,19 +257,19 @@ XrResult XRAPI_CALL GetSystem(XrInstance, const XrSystemGetInfo* info, XrSystemI
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL GetSystemProperties(XrInstance, XrSystemId, XrSystemProperties* properties) {
+XrResult XRAPI_CALL getSystemProperties(XrInstance, XrSystemId, XrSystemProperties* properties) {
   BEGIN("xrGetSystemProperties");
   std::strcpy(properties->systemName, "Cardboard head");
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL EnumerateViewConfigurations(XrInstance, XrSystemId, uint32_t capacity, uint32_t* count,
+XrResult XRAPI_CALL enumerateViewConfigurations(XrInstance, XrSystemId, uint32_t capacity, uint32_t* count,
                                                 XrViewConfigurationType* out) {
   BEGIN("xrEnumerateViewConfigurations");
   return give<XrViewConfigurationType>({XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO}, capacity, count, out);
 }
 
-XrResult XRAPI_CALL EnumerateViewConfigurationViews(XrInstance, XrSystemId, XrViewConfigurationType,
+XrResult XRAPI_CALL enumerateViewConfigurationViews(XrInstance, XrSystemId, XrViewConfigurationType,
                                                     uint32_t capacity, uint32_t* count,
                                                     XrViewConfigurationView* out) {
   BEGIN("xrEnumerateViewConfigurationViews");
@@ -279,7 +279,7 @@ XrResult XRAPI_CALL EnumerateViewConfigurationViews(XrInstance, XrSystemId, XrVi
   return give<XrViewConfigurationView>({one, one}, capacity, count, out);
 }
 
-XrResult XRAPI_CALL EnumerateEnvironmentBlendModes(XrInstance, XrSystemId, XrViewConfigurationType,
+XrResult XRAPI_CALL enumerateEnvironmentBlendModes(XrInstance, XrSystemId, XrViewConfigurationType,
                                                    uint32_t capacity, uint32_t* count,
                                                    XrEnvironmentBlendMode* out) {
   BEGIN("xrEnumerateEnvironmentBlendModes");
@@ -288,7 +288,7 @@ XrResult XRAPI_CALL EnumerateEnvironmentBlendModes(XrInstance, XrSystemId, XrVie
 
 // ---- Vulkan
 
-XrResult XRAPI_CALL GetVulkanGraphicsRequirements2(XrInstance, XrSystemId,
+XrResult XRAPI_CALL getVulkanGraphicsRequirements2(XrInstance, XrSystemId,
                                                    XrGraphicsRequirementsVulkan2KHR* needs) {
   BEGIN("xrGetVulkanGraphicsRequirements2KHR");
   NEED(r.extensions.count(XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME) == 1, "Vulkan without its extension",
@@ -299,7 +299,7 @@ XrResult XRAPI_CALL GetVulkanGraphicsRequirements2(XrInstance, XrSystemId,
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL CreateVulkanInstance(XrInstance, const XrVulkanInstanceCreateInfoKHR* info,
+XrResult XRAPI_CALL createVulkanInstance(XrInstance, const XrVulkanInstanceCreateInfoKHR* info,
                                          VkInstance* instance, VkResult* result) {
   BEGIN("xrCreateVulkanInstanceKHR");
   NEED(r.askedRequirements, "Vulkan's instance before its requirements",
@@ -311,7 +311,7 @@ XrResult XRAPI_CALL CreateVulkanInstance(XrInstance, const XrVulkanInstanceCreat
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL GetVulkanGraphicsDevice2(XrInstance, const XrVulkanGraphicsDeviceGetInfoKHR* info,
+XrResult XRAPI_CALL getVulkanGraphicsDevice2(XrInstance, const XrVulkanGraphicsDeviceGetInfoKHR* info,
                                              VkPhysicalDevice* physical) {
   BEGIN("xrGetVulkanGraphicsDevice2KHR");
   NEED(info->vulkanInstance == r.vulkan, "a device of another instance", XR_ERROR_VALIDATION_FAILURE);
@@ -321,7 +321,7 @@ XrResult XRAPI_CALL GetVulkanGraphicsDevice2(XrInstance, const XrVulkanGraphicsD
   return count == 1 ? XR_SUCCESS : XR_ERROR_RUNTIME_FAILURE;
 }
 
-XrResult XRAPI_CALL CreateVulkanDevice(XrInstance, const XrVulkanDeviceCreateInfoKHR* info, VkDevice* device,
+XrResult XRAPI_CALL createVulkanDevice(XrInstance, const XrVulkanDeviceCreateInfoKHR* info, VkDevice* device,
                                        VkResult* result) {
   BEGIN("xrCreateVulkanDeviceKHR");
   NEED(info->vulkanPhysicalDevice == r.physical, "not the runtime's device", XR_ERROR_VALIDATION_FAILURE);
@@ -341,7 +341,7 @@ XrResult XRAPI_CALL CreateVulkanDevice(XrInstance, const XrVulkanDeviceCreateInf
 
 // ---- Session
 
-XrResult XRAPI_CALL CreateSession(XrInstance, const XrSessionCreateInfo* info, XrSession* session) {
+XrResult XRAPI_CALL createSession(XrInstance, const XrSessionCreateInfo* info, XrSession* session) {
   BEGIN("xrCreateSession");
   NEED(!r.hasSession, "a second session", XR_ERROR_LIMIT_REACHED);
   const auto* const binding = static_cast<const XrGraphicsBindingVulkan2KHR*>(info->next);
@@ -358,7 +358,7 @@ XrResult XRAPI_CALL CreateSession(XrInstance, const XrSessionCreateInfo* info, X
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL DestroySession(XrSession) {
+XrResult XRAPI_CALL destroySession(XrSession) {
   BEGIN("xrDestroySession");
   NEED(!r.isBegun || r.mayFail("xrEndFrame"), "a session is destroyed within a frame", XR_SUCCESS);
   // What it had to say is of nobody any more.
@@ -368,7 +368,7 @@ XrResult XRAPI_CALL DestroySession(XrSession) {
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL BeginSession(XrSession, const XrSessionBeginInfo* info) {
+XrResult XRAPI_CALL beginSession(XrSession, const XrSessionBeginInfo* info) {
   BEGIN("xrBeginSession");
   NEED(r.state == XR_SESSION_STATE_READY, "a session is begun that is not ready", XR_ERROR_SESSION_NOT_READY);
   NEED(info->primaryViewConfigurationType == XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO,
@@ -380,7 +380,7 @@ XrResult XRAPI_CALL BeginSession(XrSession, const XrSessionBeginInfo* info) {
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL EndSession(XrSession) {
+XrResult XRAPI_CALL endSession(XrSession) {
   BEGIN("xrEndSession");
   NEED(r.state == XR_SESSION_STATE_STOPPING, "a session is ended that is not stopping",
        XR_ERROR_SESSION_NOT_STOPPING);
@@ -391,7 +391,7 @@ XrResult XRAPI_CALL EndSession(XrSession) {
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL RequestExitSession(XrSession) {
+XrResult XRAPI_CALL requestExitSession(XrSession) {
   BEGIN("xrRequestExitSession");
   NEED(r.isRunning, "an end is asked for of what does not run", XR_ERROR_SESSION_NOT_RUNNING);
   if (r.script.value("mute", false)) return XR_SUCCESS;
@@ -402,7 +402,7 @@ XrResult XRAPI_CALL RequestExitSession(XrSession) {
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL EnumerateReferenceSpaces(XrSession, uint32_t capacity, uint32_t* count,
+XrResult XRAPI_CALL enumerateReferenceSpaces(XrSession, uint32_t capacity, uint32_t* count,
                                              XrReferenceSpaceType* out) {
   BEGIN("xrEnumerateReferenceSpaces");
   std::vector<XrReferenceSpaceType> all{XR_REFERENCE_SPACE_TYPE_VIEW, XR_REFERENCE_SPACE_TYPE_LOCAL};
@@ -410,7 +410,7 @@ XrResult XRAPI_CALL EnumerateReferenceSpaces(XrSession, uint32_t capacity, uint3
   return give(all, capacity, count, out);
 }
 
-XrResult XRAPI_CALL CreateReferenceSpace(XrSession, const XrReferenceSpaceCreateInfo* info, XrSpace* space) {
+XrResult XRAPI_CALL createReferenceSpace(XrSession, const XrReferenceSpaceCreateInfo* info, XrSpace* space) {
   BEGIN("xrCreateReferenceSpace");
   auto* const made = new Space{info->referenceSpaceType};
   r.spaces.insert(made);
@@ -418,7 +418,7 @@ XrResult XRAPI_CALL CreateReferenceSpace(XrSession, const XrReferenceSpaceCreate
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL DestroySpace(XrSpace space) {
+XrResult XRAPI_CALL destroySpace(XrSpace space) {
   BEGIN("xrDestroySpace");
   auto* const old = reinterpret_cast<Space*>(space);
   NEED(r.spaces.erase(old) == 1, "a space is destroyed twice", XR_ERROR_HANDLE_INVALID);
@@ -426,18 +426,18 @@ XrResult XRAPI_CALL DestroySpace(XrSpace space) {
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL EnumerateRates(XrSession, uint32_t capacity, uint32_t* count, float* out) {
+XrResult XRAPI_CALL enumerateRates(XrSession, uint32_t capacity, uint32_t* count, float* out) {
   BEGIN("xrEnumerateDisplayRefreshRatesFB");
   return give(r.script["refreshRates"].get<std::vector<float>>(), capacity, count, out);
 }
 
-XrResult XRAPI_CALL GetRate(XrSession, float* rate) {
+XrResult XRAPI_CALL getRate(XrSession, float* rate) {
   BEGIN("xrGetDisplayRefreshRateFB");
   *rate = r.refreshRate;
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL RequestRate(XrSession, float rate) {
+XrResult XRAPI_CALL requestRate(XrSession, float rate) {
   BEGIN("xrRequestDisplayRefreshRateFB");
   const auto rates = r.script["refreshRates"].get<std::vector<float>>();
   NEED(std::find(rates.begin(), rates.end(), rate) != rates.end(), "a rate that is not offered",
@@ -498,14 +498,14 @@ void runOnQueue(const Record& record) {
   vkDestroyCommandPool(r.device, pool, nullptr);
 }
 
-XrResult XRAPI_CALL EnumerateSwapchainFormats(XrSession, uint32_t capacity, uint32_t* count, int64_t* out) {
+XrResult XRAPI_CALL enumerateSwapchainFormats(XrSession, uint32_t capacity, uint32_t* count, int64_t* out) {
   BEGIN("xrEnumerateSwapchainFormats");
   return give(
       r.script.value("formats", std::vector<int64_t>{VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R8G8B8A8_SRGB}),
       capacity, count, out);
 }
 
-XrResult XRAPI_CALL CreateSwapchain(XrSession, const XrSwapchainCreateInfo* info, XrSwapchain* swapchain) {
+XrResult XRAPI_CALL createSwapchain(XrSession, const XrSwapchainCreateInfo* info, XrSwapchain* swapchain) {
   BEGIN("xrCreateSwapchain");
   if (info->arraySize > 1 && !r.script.value("layers", true)) return XR_ERROR_FEATURE_UNSUPPORTED;
   NEED(info->sampleCount == 1 && info->faceCount == 1 && info->mipCount == 1, "a swapchain of another kind",
@@ -546,7 +546,7 @@ XrResult XRAPI_CALL CreateSwapchain(XrSession, const XrSwapchainCreateInfo* info
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL DestroySwapchain(XrSwapchain swapchain) {
+XrResult XRAPI_CALL destroySwapchain(XrSwapchain swapchain) {
   BEGIN("xrDestroySwapchain");
   auto* const old = reinterpret_cast<Swapchain*>(swapchain);
   NEED(r.swapchains.erase(old) == 1, "a swapchain is destroyed twice", XR_ERROR_HANDLE_INVALID);
@@ -559,7 +559,7 @@ XrResult XRAPI_CALL DestroySwapchain(XrSwapchain swapchain) {
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL EnumerateSwapchainImages(XrSwapchain swapchain, uint32_t capacity, uint32_t* count,
+XrResult XRAPI_CALL enumerateSwapchainImages(XrSwapchain swapchain, uint32_t capacity, uint32_t* count,
                                              XrSwapchainImageBaseHeader* out) {
   BEGIN("xrEnumerateSwapchainImages");
   const auto& images = reinterpret_cast<Swapchain*>(swapchain)->images;
@@ -574,7 +574,7 @@ XrResult XRAPI_CALL EnumerateSwapchainImages(XrSwapchain swapchain, uint32_t cap
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL AcquireSwapchainImage(XrSwapchain swapchain, const XrSwapchainImageAcquireInfo*,
+XrResult XRAPI_CALL acquireSwapchainImage(XrSwapchain swapchain, const XrSwapchainImageAcquireInfo*,
                                           uint32_t* index) {
   BEGIN("xrAcquireSwapchainImage");
   auto& from = *reinterpret_cast<Swapchain*>(swapchain);
@@ -587,7 +587,7 @@ XrResult XRAPI_CALL AcquireSwapchainImage(XrSwapchain swapchain, const XrSwapcha
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL WaitSwapchainImage(XrSwapchain swapchain, const XrSwapchainImageWaitInfo*) {
+XrResult XRAPI_CALL waitSwapchainImage(XrSwapchain swapchain, const XrSwapchainImageWaitInfo*) {
   BEGIN("xrWaitSwapchainImage");
   auto& from = *reinterpret_cast<Swapchain*>(swapchain);
   NEED(from.acquired >= 0 && !from.isWaited, "an image is waited for that was not acquired",
@@ -596,7 +596,7 @@ XrResult XRAPI_CALL WaitSwapchainImage(XrSwapchain swapchain, const XrSwapchainI
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL ReleaseSwapchainImage(XrSwapchain swapchain, const XrSwapchainImageReleaseInfo*) {
+XrResult XRAPI_CALL releaseSwapchainImage(XrSwapchain swapchain, const XrSwapchainImageReleaseInfo*) {
   BEGIN("xrReleaseSwapchainImage");
   auto& from = *reinterpret_cast<Swapchain*>(swapchain);
   NEED(from.acquired >= 0 && from.isWaited, "an image is released that was not waited for",
@@ -607,7 +607,7 @@ XrResult XRAPI_CALL ReleaseSwapchainImage(XrSwapchain swapchain, const XrSwapcha
 
 // ---- Hands
 
-XrResult XRAPI_CALL StringToPath(XrInstance, const char* text, XrPath* path) {
+XrResult XRAPI_CALL stringToPath(XrInstance, const char* text, XrPath* path) {
   BEGIN("xrStringToPath");
   const auto found = std::find(r.paths.begin(), r.paths.end(), text);
   *path = XrPath(found - r.paths.begin()) + 1;
@@ -615,7 +615,7 @@ XrResult XRAPI_CALL StringToPath(XrInstance, const char* text, XrPath* path) {
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL CreateActionSet(XrInstance, const XrActionSetCreateInfo* info, XrActionSet* set) {
+XrResult XRAPI_CALL createActionSet(XrInstance, const XrActionSetCreateInfo* info, XrActionSet* set) {
   BEGIN("xrCreateActionSet");
   NEED(info->actionSetName[0] && info->localizedActionSetName[0], "a set of actions has no name",
        XR_ERROR_NAME_INVALID);
@@ -624,7 +624,7 @@ XrResult XRAPI_CALL CreateActionSet(XrInstance, const XrActionSetCreateInfo* inf
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL DestroyActionSet(XrActionSet) {
+XrResult XRAPI_CALL destroyActionSet(XrActionSet) {
   BEGIN("xrDestroyActionSet");
   NEED(r.hasActions, "a set of actions is destroyed twice", XR_ERROR_HANDLE_INVALID);
   r.actions.clear();
@@ -632,7 +632,7 @@ XrResult XRAPI_CALL DestroyActionSet(XrActionSet) {
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL CreateAction(XrActionSet, const XrActionCreateInfo* info, XrAction* action) {
+XrResult XRAPI_CALL createAction(XrActionSet, const XrActionCreateInfo* info, XrAction* action) {
   BEGIN("xrCreateAction");
   NEED(!r.isAttached, "an action for a set that is attached", XR_ERROR_ACTIONSETS_ALREADY_ATTACHED);
   const std::string name = info->actionName;
@@ -681,7 +681,7 @@ bool isOf(const std::string& profile, const std::string& input) {
   return false;
 }
 
-XrResult XRAPI_CALL Suggest(XrInstance, const XrInteractionProfileSuggestedBinding* suggested) {
+XrResult XRAPI_CALL suggest(XrInstance, const XrInteractionProfileSuggestedBinding* suggested) {
   BEGIN("xrSuggestInteractionProfileBindings");
   NEED(!r.isAttached, "bindings for actions that are attached", XR_ERROR_ACTIONSETS_ALREADY_ATTACHED);
   const std::string profile = r.paths.at(suggested->interactionProfile - 1);
@@ -700,7 +700,7 @@ XrResult XRAPI_CALL Suggest(XrInstance, const XrInteractionProfileSuggestedBindi
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL Attach(XrSession, const XrSessionActionSetsAttachInfo* info) {
+XrResult XRAPI_CALL attach(XrSession, const XrSessionActionSetsAttachInfo* info) {
   BEGIN("xrAttachSessionActionSets");
   NEED(!r.isAttached && info->countActionSets == 1, "actions are attached twice",
        XR_ERROR_ACTIONSETS_ALREADY_ATTACHED);
@@ -708,7 +708,7 @@ XrResult XRAPI_CALL Attach(XrSession, const XrSessionActionSetsAttachInfo* info)
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL Sync(XrSession, const XrActionsSyncInfo*) {
+XrResult XRAPI_CALL sync(XrSession, const XrActionsSyncInfo*) {
   BEGIN("xrSyncActions");
   NEED(r.isAttached, "actions are asked for that are not attached", XR_ERROR_ACTIONSET_NOT_ATTACHED);
   NEED(r.lastSync < r.frame, "hands are asked twice in a frame", XR_SUCCESS);
@@ -727,7 +727,7 @@ Json handAt(XrAction action, int frame) {
   return hands[name][std::min(size_t(frame), hands[name].size() - 1)];
 }
 
-XrResult XRAPI_CALL GetBoolean(XrSession, const XrActionStateGetInfo* info, XrActionStateBoolean* state) {
+XrResult XRAPI_CALL getBoolean(XrSession, const XrActionStateGetInfo* info, XrActionStateBoolean* state) {
   BEGIN("xrGetActionStateBoolean");
   const Json now = handAt(info->action, r.lastSync), before = handAt(info->action, r.syncBefore);
   state->isActive = !now.is_null();
@@ -736,7 +736,7 @@ XrResult XRAPI_CALL GetBoolean(XrSession, const XrActionStateGetInfo* info, XrAc
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL GetVector2f(XrSession, const XrActionStateGetInfo* info, XrActionStateVector2f* state) {
+XrResult XRAPI_CALL getVector2f(XrSession, const XrActionStateGetInfo* info, XrActionStateVector2f* state) {
   BEGIN("xrGetActionStateVector2f");
   const Json now = handAt(info->action, r.lastSync);
   state->isActive = !now.is_null();
@@ -776,7 +776,7 @@ void happen(const std::string& event) {
   }
 }
 
-XrResult XRAPI_CALL WaitFrame(XrSession, const XrFrameWaitInfo*, XrFrameState* state) {
+XrResult XRAPI_CALL waitFrame(XrSession, const XrFrameWaitInfo*, XrFrameState* state) {
   BEGIN("xrWaitFrame");
   NEED(r.isRunning, "a frame of a session that does not run", XR_ERROR_SESSION_NOT_RUNNING);
   NEED(!r.isWaited, "a frame is waited for twice", XR_ERROR_CALL_ORDER_INVALID);
@@ -795,7 +795,7 @@ XrResult XRAPI_CALL WaitFrame(XrSession, const XrFrameWaitInfo*, XrFrameState* s
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL BeginFrame(XrSession, const XrFrameBeginInfo*) {
+XrResult XRAPI_CALL beginFrame(XrSession, const XrFrameBeginInfo*) {
   BEGIN("xrBeginFrame");
   NEED(r.isWaited, "a frame is begun that was not waited for", XR_ERROR_CALL_ORDER_INVALID);
   NEED(!r.isBegun, "a frame is begun within another", XR_ERROR_CALL_ORDER_INVALID);
@@ -803,7 +803,7 @@ XrResult XRAPI_CALL BeginFrame(XrSession, const XrFrameBeginInfo*) {
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL LocateViews(XrSession, const XrViewLocateInfo* info, XrViewState* state,
+XrResult XRAPI_CALL locateViews(XrSession, const XrViewLocateInfo* info, XrViewState* state,
                                 uint32_t capacity, uint32_t* count, XrView* out) {
   BEGIN("xrLocateViews");
   NEED(r.spaces.count(reinterpret_cast<Space*>(info->space)) == 1, "eyes in no space",
@@ -923,7 +923,7 @@ XrResult lookAtQuad(const XrCompositionLayerQuad& quad, Json& frame) {
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL EndFrame(XrSession, const XrFrameEndInfo* info) {
+XrResult XRAPI_CALL endFrame(XrSession, const XrFrameEndInfo* info) {
   BEGIN("xrEndFrame");
   NEED(r.isBegun, "a frame is ended that was not begun", XR_ERROR_CALL_ORDER_INVALID);
   NEED(info->displayTime == r.display, "a frame ends at another time", XR_ERROR_TIME_INVALID);
@@ -965,7 +965,9 @@ XrResult XRAPI_CALL EndFrame(XrSession, const XrFrameEndInfo* info) {
       const XrQuaternionf &p = view.pose.orientation, &q = r.eyes[eye].pose.orientation;
       NEED(std::abs(p.x * q.x + p.y * q.y + p.z * q.z + p.w * q.w) > 1 - 1e-6f,
            "a view is turned otherwise than its eye", XR_SUCCESS);
-      NEED(!std::memcmp(&view.fov, &r.eyes[eye].fov, sizeof view.fov),
+      const XrFovf &seen = view.fov, &told = r.eyes[eye].fov;
+      NEED(seen.angleLeft == told.angleLeft && seen.angleRight == told.angleRight &&
+               seen.angleUp == told.angleUp && seen.angleDown == told.angleDown,
            "a view of other angles than its eye's", XR_SUCCESS);
       char name[64];
       std::snprintf(name, sizeof name, "frame-%04d-%s.ppm", r.frame, eye == 0 ? "left" : "right");
@@ -978,57 +980,56 @@ XrResult XRAPI_CALL EndFrame(XrSession, const XrFrameEndInfo* info) {
   return XR_SUCCESS;
 }
 
-XrResult XRAPI_CALL GetInstanceProcAddr(XrInstance instance, const char* name, PFN_xrVoidFunction* function) {
+XrResult XRAPI_CALL getInstanceProcAddr(XrInstance instance, const char* name, PFN_xrVoidFunction* function) {
 #define ENTRY(name, function) \
   { "xr" #name, reinterpret_cast<PFN_xrVoidFunction>(&function) }
-#define SAME(name) ENTRY(name, name)
   static const std::map<std::string, PFN_xrVoidFunction> kAll{
-      ENTRY(GetInstanceProcAddr, GetInstanceProcAddr),
-      SAME(EnumerateInstanceExtensionProperties),
-      SAME(CreateInstance),
-      SAME(DestroyInstance),
-      SAME(GetInstanceProperties),
-      SAME(PollEvent),
-      SAME(GetSystem),
-      SAME(GetSystemProperties),
-      SAME(EnumerateViewConfigurations),
-      SAME(EnumerateViewConfigurationViews),
-      SAME(EnumerateEnvironmentBlendModes),
-      ENTRY(GetVulkanGraphicsRequirements2KHR, GetVulkanGraphicsRequirements2),
-      ENTRY(CreateVulkanInstanceKHR, CreateVulkanInstance),
-      ENTRY(GetVulkanGraphicsDevice2KHR, GetVulkanGraphicsDevice2),
-      ENTRY(CreateVulkanDeviceKHR, CreateVulkanDevice),
-      SAME(CreateSession),
-      SAME(DestroySession),
-      SAME(BeginSession),
-      SAME(EndSession),
-      SAME(RequestExitSession),
-      SAME(EnumerateReferenceSpaces),
-      SAME(CreateReferenceSpace),
-      SAME(DestroySpace),
-      ENTRY(EnumerateDisplayRefreshRatesFB, EnumerateRates),
-      ENTRY(GetDisplayRefreshRateFB, GetRate),
-      ENTRY(RequestDisplayRefreshRateFB, RequestRate),
-      SAME(EnumerateSwapchainFormats),
-      SAME(CreateSwapchain),
-      SAME(DestroySwapchain),
-      SAME(EnumerateSwapchainImages),
-      SAME(AcquireSwapchainImage),
-      SAME(WaitSwapchainImage),
-      SAME(ReleaseSwapchainImage),
-      SAME(WaitFrame),
-      SAME(BeginFrame),
-      SAME(LocateViews),
-      SAME(EndFrame),
-      SAME(StringToPath),
-      SAME(CreateActionSet),
-      SAME(DestroyActionSet),
-      SAME(CreateAction),
-      ENTRY(SuggestInteractionProfileBindings, Suggest),
-      ENTRY(AttachSessionActionSets, Attach),
-      ENTRY(SyncActions, Sync),
-      ENTRY(GetActionStateBoolean, GetBoolean),
-      ENTRY(GetActionStateVector2f, GetVector2f),
+      ENTRY(GetInstanceProcAddr, getInstanceProcAddr),
+      ENTRY(EnumerateInstanceExtensionProperties, enumerateInstanceExtensionProperties),
+      ENTRY(CreateInstance, createInstance),
+      ENTRY(DestroyInstance, destroyInstance),
+      ENTRY(GetInstanceProperties, getInstanceProperties),
+      ENTRY(PollEvent, pollEvent),
+      ENTRY(GetSystem, getSystem),
+      ENTRY(GetSystemProperties, getSystemProperties),
+      ENTRY(EnumerateViewConfigurations, enumerateViewConfigurations),
+      ENTRY(EnumerateViewConfigurationViews, enumerateViewConfigurationViews),
+      ENTRY(EnumerateEnvironmentBlendModes, enumerateEnvironmentBlendModes),
+      ENTRY(GetVulkanGraphicsRequirements2KHR, getVulkanGraphicsRequirements2),
+      ENTRY(CreateVulkanInstanceKHR, createVulkanInstance),
+      ENTRY(GetVulkanGraphicsDevice2KHR, getVulkanGraphicsDevice2),
+      ENTRY(CreateVulkanDeviceKHR, createVulkanDevice),
+      ENTRY(CreateSession, createSession),
+      ENTRY(DestroySession, destroySession),
+      ENTRY(BeginSession, beginSession),
+      ENTRY(EndSession, endSession),
+      ENTRY(RequestExitSession, requestExitSession),
+      ENTRY(EnumerateReferenceSpaces, enumerateReferenceSpaces),
+      ENTRY(CreateReferenceSpace, createReferenceSpace),
+      ENTRY(DestroySpace, destroySpace),
+      ENTRY(EnumerateDisplayRefreshRatesFB, enumerateRates),
+      ENTRY(GetDisplayRefreshRateFB, getRate),
+      ENTRY(RequestDisplayRefreshRateFB, requestRate),
+      ENTRY(EnumerateSwapchainFormats, enumerateSwapchainFormats),
+      ENTRY(CreateSwapchain, createSwapchain),
+      ENTRY(DestroySwapchain, destroySwapchain),
+      ENTRY(EnumerateSwapchainImages, enumerateSwapchainImages),
+      ENTRY(AcquireSwapchainImage, acquireSwapchainImage),
+      ENTRY(WaitSwapchainImage, waitSwapchainImage),
+      ENTRY(ReleaseSwapchainImage, releaseSwapchainImage),
+      ENTRY(WaitFrame, waitFrame),
+      ENTRY(BeginFrame, beginFrame),
+      ENTRY(LocateViews, locateViews),
+      ENTRY(EndFrame, endFrame),
+      ENTRY(StringToPath, stringToPath),
+      ENTRY(CreateActionSet, createActionSet),
+      ENTRY(DestroyActionSet, destroyActionSet),
+      ENTRY(CreateAction, createAction),
+      ENTRY(SuggestInteractionProfileBindings, suggest),
+      ENTRY(AttachSessionActionSets, attach),
+      ENTRY(SyncActions, sync),
+      ENTRY(GetActionStateBoolean, getBoolean),
+      ENTRY(GetActionStateVector2f, getVector2f),
   };
   (void)instance;
   const auto found = kAll.find(name);
@@ -1044,6 +1045,6 @@ extern "C" __attribute__((visibility("default"))) XrResult xrNegotiateLoaderRunt
   if (info->minInterfaceVersion > 1 || info->maxInterfaceVersion < 1) return XR_ERROR_INITIALIZATION_FAILED;
   request->runtimeInterfaceVersion = 1;
   request->runtimeApiVersion = XR_MAKE_VERSION(1, 0, 20);
-  request->getInstanceProcAddr = &GetInstanceProcAddr;
+  request->getInstanceProcAddr = &getInstanceProcAddr;
   return XR_SUCCESS;
 }
