@@ -110,9 +110,10 @@ void Setup::setTargets(uint32_t slot, const std::vector<VkImage>& images) {
 
 void Setup::latch(uint32_t slot, std::vector<shared::ViewUniforms> views, bool keepsPrevious) {
   auto& uniforms = *reinterpret_cast<shared::FrameUniforms*>(frameSlice_.mapped);
-  if (keepsPrevious)
-    for (size_t v = 0; v < views.size(); ++v)
-      views[v].previousWorldToClip = uniforms.views[v].previousWorldToClip;
+  for (size_t v = 0; v < views.size(); ++v) {
+    views[v].aside = uniforms.views[v].aside;
+    if (keepsPrevious) views[v].previousWorldToClip = uniforms.views[v].previousWorldToClip;
+  }
   std::copy(views.begin(), views.end(), uniforms.views);
   uniforms_.amend(frameSlice_, slot);
 }

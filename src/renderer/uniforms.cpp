@@ -34,6 +34,16 @@ shared::ViewUniforms viewUniforms(const View& view, const View& previous) {
   return u;
 }
 
+namespace {
+
+// Where what lies straight ahead and endlessly far is, in normalised device coordinates.
+glm::vec2 axisOf(const View& view) {
+  const glm::mat4& p = view.eyeToClip;
+  return isParallel(view) ? glm::vec2(p[3][0], p[3][1]) : -glm::vec2(p[2][0], p[2][1]);
+}
+
+}  // namespace
+
 shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const KnobTable& knobs,
                                     const std::vector<View>& views, const std::vector<View>& previousViews,
                                     const std::vector<View>& rig, double time, glm::uvec2 size) {
@@ -49,6 +59,8 @@ shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const KnobTable& kn
   u.sceneRadius = std::max(scene.bounds().radius(), 1e-6f);
   const View middle = middleOf(rig);
   const shared::ViewUniforms cyclopean = viewUniforms(middle, middle);
+  for (size_t i = 0; i < views.size(); ++i)
+    u.views[i].aside = 0.5f * u.imageSize * (axisOf(views[i]) - axisOf(middle));
   u.worldToCyclopean = cyclopean.worldToClip;
   u.cyclopeanNdcToEyeRay = cyclopean.ndcToEyeRay;
 

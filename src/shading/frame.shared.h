@@ -17,6 +17,9 @@ struct ViewUniforms {
   vec3 upInEye;        // the world's up in eye space
   vec3 eye;            // world
   float orthographic;  // 1 for a parallel projection, else 0
+  // Pixels by which what is endlessly far lies aside from where the view between the eyes has it: what lies
+  // on the screen is looked up from there, so that eyes that look out of the middle see it in one direction.
+  vec2 aside;
 };
 
 struct FrameUniforms {

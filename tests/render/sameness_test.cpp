@@ -19,14 +19,14 @@ std::vector<std::string> perViewAovs() {
 }
 
 // What stillLife() lacks: textures, holes, panes.
-TestScene richScene() {
+TestScene richScene(float paneAlpha = 0.5f) {
   TestScene s = stillLife();
   Image leaf{4, 4, {"R", "G", "B", "A"}, {}};
   for (int i = 0; i < 16; ++i)
     leaf.pixels.insert(leaf.pixels.end(), {0.2f, 0.1f * float(i % 8), 0.3f, i % 3 ? 1.0f : 0.0f});
   const int texture = s.texture(leaf);
   Json masked = TestScene::colored("Leaf", {1, 1, 1, 1}),
-       pane = TestScene::colored("Pane", {0.2f, 0.6f, 0.8f, 0.5f});
+       pane = TestScene::colored("Pane", {0.2f, 0.6f, 0.8f, paneAlpha});
   masked["pbrMetallicRoughness"]["baseColorTexture"] = {{"index", texture}};
   masked["alphaMode"] = "MASK", masked["doubleSided"] = true, pane["alphaMode"] = "BLEND";
   s.add(gridMesh({-1, 0.2f, 1.5f}, {1, 0, 0}, {0, 1, 0}), s.material(masked));
@@ -152,6 +152,46 @@ TEST_F(Sameness, eyesThatAreExchangedAreLayersExchanged) {
         EXPECT_TRUE(sameBytes(aov(pair, name, v), aov(other, name, 1 - v)))
             << shipped.name << ", " << name << ", eye " << v << ", by up to "
             << largestDifference(aov(pair, name, v), aov(other, name, 1 - v));
+  }
+}
+
+// Eyes of headsets look out of the middle of their pictures, each to its side. What they see in one direction
+// is one thing: so two such eyes in one place see parts of one picture, in every pass. What lies on the
+// screen (paper, the edges of a wash) would otherwise lie elsewhere for each eye, and hurt.
+TEST_F(Sameness, eyesThatLookOutOfTheMiddleSeePartsOfOnePicture) {
+  NOT_WITH_SANITIZERS();
+  constexpr int kAcross = 256, kDown = 160, kAside = 64, kMargin = 24;  // pixels
+  const Scene scene = richScene(0.6f).load();
+  const View ahead = viewsFrom(scene, {{2, 2.5f, 6}, {0, 0.8f, 0}}, kAcross, kDown, Stereo::mono).front();
+  std::vector<View> eyes{ahead, ahead};
+  eyes[0].eyeToClip[2][0] = -float(kAside) / kAcross, eyes[1].eyeToClip[2][0] = float(kAside) / kAcross;
+  // Behind everything lies a picture, in every second one: stripes that both eyes see.
+  auto stripes = std::make_shared<Image>(Image{64, 40, {"R", "G", "B"}, {}});
+  for (int i = 0; i < 64 * 40; ++i) stripes->pixels.insert(stripes->pixels.end(), 3, i % 8 < 4 ? 0.1f : 0.8f);
+  bool hasPicture = false;
+  for (const ShippedLook& shipped : Look::shipped()) {
+    const Look look = *Look::load(shipped.name);
+    RenderOptions options = sized(kAcross, kDown, Renderer::aovNames(), 4);
+    if (hasPicture = !hasPicture; hasPicture) options.background = stripes;
+    const Frame frame = draw(scene, look, eyes, options);
+    std::vector<std::string> names = perViewAovs();
+    names.push_back("");
+    for (const std::string& name : names) {
+      const Image &left = aov(frame, name, 0), &right = aov(frame, name, 1);
+      if (left.width != uint32_t(kAcross) || left.channels.size() > 4) continue;
+      size_t other = 0, all = 0;
+      for (int y = kMargin; y < kDown - kMargin; ++y)
+        for (int x = kMargin; x + kAside < kAcross - kMargin; ++x) {
+          const auto a = texel(left, x + kAside, y), b = texel(right, x, y);
+          float apart = 0;
+          for (int c = 0; c < int(left.channels.size()) && c < 4; ++c)
+            apart = std::max(apart, std::abs(float(a[c]) - float(b[c])));
+          other += apart > 0.02f;
+          ++all;
+        }
+      const double part = double(other) / double(all);
+      EXPECT_LT(part, 0.005) << shipped.name << ", " << name;
+    }
   }
 }
 

@@ -38,7 +38,7 @@ vec3 pictureSimplified(vec2 uv) {
 vec2 backdropPlace(ivec2 pixel, vec2 torn, int layer) {
   vec2 own = vec2(pixel) + 0.5;
   if ((kBackdrop & kBackdropTorn) != 0) {
-    vec2 field = texture(tear, own / u.backdrop.tearSize + u.backdrop.tearShift).xy - u.tearMean;
+    vec2 field = texture(tear, (own - VIEW_FIELD(aside, layer)) / u.backdrop.tearSize + u.backdrop.tearShift).xy - u.tearMean;
     return own + 2.0 * u.backdrop.tear * field;
   }
   if ((kBackdrop & kBackdropTornNear) == 0) return own;
@@ -71,9 +71,9 @@ float matteShadowBehind(ivec2 pixel, int layer) {
   return max(shadow.a - texelFetch(behindLit, ivec3(pixel, layer), 0).a, 0.0) * (1.0 - shadow.r);
 }
 
-// Lays a premultiplied colour over the picture, `matte` of which is in shadow.
-vec4 overBackdrop(vec4 color, float matte, float distance, vec2 at) {
-  vec2 uv = (at / frame.imageSize - 0.5) * u.backdrop.scale + 0.5;
+// Lays a premultiplied colour over the picture, `matte` of which is in shadow. It is endlessly far away.
+vec4 overBackdrop(vec4 color, float matte, float distance, vec2 at, int layer) {
+  vec2 uv = ((at - VIEW_FIELD(aside, layer)) / frame.imageSize - 0.5) * u.backdrop.scale + 0.5;
   vec3 own;
   if ((kBackdrop & kBackdropSimplified) != 0)
     own = pictureSimplified(uv);

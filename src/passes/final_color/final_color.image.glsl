@@ -34,7 +34,7 @@ vec4 withBackdrop(vec4 result, bool isBehind, ivec2 pixel, vec2 place, int layer
   float nearest = texelFetch(depth, ivec3(ivec2(place), layer), 0).r;
   if (isBehind) nearest = texelFetch(behindDepth, ivec3(pixel, layer), 0).r;
   vec2 at = backdropPlace(pixel, isBehind ? vec2(pixel) + 0.5 : place, layer);
-  return overBackdrop(result, matte, eyeDepth(nearest, layer), at);
+  return overBackdrop(result, matte, eyeDepth(nearest, layer), at, layer);
 }
 
 vec4 shade(ivec2 pixel, int layer) {

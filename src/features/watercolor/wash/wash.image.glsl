@@ -18,7 +18,8 @@ vec4 shade(ivec2 pixel, int layer) {
   vec2 own = vec2(pixel) + 0.5;
   int view = min(layer, 1);
   // The paper's height here and beside it.
-  vec2 on = (own - u.paperAt[view]) / u.paperSize;
+  vec2 onScreen = own - VIEW_FIELD(aside, layer);
+  vec2 on = (onScreen - u.paperAt[view]) / u.paperSize;
   float texel = 1.25 / u.paperSize;
   float height = texture(paper, on).r - 0.5;
   vec2 slope = vec2(texture(paper, on + vec2(texel, 0.0)).r, texture(paper, on + vec2(0.0, texel)).r) - 0.5 - height;
@@ -52,7 +53,7 @@ vec4 shade(ivec2 pixel, int layer) {
   wash *= max(1.0 - 2.2 * u.granulation * height * (0.4 + 0.6 * (1.0 - thin)), 0.0);
   wash *= 1.0 - u.dryBrush * thin * smoothstep(0.02, 0.2, height + 0.25 * brush.x - 0.1 * wet);
   // The painting runs out before the frame ends, in an edge of its own.
-  vec2 side = min(own, frame.imageSize - own) / frame.imageSize.y;
+  vec2 side = min(onScreen, frame.imageSize - onScreen) / frame.imageSize.y;
   float margin = max(u.margin, 1e-6);
   vec2 inner = max(vec2(3.2 * margin) - side, 0.0);
   float beyond = 2.2 * margin - length(inner) + 0.9 * margin * (2.2 * broad.x + 0.8 * broad.y + 0.6 * height);
@@ -60,7 +61,7 @@ vec4 shade(ivec2 pixel, int layer) {
   wash *= ends * (1.0 + 0.8 * u.edges * ends * (1.0 - smoothstep(0.0, 0.5 * margin, beyond)));
   vec3 result = u.white * exp(-u.strength * wash);
   // Light on the paper (section 4.2): as bright on the whole as without relief.
-  vec3 towards = u.paperLight[view] - vec3(own / frame.imageSize * 2.0 - 1.0, 0.0);
+  vec3 towards = u.paperLight[view] - vec3(onScreen / frame.imageSize * 2.0 - 1.0, 0.0);
   vec3 normal = normalize(vec3(-u.relief * 6.0 * slope, 1.0));
   result *= clamp(dot(normal, normalize(towards)) / max(normalize(towards).z, 0.2), 0.0, 1.35);
   return vec4(result, 1.0);
