@@ -165,14 +165,14 @@ TEST_F(Sameness, eyesThatLookOutOfTheMiddleSeePartsOfOnePicture) {
   const View ahead = viewsFrom(scene, {{2, 2.5f, 6}, {0, 0.8f, 0}}, kAcross, kDown, Stereo::mono).front();
   std::vector<View> eyes{ahead, ahead};
   eyes[0].eyeToClip[2][0] = -float(kAside) / kAcross, eyes[1].eyeToClip[2][0] = float(kAside) / kAcross;
-  // Behind everything lies a picture, in every second one: stripes that both eyes see.
-  auto stripes = std::make_shared<Image>(Image{64, 40, {"R", "G", "B"}, {}});
-  for (int i = 0; i < 64 * 40; ++i) stripes->pixels.insert(stripes->pixels.end(), 3, i % 8 < 4 ? 0.1f : 0.8f);
+  // Behind everything lies a picture, in every second one: a ramp that both eyes see.
+  auto ramp = std::make_shared<Image>(Image{64, 40, {"R", "G", "B"}, {}});
+  for (int i = 0; i < 64 * 40; ++i) ramp->pixels.insert(ramp->pixels.end(), 3, float(i % 64) / 64);
   bool hasPicture = false;
   for (const ShippedLook& shipped : Look::shipped()) {
     const Look look = *Look::load(shipped.name);
     RenderOptions options = sized(kAcross, kDown, Renderer::aovNames(), 4);
-    if (hasPicture = !hasPicture; hasPicture) options.background = stripes;
+    if (hasPicture = !hasPicture; hasPicture) options.background = ramp;
     const Frame frame = draw(scene, look, eyes, options);
     std::vector<std::string> names = perViewAovs();
     names.push_back("");
