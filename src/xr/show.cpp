@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <thread>
 
 #include "xr/clock.h"
@@ -189,8 +190,14 @@ class Show {
     RenderOptions options;
     options.width = session.size().x, options.height = session.size().y;
     options.samples = options_.samples, options.seed = options_.seed;
+    // Nothing is thrown through the renderer.
+    std::exception_ptr failure;
     options.latch = [&](std::vector<View>& views) {
-      if (locate && locate(moment)) views = viewsOf(moment);
+      try {
+        if (locate && locate(moment)) views = viewsOf(moment);
+      } catch (const XrFailure&) {
+        failure = std::current_exception();
+      }
     };
     if (Status status = finish(kUnderWay - 1); !status) return status;
     VulkanTargets targets;
@@ -198,6 +205,7 @@ class Show {
     Status status =
         scumble::begin(*renderer_, options_.scene, look(), clock_.time(), viewsOf(moment), options, targets);
     if (status) ++begun_;
+    if (failure) std::rethrow_exception(failure);
     return status;
   }
 
