@@ -15,6 +15,18 @@
 
 namespace scumble::renderer {
 
+namespace {
+
+// Of an off-centre projection, in normalised device coordinates: what is straight ahead lies at minus it.
+// Clip x is P00 x + P02 z with z = -w: ndc = P00 (x / -z) - P02, so x / -z = (ndc + P02) / P00; parallel
+// projections have their shift in the last column instead.
+glm::vec2 shiftOf(const View& view) {
+  const glm::mat4& p = view.eyeToClip;
+  return isParallel(view) ? glm::vec2(-p[3][0], -p[3][1]) : glm::vec2(p[2][0], p[2][1]);
+}
+
+}  // namespace
+
 shared::ViewUniforms viewUniforms(const View& view, const View& previous) {
   const glm::mat4& p = view.eyeToClip;
   shared::ViewUniforms u{};
@@ -24,25 +36,13 @@ shared::ViewUniforms viewUniforms(const View& view, const View& previous) {
   u.upInEye = glm::vec3(view.worldToEye[1]);
   u.eye = glm::vec3(glm::inverse(view.worldToEye)[3]);
   u.orthographic = isParallel(view) ? 1.0f : 0.0f;
-  // Clip x is P00 x + P02 z with z = -w: ndc = P00 (x / -z) - P02, so x / -z = (ndc + P02) / P00; parallel
-  // projections have their shift in the last column instead.
-  const glm::vec2 shift = u.orthographic != 0 ? glm::vec2(-p[3][0], -p[3][1]) : glm::vec2(p[2][0], p[2][1]);
+  const glm::vec2 shift = shiftOf(view);
   u.ndcToEyeRay = {1 / p[0][0], 1 / p[1][1], shift.x / p[0][0], shift.y / p[1][1]};
   // Depth value d = (A z + B) / w with z = -distance; w = distance, or 1.
   const float a = p[2][2], b = p[3][2];
   u.depthToEye = u.orthographic != 0 ? glm::vec4(b / a, -1 / a, 1, 0) : glm::vec4(b, 0, a, 1);
   return u;
 }
-
-namespace {
-
-// Where what lies straight ahead and endlessly far is, in normalised device coordinates.
-glm::vec2 axisOf(const View& view) {
-  const glm::mat4& p = view.eyeToClip;
-  return isParallel(view) ? glm::vec2(p[3][0], p[3][1]) : -glm::vec2(p[2][0], p[2][1]);
-}
-
-}  // namespace
 
 shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const KnobTable& knobs,
                                     const std::vector<View>& views, const std::vector<View>& previousViews,
@@ -60,7 +60,7 @@ shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const KnobTable& kn
   const View middle = middleOf(rig);
   const shared::ViewUniforms cyclopean = viewUniforms(middle, middle);
   for (size_t i = 0; i < views.size(); ++i)
-    u.views[i].aside = 0.5f * u.imageSize * (axisOf(views[i]) - axisOf(middle));
+    u.views[i].aside = 0.5f * u.imageSize * (shiftOf(middle) - shiftOf(views[i]));
   u.worldToCyclopean = cyclopean.worldToClip;
   u.cyclopeanNdcToEyeRay = cyclopean.ndcToEyeRay;
 

@@ -14,6 +14,8 @@ class XrFailure : public std::runtime_error {
  public:
   XrFailure(const char* call, XrResult result);
   XrResult result() const { return result_; }
+  // The session, or the runtime, is gone: nothing else can be tried.
+  bool isLoss() const { return result_ == XR_ERROR_INSTANCE_LOST || result_ == XR_ERROR_SESSION_LOST; }
 
  private:
   XrResult result_;

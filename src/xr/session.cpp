@@ -120,7 +120,7 @@ void Session::createSwapchains() {
   try {
     swapchains_.push_back(createSwapchain(size_, kEyes));
   } catch (const XrFailure& failure) {
-    if (failure.result() == XR_ERROR_INSTANCE_LOST || failure.result() == XR_ERROR_SESSION_LOST) throw;
+    if (failure.isLoss()) throw;
     for (size_t eye = 0; eye < kEyes; ++eye) swapchains_.push_back(createSwapchain(size_, 1));
   }
 }
@@ -162,7 +162,7 @@ void Session::chooseRefreshRate(float wished) {
     refreshRate_ = nearest;
   } catch (const XrFailure& failure) {
     // Runtimes may refuse it, and show frames all the same.
-    if (failure.result() == XR_ERROR_INSTANCE_LOST || failure.result() == XR_ERROR_SESSION_LOST) throw;
+    if (failure.isLoss()) throw;
   }
 }
 
@@ -249,13 +249,12 @@ std::vector<VulkanTarget> Session::acquire() {
   }
   std::vector<VulkanTarget> targets(kEyes);
   for (size_t eye = 0; eye < kEyes; ++eye) {
-    const bool isLayer = swapchains_.size() == 1;
-    const Swapchain& swapchain = swapchains_[isLayer ? 0 : eye];
+    const Swapchain& swapchain = swapchainOf(eye);
     VulkanTarget& target = targets[eye];
     target.image = swapchain.images.at(*swapchain.acquired);
     target.format = format_;
     target.extent = {size_.x, size_.y};
-    target.layer = isLayer ? uint32_t(eye) : 0;
+    target.layer = layerOf(eye);
     // As runtimes want them back (XR_KHR_vulkan_enable2).
     target.after = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
     target.view = eye;
@@ -276,13 +275,12 @@ void Session::end(const Moment& moment, bool isDrawn, float darkness) {
   release();
   std::array<XrCompositionLayerProjectionView, kEyes> views;
   for (size_t eye = 0; eye < kEyes; ++eye) {
-    const bool isLayer = swapchains_.size() == 1;
     views[eye] = {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW};
     views[eye].pose = xrOf(moment.eyes[eye].pose);
     views[eye].fov = moment.eyes[eye].angles;
-    views[eye].subImage.swapchain = swapchains_[isLayer ? 0 : eye].handle;
+    views[eye].subImage.swapchain = swapchainOf(eye).handle;
     views[eye].subImage.imageRect = {{0, 0}, {int32_t(size_.x), int32_t(size_.y)}};
-    views[eye].subImage.imageArrayIndex = isLayer ? uint32_t(eye) : 0;
+    views[eye].subImage.imageArrayIndex = layerOf(eye);
   }
   XrCompositionLayerProjection projection{XR_TYPE_COMPOSITION_LAYER_PROJECTION};
   projection.space = space_;

@@ -83,6 +83,9 @@ class Session {
     std::vector<VkImage> images;
     std::optional<uint32_t> acquired;  // and not released
   };
+  // Where an eye is drawn.
+  const Swapchain& swapchainOf(size_t eye) const { return swapchains_[swapchains_.size() == 1 ? 0 : eye]; }
+  uint32_t layerOf(size_t eye) const { return swapchains_.size() == 1 ? uint32_t(eye) : 0; }
   void createSpace(bool isStanding);
   void createSwapchains();
   Swapchain createSwapchain(const glm::uvec2& size, uint32_t layers) const;
