@@ -42,6 +42,7 @@ TABLE = {
     "src/film": [PUBLIC, "src/base"],
     "src/c": [PUBLIC],
     "src/measure": [PUBLIC, "src/base"],
+    "src/panorama": [PUBLIC, "src/base", "src/scene"],
     "src/xr": [PUBLIC],
     "apps/viewer": [PUBLIC],
     "apps/scumble": [PUBLIC, "apps/viewer", "src/xr"],

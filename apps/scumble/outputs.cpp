@@ -191,6 +191,7 @@ Result<FilmOutput> FilmOutput::create(const OutputPlan& plan) {
   options.fps = plan.fps;
   options.quality = plan.quality;
   options.format = plan.format->film;
+  options.projection = plan.projection;
   FilmOutput output;
   output.plan_ = plan;
   if (plan.layout) {

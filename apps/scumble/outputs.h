@@ -23,7 +23,8 @@ struct OutputPlan {
   std::optional<int> quality;            // default: the format's
   const StereoLayout* layout = nullptr;  // null: one view
   double fps = 24;                       // of films and sequences
-  uint32_t width = 0, height = 0;        // of one view
+  FilmProjection projection = FilmProjection::flat;
+  uint32_t width = 0, height = 0;  // of one view
   std::vector<std::string> aovs;
   bool half = false;  // EXR: layers that 16 bits are enough for
   ExrOptions exr;

@@ -11,27 +11,41 @@ constexpr int kBarWidth = 30;
 constexpr double kSecondsBetweenLines = 5;
 }  // namespace
 
-Progress::Progress(int steps, bool quiet)
-    : steps_(steps), shown_(!quiet && steps > 1), terminal_(isatty(STDERR_FILENO)) {}
+Progress::Progress(int steps, bool quiet) : steps_(steps), quiet_(quiet), terminal_(isatty(STDERR_FILENO)) {}
 
 Progress::~Progress() {
-  if (shown_ && terminal_ && done_ > 0) std::fputc('\n', stderr);
+  if (isOpen_) std::fputc('\n', stderr);
+}
+
+void Progress::part(double of) {
+  const std::lock_guard lock(mutex_);
+  if (of > 0) show(done_ + of, "frame");
 }
 
 void Progress::done(const std::string& what) {
+  const std::lock_guard lock(mutex_);
   ++done_;
-  if (!shown_) return;
+  if (steps_ > 1) show(done_, what);
+}
+
+void Progress::show(double done, const std::string& what) {
+  if (quiet_) return;
   const Clock::time_point now = Clock::now();
   const double elapsed = std::chrono::duration<double>(now - start_).count();
-  const double left = elapsed / done_ * (steps_ - done_);
+  const double left = elapsed / done * (steps_ - done);
+  // Of a single step its parts count.
+  const std::string count =
+      steps_ > 1 ? std::to_string(int(done)) + (terminal_ ? "/" : " of ") + std::to_string(steps_)
+                 : std::to_string(int(100 * done)) + " %";
   if (terminal_) {
-    const std::string full(size_t(kBarWidth * done_ / steps_), '#');
-    std::fprintf(stderr, "\rscumble: [%-*s] %d/%d, %.0f s left \033[K", kBarWidth, full.c_str(), done_,
-                 steps_, left);
+    const std::string full(size_t(kBarWidth * done / steps_), '#');
+    std::fprintf(stderr, "\rscumble: [%-*s] %s, %.0f s left \033[K", kBarWidth, full.c_str(), count.c_str(),
+                 left);
     std::fflush(stderr);
-  } else if (done_ == steps_ ||
+    isOpen_ = true;
+  } else if ((done == steps_ && steps_ > 1) ||
              std::chrono::duration<double>(now - lastLine_).count() >= kSecondsBetweenLines) {
-    std::fprintf(stderr, "scumble: %s, %d of %d, %.0f s left\n", what.c_str(), done_, steps_, left);
+    std::fprintf(stderr, "scumble: %s, %s, %.0f s left\n", what.c_str(), count.c_str(), left);
     lastLine_ = now;
   }
 }

@@ -17,6 +17,7 @@
 #include "options.h"
 #include "output_files.h"
 #include "outputs.h"
+#include "panorama_kind.h"
 #include "progress.h"
 #include "report.h"
 
@@ -33,7 +34,7 @@ struct RenderArguments {
   SceneArguments scene;
   LookArguments look;
   PictureArguments picture;
-  std::string output, frames, background, stats, graph, exr = "float,zip", svg = "outlines";
+  std::string output, frames, background, panorama, stats, graph, exr = "float,zip", svg = "outlines";
   std::vector<std::string> aovs;
   std::optional<double> time;  // seconds
   double fps = 24;
@@ -42,7 +43,34 @@ struct RenderArguments {
   const CLI::App* command = nullptr;
 
   bool isGiven(const char* option) const { return command->count(option) > 0; }
+
+  // What is said of a panorama, as options that every picture has.
+  Status choosePanorama();
+  const PanoramaKindRow* kind = nullptr;  // null: no panorama
+  // Of a panorama, that and where it is seen from.
+  Panorama wanted() const { return {kind->kind, picture.ipd, picture.fov.value_or(Panorama().knobHeight)}; }
+  PictureArguments camera() const;
 };
+
+Status RenderArguments::choosePanorama() {
+  const Result<const PanoramaKindRow*> row = panoramaKindOf(panorama);
+  if (!row) return row.error();
+  kind = *row;
+  if (!kind) return Done{};
+  if (!isGiven("--size")) picture.size = kind->size;
+  if (eyesOf(kind->kind) == 1 && picture.isStereo())
+    return usage("--panorama " + panorama + " has one eye, and --stereo asks for two", "use --panorama ods");
+  if (!picture.isStereo()) picture.stereo = kind->stereo;
+  if (picture.fov && !(*picture.fov >= 1 && *picture.fov <= 180))
+    return usage("--fov is out of range", "of a panorama it takes 1 to 180 degrees");
+  return Done{};
+}
+
+PictureArguments RenderArguments::camera() const {
+  PictureArguments camera = picture;
+  if (kind) camera.stereo.clear(), camera.fov.reset();
+  return camera;
+}
 
 constexpr int kMostFrame = 10'000'000;
 constexpr double kMostTurn = 86400;   // seconds
@@ -179,26 +207,29 @@ class FrameLoop {
  public:
   // `still`: the views of all frames, unless they move.
   FrameLoop(const RenderArguments& args, const Scene& scene, const Look& look, const RenderOptions& options,
-            const Background& background, const Result<std::vector<View>>& still, Renderer& renderer)
+            const Background& background, const Result<std::vector<View>>& still, Renderer& renderer,
+            Progress& progress)
       : args_(args),
         scene_(scene),
         look_(look),
         options_(options),
         background_(background),
         still_(still),
-        renderer_(renderer) {}
+        renderer_(renderer),
+        progress_(progress) {}
 
   // One frame for each time; `take` gets them in this order.
   Status draw(const std::vector<double>& times, const std::function<Status(size_t, Frame)>& take) {
     const bool moves = viewsMove(scene_, args_.picture.viewpoint().value(), look_);
-    const auto viewsAt = [&](double time) {
-      return moves ? args_.picture.views(scene_, look_, time) : still_;
-    };
+    const PictureArguments camera = args_.camera();
+    const auto viewsAt = [&](double time) { return moves ? camera.views(scene_, look_, time) : still_; };
     // With two frames under way the device always has work.
     constexpr size_t kUnderWay = 2;
     static_assert(kUnderWay <= size_t(Renderer::kMaxBegun));
+    const size_t underWay = args_.kind ? 1 : kUnderWay;
+    std::optional<Result<Frame>> panorama;
     for (size_t next = 0, done = 0; done < times.size();) {
-      if (next < times.size() && next - done < kUnderWay) {
+      if (next < times.size() && next - done < underWay) {
         const Result<std::vector<View>> views = viewsAt(times[next]);
         if (!views) return views.error();
         RenderOptions options = options_;
@@ -209,12 +240,23 @@ class FrameLoop {
         Result<std::shared_ptr<const Image>> behind = background_.at(times[next]);
         if (!behind) return behind.error();
         options.background = std::move(behind).value();
-        if (const Status status = renderer_.begin(scene_, look_, times[next], *views, options); !status)
+        if (args_.kind) {
+          // Many frames in itself: it keeps the device at work alone.
+          options.progress = [&](double part) {
+            progress_.part(part);
+            return true;
+          };
+          panorama =
+              renderPanorama(renderer_, scene_, look_, times[next], views->front(), args_.wanted(), options);
+          if (!*panorama) return panorama->error();
+        } else if (const Status status = renderer_.begin(scene_, look_, times[next], *views, options);
+                   !status) {
           return status.error();
+        }
         ++next;
         continue;
       }
-      Result<Frame> frame = renderer_.finish();
+      Result<Frame> frame = panorama ? std::move(*panorama) : renderer_.finish();
       if (!frame) return frame.error();
       if (args_.picture.validate && renderer_.validationMessages() > 0)
         return Error{ErrorKind::internal, "", 0, "", "the validation layers found mistakes",
@@ -232,6 +274,7 @@ class FrameLoop {
   const Background& background_;
   const Result<std::vector<View>>& still_;
   Renderer& renderer_;
+  Progress& progress_;
 };
 
 // Of options that count for nothing beside others or for this output.
@@ -239,6 +282,9 @@ void warnOfIdle(const RenderArguments& args, const OutputPlan& output) {
   const bool isFilm = output.kind() == OutputKind::film;
   if (args.time && !args.frames.empty()) warn({"--time does nothing beside --frames: frame n is at n / fps"});
   if (args.time && args.frames.empty() && isFilm) warn({"--time does nothing for a film"});
+  if (args.kind && args.picture.roll) warn({"--roll does nothing in a panorama, which is level"});
+  if (args.kind && isFilm && output.format->film != FilmFormat::mp4)
+    warn({"players learn from an MP4 alone that a film is a panorama"});
   if (args.isGiven("--svg") && output.kind() != OutputKind::drawing)
     warn({"--svg does nothing where no SVG is written"});
   if (args.isGiven("--exr") && (isFilm || (output.kind() != OutputKind::exr && output.aovs.empty())))
@@ -260,12 +306,19 @@ int run(RenderArguments args) {
   if (!background) return fail(background.error());
   Result<RenderOptions> options = renderOptions(args, *background);
   if (!options) return fail(options.error());
+  if (const Status status = args.choosePanorama(); !status) return fail(status.error());
   const Result<const StereoLayout*> layout = stereoLayoutOf(args.picture.stereo);
   if (!layout) return fail(layout.error());
   Result<OutputPlan> output = OutputPlan::make(args.output, args.scene.files[0], *layout,
                                                !args.frames.empty() || args.picture.turntable, *options);
   if (!output) return fail(output.error());
   output->fps = args.fps;
+  if (args.kind) {
+    output->projection = args.kind->projection;
+    if (output->kind() == OutputKind::drawing)
+      return failUsage("a panorama is no drawing", "write a picture");
+    if (const auto plan = planPanorama(args.wanted(), *options); !plan) return fail(plan.error());
+  }
   output->quality = args.quality;
   if (const Status status = output->format->checkQuality(args.quality); !status) return fail(status.error());
   if (const Status status = readExrOptions(args.exr, *output); !status) return fail(status.error());
@@ -319,7 +372,7 @@ int run(RenderArguments args) {
   look = args.look.withClip(*look, *scene);
   if (!look) return fail(look.error());
   // A camera that does not exist is found before there is a device.
-  const Result<std::vector<View>> views = args.picture.views(*scene, *look);
+  const Result<std::vector<View>> views = args.camera().views(*scene, *look);
   if (!views) return fail(views.error());
   const Result<std::vector<int>> numbers = frameNumbers(args, *output, *scene, *look);
   if (!numbers) return fail(numbers.error());
@@ -366,7 +419,7 @@ int run(RenderArguments args) {
       },
       [&](int number) { progress.done("frame " + std::to_string(number)); });
   nlohmann::json frameStats = nlohmann::json::array();
-  FrameLoop loop(args, *scene, *look, *options, *background, views, **renderer);
+  FrameLoop loop(args, *scene, *look, *options, *background, views, **renderer, progress);
   Status status = loop.draw(times, [&](size_t i, Frame frame) {
     for (const Drawing& drawing : frame.drawings)
       if (drawing.leftOut > 0)
@@ -424,6 +477,14 @@ void addRender(CLI::App& program, int& exitCode) {
   args->picture.addTo(*command);
   args->picture.addStereoTo(*command);
   args->picture.addTurntableTo(*command);
+  command
+      ->add_option(
+          "--panorama", args->panorama,
+          "Something to stand inside of, level, from where the camera is: vr180 (both eyes, the half "
+          "that lies ahead), ods (both, all around) or mono360. --size is that of one eye's "
+          "picture (2048x2048, or 4096x2048), --stereo how eyes lie in it (side-by-side, or over-under), "
+          "and --fov how many degrees the 1080 lines are that looks count by (90)")
+      ->type_name("KIND");
   command->add_option("--time", args->time, "Seconds (default: 0)");
   command
       ->add_option(

@@ -22,6 +22,7 @@ struct XrArguments {
   double time = 0;  // seconds
   bool standing = false, vignette = true, quiet = false;
   float scale = 1, rate = 90;
+  std::string resolution = "auto";
   std::optional<uint64_t> frames;
 };
 
@@ -35,6 +36,14 @@ int run(const XrArguments& args) {
     return failUsage("--scale is out of range", "use 0.001 to 1000 metres of the scene for one of the room");
   if (!(args.rate >= 0 && args.rate <= 1000))
     return failUsage("--rate is out of range", "use 0 (as the headset has it) to 1000 frames a second");
+  std::optional<float> resolution;
+  if (args.resolution != "auto") {
+    const auto numbers = parseNumbers(args.resolution);
+    if (!numbers || numbers->size() != 1 || !(numbers->front() >= 0.1f && numbers->front() <= 1))
+      return failUsage("--resolution " + args.resolution + " makes no sense",
+                       "use auto, or 0.1 to 1 of the headset's pixels each way");
+    resolution = numbers->front();
+  }
   const Result<RenderOptions> quality = args.picture.renderOptions();
   if (!quality) return fail(quality.error());
   const Result<Viewpoint> viewpoint = args.picture.viewpoint();
@@ -72,6 +81,7 @@ int run(const XrArguments& args) {
   show.time = args.time;
   show.isStanding = args.standing, show.hasVignette = args.vignette;
   show.scale = args.scale, show.refreshRate = args.rate;
+  show.resolution = resolution;
   show.samples = quality->samples, show.seed = quality->seed;
   show.renderer = args.picture.rendererOptions();
   show.frames = args.frames;
@@ -110,6 +120,11 @@ void addXr(CLI::App& program, int& exitCode) {
   command->add_flag("--vignette,!--no-vignette", args->vignette,
                     "Whether it is dark around what you look at while a stick moves you (default: it is)");
   command->add_option("--rate", args->rate, "Frames a second, as near as the headset has it; 0: as it is")
+      ->capture_default_str();
+  command
+      ->add_option("--resolution", args->resolution,
+                   "Of the headset's pixels, each way: 0.1 to 1, or auto: as many as there is time for, from "
+                   "half of them on")
       ->capture_default_str();
   command->add_option("--frames", args->frames, "End when so many were drawn");
   command->add_flag("--quiet", args->quiet, "No warnings, and nothing about the headset");

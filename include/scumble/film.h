@@ -20,6 +20,14 @@ enum class FilmLayout {
   overUnder    // the left eye's picture on top
 };
 
+// What part of what is around each eye's picture shows. Players learn it from an MP4; the others cannot say
+// it.
+enum class FilmProjection {
+  flat,       // what a window shows
+  sphere,     // all around: columns are longitudes, rows latitudes (scumble/panorama.h)
+  halfSphere  // likewise, the half that lies ahead
+};
+
 enum class FilmFormat {
   mp4,   // H.264
   webm,  // VP9
@@ -45,6 +53,7 @@ struct FilmOptions {
   std::optional<int> quality;
 
   FilmLayout layout = FilmLayout::mono;  // a GIF cannot say it
+  FilmProjection projection = FilmProjection::flat;
 };
 
 // Writes one film. The file appears whole when finish() succeeds, and not at all otherwise.

@@ -68,6 +68,15 @@ struct RendererOptions {
   std::function<void(renderer::PassList&)> arrangePasses;
 };
 
+// Views as a part of one picture all around: renderPanorama() (scumble/panorama.h) draws all of them, and
+// puts them together.
+struct SpherePart {
+  // Turns directions of all the views' eye space into the sphere's: x right, y up, -z ahead.
+  glm::mat3 eyeToSphere{1.0f};
+  // Radians that stand for the picture's height where knobs count by that ("px at 1080 lines"); 0.001 to 100.
+  float knobHeight = 1.5707964f;
+};
+
 struct RenderOptions {
   uint32_t width = 1280, height = 720;  // pixels, 1 to 16384
   uint32_t samples = 4;                 // 1 or 4
@@ -95,6 +104,11 @@ struct RenderOptions {
   // While the scene goes to the device and pipelines are compiled, which is most of a first frame, and until
   // the frame is sent; prepare() tells of all its frames. Cancelled, the frame is not drawn.
   Progress progress;
+  // Each view is a part of a sphere: sizes are angles, of straight ahead; patterns on surfaces are as large
+  // by their angle as elsewhere; and what lies on the screen (paper, what tears a background) lies on the
+  // sphere instead. A background goes all around: left to right once around, with its middle ahead, top to
+  // bottom from straight up to straight down. What a look does at the edges of its picture is left out.
+  std::optional<SpherePart> sphere;
   // Late latch: called when the frame is recorded, just before it is sent, with its views, whose poses and
   // projections may be changed there. What decides where marks lie, which transparent surfaces are left out
   // because no view sees them, and their order stay as the first ones have it, so that it is for the last

@@ -39,6 +39,10 @@ SCUMBLE_API glm::mat4 perspectiveProjection(float verticalFov, float aspect,
                                             float near);  // infinite far plane
 SCUMBLE_API glm::mat4 orthographicProjection(float halfHeight, float aspect, float near, float far);
 
+// Which way a view looks along the ground: radians about the vertical, 0 along -z, growing to the left. Of
+// one that looks straight up or down, what is up in its picture lies that way.
+SCUMBLE_API float headingOf(const View& view);
+
 // Where the camera stands, as the caller says it. The first that is given counts: eye and target, turntable,
 // orbit, camera; then the look's camera (its knobs `camera`, of which any may have a track); then the scene's
 // first camera, and else a framing of everything: two thirds of the frame's height or width.

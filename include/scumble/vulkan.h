@@ -74,13 +74,15 @@ SCUMBLE_API Result<std::unique_ptr<Renderer>> createRenderer(const VulkanDevice&
 SCUMBLE_API VulkanDevice vulkanDeviceOf(const Renderer& renderer);
 
 // Where one view's picture, or AOV, goes in an image of the program's. The image has the usage
-// VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT and one sample.
+// VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, or for depth formats VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, and
+// one sample.
 struct VulkanTarget {
   VkImage image = VK_NULL_HANDLE;
   // 8 bit RGBA or BGRA (UNORM is written in sRGB's curve, SRGB by the device's), R16G16B16A16_SFLOAT,
   // R32G32B32A32_SFLOAT; colours of the latter two are linear, and all are premultiplied by their coverage.
   // An AOV needs one of the latter two, and holds what it holds in a Frame, but premultiplied where that is
-  // not.
+  // not. D32_SFLOAT: of the AOV `depth` alone, which is then a depth buffer by the view's own projection (1
+  // at the near plane, 0 where nothing is), and costs next to nothing.
   VkFormat format = VK_FORMAT_UNDEFINED;
   VkExtent2D extent{0, 0};  // of the whole image
   uint32_t layer = 0;

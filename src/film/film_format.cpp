@@ -129,7 +129,7 @@ std::vector<uint8_t> rawPicture(const Image& picture, FilmFormat format) {
 }
 
 std::string completeFilm(int descriptor, const FilmOptions& options, uint64_t frames, WholeFile& out) {
-  if (options.format == FilmFormat::mp4) return rearrangeMp4(descriptor, options.layout, frames, out);
+  if (options.format == FilmFormat::mp4) return rearrangeMp4(descriptor, options, frames, out);
   return copyFilm(descriptor, options.format == FilmFormat::gif ? "GIF89a" : "\x1a\x45\xdf\xa3", out);
 }
 

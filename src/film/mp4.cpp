@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace scumble::film {
@@ -62,7 +63,7 @@ BoxHeader readHeader(Bytes bytes, uint64_t left) {
 // -- The index, made anew
 
 struct Changes {
-  FilmLayout layout = FilmLayout::mono;
+  const FilmOptions& film;
   int64_t shift = 0;            // added to each place in the file
   bool wide = false;            // places take 64 bits
   uint64_t begin = 0, end = 0;  // where they may point to, before
@@ -104,15 +105,83 @@ void putChunks(Bytes content, size_t width, Changes& changes, Buffer& out) {
   });
 }
 
-void putStereo(FilmLayout layout, Buffer& out) {
-  putBox(out, code("st3d"), [&] {
-    put(out, 0, 4);  // version and flags
-    put(out, layout == FilmLayout::overUnder ? 1 : 2, 1);
+constexpr bool isPanorama(const FilmOptions& film) {
+  return film.projection != FilmProjection::flat;
+}
+
+// Boxes that have a version and flags, which are 0.
+template <class Content>
+void putFullBox(Buffer& out, uint32_t type, const Content& content) {
+  putBox(out, type, [&] {
+    put(out, 0, 4);
+    content();
   });
 }
 
-// avc1, one of stsd's entries: fields of fixed length, then boxes. st3d must follow avcC, which is the last
-// one that cannot be missing.
+void putText(Buffer& out, const std::string& text) {
+  out.insert(out.end(), text.begin(), text.end());
+}
+
+void putStereo(FilmLayout layout, Buffer& out) {
+  constexpr uint64_t kModes[] = {0, 2, 1};  // of FilmLayout
+  putFullBox(out, code("st3d"), [&] { put(out, kModes[size_t(layout)], 1); });
+}
+
+constexpr const char* kWriter = "scumble";
+
+void putProjection(FilmProjection projection, Buffer& out) {
+  putBox(out, code("sv3d"), [&] {
+    putFullBox(out, code("svhd"), [&] {
+      putText(out, kWriter);
+      put(out, 0, 1);
+    });
+    putBox(out, code("proj"), [&] {
+      putFullBox(out, code("prhd"), [&] {
+        for (int angle = 0; angle < 3; ++angle) put(out, 0, 4);  // yaw, pitch, roll
+      });
+      // What the picture leaves of all around: at the top, bottom, left and right, in parts of 2^32.
+      const uint64_t aside = projection == FilmProjection::halfSphere ? uint64_t(1) << 30 : 0;
+      putFullBox(out, code("equi"), [&] {
+        for (const uint64_t part : {uint64_t(0), uint64_t(0), aside, aside}) put(out, part, 4);
+      });
+    });
+  });
+}
+
+// The same for players that know the first version alone.
+void putSphericalXml(const FilmOptions& film, Buffer& out) {
+  constexpr uint8_t kSpherical[16] = {0xff, 0xcc, 0x82, 0x63, 0xf8, 0x55, 0x4a, 0x93,
+                                      0x88, 0x14, 0x58, 0x7a, 0x02, 0x52, 0x1f, 0xdd};
+  std::string xml =
+      "<?xml version=\"1.0\"?><rdf:SphericalVideo\n"
+      "xmlns:rdf=\"http://www.w3.org/1999/02/22-rdf-syntax-ns#\"\n"
+      "xmlns:GSpherical=\"http://ns.google.com/videos/1.0/spherical/\">";
+  const auto add = [&](const std::string& name, const std::string& value) {
+    xml += "<GSpherical:" + name + ">" + value + "</GSpherical:" + name + ">";
+  };
+  add("Spherical", "true");
+  add("Stitched", "true");
+  add("StitchingSoftware", kWriter);
+  add("ProjectionType", "equirectangular");
+  if (film.layout != FilmLayout::mono)
+    add("StereoMode", film.layout == FilmLayout::overUnder ? "top-bottom" : "left-right");
+  if (film.projection == FilmProjection::halfSphere) {
+    const uint32_t width = film.layout == FilmLayout::sideBySide ? film.width / 2 : film.width;
+    const uint32_t height = film.layout == FilmLayout::overUnder ? film.height / 2 : film.height;
+    const auto number = [&](const char* name, uint32_t value) { add(name, std::to_string(value)); };
+    number("CroppedAreaImageWidthPixels", width), number("CroppedAreaImageHeightPixels", height);
+    number("FullPanoWidthPixels", 2 * width), number("FullPanoHeightPixels", height);
+    number("CroppedAreaLeftPixels", width / 2), number("CroppedAreaTopPixels", 0);
+  }
+  xml += "</rdf:SphericalVideo>";
+  putBox(out, code("uuid"), [&] {
+    append(out, kSpherical);
+    putText(out, xml);
+  });
+}
+
+// avc1, one of stsd's entries: fields of fixed length, then boxes. st3d and sv3d must follow avcC, which is
+// the last one that cannot be missing.
 void putVideoEntry(Bytes content, Changes& changes, Buffer& out) {
   constexpr size_t kFields = 78;
   if (content.size() < kFields) throw Unusable("a box is too short");
@@ -125,7 +194,9 @@ void putVideoEntry(Bytes content, Changes& changes, Buffer& out) {
       rest = rest.subspan(size_t(box.size));
       if (box.type != code("avcC") || described) continue;
       described = true;
-      if (changes.layout != FilmLayout::mono) putStereo(changes.layout, out);
+      const FilmOptions& film = changes.film;
+      if (film.layout != FilmLayout::mono || isPanorama(film)) putStereo(film.layout, out);
+      if (isPanorama(film)) putProjection(film.projection, out);
     }
   });
   if (!described) throw Unusable("it holds no H.264");
@@ -135,8 +206,12 @@ void copyBox(Bytes box, Changes& changes, Buffer& out) {
   const BoxHeader header = readHeader(box, box.size());
   const Bytes content = box.subspan(size_t(header.start));
   switch (header.type) {
-    case code("moov"):
     case code("trak"):
+      return putBox(out, header.type, [&] {
+        copyBoxes(content, changes, out);
+        if (isPanorama(changes.film)) putSphericalXml(changes.film, out);
+      });
+    case code("moov"):
     case code("mdia"):
     case code("minf"):
     case code("stbl"):
@@ -187,7 +262,7 @@ void copyPart(int descriptor, Part part, WholeFile& out) {
   }
 }
 
-void rearrange(int descriptor, FilmLayout layout, uint64_t frames, WholeFile& out) {
+void rearrange(int descriptor, const FilmOptions& options, uint64_t frames, WholeFile& out) {
   struct stat facts = {};
   if (fstat(descriptor, &facts) != 0) throw Unusable("it cannot be read back");
   const uint64_t fileSize = uint64_t(facts.st_size);
@@ -213,8 +288,7 @@ void rearrange(int descriptor, FilmLayout layout, uint64_t frames, WholeFile& ou
   // The index moves in front of the data, whose place depends on the index's size; that does not depend on
   // the places in it.
   const Buffer old = readAt(descriptor, index->place, index->size);
-  Changes changes;
-  changes.layout = layout;
+  Changes changes{options};
   changes.begin = data->place;
   changes.end = data->place + data->size;
   changes.wide = fileSize + 2 * index->size + 64 > UINT32_MAX;
@@ -234,9 +308,9 @@ void rearrange(int descriptor, FilmLayout layout, uint64_t frames, WholeFile& ou
 
 }  // namespace
 
-std::string rearrangeMp4(int descriptor, FilmLayout layout, uint64_t frames, WholeFile& out) {
+std::string rearrangeMp4(int descriptor, const FilmOptions& options, uint64_t frames, WholeFile& out) {
   try {
-    rearrange(descriptor, layout, frames, out);
+    rearrange(descriptor, options, frames, out);
     return "";
   } catch (const std::exception& exception) {
     return exception.what();

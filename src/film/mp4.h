@@ -10,9 +10,10 @@
 namespace scumble::film {
 
 // Copies the film in `descriptor` to `out` with its index (moov) in front, so that it plays while it is still
-// loading, and with the layout of the eyes (st3d, "Spherical Video V2 RFC") in its video's description.
-// `frames`: how many it must have. Returns what is wrong with the film, or nothing; failures of writing are
-// kept in `out`.
-std::string rearrangeMp4(int descriptor, FilmLayout layout, uint64_t frames, WholeFile& out);
+// loading, and with what players must know of it: in its video's description the layout of the eyes and the
+// projection (st3d and sv3d, "Spherical Video V2 RFC"), and of a panorama the same once more, for older
+// players, as XML in its track ("Spherical Video RFC"). `frames`: how many it must have. Returns what is
+// wrong with the film, or nothing; failures of writing are kept in `out`.
+std::string rearrangeMp4(int descriptor, const FilmOptions& options, uint64_t frames, WholeFile& out);
 
 }  // namespace scumble::film

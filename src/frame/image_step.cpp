@@ -89,10 +89,11 @@ const gpu::Pipeline& ImageStep::pipelineFor(const Job& job) {
   const bool onTiles = job.where.mask != 0;
   gpu::Pipeline& pipeline = pipelines_[{job.constants, onTiles && !compute_}];
   if (pipeline) return pipeline;
-  // Constant 3 is every shader's number of views (src/shading/frame.glsl).
+  // Constant 3 is every shader's number of views (src/shading/frame.glsl), 4 of on_screen.glsl.
   std::vector<uint32_t> all = job.constants;
   all.resize(3);
   all.push_back(configuration_.viewCount);
+  all.push_back(configuration_.onSphere);
   if (compute_) {
     gpu::ComputePipelineDesc desc;
     desc.shader = desc_.shader.compute;

@@ -56,7 +56,8 @@ uint32_t tangentOptions(const WarpMetaTextureParams& params, const shared::Frame
   const bool isBetween = frame.worldToCyclopean != frame.views[0].worldToClip ||
                          frame.worldToCyclopean != frame.views[1].worldToClip;
   return (params.gradients == 1 ? shared::kFragmentGradients : 0) |
-         (params.cyclopean && isBetween ? shared::kCyclopean : 0) | (params.radial ? shared::kRadial : 0);
+         (params.cyclopean && isBetween ? shared::kCyclopean : 0) | (params.radial ? shared::kRadial : 0) |
+         (frame.eyeToSphere != glm::mat3(0.0f) ? shared::kByAngle : 0);
 }
 
 }  // namespace scumble::frame

@@ -37,6 +37,7 @@ struct Configuration {
   bool computeImagePasses = false;
   gpu::ViewDrawing viewDrawing = gpu::ViewDrawing::together;
   bool hasBackdrop = false;  // there is a picture behind everything
+  bool onSphere = false;     // the frame is a part of a sphere
   bool operator==(const Configuration&) const = default;
 
   gpu::Views views() const { return {viewCount, viewDrawing}; }

@@ -1,20 +1,23 @@
 #include "renderer/deliver.h"
 
+#include "shaders/deliver_depth_frag.h"
 #include "shaders/deliver_frag.h"
 #include "shaders/fullscreen_vert.h"
 
 namespace scumble::renderer {
 
-bool isTargetFormat(VkFormat format, bool ofAov) {
+bool isTargetFormat(VkFormat format, const std::string& aov) {
   switch (format) {
     case VK_FORMAT_R8G8B8A8_UNORM:
     case VK_FORMAT_B8G8R8A8_UNORM:
     case VK_FORMAT_R8G8B8A8_SRGB:
     case VK_FORMAT_B8G8R8A8_SRGB:
-      return !ofAov;
+      return aov.empty();
     case VK_FORMAT_R16G16B16A16_SFLOAT:
     case VK_FORMAT_R32G32B32A32_SFLOAT:
       return true;
+    case VK_FORMAT_D32_SFLOAT:
+      return aov == "depth";
     default:
       return false;
   }
@@ -27,7 +30,7 @@ void Deliver::declare(FrameBuilder& frame, const TargetKey& key, gpu::Handle sou
   keepsTarget_ = keepsTarget;
   frame.step("deliver", [this](VkCommandBuffer commands) { record(commands); });
   source_ = frame.use(source, gpu::Use::sampledByFragment);
-  target_ = target = frame.use(target, gpu::Use::colorTarget);
+  target_ = target = frame.use(target, key.isDepthBuffer() ? gpu::Use::depthTarget : gpu::Use::colorTarget);
 }
 
 void Deliver::create(FrameBuilder& frame) {
@@ -37,10 +40,16 @@ void Deliver::create(FrameBuilder& frame) {
   set_ = gpu::DescriptorSets(frame.device(), layout_);
   gpu::GraphicsPipelineDesc desc;
   desc.vertex = {shaders::fullscreen_vert};
-  desc.fragment = {shaders::deliver_frag};
-  const bool encodes = key_.format == VK_FORMAT_R8G8B8A8_UNORM || key_.format == VK_FORMAT_B8G8R8A8_UNORM;
-  desc.constants = {encodes, isSquareRoot_};
-  desc.colorFormats = {key_.format};
+  if (key_.isDepthBuffer()) {
+    desc.fragment = {shaders::deliver_depth_frag};
+    desc.depthFormat = key_.format;
+    desc.depthCompare = VK_COMPARE_OP_ALWAYS;
+  } else {
+    desc.fragment = {shaders::deliver_frag};
+    const bool encodes = key_.format == VK_FORMAT_R8G8B8A8_UNORM || key_.format == VK_FORMAT_B8G8R8A8_UNORM;
+    desc.constants = {encodes, isSquareRoot_};
+    desc.colorFormats = {key_.format};
+  }
   desc.sets = {layout_.handle()};
   desc.pushConstantBytes = 12;
   pipeline_ = gpu::Pipeline(frame.device(), desc);
@@ -52,18 +61,21 @@ void Deliver::bind(const gpu::GraphResources& resources) {
 }
 
 void Deliver::record(VkCommandBuffer commands) const {
-  VkRenderingAttachmentInfo color{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
-  color.imageView = resources_->image(target_).viewFrom(key_.layer);
-  color.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-  color.loadOp = keepsTarget_ ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-  color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+  const bool isDepth = key_.isDepthBuffer();
+  VkRenderingAttachmentInfo attachment{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
+  attachment.imageView = resources_->image(target_).viewFrom(key_.layer);
+  attachment.imageLayout =
+      isDepth ? VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+  attachment.loadOp = keepsTarget_ ? VK_ATTACHMENT_LOAD_OP_LOAD : VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+  attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
   const gpu::ImageDesc& size = resources_->image(source_).desc();
   const VkRect2D rectangle{{key_.x, key_.y}, {size.width, size.height}};
   VkRenderingInfo info{VK_STRUCTURE_TYPE_RENDERING_INFO};
   info.renderArea = rectangle;
   info.layerCount = 1;
-  info.colorAttachmentCount = 1;
-  info.pColorAttachments = &color;
+  info.colorAttachmentCount = isDepth ? 0 : 1;
+  info.pColorAttachments = isDepth ? nullptr : &attachment;
+  info.pDepthAttachment = isDepth ? &attachment : nullptr;
   vkCmdBeginRendering(commands, &info);
   const VkViewport viewport{float(key_.x), float(key_.y), float(size.width), float(size.height), 0, 1};
   vkCmdSetViewport(commands, 0, 1, &viewport);

@@ -19,15 +19,17 @@ struct TargetKey {
   VkImageLayout before = VK_IMAGE_LAYOUT_UNDEFINED, after = VK_IMAGE_LAYOUT_UNDEFINED;
   uint32_t view = 0;  // of those that are drawn together
   std::string aov;    // empty: the picture
+  bool isDepthBuffer() const { return format == VK_FORMAT_D32_SFLOAT; }
   bool operator==(const TargetKey&) const = default;
 };
 
-// Formats that a frame can be delivered in; of AOVs, those of floats.
-bool isTargetFormat(VkFormat format, bool ofAov);
+// Formats that a frame can be delivered in: of AOVs those of floats, and of `depth` that of depth buffers.
+bool isTargetFormat(VkFormat format, const std::string& aov);
 
 class Deliver {
  public:
-  // `target`: an imported image, which it writes to; `size`: of the view, which is that of the rectangle.
+  // `source`: what goes there, for depth buffers a depth buffer. `target`: an imported image, which it writes
+  // to.
   void declare(FrameBuilder& frame, const TargetKey& key, gpu::Handle source, bool isSquareRoot,
                gpu::Handle& target, bool keepsTarget);
   void create(FrameBuilder& frame);

@@ -170,7 +170,9 @@ Status Renderer::Impl::begin(const Request& request) {
       return usage("the scene's vertices have been dropped, and this frame needs them",
                    "load the scene again, where need be with SceneOptions::keepsVertices");
     Resident& resident = *used;
-    const glm::uvec2 frameSize = largestOf(groups);
+    const SpherePart* const sphere = options.sphere ? &*options.sphere : nullptr;
+    const glm::uvec2 frameSize =
+        sphere ? glm::uvec2(wholeSphere(views.front(), groups.front().size)) : largestOf(groups);
     const glm::uvec2 texels =
         background ? Backdrop::sizeFor(*background, frameSize.x, frameSize.y) : glm::uvec2(0);
     useBackdrop(texels);
@@ -207,7 +209,8 @@ Status Renderer::Impl::begin(const Request& request) {
     // What all views see alike.
     std::vector<float> inflations, margins;
     for (const ViewGroup& group : groups) {
-      inflations.push_back(largestInflation(sceneOnGpu, knobs, float(group.size.y)));
+      inflations.push_back(largestInflation(sceneOnGpu, knobs,
+                                            knobHeight(seenFrom[group.members.front()], group.size, sphere)));
       margins.push_back(inflations.back() + 1);
     }
     sceneOnGpu.look(viewersOf(seenFrom, groups, margins));
@@ -222,13 +225,15 @@ Status Renderer::Impl::begin(const Request& request) {
       Begun::Part& part = next.parts[p];
       shared::FrameUniforms uniforms =
           frameUniforms(sceneOnGpu, knobs, viewsOf(part.group, seenFrom), viewsOf(part.group, seenBefore),
-                        rigOf(part.group.rig, seenFrom), time, part.group.size);
+                        rigOf(part.group.rig, seenFrom), time, part.group.size, sphere);
       const std::vector<shared::PunctualLight> lights = punctualLights(
           scene.data(), knobs.scene<LightParams>(), sceneOnGpu.motion().world(), uniforms.sceneRadius);
       uniforms.lightCount = uint32_t(lights.size());
       std::optional<BackdropInput> behind;
       if (background)
-        behind = {&backdrop->image(), backdropUniforms(sceneOnGpu, knobs, uniforms, texels, colorMaps)};
+        behind = {&backdrop->image(),
+                  backdropUniforms(sceneOnGpu, knobs, uniforms, texels,
+                                   sphere ? glm::vec2(frameSize) : glm::vec2(0), colorMaps)};
       part.setup->update({now, knobs, time, uniforms, sceneOnGpu, inflations[p],
                           options.transparent || background, options.seed, behind ? &*behind : nullptr},
                          lights);

@@ -59,6 +59,16 @@ Status Renderer::Impl::check(const Request& request) const {
         return usage("a view hangs on a node that the scene does not have", "make views of this scene");
       if (view.size != glm::uvec2(0) && !isSize(view.size)) return badSize(view.size);
     }
+  if (const std::optional<SpherePart>& sphere = options.sphere) {
+    const glm::mat3 none = glm::transpose(sphere->eyeToSphere) * sphere->eyeToSphere - glm::mat3(1.0f);
+    const bool isTurn = glm::length(none[0]) + glm::length(none[1]) + glm::length(none[2]) < 1e-3f &&
+                        glm::determinant(sphere->eyeToSphere) > 0;
+    if (!isTurn) return usage("eyeToSphere is no turn", "see SpherePart in scumble/renderer.h");
+    if (!(sphere->knobHeight > 0.001f && sphere->knobHeight < 100))
+      return usage("a sphere's knobHeight is out of range", "give radians, like 1.57");
+    if (std::any_of(views.begin(), views.end(), isParallel))
+      return usage("a view without perspective is no part of a sphere", "use a perspective one");
+  }
   if (!options.previousScene.empty()) {
     const scene::SceneData &now = scene.data(), &then = options.previousScene.data();
     if (&now != &then &&
@@ -118,6 +128,7 @@ SetupKey Renderer::Impl::keyOf(const Request& request, const look::LookData& now
       imagePasses == ImagePassKind::compute ||
       (imagePasses == ImagePassKind::automatic && device->prefersCompute());
   key.configuration.hasBackdrop = backgroundOf(request) != nullptr;
+  key.configuration.onSphere = request.options.sphere.has_value();
   key.plain = request.isYardstick;
   key.readsBack = !request.delivery;
   key.aovs = request.options.aovs;

@@ -29,7 +29,8 @@ Setup::Setup(gpu::Device& device, gpu::Samplers& samplers, ExampleTextures& exam
 
   // Passes declare what they read and write.
   std::vector<std::string> asked = key.aovs;
-  for (const TargetKey& target : key.targets) asked.push_back(target.aov);
+  for (const TargetKey& target : key.targets)
+    if (!target.isDepthBuffer()) asked.push_back(target.aov);
   builder_.emplace(device, samplers, examples, key.configuration, scene, frameLayout_, frameSet_[0],
                    uniforms_, std::move(asked));
   passes_ = passes.makeAll();
@@ -86,11 +87,14 @@ void Setup::declareTarget(const TargetKey& target, gpu::Handle picture) {
         gpu::Outside{kAll, VK_ACCESS_2_MEMORY_WRITE_BIT, target.before},
         gpu::Outside{kAll, VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT, target.after});
   }
-  const FrameBuilder::Offer* const offer = target.aov.empty() ? nullptr : builder_->offered(target.aov);
+  const FrameBuilder::Offer* const offer =
+      target.aov.empty() || target.isDepthBuffer() ? nullptr : builder_->offered(target.aov);
+  const gpu::Handle source = target.isDepthBuffer() ? builder_->get(kDepth)
+                             : offer                ? offer->images.front()
+                                                    : picture;
   delivers_.push_back(std::make_unique<Deliver>());
-  delivers_.back()->declare(*builder_, target, offer ? offer->images.front() : picture,
-                            offer && offer->aov->isSquareRoot, targets_[target.image],
-                            !isFirst || target.before != VK_IMAGE_LAYOUT_UNDEFINED);
+  delivers_.back()->declare(*builder_, target, source, offer && offer->aov->isSquareRoot,
+                            targets_[target.image], !isFirst || target.before != VK_IMAGE_LAYOUT_UNDEFINED);
 }
 
 void Setup::setTargets(uint32_t slot, const std::vector<VkImage>& images) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <span>
 
 #include "passes/color/color_knobs.h"
@@ -25,6 +26,11 @@ glm::vec2 shiftOf(const View& view) {
   return isParallel(view) ? glm::vec2(-p[3][0], -p[3][1]) : glm::vec2(p[2][0], p[2][1]);
 }
 
+// Of a perspective view, straight ahead.
+float pixelsOfRadian(const View& view, glm::uvec2 size) {
+  return 0.5f * float(size.y) * std::abs(view.eyeToClip[1][1]);
+}
+
 }  // namespace
 
 shared::ViewUniforms viewUniforms(const View& view, const View& previous) {
@@ -44,9 +50,18 @@ shared::ViewUniforms viewUniforms(const View& view, const View& previous) {
   return u;
 }
 
+float knobHeight(const View& view, glm::uvec2 size, const SpherePart* sphere) {
+  return sphere ? pixelsOfRadian(view, size) * sphere->knobHeight : float(size.y);
+}
+
+glm::vec2 wholeSphere(const View& view, glm::uvec2 size) {
+  return pixelsOfRadian(view, size) * glm::pi<float>() * glm::vec2(2, 1);
+}
+
 shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const KnobTable& knobs,
                                     const std::vector<View>& views, const std::vector<View>& previousViews,
-                                    const std::vector<View>& rig, double time, glm::uvec2 size) {
+                                    const std::vector<View>& rig, double time, glm::uvec2 size,
+                                    const SpherePart* sphere) {
   shared::FrameUniforms u{};
   for (size_t i = 0; i < views.size(); ++i)
     u.views[i] = viewUniforms(views[i], previousViews.empty() ? views[i] : previousViews[i]);
@@ -54,7 +69,9 @@ shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const KnobTable& kn
   for (const View& view : rig) viewer += viewUniforms(view, view).eye / float(rig.size());
   u.time = float(time);
   u.imageSize = glm::vec2(size);
-  u.pixelScale = float(size.y) / 1080.0f;
+  u.knobHeight = knobHeight(rig.front(), size, sphere);
+  u.pixelScale = u.knobHeight / 1080.0f;
+  u.eyeToSphere = sphere ? sphere->eyeToSphere : glm::mat3(0.0f);
   u.sceneCenter = scene.bounds().center();
   u.sceneRadius = std::max(scene.bounds().radius(), 1e-6f);
   const View middle = middleOf(rig);
@@ -125,16 +142,18 @@ glm::vec3 tintDown(float skyTint) {
 
 shared::Backdrop backdropUniforms(const SceneOnGpu& scene, const KnobTable& knobs,
                                   const shared::FrameUniforms& frame, const glm::uvec2& texels,
-                                  ColorMaps& maps) {
+                                  const glm::vec2& sphere, ColorMaps& maps) {
   const passes::BackgroundParams params = knobs.scene<passes::BackgroundParams>();
   const int ground = scene.groundMaterial();
   const PaletteParams palette =
       ground < 0 ? knobs.scene<PaletteParams>() : knobs.of<PaletteParams>(size_t(ground));
   shared::Backdrop b{};
-  // Covering the frame: the same texels per pixel both ways.
-  const glm::vec2 ratio = glm::vec2(texels) / frame.imageSize;
+  // Covering the frame: the same texels per pixel both ways. Or all around.
+  const bool onSphere = sphere != glm::vec2(0);
+  const glm::vec2 whole = onSphere ? sphere : frame.imageSize;
+  const glm::vec2 ratio = glm::vec2(texels) / whole;
   const float density = std::min(ratio.x, ratio.y);
-  b.scale = density / ratio;
+  b.scale = onSphere ? frame.imageSize / whole : density / ratio;
   b.minified = std::clamp(2.0f * (density - 1.0f), 0.0f, 1.0f);
   b.radius = params.simplify * frame.pixelScale;
   b.sectorLevel = std::max(0.0f, std::log2(0.8f * b.radius * density));
@@ -153,11 +172,11 @@ shared::Backdrop backdropUniforms(const SceneOnGpu& scene, const KnobTable& knob
   return b;
 }
 
-float largestInflation(const SceneOnGpu& scene, const KnobTable& knobs, float imageHeight) {
+float largestInflation(const SceneOnGpu& scene, const KnobTable& knobs, float height) {
   float most = 0;
   for (size_t m = 0; m < scene.materialCount(); ++m)
-    most = std::max(
-        most, scene.warpScaleOf(m) * passes::inflationPixels(knobs.of<passes::WarpParams>(m), imageHeight));
+    most = std::max(most,
+                    scene.warpScaleOf(m) * passes::inflationPixels(knobs.of<passes::WarpParams>(m), height));
   return most;
 }
 

@@ -35,7 +35,7 @@ namespace {
 Status checkTarget(const VulkanTarget& target, const std::vector<View>& views, const RenderOptions& options) {
   if (!target.image) return usage("a target has no image", "give each one");
   if (target.view >= views.size()) return usage("a target is of a view that the frame does not have", "");
-  if (!isTargetFormat(target.format, !target.aov.empty()))
+  if (!isTargetFormat(target.format, target.aov))
     return usage("a target has a format that frames do not go into",
                  target.aov.empty() ? "see VulkanTarget::format" : "AOVs need half or full floats");
   const View& view = views[target.view];

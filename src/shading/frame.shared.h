@@ -40,10 +40,12 @@ struct FrameUniforms {
   float shadowWarp;        // strength of the sigmoid, above 0
   float shadowTexel;       // size of a shadow-map texel in unwarped light space
   vec3 lightToWorldScale;  // metres per unit of light-space x, y, z
-  float pixelScale;        // pixels per knob pixel: image height / 1080
+  float pixelScale;        // pixels per knob pixel: knobHeight / 1080
   vec2 imageSize;          // pixels
-  float sceneRadius;       // metres
-  vec3 sceneCenter;        // world
+  float knobHeight;   // pixels: the picture's height, or what stands for it where that is a part of a sphere
+  mat3 eyeToSphere;   // there: turns directions to the sphere's axes (RenderOptions::sphere)
+  float sceneRadius;  // metres
+  vec3 sceneCenter;   // world
 };
 
 // A point or spot light (KHR_lights_punctual), without shadows of its own.

@@ -7,5 +7,6 @@ SHARED_BEGIN
 const int kFragmentGradients = 1;  // by differences between pixels
 const int kCyclopean = 2;          // in stereo by the view between both eyes
 const int kRadial = 4;             // evenly by the angle that a pixel subtends (eq. 11 to 13)
+const int kByAngle = 8;            // by angles, not by how far those lie apart on the picture's plane
 SHARED_END
 #endif

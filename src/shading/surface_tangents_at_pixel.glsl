@@ -18,9 +18,17 @@ void surfaceTangents(int options, vec3 tangentU, vec3 tangentV, vec3 point, vec2
     dSdu = other ? atByX * ownU.x + atByY * ownU.y : ownU;
     dSdv = other ? atByX * ownV.x + atByY * ownV.y : ownV;
   }
-  if ((options & kRadial) != 0) {
+  if ((options & (kRadial | kByAngle)) != 0) {
     vec4 toRay = other ? frame.cyclopeanNdcToEyeRay : VIEW_FIELD(ndcToEyeRay, view);
     vec2 ray = at / (0.5 * frame.imageSize) * toRay.xy + toRay.zw;
+    if ((options & kByAngle) != 0) {
+      // An angle covers 1 / cos as much of the plane across the way from its middle, and 1 / cos^2 along it.
+      vec2 along = ray * vec2(1.0, sign(toRay.x * toRay.y));
+      float far = sqrt(1.0 + dot(along, along)), less = 1.0 / (far * far * (1.0 + far));
+      dSdu = dSdu / far - along * (dot(along, dSdu) * less);
+      dSdv = dSdv / far - along * (dot(along, dSdv) * less);
+      return;
+    }
     // A scale that is divided by alpha is one that gradients times alpha choose, or tangents divided by it.
     float alpha = 1.0 + dot(ray, ray) * (1.0 - VIEW_FIELD(orthographic, view));
     dSdu /= alpha;

@@ -318,6 +318,15 @@ Result<std::vector<View>> makeViews(const Scene& scene, const Viewpoint& viewpoi
   return eyes;
 }
 
+float headingOf(const View& view) {
+  const glm::mat4 toWorld = glm::inverse(view.worldToEye);
+  const glm::vec3 back(toWorld[2]), up(toWorld[1]);
+  // Of one that looks straight down, what is up in its picture lies ahead.
+  const bool isSteep = std::hypot(back.x, back.z) < 1e-3f;
+  const glm::vec3 ahead = isSteep ? (back.y > 0 ? up : -up) : -back;
+  return std::atan2(-ahead.x, -ahead.z);
+}
+
 bool viewsMove(const Scene& scene, const Viewpoint& viewpoint, const Look& look) {
   if (scene.empty()) return false;
   const look::LookData& data = look.data();

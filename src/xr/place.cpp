@@ -24,12 +24,8 @@ Pose between(const Pose& a, const Pose& b) {
 }
 
 Stand standAt(const View& camera, float scale, float eyeHeight) {
-  const glm::mat4 toWorld = glm::inverse(camera.worldToEye);
-  const glm::vec3 back(toWorld[2]), up(toWorld[1]);
-  // Of one that looks straight down, what is up in its picture lies ahead.
-  const bool isSteep = std::hypot(back.x, back.z) < 1e-3f;
-  const glm::vec3 ahead = isSteep ? (back.y > 0 ? up : -up) : -back;
-  return {glm::vec3(toWorld[3]) - glm::vec3(0, eyeHeight * scale, 0), std::atan2(-ahead.x, -ahead.z), scale};
+  const glm::vec3 place(glm::inverse(camera.worldToEye)[3]);
+  return {place - glm::vec3(0, eyeHeight * scale, 0), headingOf(camera), scale};
 }
 
 bool canBeSeenFrom(const Pose& eye, const XrFovf& angles) {

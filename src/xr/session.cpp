@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "xr/failure.h"
-#include "xr/upload.h"
 
 namespace scumble::xr {
 
@@ -54,11 +53,8 @@ Session::~Session() {
 }
 
 void Session::destroy() {
-  // Runtimes do not like what was begun and never ended.
-  for (const Swapchain& swapchain : swapchains_) {
-    const XrSwapchainImageReleaseInfo release{XR_TYPE_SWAPCHAIN_IMAGE_RELEASE_INFO};
-    if (swapchain.acquired) call_.ReleaseSwapchainImage(swapchain.handle, &release);
-  }
+  // Runtimes do not like what was begun and never ended. Images come first.
+  pictures_.clear(), depths_.clear();
   if (isBegun_) {
     XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO};
     info.displayTime = display_;
@@ -67,7 +63,6 @@ void Session::destroy() {
   }
   hands_.reset();
   vignette_.reset();
-  for (const Swapchain& swapchain : swapchains_) call_.DestroySwapchain(swapchain.handle);
   if (space_) call_.DestroySpace(space_);
   if (session_) call_.DestroySession(session_);
 }
@@ -116,31 +111,33 @@ void Session::createSwapchains() {
     throw XrFailure("xrEnumerateSwapchainFormats", XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED);
   format_ = VkFormat(*chosen);
 
-  // Runtimes that have no images of layers have two of one.
+  pictures_ = createEyeImages(format_, XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT);
+  constexpr VkFormat kDepth = VK_FORMAT_D32_SFLOAT;
+  if (!instance_.has(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME) ||
+      std::find(formats.begin(), formats.end(), int64_t(kDepth)) == formats.end())
+    return;
   try {
-    swapchains_.push_back(createSwapchain(size_, kEyes));
+    depths_ = createEyeImages(kDepth, XR_SWAPCHAIN_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
   } catch (const XrFailure& failure) {
+    // Frames are shown without it as well.
     if (failure.isLoss()) throw;
-    for (size_t eye = 0; eye < kEyes; ++eye) swapchains_.push_back(createSwapchain(size_, 1));
   }
 }
 
-Session::Swapchain Session::createSwapchain(const glm::uvec2& size, uint32_t layers) const {
-  XrSwapchainCreateInfo info{XR_TYPE_SWAPCHAIN_CREATE_INFO};
-  info.usageFlags = XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT | XR_SWAPCHAIN_USAGE_SAMPLED_BIT;
-  info.format = format_;
-  info.sampleCount = info.faceCount = info.mipCount = 1;
-  info.width = size.x, info.height = size.y;
-  info.arraySize = layers;
-  Swapchain made;
-  must(call_.CreateSwapchain(session_, &info, &made.handle), "xrCreateSwapchain");
+Session::EyeImages Session::createEyeImages(VkFormat format, XrSwapchainUsageFlags usage) const {
+  const Swapchain::Kind one{format, usage | XR_SWAPCHAIN_USAGE_SAMPLED_BIT, size_.x, size_.y};
+  Swapchain::Kind both = one;
+  both.layers = kEyes;
+  EyeImages images;
+  // Runtimes that have no images of layers have two of one.
   try {
-    made.images = imagesOf(call_, made.handle);
-  } catch (...) {
-    call_.DestroySwapchain(made.handle);
-    throw;
+    images.push_back(std::make_unique<Swapchain>(call_, session_, both));
+  } catch (const XrFailure& failure) {
+    if (failure.isLoss()) throw;
+    for (size_t eye = 0; eye < kEyes; ++eye)
+      images.push_back(std::make_unique<Swapchain>(call_, session_, one));
   }
-  return made;
+  return images;
 }
 
 void Session::chooseRefreshRate(float wished) {
@@ -215,6 +212,7 @@ Moment Session::begin() {
   isBegun_ = true, display_ = state.predictedDisplayTime;
   Moment moment;
   moment.display = state.predictedDisplayTime;
+  moment.period = 1e-6 * double(std::max<XrDuration>(state.predictedDisplayPeriod, 0));
   moment.shouldRender = state.shouldRender == XR_TRUE;
   if (moment.shouldRender) moment.isPlaced = locate(moment);
   return moment;
@@ -239,48 +237,53 @@ bool Session::locate(Moment& moment) const {
 }
 
 std::vector<VulkanTarget> Session::acquire() {
-  for (Swapchain& swapchain : swapchains_) {
-    const XrSwapchainImageAcquireInfo acquire{XR_TYPE_SWAPCHAIN_IMAGE_ACQUIRE_INFO};
-    uint32_t index = 0;
-    must(call_.AcquireSwapchainImage(swapchain.handle, &acquire, &index), "xrAcquireSwapchainImage");
-    swapchain.acquired = index;
-    const XrSwapchainImageWaitInfo wait{XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO, nullptr, XR_INFINITE_DURATION};
-    must(call_.WaitSwapchainImage(swapchain.handle, &wait), "xrWaitSwapchainImage");
-  }
-  std::vector<VulkanTarget> targets(kEyes);
-  for (size_t eye = 0; eye < kEyes; ++eye) {
-    const Swapchain& swapchain = swapchainOf(eye);
-    VulkanTarget& target = targets[eye];
-    target.image = swapchain.images.at(*swapchain.acquired);
-    target.format = format_;
-    target.extent = {size_.x, size_.y};
-    target.layer = layerOf(eye);
-    // As runtimes want them back (XR_KHR_vulkan_enable2).
-    target.after = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    target.view = eye;
-  }
+  std::vector<VulkanTarget> targets;
+  acquire(pictures_, targets);
+  acquire(depths_, targets);
   return targets;
 }
 
-void Session::release() {
-  for (Swapchain& swapchain : swapchains_) {
-    if (!swapchain.acquired) continue;
-    swapchain.acquired.reset();
-    const XrSwapchainImageReleaseInfo release{XR_TYPE_SWAPCHAIN_IMAGE_RELEASE_INFO};
-    must(call_.ReleaseSwapchainImage(swapchain.handle, &release), "xrReleaseSwapchainImage");
+void Session::acquire(const EyeImages& images, std::vector<VulkanTarget>& targets) const {
+  std::vector<VkImage> acquired;
+  for (const auto& swapchain : images) acquired.push_back(swapchain->acquire());
+  for (size_t eye = 0; eye < kEyes && !images.empty(); ++eye) {
+    const Swapchain::Kind& kind = imagesOf(images, eye).kind();
+    const bool isDepth = &images == &depths_;
+    VulkanTarget& target = targets.emplace_back();
+    target.image = acquired[images.size() == 1 ? 0 : eye];
+    target.format = kind.format;
+    target.extent = {kind.width, kind.height};
+    target.layer = layerOf(images, eye);
+    // As runtimes want them back (XR_KHR_vulkan_enable2).
+    target.after =
+        isDepth ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    target.view = eye;
+    if (isDepth) target.aov = "depth";
   }
 }
 
-void Session::end(const Moment& moment, bool isDrawn, float darkness) {
+void Session::release() {
+  for (const EyeImages* images : {&pictures_, &depths_})
+    for (const auto& swapchain : *images) swapchain->release();
+}
+
+void Session::end(const Moment& moment, const std::optional<DrawnEyes>& drawn, float darkness) {
   release();
   std::array<XrCompositionLayerProjectionView, kEyes> views;
+  std::array<XrCompositionLayerDepthInfoKHR, kEyes> depths;
+  const glm::uvec2 size = drawn ? drawn->size : size_;
   for (size_t eye = 0; eye < kEyes; ++eye) {
     views[eye] = {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW};
     views[eye].pose = xrOf(moment.eyes[eye].pose);
     views[eye].fov = moment.eyes[eye].angles;
-    views[eye].subImage.swapchain = swapchainOf(eye).handle;
-    views[eye].subImage.imageRect = {{0, 0}, {int32_t(size_.x), int32_t(size_.y)}};
-    views[eye].subImage.imageArrayIndex = layerOf(eye);
+    views[eye].subImage = imagesOf(pictures_, eye).part(size.x, size.y, layerOf(pictures_, eye));
+    if (!drawn || depths_.empty()) continue;
+    depths[eye] = {XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR};
+    depths[eye].subImage = imagesOf(depths_, eye).part(size.x, size.y, layerOf(depths_, eye));
+    // Reversed: 0 is endlessly far away, and so nearZ, which is where minDepth lies, is the farther one.
+    depths[eye].minDepth = 0, depths[eye].nearZ = std::numeric_limits<float>::infinity();
+    depths[eye].maxDepth = 1, depths[eye].farZ = drawn->nearPlane;
+    views[eye].next = &depths[eye];
   }
   XrCompositionLayerProjection projection{XR_TYPE_COMPOSITION_LAYER_PROJECTION};
   projection.space = space_;
@@ -288,7 +291,7 @@ void Session::end(const Moment& moment, bool isDrawn, float darkness) {
   projection.views = views.data();
   const auto vignette = vignette_ ? vignette_->layer(darkness) : std::nullopt;
   std::vector<const XrCompositionLayerBaseHeader*> layers;
-  if (isDrawn) {
+  if (drawn) {
     layers.push_back(reinterpret_cast<const XrCompositionLayerBaseHeader*>(&projection));
     if (vignette) layers.push_back(reinterpret_cast<const XrCompositionLayerBaseHeader*>(&*vignette));
   }

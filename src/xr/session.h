@@ -11,6 +11,7 @@
 #include "xr/hands.h"
 #include "xr/instance.h"
 #include "xr/place.h"
+#include "xr/swapchain.h"
 #include "xr/vignette.h"
 
 namespace scumble::xr {
@@ -31,9 +32,16 @@ struct Eye {
 // A frame that was begun.
 struct Moment {
   XrTime display = 0;         // when it will be seen, on the runtime's clock, nanoseconds
+  double period = 0;          // to the next one, milliseconds; 0: the runtime does not tell
   bool shouldRender = false;  // else nobody sees it
   bool isPlaced = false;      // where the eyes are is known
   std::array<Eye, kEyes> eyes;
+};
+
+// What there is of a frame that was drawn.
+struct DrawnEyes {
+  glm::uvec2 size{0};   // pixels of each, from the upper left corner of what was acquired
+  float nearPlane = 0;  // metres of the room: where the depth buffer is 1; it is 0 endlessly far away
 };
 
 // What has happened since the last look.
@@ -66,29 +74,32 @@ class Session {
   bool locate(Moment& moment) const;
   // What hands say, once a frame.
   HandsState hands() { return hands_->follow(isFocused()); }
-  // Images to draw into: of each eye, as targets of views 0 and 1. They are taken until end().
+  // Images to draw into: of each eye, as targets of views 0 and 1; and their depth, where the runtime takes
+  // that. They are taken until end().
   std::vector<VulkanTarget> acquire();
   // Gives the images back outside of a frame.
   void release();
-  // `isDrawn`: what was acquired is shown as seen from the moment's eyes; else nothing is. `darkness`: as
+  // `drawn`: what was acquired is shown as seen from the moment's eyes; else nothing is. `darkness`: as
   // Vignette::layer has it.
-  void end(const Moment& moment, bool isDrawn, float darkness);
+  void end(const Moment& moment, const std::optional<DrawnEyes>& drawn, float darkness);
 
-  glm::uvec2 size() const { return size_; }           // of an eye, pixels
+  glm::uvec2 size() const { return size_; }  // of an eye, pixels, at most
+  bool takesDepth() const { return !depths_.empty(); }
   float refreshRate() const { return refreshRate_; }  // frames a second; 0: the runtime does not tell
 
  private:
-  struct Swapchain {
-    XrSwapchain handle = XR_NULL_HANDLE;
-    std::vector<VkImage> images;
-    std::optional<uint32_t> acquired;  // and not released
-  };
-  // Where an eye is drawn.
-  const Swapchain& swapchainOf(size_t eye) const { return swapchains_[swapchains_.size() == 1 ? 0 : eye]; }
-  uint32_t layerOf(size_t eye) const { return swapchains_.size() == 1 ? uint32_t(eye) : 0; }
+  // What both eyes are drawn into: an array of two layers, or one for each eye.
+  using EyeImages = std::vector<std::unique_ptr<Swapchain>>;
+  static Swapchain& imagesOf(const EyeImages& images, size_t eye) {
+    return *images[images.size() == 1 ? 0 : eye];
+  }
+  static uint32_t layerOf(const EyeImages& images, size_t eye) {
+    return images.size() == 1 ? uint32_t(eye) : 0;
+  }
   void createSpace(bool isStanding);
   void createSwapchains();
-  Swapchain createSwapchain(const glm::uvec2& size, uint32_t layers) const;
+  EyeImages createEyeImages(VkFormat format, XrSwapchainUsageFlags usage) const;
+  void acquire(const EyeImages& images, std::vector<VulkanTarget>& targets) const;
   void chooseRefreshRate(float wished);
   void destroy();
 
@@ -101,7 +112,7 @@ class Session {
   XrEnvironmentBlendMode blend_ = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
   VkFormat format_ = VK_FORMAT_UNDEFINED;
   glm::uvec2 size_{0};
-  std::vector<Swapchain> swapchains_;  // one of two layers, or one for each eye
+  EyeImages pictures_, depths_;  // depths: none where the runtime does not take them
   std::unique_ptr<Hands> hands_;
   std::unique_ptr<Vignette> vignette_;
   float refreshRate_ = 0;

@@ -8,6 +8,7 @@
 
 #include "xr/clock.h"
 #include "xr/failure.h"
+#include "xr/resolution.h"
 #include "xr/session.h"
 #include "xr/walk.h"
 
@@ -27,7 +28,7 @@ constexpr size_t kUnderWay = 2;  // frames that the device may have at once: it 
 class Show {
  public:
   Show(Instance& instance, const ShowOptions& options)
-      : options_(options), instance_(instance), clock_(options.time) {}
+      : options_(options), instance_(instance), clock_(options.time), resolution_(options.resolution) {}
 
   Result<ShowReport> run() {
     Result<std::unique_ptr<Renderer>> renderer = createRenderer(instance_.vulkan(), options_.renderer);
@@ -134,7 +135,8 @@ class Show {
       }
       const bool isSeen = moment.shouldRender && moment.isPlaced && !askedAt;
       Status drawn = isSeen ? draw(session, moment, hands) : Done{};
-      session.end(moment, isSeen && drawn.ok(), darkness_);
+      session.end(moment, isSeen && drawn.ok() ? std::optional(DrawnEyes{size_, kNearPlane}) : std::nullopt,
+                  darkness_);
       if (!drawn) return drawn;
       if (isSeen) ++report_.frames, lostSince_.reset();
     }
@@ -188,7 +190,14 @@ class Show {
       return views;
     };
     RenderOptions options;
-    options.width = session.size().x, options.height = session.size().y;
+    period_ = moment.period;
+    if (const glm::uvec2 size = resolution_.of(session.size()); size != size_) {
+      if (size_ != glm::uvec2(0) && locate)
+        tell("eyes have " + std::to_string(size.x) + "x" + std::to_string(size.y) +
+             " pixels from here on: as there is time for");
+      size_ = size;
+    }
+    options.width = size_.x, options.height = size_.y;
     options.samples = options_.samples, options.seed = options_.seed;
     // Nothing is thrown through the renderer.
     std::exception_ptr failure;
@@ -212,7 +221,9 @@ class Show {
   // Until no more than so many frames are under way.
   Status finish(size_t most) {
     for (; begun_ > most; --begun_)
-      if (const Result<Frame> frame = renderer_->finish(); !frame) {
+      if (const Result<Frame> frame = renderer_->finish()) {
+        resolution_.took(frame->stats.gpuMilliseconds, period_);
+      } else {
         begun_ = 0;
         return frame.error();
       }
@@ -226,6 +237,9 @@ class Show {
   bool isPaused_ = false;
   size_t look_ = 0;
   Walk walk_;
+  Resolution resolution_;
+  glm::uvec2 size_{0};  // of an eye, as it was drawn last
+  double period_ = 0;   // milliseconds from frame to frame
   float darkness_ = 0;
   size_t begun_ = 0;
   bool isLost_ = false;

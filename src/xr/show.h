@@ -31,6 +31,9 @@ struct ShowOptions {
   float scale = 1;          // metres of the scene that are one of the room
   bool hasVignette = true;  // while hands move who wears it, it is dark around what is looked at
   float refreshRate = 90;   // frames a second, as near as the headset has it; 0: as it is
+  // Of the pixels of both sides of an eye that the runtime recommends, 0.1 to 1; none: as many as there is
+  // time for, from half of them on.
+  std::optional<float> resolution;
   uint32_t samples = 4, seed = 0;
   RendererOptions renderer;        // `device` means nothing: the runtime chooses
   std::optional<uint64_t> frames;  // ends when so many were drawn; none: when the runtime or somebody ends it

@@ -85,19 +85,6 @@ void toLayout(VkCommandBuffer commands, VkImage image, VkImageLayout before, VkI
 
 }  // namespace
 
-std::vector<VkImage> imagesOf(const Functions& call, XrSwapchain swapchain) {
-  std::vector<VkImage> images;
-  for (const XrSwapchainImageVulkan2KHR& image : listed<XrSwapchainImageVulkan2KHR>(
-           "xrEnumerateSwapchainImages",
-           [&](uint32_t capacity, uint32_t*count, XrSwapchainImageVulkan2KHR*all) {
-             return call.EnumerateSwapchainImages(swapchain, capacity, count,
-                                                  reinterpret_cast<XrSwapchainImageBaseHeader*>(all));
-           },
-           {XR_TYPE_SWAPCHAIN_IMAGE_VULKAN2_KHR}))
-    images.push_back(image.image);
-  return images;
-}
-
 void upload(const VulkanDevice& device, VkImage image, VkExtent2D extent, const std::vector<uint8_t>& bytes) {
   const Upload with(device, bytes);
   const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};

@@ -8,9 +8,6 @@
 
 namespace scumble::xr {
 
-// The images of a swapchain. Throws XrFailure.
-std::vector<VkImage> imagesOf(const Functions& call, XrSwapchain swapchain);
-
 // The bytes of its pixels, as they are stored. Leaves the image, which has one layer, as runtimes want it
 // back, and returns when all of it is there. Throws XrFailure.
 void upload(const VulkanDevice& device, VkImage image, VkExtent2D extent, const std::vector<uint8_t>& bytes);

@@ -44,45 +44,21 @@ float darknessAt(float tangent, float strength) {
 }
 
 Vignette::Vignette(const Instance& instance, XrSession session, const VulkanDevice& device, VkFormat format)
-    : call_(instance.call()) {
-  try {
-    create(session, device, format);
-  } catch (...) {
-    destroy();
-    throw;
-  }
-}
-
-Vignette::~Vignette() {
-  destroy();
-}
-
-void Vignette::destroy() {
-  if (swapchain_) call_.DestroySwapchain(swapchain_);
-  if (head_) call_.DestroySpace(head_);
-}
-
-void Vignette::create(XrSession session, const VulkanDevice& device, VkFormat format) {
+    : call_(instance.call()),
+      picture_(call_, session,
+               {format,
+                XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT | XR_SWAPCHAIN_USAGE_SAMPLED_BIT |
+                    XR_SWAPCHAIN_USAGE_TRANSFER_DST_BIT,
+                kSide, kSide}) {
+  upload(device, picture_.acquire(), {kSide, kSide}, pictureOf(format));
+  picture_.release();
   const XrReferenceSpaceCreateInfo space{
       XR_TYPE_REFERENCE_SPACE_CREATE_INFO, nullptr, XR_REFERENCE_SPACE_TYPE_VIEW, {{0, 0, 0, 1}, {0, 0, 0}}};
   must(call_.CreateReferenceSpace(session, &space, &head_), "xrCreateReferenceSpace");
-  XrSwapchainCreateInfo info{XR_TYPE_SWAPCHAIN_CREATE_INFO};
-  info.usageFlags = XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT | XR_SWAPCHAIN_USAGE_SAMPLED_BIT |
-                    XR_SWAPCHAIN_USAGE_TRANSFER_DST_BIT;
-  info.format = format;
-  info.width = info.height = kSide;
-  info.sampleCount = info.faceCount = info.arraySize = info.mipCount = 1;
-  must(call_.CreateSwapchain(session, &info, &swapchain_), "xrCreateSwapchain");
-  const auto images = imagesOf(call_, swapchain_);
+}
 
-  uint32_t index = 0;
-  const XrSwapchainImageAcquireInfo acquire{XR_TYPE_SWAPCHAIN_IMAGE_ACQUIRE_INFO};
-  must(call_.AcquireSwapchainImage(swapchain_, &acquire, &index), "xrAcquireSwapchainImage");
-  const XrSwapchainImageWaitInfo wait{XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO, nullptr, XR_INFINITE_DURATION};
-  must(call_.WaitSwapchainImage(swapchain_, &wait), "xrWaitSwapchainImage");
-  upload(device, images.at(index), {kSide, kSide}, pictureOf(format));
-  const XrSwapchainImageReleaseInfo release{XR_TYPE_SWAPCHAIN_IMAGE_RELEASE_INFO};
-  must(call_.ReleaseSwapchainImage(swapchain_, &release), "xrReleaseSwapchainImage");
+Vignette::~Vignette() {
+  call_.DestroySpace(head_);
 }
 
 std::optional<XrCompositionLayerQuad> Vignette::layer(float strength) const {
@@ -91,8 +67,7 @@ std::optional<XrCompositionLayerQuad> Vignette::layer(float strength) const {
   quad.layerFlags = XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT;
   quad.space = head_;
   quad.eyeVisibility = XR_EYE_VISIBILITY_BOTH;
-  quad.subImage.swapchain = swapchain_;
-  quad.subImage.imageRect = {{0, 0}, {int32_t(kSide), int32_t(kSide)}};
+  quad.subImage = picture_.part(kSide, kSide);
   quad.pose = {{0, 0, 0, 1}, {0, 0, -1}};
   const float side = 2 * kReach * openingAt(strength);
   quad.size = {side, side};

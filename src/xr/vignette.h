@@ -7,6 +7,7 @@
 
 #include "scumble/vulkan.h"
 #include "xr/instance.h"
+#include "xr/swapchain.h"
 
 namespace scumble::xr {
 
@@ -26,12 +27,9 @@ class Vignette {
   std::optional<XrCompositionLayerQuad> layer(float strength) const;
 
  private:
-  void create(XrSession session, const VulkanDevice& device, VkFormat format);
-  void destroy();
-
   const Functions& call_;
+  Swapchain picture_;
   XrSpace head_ = XR_NULL_HANDLE;
-  XrSwapchain swapchain_ = XR_NULL_HANDLE;
 };
 
 }  // namespace scumble::xr

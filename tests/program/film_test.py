@@ -17,7 +17,7 @@ import unittest
 from pathlib import Path
 
 import program_test
-from program_test import NOT_WRITTEN, TINY, USAGE, Program, exr, gltf
+from program_test import NOT_WRITTEN, TINY, USAGE, Program, exr, gltf, png
 
 QUIET = [*TINY, "--quiet"]
 
@@ -288,6 +288,52 @@ class Films(Film):
             self.assertEqual(probe(self.folder / name, "stream=nb_read_frames")["streams"][0]["nb_read_frames"], frames)
         self.before = self.files()
         self.bad(USAGE, "render", "box.gltf", "-o", "x.mp4", *TINY, says="--frames A..B")
+
+    def around(self, *args, size="32x16"):
+        done = self.run_program("render", "box.gltf", "--samples", "1", "--size", size, "--panorama", *args)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return [line for line in done.stderr.splitlines() if "warning" in line]
+
+    def test_players_learn_that_a_film_is_a_panorama(self):
+        for kind, size, shape, bounds, layout in (("mono360", "32x16", (32, 16), 0, "2D"), ("ods", "32x16", (32, 32), 0, "top and bottom"),
+                                                  ("vr180", "16x16", (32, 16), 16, "side by side")):
+            with self.subTest(kind=kind):
+                self.assertEqual(self.around(kind, "-o", kind + ".mp4", "--frames", "0..0", size=size), [])
+                stream = probe(self.folder / (kind + ".mp4"), "stream=width,height:stream_side_data")["streams"][0]
+                self.assertEqual((stream["width"], stream["height"]), shape)
+                data = {each["side_data_type"]: each for each in stream["side_data_list"]}
+                self.assertEqual(data["Stereo 3D"]["type"], layout)
+                sphere = data["Spherical Mapping"]
+                self.assertEqual(sphere["projection"], "tiled equirectangular" if bounds else "equirectangular")
+                if bounds:
+                    # ffprobe counts by the whole picture, both eyes in it, and rounds.
+                    for side, wanted in (("left", bounds), ("top", 0), ("right", bounds), ("bottom", 0)):
+                        self.assertAlmostEqual(sphere["bound_" + side], wanted, delta=1)
+                # The first version, for players that know no other.
+                film = (self.folder / (kind + ".mp4")).read_bytes()
+                self.assertIn(b"<GSpherical:Spherical>true</GSpherical:Spherical>", film)
+                self.assertEqual(b"CroppedAreaLeftPixels" in film, kind == "vr180")
+        self.draw("-o", "flat.mp4", "--frames", "0..0")
+        self.assertNotIn(b"Spherical", (self.folder / "flat.mp4").read_bytes())
+
+    def test_pictures_of_panoramas(self):
+        self.assertEqual(self.around("vr180", "-o", "a.png", size="16x16"), [])
+        self.assertEqual(png(self.folder / "a.png")[:2], (32, 16))
+        self.around("vr180", "-o", "b.png", "--stereo", "separate", size="16x16")
+        self.assertEqual(png(self.folder / "b.right.png")[:2], (16, 16))
+        self.around("ods", "-o", "c.exr", "--aov", "depth")
+        self.assertLessEqual({"R", "right.R", "depth.left.R", "depth.right.R"}, {name for name, _ in exr(self.folder / "c.exr")["channels"]})
+        # What does nothing is told.
+        for args, told in ((["--roll", "3"], "--roll does nothing in a panorama"), (["--ipd", "0.07"], "--ipd does nothing without --stereo")):
+            self.assertIn(told, self.around("mono360", "-o", "d.png", *args)[0])
+        self.assertIn("MP4 alone", self.around("mono360", "-o", "d.gif", "--frames", "0..0")[0])
+        # And what makes no sense.
+        self.before = self.files()
+        for args, says in ((["vr90"], "'vr180'"), (["cube"], "mono360"), (["vr180", "--size", "32x16"], "2048x2048"),
+                           (["mono360", "--size", "16x16"], "4096x2048"), (["mono360", "--stereo", "separate"], "ods"),
+                           (["ods", "--fov", "0.5"], "1 to 180"), (["ods", "--ipd", "-1"], "eyes")):
+            self.bad(USAGE, "render", "box.gltf", "-o", "x.png", "--panorama", *args, says=says)
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.svg", "--panorama", "mono360", says="drawing")
 
     def test_players_learn_how_the_eyes_lie(self):
         for layout, size, name in (("side-by-side", (64, 18), "side by side"), ("over-under", (32, 36), "top and bottom")):

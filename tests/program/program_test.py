@@ -187,7 +187,7 @@ class Commands(Program):
         text = self.good("render", "--help")
         for option in ("-o", "--look", "--set", "--camera", "--orbit", "--eye", "--target", "--roll", "--fov", "--size",
                        "--samples", "--time", "--frames", "--fps", "--stereo", "--ipd", "--aov", "--background", "--device",
-                       "--seed", "--stats", "--graph", "--quiet", "--resume", "--allow-outside", "--clip", "--quality", "--svg"):
+                       "--seed", "--stats", "--graph", "--quiet", "--resume", "--allow-outside", "--clip", "--quality", "--svg", "--panorama"):
             self.assertRegex(text, rf"(^|[\s,]){option}\b", option)
         for default in ("1280x720", "0.063", "24"):
             self.assertIn(default, text)

@@ -107,7 +107,10 @@ class Program {
     info.extent = {extent.width, extent.height, 1};
     info.mipLevels = 1, info.arrayLayers = layers;
     info.samples = VK_SAMPLE_COUNT_1_BIT;
-    info.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    info.usage =
+        VkImageUsageFlags(format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT
+                                                         : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT) |
+        VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     OwnImage made;
     expectDone(vkCreateImage(device.device, &info, nullptr, &made.image));
     VkMemoryRequirements needs;
@@ -139,7 +142,8 @@ class Program {
 
   // The bytes of a layer that is in TRANSFER_SRC_OPTIMAL, on the program's own way; the rows from top to
   // bottom.
-  std::vector<uint8_t> bytesOf(VkImage image, VkExtent2D extent, uint32_t bytesAPixel, uint32_t layer = 0) {
+  std::vector<uint8_t> bytesOf(VkImage image, VkExtent2D extent, uint32_t bytesAPixel, uint32_t layer = 0,
+                               VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT) {
     const VkDeviceSize size = VkDeviceSize(extent.width) * extent.height * bytesAPixel;
     VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     info.size = size, info.usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
@@ -157,7 +161,7 @@ class Program {
     const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     expectDone(vkBeginCommandBuffer(commands, &begin));
     VkBufferImageCopy copy{};
-    copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, layer, 1};
+    copy.imageSubresource = {aspect, 0, layer, 1};
     copy.imageExtent = {extent.width, extent.height, 1};
     vkCmdCopyImageToBuffer(commands, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer, 1, &copy);
     VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
@@ -437,6 +441,47 @@ TEST_F(Vulkan, rectanglesAndLayers) {
         std::memcpy(&own, &bytes[(y * kWidth + x) * 16], 4);
         ASSERT_EQ(own, depth.at(x, y, 0));
       }
+  }
+}
+
+// How far away everything is, as depth buffers have it by the view's own projection: for who draws more over
+// a frame, and for runtimes of headsets.
+TEST_F(Vulkan, depthBuffers) {
+  Program program;
+  const std::unique_ptr<Renderer> renderer = on(program);
+  for (const uint32_t samples : {1u, 4u}) {
+    const VkImage both = program.image(VK_FORMAT_D32_SFLOAT, kExtent, 2);
+    VulkanTargets targets;
+    for (size_t v = 0; v < 2; ++v) {
+      VulkanTarget& depth = targets.images.emplace_back(target(both, VK_FORMAT_D32_SFLOAT));
+      depth.aov = "depth", depth.view = v, depth.layer = uint32_t(v);
+    }
+    const std::vector<View> eyes = views(Stereo::stereo);
+    const Status status =
+        begin(*renderer, scene, quietLook(), 0, eyes, sized(kWidth, kHeight, {}, samples), targets);
+    ASSERT_TRUE(status.ok()) << status.error().message();
+    const Result<Frame> frame = renderer->finish();
+    ASSERT_TRUE(frame.ok());
+    // Nothing is drawn for it that is not drawn anyway.
+    for (const PassTime& pass : frame->stats.passes) EXPECT_NE(pass.name, "facts");
+    const Frame usual = draw(scene, quietLook(), eyes, sized(kWidth, kHeight, {"depth"}));
+    for (size_t v = 0; v < 2; ++v) {
+      const std::vector<uint8_t> bytes =
+          program.bytesOf(both, kExtent, 4, uint32_t(v), VK_IMAGE_ASPECT_DEPTH_BIT);
+      // Of several samples it is one's.
+      Difference metres(samples == 1 ? 0.02 : 0.5);
+      size_t nothing = 0;
+      for (uint32_t y = 0; y < kHeight; ++y)
+        for (uint32_t x = 0; x < kWidth; ++x) {
+          float own;
+          std::memcpy(&own, &bytes[(y * kWidth + x) * 4], 4);
+          const float far = usual.layers[1].views[v].at(x, y, 0);
+          nothing += own == 0;
+          if (far < 1e29f && own > 0) metres.add(eyes[v].eyeToClip[3][2] / own, far);
+        }
+      EXPECT_GT(nothing, 100u);
+      EXPECT_LT(metres.beyondPart(), samples == 1 ? 0.001 : 0.05) << metres.text();
+    }
   }
 }
 

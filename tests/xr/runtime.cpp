@@ -10,11 +10,13 @@
 //   floor         how far the head is from the origin of STAGE beyond that of LOCAL, [x, y, z]
 //   flags         what is known of where the eyes are, by frame (XrViewStateFlags)
 //   formats       Vulkan's numbers, in the runtime's order
+//   depth         whether it takes depth buffers as well (false)
 //   layers        whether swapchains may have more than one (true)
 //   stage         whether there is a floor (true)
 //   vulkan        whether it takes Vulkan (true)
 //   headset       whether one is there (true)
 //   refreshRates  frames a second that it offers; without them it has no such extension
+//   period        seconds from frame to frame; default: by the refresh rate
 //   comesBack     after how many xrGetSystem a headset that was lost is there again
 //   hands         {"walk": [[x, y], ...], "turn": ..., "pause": [0, 1, ...], "look": ...} by frame
 //   events        [{"frame": N, "event": ...}], as frame N is waited for: hide, show, blur, focus, stop,
@@ -82,6 +84,12 @@ struct Swapchain {
   uint32_t layers;
   std::vector<VkImage> images;
   std::vector<VkDeviceMemory> memory;
+  bool isDepth() const { return format == VK_FORMAT_D32_SFLOAT; }
+  // As images are acquired and released (XR_KHR_vulkan_enable2).
+  VkImageLayout layout() const {
+    return isDepth() ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL
+                     : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+  }
   uint32_t next = 0;
   int acquired = -1, released = -1;
   bool isWaited = false;
@@ -198,6 +206,7 @@ XrResult XRAPI_CALL enumerateInstanceExtensionProperties(const char*, uint32_t c
   BEGIN("xrEnumerateInstanceExtensionProperties");
   std::vector<std::string> names;
   if (r.script.value("vulkan", true)) names.emplace_back(XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME);
+  if (r.script.value("depth", false)) names.emplace_back(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME);
   if (r.offersRates()) names.emplace_back(XR_FB_DISPLAY_REFRESH_RATE_EXTENSION_NAME);
   names.emplace_back(kUserPresenceExtension);
   std::vector<XrExtensionProperties> all;
@@ -461,7 +470,7 @@ uint32_t memoryType(uint32_t allowed, VkMemoryPropertyFlags wanted) {
   return 0;
 }
 
-void barrier(VkCommandBuffer commands, VkImage image, uint32_t layers, VkImageLayout before,
+void barrier(VkCommandBuffer commands, const Swapchain& of, VkImage image, VkImageLayout before,
              VkImageLayout after) {
   VkImageMemoryBarrier2 one{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
   one.srcStageMask = one.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
@@ -470,7 +479,9 @@ void barrier(VkCommandBuffer commands, VkImage image, uint32_t layers, VkImageLa
   one.oldLayout = before, one.newLayout = after;
   one.srcQueueFamilyIndex = one.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
   one.image = image;
-  one.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, layers};
+  const auto aspect =
+      VkImageAspectFlags(of.isDepth() ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT);
+  one.subresourceRange = {aspect, 0, 1, 0, of.layers};
   VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
   info.imageMemoryBarrierCount = 1, info.pImageMemoryBarriers = &one;
   vkCmdPipelineBarrier2(commands, &info);
@@ -500,9 +511,10 @@ void runOnQueue(const Record& record) {
 
 XrResult XRAPI_CALL enumerateSwapchainFormats(XrSession, uint32_t capacity, uint32_t* count, int64_t* out) {
   BEGIN("xrEnumerateSwapchainFormats");
-  return give(
-      r.script.value("formats", std::vector<int64_t>{VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R8G8B8A8_SRGB}),
-      capacity, count, out);
+  std::vector<int64_t> formats =
+      r.script.value("formats", std::vector<int64_t>{VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R8G8B8A8_SRGB});
+  if (r.script.value("depth", false)) formats.push_back(VK_FORMAT_D32_SFLOAT);
+  return give(formats, capacity, count, out);
 }
 
 XrResult XRAPI_CALL createSwapchain(XrSession, const XrSwapchainCreateInfo* info, XrSwapchain* swapchain) {
@@ -524,6 +536,8 @@ XrResult XRAPI_CALL createSwapchain(XrSession, const XrSwapchainCreateInfo* info
     image.usage = VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     if (info->usageFlags & XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT)
       image.usage |= VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    if (info->usageFlags & XR_SWAPCHAIN_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT)
+      image.usage |= VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
     if (info->usageFlags & XR_SWAPCHAIN_USAGE_TRANSFER_DST_BIT)
       image.usage |= VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     if (info->usageFlags & XR_SWAPCHAIN_USAGE_SAMPLED_BIT) image.usage |= VK_IMAGE_USAGE_SAMPLED_BIT;
@@ -536,8 +550,7 @@ XrResult XRAPI_CALL createSwapchain(XrSession, const XrSwapchainCreateInfo* info
     mustBe(vkAllocateMemory(r.device, &allocate, nullptr, &made->memory.emplace_back()));
     mustBe(vkBindImageMemory(r.device, made->images.back(), made->memory.back(), 0));
     runOnQueue([&](VkCommandBuffer commands) {
-      barrier(commands, made->images.back(), made->layers, VK_IMAGE_LAYOUT_UNDEFINED,
-              VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+      barrier(commands, *made, made->images.back(), VK_IMAGE_LAYOUT_UNDEFINED, made->layout());
     });
   }
   r.report["swapchains"].push_back({{"format", info->format}, {"layers", info->arraySize}});
@@ -781,7 +794,7 @@ XrResult XRAPI_CALL waitFrame(XrSession, const XrFrameWaitInfo*, XrFrameState* s
   NEED(r.isRunning, "a frame of a session that does not run", XR_ERROR_SESSION_NOT_RUNNING);
   NEED(!r.isWaited, "a frame is waited for twice", XR_ERROR_CALL_ORDER_INVALID);
   ++r.frame;
-  const auto period = XrDuration(1e9 / double(r.refreshRate));
+  const auto period = XrDuration(1e9 * r.script.value("period", 1 / double(r.refreshRate)));
   r.display = kFirstDisplay + r.frame * period;
   if (r.script.contains("events"))
     for (const Json& event : r.script["events"])
@@ -851,7 +864,7 @@ XrResult XRAPI_CALL locateViews(XrSession, const XrViewLocateInfo* info, XrViewS
   return XR_SUCCESS;
 }
 
-// Eight bits a channel, four of them a pixel, as they are stored.
+// Four bytes a pixel, as they are stored.
 std::vector<uint8_t> bytesOf(const Swapchain& from, uint32_t layer, const XrRect2Di& rect) {
   Runtime& r = runtime();
   const auto width = uint32_t(rect.extent.width), height = uint32_t(rect.extent.height);
@@ -871,15 +884,15 @@ std::vector<uint8_t> bytesOf(const Swapchain& from, uint32_t layer, const XrRect
   mustBe(vkBindBufferMemory(r.device, buffer, memory, 0));
   const VkImage image = from.images[size_t(from.released)];
   runOnQueue([&](VkCommandBuffer commands) {
-    barrier(commands, image, from.layers, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-            VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    barrier(commands, from, image, from.layout(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     VkBufferImageCopy copy{};
-    copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, layer, 1};
+    copy.imageSubresource = {
+        VkImageAspectFlags(from.isDepth() ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT), 0, layer,
+        1};
     copy.imageOffset = {rect.offset.x, rect.offset.y, 0};
     copy.imageExtent = {width, height, 1};
     vkCmdCopyImageToBuffer(commands, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer, 1, &copy);
-    barrier(commands, image, from.layers, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-            VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL);
+    barrier(commands, from, image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, from.layout());
   });
   void* mapped = nullptr;
   mustBe(vkMapMemory(r.device, memory, 0, VK_WHOLE_SIZE, 0, &mapped));
@@ -920,6 +933,36 @@ XrResult lookAtQuad(const XrCompositionLayerQuad& quad, Json& frame) {
     one["light"] = *std::max_element(bytes.begin(), bytes.begin() + 3);
   }
   frame["quads"].push_back(one);
+  return XR_SUCCESS;
+}
+
+// How far away what a view shows is.
+XrResult lookAtDepth(const XrCompositionLayerProjectionView& view, const std::string& file, Json& eye) {
+  Runtime& r = runtime();
+  const auto& depth = *static_cast<const XrCompositionLayerDepthInfoKHR*>(view.next);
+  NEED(depth.type == XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR && !depth.next, "a view with something unknown",
+       XR_ERROR_VALIDATION_FAILURE);
+  NEED(r.extensions.count(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME) == 1, "depth without its extension",
+       XR_ERROR_VALIDATION_FAILURE);
+  auto* const from = reinterpret_cast<Swapchain*>(depth.subImage.swapchain);
+  NEED(r.swapchains.count(from) == 1 && from->isDepth() && from->released >= 0 && from->acquired < 0,
+       "depth of an image that was not released", XR_ERROR_LAYER_INVALID);
+  const XrRect2Di &rect = depth.subImage.imageRect, &seen = view.subImage.imageRect;
+  NEED(rect.offset.x == seen.offset.x && rect.offset.y == seen.offset.y &&
+           rect.extent.width == seen.extent.width && rect.extent.height == seen.extent.height &&
+           uint32_t(rect.extent.width) <= from->extent.width &&
+           uint32_t(rect.extent.height) <= from->extent.height &&
+           depth.subImage.imageArrayIndex < from->layers,
+       "depth of another rectangle than the view's", XR_ERROR_SWAPCHAIN_RECT_INVALID);
+  NEED(depth.minDepth >= 0 && depth.maxDepth <= 1 && depth.minDepth < depth.maxDepth && depth.nearZ > 0 &&
+           depth.farZ > 0 && depth.nearZ != depth.farZ,
+       "depths that make no sense", XR_ERROR_VALIDATION_FAILURE);
+  // Metres: what lies at minDepth is nearZ away. JSON knows no infinity.
+  eye["depth"] = {{"nearZ", std::isinf(depth.nearZ) ? -1 : depth.nearZ}, {"farZ", depth.farZ}};
+  if (r.record.empty()) return XR_SUCCESS;
+  const std::vector<uint8_t> bytes = bytesOf(*from, depth.subImage.imageArrayIndex, rect);
+  std::ofstream out(r.record + "/" + file, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
   return XR_SUCCESS;
 }
 
@@ -974,6 +1017,9 @@ XrResult XRAPI_CALL endFrame(XrSession, const XrFrameEndInfo* info) {
       if (!r.record.empty()) savePicture(*from, view.subImage.imageArrayIndex, rect, r.record + "/" + name);
       frame["eyes"].push_back(
           {{"place", {a.x, a.y, a.z}}, {"size", {rect.extent.width, rect.extent.height}}, {"picture", name}});
+      if (!view.next) continue;
+      const XrResult result = lookAtDepth(view, std::string(name) + ".depth", frame["eyes"].back());
+      if (result != XR_SUCCESS) return result;
     }
   }
   r.report["frames"].push_back(frame);

@@ -11,11 +11,13 @@ import math
 import os
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
+import zlib
 from pathlib import Path
 
 sys.dont_write_bytecode = True
@@ -40,6 +42,39 @@ def ppm(path):
     width, height = map(int, size.split())
     assert len(pixels) == width * height * 3, path
     return pixels
+
+
+def exr_floats(path):
+    """The numbers of an EXR of one channel of floats, ZIP: blocks of 16 lines, deflated, of differences between bytes of which
+    the even ones come first."""
+    data = Path(path).read_bytes()
+    at = 8
+    window = None
+    while data[at]:
+        name, at = data[at:data.index(0, at)], data.index(0, at) + 1
+        kind, at = data[at:data.index(0, at)], data.index(0, at) + 1
+        size = struct.unpack_from("<i", data, at)[0]
+        at += 4
+        if name == b"dataWindow":
+            window = struct.unpack_from("<4i", data, at)
+        at += size
+    height = window[3] - window[1] + 1
+    blocks = struct.unpack_from(f"<{(height + 15) // 16}Q", data, at + 1)
+    raw = b""
+    for block in blocks:
+        size = struct.unpack_from("<i", data, block + 4)[0]
+        packed = data[block + 8:block + 8 + size]
+        lines = min(16, height - len(raw) // (4 * (window[2] + 1)))
+        whole = lines * (window[2] - window[0] + 1) * 4
+        if size < whole:
+            coded = bytearray(zlib.decompress(packed))
+            for i in range(1, len(coded)):
+                coded[i] = (coded[i - 1] + coded[i] - 128) & 255
+            half = (len(coded) + 1) // 2
+            packed = bytearray(len(coded))
+            packed[0::2], packed[1::2] = coded[:half], coded[half:]
+        raw += bytes(packed)
+    return struct.unpack(f"<{len(raw) // 4}f", raw)
 
 
 def alike(a, b, levels=1):
@@ -69,7 +104,8 @@ class Xr(unittest.TestCase):
         return ppm(self.record / f"frame-{frame:04d}-{eye}.ppm")
 
     def call(self, *words, frames=1, **script):
-        return subprocess.run([scumble, "xr", demo_scene, *CAMERA, "--samples", "1", "--validate", "--frames", str(frames), *words],
+        return subprocess.run([scumble, "xr", demo_scene, *CAMERA, "--samples", "1", "--validate", "--frames", str(frames),
+                               *([] if "--resolution" in words else ["--resolution", "1"]), *words],
                               env=self.environment(script), capture_output=True, text=True, timeout=200)
 
     def shown(self, *words, frames=1, **script):
@@ -136,6 +172,46 @@ class Xr(unittest.TestCase):
         self.shown(layers=False)
         self.assertEqual([chain["layers"] for chain in self.report()["swapchains"]], [1, 1, 1])
         self.assertTrue(wanted == [self.picture(0, eye) for eye in ("left", "right")])
+
+    def test_runtimes_are_told_how_far_away_it_is(self):
+        wanted = [(self.shown(), self.picture(0, eye))[1] for eye in ("left", "right")]
+        for layers in (True, False):
+            frame = self.shown(depth=True, layers=layers, frames=2)[1]
+            self.assertEqual([chain["format"] for chain in self.report()["swapchains"]], [SRGB, 126, SRGB] if layers else [SRGB] * 2 + [126] * 2 + [SRGB])
+            self.assertTrue(wanted == [self.picture(0, eye) for eye in ("left", "right")], "the picture is another one")
+            for eye, seen in zip(("left", "right"), frame["eyes"]):
+                # Reversed: 0 lies endlessly far away, and 1 at the near plane.
+                self.assertEqual(seen["depth"]["nearZ"], -1)
+                self.assertAlmostEqual(seen["depth"]["farZ"], 0.05, 6)
+                raw = (self.record / f"frame-0000-{eye}.ppm.depth").read_bytes()
+                depths = struct.unpack(f"<{SIZE[0] * SIZE[1]}f", raw)
+                # By what `render` says of the same eye: along the axis, metres.
+                self.rendered("--aov", "depth", "--exr", "float,zip")
+                metres = exr_floats(self.folder / f"rendered.{eye}.depth.exr")
+                self.assertEqual(len(metres), len(depths))
+                self.assertGreater(sum(far < 1e5 for far in metres), len(metres) / 4)
+                self.assertGreater(sum(far > 1e5 for far in metres), len(metres) / 8)
+                fits = sum((depth == 0) if far > 1e5 else abs(0.05 / max(depth, 1e-9) - far) < 0.01 * far for depth, far in zip(depths, metres))
+                self.assertGreater(fits / len(depths), 0.97, eye)
+
+    def test_there_are_as_many_pixels_as_there_is_time_for(self):
+        # Frames come faster than any device draws them.
+        frames = self.shown("--resolution", "auto", frames=26, period=0.001)
+        sizes = [tuple(frame["eyes"][0]["size"]) for frame in frames]
+        self.assertEqual(sizes[0], SIZE)
+        self.assertEqual(sizes, sorted(sizes, reverse=True))
+        self.assertEqual(sizes[-1], (SIZE[0] // 2, SIZE[1] // 2))
+        for frame in frames:
+            self.assertEqual(frame["eyes"][0]["size"], frame["eyes"][1]["size"])
+        # There is time for all of them.
+        sizes = {tuple(frame["eyes"][0]["size"]) for frame in self.shown("--resolution", "auto", frames=6, period=60)}
+        self.assertEqual(sizes, {SIZE})
+        # Or somebody says how many: what is seen is the same, as sharp as that.
+        frame = self.shown("--resolution", "0.5", depth=True)[0]
+        self.assertEqual(frame["eyes"][0]["size"], [SIZE[0] // 2, SIZE[1] // 2])
+        self.assertEqual(len(self.picture(0)), SIZE[0] * SIZE[1] * 3 // 4)
+        for words in ("0.05", "2", "half"):
+            self.bad(USAGE, "--resolution", words, says="auto")
 
     def test_the_runtime_says_which_format(self):
         self.shown()

@@ -37,9 +37,11 @@ struct WashUniforms {
   float relief, wobble, strength, edges, edgeWidth, granulation, dryBrush, bleeding, bare, bareFrom, margin,
       turbulence, hue, glazing;
   vec2 paperAt[2];     // of each view, where the paper's origin lies, pixels
+  mat3 eyeToPaper;     // on a sphere: turns directions to that of the paper
   vec3 paperLight[2];  // of each view, where the light is that falls on the paper: x, y from -1 to 1 over the
-                       // picture, z towards the viewer
+                       // picture, z towards the viewer; on a sphere its direction in eye space
 };
+const float kPaperLightFarthest = 2.0f, kPaperLightBefore = 3.0f, kPaperLightFlattest = 0.2f;
 const int kWashPicture = 1, kWashDensity = 2, kWashPigment = 3, kWashLight = 4, kWashPaper = 5,
           kWashBroad = 6;
 const int kWashBlurred = 1;

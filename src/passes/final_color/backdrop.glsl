@@ -38,7 +38,8 @@ vec3 pictureSimplified(vec2 uv) {
 vec2 backdropPlace(ivec2 pixel, vec2 torn, int layer) {
   vec2 own = vec2(pixel) + 0.5;
   if ((kBackdrop & kBackdropTorn) != 0) {
-    vec2 field = texture(tear, (own - VIEW_FIELD(aside, layer)) / u.backdrop.tearSize + u.backdrop.tearShift).xy - u.tearMean;
+    OnScreen on = onScreen(own, vec2(0.0), vec2(0.0), u.backdrop.tearSize, frame.eyeToSphere, layer);
+    vec2 field = lookUp(tear, vec4(u.tearMean, 0.0, 0.0), on, 1.0, u.backdrop.tearShift).xy;
     return own + 2.0 * u.backdrop.tear * field;
   }
   if ((kBackdrop & kBackdropTornNear) == 0) return own;
@@ -74,6 +75,11 @@ float matteShadowBehind(ivec2 pixel, int layer) {
 // Lays a premultiplied colour over the picture, `matte` of which is in shadow. It is endlessly far away.
 vec4 overBackdrop(vec4 color, float matte, float distance, vec2 at, int layer) {
   vec2 uv = ((at - VIEW_FIELD(aside, layer)) / frame.imageSize - 0.5) * u.backdrop.scale + 0.5;
+  if (kOnSphere) {
+    // All around: longitudes and latitudes.
+    vec3 towards = frame.eyeToSphere * lookThrough(at, layer);
+    uv = vec2(0.5 + atan(towards.x, -towards.z) * 0.15915494, 0.5 - asin(clamp(towards.y, -1.0, 1.0)) * 0.31830989);
+  }
   vec3 own;
   if ((kBackdrop & kBackdropSimplified) != 0)
     own = pictureSimplified(uv);

@@ -43,6 +43,7 @@ class FinalColor : public Pass {
   void declare(FrameBuilder& frame, uint32_t variant) override {
     variant_ = variant;
     samples_ = frame.configuration().samples;
+    onSphere_ = frame.configuration().onSphere;
     // Where nothing but grades was done to the colours of surfaces, single samples of those can be taken.
     isGraded_ = frame.get(kPicture) != frame.get(kSurfaceColors);
     isSampled_ = samples_ > 1 && !frame.configuration().hasBackdrop &&
@@ -172,7 +173,7 @@ class FinalColor : public Pass {
     const uint32_t glows = variant_ & kBlooms ? shared::kFinalColorGlows : 0;
     const uint32_t torn = shared::kFinalColorTorn | (samples_ > 1 ? shared::kFinalColorMixes : 0);
     const std::vector<ImageStep::Texture> textures{
-        {shared::kFinalColorBackdrop, picture, kPictureSampler},
+        {shared::kFinalColorBackdrop, picture, onSphere_ ? kSphereSampler : kPictureSampler},
         {shared::kFinalColorTear, &example.image, ExampleTextures::kSampler}};
     const uint32_t backdrop = backdropFeatures(input.backdrop);
     std::vector<ImageStep::Job> jobs{{{glows, ripple, backdrop}, textures}};
@@ -188,11 +189,13 @@ class FinalColor : public Pass {
   static constexpr uint32_t kTears = 1, kLayered = 2, kBlooms = 4;  // variants
   static constexpr gpu::SamplerDesc kPictureSampler{VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                                     VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, true};
+  static constexpr gpu::SamplerDesc kSphereSampler{VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT,
+                                                   VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE, true};
 
   static constexpr Aov kAovs[] = {{.name = "final-color", .isColor = true, .premultiplied = 3}};
 
   uint32_t variant_ = 0, samples_ = 1;
-  bool isSampled_ = false, isGraded_ = false;
+  bool isSampled_ = false, isGraded_ = false, onSphere_ = false;
   ImageStep step_;
   ExampleTextures* examples_ = nullptr;
 };

@@ -26,6 +26,7 @@ layout(set = 1, binding = kFinalColorBehindLight) uniform sampler2DArray behindS
 layout(set = 1, binding = kFinalColorBehindLit) uniform sampler2DArray behindLit;
 layout(set = 1, binding = kFinalColorBackdrop) uniform sampler2D backdrop;
 layout(set = 1, binding = kFinalColorTear) uniform sampler2D tear;
+#include "../../shading/on_screen.glsl"
 #include "backdrop.glsl"
 
 // A colour from a place, or from behind the pixel, over the picture behind everything.

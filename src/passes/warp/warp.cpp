@@ -155,7 +155,7 @@ class Warp : public Pass {
       index = std::min(index, setups.size() - 1);
       const float inflation = params.inflationUnit == 0
                                   ? params.inflation * pixelScale
-                                  : params.inflation * 0.01f * input.uniforms.imageSize.y;
+                                  : params.inflation * 0.01f * input.uniforms.knobHeight;
       const world::FeaturePlan* const plan = input.scene.planOf(m);
       const float distance = plan && plan->quietDistance > 0
                                  ? std::max(params.distance, 1 / plan->quietDistance)

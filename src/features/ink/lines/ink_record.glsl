@@ -161,7 +161,7 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
     if (kUnit == kInkDegrees) scale = radians(1.0) * pixelsOfOne;
     float width = widthOf(normal) * scale;
     if (hasOwn) {
-      width = ownWidths[i] * frame.imageSize.y;
+      width = ownWidths[i] * frame.knobHeight;
       if (line.outlineUnit == uint(kInkMetres))
         width = ownWidths[i] * pixelsOfOne / mix(ends[i].clip.w, 1.0, VIEW_FIELD(orthographic, view));
     }

@@ -19,6 +19,14 @@ vec4 chanceOf(uint seed) {
   return vec4(uvec4(seed, seed >> 8, seed >> 16, seed >> 24) & 255u) / 255.0;
 }
 
+// By how much what is up on the sphere is turned there against the frame's own up, clockwise: stamps are no other in
+// another part of it. 0 where the frame is no part of one.
+float turnOnSphere(vec3 inEye) {
+  vec3 ahead = normalize(inEye), up = vec3(0.0, 1.0, 0.0) * frame.eyeToSphere;
+  vec3 right = normalize(vec3(1.0, 0.0, 0.0) - ahead * ahead.x), above = normalize(vec3(0.0, 1.0, 0.0) - ahead * ahead.y);
+  return atan(dot(up, right), dot(up, above) + 1e-20);
+}
+
 void main() {
   gl_Position = vec4(2.0, 2.0, 0.0, 1.0);  // outside
   outPlace = vec2(0.0);
@@ -58,7 +66,8 @@ void main() {
   vec4 chance = chanceOf(anchor.seed);
   outChance = chance;
   outMiddle = vec3(at, radius);
-  outStamp = vec4(eyeDepth(clip.z / clip.w, view), radius * pixel, counts, 6.2831853 * chance.w);
+  float turn = turnOnSphere((toEyeSpace * vec4(position, 1.0)).xyz);
+  outStamp = vec4(eyeDepth(clip.z / clip.w, view), radius * pixel, counts, 6.2831853 * chance.w - turn);
   bool isRight = corner == 1 || corner == 2 || corner == 4, isLow = corner == 2 || corner == 4 || corner == 5;
   outPlace = vec2(isRight ? 1.0 : -1.0, isLow ? 1.0 : -1.0);
   gl_Position = vec4((at + radius * outPlace) / (0.5 * frame.imageSize) - 1.0, 0.5, 1.0);

@@ -41,12 +41,15 @@ glm::vec2 paperPlace(const FrameInput& input, uint32_t view, uint32_t motion) {
 }
 
 // Where on the picture the light lies that falls on the paper (section 4.2), so that both come from one side:
-// in -1 to 1 over the picture, not farther off than twice that, and in front of it.
-glm::vec3 paperLight(const FrameInput& input, uint32_t view) {
+// in -1 to 1 over the picture, not farther off than twice that, and in front of it. On a sphere its direction
+// in eye space, of which shaders make that for each place.
+glm::vec3 paperLight(const FrameInput& input, uint32_t view, bool onSphere) {
+  using namespace shared;
   const glm::vec3 inEye = glm::mat3(input.uniforms.views[view].worldToEye) * input.uniforms.toLight;
-  constexpr float kFarthest = 2, kBefore = 3;
-  const glm::vec2 side = kBefore * glm::vec2(inEye.x, -inEye.y) / std::max(std::abs(inEye.z), 0.2f);
-  return {glm::clamp(side, -kFarthest, kFarthest), kBefore};
+  if (onSphere) return inEye;
+  const glm::vec2 side =
+      kPaperLightBefore * glm::vec2(inEye.x, -inEye.y) / std::max(std::abs(inEye.z), kPaperLightFlattest);
+  return {glm::clamp(side, -kPaperLightFarthest, kPaperLightFarthest), kPaperLightBefore};
 }
 
 class Wash : public Pass {
@@ -110,10 +113,16 @@ class Wash : public Pass {
     u.relief = p.relief, u.wobble = p.wobble * scale, u.strength = p.strength;
     u.edges = p.edges, u.edgeWidth = p.edgeWidth * scale, u.granulation = p.granulation;
     u.dryBrush = p.dryBrush, u.bleeding = p.bleeding, u.bare = p.bare, u.bareFrom = p.bareFrom;
-    u.margin = p.margin, u.turbulence = p.turbulence, u.hue = p.hue, u.glazing = p.glazing;
+    // A sphere ends nowhere.
+    const bool onSphere = frame_->configuration().onSphere;
+    u.margin = onSphere ? 0 : p.margin, u.turbulence = p.turbulence, u.hue = p.hue, u.glazing = p.glazing;
     for (uint32_t view = 0; view < frame_->configuration().viewCount; ++view) {
-      u.paperAt[view] = paperPlace(input, view, uint32_t(p.paperMotion));
-      u.paperLight[view] = paperLight(input, view);
+      // Around whoever looks, or around the world.
+      u.eyeToPaper = p.paperMotion == kWithTurn
+                         ? glm::transpose(glm::mat3(input.uniforms.views[0].worldToEye))
+                         : input.uniforms.eyeToSphere;
+      if (!onSphere) u.paperAt[view] = paperPlace(input, view, uint32_t(p.paperMotion));
+      u.paperLight[view] = paperLight(input, view, onSphere);
     }
     for (ImageStep* const step : steps_) step->update(u);
     // Two and a half deviations, as wash_blur.image.glsl has them.

@@ -2,7 +2,7 @@
 // The picture in watercolour: its colours become amounts of pigment, which gather, settle, thin and run as wet paint does,
 // and lie on paper.
 #extension GL_GOOGLE_include_directive : require
-#include "../../../shading/frame.glsl"
+#include "../../../shading/on_screen.glsl"
 #include "../watercolor.shared.h"
 #include "wash.glsl"
 
@@ -14,17 +14,31 @@ layout(set = 1, binding = kWashLight) uniform sampler2DArray light;
 layout(set = 1, binding = kWashPaper) uniform sampler2D paper;
 layout(set = 1, binding = kWashBroad) uniform sampler2D broadly;  // the same, without what is fine
 
+OnScreen placeOnPaper(vec2 place, vec2 beside, int layer) {
+  return onScreen(place, beside, u.paperAt[min(layer, 1)], vec2(u.paperSize), u.eyeToPaper, layer);
+}
+float heightOf(OnScreen on) { return lookUp(paper, vec4(0.5), on, 1.0, vec2(0.0)).r; }
+
+// Where the light on the paper comes from, seen from a place on it: x right, y down, z to the viewer.
+vec3 towardsLight(vec2 place, vec2 ndc, int layer) {
+  vec3 light = u.paperLight[min(layer, 1)];
+  if (!kOnSphere) return light - vec3(ndc, 0.0);
+  // Each place of a sphere is the middle of a picture of its own.
+  vec3 ahead = lookThrough(place, layer);
+  vec3 right = normalize(vec3(1.0, 0.0, 0.0) - ahead * ahead.x), down = normalize(vec3(0.0, -1.0, 0.0) + ahead * ahead.y);
+  vec2 side = vec2(dot(light, right), dot(light, down)) * kPaperLightBefore / max(abs(dot(light, ahead)), kPaperLightFlattest);
+  return vec3(clamp(side, -kPaperLightFarthest, kPaperLightFarthest), kPaperLightBefore);
+}
+
 vec4 shade(ivec2 pixel, int layer) {
   vec2 own = vec2(pixel) + 0.5;
-  int view = min(layer, 1);
   // The paper's height here and beside it.
-  vec2 onScreen = own - VIEW_FIELD(aside, layer);
-  vec2 on = (onScreen - u.paperAt[view]) / u.paperSize;
-  float texel = 1.25 / u.paperSize;
-  float height = texture(paper, on).r - 0.5;
-  vec2 slope = vec2(texture(paper, on + vec2(texel, 0.0)).r, texture(paper, on + vec2(0.0, texel)).r) - 0.5 - height;
+  vec2 inFrame = own - VIEW_FIELD(aside, layer);
+  OnScreen on = placeOnPaper(own, vec2(0.0), layer);
+  float height = heightOf(on);
+  vec2 slope = vec2(heightOf(placeOnPaper(own, vec2(1.25, 0.0), layer)), heightOf(placeOnPaper(own, vec2(0.0, 1.25), layer))) - height;
   // A coarser part of the same relief, for what goes over larger stretches.
-  vec2 broad = vec2(texture(broadly, 0.11 * on).r, texture(broadly, 0.11 * on + vec2(0.37, 0.61)).r) - 0.5;
+  vec2 broad = vec2(lookUp(broadly, vec4(0.5), on, 0.11, vec2(0.0)).r, lookUp(broadly, vec4(0.5), on, 0.11, vec2(0.37, 0.61)).r);
 
   // Edges of colour wobble with the relief (section 4.1).
   vec2 at = own + u.wobble * clamp(5.0 * slope + 2.5 * broad, -1.5, 1.5);
@@ -53,7 +67,7 @@ vec4 shade(ivec2 pixel, int layer) {
   wash *= max(1.0 - 2.2 * u.granulation * height * (0.4 + 0.6 * (1.0 - thin)), 0.0);
   wash *= 1.0 - u.dryBrush * thin * smoothstep(0.02, 0.2, height + 0.25 * brush.x - 0.1 * wet);
   // The painting runs out before the frame ends, in an edge of its own.
-  vec2 side = min(onScreen, frame.imageSize - onScreen) / frame.imageSize.y;
+  vec2 side = min(inFrame, frame.imageSize - inFrame) / frame.imageSize.y;
   float margin = max(u.margin, 1e-6);
   vec2 inner = max(vec2(3.2 * margin) - side, 0.0);
   float beyond = 2.2 * margin - length(inner) + 0.9 * margin * (2.2 * broad.x + 0.8 * broad.y + 0.6 * height);
@@ -61,7 +75,7 @@ vec4 shade(ivec2 pixel, int layer) {
   wash *= ends * (1.0 + 0.8 * u.edges * ends * (1.0 - smoothstep(0.0, 0.5 * margin, beyond)));
   vec3 result = u.white * exp(-u.strength * wash);
   // Light on the paper (section 4.2): as bright on the whole as without relief.
-  vec3 towards = u.paperLight[view] - vec3(onScreen / frame.imageSize * 2.0 - 1.0, 0.0);
+  vec3 towards = towardsLight(own, inFrame / frame.imageSize * 2.0 - 1.0, layer);
   vec3 normal = normalize(vec3(-u.relief * 6.0 * slope, 1.0));
   result *= clamp(dot(normal, normalize(towards)) / max(normalize(towards).z, 0.2), 0.0, 1.35);
   return vec4(result, 1.0);

@@ -1,0 +1,32 @@
+#include "panorama_kind.h"
+
+#include "scumble/nearest.h"
+
+namespace scumble::app {
+
+namespace {
+
+constexpr PanoramaKindRow kKinds[] = {
+    {"vr180", PanoramaKind::vr180, "side-by-side", "2048x2048", FilmProjection::halfSphere},
+    {"ods", PanoramaKind::ods, "over-under", "4096x2048", FilmProjection::sphere},
+    {"mono360", PanoramaKind::mono360, "", "4096x2048", FilmProjection::sphere}};
+
+}  // namespace
+
+Result<const PanoramaKindRow*> panoramaKindOf(const std::string& name) {
+  if (name.empty()) return nullptr;
+  std::vector<std::string> names;
+  for (const PanoramaKindRow& row : kKinds) {
+    if (name == row.name) return &row;
+    names.emplace_back(row.name);
+  }
+  const std::string suggestion = nearest(name, names);
+  return Error{ErrorKind::usage,
+               "",
+               0,
+               "",
+               "'" + name + "' is no kind of panorama",
+               suggestion.empty() ? "use vr180, ods or mono360" : "did you mean '" + suggestion + "'?"};
+}
+
+}  // namespace scumble::app
