@@ -9,13 +9,12 @@
 #include "tests/support/render_test.h"
 #include "tests/support/sanitized.h"
 
-namespace scumble {
+namespace scumble::panorama {
 namespace {
 
 using namespace test;
-using panorama::kTurn;
 
-constexpr uint32_t kHeight = 128;
+constexpr uint32_t kRows = 128;
 constexpr glm::vec3 kEye(0.3f, 1.2f, 0.4f);
 
 // A room with something in it, all around the eye.
@@ -42,7 +41,7 @@ View cameraAt(const Scene& scene, float heading, float pitch = 0) {
   return viewsFrom(scene, {kEye, kEye + ahead}, 64, 64).front();
 }
 
-RenderOptions optionsFor(PanoramaKind kind, std::vector<std::string> aovs = {}, uint32_t height = kHeight) {
+RenderOptions optionsFor(PanoramaKind kind, std::vector<std::string> aovs = {}, uint32_t height = kRows) {
   return sized(height * aspectOf(kind), height, std::move(aovs));
 }
 
@@ -61,7 +60,7 @@ glm::dvec2 anglesOf(const Image& image, PanoramaKind kind, uint32_t x, uint32_t 
   const double longitudes = glm::radians(double(longitudesOf(kind)));
   return {((x + 0.5) / image.width - 0.5) * longitudes, (0.5 - (y + 0.5) / image.height) * 0.5 * kTurn};
 }
-glm::dvec3 directionOf(const glm::dvec2& angles) {
+glm::dvec3 wayOf(const glm::dvec2& angles) {
   return {std::sin(angles.x) * std::cos(angles.y), std::sin(angles.y),
           -std::cos(angles.x) * std::cos(angles.y)};
 }
@@ -76,18 +75,18 @@ TEST_F(Panoramas, placesLieWhereTheyAreSeen) {
                               optionsFor(kind, {"position", "depth", "id"}));
     for (int eye = 0; eye < eyesOf(kind); ++eye) {
       const Image &position = aov(frame, "position", size_t(eye)), &depth = aov(frame, "depth", size_t(eye));
-      const double pixel = 0.5 * kTurn / kHeight;
+      const double pixel = 0.5 * kTurn / kRows;
       Difference away(1.5), distances(0.004);  // pixels; metres
       for (uint32_t y = 0; y < position.height; ++y)
         for (uint32_t x = 0; x < position.width; ++x) {
           if (aov(frame, "id", size_t(eye)).at(x, y, 0) == 0) continue;
           const glm::dvec2 angles = anglesOf(position, kind, x, y);
-          const double apart = kind == PanoramaKind::mono360 ? 0 : 0.063 * panorama::easing(float(angles.y));
+          const double apart = kind == PanoramaKind::mono360 ? 0 : 0.063 * easing(float(angles.y));
           const glm::dvec2 world(angles.x + kHeading, angles.y);
           const glm::dvec3 right(std::cos(world.x), 0, std::sin(world.x));
           const glm::dvec3 place = glm::dvec3(kEye) + (eye == 0 ? -0.5 : 0.5) * apart * right;
           const glm::dvec3 way = glm::dvec3(texel(position, int(x), int(y))) - place;
-          away.add(glm::length(glm::cross(directionOf(world), glm::normalize(way))) / pixel, 0);
+          away.add(glm::length(glm::cross(wayOf(world), glm::normalize(way))) / pixel, 0);
           distances.add(depth.at(x, y, 0), glm::length(way));
         }
       // The nearest pixel's middle is up to 0.7 pixels off; and eyes keep their places for a strip.
@@ -156,7 +155,7 @@ TEST_F(Panoramas, turningTheCameraTurnsThePicture) {
       if (kind == PanoramaKind::ods && &look != &looks.front()) continue;
       panorama.kind = kind;
       const RenderOptions options =
-          optionsFor(kind, {"final-shadow", "color", "final-color", "warp"}, 2 * kHeight);
+          optionsFor(kind, {"final-shadow", "color", "final-color", "warp"}, 2 * kRows);
       const float turn = kTurn * float(kColumns) / float(options.width);
       const Frame a = paint(scene, look, cameraAt(scene, 0.2f), panorama, options);
       const Frame b = paint(scene, look, cameraAt(scene, 0.2f + turn), panorama, options);
@@ -230,7 +229,7 @@ TEST_F(Panoramas, itRidesTheSeaAndKeepsLevel) {
         if (aov(*frame, "id").at(x, y, 0) == 0 || depth.at(x, y, 0) > 8) continue;
         const glm::dvec2 angles = anglesOf(position, PanoramaKind::mono360, x, y);
         const glm::dvec3 eye = glm::dvec3(texel(position, int(x), int(y))) -
-                               double(depth.at(x, y, 0)) * directionOf({angles.x + heading, angles.y});
+                               double(depth.at(x, y, 0)) * wayOf({angles.x + heading, angles.y});
         sum += eye, squares += eye * eye, ++count;
       }
     middle = sum / double(count);
@@ -265,7 +264,7 @@ TEST_F(Panoramas, motionIsByThePanoramasPixels) {
     const glm::dvec3 d = glm::normalize(point - eye);
     return pixels * glm::dvec2(std::atan2(d.x, -d.z), -std::asin(d.y));
   };
-  for (uint32_t y = kHeight / 8; y < kHeight * 7 / 8; ++y)
+  for (uint32_t y = kRows / 8; y < kRows * 7 / 8; ++y)
     for (uint32_t x = 0; x < position.width; ++x) {
       if (aov(frame, "id").at(x, y, 0) == 0) continue;
       const glm::dvec3 point(texel(position, int(x), int(y)));
@@ -391,4 +390,4 @@ TEST_F(Panoramas, whatMakesNoSenseIsRefused) {
 }
 
 }  // namespace
-}  // namespace scumble
+}  // namespace scumble::panorama
