@@ -97,6 +97,9 @@ void printTable(const Measurements& measured, const std::string& heading) {
       "color", measured, [](const ModeMeasurements& m) { return m.stereo.color; }, "{:14.4f}");
   printRow(
       "final-color", measured, [](const ModeMeasurements& m) { return m.stereo.finalColor; }, "{:14.4f}");
+  printHead("in conflict in depth", measured);
+  printRow("breakup marks", measured, [](const ModeMeasurements& m) { return m.stereo.marksInConflict; });
+  printRow("final-color", measured, [](const ModeMeasurements& m) { return m.stereo.pictureInConflict; });
   printHead("zoom: cycles a pixel", measured);
   const std::vector<ZoomPoint>& zoom = measured.modes[0].zoom;
   for (size_t i = 0; i < zoom.size(); ++i)
@@ -140,7 +143,9 @@ nlohmann::json toJson(const ModeMeasurements& mode) {
            {{"warp", toJson(mode.stereo.warp)},
             {"final-shadow", mode.stereo.finalShadow},
             {"color", mode.stereo.color},
-            {"final-color", mode.stereo.finalColor}}}};
+            {"final-color", mode.stereo.finalColor},
+            {"in-conflict",
+             {{"marks", mode.stereo.marksInConflict}, {"final-color", mode.stereo.pictureInConflict}}}}}};
 }
 
 MeasureOptions withProgress(MeasureOptions options, std::optional<Progress>& progress, bool quiet) {

@@ -48,6 +48,10 @@ struct StereoDifference {
   PerField warp;           // over sqrt(2) standard deviations, as TemporalError
   double finalShadow = 0;  // of 1; so are the colours, linear, over three channels
   double color = 0, finalColor = 0;
+  // Conflicts in depth: parts of the picture, of those with something to see, that fit another distance than
+  // the surface's better than that, by more than a pixel of disparity; 0 to 1. Of the breakup marks, and of
+  // the picture's luminance.
+  double marksInConflict = 0, pictureInConflict = 0;
 };
 
 // What becomes of breakup marks while the picture is magnified to twice its size, from several zooms on.

@@ -17,6 +17,7 @@
 #include "measure/measurer.h"
 #include "measure/reprojection.h"
 #include "measure/statistics.h"
+#include "measure/vergence.h"
 
 namespace scumble {
 
@@ -449,6 +450,18 @@ class Measurer {
     mode.stereo.finalShadow = differenceOf("final-shadow", 1);
     mode.stereo.color = differenceOf("color", 3);
     mode.stereo.finalColor = differenceOf("", 3);
+    mode.stereo.marksInConflict = vergenceOf(inLeft.marks, inRight.marks, places).share();
+    const auto luminance = [&](size_t view) {
+      Field colors = fieldIn(*fields, layer(*pictures, "", view), 0, 3, view);
+      Field field(colors.width, colors.height, 1);
+      field.valid = colors.valid;
+      for (size_t pixel = 0; pixel < field.pixelCount(); ++pixel) {
+        const float* const c = colors.at(pixel);
+        *field.at(pixel) = 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2];
+      }
+      return field;
+    };
+    mode.stereo.pictureInConflict = vergenceOf(luminance(0), luminance(1), places).share();
     return Done{};
   }
 

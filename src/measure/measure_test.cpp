@@ -254,6 +254,9 @@ TEST_F(MeasuredWalls, stereoIsWhatDiffersBetweenTheEyes) {
     EXPECT_LT(mode(name).stereo.warp.vectors, kResampling) << name;
     EXPECT_LT(mode(name).stereo.warp.marks, kResampling) << name;
   }
+  // What is attached lies where the wall does; what lies on the screen does not.
+  for (const std::string& name : kAttached) EXPECT_LT(mode(name).stereo.marksInConflict, 0.05) << name;
+  EXPECT_GT(mode("screen").stereo.marksInConflict, 0.5);
   const PerField expected = screenError(eyes[0], eyes[1], 0);
   EXPECT_GT(expected.vectors, 0.1);
   EXPECT_NEAR(mode("screen").stereo.warp.vectors / std::sqrt(expected.vectors), 1, 0.04);
