@@ -38,6 +38,7 @@ struct RenderArguments {
   std::vector<std::string> aovs;
   std::optional<double> time;  // seconds
   double fps = 24;
+  float strip = Panorama().strip;
   std::optional<int> quality;
   bool quiet = false, resume = false;
   const CLI::App* command = nullptr;
@@ -48,7 +49,9 @@ struct RenderArguments {
   Status choosePanorama();
   const PanoramaKindRow* kind = nullptr;  // null: no panorama
   // Of a panorama, that and where it is seen from.
-  Panorama wanted() const { return {kind->kind, picture.ipd, picture.fov.value_or(Panorama().knobHeight)}; }
+  Panorama wanted() const {
+    return {kind->kind, picture.ipd, picture.fov.value_or(Panorama().knobHeight), strip};
+  }
   PictureArguments camera() const;
 };
 
@@ -61,6 +64,11 @@ Status RenderArguments::choosePanorama() {
   if (eyesOf(kind->kind) == 1 && picture.isStereo())
     return usage("--panorama " + panorama + " has one eye, and --stereo asks for two", "use --panorama ods");
   if (!picture.isStereo()) picture.stereo = kind->stereo;
+  // Players know how eyes lie side by side or over each other, and nothing else.
+  const Result<const StereoLayout*> layout = stereoLayoutOf(picture.stereo);
+  if (!layout) return layout.error();
+  if (*layout && (*layout)->film == FilmLayout::mono && !(*layout)->isSeparate)
+    return usage("a panorama cannot be " + picture.stereo, "use side-by-side, over-under or separate");
   if (picture.fov && !(*picture.fov >= 1 && *picture.fov <= 180))
     return usage("--fov is out of range", "of a panorama it takes 1 to 180 degrees");
   return Done{};
@@ -68,7 +76,9 @@ Status RenderArguments::choosePanorama() {
 
 PictureArguments RenderArguments::camera() const {
   PictureArguments camera = picture;
-  if (kind) camera.stereo.clear(), camera.fov.reset();
+  // What is framed is seen by a wide angle.
+  constexpr float kFraming = 80;
+  if (kind) camera.stereo.clear(), camera.fov = kFraming;
   return camera;
 }
 
@@ -241,6 +251,9 @@ class FrameLoop {
         if (!behind) return behind.error();
         options.background = std::move(behind).value();
         if (args_.kind) {
+          const Image* const around = options.background.get();
+          if (around && around->width != 2 * around->height && done == 0 && !args_.quiet)
+            warn({"the background goes all around, and is not twice as wide as high: it is stretched"});
           // Many frames in itself: it keeps the device at work alone.
           options.progress = [&](double part) {
             progress_.part(part);
@@ -289,7 +302,12 @@ void warnOfIdle(const RenderArguments& args, const OutputPlan& output) {
     warn({"--svg does nothing where no SVG is written"});
   if (args.isGiven("--exr") && (isFilm || (output.kind() != OutputKind::exr && output.aovs.empty())))
     warn({"--exr does nothing where no EXR is written"});
-  args.picture.warnOfIdle();
+  if (!args.kind) {
+    args.picture.warnOfIdle();
+    if (args.isGiven("--strip")) warn({"--strip does nothing without --panorama"});
+  } else if (eyesOf(args.kind->kind) == 1 && args.isGiven("--ipd")) {
+    warn({"--ipd does nothing for one eye: --panorama ods has two"});
+  }
 }
 
 int run(RenderArguments args) {
@@ -304,9 +322,9 @@ int run(RenderArguments args) {
   // Check everything that can be checked before anything is drawn.
   const Result<Background> background = Background::make(args.background);
   if (!background) return fail(background.error());
+  if (const Status status = args.choosePanorama(); !status) return fail(status.error());
   Result<RenderOptions> options = renderOptions(args, *background);
   if (!options) return fail(options.error());
-  if (const Status status = args.choosePanorama(); !status) return fail(status.error());
   const Result<const StereoLayout*> layout = stereoLayoutOf(args.picture.stereo);
   if (!layout) return fail(layout.error());
   Result<OutputPlan> output = OutputPlan::make(args.output, args.scene.files[0], *layout,
@@ -485,6 +503,11 @@ void addRender(CLI::App& program, int& exitCode) {
           "picture (2048x2048, or 4096x2048), --stereo how eyes lie in it (side-by-side, or over-under), "
           "and --fov how many degrees the 1080 lines are that looks count by (90)")
       ->type_name("KIND");
+  command
+      ->add_option("--strip", args->strip,
+                   "Degrees of a panorama for which an eye keeps its place, 0.5 to 15: less where --ipd is "
+                   "large or things are near, and their edges have steps")
+      ->capture_default_str();
   command->add_option("--time", args->time, "Seconds (default: 0)");
   command
       ->add_option(

@@ -52,8 +52,8 @@ struct FilmOptions {
   // knows.
   std::optional<int> quality;
 
-  FilmLayout layout = FilmLayout::mono;  // a GIF cannot say it
-  FilmProjection projection = FilmProjection::flat;
+  FilmLayout layout = FilmLayout::mono;              // a GIF cannot say it
+  FilmProjection projection = FilmProjection::flat;  // others: each eye's width and height are even
 };
 
 // Writes one film. The file appears whole when finish() succeeds, and not at all otherwise.

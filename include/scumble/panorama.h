@@ -27,7 +27,8 @@ struct Panorama {
   // that are pixels become angles so.
   float knobHeight = 90;
   // Degrees of longitude for which an eye keeps its place, at 45 degrees of latitude; more where a step to
-  // the next place shows less. 0.5 to 15; half of it takes twice as many frames.
+  // the next place shows less. 0.5 to 15; half of it takes twice as many frames. The steps are as large as
+  // ipd is: where that is large beside how far things are, edges have steps unless strips are narrow.
   float strip = 6;
 };
 
@@ -52,16 +53,17 @@ struct PanoramaPlan {
 SCUMBLE_API Result<PanoramaPlan> planPanorama(const Panorama& panorama, const RenderOptions& options);
 
 // One panorama, like Renderer::render: with a view for each eye, of options.width by options.height each,
-// which have the aspect that its kind asks for. `from` is the camera; where it hangs on a node, that takes
-// it along, level. Its near plane counts, its field of view does not. options.previousViews has one view,
-// `from` a frame earlier, or none; `latch`, `drawing` and `sphere` must be empty.
+// which have the aspect that its kind asks for; 16 to 16384 / aspectOf(kind) high. `from` is the camera;
+// where it hangs on a node, that takes it along, level. Its near plane counts, its field of view does not.
+// options.previousViews has one view, `from` a frame earlier, or none; `latch`, `drawing` and `sphere` must
+// be empty.
 //
 // What is a colour is filtered; other AOVs are those of the nearest frame. `depth` is the distance from the
 // eye; `motion`, `warp` and `uv-gradient` are by the panorama's own pixels. The same call gives the same
-// bytes.
+// bytes. Frame::stats are of all its frames together. It takes 16 bytes for each pixel of each layer and eye.
 //
-// No frame of the renderer may be under way. Fails as Renderer::render does, and with usage for what is out
-// of range or does not fit.
+// No frame of the renderer may be under way (usage). Fails as Renderer::render does, and with usage for what
+// is out of range or does not fit.
 SCUMBLE_API Result<Frame> renderPanorama(Renderer& renderer, const Scene& scene, const Look& look,
                                          double time, const View& from, const Panorama& panorama,
                                          const RenderOptions& options);

@@ -176,6 +176,7 @@ class SCUMBLE_API Renderer {
   Status begin(const Scene& scene, const Look& look, double time, const std::vector<View>& views,
                const RenderOptions& options);
   Result<Frame> finish();
+  size_t framesBegun() const;  // and not finished: up to kMaxBegun
 
   // Names of everything that can be saved beside the picture; whether what one holds (metres, positions,
   // numbers of objects) needs 32 bits; and whether it has a size of its own, and one image for all views. The

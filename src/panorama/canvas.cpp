@@ -124,16 +124,23 @@ void Canvas::addRow(const Image& frame, Place place, Carry carry, uint32_t y) {
     if (carry.isMixed) {
       const glm::vec2 corner = glm::floor(at - 0.5f), t = at - 0.5f - corner;
       const glm::vec4 across = splineOf(t.x), down = splineOf(t.y);
-      float sum[8] = {};
+      float sum[8] = {}, least[8], most[8];
+      std::fill(least, least + 8, INFINITY), std::fill(most, most + 8, -INFINITY);
       for (int j = 0; j < 4; ++j)
         for (int i = 0; i < 4; ++i) {
           const float* const in = clamped(int(corner.x) + i - 1, int(corner.y) + j - 1);
           const float weight = across[i] * down[j];
           // Of colours A is the coverage.
           const float covered = channels == 4 ? in[3] : 1;
-          for (size_t c = 0; c < channels; ++c) sum[c] += weight * (c < 3 ? covered * in[c] : in[c]);
+          // The spline rings: no colour is brighter or darker than the four around it.
+          const bool isAround = (i == 1 || i == 2) && (j == 1 || j == 2);
+          for (size_t c = 0; c < channels; ++c) {
+            const float value = c < 3 ? covered * in[c] : in[c];
+            sum[c] += weight * value;
+            if (isAround) least[c] = std::min(least[c], value), most[c] = std::max(most[c], value);
+          }
         }
-      for (size_t c = 0; c < channels; ++c) out[c] += share * std::max(sum[c], 0.0f);
+      for (size_t c = 0; c < channels; ++c) out[c] += share * std::clamp(sum[c], least[c], most[c]);
       continue;
     }
     // The nearest part's.

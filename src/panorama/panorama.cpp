@@ -4,6 +4,7 @@
 #include <cmath>
 #include <deque>
 #include <glm/gtc/matrix_transform.hpp>
+#include <new>
 
 #include "base/usage.h"
 #include "panorama/canvas.h"
@@ -26,11 +27,15 @@ Status checkPanorama(const Panorama& panorama, const RenderOptions& options) {
     return usage("a panorama's knobHeight is out of range", "use 1 to 180 degrees");
   if (!(panorama.strip >= 0.5f && panorama.strip <= 15))
     return usage("a panorama's strip is out of range", "use 0.5 to 15 degrees");
-  const uint32_t aspect = aspectOf(panorama.kind);
-  if (options.height < 16 || options.width != aspect * options.height || options.height > 16384 / aspect)
-    return usage("a panorama of " + std::to_string(options.width) + "x" + std::to_string(options.height) +
-                     " has not the aspect of its kind",
+  const uint32_t aspect = aspectOf(panorama.kind), least = 16, most = 16384 / aspect;
+  const std::string what =
+      "a panorama of " + std::to_string(options.width) + "x" + std::to_string(options.height);
+  if (options.width != aspect * options.height)
+    return usage(what + " has not the aspect of its kind",
                  aspect == 1 ? "use one like 2048x2048" : "use one like 4096x2048");
+  if (options.height < least || options.height > most)
+    return usage(what + " is out of range",
+                 "use a height of " + std::to_string(least) + " to " + std::to_string(most));
   if (options.sphere || options.latch || options.drawing)
     return usage("a panorama is drawn without latch, drawing and sphere", "leave them empty");
   return Done{};
@@ -98,7 +103,7 @@ void add(FrameStats& sum, const FrameStats& one) {
   sum.writtenPrimitives += one.writtenPrimitives;
   sum.writtenTextures += one.writtenTextures;
   sum.writtenMaterials += one.writtenMaterials;
-  sum.triangles = one.triangles;
+  sum.triangles = std::max(sum.triangles, one.triangles);
   sum.drawCalls += one.drawCalls;
   sum.deviceBytes = std::max(sum.deviceBytes, one.deviceBytes);
   sum.uploadedBytes += one.uploadedBytes;
@@ -159,11 +164,19 @@ Result<Frame> Work::draw(Renderer& renderer, const Scene& scene, const Look& loo
                          const View& from) {
   RenderOptions options = options_;
   options.progress = nullptr;
-  options.formats.clear();
+  // What is put together is so in floats.
+  std::erase_if(options.formats, [](const auto& format) { return !Renderer::hasSizeOfItsOwn(format.first); });
   SpherePart& sphere = options.sphere.emplace();
   sphere.knobHeight = glm::radians(panorama_.knobHeight);
   // As many frames are under way as can be; what has been begun is finished, whatever goes wrong.
   std::deque<Place> underWay;
+  struct Rest {
+    Renderer& renderer;
+    std::deque<Place>& underWay;
+    ~Rest() {
+      for (; !underWay.empty(); underWay.pop_front()) (void)renderer.finish();
+    }
+  } rest{renderer, underWay};
   std::optional<Error> error;
   size_t next = 0, done = 0;
   while (done < places_.size() && !(error && underWay.empty())) {
@@ -221,13 +234,19 @@ Result<PanoramaPlan> planPanorama(const Panorama& panorama, const RenderOptions&
 Result<Frame> renderPanorama(Renderer& renderer, const Scene& scene, const Look& look, double time,
                              const View& from, const Panorama& panorama, const RenderOptions& options) {
   if (const Status status = checkPanorama(panorama, options); !status) return status.error();
+  if (renderer.framesBegun() > 0)
+    return usage("a frame of the renderer is under way", "finish() it before a panorama");
   if (isParallel(from))
     return usage("a camera without perspective stands nowhere", "use a perspective one for a panorama");
   if (options.previousViews.size() > 1)
     return usage("a panorama has one camera", "give its view a frame earlier, or none at all");
   if (!options.previousViews.empty() && isParallel(options.previousViews.front()))
     return usage("a camera without perspective stands nowhere", "use a perspective one for a panorama");
-  return Work(panorama, options).draw(renderer, scene, look, time, from);
+  try {
+    return Work(panorama, options).draw(renderer, scene, look, time, from);
+  } catch (const std::bad_alloc&) {
+    return Error{ErrorKind::noUsableGpu, "", 0, "", "there is not enough memory", "use a smaller picture"};
+  }
 }
 
 }  // namespace scumble

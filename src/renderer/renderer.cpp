@@ -140,6 +140,10 @@ GpuInfo Renderer::gpu() const {
   return info;
 }
 
+size_t Renderer::framesBegun() const {
+  return impl_->begun.size();
+}
+
 int Renderer::validationMessages() const {
   return impl_->device->validationMessages();
 }

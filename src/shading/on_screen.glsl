@@ -43,9 +43,9 @@ OnScreen onScreen(vec2 place, vec2 beside, vec2 origin, vec2 size, mat3 toSphere
 
 // A texture of which a copy is `factor` times as small, and lies elsewhere by `shift`; as far as it is from its mean.
 vec4 lookUp(sampler2D repeated, vec4 mean, OnScreen on, float factor, vec2 shift) {
-  vec4 value = texture(repeated, factor * on.at[0] + shift) - mean;
-  if (!kOnSphere) return value;
-  value *= on.share.x;
+  if (!kOnSphere) return texture(repeated, factor * on.at[0] + shift) - mean;
+  // No differences between pixels: they jump from side to side.
+  vec4 value = on.share.x * (textureLod(repeated, factor * on.at[0] + shift, 0.0) - mean);
   value += on.share.y * (textureLod(repeated, factor * on.at[1] + shift, 0.0) - mean);
   return value + on.share.z * (textureLod(repeated, factor * on.at[2] + shift, 0.0) - mean);
 }

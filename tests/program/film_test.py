@@ -17,7 +17,7 @@ import unittest
 from pathlib import Path
 
 import program_test
-from program_test import NOT_WRITTEN, TINY, USAGE, Program, exr, gltf, png
+from program_test import NOT_WRITTEN, TINY, UNUSABLE, USAGE, Program, exr, gltf, png
 
 QUIET = [*TINY, "--quiet"]
 
@@ -323,17 +323,24 @@ class Films(Film):
         self.assertEqual(png(self.folder / "b.right.png")[:2], (16, 16))
         self.around("ods", "-o", "c.exr", "--aov", "depth")
         self.assertLessEqual({"R", "right.R", "depth.left.R", "depth.right.R"}, {name for name, _ in exr(self.folder / "c.exr")["channels"]})
+        # Without a size it has one that fits.
+        self.before = self.files()
+        for kind in ("vr180", "ods", "mono360"):
+            self.bad(UNUSABLE, "render", "missing.gltf", "-o", "x.png", "--panorama", kind, says="missing.gltf")
         # What does nothing is told.
-        for args, told in ((["--roll", "3"], "--roll does nothing in a panorama"), (["--ipd", "0.07"], "--ipd does nothing without --stereo")):
+        for args, told in ((["--roll", "3"], "--roll does nothing in a panorama"), (["--ipd", "0.07"], "--ipd does nothing for one eye")):
             self.assertIn(told, self.around("mono360", "-o", "d.png", *args)[0])
         self.assertIn("MP4 alone", self.around("mono360", "-o", "d.gif", "--frames", "0..0")[0])
         # And what makes no sense.
         self.before = self.files()
         for args, says in ((["vr90"], "'vr180'"), (["cube"], "mono360"), (["vr180", "--size", "32x16"], "2048x2048"),
                            (["mono360", "--size", "16x16"], "4096x2048"), (["mono360", "--stereo", "separate"], "ods"),
+                           (["ods", "--stereo", "crossed"], "side-by-side"), (["ods", "--stereo", "wiggle"], "side-by-side"),
+                           (["vr180", "--size", "8x8"], "16 to 16384"), (["vr180", "--strip", "0"], "0.5 to 15"),
                            (["ods", "--fov", "0.5"], "1 to 180"), (["ods", "--ipd", "-1"], "eyes")):
             self.bad(USAGE, "render", "box.gltf", "-o", "x.png", "--panorama", *args, says=says)
         self.bad(USAGE, "render", "box.gltf", "-o", "x.svg", "--panorama", "mono360", says="drawing")
+        self.bad(USAGE, "render", "box.gltf", "-o", "x.mp4", "--frames", "0..0", "--panorama", "vr180", "--size", "17x17", says="even")
 
     def test_players_learn_how_the_eyes_lie(self):
         for layout, size, name in (("side-by-side", (64, 18), "side by side"), ("over-under", (32, 36), "top and bottom")):

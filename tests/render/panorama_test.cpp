@@ -365,7 +365,7 @@ TEST_F(Panoramas, whatMakesNoSenseIsRefused) {
   const RenderOptions good = optionsFor(PanoramaKind::vr180, {}, 32);
   EXPECT_NE(problem(from, {}, sized(64, 32)).find("aspect"), std::string::npos);
   EXPECT_NE(problem(from, {PanoramaKind::ods}, good).find("aspect"), std::string::npos);
-  EXPECT_NE(problem(from, {}, sized(8, 8)).find("aspect"), std::string::npos);
+  EXPECT_NE(problem(from, {}, sized(8, 8)).find("out of range"), std::string::npos);
   EXPECT_NE(problem(from, {PanoramaKind::vr180, -1}, good).find("eyes"), std::string::npos);
   EXPECT_NE(problem(from, {PanoramaKind::vr180, NAN}, good).find("eyes"), std::string::npos);
   EXPECT_NE(problem(from, {PanoramaKind::vr180, 0.06f, 0}, good).find("knobHeight"), std::string::npos);
@@ -377,6 +377,15 @@ TEST_F(Panoramas, whatMakesNoSenseIsRefused) {
   bad = good;
   bad.latch = [](std::vector<View>&) {};
   EXPECT_NE(problem(from, {}, bad).find("latch"), std::string::npos);
+  bad = good;
+  bad.height = bad.width = 16385;
+  EXPECT_NE(problem(from, {}, bad).find("out of range"), std::string::npos);
+  // Frames that somebody else has begun are theirs.
+  ASSERT_TRUE(renderer().begin(scene, Look(), 0, {from}, sized(16, 16)));
+  EXPECT_EQ(renderer().framesBegun(), 1u);
+  EXPECT_NE(problem(from, {}, good).find("under way"), std::string::npos);
+  EXPECT_TRUE(renderer().finish());
+  EXPECT_EQ(renderer().framesBegun(), 0u);
   bad = good;
   bad.aovs = {"colour"};
   EXPECT_NE(problem(from, {}, bad).find("colour"), std::string::npos);

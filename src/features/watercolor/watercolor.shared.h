@@ -39,9 +39,9 @@ struct WashUniforms {
   vec2 paperAt[2];     // of each view, where the paper's origin lies, pixels
   mat3 eyeToPaper;     // on a sphere: turns directions to that of the paper
   vec3 paperLight[2];  // of each view, where the light is that falls on the paper: x, y from -1 to 1 over the
-                       // picture, z towards the viewer; on a sphere its direction in eye space
+                       // picture, z towards the viewer
 };
-const float kPaperLightFarthest = 2.0f, kPaperLightBefore = 3.0f, kPaperLightFlattest = 0.2f;
+const float kPaperLightBefore = 3.0f, kPaperLightAbove = 1.5f;
 const int kWashPicture = 1, kWashDensity = 2, kWashPigment = 3, kWashLight = 4, kWashPaper = 5,
           kWashBroad = 6;
 const int kWashBlurred = 1;

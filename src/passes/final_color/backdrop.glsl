@@ -1,8 +1,9 @@
 // The picture behind everything: where a pixel takes it from, its colour in light, and its colour in shadow.
 
 // One of its texels a pixel, or the mean of the four that a pixel covers.
-vec3 pictureAlone(vec2 uv) {
-  vec2 apart = 0.25 * u.backdrop.minified * u.backdrop.scale / frame.imageSize;
+// `pixel`: what one covers of it there.
+vec3 pictureAlone(vec2 uv, vec2 pixel) {
+  vec2 apart = 0.25 * u.backdrop.minified * pixel;
   if ((kBackdrop & kBackdropMinified) == 0) {
     // At the very middle of a texel filters add what they round; a picture as large as the frame stays what it is.
     vec2 texel = uv * vec2(textureSize(backdrop, 0)), middle = floor(texel) + 0.5;
@@ -17,8 +18,8 @@ vec3 pictureAlone(vec2 uv) {
 
 // A Kuwahara filter (Papari et al. 2007) whose sectors are single samples of a coarser level: of eight areas around the
 // pixel those with the least variance count, so that it becomes flat without losing its edges.
-vec3 pictureSimplified(vec2 uv) {
-  vec2 reach = 0.6 * u.backdrop.radius * u.backdrop.scale / frame.imageSize;
+vec3 pictureSimplified(vec2 uv, vec2 pixel) {
+  vec2 reach = 0.6 * u.backdrop.radius * pixel;
   vec3 sum = vec3(0.0);
   float weights = 0.0;
   for (int i = 0; i < 8; ++i) {
@@ -75,17 +76,20 @@ float matteShadowBehind(ivec2 pixel, int layer) {
 // Lays a premultiplied colour over the picture, `matte` of which is in shadow. It is endlessly far away.
 vec4 overBackdrop(vec4 color, float matte, float distance, vec2 at, int layer) {
   vec2 uv = ((at - VIEW_FIELD(aside, layer)) / frame.imageSize - 0.5) * u.backdrop.scale + 0.5;
+  vec2 pixel = u.backdrop.scale / frame.imageSize;
   if (kOnSphere) {
     // All around: longitudes and latitudes.
     vec3 towards = frame.eyeToSphere * lookThrough(at, layer);
     uv = vec2(0.5 + atan(towards.x, -towards.z) * 0.15915494, 0.5 - asin(clamp(towards.y, -1.0, 1.0)) * 0.31830989);
+    // Towards the poles there is more of a row in a pixel.
+    pixel.x *= min(inversesqrt(max(1.0 - towards.y * towards.y, 1e-6)), 0.25 / pixel.x);
   }
   vec3 own;
   if ((kBackdrop & kBackdropSimplified) != 0)
-    own = pictureSimplified(uv);
+    own = pictureSimplified(uv, pixel);
   else
-    own = pictureAlone(uv);
-  if ((kBackdrop & kBackdropMixed) != 0) own = mix(pictureAlone(uv), own, u.backdrop.radius);
+    own = pictureAlone(uv, pixel);
+  if ((kBackdrop & kBackdropMixed) != 0) own = mix(pictureAlone(uv, pixel), own, u.backdrop.radius);
   vec3 inLight = own;
   float open = 1.0 - color.a;
   matte = min(matte * (1.0 - smoothstep(u.backdrop.matteNear, u.backdrop.matteFar, distance)), open);

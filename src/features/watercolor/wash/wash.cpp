@@ -41,15 +41,13 @@ glm::vec2 paperPlace(const FrameInput& input, uint32_t view, uint32_t motion) {
 }
 
 // Where on the picture the light lies that falls on the paper (section 4.2), so that both come from one side:
-// in -1 to 1 over the picture, not farther off than twice that, and in front of it. On a sphere its direction
-// in eye space, of which shaders make that for each place.
-glm::vec3 paperLight(const FrameInput& input, uint32_t view, bool onSphere) {
-  using namespace shared;
+// in -1 to 1 over the picture, not farther off than twice that, and in front of it.
+glm::vec3 paperLight(const FrameInput& input, uint32_t view) {
   const glm::vec3 inEye = glm::mat3(input.uniforms.views[view].worldToEye) * input.uniforms.toLight;
-  if (onSphere) return inEye;
-  const glm::vec2 side =
-      kPaperLightBefore * glm::vec2(inEye.x, -inEye.y) / std::max(std::abs(inEye.z), kPaperLightFlattest);
-  return {glm::clamp(side, -kPaperLightFarthest, kPaperLightFarthest), kPaperLightBefore};
+  constexpr float kFarthest = 2;
+  using shared::kPaperLightBefore;
+  const glm::vec2 side = kPaperLightBefore * glm::vec2(inEye.x, -inEye.y) / std::max(std::abs(inEye.z), 0.2f);
+  return {glm::clamp(side, -kFarthest, kFarthest), kPaperLightBefore};
 }
 
 class Wash : public Pass {
@@ -122,7 +120,7 @@ class Wash : public Pass {
                          ? glm::transpose(glm::mat3(input.uniforms.views[0].worldToEye))
                          : input.uniforms.eyeToSphere;
       if (!onSphere) u.paperAt[view] = paperPlace(input, view, uint32_t(p.paperMotion));
-      u.paperLight[view] = paperLight(input, view, onSphere);
+      u.paperLight[view] = paperLight(input, view);
     }
     for (ImageStep* const step : steps_) step->update(u);
     // Two and a half deviations, as wash_blur.image.glsl has them.

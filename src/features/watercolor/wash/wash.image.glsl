@@ -21,13 +21,12 @@ float heightOf(OnScreen on) { return lookUp(paper, vec4(0.5), on, 1.0, vec2(0.0)
 
 // Where the light on the paper comes from, seen from a place on it: x right, y down, z to the viewer.
 vec3 towardsLight(vec2 place, vec2 ndc, int layer) {
-  vec3 light = u.paperLight[min(layer, 1)];
-  if (!kOnSphere) return light - vec3(ndc, 0.0);
-  // Each place of a sphere is the middle of a picture of its own.
-  vec3 ahead = lookThrough(place, layer);
+  if (!kOnSphere) return u.paperLight[min(layer, 1)] - vec3(ndc, 0.0);
+  // On a sphere from above: light that came from the scene's side would lie flat on it there, and opposite.
+  vec3 ahead = lookThrough(place, layer), up = vec3(0.0, 1.0, 0.0) * frame.eyeToSphere;
   vec3 right = normalize(vec3(1.0, 0.0, 0.0) - ahead * ahead.x), down = normalize(vec3(0.0, -1.0, 0.0) + ahead * ahead.y);
-  vec2 side = vec2(dot(light, right), dot(light, down)) * kPaperLightBefore / max(abs(dot(light, ahead)), kPaperLightFlattest);
-  return vec3(clamp(side, -kPaperLightFarthest, kPaperLightFarthest), kPaperLightBefore);
+  vec2 side = vec2(dot(up, right), dot(up, down));
+  return vec3(kPaperLightAbove * side * inversesqrt(max(dot(side, side), 1e-6)), kPaperLightBefore);
 }
 
 vec4 shade(ivec2 pixel, int layer) {
