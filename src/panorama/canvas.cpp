@@ -18,21 +18,6 @@ glm::vec4 splineOf(float t) {
   return 0.5f * glm::vec4(-t + 2 * t2 - t3, 2 - 5 * t2 + 3 * t3, t + 4 * t2 - 3 * t3, t3 - t2);
 }
 
-}  // namespace
-
-Carry carryOf(const std::string& layer, bool isColor) {
-  constexpr float kNothing = 1e29f, kFarthestHalf = 59999;
-  if (layer == "depth") return {.depth = 0, .nothing = kNothing};
-  if (layer == "warp") return {.pixels = Carry::Pixels::vector, .depth = 3, .nothing = kFarthestHalf};
-  if (layer == "blur") return {.depth = 2, .nothing = kFarthestHalf};
-  if (layer == "motion") return {.pixels = Carry::Pixels::motion};
-  if (layer == "uv-gradient") return {.pixels = Carry::Pixels::gradients};
-  return {.isMixed = isColor};
-}
-
-Canvas::Canvas(const Tiling& tiling, uint32_t width, uint32_t height, float longitudes)
-    : tiling_(tiling), width_(width), height_(height), longitudes_(longitudes) {}
-
 // The way between a part's picture and the panorama; pixels, from their upper left corners.
 class Way {
  public:
@@ -74,6 +59,21 @@ class Way {
   float pixelsOfRadian_;
   glm::vec2 scale_, origin_;
 };
+
+}  // namespace
+
+Carry carryOf(const std::string& layer, bool isColor) {
+  constexpr float kNothing = 1e29f, kFarthestHalf = 59999;
+  if (layer == "depth") return {.depth = 0, .nothing = kNothing};
+  if (layer == "warp") return {.pixels = Carry::Pixels::vector, .depth = 3, .nothing = kFarthestHalf};
+  if (layer == "blur") return {.depth = 2, .nothing = kFarthestHalf};
+  if (layer == "motion") return {.pixels = Carry::Pixels::motion};
+  if (layer == "uv-gradient") return {.pixels = Carry::Pixels::gradients};
+  return {.isMixed = isColor};
+}
+
+Canvas::Canvas(const Tiling& tiling, uint32_t width, uint32_t height, float longitudes)
+    : tiling_(tiling), width_(width), height_(height), longitudes_(longitudes) {}
 
 void Canvas::add(const Image& frame, Place place, Carry carry) {
   if (image_.width == 0) {

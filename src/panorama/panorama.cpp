@@ -36,6 +36,10 @@ Status checkPanorama(const Panorama& panorama, const RenderOptions& options) {
   if (options.height < least || options.height > most)
     return usage(what + " is out of range",
                  "use a height of " + std::to_string(least) + " to " + std::to_string(most));
+  // Those of parts are others.
+  for (const auto& [name, format] : options.formats)
+    if (!name.empty() && std::find(options.aovs.begin(), options.aovs.end(), name) == options.aovs.end())
+      return usage("there is a format for '" + name + "', which is not asked for", "name it in aovs as well");
   if (options.sphere || options.latch || options.drawing)
     return usage("a panorama is drawn without latch, drawing and sphere", "leave them empty");
   return Done{};
@@ -123,7 +127,7 @@ class Work {
   Result<Frame> draw(Renderer& renderer, const Scene& scene, const Look& look, double time, const View& from);
 
  private:
-  void add(Frame frame, Place place);
+  Status add(Frame frame, Place place);
   bool report(size_t done) const {
     return !options_.progress || options_.progress(double(done) / double(places_.size()));
   }
@@ -141,7 +145,7 @@ class Work {
   Frame whole_;
 };
 
-void Work::add(Frame frame, Place place) {
+Status Work::add(Frame frame, Place place) {
   scumble::add(whole_.stats, frame.stats);
   if (layers_.empty()) {
     whole_.objects = std::move(frame.objects), whole_.materials = std::move(frame.materials);
@@ -157,7 +161,11 @@ void Work::add(Frame frame, Place place) {
     for (size_t eye = 0; eye < layers_[i].eyes.size() && !layers_[i].once; ++eye) {
       const Image& image = frame.layers[i].views[eye];
       layers_[i].eyes[eye].add(image, place, carryOf(layers_[i].name, image.isColor));
+      const auto format = options_.formats.find(layers_[i].name);
+      if (format != options_.formats.end() && format->second == PixelFormat::srgb8 && !image.isColor)
+        return usage("the AOV '" + layers_[i].name + "' is no colour", "8-bit codes are for colours only");
     }
+  return Done{};
 }
 
 Result<Frame> Work::draw(Renderer& renderer, const Scene& scene, const Look& look, double time,
@@ -200,7 +208,8 @@ Result<Frame> Work::draw(Renderer& renderer, const Scene& scene, const Look& loo
     underWay.pop_front();
     ++done;
     if (!frame && !error) error = frame.error();
-    if (frame && !error) add(std::move(frame).value(), place);
+    if (frame && !error)
+      if (const Status added = add(std::move(frame).value(), place); !added) error = added.error();
   }
   if (error) return *error;
   report(done);

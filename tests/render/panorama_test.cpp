@@ -387,6 +387,11 @@ TEST_F(Panoramas, whatMakesNoSenseIsRefused) {
   EXPECT_TRUE(renderer().finish());
   EXPECT_EQ(renderer().framesBegun(), 0u);
   bad = good;
+  bad.formats = {{"depth", PixelFormat::half}};
+  EXPECT_NE(problem(from, {}, bad).find("not asked for"), std::string::npos);
+  bad.aovs = {"depth"}, bad.formats = {{"depth", PixelFormat::srgb8}};
+  EXPECT_NE(problem(from, {}, bad).find("no colour"), std::string::npos);
+  bad = good;
   bad.aovs = {"colour"};
   EXPECT_NE(problem(from, {}, bad).find("colour"), std::string::npos);
   // What a sphere's parts are is checked as well.
