@@ -233,6 +233,27 @@ SCUMBLE_API scumble_status scumble_prepare(scumble_renderer* renderer, const scu
                                            const scumble_look* look, const scumble_view* views,
                                            size_t view_count, const scumble_options* options);
 
+/* Pictures all around (panorama.h): of both eyes, the half that lies ahead; of both, all around; of one. */
+typedef enum scumble_panorama_kind {
+  SCUMBLE_VR180 = 0,
+  SCUMBLE_ODS = 1,
+  SCUMBLE_MONO360 = 2
+} scumble_panorama_kind;
+/* Start from scumble_panorama_default. */
+typedef struct scumble_panorama {
+  scumble_panorama_kind kind;
+  float ipd;         /* metres between the eyes */
+  float knob_height; /* degrees that stand for a picture's height where knobs count by that */
+  float strip;       /* degrees for which an eye keeps its place */
+} scumble_panorama;
+SCUMBLE_API void scumble_panorama_default(scumble_panorama* panorama);
+/* One panorama from where a camera is, level: a view for each eye, of the options' size each, which is square
+   for SCUMBLE_VR180 and else twice as wide as high. */
+SCUMBLE_API scumble_frame* scumble_render_panorama(scumble_renderer* renderer, const scumble_scene* scene,
+                                                   const scumble_look* look, double time,
+                                                   const scumble_view* from, const scumble_panorama* panorama,
+                                                   const scumble_options* options);
+
 /* Pixels in memory: rows from top to bottom without gaps, channels interleaved: height x width x channels
    numbers, as numpy has them. Colours are linear (sRGB codes in 8 bit), alpha is straight. */
 typedef struct scumble_image {

@@ -7,6 +7,7 @@
 
 #include "scumble/check.h"
 #include "scumble/image.h"
+#include "scumble/panorama.h"
 #include "scumble/renderer.h"
 #include "scumble/scene_editor.h"
 #include "scumble/scumble.h"
@@ -525,6 +526,28 @@ scumble_status scumble_prepare(scumble_renderer* renderer, const scumble_scene* 
     const Result<Call> call = callOf(renderer, scene, look, views, view_count, options);
     if (!call) return fail(call.error());
     return statusOf(renderer->renderer->prepare(scene->scene, look->look, call->views, call->options));
+  });
+}
+
+void scumble_panorama_default(scumble_panorama* panorama) {
+  const Panorama usual;
+  if (panorama) *panorama = {scumble_panorama_kind(usual.kind), usual.ipd, usual.knobHeight, usual.strip};
+}
+
+scumble_frame* scumble_render_panorama(scumble_renderer* renderer, const scumble_scene* scene,
+                                       const scumble_look* look, double time, const scumble_view* from,
+                                       const scumble_panorama* panorama, const scumble_options* options) {
+  return guarded([&]() -> scumble_frame* {
+    const Result<Call> call = callOf(renderer, scene, look, from, 1, options);
+    if (!call) return nothing(call.error());
+    if (!panorama || panorama->kind < SCUMBLE_VR180 || panorama->kind > SCUMBLE_MONO360)
+      return misuse("the panorama is null or of no kind"), nullptr;
+    const Panorama wanted{PanoramaKind(panorama->kind), panorama->ipd, panorama->knob_height,
+                          panorama->strip};
+    Result<Frame> frame = renderPanorama(*renderer->renderer, scene->scene, look->look, time,
+                                         call->views.front(), wanted, call->options);
+    if (!frame) return nothing(frame.error());
+    return new scumble_frame{std::move(frame).value()};
   });
 }
 

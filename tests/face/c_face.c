@@ -186,6 +186,23 @@ int main(int argc, char** argv) {
   CHECK(strstr(scumble_error(), "depth") != NULL);
   CHECK(scumble_render(renderer, scene, look, 0, views, 7, &options) == NULL);
   CHECK(scumble_render(renderer, NULL, look, 0, views, 2, &options) == NULL);
+
+  scumble_panorama around;
+  scumble_panorama_default(&around);
+  CHECK(around.kind == SCUMBLE_VR180 && around.ipd > 0.06f && around.ipd < 0.07f);
+  around.kind = SCUMBLE_MONO360;
+  options.width = 64, options.height = 32, options.samples = 1;
+  aovs[0] = "depth";
+  frame = scumble_render_panorama(renderer, scene, look, 0, views, &around, &options);
+  CHECK(frame != NULL);
+  CHECK(scumble_frame_views(frame, 0) == 1 && scumble_frame_views(frame, 1) == 1);
+  CHECK(scumble_frame_image(frame, 0, 0, &picture) == SCUMBLE_OK);
+  CHECK(picture.width == 64 && picture.height == 32 && picture.format == SCUMBLE_SRGB8);
+  scumble_frame_free(frame);
+  around.kind = SCUMBLE_VR180;
+  CHECK(scumble_render_panorama(renderer, scene, look, 0, views, &around, &options) == NULL);
+  CHECK(strstr(scumble_error(), "aspect") != NULL);
+  CHECK(scumble_render_panorama(renderer, scene, look, 0, views, NULL, &options) == NULL);
   CHECK(scumble_renderer_messages(renderer) == 0);
   /* In any order: what a renderer needs of a scene it keeps. */
   scumble_scene_free(scene);
