@@ -7,7 +7,6 @@
 
 #include "json_option.h"
 #include "report.h"
-#include "scumble/nearest.h"
 
 namespace scumble::app {
 
@@ -15,13 +14,6 @@ namespace {
 
 bool isOption(const std::string& word) {
   return word.size() > 1 && word[0] == '-';
-}
-
-// "did you mean 'render'?", or `otherwise` where nothing is near.
-std::string suggestion(const std::string& word, const std::vector<std::string>& known,
-                       const std::string& otherwise) {
-  const std::string meant = nearest(word, known);
-  return meant.empty() ? otherwise : "did you mean '" + meant + "'?";
 }
 
 // The command that was given, or the program.

@@ -1,6 +1,6 @@
 #include "panorama_kind.h"
 
-#include "scumble/nearest.h"
+#include "report.h"
 
 namespace scumble::app {
 
@@ -20,13 +20,7 @@ Result<const PanoramaKindRow*> panoramaKindOf(const std::string& name) {
     if (name == row.name) return &row;
     names.emplace_back(row.name);
   }
-  const std::string suggestion = nearest(name, names);
-  return Error{ErrorKind::usage,
-               "",
-               0,
-               "",
-               "'" + name + "' is no kind of panorama",
-               suggestion.empty() ? "use vr180, ods or mono360" : "did you mean '" + suggestion + "'?"};
+  return usage("'" + name + "' is no kind of panorama", suggestion(name, names, "use vr180, ods or mono360"));
 }
 
 }  // namespace scumble::app

@@ -2,10 +2,18 @@
 
 #include <cstdio>
 
+#include "scumble/nearest.h"
+
 namespace scumble::app {
 
 Error usage(std::string problem, std::string advice) {
   return {ErrorKind::usage, "", 0, "", std::move(problem), std::move(advice)};
+}
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& known,
+                       const std::string& otherwise) {
+  const std::string meant = nearest(word, known);
+  return meant.empty() ? otherwise : "did you mean '" + meant + "'?";
 }
 
 int fail(const Error& error) {

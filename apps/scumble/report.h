@@ -13,6 +13,10 @@ enum ExitCode { kDone = 0, kOurFault = 1, kWrongUsage = 2, kUnusableFile = 3, kN
 // A call that makes no sense.
 Error usage(std::string problem, std::string advice);
 
+// "did you mean 'render'?", or `otherwise` where nothing is near.
+std::string suggestion(const std::string& word, const std::vector<std::string>& known,
+                       const std::string& otherwise);
+
 // "scumble: error: ..." on stderr; returns the exit code of the error's kind.
 int fail(const Error& error);
 int failUsage(const std::string& problem, const std::string& advice);

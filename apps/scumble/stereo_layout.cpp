@@ -4,7 +4,7 @@
 #include <cmath>
 #include <iterator>
 
-#include "scumble/nearest.h"
+#include "report.h"
 
 namespace scumble::app {
 
@@ -34,13 +34,7 @@ Result<const StereoLayout*> stereoLayoutOf(const std::string& name) {
     if (name == layout.name) return &layout;
     names.emplace_back(layout.name);
   }
-  const std::string suggestion = nearest(name, names);
-  return Error{ErrorKind::usage,
-               "",
-               0,
-               "",
-               "'" + name + "' is no stereo layout",
-               suggestion.empty() ? "use " + stereoLayoutNames() : "did you mean '" + suggestion + "'?"};
+  return usage("'" + name + "' is no stereo layout", suggestion(name, names, "use " + stereoLayoutNames()));
 }
 
 std::string stereoLayoutNames() {

@@ -103,6 +103,11 @@ const FormatFacts& factsOf(FilmFormat format) {
   return kFacts[size_t(format)];
 }
 
+EyeSize eyeSizeOf(const FilmOptions& options) {
+  return {options.layout == FilmLayout::sideBySide ? options.width / 2 : options.width,
+          options.layout == FilmLayout::overUnder ? options.height / 2 : options.height};
+}
+
 std::vector<std::string> encoderArguments(const FilmOptions& options) {
   const bool isGif = options.format == FilmFormat::gif;
   const FrameRate rate = frameRateOf(options.fps);

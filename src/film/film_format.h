@@ -17,6 +17,12 @@ struct FormatFacts {
 };
 const FormatFacts& factsOf(FilmFormat format);
 
+// Pixels of one eye's part of each picture.
+struct EyeSize {
+  uint32_t width, height;
+};
+EyeSize eyeSizeOf(const FilmOptions& options);
+
 // ffmpeg's words from its input on, which is raw pictures as rawPicture() makes them; without the output.
 std::vector<std::string> encoderArguments(const FilmOptions& options);
 std::vector<uint8_t> rawPicture(const Image& picture, FilmFormat format);

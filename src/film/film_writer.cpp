@@ -42,10 +42,8 @@ std::string problemWith(const FilmOptions& options) {
   if (options.layout == FilmLayout::overUnder && options.height % 2 != 0)
     return "two eyes over each other need an even height";
   // A column or row more would move its middle.
-  const uint32_t across = options.layout == FilmLayout::sideBySide ? 2 : 1,
-                 down = options.layout == FilmLayout::overUnder ? 2 : 1;
-  if (options.projection != FilmProjection::flat &&
-      (options.width / across % 2 != 0 || options.height / down % 2 != 0))
+  const film::EyeSize eye = film::eyeSizeOf(options);
+  if (options.projection != FilmProjection::flat && (eye.width % 2 != 0 || eye.height % 2 != 0))
     return "a panorama's film needs an even width and height";
   return "";
 }

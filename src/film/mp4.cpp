@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "film/film_format.h"
+
 namespace scumble::film {
 namespace {
 
@@ -166,8 +168,7 @@ void putSphericalXml(const FilmOptions& film, Buffer& out) {
   if (film.layout != FilmLayout::mono)
     add("StereoMode", film.layout == FilmLayout::overUnder ? "top-bottom" : "left-right");
   if (film.projection == FilmProjection::halfSphere) {
-    const uint32_t width = film.layout == FilmLayout::sideBySide ? film.width / 2 : film.width;
-    const uint32_t height = film.layout == FilmLayout::overUnder ? film.height / 2 : film.height;
+    const auto [width, height] = eyeSizeOf(film);
     const auto number = [&](const char* name, uint32_t value) { add(name, std::to_string(value)); };
     number("CroppedAreaImageWidthPixels", width), number("CroppedAreaImageHeightPixels", height);
     number("FullPanoWidthPixels", 2 * width), number("FullPanoHeightPixels", height);

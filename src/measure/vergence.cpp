@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "measure/statistics.h"
+
 namespace scumble::measuring {
 
 namespace {
@@ -28,19 +30,6 @@ std::optional<float> at(const Field& field, float x, float y) {
   const float top = (1 - tx) * *field.at(first) + tx * *field.at(first + 1);
   const float bottom = (1 - tx) * *field.at(below) + tx * *field.at(below + 1);
   return (1 - ty) * top + ty * bottom;
-}
-
-double deviationOf(const Field& field) {
-  double sum = 0, squares = 0;
-  size_t count = 0;
-  for (size_t pixel = 0; pixel < field.pixelCount(); ++pixel) {
-    if (!field.valid[pixel]) continue;
-    const double value = *field.at(pixel);
-    sum += value, squares += value * value, ++count;
-  }
-  if (count == 0) return 0;
-  const double mean = sum / double(count);
-  return std::sqrt(std::max(squares / double(count) - mean * mean, 0.0));
 }
 
 class Window {
@@ -86,7 +75,7 @@ class Window {
 
 Vergence vergenceOf(const Field& left, const Field& right, const Places& places) {
   Vergence vergence;
-  const double something = kSomething * deviationOf(right);
+  const double something = kSomething * spread({&right, 1});
   if (!(something > 0)) return vergence;
   for (int y = kHalfWindow; y + kHalfWindow < right.height; y += kWindowStep)
     for (int x = kHalfWindow; x + kHalfWindow < right.width; x += kWindowStep) {

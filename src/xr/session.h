@@ -83,8 +83,7 @@ class Session {
   // Vignette::layer has it.
   void end(const Moment& moment, const std::optional<DrawnEyes>& drawn, float darkness);
 
-  glm::uvec2 size() const { return size_; }  // of an eye, pixels, at most
-  bool takesDepth() const { return !depths_.empty(); }
+  glm::uvec2 size() const { return size_; }           // of an eye, pixels, at most
   float refreshRate() const { return refreshRate_; }  // frames a second; 0: the runtime does not tell
 
  private:

@@ -1,7 +1,7 @@
 #version 460
 // A brush's stamp at an anchor: a square around it, where the anchor is seen (paper 004, section 3).
 #extension GL_GOOGLE_include_directive : require
-#include "../../../shading/frame.glsl"
+#include "../../../shading/sphere.glsl"
 #include "../../../shading/view_index.glsl"
 #include "../watercolor.shared.h"
 
@@ -22,9 +22,8 @@ vec4 chanceOf(uint seed) {
 // By how much what is up on the sphere is turned there against the frame's own up, clockwise: stamps are no other in
 // another part of it. 0 where the frame is no part of one.
 float turnOnSphere(vec3 inEye) {
-  vec3 ahead = normalize(inEye), up = vec3(0.0, 1.0, 0.0) * frame.eyeToSphere;
-  vec3 right = normalize(vec3(1.0, 0.0, 0.0) - ahead * ahead.x), above = normalize(vec3(0.0, 1.0, 0.0) - ahead * ahead.y);
-  return atan(dot(up, right), dot(up, above) + 1e-20);
+  vec2 up = upOnSphere(normalize(inEye));
+  return atan(up.x, up.y + 1e-20);
 }
 
 void main() {

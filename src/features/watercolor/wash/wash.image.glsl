@@ -3,6 +3,7 @@
 // and lie on paper.
 #extension GL_GOOGLE_include_directive : require
 #include "../../../shading/on_screen.glsl"
+#include "../../../shading/sphere.glsl"
 #include "../watercolor.shared.h"
 #include "wash.glsl"
 
@@ -23,9 +24,7 @@ float heightOf(OnScreen on) { return lookUp(paper, vec4(0.5), on, 1.0, vec2(0.0)
 vec3 towardsLight(vec2 place, vec2 ndc, int layer) {
   if (!kOnSphere) return u.paperLight[min(layer, 1)] - vec3(ndc, 0.0);
   // On a sphere from above: light that came from the scene's side would lie flat on it there, and opposite.
-  vec3 ahead = lookThrough(place, layer), up = vec3(0.0, 1.0, 0.0) * frame.eyeToSphere;
-  vec3 right = normalize(vec3(1.0, 0.0, 0.0) - ahead * ahead.x), down = normalize(vec3(0.0, -1.0, 0.0) + ahead * ahead.y);
-  vec2 side = vec2(dot(up, right), dot(up, down));
+  vec2 side = upOnSphere(lookThrough(place, layer)) * vec2(1.0, -1.0);
   return vec3(kPaperLightAbove * side * inversesqrt(max(dot(side, side), 1e-6)), kPaperLightBefore);
 }
 
