@@ -91,17 +91,30 @@ struct VulkanTarget {
   VkImageLayout before = VK_IMAGE_LAYOUT_UNDEFINED, after = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
   size_t view = 0;  // index into the frame's views
   std::string aov;  // one of Renderer::aovNames(), of the view's own size; empty: the picture
+  // Of the AOV `motion` alone: in normalised device coordinates, x, y and depth (of the view's projection:
+  // reversed), since the frame before; and not of surfaces alone, but also of what is endlessly far away
+  // where nothing is, which moves as the view turns. As runtimes of headsets and upscalers take it.
+  bool isNormalized = false;
+};
+
+// What of a view comes back to the CPU although its frame goes into images: Frame::layers has it then, as if
+// it had been asked for of all views, with images without pixels for the others. A look at what lies under a
+// cursor, or what somebody else sees of the same frame, costs its own view and no more.
+struct VulkanReadback {
+  size_t view = 0;  // index into the frame's views; those drawn with it (of its size and rig) come as well
+  std::string aov;  // one of Renderer::aovNames(); empty: the picture
 };
 
 // Everything that one frame is drawn into. Targets in one image have the same format, extent and layouts.
 struct VulkanTargets {
   std::vector<VulkanTarget> images;
+  std::vector<VulkanReadback> readbacks;
   // Before anything of the frame runs, and when all of it has.
   std::vector<VkSemaphoreSubmitInfo> waits, signals;
 };
 
 // Renderer::begin(), but that the frame goes into images instead of back to the CPU; RenderOptions::aovs are
-// still read back, where there are some. Returns when the frame is submitted: with Renderer::kMaxBegun frames
+// still read back of all views, where there are some. Returns when the frame is submitted: with Renderer::kMaxBegun frames
 // begun, finish() the oldest one first, which waits for it and gives its statistics.
 SCUMBLE_API Status begin(Renderer& renderer, const Scene& scene, const Look& look, double time,
                          const std::vector<View>& views, const RenderOptions& options,

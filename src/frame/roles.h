@@ -43,6 +43,8 @@ inline constexpr Role kShadowSamples{"shadow samples"}, kLitSamples{"lit samples
     kShadowedSamples{"shadowed samples"}, kDepthSamples{"depth samples"};
 inline constexpr Role kTiles{"tiles"};  // flags of tiles (shading/tiles.shared.h)
 inline constexpr Role kDepth{"depth"};  // depth buffer of the surfaces
+// The depth buffer of what AOVs say of surfaces (passes/facts): one sample a pixel.
+inline constexpr Role kDepthOfFacts{"depth of facts"};
 // Square root of the colours of prepainted materials (world/feature.h); once a pixel, wherever they are first
 // or not. A: 0 where there are none.
 inline constexpr Role kPrepaintedLit{"prepainted lit"}, kPrepaintedShadowed{"prepainted shadowed"};

@@ -2,6 +2,7 @@
 
 #include "shaders/deliver_depth_frag.h"
 #include "shaders/deliver_frag.h"
+#include "shaders/deliver_motion_frag.h"
 #include "shaders/fullscreen_vert.h"
 
 namespace scumble::renderer {
@@ -44,13 +45,20 @@ void Deliver::create(FrameBuilder& frame) {
     desc.fragment = {shaders::deliver_depth_frag};
     desc.depthFormat = key_.format;
     desc.depthCompare = VK_COMPARE_OP_ALWAYS;
+  } else if (key_.isNormalized) {
+    desc.fragment = {shaders::deliver_motion_frag};
+    desc.constants = {0, 0, 0, frame.configuration().viewCount};
+    desc.colorFormats = {key_.format};
   } else {
     desc.fragment = {shaders::deliver_frag};
     const bool encodes = key_.format == VK_FORMAT_R8G8B8A8_UNORM || key_.format == VK_FORMAT_B8G8R8A8_UNORM;
     desc.constants = {encodes, isSquareRoot_};
     desc.colorFormats = {key_.format};
   }
-  desc.sets = {layout_.handle()};
+  // How motion is counted is the frame's affair.
+  if (key_.isNormalized) desc.sets = {frame.frameLayout().handle()};
+  setNumber_ = uint32_t(desc.sets.size());
+  desc.sets.push_back(layout_.handle());
   desc.pushConstantBytes = 12;
   pipeline_ = gpu::Pipeline(frame.device(), desc);
 }
@@ -81,7 +89,8 @@ void Deliver::record(VkCommandBuffer commands) const {
   vkCmdSetViewport(commands, 0, 1, &viewport);
   vkCmdSetScissor(commands, 0, 1, &rectangle);
   pipeline_.bind(commands);
-  pipeline_.bindSet(commands, 0, set_[0]);
+  if (key_.isNormalized) pipeline_.bindSet(commands, 0, frame_->frameSet());
+  pipeline_.bindSet(commands, setNumber_, set_[0]);
   pipeline_.push(commands, {key_.view, uint32_t(key_.x), uint32_t(key_.y)});
   vkCmdDraw(commands, 3, 1, 0, 0);
   vkCmdEndRendering(commands);

@@ -19,6 +19,7 @@ struct TargetKey {
   VkImageLayout before = VK_IMAGE_LAYOUT_UNDEFINED, after = VK_IMAGE_LAYOUT_UNDEFINED;
   uint32_t view = 0;  // of those that are drawn together
   std::string aov;    // empty: the picture
+  bool isNormalized = false;  // motion, in normalised device coordinates
   bool isDepthBuffer() const { return format == VK_FORMAT_D32_SFLOAT; }
   bool operator==(const TargetKey&) const = default;
 };
@@ -45,6 +46,7 @@ class Deliver {
   const gpu::GraphResources* resources_ = nullptr;
   gpu::SetLayout layout_;
   gpu::DescriptorSets set_;
+  uint32_t setNumber_ = 0;
   gpu::Pipeline pipeline_;
 };
 

@@ -46,6 +46,17 @@ std::vector<View> carried(const std::vector<View>& views, const SceneMotion& mot
   return carriedBy([&](int node) { return motion.movedBy(size_t(node)); }, views);
 }
 
+// What follows waits for all that was recorded.
+void waitForAll(VkCommandBuffer commands) {
+  VkMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+  barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+  barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
+  barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+  VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+  info.memoryBarrierCount = 1, info.pMemoryBarriers = &barrier;
+  vkCmdPipelineBarrier2(commands, &info);
+}
+
 // The picture behind everything has texels for the largest of all views.
 glm::uvec2 largestOf(const std::vector<ViewGroup>& groups) {
   glm::uvec2 largest(0);
@@ -60,6 +71,14 @@ namespace renderer {
 const Image* backgroundOf(const Request& request) {
   const RenderOptions& options = request.options;
   return options.transparent || request.isYardstick ? nullptr : options.background.get();
+}
+
+std::vector<std::string> readBackOf(const Request& request) {
+  std::vector<std::string> names;
+  if (request.delivery)
+    for (const VulkanReadback& readback : request.delivery->readbacks)
+      if (!readback.aov.empty()) names.push_back(readback.aov);
+  return names;
 }
 
 }  // namespace renderer
@@ -159,9 +178,10 @@ Status Renderer::Impl::begin(const Request& request) {
       geometry.casts.push_back(knobs.of<passes::ShadowMapParams>(m).cast);
     geometry.clips = everPlayed(scene.data(), look);
     geometry.nodes = nodeSettings(scene.data(), now);
+    std::vector<std::string> readBack = readBackOf(request);
+    readBack.insert(readBack.end(), options.aovs.begin(), options.aovs.end());
     const bool namesObjects = std::any_of(aovs.begin(), aovs.end(), [&](const Aov* aov) {
-      return aov->namesObjects &&
-             std::find(options.aovs.begin(), options.aovs.end(), aov->name) != options.aovs.end();
+      return aov->namesObjects && std::find(readBack.begin(), readBack.end(), aov->name) != readBack.end();
     });
     if (namesObjects) next.frame.objects = objectNames(scene.data(), geometry);
     const bool drops = !scene.data().keepsVertices && !look.isAnimated() && !request.isRehearsal;
@@ -314,7 +334,11 @@ void Renderer::Impl::record(VkCommandBuffer commands, Resident& resident, const 
   }
   gpu::recordUploads(commands, uploads, frame.slot);
   if (backdrop) backdrop->upload(commands, frame.slot, options.background);
-  for (const Begun::Part& part : frame.parts) part.setup->record(commands, frame.slot);
+  for (const Begun::Part& part : frame.parts) {
+    part.setup->record(commands, frame.slot);
+    // Each takes the scene's buffers as its own last frame has left them; others may do more, or less.
+    if (frame.parts.size() > 1) waitForAll(commands);
+  }
 }
 
 void Renderer::Impl::fetch(Begun& frame) {
@@ -322,19 +346,19 @@ void Renderer::Impl::fetch(Begun& frame) {
   submissions[frame.slot]->wait();
   for (const Begun::Part& part : frame.parts) part.setup->readTimes(frame.slot, frame.frame.stats);
   const Clock::time_point start = Clock::now();
-  for (const Begun::Part& part : frame.parts) {
-    const bool isFirst = &part == &frame.parts.front();
-    std::vector<Setup::Layer> layers = part.setup->readLayers(frame.slot, frame.formats);
-    for (size_t i = 0; i < layers.size(); ++i) {
-      if (isFirst)
-        frame.frame.layers.push_back(
-            {layers[i].name, std::vector<Image>(layers[i].isOnce ? 1 : frame.viewCount)});
-      std::vector<Image>& into = frame.frame.layers[i].views;
-      for (size_t v = 0; v < layers[i].views.size(); ++v)
-        if (!layers[i].isOnce || isFirst)
-          into[layers[i].isOnce ? 0 : part.group.members[v]] = std::move(layers[i].views[v]);
+  for (const Begun::Part& part : frame.parts)
+    for (Setup::Layer& layer : part.setup->readLayers(frame.slot, frame.formats)) {
+      // Not all parts need have the same ones.
+      std::vector<Frame::Layer>& all = frame.frame.layers;
+      auto into = std::find_if(all.begin(), all.end(),
+                               [&](const Frame::Layer& other) { return other.name == layer.name; });
+      if (into == all.end())
+        into = all.insert(all.end(), {layer.name, std::vector<Image>(layer.isOnce ? 1 : frame.viewCount)});
+      else if (layer.isOnce)
+        continue;
+      for (size_t v = 0; v < layer.views.size(); ++v)
+        into->views[layer.isOnce ? 0 : part.group.members[v]] = std::move(layer.views[v]);
     }
-  }
   if (frame.drawnLook) draw(frame);
   frame.frame.stats.readbackMilliseconds = millisecondsSince(start);
   frame.fetched = true;

@@ -12,6 +12,7 @@
 #include "renderer/uniforms.h"
 #include "renderer/view_groups.h"
 #include "scumble/renderer.h"
+#include "scumble/vulkan.h"
 
 namespace scumble {
 
@@ -35,6 +36,7 @@ struct Delivery {
     VkImage image = VK_NULL_HANDLE;
   };
   std::vector<Target> targets;
+  std::span<const VulkanReadback> readbacks;
   std::span<const VkSemaphoreSubmitInfo> waits, signals;
 };
 
@@ -57,6 +59,8 @@ struct Request {
 
 // The picture behind everything; null: there is none.
 const Image* backgroundOf(const Request& request);
+// AOVs of single views that come back, with or without those of all.
+std::vector<std::string> readBackOf(const Request& request);
 
 // A frame between begin() and finish().
 struct Begun {

@@ -97,6 +97,8 @@ Status Renderer::Impl::check(const Request& request) const {
   // Only what a pass offers can be saved.
   const std::vector<const Aov*> offered = request.isYardstick ? std::vector<const Aov*>() : aovs;
   std::vector<std::string> names = options.aovs;
+  const std::vector<std::string> readBack = readBackOf(request);
+  names.insert(names.end(), readBack.begin(), readBack.end());
   if (delivery)
     for (const Delivery::Target& target : delivery->targets)
       if (!target.key.aov.empty()) names.push_back(target.key.aov);
@@ -111,7 +113,8 @@ Status Renderer::Impl::check(const Request& request) const {
   for (const std::pair<const std::string, PixelFormat>& wanted : options.formats) {
     const std::string& name = wanted.first;
     if (name.empty()) continue;
-    if (std::find(options.aovs.begin(), options.aovs.end(), name) == options.aovs.end())
+    if (std::find(options.aovs.begin(), options.aovs.end(), name) == options.aovs.end() &&
+        std::find(readBack.begin(), readBack.end(), name) == readBack.end())
       return usage("there is a format for '" + name + "', which is not asked for", "name it in aovs as well");
     const bool isColor = std::any_of(offered.begin(), offered.end(),
                                      [&](const Aov* aov) { return name == aov->name && aov->isColor; });
@@ -154,6 +157,13 @@ std::vector<SetupKey> Renderer::Impl::keysOf(const Request& request, const look:
       key.configuration.viewDrawing =
           device->viewDrawing(request.options.samples).value_or(gpu::ViewDrawing::together);
     if (!request.delivery) continue;
+    for (const VulkanReadback& readback : request.delivery->readbacks) {
+      if (std::find(members.begin(), members.end(), readback.view) == members.end()) continue;
+      if (readback.aov.empty())
+        key.readsBack = true;
+      else if (std::find(key.aovs.begin(), key.aovs.end(), readback.aov) == key.aovs.end())
+        key.aovs.push_back(readback.aov);
+    }
     for (const Delivery::Target& target : request.delivery->targets) {
       const auto member = std::find(members.begin(), members.end(), target.view);
       if (member == members.end()) continue;

@@ -89,7 +89,10 @@ void Setup::declareTarget(const TargetKey& target, gpu::Handle picture) {
   }
   const FrameBuilder::Offer* const offer =
       target.aov.empty() || target.isDepthBuffer() ? nullptr : builder_->offered(target.aov);
-  const gpu::Handle source = target.isDepthBuffer() ? builder_->get(kDepth)
+  // Beside motion, the depth that comes with it: no surface is drawn twice.
+  const bool hasFacts =
+      std::any_of(key_.targets.begin(), key_.targets.end(), [](const TargetKey& key) { return key.isNormalized; });
+  const gpu::Handle source = target.isDepthBuffer() ? builder_->get(hasFacts ? kDepthOfFacts : kDepth)
                              : offer                ? offer->images.front()
                                                     : picture;
   delivers_.push_back(std::make_unique<Deliver>());

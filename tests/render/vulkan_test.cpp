@@ -485,6 +485,131 @@ TEST_F(Vulkan, depthBuffers) {
   }
 }
 
+// What frame synthesis takes: where everything was a frame before, in normalised device coordinates.
+TEST_F(Vulkan, motionThatIsNormalized) {
+  Program program;
+  const std::unique_ptr<Renderer> renderer = on(program);
+  for (const Stereo stereo : {Stereo::mono, Stereo::stereo}) {
+    const std::vector<View> eyes = views(stereo);
+    RenderOptions options = sized(kWidth, kHeight, {}, 1);
+    options.previousViews = eyes;
+    for (View& view : options.previousViews) {
+      glm::mat4 turned = glm::mat4_cast(glm::angleAxis(0.05f, glm::normalize(glm::vec3(0.3f, 1, 0.1f))));
+      turned[3] = glm::vec4(0.03f, -0.02f, 0.2f, 1);
+      view.worldToEye = turned * view.worldToEye;
+    }
+    const VkImage motions = program.image(VK_FORMAT_R32G32B32A32_SFLOAT, kExtent, 2),
+                  depths = program.image(VK_FORMAT_D32_SFLOAT, kExtent, 2);
+    VulkanTargets targets;
+    for (size_t v = 0; v < eyes.size(); ++v) {
+      VulkanTarget& motion = targets.images.emplace_back(target(motions, VK_FORMAT_R32G32B32A32_SFLOAT));
+      motion.aov = "motion", motion.isNormalized = true, motion.view = v, motion.layer = uint32_t(v);
+      VulkanTarget& depth = targets.images.emplace_back(target(depths, VK_FORMAT_D32_SFLOAT));
+      depth.aov = "depth", depth.view = v, depth.layer = uint32_t(v);
+    }
+    const Status status = begin(*renderer, scene, quietLook(), 0, eyes, options, targets);
+    ASSERT_TRUE(status.ok()) << status.error().message();
+    const Result<Frame> frame = renderer->finish();
+    ASSERT_TRUE(frame.ok());
+    // Surfaces are drawn once for both.
+    std::vector<std::string> drawn;
+    for (const PassTime& pass : frame->stats.passes) drawn.push_back(pass.name);
+    EXPECT_EQ(std::count(drawn.begin(), drawn.end(), "facts"), 1);
+    EXPECT_EQ(std::count(drawn.begin(), drawn.end(), "color"), 0);
+
+    options.aovs = {"position", "motion"};
+    const Frame usual = draw(scene, quietLook(), eyes, options);
+    for (size_t v = 0; v < eyes.size(); ++v) {
+      const std::vector<uint8_t> bytes = program.bytesOf(motions, kExtent, 16, uint32_t(v));
+      const std::vector<uint8_t> depthBytes =
+          program.bytesOf(depths, kExtent, 4, uint32_t(v), VK_IMAGE_ASPECT_DEPTH_BIT);
+      const View &now = eyes[v], &then = options.previousViews[v];
+      Difference across(1e-4), deep(1e-5);
+      size_t surfaces = 0, nothing = 0;
+      for (uint32_t y = 0; y < kHeight; ++y)
+        for (uint32_t x = 0; x < kWidth; ++x) {
+          glm::vec4 moved;
+          float depth;
+          std::memcpy(&moved, &bytes[(y * kWidth + x) * 16], 16);
+          std::memcpy(&depth, &depthBytes[(y * kWidth + x) * 4], 4);
+          const glm::vec2 ndc =
+              (glm::vec2(x, y) + 0.5f) / glm::vec2(kWidth, kHeight) * 2.0f - 1.0f;
+          glm::dvec4 before;
+          if (depth > 0) {
+            ++surfaces;
+            const glm::vec2 pixels(texel(aov(usual, "motion", v), x, y));
+            across.add(moved.x, pixels.x * 2 / kWidth), across.add(moved.y, pixels.y * 2 / kHeight);
+            const glm::dvec3 place(texel(aov(usual, "position", v), x, y));
+            before = glm::dmat4(then.eyeToClip) * (glm::dmat4(then.worldToEye) * glm::dvec4(place, 1));
+          } else {
+            ++nothing;
+            const glm::dmat4 toWorld = glm::inverse(glm::dmat4(now.eyeToClip) * glm::dmat4(now.worldToEye));
+            // Two places of its ray.
+            const auto at = [&](double d) {
+              const glm::dvec4 place = toWorld * glm::dvec4(ndc, d, 1);
+              return glm::dvec3(place) / place.w;
+            };
+            before = glm::dmat4(then.eyeToClip) *
+                     (glm::dmat4(then.worldToEye) * glm::dvec4(at(0.5) - at(0.9), 0));
+          }
+          across.add(moved.x, ndc.x - before.x / before.w), across.add(moved.y, ndc.y - before.y / before.w);
+          deep.add(moved.z, depth - before.z / before.w);
+        }
+      EXPECT_GT(surfaces, 100u);
+      EXPECT_GT(nothing, 100u);
+      EXPECT_LT(across.beyondPart(), 0.001) << across.text();
+      EXPECT_LT(deep.beyondPart(), 0.001) << deep.text();
+    }
+  }
+}
+
+// Of one view alone: eyes go into images, and what somebody else sees of the same frame comes back.
+TEST_F(Vulkan, whatComesBackOfOneView) {
+  Program program;
+  const std::unique_ptr<Renderer> renderer = on(program);
+  std::vector<View> all = views(Stereo::stereo);
+  Stand other = stand;
+  other.eye = {-3, 1.5f, 4};
+  View spectator = viewsFrom(scene, other, 40, 56)[0], cursor = spectator;
+  spectator.size = {40, 56}, spectator.rig = 1;
+  cursor.size = {1, 1}, cursor.rig = 2;
+  all.insert(all.end(), {spectator, cursor});
+  RenderOptions options = sized(kWidth, kHeight, {}, 4);
+  options.formats[""] = PixelFormat::srgb8;
+  const VkImage both = program.image(kHalf, kExtent, 2);
+  VulkanTargets targets;
+  for (size_t v = 0; v < 2; ++v) {
+    targets.images.push_back(target(both));
+    targets.images.back().view = v, targets.images.back().layer = uint32_t(v);
+  }
+  targets.readbacks = {{2, ""}, {3, "id"}, {3, "position"}};
+  ASSERT_TRUE(begin(*renderer, scene, Look(), 0, all, options, targets).ok());
+  const Result<Frame> frame = renderer->finish();
+  ASSERT_TRUE(frame.ok());
+  const Frame usual = draw(scene, Look(), all, sized(kWidth, kHeight, {"id", "position"}, 4)),
+              coded = draw(scene, Look(), all, options);
+  std::vector<std::string> names;
+  for (const Frame::Layer& layer : frame->layers) {
+    names.push_back(layer.name);
+    ASSERT_EQ(layer.views.size(), all.size());
+    const size_t own = layer.name.empty() ? 2 : 3;
+    for (size_t v = 0; v < all.size(); ++v) EXPECT_EQ(layer.views[v].width > 0, v == own) << layer.name << v;
+    EXPECT_TRUE(sameBytes(layer.views[own], layer.name.empty() ? coded.layers[0].views[2]
+                                                               : aov(usual, layer.name, own)));
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"", "id", "position"}));
+  EXPECT_EQ(frame->objects, usual.objects);
+  EXPECT_EQ(frame->materials, usual.materials);
+  const std::vector<float> eye = floatsOf(program.bytesOf(both, kExtent, 8, 1));
+  EXPECT_GT(eye[4 * (kHeight / 2 * kWidth + kWidth / 2)], 0);
+  for (const VulkanReadback& wrong : {VulkanReadback{4, ""}, {0, "no-such"}}) {
+    targets.readbacks = {wrong};
+    const Status status = begin(*renderer, scene, Look(), 0, all, options, targets);
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(status.error().kind, ErrorKind::usage);
+  }
+}
+
 TEST_F(Vulkan, eightBits) {
   Program program;
   const std::unique_ptr<Renderer> renderer = on(program);

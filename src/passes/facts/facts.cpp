@@ -46,6 +46,7 @@ class Facts : public Pass {
     GeometryStep::use(frame);
     frame.use(frame.get(kPreviousVertices), gpu::Use::vertexBuffer);
     depth_.declare(frame, "facts depth", kDepthFormat);
+    frame.give(kDepthOfFacts, depth_.image());
     for (size_t i = 0; i < kFactCount; ++i) {
       facts_[i].declare(frame, kFacts[i].name, kFloats);
       frame.offer(kFacts[i], {facts_[i].image()});

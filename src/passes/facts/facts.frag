@@ -53,6 +53,7 @@ void main() {
   outMetaTexture = vec4(metaTextureMeanExponent(chosen), chosen.q,
                         metaTextureGain(meta, metaTextureVariance(meta, chosen)));
   vec2 previous = (inPrevious.xy / inPrevious.w * 0.5 + 0.5) * frame.imageSize;
-  outMotion = vec4(gl_FragCoord.xy - previous, 0.0, 1.0);
+  // The third is the depth buffer's, for targets that are normalised.
+  outMotion = vec4(gl_FragCoord.xy - previous, gl_FragCoord.z - inPrevious.z / inPrevious.w, 1.0);
   outId = vec4(float(objects[inObject].id), facts.number, 0.0, 1.0);
 }
