@@ -4,10 +4,15 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
+#include <thread>
 #include <utility>
 
+#include "../viewer/picture_window.h"
 #include "commands.h"
 #include "options.h"
+#include "output_files.h"
+#include "output_format.h"
+#include "recorder.h"
 #include "report.h"
 #include "xr/show.h"
 
@@ -22,12 +27,74 @@ struct XrArguments {
   double time = 0;  // seconds
   bool standing = false, vignette = true, quiet = false;
   float scale = 1, rate = 90;
-  std::string resolution = "auto";
+  std::string resolution = "auto", synthesis = "off";
+  bool spectator = false;
+  std::string output, size = "1280x720";
+  double fps = 30, steady = 0.3, ready = 3;  // steady, ready: seconds
   std::optional<uint64_t> frames;
 };
 
 // Somebody at the keyboard wants it to end.
 volatile std::sig_atomic_t interrupted = 0;
+
+// What those who do not wear the headset see, and where it goes: a window, a film, or both.
+struct Onlookers {
+  std::unique_ptr<viewer::PictureWindow> window;
+  std::unique_ptr<Recorder> film;
+};
+
+Result<xr::Spectator> spectatorOf(const XrArguments& args) {
+  const auto size = parseSize(args.size);
+  if (!size || size->first < 16 || size->second < 16 || size->first > 8192 || size->second > 8192)
+    return usage("--size " + args.size + " makes no sense", "use 16x16 to 8192x8192 pixels, like 1280x720");
+  if (!(args.steady >= 0 && args.steady <= 60))
+    return usage("--steady is out of range", "use 0 (as the head goes) to 60 seconds");
+  xr::Spectator spectator;
+  spectator.size = {size->first, size->second};
+  spectator.inertia = float(args.steady);
+  return spectator;
+}
+
+// Nothing where nobody looks on.
+Status openFor(Onlookers& onlookers, const XrArguments& args, const xr::Spectator& spectator,
+               const std::vector<std::string>& inputs) {
+  if (!args.output.empty()) {
+    const Result<const OutputFormat*> format = formatOf(args.output);
+    if (!format) return format.error();
+    if ((*format)->kind != OutputKind::film)
+      return usage(args.output + " is no film", "record into .mp4, .webm or .gif");
+    OutputFiles files(inputs);
+    if (Status status = files.add(args.output, "-o"); !status) return status.error();
+    FilmOptions film;
+    film.format = (*format)->film, film.fps = args.fps;
+    film.width = spectator.size.x, film.height = spectator.size.y;
+    Result<std::unique_ptr<Recorder>> recorder = Recorder::create(args.output, film);
+    if (!recorder) return recorder.error();
+    onlookers.film = std::move(recorder).value();
+  }
+  if (!args.spectator) return Done{};
+  auto window =
+      viewer::PictureWindow::open("What the headset sees", spectator.size, args.picture.rendererOptions());
+  if (!window) return window.error();
+  onlookers.window = std::move(window).value();
+  return Done{};
+}
+
+// The window is of the thread that the program began with, as platforms want it; the headset is of another
+// one then.
+Result<xr::ShowReport> showTo(xr::Headset& headset, const xr::ShowOptions& show,
+                              viewer::PictureWindow* window) {
+  if (!window) return headset.show(show);
+  std::optional<Result<xr::ShowReport>> report;
+  std::thread shower([&] {
+    report.emplace(headset.show(show));
+    window->end();
+  });
+  const Status seen = window->run();
+  if (!seen && show.tell) show.tell("the window is closed: " + seen.error().problem);
+  shower.join();
+  return *std::move(report);
+}
 
 int run(const XrArguments& args) {
   if (!(std::abs(args.time) < Renderer::kMaxTime))
@@ -44,6 +111,12 @@ int run(const XrArguments& args) {
                        "use auto, or 0.1 to 1 of the headset's pixels each way");
     resolution = numbers->front();
   }
+  if (!(args.fps >= 1 && args.fps <= 120))
+    return failUsage("--fps is out of range", "use 1 to 120 pictures a second");
+  if (!(args.ready >= 0 && args.ready <= 3600))
+    return failUsage("--ready is out of range", "use 0 to 3600 seconds");
+  const Result<xr::Spectator> spectator = spectatorOf(args);
+  if (!spectator) return fail(spectator.error());
   const Result<RenderOptions> quality = args.picture.renderOptions();
   if (!quality) return fail(quality.error());
   const Result<Viewpoint> viewpoint = args.picture.viewpoint();
@@ -82,6 +155,21 @@ int run(const XrArguments& args) {
   show.isStanding = args.standing, show.hasVignette = args.vignette;
   show.scale = args.scale, show.refreshRate = args.rate;
   show.resolution = resolution;
+  show.synthesis = args.synthesis == "on"     ? xr::FrameSynthesis::on
+                   : args.synthesis == "auto" ? xr::FrameSynthesis::whenLate
+                                              : xr::FrameSynthesis::off;
+  show.readying = args.ready;
+  Onlookers onlookers;
+  if (args.spectator || !args.output.empty()) {
+    std::vector<std::string> inputs = args.scene.files;
+    inputs.insert(inputs.end(), scene->files().begin(), scene->files().end());
+    if (Status status = openFor(onlookers, args, *spectator, inputs); !status) return fail(status.error());
+    show.spectator = *spectator;
+    show.spectator->see = [&](const std::shared_ptr<const Image>& picture, double seconds) {
+      if (onlookers.film) onlookers.film->see(picture, seconds);
+      if (onlookers.window) onlookers.window->show(picture);
+    };
+  }
   show.samples = quality->samples, show.seed = quality->seed;
   show.renderer = args.picture.rendererOptions();
   show.frames = args.frames;
@@ -93,8 +181,16 @@ int run(const XrArguments& args) {
     // A runtime that does not answer cannot be asked to end; who asks twice means it.
     std::signal(SIGINT, SIG_DFL);
   });
-  const Result<xr::ShowReport> report = (*headset)->show(show);
+  const Result<xr::ShowReport> report = showTo(**headset, show, onlookers.window.get());
   std::signal(SIGINT, SIG_DFL);
+  // What was seen until something went wrong is kept as well.
+  if (onlookers.film && (report ? report->frames > 0 : true)) {
+    const Result<Recorder::Report> film = onlookers.film->finish();
+    if (!film && report) return fail(film.error());
+    if (film && film->leftOut > 0 && show.tell)
+      show.tell(std::to_string(film->leftOut) + " of the film's " + std::to_string(film->pictures) +
+                " pictures came too fast for it; those before them stand longer");
+  }
   if (!report) return fail(report.error());
   if (report->validationMessages > 0)
     return fail(
@@ -125,6 +221,26 @@ void addXr(CLI::App& program, int& exitCode) {
       ->add_option("--resolution", args->resolution,
                    "Of the headset's pixels, each way: 0.1 to 1, or auto: as many as there is time for, from "
                    "half of them on")
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--synthesis", args->synthesis,
+          "Half of the frames are made by the runtime, where it can do that: off, on, or auto: from when "
+          "on there is no time even for half of the pixels")
+      ->check(CLI::IsMember({"off", "on", "auto"}))
+      ->capture_default_str();
+  command->add_flag("--spectator", args->spectator, "A window for those who do not wear the headset");
+  command->add_option("-o,--output", args->output, "Record what such a window shows: .mp4, .webm or .gif");
+  command->add_option("--size", args->size, "Pixels of that window and that film")->capture_default_str();
+  command->add_option("--fps", args->fps, "Pictures a second of the film")->capture_default_str();
+  command
+      ->add_option("--steady", args->steady,
+                   "How steady the head is that they see by: seconds in which it comes nearer by two thirds")
+      ->capture_default_str();
+  command
+      ->add_option(
+          "--ready", args->ready,
+          "Seconds for making other looks ready beforehand; those that are not are made as they are taken")
       ->capture_default_str();
   command->add_option("--frames", args->frames, "End when so many were drawn");
   command->add_flag("--quiet", args->quiet, "No warnings, and nothing about the headset");

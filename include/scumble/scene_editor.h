@@ -129,6 +129,9 @@ class SCUMBLE_API SceneEditor {
   // The first of this name; "boat/Deck": one called Deck below one called boat.
   NodeId findNode(const std::string& name) const;
   MeshId meshOf(NodeId id) const;
+  size_t nodeCount() const;                // their ids are the numbers below that
+  NodeId parentOf(NodeId id) const;        // none of those that stand in the world; less than the id itself
+  glm::mat4 transformOf(NodeId id) const;  // to its parent's space, at rest; the identity of none
   // To its parent's space. Nodes that a clip moves are the clip's, and are refused.
   Status setTransform(NodeId id, const glm::mat4& transform);
   // Whether its mesh is drawn, and those of all nodes below it. What is not takes up no space either.

@@ -176,9 +176,7 @@ Pose poseAt(const SceneData& scene, std::span<const PlayedClip> clips, const Nod
       for (size_t i = 0; i < rest.size(); ++i)
         weights[i] = share > 1 ? weights[i] / share : weights[i] + (1 - share) * rest[i];
     }
-    const glm::mat4 local = !clips.empty()     ? mixes[n].matrix(node)
-                            : node.localMatrix ? *node.localMatrix
-                                               : node.local.matrix();
+    const glm::mat4 local = clips.empty() ? node.restTransform() : mixes[n].matrix(node);
     pose.world[n] = drawable(node.parent >= 0 ? pose.world[size_t(node.parent)] * local : local);
   }
   return pose;

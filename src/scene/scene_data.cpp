@@ -29,7 +29,7 @@ std::vector<glm::mat4> worldMatrices(const SceneData& scene) {
   std::vector<glm::mat4> world(scene.nodes.size());
   for (size_t i = 0; i < scene.nodes.size(); ++i) {
     const Node& node = scene.nodes[i];
-    const glm::mat4 local = node.localMatrix ? *node.localMatrix : node.local.matrix();
+    const glm::mat4 local = node.restTransform();
     world[i] = node.parent >= 0 ? world[node.parent] * local : local;
   }
   return world;

@@ -209,6 +209,7 @@ struct Node {
   Transform local;
   // A matrix that is no composition of translation, rotation and scale (it shears); wins over `local`.
   std::optional<glm::mat4> localMatrix;
+  glm::mat4 restTransform() const { return localMatrix ? *localMatrix : local.matrix(); }
   int mesh = -1, camera = -1, light = -1, skin = -1;
   std::vector<glm::mat4> instances;  // EXT_mesh_gpu_instancing; empty: drawn once
   std::vector<float> morphWeights;   // of this node; empty: the mesh's defaults

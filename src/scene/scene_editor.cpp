@@ -189,6 +189,18 @@ MeshId SceneEditor::meshOf(NodeId id) const {
                                                  : MeshId::none;
 }
 
+size_t SceneEditor::nodeCount() const {
+  return edited_->data.nodes.size();
+}
+
+NodeId SceneEditor::parentOf(NodeId id) const {
+  return isIndex(id, nodeCount()) ? NodeId(edited_->data.nodes[size_t(id)].parent) : NodeId::none;
+}
+
+glm::mat4 SceneEditor::transformOf(NodeId id) const {
+  return isIndex(id, nodeCount()) ? edited_->data.nodes[size_t(id)].restTransform() : glm::mat4(1.0f);
+}
+
 Status SceneEditor::setTransform(NodeId id, const glm::mat4& transform) {
   SceneData& data = edited_->data;
   if (!isIndex(id, data.nodes.size())) return noSuch("node", int(id));

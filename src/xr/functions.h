@@ -39,6 +39,7 @@ namespace scumble::xr {
   F(BeginFrame)                        \
   F(EndFrame)                          \
   F(LocateViews)                       \
+  F(LocateSpace)                       \
   F(GetVulkanGraphicsRequirements2KHR) \
   F(CreateVulkanInstanceKHR)           \
   F(GetVulkanGraphicsDevice2KHR)       \
@@ -47,6 +48,7 @@ namespace scumble::xr {
   F(CreateActionSet)                   \
   F(DestroyActionSet)                  \
   F(CreateAction)                      \
+  F(CreateActionSpace)                 \
   F(SuggestInteractionProfileBindings) \
   F(AttachSessionActionSets)           \
   F(SyncActions)                       \

@@ -9,10 +9,19 @@
 
 namespace scumble::xr {
 
+constexpr size_t kHands = 2;  // the left one first
+
+// What one does at a frame.
+struct Hand {
+  std::optional<Pose> aim;             // where it points from, along its -z, in the room; none: nobody knows
+  bool points = false, grabs = false;  // as long as it is held
+};
+
 // What they say at a frame.
 struct HandsState {
   Steering steering;
   bool pauses = false, nextLook = false;  // pressed since the frame before
+  std::array<Hand, kHands> hands;
 };
 
 class Hands {
@@ -24,21 +33,28 @@ class Hands {
   Hands(const Hands&) = delete;
   Hands& operator=(const Hands&) = delete;
 
-  // Nothing while the session has no focus: others get the hands then.
-  HandsState follow(bool isFocused);
+  // At a moment, in a room. Nothing while the session has no focus: others get the hands then.
+  HandsState follow(bool isFocused, XrSpace room, XrTime time);
 
  private:
-  XrAction create(XrActionType type, const char* name, const char* text) const;
+  void begin();
+  void end();
+  XrAction create(XrActionType type, const char* name, const char* text, bool isOfEach = false) const;
   void suggest() const;
   XrPath path(const char* text) const;
   glm::vec2 stick(XrAction action) const;
+  XrActionStateBoolean button(XrAction action, XrPath hand = XR_NULL_PATH) const;
   bool isPressedNow(XrAction action) const;
+  std::optional<Pose> aimOf(size_t hand, XrSpace room, XrTime time) const;
 
   const Instance& instance_;
   const Functions& call_;
   XrSession session_;
   XrActionSet set_ = XR_NULL_HANDLE;
   XrAction walk_ = XR_NULL_HANDLE, turn_ = XR_NULL_HANDLE, pause_ = XR_NULL_HANDLE, look_ = XR_NULL_HANDLE;
+  XrAction aim_ = XR_NULL_HANDLE, point_ = XR_NULL_HANDLE, grab_ = XR_NULL_HANDLE;  // of each hand
+  std::array<XrPath, kHands> paths_{};
+  std::array<XrSpace, kHands> aims_{};
 };
 
 }  // namespace scumble::xr

@@ -15,7 +15,8 @@ constexpr uint32_t kVersion =
 
 // Used where they are there.
 const char* const kWelcome[] = {XR_FB_DISPLAY_REFRESH_RATE_EXTENSION_NAME, kUserPresenceExtension,
-                                XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME};
+                                XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME, kFrameSynthesisExtension,
+                                XR_FB_SPACE_WARP_EXTENSION_NAME};
 
 std::vector<std::string> extensionsThere(const Functions& call) {
   std::vector<std::string> names;
@@ -107,8 +108,11 @@ void Instance::findHeadset() {
   const XrSystemGetInfo wanted{XR_TYPE_SYSTEM_GET_INFO, nullptr, XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY};
   must(call_.GetSystem(instance_, &wanted, &system_), "xrGetSystem");
   XrSystemProperties properties{XR_TYPE_SYSTEM_PROPERTIES};
+  XrSystemSpaceWarpPropertiesFB warp{XR_TYPE_SYSTEM_SPACE_WARP_PROPERTIES_FB};
+  if (has(XR_FB_SPACE_WARP_EXTENSION_NAME)) properties.next = &warp;
   must(call_.GetSystemProperties(instance_, system_, &properties), "xrGetSystemProperties");
   headset_ = properties.systemName;
+  motionSize_ = {warp.recommendedMotionVectorImageRectWidth, warp.recommendedMotionVectorImageRectHeight};
   // Runtimes want to be asked before they make anything for Vulkan.
   XrGraphicsRequirementsVulkan2KHR needs{XR_TYPE_GRAPHICS_REQUIREMENTS_VULKAN2_KHR};
   must(call_.GetVulkanGraphicsRequirements2KHR(instance_, system_, &needs),

@@ -1,6 +1,7 @@
 // The runtime that is there, and its headset.
 #pragma once
 
+#include <glm/glm.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -30,6 +31,8 @@ class Instance {
   void findHeadset();
   XrSystemId system() const { return system_; }
   const std::string& headset() const { return headset_; }
+  // Pixels of an eye's motion that the runtime recommends (XR_FB_space_warp); none: it says nothing.
+  glm::uvec2 motionSize() const { return motionSize_; }
 
   // Who makes Vulkan's instance and device: the runtime does, so that it can add what it needs. The instance
   // outlives who uses them.
@@ -43,6 +46,7 @@ class Instance {
   XrSystemId system_ = XR_NULL_SYSTEM_ID;
   std::vector<std::string> extensions_;  // that were switched on
   std::string runtime_, headset_;
+  glm::uvec2 motionSize_{0};
 };
 
 }  // namespace scumble::xr

@@ -19,3 +19,23 @@ struct XrEventDataUserPresenceChanged {
   XrSession session;
   XrBool32 isUserPresent;
 };
+
+// Of XR_EXT_frame_synthesis, likewise.
+inline constexpr char kFrameSynthesisExtension[] = "XR_EXT_frame_synthesis";
+inline constexpr auto kTypeFrameSynthesisInfo = XrStructureType(1000211000);
+inline constexpr auto kTypeFrameSynthesisConfigView = XrStructureType(1000211001);
+struct XrFrameSynthesisInfo {
+  XrStructureType type;
+  const void* next;
+  XrFlags64 layerFlags;
+  XrSwapchainSubImage motionVectorSubImage;
+  XrVector4f motionVectorScale, motionVectorOffset;
+  XrPosef appSpaceDeltaPose;
+  XrSwapchainSubImage depthSubImage;
+  float minDepth, maxDepth, nearZ, farZ;
+};
+struct XrFrameSynthesisConfigView {
+  XrStructureType type;
+  void* next;
+  uint32_t recommendedMotionVectorImageRectWidth, recommendedMotionVectorImageRectHeight;
+};

@@ -1,6 +1,8 @@
 #include "xr/place.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace scumble::xr {
 
@@ -28,10 +30,29 @@ Stand standAt(const View& camera, float scale, float eyeHeight) {
   return {place - glm::vec3(0, eyeHeight * scale, 0), headingOf(camera), scale};
 }
 
+Pose inScene(const Stand& stand, const Pose& inRoom) {
+  const glm::quat heading = aboutVertical(stand.heading);
+  return {heading * inRoom.turn, stand.place + stand.scale * (heading * inRoom.place)};
+}
+
+Pose inRoom(const Stand& stand, const Pose& inScene) {
+  const glm::quat back = aboutVertical(-stand.heading);
+  return {back * inScene.turn, back * (inScene.place - stand.place) / stand.scale};
+}
+
+Pose seenFrom(const Stand& from, const Stand& room) {
+  return inRoom(from, {aboutVertical(room.heading), room.place});
+}
+
+bool isPlace(const Pose& pose) {
+  const glm::quat& turn = pose.turn;
+  const float numbers[] = {turn.x, turn.y, turn.z, turn.w, pose.place.x, pose.place.y, pose.place.z};
+  return std::all_of(std::begin(numbers), std::end(numbers),
+                     [](float number) { return std::abs(number) < 1e6f; });
+}
+
 bool canBeSeenFrom(const Pose& eye, const XrFovf& angles) {
-  const glm::quat& turn = eye.turn;
-  for (const float number : {turn.x, turn.y, turn.z, turn.w, eye.place.x, eye.place.y, eye.place.z})
-    if (!(std::abs(number) < 1e6f)) return false;
+  if (!isPlace(eye)) return false;
   const auto isBetween = [](float low, float high) {
     constexpr float kMost = 1.55f;  // nearly a right angle
     return low >= -kMost && high <= kMost && high - low > 1e-3f;
@@ -40,9 +61,9 @@ bool canBeSeenFrom(const Pose& eye, const XrFovf& angles) {
 }
 
 View viewOf(const Stand& stand, const Pose& eye, const XrFovf& angles, float nearPlane) {
-  const glm::quat heading = aboutVertical(stand.heading);
-  glm::mat4 toWorld = glm::mat4_cast(heading * eye.turn);
-  toWorld[3] = glm::vec4(stand.place + stand.scale * (heading * eye.place), 1);
+  const Pose seen = inScene(stand, eye);
+  glm::mat4 toWorld = glm::mat4_cast(seen.turn);
+  toWorld[3] = glm::vec4(seen.place, 1);
   View view;
   view.worldToEye = glm::inverse(toWorld);
   view.eyeToClip = projectionOf(angles, nearPlane);

@@ -32,7 +32,15 @@ glm::quat aboutVertical(float angle);  // radians, from z to x
 // stands with it at the camera; one whose origin lies on the floor, `eyeHeight` metres of the room below it.
 Stand standAt(const View& camera, float scale, float eyeHeight);
 
-// Whether there is a view for an eye: what runtimes tell need not make sense while they start, or are lost.
+// A place and a turn of the room in the scene.
+Pose inScene(const Stand& stand, const Pose& inRoom);
+Pose inRoom(const Stand& stand, const Pose& inScene);
+// Where a room is, as seen from another one; in metres of that.
+Pose seenFrom(const Stand& from, const Stand& room);
+
+// What runtimes tell need not make sense while they start, or are lost: whether it is a place and a turn, and
+// whether there is a view for an eye.
+bool isPlace(const Pose& pose);
 bool canBeSeenFrom(const Pose& eye, const XrFovf& angles);
 
 // An eye of the room as a view of the scene.

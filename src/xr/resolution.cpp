@@ -15,11 +15,12 @@ constexpr int kLateFrames = 3, kEarlyFrames = 90;
 }  // namespace
 
 void Resolution::took(double device, double period) {
-  if (fixed_ || !(device > 0) || !(period > 0)) return;
-  const bool isLast = step_ + 1 == std::size(kSteps);
+  if (!(device > 0) || !(period > 0)) return;
+  const bool isLast = fixed_ || step_ + 1 == std::size(kSteps);
   const double pixels = step_ == 0 ? 1 : std::pow(kSteps[step_ - 1] / kSteps[step_], 2);
   late_ = device > kLate * period ? late_ + 1 : 0;
   early_ = step_ > 0 && device * pixels < kRoom * period ? early_ + 1 : 0;
+  isTooMuch_ = isTooMuch_ || (late_ >= kLateFrames && isLast);
   if (late_ >= kLateFrames && !isLast) ++step_;
   if (early_ >= kEarlyFrames) --step_;
   if (late_ >= kLateFrames || early_ >= kEarlyFrames) late_ = early_ = 0;

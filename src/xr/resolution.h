@@ -22,6 +22,9 @@ class Resolution {
   // time for more for a while, more.
   void took(double device, double period);
 
+  // Late again and again, with as few pixels as there may be.
+  bool isTooMuch() const { return isTooMuch_; }
+
   float scale() const { return fixed_.value_or(kSteps[step_]); }
   // Of a recommended size: whole pixels, 1 at least.
   glm::uvec2 of(const glm::uvec2& size) const;
@@ -30,6 +33,7 @@ class Resolution {
   std::optional<float> fixed_;
   size_t step_ = 0;
   int late_ = 0, early_ = 0;  // frames, one after the other
+  bool isTooMuch_ = false;
 };
 
 }  // namespace scumble::xr

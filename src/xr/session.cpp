@@ -38,9 +38,10 @@ Session::Session(const Instance& instance, const VulkanDevice& device, const Ses
     // In the order of the runtime's preference.
     const bool canCover = std::find(modes.begin(), modes.end(), blend_) != modes.end();
     if (!canCover && !modes.empty()) blend_ = modes.front();
-    createSwapchains();
+    createImages(options.hasSynthesis);
     chooseRefreshRate(options.refreshRate);
     hands_ = std::make_unique<Hands>(instance, session_);
+    pointer_ = std::make_unique<Pointer>(instance, session_, device, format_);
     if (options.hasVignette) vignette_ = std::make_unique<Vignette>(instance, session_, device, format_);
   } catch (...) {
     destroy();
@@ -54,7 +55,7 @@ Session::~Session() {
 
 void Session::destroy() {
   // Runtimes do not like what was begun and never ended. Images come first.
-  pictures_.clear(), depths_.clear();
+  pictures_.reset(), depths_.reset(), synthesis_.reset();
   if (isBegun_) {
     XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO};
     info.displayTime = display_;
@@ -62,7 +63,7 @@ void Session::destroy() {
     call_.EndFrame(session_, &info);
   }
   hands_.reset();
-  vignette_.reset();
+  vignette_.reset(), pointer_.reset();
   if (space_) call_.DestroySpace(space_);
   if (session_) call_.DestroySession(session_);
 }
@@ -80,7 +81,7 @@ void Session::createSpace(bool isStanding) {
   must(call_.CreateReferenceSpace(session_, &info, &space_), "xrCreateReferenceSpace");
 }
 
-void Session::createSwapchains() {
+void Session::createImages(bool hasSynthesis) {
   const auto eyes = listed<XrViewConfigurationView>(
       "xrEnumerateViewConfigurationViews",
       [&](uint32_t capacity, uint32_t* count, XrViewConfigurationView* all) {
@@ -111,33 +112,37 @@ void Session::createSwapchains() {
     throw XrFailure("xrEnumerateSwapchainFormats", XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED);
   format_ = VkFormat(*chosen);
 
-  pictures_ = createEyeImages(format_, XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT);
+  pictures_ = std::make_unique<EyeImages>(call_, session_, format_, size_);
   constexpr VkFormat kDepth = VK_FORMAT_D32_SFLOAT;
-  if (!instance_.has(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME) ||
-      std::find(formats.begin(), formats.end(), int64_t(kDepth)) == formats.end())
-    return;
-  try {
-    depths_ = createEyeImages(kDepth, XR_SWAPCHAIN_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT);
-  } catch (const XrFailure& failure) {
-    // Frames are shown without it as well.
-    if (failure.isLoss()) throw;
-  }
+  if (instance_.has(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME) &&
+      std::find(formats.begin(), formats.end(), int64_t(kDepth)) != formats.end())
+    try {
+      depths_ = std::make_unique<EyeImages>(call_, session_, kDepth, size_);
+    } catch (const XrFailure& failure) {
+      // Frames are shown without it as well.
+      if (failure.isLoss()) throw;
+    }
+  if (hasSynthesis) synthesis_ = Synthesis::create(instance_, session_, recommendedMotionSize(), formats);
 }
 
-Session::EyeImages Session::createEyeImages(VkFormat format, XrSwapchainUsageFlags usage) const {
-  const Swapchain::Kind one{format, usage | XR_SWAPCHAIN_USAGE_SAMPLED_BIT, size_.x, size_.y};
-  Swapchain::Kind both = one;
-  both.layers = kEyes;
-  EyeImages images;
-  // Runtimes that have no images of layers have two of one.
-  try {
-    images.push_back(std::make_unique<Swapchain>(call_, session_, both));
-  } catch (const XrFailure& failure) {
-    if (failure.isLoss()) throw;
-    for (size_t eye = 0; eye < kEyes; ++eye)
-      images.push_back(std::make_unique<Swapchain>(call_, session_, one));
+glm::uvec2 Session::recommendedMotionSize() const {
+  if (!instance_.has(kFrameSynthesisExtension)) return instance_.motionSize();
+  std::array<XrViewConfigurationView, kEyes> eyes;
+  std::array<XrFrameSynthesisConfigView, kEyes> motions;
+  motions.fill({kTypeFrameSynthesisConfigView, nullptr, 0, 0});
+  for (size_t eye = 0; eye < kEyes; ++eye) {
+    eyes[eye] = {XR_TYPE_VIEW_CONFIGURATION_VIEW};
+    eyes[eye].next = &motions[eye];
   }
-  return images;
+  uint32_t count = 0;
+  must(call_.EnumerateViewConfigurationViews(instance_.handle(), instance_.system(), kViews, kEyes, &count,
+                                             eyes.data()),
+       "xrEnumerateViewConfigurationViews");
+  glm::uvec2 size(0);
+  for (const XrFrameSynthesisConfigView& motion : motions)
+    size = glm::max(size, glm::uvec2(motion.recommendedMotionVectorImageRectWidth,
+                                     motion.recommendedMotionVectorImageRectHeight));
+  return size;
 }
 
 void Session::chooseRefreshRate(float wished) {
@@ -236,64 +241,56 @@ bool Session::locate(Moment& moment) const {
   return true;
 }
 
-std::vector<VulkanTarget> Session::acquire() {
-  std::vector<VulkanTarget> targets;
-  acquire(pictures_, targets);
-  acquire(depths_, targets);
+std::vector<VulkanTarget> Session::acquire(bool synthesis) {
+  std::vector<VulkanTarget> targets = pictures_->acquire(0);
+  const auto add = [&](const std::vector<VulkanTarget>& more) {
+    targets.insert(targets.end(), more.begin(), more.end());
+  };
+  if (depths_) add(depths_->acquire(0, "depth"));
+  if (synthesis && synthesis_) add(synthesis_->acquire(kMotionViews));
   return targets;
 }
 
-void Session::acquire(const EyeImages& images, std::vector<VulkanTarget>& targets) const {
-  std::vector<VkImage> acquired;
-  for (const auto& swapchain : images) acquired.push_back(swapchain->acquire());
-  for (size_t eye = 0; eye < kEyes && !images.empty(); ++eye) {
-    const Swapchain::Kind& kind = imagesOf(images, eye).kind();
-    const bool isDepth = &images == &depths_;
-    VulkanTarget& target = targets.emplace_back();
-    target.image = acquired[images.size() == 1 ? 0 : eye];
-    target.format = kind.format;
-    target.extent = {kind.width, kind.height};
-    target.layer = layerOf(images, eye);
-    // As runtimes want them back (XR_KHR_vulkan_enable2).
-    target.after =
-        isDepth ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    target.view = eye;
-    if (isDepth) target.aov = "depth";
-  }
-}
-
 void Session::release() {
-  for (const EyeImages* images : {&pictures_, &depths_})
-    for (const auto& swapchain : *images) swapchain->release();
+  pictures_->release();
+  if (depths_) depths_->release();
+  if (synthesis_) synthesis_->release();
 }
 
-void Session::end(const Moment& moment, const std::optional<DrawnEyes>& drawn, float darkness) {
+void Session::end(const Moment& moment, const std::optional<DrawnEyes>& drawn) {
   release();
   std::array<XrCompositionLayerProjectionView, kEyes> views;
   std::array<XrCompositionLayerDepthInfoKHR, kEyes> depths;
-  const glm::uvec2 size = drawn ? drawn->size : size_;
-  for (size_t eye = 0; eye < kEyes; ++eye) {
-    views[eye] = {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW};
-    views[eye].pose = xrOf(moment.eyes[eye].pose);
-    views[eye].fov = moment.eyes[eye].angles;
-    views[eye].subImage = imagesOf(pictures_, eye).part(size.x, size.y, layerOf(pictures_, eye));
-    if (!drawn || depths_.empty()) continue;
-    depths[eye] = {XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR};
-    depths[eye].subImage = imagesOf(depths_, eye).part(size.x, size.y, layerOf(depths_, eye));
-    // Reversed: 0 is endlessly far away, and so nearZ, which is where minDepth lies, is the farther one.
-    depths[eye].minDepth = 0, depths[eye].nearZ = std::numeric_limits<float>::infinity();
-    depths[eye].maxDepth = 1, depths[eye].farZ = drawn->nearPlane;
-    views[eye].next = &depths[eye];
-  }
   XrCompositionLayerProjection projection{XR_TYPE_COMPOSITION_LAYER_PROJECTION};
   projection.space = space_;
   projection.viewCount = kEyes;
   projection.views = views.data();
-  const auto vignette = vignette_ ? vignette_->layer(darkness) : std::nullopt;
   std::vector<const XrCompositionLayerBaseHeader*> layers;
+  std::vector<XrCompositionLayerQuad> quads;
   if (drawn) {
+    for (size_t eye = 0; eye < kEyes; ++eye) {
+      views[eye] = {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW};
+      views[eye].pose = xrOf(moment.eyes[eye].pose);
+      views[eye].fov = moment.eyes[eye].angles;
+      views[eye].subImage = pictures_->part(eye, drawn->size);
+      if (depths_) {
+        depths[eye] = {XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR};
+        depths[eye].subImage = depths_->part(eye, drawn->size);
+        // Reversed: 0 is endlessly far away, and so nearZ, which is where minDepth lies, is the farther one.
+        depths[eye].minDepth = 0, depths[eye].nearZ = std::numeric_limits<float>::infinity();
+        depths[eye].maxDepth = 1, depths[eye].farZ = drawn->nearPlane;
+        views[eye].next = &depths[eye];
+      }
+      if (drawn->synthesis && synthesis_)
+        views[eye].next = synthesis_->chained(eye, *drawn->synthesis, views[eye].next);
+    }
     layers.push_back(reinterpret_cast<const XrCompositionLayerBaseHeader*>(&projection));
-    if (vignette) layers.push_back(reinterpret_cast<const XrCompositionLayerBaseHeader*>(&*vignette));
+    const glm::vec3 head = between(moment.eyes[0].pose, moment.eyes[1].pose).place;
+    for (const Ray& ray : drawn->rays) pointer_->addLayers(ray, head, space_, quads);
+    if (vignette_)
+      if (const auto vignette = vignette_->layer(drawn->darkness)) quads.push_back(*vignette);
+    for (const XrCompositionLayerQuad& quad : quads)
+      layers.push_back(reinterpret_cast<const XrCompositionLayerBaseHeader*>(&quad));
   }
   XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO};
   info.displayTime = moment.display;

@@ -8,20 +8,21 @@
 #include <optional>
 #include <vector>
 
+#include "xr/eye_images.h"
 #include "xr/hands.h"
 #include "xr/instance.h"
 #include "xr/place.h"
-#include "xr/swapchain.h"
+#include "xr/pointer.h"
+#include "xr/synthesis.h"
 #include "xr/vignette.h"
 
 namespace scumble::xr {
 
-constexpr size_t kEyes = 2;
-
 struct SessionOptions {
-  bool isStanding = false;  // places are from the floor's middle; else from where the head was first
-  float refreshRate = 0;    // frames a second that are wished for; 0: as the runtime has it
-  bool hasVignette = true;  // end() may darken what lies around
+  bool isStanding = false;    // places are from the floor's middle; else from where the head was first
+  float refreshRate = 0;      // frames a second that are wished for; 0: as the runtime has it
+  bool hasVignette = true;    // end() may darken what lies around
+  bool hasSynthesis = false;  // it is told what frame synthesis takes, where it can do that
 };
 
 struct Eye {
@@ -42,6 +43,9 @@ struct Moment {
 struct DrawnEyes {
   glm::uvec2 size{0};   // pixels of each, from the upper left corner of what was acquired
   float nearPlane = 0;  // metres of the room: where the depth buffer is 1; it is 0 endlessly far away
+  std::optional<SynthesisMoment> synthesis;  // images for it were acquired
+  float darkness = 0;                        // as Vignette::layer has it
+  std::vector<Ray> rays;                     // over what was drawn
 };
 
 // What has happened since the last look.
@@ -73,32 +77,25 @@ class Session {
   // The eyes at that moment, as the runtime knows by now.
   bool locate(Moment& moment) const;
   // What hands say, once a frame.
-  HandsState hands() { return hands_->follow(isFocused()); }
+  HandsState hands(const Moment& moment) { return hands_->follow(isFocused(), space_, moment.display); }
   // Images to draw into: of each eye, as targets of views 0 and 1; and their depth, where the runtime takes
-  // that. They are taken until end().
-  std::vector<VulkanTarget> acquire();
+  // that. With `synthesis`: motion and depth of views 2 and 3 as well. They are taken until end().
+  static constexpr size_t kMotionViews = kEyes;
+  std::vector<VulkanTarget> acquire(bool synthesis);
   // Gives the images back outside of a frame.
   void release();
-  // `drawn`: what was acquired is shown as seen from the moment's eyes; else nothing is. `darkness`: as
-  // Vignette::layer has it.
-  void end(const Moment& moment, const std::optional<DrawnEyes>& drawn, float darkness);
+  // `drawn`: what was acquired is shown as seen from the moment's eyes; else nothing is.
+  void end(const Moment& moment, const std::optional<DrawnEyes>& drawn);
 
-  glm::uvec2 size() const { return size_; }           // of an eye, pixels, at most
+  glm::uvec2 size() const { return size_; }  // of an eye, pixels, at most
+  // Of an eye's motion for frame synthesis; none: there is none.
+  glm::uvec2 motionSize() const { return synthesis_ ? synthesis_->size() : glm::uvec2(0); }
   float refreshRate() const { return refreshRate_; }  // frames a second; 0: the runtime does not tell
 
  private:
-  // What both eyes are drawn into: an array of two layers, or one for each eye.
-  using EyeImages = std::vector<std::unique_ptr<Swapchain>>;
-  static Swapchain& imagesOf(const EyeImages& images, size_t eye) {
-    return *images[images.size() == 1 ? 0 : eye];
-  }
-  static uint32_t layerOf(const EyeImages& images, size_t eye) {
-    return images.size() == 1 ? uint32_t(eye) : 0;
-  }
   void createSpace(bool isStanding);
-  void createSwapchains();
-  EyeImages createEyeImages(VkFormat format, XrSwapchainUsageFlags usage) const;
-  void acquire(const EyeImages& images, std::vector<VulkanTarget>& targets) const;
+  void createImages(bool hasSynthesis);
+  glm::uvec2 recommendedMotionSize() const;
   void chooseRefreshRate(float wished);
   void destroy();
 
@@ -111,9 +108,11 @@ class Session {
   XrEnvironmentBlendMode blend_ = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
   VkFormat format_ = VK_FORMAT_UNDEFINED;
   glm::uvec2 size_{0};
-  EyeImages pictures_, depths_;  // depths: none where the runtime does not take them
+  std::unique_ptr<EyeImages> pictures_, depths_;  // depths: null where the runtime does not take them
+  std::unique_ptr<Synthesis> synthesis_;          // null: likewise, or not wished
   std::unique_ptr<Hands> hands_;
   std::unique_ptr<Vignette> vignette_;
+  std::unique_ptr<Pointer> pointer_;
   float refreshRate_ = 0;
   XrTime display_ = 0;  // of the frame that was begun
   bool isRunning_ = false, isWorn_ = true, isOver_ = false, isLost_ = false, isBegun_ = false;

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <deque>
 #include <exception>
 #include <thread>
 
 #include "xr/clock.h"
 #include "xr/failure.h"
+#include "xr/follower.h"
 #include "xr/resolution.h"
 #include "xr/session.h"
+#include "xr/touch.h"
 #include "xr/walk.h"
 
 namespace scumble::xr {
@@ -23,12 +26,21 @@ constexpr double kDarkening = 0.1;    // seconds
 constexpr auto kRest = std::chrono::milliseconds(10);
 constexpr auto kPatience = std::chrono::minutes(1);     // for a headset that was lost
 constexpr auto kEndPatience = std::chrono::seconds(5);  // for a runtime that is asked to end
+// What decides where marks lie is of the eyes alone: others look on.
+constexpr int kEyesRig = 0, kMotionRig = 1, kSpectatorRig = 2, kPointerRig = 3;
+constexpr float kCutTurn = 0.2f, kCutStep = 1;  // radians and metres from frame to frame: nobody goes so fast
 constexpr size_t kUnderWay = 2;  // frames that the device may have at once: it need not wait for the CPU
 
 class Show {
  public:
   Show(Instance& instance, const ShowOptions& options)
-      : options_(options), instance_(instance), clock_(options.time), resolution_(options.resolution) {}
+      : options_(options),
+        instance_(instance),
+        clock_(options.time),
+        looks_(options.looks),
+        touch_(options.scene, [this](const std::string& line) { tell(line); }),
+        follower_(options.spectator ? options.spectator->inertia : 0),
+        resolution_(options.resolution) {}
 
   Result<ShowReport> run() {
     Result<std::unique_ptr<Renderer>> renderer = createRenderer(instance_.vulkan(), options_.renderer);
@@ -81,15 +93,20 @@ class Show {
     Status status = Done{};
     try {
       Session session(instance_, vulkanDeviceOf(*renderer_),
-                      {options_.isStanding, options_.refreshRate, options_.hasVignette});
+                      {options_.isStanding, options_.refreshRate, options_.hasVignette,
+                       options_.synthesis != FrameSynthesis::off});
       const FramesEnd end{*this};  // before its images go
       if (!lostSince_) {
         tell(instance_.headset() + " on " + instance_.runtime() + ": twice " +
              std::to_string(session.size().x) + "x" + std::to_string(session.size().y) +
              (session.refreshRate() > 0 ? " at " + std::to_string(std::lround(session.refreshRate())) + " Hz"
                                         : ""));
+        if (options_.synthesis == FrameSynthesis::on && session.motionSize() == glm::uvec2(0))
+          tell("the runtime makes no frames by itself");
         status = warmUp(session);
       }
+      isSynthesizing_ = options_.synthesis == FrameSynthesis::on;
+      before_.reset();
       if (status) status = runFrames(session);
       isLost_ = session.isLost();
     } catch (const XrFailure& failure) {
@@ -99,14 +116,32 @@ class Show {
     return status;
   }
 
-  // A frame that nobody sees, before the runtime waits for any: uploads and pipelines take a while.
+  // Frames that nobody sees, before the runtime waits for any: uploads and pipelines take a while. One with
+  // all that there may be in a frame; the other looks, as long as there is patience; and one as they will be.
   Status warmUp(Session& session) {
     Moment moment;
     moment.eyes.fill({Pose(), {-0.8f, 0.8f, 0.8f, -0.8f}});
-    Status status = begin(session, standNow(), moment, {});
-    if (const Status finished = finish(0); status.ok()) status = finished;
-    session.release();
-    return status;
+    const auto draw = [&](bool isWhole) {
+      isSynthesizing_ = isWhole;
+      Status status =
+          begin(session, standNow(), moment, {}, isWhole ? std::optional(Touch::Question()) : std::nullopt);
+      if (const Status finished = finish(0); status.ok()) status = finished;
+      session.release();
+      return status;
+    };
+    if (Status status = draw(true); !status) return status;
+    const Watch::time_point start = Watch::now();
+    const std::chrono::duration<double> patience(options_.readying);
+    for (size_t i = 1; i < looks_.size() && Watch::now() - start < patience; ++i) {
+      RenderOptions options = renderOptions();
+      const Result<Camera> camera = standNow();
+      if (!camera) return camera.error();
+      if (Status status = renderer_->prepare(touch_.scene(), looks_[i].second,
+                                             viewsOf(*camera, walk_.on(camera->stand), moment), options);
+          !status)
+        return status;
+    }
+    return draw(false);
   }
 
   Status runFrames(Session& session) {
@@ -125,25 +160,28 @@ class Show {
         continue;
       }
       Moment moment = session.begin();
-      const HandsState hands = session.hands();
+      const HandsState hands = session.hands(moment);
       isPaused_ = isPaused_ != hands.pauses;
       clock_.go(moment.display, isPaused_ || !session.isWorn() || !moment.shouldRender);
       // Whoever recentres wants to be where the camera is.
       if (moment.display >= recentring) {
-        walk_.reset();
+        walk_.reset(), before_.reset();
         recentring = kNever;
       }
       const bool isSeen = moment.shouldRender && moment.isPlaced && !askedAt;
       Status drawn = isSeen ? draw(session, moment, hands) : Done{};
-      session.end(moment, isSeen && drawn.ok() ? std::optional(DrawnEyes{size_, kNearPlane}) : std::nullopt,
-                  darkness_);
+      std::optional<DrawnEyes> eyes;
+      if (isSeen && drawn.ok()) eyes = DrawnEyes{size_, kNearPlane, synthesis_, darkness_, touch_.rays()};
+      session.end(moment, eyes);
       if (!drawn) return drawn;
       if (isSeen) ++report_.frames, lostSince_.reset();
+      // What was not seen is nothing to go on from.
+      if (!isSeen) before_.reset();
     }
     return Done{};
   }
 
-  const Look& look() const { return options_.looks[look_].second; }
+  Look& look() { return looks_[look_].second; }
 
   // The camera's, which has a place in the scene and may hang on something.
   struct Camera {
@@ -151,8 +189,8 @@ class Show {
     int node = -1;
   };
   Result<Camera> standNow() const {
-    const Result<std::vector<View>> views =
-        makeViews(options_.scene, options_.viewpoint, 1, Stereo::mono, 0, look(), clock_.time());
+    const Result<std::vector<View>> views = makeViews(options_.scene, options_.viewpoint, 1, Stereo::mono, 0,
+                                                      looks_[look_].second, clock_.time());
     if (!views) return views.error();
     return Camera{standAt(views->front(), options_.scale, options_.isStanding ? kEyeHeight : 0),
                   views->front().node};
@@ -160,8 +198,9 @@ class Show {
 
   Status draw(Session& session, Moment& moment, const HandsState& hands) {
     if (hands.nextLook) {
-      look_ = (look_ + 1) % options_.looks.size();
-      tell("look: " + options_.looks[look_].first);
+      look_ = (look_ + 1) % looks_.size();
+      touch_.letGoOfColours(), before_.reset();
+      tell("look: " + looks_[look_].first);
     }
     const double sinceLast = clock_.sinceLast();
     const Result<Camera> camera = standNow();
@@ -171,25 +210,41 @@ class Show {
     // It comes and goes within a quarter of a second or so; what is not seen is not drawn.
     darkness_ += (walk_.motion() - darkness_) * float(1 - std::exp(-sinceLast / kDarkening));
     if (darkness_ < 0.01f) darkness_ = 0;
-    return begin(session, camera, moment, [&](Moment& latest) { return session.locate(latest); });
+    if (Status status = touch_.go(hands, {walk_.on(camera->stand), camera->node, clock_.time()}, look());
+        !status)
+      return status;
+    return begin(
+        session, camera, moment, [&](Moment& latest) { return session.locate(latest); },
+        touch_.takeQuestion());
+  }
+
+  // What all frames have.
+  RenderOptions renderOptions() const {
+    RenderOptions options;
+    options.width = size_.x, options.height = size_.y;
+    options.samples = options_.samples, options.seed = options_.seed;
+    return options;
+  }
+
+  // One from the room that somebody stands in.
+  View viewFrom(const Camera& camera, const Stand& stand, const Eye& eye, int rig, glm::uvec2 size) const {
+    View view = viewOf(stand, eye.pose, eye.angles, kNearPlane * stand.scale);
+    view.node = camera.node, view.isLevel = true;
+    view.rig = rig, view.size = size;
+    return view;
+  }
+  std::vector<View> viewsOf(const Camera& camera, const Stand& stand, const Moment& seen) const {
+    std::vector<View> views;
+    for (const Eye& eye : seen.eyes) views.push_back(viewFrom(camera, stand, eye, kEyesRig, {0, 0}));
+    return views;
   }
 
   // Sends a frame. `locate`: where the eyes are by now, asked at the last moment; what is shown is told with
-  // the eyes that it was drawn from.
+  // the eyes that it was drawn from. `question`: what it is asked beside.
   Status begin(Session& session, const Result<Camera>& camera, Moment& moment,
-               const std::function<bool(Moment&)>& locate) {
+               const std::function<bool(Moment&)>& locate, const std::optional<Touch::Question>& question) {
     if (!camera) return camera.error();
     const Stand stand = walk_.on(camera->stand);
-    const auto viewsOf = [&](const Moment& seen) {
-      std::vector<View> views;
-      for (const Eye& eye : seen.eyes) {
-        View& view = views.emplace_back(viewOf(stand, eye.pose, eye.angles, kNearPlane * stand.scale));
-        view.node = camera->node;
-        view.isLevel = true;
-      }
-      return views;
-    };
-    RenderOptions options;
     period_ = moment.period;
     if (const glm::uvec2 size = resolution_.of(session.size()); size != size_) {
       if (size_ != glm::uvec2(0) && locate)
@@ -197,36 +252,109 @@ class Show {
              " pixels from here on: as there is time for");
       size_ = size;
     }
-    options.width = size_.x, options.height = size_.y;
-    options.samples = options_.samples, options.seed = options_.seed;
+    if (options_.synthesis == FrameSynthesis::whenLate && resolution_.isTooMuch() && !isSynthesizing_ &&
+        session.motionSize() != glm::uvec2(0)) {
+      isSynthesizing_ = true;
+      tell("the runtime makes every other frame from here on: there is no time for all");
+    }
+    if (Status status = finish(kUnderWay - 1); !status) return status;
+
+    // Eyes; the same for what moves; who looks on; and where a hand points.
+    const bool synthesizes = isSynthesizing_ && session.motionSize() != glm::uvec2(0);
+    VulkanTargets targets;
+    Under under;
+    const auto eyesNow = [&](std::vector<View>& views) {
+      size_t v = 0;
+      for (const Eye& eye : moment.eyes) views[v++] = viewFrom(*camera, stand, eye, kEyesRig, {0, 0});
+      if (!synthesizes) return;
+      for (const Eye& eye : moment.eyes)
+        views[v++] = viewFrom(*camera, stand, eye, kMotionRig, session.motionSize());
+    };
+    std::vector<View> views((synthesizes ? 2 : 1) * kEyes);
+    eyesNow(views);
+    if (options_.spectator) {
+      const float up = std::atan(std::tan(0.5f * glm::radians(options_.spectator->verticalFov)));
+      const glm::vec2 size(options_.spectator->size);
+      const float across = std::atan(std::tan(up) * size.x / size.y);
+      const Pose head = inScene(stand, between(moment.eyes[0].pose, moment.eyes[1].pose));
+      // Where the camera goes it goes at once: it is the head that is steadied.
+      const Pose own = inRoom(camera->stand, head);
+      const Pose steady = locate ? follower_.go(own, float(clock_.sinceLast())) : own;
+      under.spectator = views.size();
+      views.push_back(viewFrom(*camera, camera->stand, {steady, {-across, across, up, -up}}, kSpectatorRig,
+                               options_.spectator->size));
+      targets.readbacks.push_back({views.size() - 1, ""});
+    }
+    if (question) {
+      constexpr float kAngle = 1e-3f;  // radians, to all sides
+      under.question = question, under.pointer = views.size();
+      views.push_back(
+          viewFrom(*camera, stand, {question->aim, {-kAngle, kAngle, kAngle, -kAngle}}, kPointerRig, {1, 1}));
+      for (const char* const aov : {"id", "depth"}) targets.readbacks.push_back({views.size() - 1, aov});
+    }
+
+    RenderOptions options = renderOptions();
+    options.formats[""] = PixelFormat::srgb8;
+    synthesis_.reset();
+    if (synthesizes) {
+      synthesis_ = SynthesisMoment{Pose(), true, kNearPlane};
+      options.previousViews = views;
+      if (before_) {
+        std::copy(before_->views.begin(), before_->views.end(), options.previousViews.begin());
+        options.previousTime = before_->time;
+        options.previousScene = before_->scene;
+        synthesis_->room = seenFrom(before_->stand, stand);
+        synthesis_->isCut = std::abs(stand.heading - before_->stand.heading) > kCutTurn ||
+                            glm::length(synthesis_->room.place) > kCutStep;
+      }
+    }
     // Nothing is thrown through the renderer.
     std::exception_ptr failure;
-    options.latch = [&](std::vector<View>& views) {
+    options.latch = [&](std::vector<View>& latched) {
       try {
-        if (locate && locate(moment)) views = viewsOf(moment);
+        if (locate && locate(moment)) eyesNow(latched);
       } catch (const XrFailure&) {
         failure = std::current_exception();
       }
     };
-    if (Status status = finish(kUnderWay - 1); !status) return status;
-    VulkanTargets targets;
-    targets.images = session.acquire();
-    Status status =
-        scumble::begin(*renderer_, options_.scene, look(), clock_.time(), viewsOf(moment), options, targets);
-    if (status) ++begun_;
+    targets.images = session.acquire(synthesizes);
+    const double time = clock_.time();
+    const Status status = scumble::begin(*renderer_, touch_.scene(), look(), time, views, options, targets);
+    if (status) {
+      if (locate) {
+        if (!firstDisplay_) firstDisplay_ = moment.display;
+        under.seconds = double(moment.display - *firstDisplay_) * 1e-9;
+        under.isSeen = true;
+      }
+      under_.push_back(under);
+      if (synthesizes) {
+        views.resize(2 * kEyes);
+        eyesNow(views);
+        before_ = Before{views, time, touch_.scene(), stand};
+      }
+    }
     if (failure) std::rethrow_exception(failure);
     return status;
   }
 
   // Until no more than so many frames are under way.
   Status finish(size_t most) {
-    for (; begun_ > most; --begun_)
-      if (const Result<Frame> frame = renderer_->finish()) {
-        resolution_.took(frame->stats.gpuMilliseconds, period_);
-      } else {
-        begun_ = 0;
+    while (under_.size() > most) {
+      const Under under = under_.front();
+      under_.pop_front();
+      const Result<Frame> frame = renderer_->finish();
+      if (!frame) {
+        under_.clear();
         return frame.error();
       }
+      resolution_.took(frame->stats.gpuMilliseconds, period_);
+      if (!under.isSeen) continue;
+      if (under.question) touch_.answer(*under.question, *frame, under.pointer);
+      for (const Frame::Layer& layer : frame->layers)
+        if (under.spectator && layer.name.empty())
+          options_.spectator->see(std::make_shared<const Image>(layer.views[*under.spectator]),
+                                  under.seconds);
+    }
     return Done{};
   }
 
@@ -235,13 +363,35 @@ class Show {
   std::unique_ptr<Renderer> renderer_;
   Clock clock_;
   bool isPaused_ = false;
+  std::vector<std::pair<std::string, Look>> looks_;
   size_t look_ = 0;
   Walk walk_;
+  Touch touch_;
+  Follower follower_;
   Resolution resolution_;
   glm::uvec2 size_{0};  // of an eye, as it was drawn last
   double period_ = 0;   // milliseconds from frame to frame
   float darkness_ = 0;
-  size_t begun_ = 0;
+  // A frame under way, and what it is asked for beside what the eyes see.
+  struct Under {
+    bool isSeen = false;
+    double seconds = 0;               // when, since the first one
+    std::optional<size_t> spectator;  // which view that is
+    std::optional<Touch::Question> question;
+    size_t pointer = 0;  // which view looks for the answer
+  };
+  std::deque<Under> under_;  // the oldest first
+  std::optional<XrTime> firstDisplay_;
+  // Where everything was in the frame that was seen before, where the runtime makes frames between.
+  struct Before {
+    std::vector<View> views;
+    double time = 0;
+    Scene scene;
+    Stand stand;
+  };
+  std::optional<Before> before_;
+  std::optional<SynthesisMoment> synthesis_;  // of the present frame
+  bool isSynthesizing_ = false;
   bool isLost_ = false;
   std::optional<Watch::time_point> lostSince_;  // until a frame is shown again
   ShowReport report_;

@@ -20,6 +20,20 @@ namespace scumble::xr {
 Result<std::vector<View>> usualEyes(const Scene& scene, const Look& look, const Viewpoint& viewpoint,
                                     double time);
 
+// What those who do not wear the headset see: another view of the same frames, with a steadier head.
+struct Spectator {
+  glm::uvec2 size{1280, 720};  // pixels
+  float verticalFov = 60;      // degrees
+  float inertia = 0.3f;        // seconds in which its head comes nearer by two thirds; 0: it is the wearer's
+  // Each frame, when it is done: its picture in codes, and when it was to be seen, in seconds since the first
+  // one. Called by the thread that shows; what takes long belongs on another one.
+  std::function<void(std::shared_ptr<const Image> picture, double seconds)> see;
+};
+
+// Whether the runtime is told what it takes to make every other frame by itself: never, always, or from when
+// on the device is late with as few pixels as there may be.
+enum class FrameSynthesis { off, on, whenLate };
+
 struct ShowOptions {
   Scene scene;
   // What it looks like, and what a hand may have instead, by their names: there is one at least.
@@ -34,6 +48,11 @@ struct ShowOptions {
   // Of the pixels of both sides of an eye that the runtime recommends, 0.1 to 1; none: as many as there is
   // time for, from half of them on.
   std::optional<float> resolution;
+  FrameSynthesis synthesis = FrameSynthesis::off;
+  std::optional<Spectator> spectator;
+  // Looks that a hand may have are made ready beforehand as long as this takes, seconds; others are when they
+  // are taken.
+  double readying = 3;
   uint32_t samples = 4, seed = 0;
   RendererOptions renderer;        // `device` means nothing: the runtime chooses
   std::optional<uint64_t> frames;  // ends when so many were drawn; none: when the runtime or somebody ends it

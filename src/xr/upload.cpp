@@ -1,6 +1,9 @@
 #include "xr/upload.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <glm/gtc/packing.hpp>
 #include <mutex>
 
 #include "xr/failure.h"
@@ -84,6 +87,16 @@ void toLayout(VkCommandBuffer commands, VkImage image, VkImageLayout before, VkI
 }
 
 }  // namespace
+
+void Texels::set(uint32_t x, uint32_t y, const glm::vec4& rgba) {
+  uint8_t* const texel = &bytes_[4 * channelBytes_ * (size_t(y) * side_ + x)];
+  for (int channel = 0; channel < 4; ++channel) {
+    const float value = rgba[isBgra_ && channel < 3 ? 2 - channel : channel];
+    const uint16_t code = channelBytes_ == 2 ? glm::packHalf1x16(value)
+                                             : uint16_t(std::lround(255 * std::clamp(value, 0.0f, 1.0f)));
+    std::memcpy(texel + size_t(channel) * channelBytes_, &code, channelBytes_);
+  }
+}
 
 void upload(const VulkanDevice& device, VkImage image, VkExtent2D extent, const std::vector<uint8_t>& bytes) {
   const Upload with(device, bytes);

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <glm/gtc/packing.hpp>
-#include <vector>
 
 #include "xr/failure.h"
 #include "xr/upload.h"
@@ -22,17 +19,13 @@ float openingAt(float strength) {
   return 1 + kOpening * (1 - std::clamp(strength, 0.0f, 1.0f));
 }
 
-// Black, with how dark it is as alpha: in any order of channels and any curve. Of bytes, or of half floats.
-std::vector<uint8_t> pictureOf(VkFormat format) {
-  const size_t bytes = format == VK_FORMAT_R16G16B16A16_SFLOAT ? 2 : 1;
-  std::vector<uint8_t> picture(4 * bytes * kSide * kSide, 0);
+// Black, with how dark it is as alpha.
+Texels pictureOf(VkFormat format) {
+  Texels picture(format, kSide);
   const auto across = [](uint32_t pixel) { return kReach * (2 * (float(pixel) + 0.5f) / kSide - 1); };
   for (uint32_t y = 0; y < kSide; ++y)
-    for (uint32_t x = 0; x < kSide; ++x) {
-      const float alpha = darknessAt(std::hypot(across(x), across(y)), 1);
-      const uint16_t code = bytes == 2 ? glm::packHalf1x16(alpha) : uint16_t(std::lround(255 * alpha));
-      std::memcpy(&picture[bytes * (4 * (size_t(y) * kSide + x) + 3)], &code, bytes);
-    }
+    for (uint32_t x = 0; x < kSide; ++x)
+      picture.set(x, y, {0, 0, 0, darknessAt(std::hypot(across(x), across(y)), 1)});
   return picture;
 }
 
@@ -50,7 +43,7 @@ Vignette::Vignette(const Instance& instance, XrSession session, const VulkanDevi
                 XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT | XR_SWAPCHAIN_USAGE_SAMPLED_BIT |
                     XR_SWAPCHAIN_USAGE_TRANSFER_DST_BIT,
                 kSide, kSide}) {
-  upload(device, picture_.acquire(), {kSide, kSide}, pictureOf(format));
+  upload(device, picture_.acquire(), {kSide, kSide}, pictureOf(format).bytes());
   picture_.release();
   const XrReferenceSpaceCreateInfo space{
       XR_TYPE_REFERENCE_SPACE_CREATE_INFO, nullptr, XR_REFERENCE_SPACE_TYPE_VIEW, {{0, 0, 0, 1}, {0, 0, 0}}};

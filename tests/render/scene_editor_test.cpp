@@ -420,6 +420,11 @@ TEST_P(Edited, motionFromAnEarlierScene) {
   ASSERT_TRUE(editor.setTransform(root, glm::translate(glm::mat4(1.0f), way)).ok());
   const Scene after = must(editor.scene());
   EXPECT_EQ(editor.meshOf(moved), ball);
+  EXPECT_EQ(editor.nodeCount(), 2u);
+  EXPECT_EQ(editor.parentOf(moved), root);
+  EXPECT_EQ(editor.parentOf(root), NodeId::none);
+  EXPECT_EQ(editor.transformOf(root), glm::translate(glm::mat4(1.0f), way));
+  EXPECT_EQ(editor.transformOf(moved), glm::mat4(1.0f));
   const auto seen = views(after);
   RenderOptions options = sized(kWidth, kHeight, {"motion", "id"});
   options.previousScene = before;

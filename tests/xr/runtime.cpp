@@ -18,7 +18,10 @@
 //   refreshRates  frames a second that it offers; without them it has no such extension
 //   period        seconds from frame to frame; default: by the refresh rate
 //   comesBack     after how many xrGetSystem a headset that was lost is there again
-//   hands         {"walk": [[x, y], ...], "turn": ..., "pause": [0, 1, ...], "look": ...} by frame
+//   hands         {"walk": [[x, y], ...], "turn": ..., "pause": [0, 1, ...], "look": ...} by frame; of each
+//                 hand "point left", "grab right" and the like, and "aim left": [[x, y, z, qx, qy, qz, qw],
+//                 ...]
+//   synthesis     "ext" or "fb": makes frames by that extension; and motionSize, pixels of an eye's motion
 //   events        [{"frame": N, "event": ...}], as frame N is waited for: hide, show, blur, focus, stop,
 //   exit,
 //                 loseSession, loseInstance, recentre, redrawFloor, takeOff, putOn
@@ -71,11 +74,13 @@ const auto kActionSet = reinterpret_cast<XrActionSet>(0x33);
 
 struct Space {
   XrReferenceSpaceType type;
+  std::string aim;  // of an action, what the script calls it; else it is a room
 };
 
 struct Action {
   std::string name;
   XrActionType type;
+  std::vector<XrPath> hands;
 };
 
 struct Swapchain {
@@ -85,6 +90,7 @@ struct Swapchain {
   std::vector<VkImage> images;
   std::vector<VkDeviceMemory> memory;
   bool isDepth() const { return format == VK_FORMAT_D32_SFLOAT; }
+  uint32_t pixelBytes() const { return format == VK_FORMAT_R16G16B16A16_SFLOAT ? 8 : 4; }
   // As images are acquired and released (XR_KHR_vulkan_enable2).
   VkImageLayout layout() const {
     return isDepth() ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL
@@ -153,6 +159,10 @@ struct Runtime {
     return fail.contains(call);
   }
   bool offersRates() const { return script.contains("refreshRates"); }
+  std::string synthesis() const { return script.value("synthesis", ""); }
+  std::array<uint32_t, 2> motionSize() const {
+    return script.value("motionSize", std::array<uint32_t, 2>{24, 16});
+  }
 };
 
 Runtime& runtime() {
@@ -208,6 +218,8 @@ XrResult XRAPI_CALL enumerateInstanceExtensionProperties(const char*, uint32_t c
   if (r.script.value("vulkan", true)) names.emplace_back(XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME);
   if (r.script.value("depth", false)) names.emplace_back(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME);
   if (r.offersRates()) names.emplace_back(XR_FB_DISPLAY_REFRESH_RATE_EXTENSION_NAME);
+  if (r.synthesis() == "ext") names.emplace_back(kFrameSynthesisExtension);
+  if (r.synthesis() == "fb") names.emplace_back(XR_FB_SPACE_WARP_EXTENSION_NAME);
   names.emplace_back(kUserPresenceExtension);
   std::vector<XrExtensionProperties> all;
   for (const std::string& name : names) {
@@ -269,6 +281,13 @@ XrResult XRAPI_CALL getSystem(XrInstance, const XrSystemGetInfo* info, XrSystemI
 XrResult XRAPI_CALL getSystemProperties(XrInstance, XrSystemId, XrSystemProperties* properties) {
   BEGIN("xrGetSystemProperties");
   std::strcpy(properties->systemName, "Cardboard head");
+  if (auto* const warp = static_cast<XrSystemSpaceWarpPropertiesFB*>(properties->next)) {
+    NEED(warp->type == XR_TYPE_SYSTEM_SPACE_WARP_PROPERTIES_FB &&
+             r.extensions.count(XR_FB_SPACE_WARP_EXTENSION_NAME),
+         "properties of something unknown", XR_ERROR_VALIDATION_FAILURE);
+    warp->recommendedMotionVectorImageRectWidth = r.motionSize()[0];
+    warp->recommendedMotionVectorImageRectHeight = r.motionSize()[1];
+  }
   return XR_SUCCESS;
 }
 
@@ -283,9 +302,21 @@ XrResult XRAPI_CALL enumerateViewConfigurationViews(XrInstance, XrSystemId, XrVi
                                                     XrViewConfigurationView* out) {
   BEGIN("xrEnumerateViewConfigurationViews");
   const auto size = r.script.value("size", std::array<uint32_t, 2>{64, 64});
-  const XrViewConfigurationView one{
-      XR_TYPE_VIEW_CONFIGURATION_VIEW, nullptr, size[0], 4096, size[1], 4096, 1, 4};
-  return give<XrViewConfigurationView>({one, one}, capacity, count, out);
+  *count = 2;
+  if (capacity == 0) return XR_SUCCESS;
+  NEED(capacity >= 2, "too few views", XR_ERROR_SIZE_INSUFFICIENT);
+  for (size_t eye = 0; eye < 2; ++eye) {
+    NEED(out[eye].type == XR_TYPE_VIEW_CONFIGURATION_VIEW, "a view's structure has no type",
+         XR_ERROR_VALIDATION_FAILURE);
+    out[eye] = {out[eye].type, out[eye].next, size[0], 4096, size[1], 4096, 1, 4};
+    auto* const motion = static_cast<XrFrameSynthesisConfigView*>(out[eye].next);
+    if (!motion) continue;
+    NEED(motion->type == kTypeFrameSynthesisConfigView && r.extensions.count(kFrameSynthesisExtension),
+         "a view of something unknown", XR_ERROR_VALIDATION_FAILURE);
+    motion->recommendedMotionVectorImageRectWidth = r.motionSize()[0];
+    motion->recommendedMotionVectorImageRectHeight = r.motionSize()[1];
+  }
+  return XR_SUCCESS;
 }
 
 XrResult XRAPI_CALL enumerateEnvironmentBlendModes(XrInstance, XrSystemId, XrViewConfigurationType,
@@ -421,7 +452,7 @@ XrResult XRAPI_CALL enumerateReferenceSpaces(XrSession, uint32_t capacity, uint3
 
 XrResult XRAPI_CALL createReferenceSpace(XrSession, const XrReferenceSpaceCreateInfo* info, XrSpace* space) {
   BEGIN("xrCreateReferenceSpace");
-  auto* const made = new Space{info->referenceSpaceType};
+  auto* const made = new Space{info->referenceSpaceType, ""};
   r.spaces.insert(made);
   *space = reinterpret_cast<XrSpace>(made);
   return XR_SUCCESS;
@@ -513,7 +544,8 @@ XrResult XRAPI_CALL enumerateSwapchainFormats(XrSession, uint32_t capacity, uint
   BEGIN("xrEnumerateSwapchainFormats");
   std::vector<int64_t> formats =
       r.script.value("formats", std::vector<int64_t>{VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_R8G8B8A8_SRGB});
-  if (r.script.value("depth", false)) formats.push_back(VK_FORMAT_D32_SFLOAT);
+  if (r.script.value("depth", false) || !r.synthesis().empty()) formats.push_back(VK_FORMAT_D32_SFLOAT);
+  if (!r.synthesis().empty()) formats.push_back(VK_FORMAT_R16G16B16A16_SFLOAT);
   return give(formats, capacity, count, out);
 }
 
@@ -654,7 +686,10 @@ XrResult XRAPI_CALL createAction(XrActionSet, const XrActionCreateInfo* info, Xr
        "an action's name is none of OpenXR's", XR_ERROR_PATH_FORMAT_INVALID);
   for (const auto& other : r.actions)
     NEED(other->name != name, "two actions of one name", XR_ERROR_NAME_DUPLICATED);
-  r.actions.push_back(std::make_unique<Action>(Action{name, info->actionType}));
+  const std::vector<XrPath> hands(info->subactionPaths, info->subactionPaths + info->countSubactionPaths);
+  for (const XrPath hand : hands)
+    NEED(r.paths.at(hand - 1).starts_with("/user/hand/"), "an action of no hand", XR_ERROR_PATH_UNSUPPORTED);
+  r.actions.push_back(std::make_unique<Action>(Action{name, info->actionType, hands}));
   *action = reinterpret_cast<XrAction>(r.actions.back().get());
   return XR_SUCCESS;
 }
@@ -687,6 +722,7 @@ bool isOf(const std::string& profile, const std::string& input) {
       profile.starts_with(kProfiles) ? kInputs.find(profile.substr(kProfiles.size())) : kInputs.end();
   if (found == kInputs.end()) return false;
   const auto& [both, left, right] = found->second;
+  if (input == "/user/hand/left/input/aim/pose" || input == "/user/hand/right/input/aim/pose") return true;
   for (const auto& [hand, own] : {std::pair("left", &left), std::pair("right", &right)})
     for (const auto* const inputs : {&both, own})
       for (const std::string& one : *inputs)
@@ -704,7 +740,9 @@ XrResult XRAPI_CALL suggest(XrInstance, const XrInteractionProfileSuggestedBindi
     const std::string input = r.paths.at(one.binding - 1);
     const auto* const action = reinterpret_cast<const Action*>(one.action);
     const bool isStick = input.ends_with("thumbstick") || input.ends_with("trackpad");
-    NEED(isOf(profile, input) && isStick == (action->type == XR_ACTION_TYPE_VECTOR2F_INPUT),
+    const bool isPose = input.ends_with("/pose");
+    NEED(isOf(profile, input) && isStick == (action->type == XR_ACTION_TYPE_VECTOR2F_INPUT) &&
+             isPose == (action->type == XR_ACTION_TYPE_POSE_INPUT),
          profile + ": " + input + " is nothing for " + action->name, XR_ERROR_PATH_UNSUPPORTED);
   }
   // One that knows fewer makers.
@@ -731,10 +769,15 @@ XrResult XRAPI_CALL sync(XrSession, const XrActionsSyncInfo*) {
   return XR_SUCCESS;
 }
 
-// What the script has of an action at a frame; null where it has nothing.
-Json handAt(XrAction action, int frame) {
-  Runtime& r = runtime();
-  const std::string& name = reinterpret_cast<const Action*>(action)->name;
+// What the script calls an action, of one hand where it is of each.
+std::string nameOf(const Action& action, XrPath hand) {
+  const std::string path = hand ? runtime().paths.at(hand - 1) : "";
+  return action.name + (hand ? " " + path.substr(path.rfind('/') + 1) : "");
+}
+
+// What the script has of that at a frame; null where it has nothing.
+Json handAt(const std::string& name, int frame) {
+  const Runtime& r = runtime();
   const Json hands = r.script.value("hands", Json::object());
   if (!hands.contains(name) || frame < 0) return nullptr;
   return hands[name][std::min(size_t(frame), hands[name].size() - 1)];
@@ -742,7 +785,12 @@ Json handAt(XrAction action, int frame) {
 
 XrResult XRAPI_CALL getBoolean(XrSession, const XrActionStateGetInfo* info, XrActionStateBoolean* state) {
   BEGIN("xrGetActionStateBoolean");
-  const Json now = handAt(info->action, r.lastSync), before = handAt(info->action, r.syncBefore);
+  const auto& action = *reinterpret_cast<const Action*>(info->action);
+  NEED(std::find(action.hands.begin(), action.hands.end(), info->subactionPath) != action.hands.end() ||
+           (action.hands.empty() && !info->subactionPath),
+       "an action of a hand that it is not of", XR_ERROR_PATH_UNSUPPORTED);
+  const std::string name = nameOf(action, info->subactionPath);
+  const Json now = handAt(name, r.lastSync), before = handAt(name, r.syncBefore);
   state->isActive = !now.is_null();
   state->currentState = state->isActive && now != 0;
   state->changedSinceLastSync = state->currentState != XrBool32(!before.is_null() && before != 0);
@@ -751,9 +799,42 @@ XrResult XRAPI_CALL getBoolean(XrSession, const XrActionStateGetInfo* info, XrAc
 
 XrResult XRAPI_CALL getVector2f(XrSession, const XrActionStateGetInfo* info, XrActionStateVector2f* state) {
   BEGIN("xrGetActionStateVector2f");
-  const Json now = handAt(info->action, r.lastSync);
+  const Json now =
+      handAt(nameOf(*reinterpret_cast<const Action*>(info->action), info->subactionPath), r.lastSync);
   state->isActive = !now.is_null();
   if (state->isActive) state->currentState = {now[0], now[1]};
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL createActionSpace(XrSession, const XrActionSpaceCreateInfo* info, XrSpace* space) {
+  BEGIN("xrCreateActionSpace");
+  const auto& action = *reinterpret_cast<const Action*>(info->action);
+  NEED(action.type == XR_ACTION_TYPE_POSE_INPUT &&
+           std::find(action.hands.begin(), action.hands.end(), info->subactionPath) != action.hands.end(),
+       "a space of no pose", XR_ERROR_ACTION_TYPE_MISMATCH);
+  auto* const made = new Space{XR_REFERENCE_SPACE_TYPE_VIEW, nameOf(action, info->subactionPath)};
+  r.spaces.insert(made);
+  *space = reinterpret_cast<XrSpace>(made);
+  return XR_SUCCESS;
+}
+
+XrResult XRAPI_CALL locateSpace(XrSpace space, XrSpace base, XrTime time, XrSpaceLocation* location) {
+  BEGIN("xrLocateSpace");
+  auto* const from = reinterpret_cast<Space*>(space);
+  auto* const room = reinterpret_cast<Space*>(base);
+  NEED(r.spaces.count(from) == 1 && r.spaces.count(room) == 1 && !from->aim.empty() && room->aim.empty(),
+       "a hand in no room", XR_ERROR_HANDLE_INVALID);
+  NEED(time == r.display, "a hand at another time than the frame's", XR_ERROR_TIME_INVALID);
+  NEED(location->type == XR_TYPE_SPACE_LOCATION, "a location's structure has no type",
+       XR_ERROR_VALIDATION_FAILURE);
+  const Json at = handAt(from->aim, r.frame);
+  location->locationFlags = at.is_null() ? 0 : 15;
+  if (at.is_null()) return XR_SUCCESS;
+  auto pose = at.get<std::array<float, 7>>();
+  const auto floor = r.script.value("floor", std::array<float, 3>{0, 0, 0});
+  if (room->type == XR_REFERENCE_SPACE_TYPE_STAGE)
+    for (size_t i = 0; i < 3; ++i) pose[i] += floor[i];
+  location->pose = {{pose[3], pose[4], pose[5], pose[6]}, {pose[0], pose[1], pose[2]}};
   return XR_SUCCESS;
 }
 
@@ -864,12 +945,12 @@ XrResult XRAPI_CALL locateViews(XrSession, const XrViewLocateInfo* info, XrViewS
   return XR_SUCCESS;
 }
 
-// Four bytes a pixel, as they are stored.
+// As they are stored.
 std::vector<uint8_t> bytesOf(const Swapchain& from, uint32_t layer, const XrRect2Di& rect) {
   Runtime& r = runtime();
   const auto width = uint32_t(rect.extent.width), height = uint32_t(rect.extent.height);
   VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
-  info.size = VkDeviceSize(width) * height * 4;
+  info.size = VkDeviceSize(width) * height * from.pixelBytes();
   info.usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
   VkBuffer buffer;
   mustBe(vkCreateBuffer(r.device, &info, nullptr, &buffer));
@@ -913,6 +994,27 @@ void savePicture(const Swapchain& from, uint32_t layer, const XrRect2Di& rect, c
     for (const size_t channel : {isBgra ? 2 : 0, 1, isBgra ? 0 : 2}) out.put(char(bytes[i + channel]));
 }
 
+// A picture in the room.
+XrResult lookAtRay(const XrCompositionLayerQuad& quad, Json& frame) {
+  Runtime& r = runtime();
+  const XrVector3f& at = quad.pose.position;
+  const XrQuaternionf& q = quad.pose.orientation;
+  NEED(std::abs(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w - 1) < 1e-3f, "a quad's turn is none",
+       XR_ERROR_POSE_INVALID);
+  NEED(quad.layerFlags == (XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT |
+                           XR_COMPOSITION_LAYER_UNPREMULTIPLIED_ALPHA_BIT),
+       "a ray that covers all", XR_ERROR_LAYER_INVALID);
+  // Along it, and what it faces.
+  const std::array<float, 3> along{1 - 2 * (q.y * q.y + q.z * q.z), 2 * (q.x * q.y + q.w * q.z),
+                                   2 * (q.x * q.z - q.w * q.y)},
+      facing{2 * (q.x * q.z + q.w * q.y), 2 * (q.y * q.z - q.w * q.x), 1 - 2 * (q.x * q.x + q.y * q.y)};
+  frame["rays"].push_back({{"at", {at.x, at.y, at.z}},
+                           {"size", {quad.size.width, quad.size.height}},
+                           {"along", along},
+                           {"facing", facing}});
+  return XR_SUCCESS;
+}
+
 // A picture that goes with the head.
 XrResult lookAtQuad(const XrCompositionLayerQuad& quad, Json& frame) {
   Runtime& r = runtime();
@@ -920,8 +1022,8 @@ XrResult lookAtQuad(const XrCompositionLayerQuad& quad, Json& frame) {
   auto* const space = reinterpret_cast<Space*>(quad.space);
   NEED(r.swapchains.count(from) == 1 && from->released >= 0 && from->acquired < 0,
        "a quad of an image that was not released", XR_ERROR_LAYER_INVALID);
-  NEED(r.spaces.count(space) == 1 && space->type == XR_REFERENCE_SPACE_TYPE_VIEW, "a quad that stays behind",
-       XR_ERROR_HANDLE_INVALID);
+  NEED(r.spaces.count(space) == 1 && space->aim.empty(), "a quad in no space", XR_ERROR_HANDLE_INVALID);
+  if (space->type != XR_REFERENCE_SPACE_TYPE_VIEW) return lookAtRay(quad, frame);
   NEED(quad.layerFlags == XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT, "a quad that covers all",
        XR_ERROR_LAYER_INVALID);
   Json one{{"size", quad.size.width}, {"distance", -quad.pose.position.z}};
@@ -937,11 +1039,9 @@ XrResult lookAtQuad(const XrCompositionLayerQuad& quad, Json& frame) {
 }
 
 // How far away what a view shows is.
-XrResult lookAtDepth(const XrCompositionLayerProjectionView& view, const std::string& file, Json& eye) {
+XrResult lookAtDepth(const XrCompositionLayerProjectionView& view,
+                     const XrCompositionLayerDepthInfoKHR& depth, const std::string& file, Json& eye) {
   Runtime& r = runtime();
-  const auto& depth = *static_cast<const XrCompositionLayerDepthInfoKHR*>(view.next);
-  NEED(depth.type == XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR && !depth.next, "a view with something unknown",
-       XR_ERROR_VALIDATION_FAILURE);
   NEED(r.extensions.count(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME) == 1, "depth without its extension",
        XR_ERROR_VALIDATION_FAILURE);
   auto* const from = reinterpret_cast<Swapchain*>(depth.subImage.swapchain);
@@ -963,6 +1063,65 @@ XrResult lookAtDepth(const XrCompositionLayerProjectionView& view, const std::st
   const std::vector<uint8_t> bytes = bytesOf(*from, depth.subImage.imageArrayIndex, rect);
   std::ofstream out(r.record + "/" + file, std::ios::binary);
   out.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+  return XR_SUCCESS;
+}
+
+// What frame synthesis takes, of either extension.
+template <class Info>
+XrResult lookAtMotion(const Info& info, const std::string& file, Json& eye) {
+  Runtime& r = runtime();
+  const auto& parts = {&info.motionVectorSubImage, &info.depthSubImage};
+  for (const XrSwapchainSubImage* const part : parts) {
+    auto* const from = reinterpret_cast<Swapchain*>(part->swapchain);
+    NEED(r.swapchains.count(from) == 1 && from->released >= 0 && from->acquired < 0,
+         "motion of an image that was not released", XR_ERROR_LAYER_INVALID);
+    NEED(from->isDepth() == (part == &info.depthSubImage) &&
+             (from->isDepth() || from->format == VK_FORMAT_R16G16B16A16_SFLOAT),
+         "motion in another format", XR_ERROR_LAYER_INVALID);
+    const auto size = r.motionSize();
+    NEED(part->imageRect.offset.x == 0 && part->imageRect.offset.y == 0 &&
+             uint32_t(part->imageRect.extent.width) == size[0] &&
+             uint32_t(part->imageRect.extent.height) == size[1] && part->imageArrayIndex < from->layers,
+         "motion of another size than was recommended", XR_ERROR_SWAPCHAIN_RECT_INVALID);
+    if (r.record.empty()) continue;
+    const std::vector<uint8_t> bytes = bytesOf(*from, part->imageArrayIndex, part->imageRect);
+    std::ofstream out(r.record + "/" + file + (from->isDepth() ? ".motion-depth" : ".motion"),
+                      std::ios::binary);
+    out.write(reinterpret_cast<const char*>(bytes.data()), std::streamsize(bytes.size()));
+  }
+  NEED(info.nearZ != info.farZ && info.minDepth == 0 && info.maxDepth == 1, "depths that make no sense",
+       XR_ERROR_VALIDATION_FAILURE);
+  const XrPosef& room = info.appSpaceDeltaPose;
+  eye["motion"] = {{"flags", info.layerFlags},
+                   {"farZ", info.farZ},
+                   {"room",
+                    {room.position.x, room.position.y, room.position.z, room.orientation.x,
+                     room.orientation.y, room.orientation.z, room.orientation.w}}};
+  return XR_SUCCESS;
+}
+
+// What is chained behind a view.
+XrResult lookAtChain(const XrCompositionLayerProjectionView& view, const std::string& name, Json& eye) {
+  Runtime& r = runtime();
+  for (auto* next = static_cast<const XrBaseInStructure*>(view.next); next; next = next->next) {
+    XrResult result = XR_SUCCESS;
+    if (next->type == XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR) {
+      result = lookAtDepth(view, *reinterpret_cast<const XrCompositionLayerDepthInfoKHR*>(next),
+                           name + ".depth", eye);
+    } else if (next->type == kTypeFrameSynthesisInfo && r.extensions.count(kFrameSynthesisExtension)) {
+      const auto& info = *reinterpret_cast<const XrFrameSynthesisInfo*>(next);
+      NEED(info.motionVectorScale.x == 1 && info.motionVectorScale.y == 1 && info.motionVectorScale.z == 1 &&
+               info.motionVectorOffset.x == 0,
+           "motion that is scaled", XR_ERROR_VALIDATION_FAILURE);
+      result = lookAtMotion(info, name, eye);
+    } else if (next->type == XR_TYPE_COMPOSITION_LAYER_SPACE_WARP_INFO_FB &&
+               r.extensions.count(XR_FB_SPACE_WARP_EXTENSION_NAME)) {
+      result = lookAtMotion(*reinterpret_cast<const XrCompositionLayerSpaceWarpInfoFB*>(next), name, eye);
+    } else {
+      return r.mistake("a view with something unknown", XR_ERROR_VALIDATION_FAILURE);
+    }
+    if (result != XR_SUCCESS) return result;
+  }
   return XR_SUCCESS;
 }
 
@@ -1017,8 +1176,7 @@ XrResult XRAPI_CALL endFrame(XrSession, const XrFrameEndInfo* info) {
       if (!r.record.empty()) savePicture(*from, view.subImage.imageArrayIndex, rect, r.record + "/" + name);
       frame["eyes"].push_back(
           {{"place", {a.x, a.y, a.z}}, {"size", {rect.extent.width, rect.extent.height}}, {"picture", name}});
-      if (!view.next) continue;
-      const XrResult result = lookAtDepth(view, std::string(name) + ".depth", frame["eyes"].back());
+      const XrResult result = lookAtChain(view, name, frame["eyes"].back());
       if (result != XR_SUCCESS) return result;
     }
   }
@@ -1066,11 +1224,13 @@ XrResult XRAPI_CALL getInstanceProcAddr(XrInstance instance, const char* name, P
       ENTRY(WaitFrame, waitFrame),
       ENTRY(BeginFrame, beginFrame),
       ENTRY(LocateViews, locateViews),
+      ENTRY(LocateSpace, locateSpace),
       ENTRY(EndFrame, endFrame),
       ENTRY(StringToPath, stringToPath),
       ENTRY(CreateActionSet, createActionSet),
       ENTRY(DestroyActionSet, destroyActionSet),
       ENTRY(CreateAction, createAction),
+      ENTRY(CreateActionSpace, createActionSpace),
       ENTRY(SuggestInteractionProfileBindings, suggest),
       ENTRY(AttachSessionActionSets, attach),
       ENTRY(SyncActions, sync),

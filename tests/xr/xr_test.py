@@ -104,7 +104,7 @@ class Xr(unittest.TestCase):
         return ppm(self.record / f"frame-{frame:04d}-{eye}.ppm")
 
     def call(self, *words, frames=1, **script):
-        return subprocess.run([scumble, "xr", demo_scene, *CAMERA, "--samples", "1", "--validate", "--frames", str(frames),
+        return subprocess.run([scumble, "xr", demo_scene, *CAMERA, "--samples", "1", "--validate", "--frames", str(frames), *([] if "--ready" in words else ["--ready", "0"]),
                                *([] if "--resolution" in words else ["--resolution", "1"]), *words],
                               env=self.environment(script), capture_output=True, text=True, timeout=200)
 
@@ -146,7 +146,7 @@ class Xr(unittest.TestCase):
         frames = self.shown(frames=3, refreshRates=[60, 72, 90, 120])
         self.assertEqual([frame["frame"] for frame in frames], [0, 1, 2])
         self.assertEqual(self.report()["refreshRate"], 90)
-        self.assertEqual(self.report()["swapchains"], [{"format": SRGB, "layers": 2}, {"format": SRGB, "layers": 1}], "UNORM is what runtimes take for light")
+        self.assertEqual(self.report()["swapchains"], [{"format": SRGB, "layers": 2}] + [{"format": SRGB, "layers": 1}] * 2, "UNORM is what runtimes take for light")
         for eye, wanted in zip(("left", "right"), self.rendered()):
             self.assertGreater(alike(self.picture(0, eye), wanted), 0.999, eye)
         self.assertLess(alike(self.picture(0, "left"), self.picture(0, "right")), 0.999, "one eye is shown twice")
@@ -170,14 +170,14 @@ class Xr(unittest.TestCase):
         self.shown()
         wanted = [self.picture(0, eye) for eye in ("left", "right")]
         self.shown(layers=False)
-        self.assertEqual([chain["layers"] for chain in self.report()["swapchains"]], [1, 1, 1])
+        self.assertEqual([chain["layers"] for chain in self.report()["swapchains"]], [1, 1, 1, 1])
         self.assertTrue(wanted == [self.picture(0, eye) for eye in ("left", "right")])
 
     def test_runtimes_are_told_how_far_away_it_is(self):
         wanted = [(self.shown(), self.picture(0, eye))[1] for eye in ("left", "right")]
         for layers in (True, False):
             frame = self.shown(depth=True, layers=layers, frames=2)[1]
-            self.assertEqual([chain["format"] for chain in self.report()["swapchains"]], [SRGB, 126, SRGB] if layers else [SRGB] * 2 + [126] * 2 + [SRGB])
+            self.assertEqual([chain["format"] for chain in self.report()["swapchains"]], [SRGB, 126, SRGB, SRGB] if layers else [SRGB] * 2 + [126] * 2 + [SRGB] * 2)
             self.assertTrue(wanted == [self.picture(0, eye) for eye in ("left", "right")], "the picture is another one")
             for eye, seen in zip(("left", "right"), frame["eyes"]):
                 # Reversed: 0 lies endlessly far away, and 1 at the near plane.
