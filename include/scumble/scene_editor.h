@@ -128,6 +128,7 @@ class SCUMBLE_API SceneEditor {
   Result<NodeId> addNode(const NodeDesc& node);
   // The first of this name; "boat/Deck": one called Deck below one called boat.
   NodeId findNode(const std::string& name) const;
+  std::string nameOf(NodeId id) const;  // empty of none
   MeshId meshOf(NodeId id) const;
   size_t nodeCount() const;                // their ids are the numbers below that
   NodeId parentOf(NodeId id) const;        // none of those that stand in the world; less than the id itself

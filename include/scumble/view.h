@@ -81,6 +81,10 @@ SCUMBLE_API Result<std::vector<View>> makeViews(const Scene& scene, const Viewpo
                                                 Stereo stereo = Stereo::mono, float ipd = 0.063f,
                                                 const Look& look = Look(), double time = 0);
 
+// Where each node of a scene is at a time in seconds, by its number: from its own space to the world, as the
+// clips that the look plays take it; held by nothing, and without what features (the sea) do to it.
+SCUMBLE_API std::vector<glm::mat4> nodesToWorld(const Scene& scene, const Look& look, double time);
+
 // Whether views may be others at other times. Where not, one call of makeViews serves a whole film.
 SCUMBLE_API bool viewsMove(const Scene& scene, const Viewpoint& viewpoint, const Look& look);
 

@@ -184,6 +184,10 @@ NodeId SceneEditor::findNode(const std::string& name) const {
   return NodeId(scene::findNode(edited_->data, name));
 }
 
+std::string SceneEditor::nameOf(NodeId id) const {
+  return isIndex(id, nodeCount()) ? edited_->data.nodes[size_t(id)].name : "";
+}
+
 MeshId SceneEditor::meshOf(NodeId id) const {
   return isIndex(id, edited_->data.nodes.size()) ? MeshId(edited_->data.nodes[size_t(id)].mesh)
                                                  : MeshId::none;

@@ -173,6 +173,7 @@ TEST(SceneEditor, refusesNumbersThatMakeNoSense) {
   EXPECT_EQ(refusal(editor.setMesh(MeshId(0), {})), "there is no mesh 0");
   EXPECT_EQ(refusal(editor.setTexture(TextureId(0), {})), "there is no texture 0");
   EXPECT_EQ(editor.meshOf(NodeId(9)), MeshId::none);
+  EXPECT_EQ(editor.nameOf(NodeId(9)), "");
   EXPECT_EQ(editor.parentOf(NodeId(9)), NodeId::none);
   EXPECT_EQ(editor.transformOf(NodeId::none), glm::mat4(1.0f));
   LightDesc light;

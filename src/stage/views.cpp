@@ -327,6 +327,11 @@ float headingOf(const View& view) {
   return std::atan2(-ahead.x, -ahead.z);
 }
 
+std::vector<glm::mat4> nodesToWorld(const Scene& scene, const Look& look, double time) {
+  if (scene.empty()) return {};
+  return scene::poseAt(scene.data(), stage::playedClips(scene.data(), look.data().at(time)), time).world;
+}
+
 bool viewsMove(const Scene& scene, const Viewpoint& viewpoint, const Look& look) {
   if (scene.empty()) return false;
   const look::LookData& data = look.data();

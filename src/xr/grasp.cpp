@@ -1,9 +1,10 @@
 #include "xr/grasp.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <glm/gtc/quaternion.hpp>
-#include <vector>
+#include <utility>
 
 namespace scumble::xr {
 
@@ -33,40 +34,74 @@ bool isEverything(const SceneEditor& editor, NodeId node) {
   return true;
 }
 
+// From its parent to the world.
+glm::mat4 aboveOf(const SceneEditor& editor, NodeId node, const std::vector<glm::mat4>& world) {
+  const NodeId parent = editor.parentOf(node);
+  return parent == NodeId::none ? glm::mat4(1.0f) : world.at(size_t(parent));
+}
+
+// Without a zero below zero.
+float rounded(float degrees) {
+  return std::round(degrees) + 0.0f;
+}
+
 }  // namespace
 
-Result<Grasp> Grasp::take(SceneEditor& editor, NodeId hit, int support, const Pose& hand) {
-  const std::vector<NodeId> path = pathTo(editor, hit);
-  if (path.empty() || size_t(hit) >= editor.nodeCount())
-    return Error{ErrorKind::usage, "", 0, "", "it is part of the world", "take hold of something else"};
+Result<Grasp> Grasp::take(SceneEditor& editor, NodeId hit, int support, const Moment& moment) {
+  if (int(hit) < 0 || size_t(hit) >= std::min(editor.nodeCount(), moment.world.size()))
+    return Error{ErrorKind::usage, "", 0, "", "it is a part of the world", "take hold of something else"};
+  const std::vector<NodeId> carrying = pathTo(editor, NodeId(support));
   Grasp grasp;
-  for (const NodeId node : path) {
-    // What a clip moves is not where it is at rest, nor is what hangs below it.
-    if (Status status = editor.setTransform(node, editor.transformOf(node)); !status) return status.error();
-    grasp.node_ = node;
-    if (!isEverything(editor, node)) break;
-    if (node != hit) grasp.aboveToWorld_ *= editor.transformOf(node);
+  size_t first = 0;
+  bool isCarried = false;
+  Error why{ErrorKind::usage, "", 0, "", "it carries you", "choose another camera to stand at"};
+  for (const NodeId node : pathTo(editor, hit)) {
+    const bool isBeneath = std::find(carrying.begin(), carrying.end(), node) != carrying.end();
+    if (isBeneath || (node != hit && grasp.path_.empty() && isEverything(editor, node))) continue;
+    // Nodes that a clip moves are the clip's; what goes along with one of those is a thing by itself.
+    if (Status status = editor.setTransform(node, editor.transformOf(node)); !status) {
+      why = status.error();
+      isCarried = true;
+      continue;
+    }
+    grasp.path_.push_back(node);
+    if (std::exchange(isCarried, false)) first = grasp.path_.size() - 1;
   }
-  const std::vector<NodeId> carried = pathTo(editor, NodeId(support));
-  if (std::find(carried.begin(), carried.end(), grasp.node_) != carried.end())
-    return Error{ErrorKind::usage, "", 0, "", "it carries you", "step off it: choose another camera"};
-  grasp.inHand_ = glm::inverse(matrixOf(hand)) * grasp.aboveToWorld_ * editor.transformOf(grasp.node_);
+  if (grasp.path_.empty()) return why;
+  grasp.level_ = first;
+  grasp.before_ = editor.transformOf(grasp.node());
+  grasp.inHand_ =
+      glm::inverse(matrixOf(moment.hand)) * aboveOf(editor, grasp.node(), moment.world) * grasp.before_;
   return grasp;
 }
 
-Status Grasp::follow(SceneEditor& editor, const Pose& hand) const {
-  return editor.setTransform(node_, glm::inverse(aboveToWorld_) * matrixOf(hand) * inHand_);
+bool Grasp::widen(SceneEditor& editor, bool isMore, const Moment& moment) {
+  if (isMore ? level_ == 0 : level_ + 1 == path_.size()) return false;
+  // What is let go takes along again what hangs below it.
+  const glm::mat4 was = aboveOf(editor, node(), moment.world) * before_;
+  const glm::mat4 back = was * glm::inverse(moment.world.at(size_t(node())));
+  if (!editor.setTransform(node(), before_)) return false;
+  level_ += isMore ? -1 : 1;
+  before_ = editor.transformOf(node());
+  const glm::mat4 above = aboveOf(editor, node(), moment.world);
+  inHand_ = glm::inverse(matrixOf(moment.hand)) * (isMore ? above : back * above) * before_;
+  return true;
 }
 
-std::string Grasp::told(const SceneEditor& editor) const {
-  const glm::mat4 world = aboveToWorld_ * editor.transformOf(node_);
+Status Grasp::follow(SceneEditor& editor, const Moment& moment) const {
+  return editor.setTransform(
+      node(), glm::inverse(aboveOf(editor, node(), moment.world)) * matrixOf(moment.hand) * inHand_);
+}
+
+std::string Grasp::told(const SceneEditor& editor, const std::vector<glm::mat4>& moved) const {
+  const glm::mat4 world = aboveOf(editor, node(), moved) * editor.transformOf(node());
   const glm::vec3 degrees = glm::degrees(glm::eulerAngles(
       glm::quat_cast(glm::mat3(glm::normalize(glm::vec3(world[0])), glm::normalize(glm::vec3(world[1])),
                                glm::normalize(glm::vec3(world[2]))))));
   char text[160];
-  std::snprintf(text, sizeof text, "at %.2f, %.2f, %.2f, turned by %.0f, %.0f, %.0f degrees", world[3].x,
-                world[3].y, world[3].z, degrees.x, degrees.y, degrees.z);
-  return text;
+  std::snprintf(text, sizeof text, " at %.2f, %.2f, %.2f, turned by %.0f, %.0f, %.0f degrees", world[3].x,
+                world[3].y, world[3].z, rounded(degrees.x), rounded(degrees.y), rounded(degrees.z));
+  return "'" + editor.nameOf(node()) + "'" + text;
 }
 
 }  // namespace scumble::xr

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "scumble/scene_editor.h"
 #include "xr/place.h"
@@ -10,21 +11,30 @@ namespace scumble::xr {
 
 class Grasp {
  public:
-  // Takes hold of what a node belongs to: of the nodes above it the outermost one that is not all that is
-  // drawn. `hand`: in the scene. `support`: a node that carries whoever grasps, or -1. Fails with usage where
-  // a clip moves it, or where it carries them.
-  static Result<Grasp> take(SceneEditor& editor, NodeId hit, int support, const Pose& hand);
+  // Where everything is at a moment: the hand, and nodes as clips take them (nodesToWorld()), in the scene.
+  struct Moment {
+    Pose hand;
+    std::vector<glm::mat4> world;
+  };
+  // Takes hold of what a node belongs to: of it and those above it the outermost one that no clip moves, that
+  // is not all that is drawn, and that does not carry `support`, the node that whoever grasps stands on (-1:
+  // none); below the last one that a clip moves, where there is one. Fails with usage where there is none.
+  static Result<Grasp> take(SceneEditor& editor, NodeId hit, int support, const Moment& moment);
 
-  NodeId node() const { return node_; }
+  // Has hold of more, or of less: of the node above what is held, or of the next one below towards what was
+  // touched. What is let go is where it was. False where there is none.
+  bool widen(SceneEditor& editor, bool isMore, const Moment& moment);
+  NodeId node() const { return path_[level_]; }
   // Where the hand takes it: as it was taken hold of, so it stays in the hand.
-  Status follow(SceneEditor& editor, const Pose& hand) const;
-  // How the hand has moved it: its origin, metres, and degrees about x, then y, then z, in the world.
-  std::string told(const SceneEditor& editor) const;
+  Status follow(SceneEditor& editor, const Moment& moment) const;
+  // Where it is now: its name, its origin in the world, metres, and degrees about x, then y, then z.
+  std::string told(const SceneEditor& editor, const std::vector<glm::mat4>& world) const;
 
  private:
-  NodeId node_ = NodeId::none;
-  glm::mat4 inHand_{1.0f};        // node to hand
-  glm::mat4 aboveToWorld_{1.0f};  // of its parent
+  std::vector<NodeId> path_;  // from the outermost one that may be held towards what was touched
+  size_t level_ = 0;
+  glm::mat4 inHand_{1.0f};  // from the held node to the hand
+  glm::mat4 before_{1.0f};  // from the held node to its parent, before it was held
 };
 
 }  // namespace scumble::xr

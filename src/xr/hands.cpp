@@ -124,17 +124,19 @@ HandsState Hands::follow(bool isFocused, XrSpace room, XrTime time) {
   const XrActionsSyncInfo info{XR_TYPE_ACTIONS_SYNC_INFO, nullptr, 1, &active};
   // The focus may be gone before its event comes.
   if (must(call_.SyncActions(session_, &info), "xrSyncActions") == XR_SESSION_NOT_FOCUSED) return state;
-  state.steering = {stick(walk_), stick(turn_).x};
   state.pauses = isPressedNow(pause_), state.nextLook = isPressedNow(look_);
   for (size_t hand = 0; hand < kHands; ++hand) {
     const auto isHeld = [&](XrAction action) {
       const XrActionStateBoolean now = button(action, paths_[hand]);
       return now.isActive && now.currentState;
     };
-    state.hands[hand] = {std::nullopt, isHeld(point_), isHeld(grab_)};
+    state.hands[hand] = {std::nullopt, isHeld(point_), isHeld(grab_), stick(hand == 0 ? walk_ : turn_)};
     // Where it is costs the runtime something, and matters only then.
     if (state.hands[hand].points || state.hands[hand].grabs) state.hands[hand].aim = aimOf(hand, room, time);
   }
+  // A stick of a hand that holds something is about that.
+  if (!state.hands[0].grabs) state.steering.walk = state.hands[0].stick;
+  if (!state.hands[1].grabs) state.steering.turn = state.hands[1].stick.x;
   return state;
 }
 

@@ -15,6 +15,7 @@ constexpr size_t kHands = 2;  // the left one first
 struct Hand {
   std::optional<Pose> aim;             // where it points from, along its -z, in the room; none: nobody knows
   bool points = false, grabs = false;  // as long as it is held
+  glm::vec2 stick{0};                  // -1 to 1, to the right and ahead
 };
 
 // What they say at a frame.

@@ -117,5 +117,23 @@ TEST(PlaceOfHeads, aCameraThatLooksDownHasAHeading) {
   EXPECT_NEAR(standAt(camera, 1, 0).heading, -glm::half_pi<float>(), 1e-5f);
 }
 
+// Between a room and the scene, and between a room and another one.
+TEST(PlaceOfHeads, roomsAreSeenFromRooms) {
+  const Stand before{{10, 2, -5}, 0.4f, 4}, now{{12, 2, -1}, 1.1f, 4};
+  const Pose hand{glm::normalize(glm::quat(0.8f, 0.1f, -0.5f, 0.2f)), {0.3f, 1, -0.2f}};
+  const Pose there = inScene(now, hand), back = inRoom(now, there);
+  EXPECT_LT(glm::distance(back.place, hand.place), 1e-5f);
+  EXPECT_GT(std::abs(glm::dot(back.turn, hand.turn)), 1 - 1e-6f);
+  EXPECT_LT(glm::distance(glm::vec3(glm::inverse(viewOf(now, hand, {-1, 1, 1, -1}, 0.1f).worldToEye)[3]),
+                          there.place),
+            1e-4f);
+  // What stands still in the room goes along with it: its place in the room before is the room's there, and
+  // its own in that.
+  const Pose room = seenFrom(before, now), wanted = inRoom(before, there);
+  EXPECT_LT(glm::distance(room.place + room.turn * hand.place, wanted.place), 1e-5f);
+  EXPECT_GT(std::abs(glm::dot(room.turn * hand.turn, wanted.turn)), 1 - 1e-6f);
+  EXPECT_EQ(seenFrom(now, now).place, glm::vec3(0));
+}
+
 }  // namespace
 }  // namespace scumble::xr

@@ -20,10 +20,12 @@ TEST(ResolutionOfEyes, framesThatAreLateHaveFewerPixels) {
   EXPECT_EQ(resolution.scale(), 1);
   for (int i = 0; i < 3; ++i) resolution.took(20, kPeriod);
   EXPECT_EQ(resolution.scale(), 0.9f);
+  EXPECT_FALSE(resolution.isTooMuch());
   EXPECT_EQ(resolution.of({2064, 2208}), glm::uvec2(1858, 1987));
   // No more than there is.
   for (int i = 0; i < 100; ++i) resolution.took(1000, kPeriod);
   EXPECT_EQ(resolution.scale(), 0.5f);
+  EXPECT_TRUE(resolution.isTooMuch());
   EXPECT_EQ(resolution.of({1, 1}), glm::uvec2(1, 1));
 }
 

@@ -132,15 +132,19 @@ class Show {
     if (Status status = draw(true); !status) return status;
     const Watch::time_point start = Watch::now();
     const std::chrono::duration<double> patience(options_.readying);
-    for (size_t i = 1; i < looks_.size() && Watch::now() - start < patience; ++i) {
-      RenderOptions options = renderOptions();
+    size_t ready = 1;
+    for (; ready < looks_.size() && Watch::now() - start < patience; ++ready) {
       const Result<Camera> camera = standNow();
       if (!camera) return camera.error();
-      if (Status status = renderer_->prepare(touch_.scene(), looks_[i].second,
-                                             viewsOf(*camera, walk_.on(camera->stand), moment), options);
+      if (Status status =
+              renderer_->prepare(touch_.scene(), looks_[ready].second,
+                                 viewsOf(*camera, walk_.on(camera->stand), moment), renderOptions());
           !status)
         return status;
     }
+    if (ready < looks_.size() && options_.readying > 0)
+      tell(std::to_string(ready) + " of " + std::to_string(looks_.size()) +
+           " looks are ready; the others take a moment when they are taken");
     return draw(false);
   }
 

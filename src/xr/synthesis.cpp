@@ -38,7 +38,8 @@ std::unique_ptr<Synthesis> Synthesis::create(const Instance& instance, XrSession
   };
   const bool isExt = instance.has(kFrameSynthesisExtension),
              isFb = instance.has(XR_FB_SPACE_WARP_EXTENSION_NAME);
-  if (!(isExt || isFb) || size.x == 0 || size.y == 0 || !has(kMotionFormat) || !has(kMotionDepth)) return nullptr;
+  if (!(isExt || isFb) || size.x == 0 || size.y == 0 || !has(kMotionFormat) || !has(kMotionDepth))
+    return nullptr;
   try {
     return std::unique_ptr<Synthesis>(
         new Synthesis(isExt ? Kind::ext : Kind::fb, instance.call(), session, size));

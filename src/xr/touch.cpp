@@ -1,5 +1,6 @@
 #include "xr/touch.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace scumble::xr {
@@ -25,20 +26,26 @@ Touch::Touch(const Scene& scene, std::function<void(const std::string&)> tell)
 Status Touch::go(const HandsState& hands, const Place& place, Look& look) {
   rays_.clear();
   bool isMoved = false;
+  // Where everything is matters only to hands that are closed.
+  const bool isGrabbing =
+      std::any_of(held_.begin(), held_.end(), [](const Held& held) { return held.use == Use::thing; });
+  Grasp::Moment moment;
+  if (isGrabbing) moment.world = nodesToWorld(scene_, look, place.time);
   for (size_t h = 0; h < kHands; ++h) {
     const Hand& hand = hands.hands[h];
     Held& held = held_[h];
     const Use use = hand.grabs ? Use::thing : hand.points ? Use::colours : Use::none;
     if (use != held.use) {
-      letGo(held);
+      letGo(held, moment.world);
       held = {use, ++count_};
     }
     if (use == Use::none || !hand.aim) continue;
     if (!held.isAsked) held.aim = *hand.aim;
-    if (held.object || held.material) take(held, place, look);
+    moment.hand = inScene(place.stand, *hand.aim);
+    if (held.object || held.material) take(held, place, look, moment);
     if (held.grasp) {
-      if (Status status = held.grasp->follow(editor_, inScene(place.stand, *hand.aim)); !status)
-        return status;
+      if (const int push = held.push.go(hand.stick.y)) held.grasp->widen(editor_, push > 0, moment);
+      if (Status status = held.grasp->follow(editor_, moment); !status) return status;
       isMoved = true;
     }
     if (held.tint)
@@ -81,14 +88,13 @@ void Touch::answer(const Question& question, const Frame& frame, size_t view) {
   }
 }
 
-void Touch::take(Held& held, const Place& place, const Look& look) {
+void Touch::take(Held& held, const Place& place, const Look& look, const Grasp::Moment& moment) {
   held.reach /= place.stand.scale;
   const auto tellWhy = [&](const Error& error) {
     tell_("'" + held.name + "' stays as it is: " + error.problem);
   };
   if (held.object) {
-    Result<Grasp> grasp =
-        Grasp::take(editor_, NodeId(*held.object), place.support, inScene(place.stand, held.aim));
+    Result<Grasp> grasp = Grasp::take(editor_, NodeId(*held.object), place.support, moment);
     if (grasp)
       held.grasp = std::move(grasp).value();
     else
@@ -103,15 +109,15 @@ void Touch::take(Held& held, const Place& place, const Look& look) {
   held.object.reset(), held.material.reset();
 }
 
-void Touch::letGo(Held& held) const {
-  if (held.grasp) tell_("moved: " + held.grasp->told(editor_));
+void Touch::letGo(const Held& held, const std::vector<glm::mat4>& world) const {
+  if (held.grasp) tell_("moved: " + held.grasp->told(editor_, world));
   if (held.tint && !held.tint->told().empty()) tell_("colours: " + held.tint->told());
 }
 
 void Touch::letGoOfColours() {
   for (Held& held : held_) {
     if (held.use != Use::colours) continue;
-    letGo(held);
+    letGo(held, {});
     held.tint.reset(), held.material.reset();
   }
 }

@@ -60,10 +60,11 @@ class Touch {
     // What was seen there: it is taken hold of in the next go().
     std::optional<int> object;
     std::optional<std::string> material;
-    Pose aim;  // in the room, as it was asked
+    Pose aim;   // in the room, as it was asked
+    Push push;  // of its stick
   };
-  void letGo(Held& held) const;
-  void take(Held& held, const Place& place, const Look& look);
+  void letGo(const Held& held, const std::vector<glm::mat4>& world) const;
+  void take(Held& held, const Place& place, const Look& look, const Grasp::Moment& moment);
 
   SceneEditor editor_;
   Scene scene_;

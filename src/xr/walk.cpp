@@ -5,6 +5,14 @@
 
 namespace scumble::xr {
 
+int Push::go(float stick) {
+  const float way = std::abs(stick);
+  if (way < kTurnReturn) isPushed_ = false;
+  if (isPushed_ || way < kTurnPush) return 0;
+  isPushed_ = true;
+  return stick < 0 ? -1 : 1;
+}
+
 Stand Walk::on(const Stand& stand) const {
   Stand walked = stand;
   walked.place += aboutVertical(stand.heading) * place_;
@@ -26,14 +34,12 @@ void Walk::go(const Stand& stand, const Pose& head, const Steering& steering, fl
     const glm::vec2 step = (way.x * right + way.y * ahead) * (motion_ * kWalkSpeed * seconds * stand.scale);
     place_ += aboutVertical(heading_) * glm::vec3(step.x, 0, step.y);
   }
-  const float turn = std::abs(steering.turn);
-  if (turn < kTurnReturn) isPushed_ = false;
-  if (isPushed_ || turn < kTurnPush) return;
-  isPushed_ = true;
+  const int turn = turn_.go(steering.turn);
+  if (turn == 0) return;
   // The head stays where it is.
   const auto headPlace = [&] { return place_ + stand.scale * (aboutVertical(heading_) * head.place); };
   const glm::vec3 before = headPlace();
-  heading_ -= std::copysign(glm::radians(kTurnAngle), steering.turn);
+  heading_ -= float(turn) * glm::radians(kTurnAngle);
   place_ += before - headPlace();
 }
 

@@ -19,6 +19,16 @@ constexpr float kTurnAngle = 30;     // degrees that a push turns by, at once: s
 constexpr float kTurnPush = 0.7f;    // of a stick's way that is a push, and
 constexpr float kTurnReturn = 0.4f;  // where it may be pushed again
 
+// Pushes of a stick: each counts once.
+class Push {
+ public:
+  // -1 or 1 as it is pushed that way, and 0 until it was back and is pushed anew.
+  int go(float stick);
+
+ private:
+  bool isPushed_ = false;
+};
+
 // What has been walked and turned beyond a stand. Walking goes where the head looks, on the level; turning
 // goes around the head.
 class Walk {
@@ -36,7 +46,7 @@ class Walk {
   glm::vec3 place_{0};  // metres of the scene, in the stand's own axes
   float heading_ = 0;   // radians
   float motion_ = 0;
-  bool isPushed_ = false;
+  Push turn_;
 };
 
 }  // namespace scumble::xr

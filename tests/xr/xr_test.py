@@ -9,6 +9,8 @@ validation layers.
 import json
 import math
 import os
+import re
+import shlex
 import shutil
 import signal
 import struct
@@ -360,12 +362,183 @@ class Xr(unittest.TestCase):
         self.assertGreater(alike(self.picture(0), self.rendered("--look", "manga")[0]), 0.999)
         self.assertGreater(alike(self.picture(2), self.rendered("--look", "age-of-sail")[0]), 0.999)
 
+    RIGHT = (14 / math.hypot(9, 14), 0, -9 / math.hypot(9, 14))  # of the camera, in the world
+    HAND = [0.1, -0.1, -0.2, 0, 0, 0, 1]
+
+    def test_a_wrist_changes_colours(self):
+        rolled = [0.1, 0.025, -0.2, 0, 0, -math.sin(math.radians(20)), math.cos(math.radians(20))]  # and half as high as doubles it
+        hands = {"pause": [1], "point right": [0] + [1] * 7 + [0], "aim right": [self.HAND] * 4 + [rolled]}
+        done = self.call(frames=10, hands=hands)
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        report = self.report()
+        self.assertEqual(report["mistakes"], [])
+        told = re.findall(r"^scumble: colours: (.*)$", done.stderr, re.M)
+        self.assertEqual(len(told), 1, done.stderr)
+        words = shlex.split(told[0])
+        self.assertIn("materials.Sail.lit.hue=40", words)
+        self.assertIn("materials.Sail.shadowed.brightness=1.41", words)
+        # What it says is what is seen, from then on and after it is let go.
+        before, after = self.rendered()[0], self.rendered(*words)[0]
+        self.assertGreater(alike(self.picture(3), before), 0.999)
+        self.assertGreater(alike(self.picture(9), after, 2), 0.998)
+        self.assertLess(alike(before, after, 2), 0.99)
+        # Meanwhile there is a ray, from the hand along where it points, with a dot at its end.
+        frames = {frame["frame"]: frame for frame in report["frames"]}
+        self.assertTrue(all("rays" in frames[i] for i in range(1, 8)))
+        self.assertTrue(all("rays" not in frames[i] for i in (0, 8, 9)))
+        line, dot = frames[5]["rays"]
+        self.assertAlmostEqual(abs(line["along"][2]), 1, 3)
+        self.assertAlmostEqual(line["at"][2] - line["size"][0] / 2, dot["at"][2], 3)
+        self.assertAlmostEqual(line["at"][2] + line["size"][0] / 2, -0.2, 3)
+        self.assertGreater(line["size"][0], 14, "it ends at the sail")
+        self.assertLess(line["size"][0], 18)
+        for quad in (line, dot):
+            to_head = [-x for x in quad["at"]]
+            self.assertGreater(sum(a * b for a, b in zip(quad["facing"], to_head)), 0, "it is seen from behind")
+        # Who points at the sky changes nothing; nor does one of whose hand nobody knows where it is.
+        up = [0, 0, 0, math.sin(0.6), 0, 0, math.cos(0.6)]
+        self.shown(frames=8, hands={**hands, "aim right": [up]})
+        self.assertTrue(self.picture(7) == self.picture(0))
+        self.shown(frames=8, hands={"pause": [1], "point right": [0, 1]})
+        self.assertTrue(all("rays" not in frame for frame in self.report()["frames"]))
+
+    def test_hands_place_things(self):
+        moved = [1.9, 0.9, -0.2, 0, 0, 0, 1]  # 1.8 m to the right, and 1 m up
+        hands = {"pause": [1], "grab left": [0] + [1] * 8 + [0], "aim left": [self.HAND] * 5 + [moved]}
+        done = self.call(frames=12, hands=hands)
+        self.assertEqual((done.returncode, self.report()["mistakes"]), (DONE, []), done.stderr)
+        told = re.search(r"^scumble: moved: 'Boat' at (\S+), (\S+), (\S+), turned by", done.stderr, re.M)
+        self.assertTrue(told, done.stderr)
+        self.assertLess(alike(self.picture(11), self.picture(0), 2), 0.97)
+        self.assertTrue(self.picture(11) == self.picture(8), "it does not stay where it was let go")
+        self.assertGreater(alike(self.picture(4), self.picture(0)), 0.999, "it jumps as it is taken")
+        # As far as the hand.
+        self.call(frames=12, hands={**hands, "aim left": [self.HAND]})
+        still = re.search(r"'Boat' at (\S+), (\S+), (\S+),", self.call(frames=12, hands={**hands, "aim left": [self.HAND]}).stderr)
+        way = [float(a) - float(b) for a, b in zip(told.groups(), still.groups())]
+        for is_so, wanted in zip(way, (1.8 * self.RIGHT[0], 1, 1.8 * self.RIGHT[2])):
+            self.assertAlmostEqual(is_so, wanted, delta=0.011)
+        # A part of it, by a push of the stick of that hand, which walks nowhere meanwhile. Those that clips move stay.
+        done = self.call(frames=12, hands={**hands, "aim left": [self.HAND] * 7 + [moved], "walk": [[0, 0]] * 5 + [[0, -1], [0, 0]]})
+        self.assertEqual((done.returncode, self.report()["mistakes"]), (DONE, []), done.stderr)
+        self.assertRegex(done.stderr, r"moved: '(Sails|Hull)' at")
+        part = self.picture(11)
+        self.assertTrue(0.95 < alike(part, self.picture(0), 2) < 0.9999, alike(part, self.picture(0), 2))
+        # Nobody lifts what they stand on.
+        done = self.call("--camera", "Sailor", frames=6, hands={"pause": [1], "grab left": [0, 1], "aim left": [[0, 0, 0, -math.sin(0.35), 0, 0, math.cos(0.35)]]})
+        self.assertEqual(self.report()["mistakes"], [])
+        self.assertNotIn("moved: 'Boat'", done.stderr)
+
     def test_hands_are_others_without_the_focus(self):
         self.shown(frames=6)
         wanted = [self.picture(i) for i in range(6)]
         # A push is not seen before the focus is back, and its event has come.
         self.shown(frames=6, hands={"turn": [[1, 0]]}, events=[{"frame": 0, "event": "blur"}, {"frame": 3, "event": "focus"}])
         self.assertEqual([self.picture(i) == wanted[i] for i in range(6)], [True, True, True, True, False, False])
+
+    # -- Frames between, and who looks on
+
+    def test_runtimes_are_told_where_everything_was(self):
+        # The head goes and turns while time stands: what was where is known from how far away it is.
+        turn = 0.06
+        poses = [AHEAD, [0.05, 0.02, -0.1, 0, math.sin(turn / 2), 0, math.cos(turn / 2)]]
+        self.shown(frames=4, poses=poses, hands={"pause": [1]})
+        pictures = [self.picture(i, eye) for i in range(4) for eye in ("left", "right")]
+        for kind, layers in (("ext", True), ("fb", True), ("fb", False)):
+            frames = self.shown("--synthesis", "on", frames=4, poses=poses, hands={"pause": [1]}, synthesis=kind, layers=layers)
+            self.assertTrue(pictures == [self.picture(i, eye) for i in range(4) for eye in ("left", "right")], "marks lie elsewhere")
+            for index, eye in enumerate(("left", "right")):
+                # The first one is like none before.
+                first = frames[0]["eyes"][index]
+                self.assertTrue("motion" not in first if kind == "ext" else first["motion"]["flags"] == 1)
+                self.assertEqual(frames[1]["eyes"][index]["motion"]["flags"], 0)
+                self.assertAlmostEqual(frames[1]["eyes"][index]["motion"]["farZ"], 0.05, 6)
+                self.assertEqual(frames[1]["eyes"][index]["motion"]["room"], [0, 0, 0, 0, 0, 0, 1])
+                width, height = 24, 16
+                motion = struct.unpack(f"<{width * height * 4}e", (self.record / f"frame-0001-{eye}.ppm.motion").read_bytes())
+                depth = struct.unpack(f"<{width * height}f", (self.record / f"frame-0001-{eye}.ppm.motion-depth").read_bytes())
+                self.assertGreater(sum(d == 0 for d in depth), 20)
+                self.assertGreater(sum(d > 0 for d in depth), 100)
+                across, up = math.tan(ACROSS), math.tan(UP)
+                aside = -0.032 if eye == "left" else 0.032
+                off = 0
+                for i, d in enumerate(depth):
+                    x, y = ((i % width + 0.5) / width * 2 - 1), ((i // width + 0.5) / height * 2 - 1)
+                    ray = (x * across, -y * up, -1)
+                    far = 0.05 / d if d > 0 else 1
+                    # In the eye, in the head, in the room, and back to the eye before.
+                    place = [c * far for c in ray]
+                    if d > 0:
+                        place[0] += aside
+                    c, s = math.cos(turn), math.sin(turn)
+                    place = [c * place[0] + s * place[2], place[1], -s * place[0] + c * place[2]]
+                    if d > 0:
+                        place = [place[0] + 0.05 - aside, place[1] + 0.02, place[2] - 0.1]
+                    before = (place[0] / -place[2] / across, -place[1] / -place[2] / up, 0.05 / -place[2] if d > 0 else 0)
+                    wanted = (x - before[0], y - before[1], d - before[2])
+                    off += any(abs(a - b) > 2e-3 for a, b in zip(motion[4 * i:4 * i + 3], wanted))
+                self.assertLessEqual(off, 4, eye)
+                # And nothing moves where nobody does.
+                still = struct.unpack(f"<{width * height * 4}e", (self.record / f"frame-0003-{eye}.ppm.motion").read_bytes())
+                self.assertLess(max(abs(value) for i, value in enumerate(still) if i % 4 < 3), 1e-3)
+        # Who walks takes the room along; who turns by thirty degrees at once is somewhere else.
+        frames = self.shown("--synthesis", "on", frames=5, synthesis="fb", hands={"walk": [[0, 0], [0, 0], [0, 1]], "turn": [[0, 0]] * 4 + [[1, 0]]})
+        self.assertAlmostEqual(frames[3]["eyes"][0]["motion"]["room"][2], -1.5 / 72, 4)
+        self.assertEqual([frame["eyes"][0]["motion"]["flags"] for frame in frames], [1, 0, 0, 0, 1])
+
+    def test_frames_are_made_between_where_there_is_no_time(self):
+        words = ("--resolution", "auto", "--synthesis", "auto")
+        done = self.call(*words, frames=30, period=0.001, synthesis="ext")
+        self.assertEqual((done.returncode, self.report()["mistakes"]), (DONE, []), done.stderr)
+        self.assertIn("the runtime makes every other frame from here on", done.stderr)
+        has = ["motion" in frame["eyes"][0] for frame in self.report()["frames"] if frame["layers"]]
+        self.assertEqual((has[0], has[-1]), (False, True))
+        self.assertEqual(has, sorted(has))
+        for words, script in ((words, {"period": 60, "synthesis": "ext"}), ((), {"synthesis": "fb"})):
+            frames = self.shown(*words, frames=8, **script)
+            self.assertFalse(any("motion" in frame["eyes"][0] for frame in frames))
+        done = self.call("--synthesis", "on")
+        self.assertIn("the runtime makes no frames by itself", done.stderr)
+        self.assertEqual(done.returncode, DONE)
+
+    def test_others_look_on(self):
+        poses = [AHEAD, [0.05, 0, 0, 0, 0, math.sin(0.2), math.cos(0.2)]]
+        self.shown(frames=3, poses=poses)
+        wanted = [self.picture(i, eye) for i in range(3) for eye in ("left", "right")]
+        film = self.folder / "film.mp4"
+        self.shown("-o", str(film), "--size", "192x108", "--fps", "72", "--steady", "0", frames=3, poses=poses, refreshRates=[72])
+        self.assertTrue(wanted == [self.picture(i, eye) for i in range(3) for eye in ("left", "right")], "eyes see something else")
+        raw = subprocess.run(["ffmpeg", "-v", "error", "-i", str(film), "-f", "rawvideo", "-pix_fmt", "rgb24", "-"], capture_output=True, check=True).stdout
+        self.assertEqual(len(raw), 3 * 192 * 108 * 3)
+        # From between the eyes, upright though the head is not.
+        out = self.folder / "onlooker.png"
+        for index, aside in ((0, 0), (2, 0.05)):
+            eye = [9 + aside * self.RIGHT[0], 2.5, 14 + aside * self.RIGHT[2]]
+            target = [aside * self.RIGHT[0], 2.5, aside * self.RIGHT[2]]
+            subprocess.run([scumble, "render", demo_scene, "--eye", ",".join(map(str, eye)), "--target", ",".join(map(str, target)), "--fov", "60",
+                            "--size", "192x108", "--samples", "1", "--time", str(index / 72), "-o", str(out), "--quiet"], check=True)
+            width, height, channels, rows = read_png(out)
+            seen = b"".join(row[i:i + 3] for row in rows for i in range(0, len(row), channels))
+            self.assertGreater(alike(raw[index * len(seen):(index + 1) * len(seen)], seen, 24), 0.97, index)
+        # At another rate, pictures stand as long as it takes.
+        self.shown("-o", str(film), "--size", "64x64", "--fps", "30", frames=73, refreshRates=[72])
+        counted = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=nb_read_frames,avg_frame_rate", "-of", "csv=p=0", str(film)],
+                                 capture_output=True, text=True, check=True).stdout.strip()
+        self.assertEqual(counted, "30/1,31")
+        for words, says in ((["-o", "film.png"], "no film"), (["-o", str(demo_scene)], "ends in none of"), (["--size", "1x1", "-o", "a.mp4"], "--size"),
+                            (["--fps", "0", "-o", "a.mp4"], "--fps"), (["--steady", "-1"], "--steady"), (["--ready", "nan"], "--ready")):
+            with self.subTest(words=words):
+                self.bad(USAGE, *words, says=says)
+        self.bad(5, "-o", "/no/such/folder/a.mp4", says="/no/such/folder")
+
+    def test_looks_are_made_ready(self):
+        done = self.call("--ready", "600", "--look", "manga", frames=3, hands={"look": [0, 1, 1], "pause": [1]})
+        self.assertEqual((done.returncode, self.report()["mistakes"]), (DONE, []), done.stderr)
+        self.assertNotIn("are ready", done.stderr)
+        self.assertGreater(alike(self.picture(0), self.rendered("--look", "manga")[0]), 0.999)
+        self.assertGreater(alike(self.picture(2), self.rendered("--look", "age-of-sail")[0]), 0.999)
+        done = self.call("--ready", "0.001")
+        self.assertRegex(done.stderr, r"2 of \d+ looks are ready; the others take a moment when they are taken")
 
     # -- Sessions
 
