@@ -114,8 +114,9 @@ struct VulkanTargets {
 };
 
 // Renderer::begin(), but that the frame goes into images instead of back to the CPU; RenderOptions::aovs are
-// still read back of all views, where there are some. Returns when the frame is submitted: with Renderer::kMaxBegun frames
-// begun, finish() the oldest one first, which waits for it and gives its statistics.
+// still read back of all views, where there are some. Returns when the frame is submitted: with
+// Renderer::kMaxBegun frames begun, finish() the oldest one first, which waits for it and gives its
+// statistics.
 SCUMBLE_API Status begin(Renderer& renderer, const Scene& scene, const Look& look, double time,
                          const std::vector<View>& views, const RenderOptions& options,
                          const VulkanTargets& targets);

@@ -47,7 +47,6 @@ void Deliver::create(FrameBuilder& frame) {
     desc.depthCompare = VK_COMPARE_OP_ALWAYS;
   } else if (key_.isNormalized) {
     desc.fragment = {shaders::deliver_motion_frag};
-    desc.constants = {0, 0, 0, frame.configuration().viewCount};
     desc.colorFormats = {key_.format};
   } else {
     desc.fragment = {shaders::deliver_frag};

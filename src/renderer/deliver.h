@@ -17,8 +17,8 @@ struct TargetKey {
   uint32_t width = 0, height = 0, layer = 0;  // of the image; which of its layers
   int32_t x = 0, y = 0;                       // of the rectangle
   VkImageLayout before = VK_IMAGE_LAYOUT_UNDEFINED, after = VK_IMAGE_LAYOUT_UNDEFINED;
-  uint32_t view = 0;  // of those that are drawn together
-  std::string aov;    // empty: the picture
+  uint32_t view = 0;          // of those that are drawn together
+  std::string aov;            // empty: the picture
   bool isNormalized = false;  // motion, in normalised device coordinates
   bool isDepthBuffer() const { return format == VK_FORMAT_D32_SFLOAT; }
   bool operator==(const TargetKey&) const = default;

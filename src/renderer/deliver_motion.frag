@@ -9,13 +9,12 @@ layout(location = 0) out vec4 outputMotion;
 const float kMost = 64.0;  // what was behind the viewer has come from anywhere
 
 void main() {
-  int view = int(layer);
   ivec2 pixel = ivec2(gl_FragCoord.xy) - ivec2(x, y);
-  vec4 moved = texelFetch(source, ivec3(pixel, view), 0);
+  vec4 moved = texelFetch(source, ivec3(pixel, layer), 0);
   vec2 ndc = (vec2(pixel) + 0.5) / frame.imageSize * 2.0 - 1.0;
-  vec4 toRay = VIEW_FIELD(ndcToEyeRay, view);
-  vec3 ray = vec3(ndc * toRay.xy + toRay.zw, -1.0) * mat3(VIEW_FIELD(worldToEye, view));
-  vec4 before = VIEW_FIELD(previousWorldToClip, view) * vec4(ray, 0.0);
+  vec4 toRay = frame.views[layer].ndcToEyeRay;
+  vec3 ray = vec3(ndc * toRay.xy + toRay.zw, -1.0) * mat3(frame.views[layer].worldToEye);
+  vec4 before = frame.views[layer].previousWorldToClip * vec4(ray, 0.0);
   vec3 far = before.w > 0.0 ? vec3(ndc - before.xy / before.w, 0.0) : vec3(0.0);
   vec3 motion = moved.a > 0.0 ? vec3(moved.xy * 2.0 / frame.imageSize, moved.z) : far;
   outputMotion = vec4(clamp(motion, -kMost, kMost), 1.0);

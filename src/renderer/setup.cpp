@@ -90,8 +90,8 @@ void Setup::declareTarget(const TargetKey& target, gpu::Handle picture) {
   const FrameBuilder::Offer* const offer =
       target.aov.empty() || target.isDepthBuffer() ? nullptr : builder_->offered(target.aov);
   // Beside motion, the depth that comes with it: no surface is drawn twice.
-  const bool hasFacts =
-      std::any_of(key_.targets.begin(), key_.targets.end(), [](const TargetKey& key) { return key.isNormalized; });
+  const bool hasFacts = std::any_of(key_.targets.begin(), key_.targets.end(),
+                                    [](const TargetKey& key) { return key.isNormalized; });
   const gpu::Handle source = target.isDepthBuffer() ? builder_->get(hasFacts ? kDepthOfFacts : kDepth)
                              : offer                ? offer->images.front()
                                                     : picture;

@@ -60,8 +60,7 @@ Status begin(Renderer& renderer, const Scene& scene, const Look& look, double ti
   delivery.waits = targets.waits, delivery.signals = targets.signals;
   delivery.readbacks = targets.readbacks;
   for (const VulkanReadback& readback : targets.readbacks)
-    if (readback.view >= views.size())
-      return usage("a view is read back that the frame does not have", "");
+    if (readback.view >= views.size()) return usage("a view is read back that the frame does not have", "");
   for (const VulkanTarget& target : targets.images) {
     if (Status status = checkTarget(target, views, options); !status) return status;
     TargetKey key;

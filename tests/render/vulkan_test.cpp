@@ -532,8 +532,7 @@ TEST_F(Vulkan, motionThatIsNormalized) {
           float depth;
           std::memcpy(&moved, &bytes[(y * kWidth + x) * 16], 16);
           std::memcpy(&depth, &depthBytes[(y * kWidth + x) * 4], 4);
-          const glm::vec2 ndc =
-              (glm::vec2(x, y) + 0.5f) / glm::vec2(kWidth, kHeight) * 2.0f - 1.0f;
+          const glm::vec2 ndc = (glm::vec2(x, y) + 0.5f) / glm::vec2(kWidth, kHeight) * 2.0f - 1.0f;
           glm::dvec4 before;
           if (depth > 0) {
             ++surfaces;
@@ -549,8 +548,8 @@ TEST_F(Vulkan, motionThatIsNormalized) {
               const glm::dvec4 place = toWorld * glm::dvec4(ndc, d, 1);
               return glm::dvec3(place) / place.w;
             };
-            before = glm::dmat4(then.eyeToClip) *
-                     (glm::dmat4(then.worldToEye) * glm::dvec4(at(0.5) - at(0.9), 0));
+            before =
+                glm::dmat4(then.eyeToClip) * (glm::dmat4(then.worldToEye) * glm::dvec4(at(0.5) - at(0.9), 0));
           }
           across.add(moved.x, ndc.x - before.x / before.w), across.add(moved.y, ndc.y - before.y / before.w);
           deep.add(moved.z, depth - before.z / before.w);
@@ -594,8 +593,8 @@ TEST_F(Vulkan, whatComesBackOfOneView) {
     ASSERT_EQ(layer.views.size(), all.size());
     const size_t own = layer.name.empty() ? 2 : 3;
     for (size_t v = 0; v < all.size(); ++v) EXPECT_EQ(layer.views[v].width > 0, v == own) << layer.name << v;
-    EXPECT_TRUE(sameBytes(layer.views[own], layer.name.empty() ? coded.layers[0].views[2]
-                                                               : aov(usual, layer.name, own)));
+    EXPECT_TRUE(sameBytes(layer.views[own],
+                          layer.name.empty() ? coded.layers[0].views[2] : aov(usual, layer.name, own)));
   }
   EXPECT_EQ(names, (std::vector<std::string>{"", "id", "position"}));
   EXPECT_EQ(frame->objects, usual.objects);

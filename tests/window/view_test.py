@@ -11,6 +11,7 @@ import json
 import os
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -971,6 +972,25 @@ screen.sync()"""], env=fine.environment, check=True)
         window.key("space")
         self.close(window)
 
+    def spectator(self, screen, folder):
+        """What those see who do not wear the headset; without one, by the runtime of tests/xr."""
+        scene = self.scene(folder, "still_life", "seen.glb")
+        script = folder / "headset.json"
+        script.write_text(json.dumps({"hands": {"pause": [1]}}))
+        runtime = {"XR_RUNTIME_JSON": str(self.build / "xr_test/runtime.json"), "SCUMBLE_TEST_XR": str(script)}
+        stand = ["--eye", "2.5,1.2,4", "--target", "0,1.2,0"]  # level, as headsets are
+        words = [self.program, "xr", scene, *stand, "--spectator", "--size", f"{SIZE[0]}x{SIZE[1]}", "--samples", SAMPLES, "--ready", "0", "--validate", "--quiet"]
+        out = folder / "seen.png"
+        subprocess.run([self.program, "render", scene, *stand, "--fov", "60", "--size", f"{SIZE[0]}x{SIZE[1]}", "--samples", SAMPLES, "-o", out, "--quiet"], check=True)
+        wanted = picture_of(out)
+        process = subprocess.Popen(words, env={**screen.environment, **runtime}, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        until(lambda: process.poll() is not None or part_that_differs(screen.pixels(*SIZE), wanted) < 0.01, "what the headset sees")
+        process.send_signal(signal.SIGINT)
+        assert (process.communicate(timeout=60), process.returncode) == ((b"", b""), 0)
+        nowhere = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        done = subprocess.run(words, env={**nowhere, **runtime}, capture_output=True, text=True, timeout=60)
+        assert done.returncode == 4 and done.stderr.count("\n") == 1, done.stderr
+
     def mistakes(self, screen, folder):
         def run(*words, environment=screen.environment):
             done = subprocess.run([self.program, "view", *map(str, words)], env=environment, capture_output=True, text=True, timeout=60)
@@ -997,7 +1017,7 @@ def main():
         chosen.pictures.mkdir(parents=True, exist_ok=True)
     test = Test(chosen.build.resolve(), chosen.pictures)
     parts = (test.look_at_a_scene, test.play, test.pick, test.drops, test.compare, test.both_eyes, test.save, test.kill, test.keys, test.way, test.place, test.shaders,
-             test.managed, test.fine_monitor, test.lose_the_device, test.demo, test.mistakes)
+             test.managed, test.fine_monitor, test.lose_the_device, test.demo, test.spectator, test.mistakes)
     with tempfile.TemporaryDirectory(prefix="scumble window ") as name:
         folder = Path(name)
         with contextlib.closing(Screen(1024, 768, folder / "state")) as screen:
