@@ -14,9 +14,12 @@ constexpr uint32_t kVersion =
     (SCUMBLE_VERSION_MAJOR << 16) | (SCUMBLE_VERSION_MINOR << 8) | SCUMBLE_VERSION_PATCH;
 
 // Used where they are there.
-const char* const kWelcome[] = {XR_FB_DISPLAY_REFRESH_RATE_EXTENSION_NAME, kUserPresenceExtension,
-                                XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME, kFrameSynthesisExtension,
-                                XR_FB_SPACE_WARP_EXTENSION_NAME};
+const char* const kWelcome[] = {XR_FB_DISPLAY_REFRESH_RATE_EXTENSION_NAME,
+                                kUserPresenceExtension,
+                                XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME,
+                                kFrameSynthesisExtension,
+                                XR_FB_SPACE_WARP_EXTENSION_NAME,
+                                XR_VARJO_QUAD_VIEWS_EXTENSION_NAME};
 
 std::vector<std::string> extensionsThere(const Functions& call) {
   std::vector<std::string> names;

@@ -9,7 +9,8 @@ namespace scumble::xr {
 
 namespace {
 
-constexpr XrViewConfigurationType kViews = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
+// Both eyes and their insets: of OpenXR 1.1 XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO_WITH_FOVEATED_INSET.
+constexpr XrViewConfigurationType kWithInsets = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_QUAD_VARJO;
 
 XrPosef nowhereElse() {
   return xrOf(Pose());
@@ -29,10 +30,11 @@ Session::Session(const Instance& instance, const VulkanDevice& device, const Ses
     const XrSessionCreateInfo info{XR_TYPE_SESSION_CREATE_INFO, &binding, 0, instance.system()};
     must(call_.CreateSession(instance.handle(), &info, &session_), "xrCreateSession");
     createSpace(options.isStanding);
+    chooseViews();
     const auto modes = listed<XrEnvironmentBlendMode>(
         "xrEnumerateEnvironmentBlendModes",
         [&](uint32_t capacity, uint32_t* count, XrEnvironmentBlendMode* all) {
-          return call_.EnumerateEnvironmentBlendModes(instance_.handle(), instance_.system(), kViews,
+          return call_.EnumerateEnvironmentBlendModes(instance_.handle(), instance_.system(), views_,
                                                       capacity, count, all);
         });
     // In the order of the runtime's preference.
@@ -55,7 +57,7 @@ Session::~Session() {
 
 void Session::destroy() {
   // Runtimes do not like what was begun and never ended. Images come first.
-  pictures_.reset(), depths_.reset(), synthesis_.reset();
+  pairs_.clear(), synthesis_.reset();
   if (isBegun_) {
     XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO};
     info.displayTime = display_;
@@ -81,21 +83,39 @@ void Session::createSpace(bool isStanding) {
   must(call_.CreateReferenceSpace(session_, &info, &space_), "xrCreateReferenceSpace");
 }
 
+void Session::chooseViews() {
+  // The one that the runtime likes best.
+  for (const XrViewConfigurationType type :
+       listed<XrViewConfigurationType>("xrEnumerateViewConfigurations",
+                                       [&](uint32_t capacity, uint32_t*count, XrViewConfigurationType*all) {
+                                         return call_.EnumerateViewConfigurations(
+                                             instance_.handle(), instance_.system(), capacity, count, all);
+                                       })) {
+    const bool isOfFour = type == kWithInsets && instance_.has(XR_VARJO_QUAD_VIEWS_EXTENSION_NAME);
+    if (!isOfFour && type != XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO) continue;
+    views_ = type;
+    return;
+  }
+}
+
 void Session::createImages(bool hasSynthesis) {
   const auto eyes = listed<XrViewConfigurationView>(
       "xrEnumerateViewConfigurationViews",
       [&](uint32_t capacity, uint32_t* count, XrViewConfigurationView* all) {
-        return call_.EnumerateViewConfigurationViews(instance_.handle(), instance_.system(), kViews, capacity,
+        return call_.EnumerateViewConfigurationViews(instance_.handle(), instance_.system(), views_, capacity,
                                                      count, all);
       },
       {XR_TYPE_VIEW_CONFIGURATION_VIEW});
-  if (eyes.size() != kEyes)
+  if (eyes.size() != (views_ == kWithInsets ? 2 : 1) * kEyes)
     throw XrFailure("xrEnumerateViewConfigurationViews", XR_ERROR_VIEW_CONFIGURATION_TYPE_UNSUPPORTED);
-  // Both are drawn at once: so they have one size.
-  for (const XrViewConfigurationView& eye : eyes)
-    size_ = glm::max(size_, glm::uvec2(eye.recommendedImageRectWidth, eye.recommendedImageRectHeight));
-  for (const XrViewConfigurationView& eye : eyes)
-    size_ = glm::min(size_, glm::uvec2(eye.maxImageRectWidth, eye.maxImageRectHeight));
+  // Both of a pair are drawn at once: so they have one size.
+  std::vector<glm::uvec2> sizes(eyes.size() / kEyes, glm::uvec2(0));
+  for (size_t v = 0; v < eyes.size(); ++v)
+    sizes[v / kEyes] = glm::max(
+        sizes[v / kEyes], glm::uvec2(eyes[v].recommendedImageRectWidth, eyes[v].recommendedImageRectHeight));
+  for (size_t v = 0; v < eyes.size(); ++v)
+    sizes[v / kEyes] =
+        glm::min(sizes[v / kEyes], glm::uvec2(eyes[v].maxImageRectWidth, eyes[v].maxImageRectHeight));
 
   const auto formats =
       listed<int64_t>("xrEnumerateSwapchainFormats", [&](uint32_t capacity, uint32_t* count, int64_t* all) {
@@ -112,17 +132,29 @@ void Session::createImages(bool hasSynthesis) {
     throw XrFailure("xrEnumerateSwapchainFormats", XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED);
   format_ = VkFormat(*chosen);
 
-  pictures_ = std::make_unique<EyeImages>(call_, session_, format_, size_);
+  for (const glm::uvec2& size : sizes)
+    pairs_.push_back({std::make_unique<EyeImages>(call_, session_, format_, size), nullptr});
   constexpr VkFormat kDepth = VK_FORMAT_D32_SFLOAT;
-  if (instance_.has(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME) &&
-      std::find(formats.begin(), formats.end(), int64_t(kDepth)) != formats.end())
+  const bool hasDepth = instance_.has(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME) &&
+                        std::find(formats.begin(), formats.end(), int64_t(kDepth)) != formats.end();
+  for (Pair& pair : pairs_) {
+    if (!hasDepth) break;
     try {
-      depths_ = std::make_unique<EyeImages>(call_, session_, kDepth, size_);
+      pair.depths = std::make_unique<EyeImages>(call_, session_, kDepth, pair.pictures->size());
     } catch (const XrFailure& failure) {
       // Frames are shown without it as well.
       if (failure.isLoss()) throw;
     }
-  if (hasSynthesis) synthesis_ = Synthesis::create(instance_, session_, recommendedMotionSize(), formats);
+  }
+  // Insets and frames between are two ways to the same end, and there are views for one of them.
+  if (hasSynthesis && pairs_.size() == 1)
+    synthesis_ = Synthesis::create(instance_, session_, recommendedMotionSize(), formats);
+}
+
+std::vector<glm::uvec2> Session::sizes() const {
+  std::vector<glm::uvec2> sizes;
+  for (const Pair& pair : pairs_) sizes.push_back(pair.pictures->size());
+  return sizes;
 }
 
 glm::uvec2 Session::recommendedMotionSize() const {
@@ -135,7 +167,7 @@ glm::uvec2 Session::recommendedMotionSize() const {
     eyes[eye].next = &motions[eye];
   }
   uint32_t count = 0;
-  must(call_.EnumerateViewConfigurationViews(instance_.handle(), instance_.system(), kViews, kEyes, &count,
+  must(call_.EnumerateViewConfigurationViews(instance_.handle(), instance_.system(), views_, kEyes, &count,
                                              eyes.data()),
        "xrEnumerateViewConfigurationViews");
   glm::uvec2 size(0);
@@ -186,7 +218,7 @@ News Session::follow() {
     } else if (event.type == XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED) {
       state_ = reinterpret_cast<const XrEventDataSessionStateChanged&>(event).state;
       if (state_ == XR_SESSION_STATE_READY) {
-        const XrSessionBeginInfo info{XR_TYPE_SESSION_BEGIN_INFO, nullptr, kViews};
+        const XrSessionBeginInfo info{XR_TYPE_SESSION_BEGIN_INFO, nullptr, views_};
         must(call_.BeginSession(session_, &info), "xrBeginSession");
         isRunning_ = true;
       } else if (state_ == XR_SESSION_STATE_STOPPING) {
@@ -224,65 +256,73 @@ Moment Session::begin() {
 }
 
 bool Session::locate(Moment& moment) const {
-  const XrViewLocateInfo info{XR_TYPE_VIEW_LOCATE_INFO, nullptr, kViews, moment.display, space_};
+  const XrViewLocateInfo info{XR_TYPE_VIEW_LOCATE_INFO, nullptr, views_, moment.display, space_};
   XrViewState state{XR_TYPE_VIEW_STATE};
-  std::array<XrView, kEyes> views;
-  views.fill({XR_TYPE_VIEW});
+  std::vector<XrView> views(kEyes * pairs_.size(), {XR_TYPE_VIEW});
   uint32_t count = 0;
-  must(call_.LocateViews(session_, &info, &state, kEyes, &count, views.data()), "xrLocateViews");
+  must(call_.LocateViews(session_, &info, &state, uint32_t(views.size()), &count, views.data()),
+       "xrLocateViews");
   constexpr XrViewStateFlags kKnown = XR_VIEW_STATE_POSITION_VALID_BIT | XR_VIEW_STATE_ORIENTATION_VALID_BIT;
-  if ((state.viewStateFlags & kKnown) != kKnown || count != kEyes) return false;
-  std::array<Eye, kEyes> eyes;
-  for (size_t eye = 0; eye < kEyes; ++eye) {
-    eyes[eye] = {poseOf(views[eye].pose), views[eye].fov};
-    if (!canBeSeenFrom(eyes[eye].pose, eyes[eye].angles)) return false;
+  if ((state.viewStateFlags & kKnown) != kKnown || count != views.size()) return false;
+  std::vector<Eye> eyes;
+  for (const XrView& view : views) {
+    eyes.push_back({poseOf(view.pose), view.fov});
+    if (!canBeSeenFrom(eyes.back().pose, eyes.back().angles)) return false;
   }
-  moment.eyes = eyes;
+  moment.eyes = std::move(eyes);
   return true;
 }
 
 std::vector<VulkanTarget> Session::acquire(bool synthesis) {
-  std::vector<VulkanTarget> targets = pictures_->acquire(0);
+  std::vector<VulkanTarget> targets;
   const auto add = [&](const std::vector<VulkanTarget>& more) {
     targets.insert(targets.end(), more.begin(), more.end());
   };
-  if (depths_) add(depths_->acquire(0, "depth"));
-  if (synthesis && synthesis_) add(synthesis_->acquire(kMotionViews));
+  for (size_t pair = 0; pair < pairs_.size(); ++pair) {
+    add(pairs_[pair].pictures->acquire(pair * kEyes));
+    if (pairs_[pair].depths) add(pairs_[pair].depths->acquire(pair * kEyes, "depth"));
+  }
+  if (synthesis && synthesis_) add(synthesis_->acquire(pairs_.size() * kEyes));
   return targets;
 }
 
 void Session::release() {
-  pictures_->release();
-  if (depths_) depths_->release();
+  for (const Pair& pair : pairs_) {
+    pair.pictures->release();
+    if (pair.depths) pair.depths->release();
+  }
   if (synthesis_) synthesis_->release();
 }
 
 void Session::end(const Moment& moment, const std::optional<DrawnEyes>& drawn) {
   release();
-  std::array<XrCompositionLayerProjectionView, kEyes> views;
-  std::array<XrCompositionLayerDepthInfoKHR, kEyes> depths;
+  std::vector<XrCompositionLayerProjectionView> views(drawn ? moment.eyes.size() : 0);
+  std::vector<XrCompositionLayerDepthInfoKHR> depths(views.size());
   XrCompositionLayerProjection projection{XR_TYPE_COMPOSITION_LAYER_PROJECTION};
   projection.space = space_;
-  projection.viewCount = kEyes;
+  projection.viewCount = uint32_t(views.size());
   projection.views = views.data();
   std::vector<const XrCompositionLayerBaseHeader*> layers;
   std::vector<XrCompositionLayerQuad> quads;
   if (drawn) {
-    for (size_t eye = 0; eye < kEyes; ++eye) {
-      views[eye] = {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW};
-      views[eye].pose = xrOf(moment.eyes[eye].pose);
-      views[eye].fov = moment.eyes[eye].angles;
-      views[eye].subImage = pictures_->part(eye, drawn->size);
-      if (depths_) {
-        depths[eye] = {XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR};
-        depths[eye].subImage = depths_->part(eye, drawn->size);
+    for (size_t v = 0; v < views.size(); ++v) {
+      const Pair& pair = pairs_[v / kEyes];
+      const size_t eye = v % kEyes;
+      const glm::uvec2 size = drawn->sizes[v / kEyes];
+      views[v] = {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW};
+      views[v].pose = xrOf(moment.eyes[v].pose);
+      views[v].fov = moment.eyes[v].angles;
+      views[v].subImage = pair.pictures->part(eye, size);
+      if (pair.depths) {
+        depths[v] = {XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR};
+        depths[v].subImage = pair.depths->part(eye, size);
         // Reversed: 0 is endlessly far away, and so nearZ, which is where minDepth lies, is the farther one.
-        depths[eye].minDepth = 0, depths[eye].nearZ = std::numeric_limits<float>::infinity();
-        depths[eye].maxDepth = 1, depths[eye].farZ = drawn->nearPlane;
-        views[eye].next = &depths[eye];
+        depths[v].minDepth = 0, depths[v].nearZ = std::numeric_limits<float>::infinity();
+        depths[v].maxDepth = 1, depths[v].farZ = drawn->nearPlane;
+        views[v].next = &depths[v];
       }
       if (drawn->synthesis && synthesis_)
-        views[eye].next = synthesis_->chained(eye, *drawn->synthesis, views[eye].next);
+        views[v].next = synthesis_->chained(eye, *drawn->synthesis, views[v].next);
     }
     layers.push_back(reinterpret_cast<const XrCompositionLayerBaseHeader*>(&projection));
     const glm::vec3 head = between(moment.eyes[0].pose, moment.eyes[1].pose).place;

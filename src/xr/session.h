@@ -36,12 +36,15 @@ struct Moment {
   double period = 0;          // to the next one, milliseconds; 0: the runtime does not tell
   bool shouldRender = false;  // else nobody sees it
   bool isPlaced = false;      // where the eyes are is known
-  std::array<Eye, kEyes> eyes;
+  // The left and the right one; of headsets with four views those two again, as insets of them: the middle of
+  // what they see, finer. None where it is not known.
+  std::vector<Eye> eyes;
 };
 
 // What there is of a frame that was drawn.
 struct DrawnEyes {
-  glm::uvec2 size{0};   // pixels of each, from the upper left corner of what was acquired
+  std::vector<glm::uvec2>
+      sizes;            // of each pair of eyes, pixels, from the upper left corner of what was acquired
   float nearPlane = 0;  // metres of the room: where the depth buffer is 1; it is 0 endlessly far away
   std::optional<SynthesisMoment> synthesis;  // images for it were acquired
   float darkness = 0;                        // as Vignette::layer has it
@@ -78,22 +81,25 @@ class Session {
   bool locate(Moment& moment) const;
   // What hands say, once a frame.
   HandsState hands(const Moment& moment) { return hands_->follow(isFocused(), space_, moment.display); }
-  // Images to draw into: of each eye, as targets of views 0 and 1; and their depth, where the runtime takes
-  // that. With `synthesis`: motion and depth of views 2 and 3 as well. They are taken until end().
-  static constexpr size_t kMotionViews = kEyes;
+  // Images to draw into: of each eye, as targets of the first views; and their depth, where the runtime takes
+  // that. With `synthesis`: motion and depth of the two views behind them as well. They are taken until
+  // end().
   std::vector<VulkanTarget> acquire(bool synthesis);
   // Gives the images back outside of a frame.
   void release();
   // `drawn`: what was acquired is shown as seen from the moment's eyes; else nothing is.
   void end(const Moment& moment, const std::optional<DrawnEyes>& drawn);
 
-  glm::uvec2 size() const { return size_; }  // of an eye, pixels, at most
+  // Of the eyes of each pair, pixels, at most: of both eyes, and of their insets.
+  std::vector<glm::uvec2> sizes() const;
+
   // Of an eye's motion for frame synthesis; none: there is none.
   glm::uvec2 motionSize() const { return synthesis_ ? synthesis_->size() : glm::uvec2(0); }
   float refreshRate() const { return refreshRate_; }  // frames a second; 0: the runtime does not tell
 
  private:
   void createSpace(bool isStanding);
+  void chooseViews();
   void createImages(bool hasSynthesis);
   glm::uvec2 recommendedMotionSize() const;
   void chooseRefreshRate(float wished);
@@ -107,9 +113,12 @@ class Session {
   XrSessionState state_ = XR_SESSION_STATE_UNKNOWN;
   XrEnvironmentBlendMode blend_ = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
   VkFormat format_ = VK_FORMAT_UNDEFINED;
-  glm::uvec2 size_{0};
-  std::unique_ptr<EyeImages> pictures_, depths_;  // depths: null where the runtime does not take them
-  std::unique_ptr<Synthesis> synthesis_;          // null: likewise, or not wished
+  XrViewConfigurationType views_ = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
+  struct Pair {
+    std::unique_ptr<EyeImages> pictures, depths;  // depths: null where the runtime does not take them
+  };
+  std::vector<Pair> pairs_;
+  std::unique_ptr<Synthesis> synthesis_;  // null: likewise, or not wished
   std::unique_ptr<Hands> hands_;
   std::unique_ptr<Vignette> vignette_;
   std::unique_ptr<Pointer> pointer_;

@@ -27,9 +27,13 @@ constexpr auto kRest = std::chrono::milliseconds(10);
 constexpr auto kPatience = std::chrono::minutes(1);     // for a headset that was lost
 constexpr auto kEndPatience = std::chrono::seconds(5);  // for a runtime that is asked to end
 // What decides where marks lie is of the eyes alone: others look on.
-constexpr int kEyesRig = 0, kMotionRig = 1, kSpectatorRig = 2, kPointerRig = 3;
+constexpr int kEyesRig = 0, kInsetsRig = 1, kMotionRig = 2, kSpectatorRig = 3, kPointerRig = 4;
 constexpr float kCutTurn = 0.2f, kCutStep = 1;  // radians and metres from frame to frame: nobody goes so fast
 constexpr size_t kUnderWay = 2;  // frames that the device may have at once: it need not wait for the CPU
+
+std::string told(const glm::uvec2& size) {
+  return std::to_string(size.x) + "x" + std::to_string(size.y);
+}
 
 class Show {
  public:
@@ -97,8 +101,9 @@ class Show {
                        options_.synthesis != FrameSynthesis::off});
       const FramesEnd end{*this};  // before its images go
       if (!lostSince_) {
-        tell(instance_.headset() + " on " + instance_.runtime() + ": twice " +
-             std::to_string(session.size().x) + "x" + std::to_string(session.size().y) +
+        tell(instance_.headset() + " on " + instance_.runtime() + ": twice " + told(session.sizes().front()) +
+             (session.sizes().size() > 1 ? ", and " + told(session.sizes().back()) + " in their middles"
+                                         : "") +
              (session.refreshRate() > 0 ? " at " + std::to_string(std::lround(session.refreshRate())) + " Hz"
                                         : ""));
         if (options_.synthesis == FrameSynthesis::on && session.motionSize() == glm::uvec2(0))
@@ -120,7 +125,7 @@ class Show {
   // all that there may be in a frame; the other looks, as long as there is patience; and one as they will be.
   Status warmUp(Session& session) {
     Moment moment;
-    moment.eyes.fill({Pose(), {-0.8f, 0.8f, 0.8f, -0.8f}});
+    moment.eyes.assign(kEyes * session.sizes().size(), {Pose(), {-0.8f, 0.8f, 0.8f, -0.8f}});
     const auto draw = [&](bool isWhole) {
       isSynthesizing_ = isWhole;
       Status status =
@@ -138,7 +143,7 @@ class Show {
       if (!camera) return camera.error();
       if (Status status =
               renderer_->prepare(touch_.scene(), looks_[ready].second,
-                                 viewsOf(*camera, walk_.on(camera->stand), moment), renderOptions());
+                                 viewsOf(*camera, walk_.on(camera->stand), moment), renderOptions(moment));
           !status)
         return status;
     }
@@ -175,7 +180,7 @@ class Show {
       const bool isSeen = moment.shouldRender && moment.isPlaced && !askedAt;
       Status drawn = isSeen ? draw(session, moment, hands) : Done{};
       std::optional<DrawnEyes> eyes;
-      if (isSeen && drawn.ok()) eyes = DrawnEyes{size_, kNearPlane, synthesis_, darkness_, touch_.rays()};
+      if (isSeen && drawn.ok()) eyes = DrawnEyes{sizes_, kNearPlane, synthesis_, darkness_, touch_.rays()};
       session.end(moment, eyes);
       if (!drawn) return drawn;
       if (isSeen) ++report_.frames, lostSince_.reset();
@@ -223,9 +228,13 @@ class Show {
   }
 
   // What all frames have.
-  RenderOptions renderOptions() const {
+  RenderOptions renderOptions(const Moment& moment) const {
     RenderOptions options;
-    options.width = size_.x, options.height = size_.y;
+    options.width = sizes_.front().x, options.height = sizes_.front().y;
+    // An inset is a part of what its eye sees, and finer: angles count there, and not pixels of either.
+    const XrFovf& angles = moment.eyes.front().angles;
+    if (moment.eyes.size() > kEyes)
+      options.sphere = SpherePart{glm::mat3(1.0f), std::tan(angles.angleUp) - std::tan(angles.angleDown)};
     options.samples = options_.samples, options.seed = options_.seed;
     return options;
   }
@@ -239,7 +248,9 @@ class Show {
   }
   std::vector<View> viewsOf(const Camera& camera, const Stand& stand, const Moment& seen) const {
     std::vector<View> views;
-    for (const Eye& eye : seen.eyes) views.push_back(viewFrom(camera, stand, eye, kEyesRig, {0, 0}));
+    for (size_t v = 0; v < seen.eyes.size(); ++v)
+      views.push_back(
+          viewFrom(camera, stand, seen.eyes[v], v < kEyes ? kEyesRig : kInsetsRig, sizes_[v / kEyes]));
     return views;
   }
 
@@ -250,11 +261,12 @@ class Show {
     if (!camera) return camera.error();
     const Stand stand = walk_.on(camera->stand);
     period_ = moment.period;
-    if (const glm::uvec2 size = resolution_.of(session.size()); size != size_) {
-      if (size_ != glm::uvec2(0) && locate)
-        tell("eyes have " + std::to_string(size.x) + "x" + std::to_string(size.y) +
-             " pixels from here on: as there is time for");
-      size_ = size;
+    std::vector<glm::uvec2> sizes;
+    for (const glm::uvec2& size : session.sizes()) sizes.push_back(resolution_.of(size));
+    if (sizes != sizes_) {
+      if (!sizes_.empty() && locate)
+        tell("eyes have " + told(sizes.front()) + " pixels from here on: as there is time for");
+      sizes_ = sizes;
     }
     if (options_.synthesis == FrameSynthesis::whenLate && resolution_.isTooMuch() && !isSynthesizing_ &&
         session.motionSize() != glm::uvec2(0)) {
@@ -268,13 +280,12 @@ class Show {
     VulkanTargets targets;
     Under under;
     const auto eyesNow = [&](std::vector<View>& views) {
-      size_t v = 0;
-      for (const Eye& eye : moment.eyes) views[v++] = viewFrom(*camera, stand, eye, kEyesRig, {0, 0});
-      if (!synthesizes) return;
-      for (const Eye& eye : moment.eyes)
-        views[v++] = viewFrom(*camera, stand, eye, kMotionRig, session.motionSize());
+      const std::vector<View> eyes = viewsOf(*camera, stand, moment);
+      std::copy(eyes.begin(), eyes.end(), views.begin());
+      for (size_t v = 0; v < kEyes && synthesizes; ++v)
+        views[kEyes + v] = viewFrom(*camera, stand, moment.eyes[v], kMotionRig, session.motionSize());
     };
-    std::vector<View> views((synthesizes ? 2 : 1) * kEyes);
+    std::vector<View> views(moment.eyes.size() + (synthesizes ? kEyes : 0));
     eyesNow(views);
     if (options_.spectator) {
       const float up = std::atan(std::tan(0.5f * glm::radians(options_.spectator->verticalFov)));
@@ -297,7 +308,7 @@ class Show {
       for (const char* const aov : {"id", "depth"}) targets.readbacks.push_back({views.size() - 1, aov});
     }
 
-    RenderOptions options = renderOptions();
+    RenderOptions options = renderOptions(moment);
     options.formats[""] = PixelFormat::srgb8;
     synthesis_.reset();
     if (synthesizes) {
@@ -373,8 +384,8 @@ class Show {
   Touch touch_;
   Follower follower_;
   Resolution resolution_;
-  glm::uvec2 size_{0};  // of an eye, as it was drawn last
-  double period_ = 0;   // milliseconds from frame to frame
+  std::vector<glm::uvec2> sizes_;  // of each pair of eyes, as they were drawn last
+  double period_ = 0;              // milliseconds from frame to frame
   float darkness_ = 0;
   // A frame under way, and what it is asked for beside what the eyes see.
   struct Under {

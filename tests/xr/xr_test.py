@@ -505,6 +505,35 @@ class Xr(unittest.TestCase):
         self.assertIn("the runtime makes no frames by itself", done.stderr)
         self.assertEqual(done.returncode, DONE)
 
+    def test_insets_are_finer_parts_of_what_eyes_see(self):
+        # Of the middle third each way, and a little aside, three times as fine.
+        third = lambda angle: math.atan(math.tan(angle) / 3)  # noqa: E731
+        insets = {"size": list(SIZE), "angles": [[-third(ACROSS), third(ACROSS), third(UP), -third(UP)]] * 2}
+        for look in ("age-of-sail", "storm", "ink", "watercolour"):
+            with self.subTest(look=look):
+                frames = self.shown("--look", look, frames=2, insets=insets, depth=True, latch=[0.01, 0, 0])
+                self.assertEqual([chain["format"] for chain in self.report()["swapchains"]], [SRGB, SRGB, 126, 126, SRGB, SRGB])
+                self.assertEqual(len(frames[1]["eyes"]), 4)
+                self.assertTrue(all("depth" in eye for eye in frames[1]["eyes"]))
+                for eye in ("left", "right"):
+                    whole, inset = self.picture(1, eye), self.picture(1, f"inset-{eye}")
+                    width, height = SIZE[0] // 3, SIZE[1] // 3 // 1
+                    off = total = 0
+                    for y in range(height):
+                        for x in range(width):
+                            for c in range(3):
+                                mean = sum(inset[3 * ((3 * y + 1 + dy) * SIZE[0] + 3 * x + dx) + c] for dy in range(3) for dx in range(3)) / 9
+                                # A pixel's neighbours: three do not go into 64.
+                                near = [whole[3 * ((SIZE[1] // 3 + y + dy) * SIZE[0] + SIZE[0] // 3 + x + dx) + c] for dy in (0, 1) for dx in (-1, 0, 1)]
+                                off += not min(near) - 40 <= mean <= max(near) + 40
+                                total += 1
+                    self.assertLess(off / total, 0.03, (look, eye))
+        # Pixels go for both alike, and there is a view for a hand and for who looks on.
+        frames = self.shown("--resolution", "0.5", "-o", str(self.folder / "film.mp4"), "--size", "64x48", "--synthesis", "on", frames=5, insets=insets,
+                            hands={"point right": [0, 1], "aim right": [self.HAND]}, synthesis="ext")
+        self.assertEqual([eye["size"] for eye in frames[4]["eyes"]], [[SIZE[0] // 2, SIZE[1] // 2]] * 4)
+        self.assertEqual(len(frames[4]["rays"]), 2)
+
     def test_others_look_on(self):
         poses = [AHEAD, [0.05, 0, 0, 0, 0, math.sin(0.2), math.cos(0.2)]]
         self.shown(frames=3, poses=poses)
