@@ -1,12 +1,15 @@
 #include "recorder.h"
 
+#include <algorithm>
+#include <exception>
 #include <utility>
 
 namespace scumble::app {
 
 namespace {
 
-constexpr size_t kMostWaiting = 60;  // pictures: some hundred megabytes of a screen's size
+constexpr size_t kMostBytes = size_t(1) << 28;  // of pictures that wait
+constexpr size_t kLeastWaiting = 2;             // however large they are
 
 }  // namespace
 
@@ -32,19 +35,20 @@ void Recorder::end() {
   if (thread_.joinable()) thread_.join();
 }
 
-void Recorder::see(std::shared_ptr<const Image> picture, double seconds) {
+Status Recorder::see(std::shared_ptr<const Image> picture, double seconds) {
   // What stood until now has pictures of the film that begin before this one does.
   uint64_t times = 0;
   for (; double(next_) / fps_ < seconds - 1e-9; ++next_) ++times;
   const std::shared_ptr<const Image> stood = std::exchange(standing_, std::move(picture));
-  if (!stood || times == 0) return;
   const std::lock_guard lock(mutex_);
-  if (waiting_.size() >= kMostWaiting) {
-    owed_ += times, report_.leftOut += times;
-    return;
+  if (!status_ || !stood || times == 0) return status_;
+  if (waiting_.size() >= std::max(kLeastWaiting, kMostBytes / std::max<size_t>(stood->codes.size(), 1))) {
+    waiting_.back().times += times, report_.leftOut += times;
+    return status_;
   }
-  waiting_.push_back({stood, times + std::exchange(owed_, 0)});
+  waiting_.push_back({stood, times});
   changed_.notify_all();
+  return status_;
 }
 
 void Recorder::run() {
@@ -57,17 +61,22 @@ void Recorder::run() {
     lock.unlock();
     uint64_t added = 0;
     Status status = Done{};
-    for (; added < one.times && status; ++added) status = film_->add(*one.picture);
+    try {
+      for (; added < one.times && status; ++added) status = film_->add(*one.picture);
+    } catch (const std::exception& failure) {
+      status = Error{ErrorKind::outputNotWritten, "", 0, "", failure.what(), "use a smaller --size"};
+    }
     lock.lock();
     report_.pictures += added;
     if (!status && status_) status_ = status;
+    if (!status_) waiting_.clear();
   }
 }
 
 Result<Recorder::Report> Recorder::finish() {
   if (standing_) {
     const std::lock_guard lock(mutex_);
-    waiting_.push_back({standing_, 1 + owed_});
+    waiting_.push_back({standing_});
   }
   end();
   if (!status_) return status_.error();

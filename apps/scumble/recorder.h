@@ -23,7 +23,8 @@ class Recorder {
   // A picture that stands from a moment on, in seconds, which grow. The film's own pictures stand as long as
   // its rate says: each shows what stands when it begins. Never waits for the film; what that has no time for
   // is left out, and what stood before stands on.
-  void see(std::shared_ptr<const Image> picture, double seconds);
+  // Fails, as every later call does, once the film is lost.
+  Status see(std::shared_ptr<const Image> picture, double seconds);
   // Its end, once. Fails as FilmWriter does.
   struct Report {
     uint64_t pictures = 0, leftOut = 0;
@@ -31,6 +32,7 @@ class Recorder {
   Result<Report> finish();
 
  private:
+  // Pictures that wait for the film, as many as there is room for.
   struct Waiting {
     std::shared_ptr<const Image> picture;
     uint64_t times = 1;
@@ -42,7 +44,6 @@ class Recorder {
   std::unique_ptr<FilmWriter> film_;
   const double fps_;
   uint64_t next_ = 0;  // picture of the film
-  uint64_t owed_ = 0;  // that were left out, and are to be made up for
   std::shared_ptr<const Image> standing_;
   Report report_;
   Status status_ = Done{};

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -41,6 +42,7 @@ volatile std::sig_atomic_t interrupted = 0;
 struct Onlookers {
   std::unique_ptr<viewer::PictureWindow> window;
   std::unique_ptr<Recorder> film;
+  bool isFilmLost = false;
 };
 
 Result<xr::Spectator> spectatorOf(const XrArguments& args) {
@@ -49,6 +51,12 @@ Result<xr::Spectator> spectatorOf(const XrArguments& args) {
     return usage("--size " + args.size + " makes no sense", "use 16x16 to 8192x8192 pixels, like 1280x720");
   if (!(args.steady >= 0 && args.steady <= 60))
     return usage("--steady is out of range", "use 0 (as the head goes) to 60 seconds");
+  if (!args.output.empty()) {
+    const Result<const OutputFormat*> format = formatOf(args.output);
+    if (!format) return format.error();
+    if ((*format)->kind != OutputKind::film)
+      return usage(args.output + " is no film", "record into .mp4, .webm or .gif");
+  }
   xr::Spectator spectator;
   spectator.size = {size->first, size->second};
   spectator.inertia = float(args.steady);
@@ -59,14 +67,11 @@ Result<xr::Spectator> spectatorOf(const XrArguments& args) {
 Status openFor(Onlookers& onlookers, const XrArguments& args, const xr::Spectator& spectator,
                const std::vector<std::string>& inputs) {
   if (!args.output.empty()) {
-    const Result<const OutputFormat*> format = formatOf(args.output);
-    if (!format) return format.error();
-    if ((*format)->kind != OutputKind::film)
-      return usage(args.output + " is no film", "record into .mp4, .webm or .gif");
+    const OutputFormat* const format = *formatOf(args.output);
     OutputFiles files(inputs);
     if (Status status = files.add(args.output, "-o"); !status) return status.error();
     FilmOptions film;
-    film.format = (*format)->film, film.fps = args.fps;
+    film.format = format->film, film.fps = args.fps;
     film.width = spectator.size.x, film.height = spectator.size.y;
     Result<std::unique_ptr<Recorder>> recorder = Recorder::create(args.output, film);
     if (!recorder) return recorder.error();
@@ -75,7 +80,11 @@ Status openFor(Onlookers& onlookers, const XrArguments& args, const xr::Spectato
   if (!args.spectator) return Done{};
   auto window =
       viewer::PictureWindow::open("What the headset sees", spectator.size, args.picture.rendererOptions());
-  if (!window) return window.error();
+  if (!window) {
+    Error error = window.error();
+    error.advice = "leave out --spectator";
+    return error;
+  }
   onlookers.window = std::move(window).value();
   return Done{};
 }
@@ -87,7 +96,11 @@ Result<xr::ShowReport> showTo(xr::Headset& headset, const xr::ShowOptions& show,
   if (!window) return headset.show(show);
   std::optional<Result<xr::ShowReport>> report;
   std::thread shower([&] {
-    report.emplace(headset.show(show));
+    try {
+      report.emplace(headset.show(show));
+    } catch (const std::exception& failure) {
+      report.emplace(Error{ErrorKind::internal, "", 0, "", failure.what(), "please report this"});
+    }
     window->end();
   });
   const Status seen = window->run();
@@ -166,7 +179,11 @@ int run(const XrArguments& args) {
     if (Status status = openFor(onlookers, args, *spectator, inputs); !status) return fail(status.error());
     show.spectator = *spectator;
     show.spectator->see = [&](const std::shared_ptr<const Image>& picture, double seconds) {
-      if (onlookers.film) onlookers.film->see(picture, seconds);
+      if (onlookers.film && !onlookers.isFilmLost) {
+        const Status status = onlookers.film->see(picture, seconds);
+        onlookers.isFilmLost = !status.ok();
+        if (!status && show.tell) show.tell("the film is lost: " + status.error().problem);
+      }
       if (onlookers.window) onlookers.window->show(picture);
     };
   }
@@ -176,6 +193,11 @@ int run(const XrArguments& args) {
   show.isEnding = [] { return interrupted != 0; };
   if (!args.quiet)
     show.tell = [](const std::string& line) { std::fprintf(stderr, "scumble: %s\n", line.c_str()); };
+  // What hands have changed is what this leaves behind: for scripts, too.
+  show.changed = [](const std::string& line) {
+    std::printf("%s\n", line.c_str());
+    std::fflush(stdout);
+  };
   std::signal(SIGINT, [](int) {
     interrupted = 1;
     // A runtime that does not answer cannot be asked to end; who asks twice means it.
@@ -184,14 +206,17 @@ int run(const XrArguments& args) {
   const Result<xr::ShowReport> report = showTo(**headset, show, onlookers.window.get());
   std::signal(SIGINT, SIG_DFL);
   // What was seen until something went wrong is kept as well.
-  if (onlookers.film && (report ? report->frames > 0 : true)) {
-    const Result<Recorder::Report> film = onlookers.film->finish();
-    if (!film && report) return fail(film.error());
-    if (film && film->leftOut > 0 && show.tell)
-      show.tell(std::to_string(film->leftOut) + " of the film's " + std::to_string(film->pictures) +
-                " pictures came too fast for it; those before them stand longer");
-  }
+  std::optional<Result<Recorder::Report>> film;
+  const bool wasSeen = !report || report->frames > 0;
+  if (onlookers.film && wasSeen) film = onlookers.film->finish();
+  if (film && *film && (*film)->leftOut > 0 && show.tell)
+    show.tell(std::to_string((*film)->leftOut) + " of the film's " + std::to_string((*film)->pictures) +
+              " pictures came too fast for it; those before them stand longer");
   if (!report) return fail(report.error());
+  if (film && !*film) return fail(film->error());
+  if (onlookers.film && !wasSeen)
+    return fail(Error{ErrorKind::outputNotWritten, args.output, 0, "",
+                      "no frame was seen, so there is no film", "let it run for a while"});
   if (report->validationMessages > 0)
     return fail(
         Error{ErrorKind::internal, "", 0, "", "the validation layers found mistakes", "please report them"});
@@ -242,7 +267,7 @@ void addXr(CLI::App& program, int& exitCode) {
           "--ready", args->ready,
           "Seconds for making other looks ready beforehand; those that are not are made as they are taken")
       ->capture_default_str();
-  command->add_option("--frames", args->frames, "End when so many were drawn");
+  command->add_option("--frames", args->frames, "End when so many were drawn")->check(CLI::NonNegativeNumber);
   command->add_flag("--quiet", args->quiet, "No warnings, and nothing about the headset");
   command->footer("Example: scumble xr boat.glb --look age-of-sail --standing");
   command->callback([args, &exitCode] { exitCode = run(*args); });

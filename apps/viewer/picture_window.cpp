@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <array>
+#include <exception>
 
 #include "interface.h"
 #include "interface_pass.h"
@@ -38,27 +39,29 @@ Result<std::unique_ptr<PictureWindow>> PictureWindow::open(const std::string& ti
 }
 
 void PictureWindow::show(std::shared_ptr<const Image> picture) {
-  {
-    const std::lock_guard lock(mutex_);
-    next_ = std::move(picture);
-  }
+  // There is nobody to wake where the window is gone.
+  const std::lock_guard lock(mutex_);
+  if (isGone_) return;
+  next_ = std::move(picture);
   Window::wake();
 }
 
 void PictureWindow::end() {
-  {
-    const std::lock_guard lock(mutex_);
-    isEnding_ = true;
-  }
-  Window::wake();
+  const std::lock_guard lock(mutex_);
+  isEnding_ = true;
+  if (!isGone_) Window::wake();
 }
 
 Status PictureWindow::run() {
   Status status = Done{};
   try {
     status = draw();
-  } catch (const VulkanFailure& failure) {
+  } catch (const std::exception& failure) {
     status = Error{ErrorKind::noUsableGpu, "", 0, "", failure.what(), "go on without the window"};
+  }
+  {
+    const std::lock_guard lock(mutex_);
+    isGone_ = true;
   }
   renderer_.reset();
   window_.reset();

@@ -34,7 +34,7 @@ class PictureWindow {
   std::unique_ptr<Renderer> renderer_;  // for its device
   std::mutex mutex_;
   std::shared_ptr<const Image> next_;
-  bool isEnding_ = false;
+  bool isEnding_ = false, isGone_ = false;
 };
 
 }  // namespace scumble::viewer

@@ -130,6 +130,9 @@ class SCUMBLE_API SceneEditor {
   NodeId findNode(const std::string& name) const;
   std::string nameOf(NodeId id) const;  // empty of none
   MeshId meshOf(NodeId id) const;
+  // The node that its mesh goes with: itself; of a mesh with joints the nearest one above all of them, or,
+  // where there is none, the first of them.
+  NodeId carrierOf(NodeId id) const;
   size_t nodeCount() const;                // their ids are the numbers below that
   NodeId parentOf(NodeId id) const;        // none of those that stand in the world; less than the id itself
   glm::mat4 transformOf(NodeId id) const;  // to its parent's space, at rest; the identity of none

@@ -73,6 +73,15 @@ SCUMBLE_API Result<std::unique_ptr<Renderer>> createRenderer(const VulkanDevice&
 // What a renderer draws with, whoever made it; valid as long as the renderer is. It has a queueLock.
 SCUMBLE_API VulkanDevice vulkanDeviceOf(const Renderer& renderer);
 
+// What motion since the frame before is told in. In normalised device coordinates there are x, y and depth
+// (of the view's projection: reversed), and not of surfaces alone, but also of what is endlessly far away
+// where nothing is, which moves as the view turns: as runtimes of headsets and upscalers take it.
+enum class MotionUnit {
+  pixels,      // x to the right, y down; 0 where nothing is
+  ndc,         // y down, as Vulkan has it
+  ndcUpwards,  // y up, as OpenGL has it
+};
+
 // Where one view's picture, or AOV, goes in an image of the program's. The image has the usage
 // VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, or for depth formats VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, and
 // one sample.
@@ -91,10 +100,7 @@ struct VulkanTarget {
   VkImageLayout before = VK_IMAGE_LAYOUT_UNDEFINED, after = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
   size_t view = 0;  // index into the frame's views
   std::string aov;  // one of Renderer::aovNames(), of the view's own size; empty: the picture
-  // Of the AOV `motion` alone: in normalised device coordinates, x, y and depth (of the view's projection:
-  // reversed), since the frame before; and not of surfaces alone, but also of what is endlessly far away
-  // where nothing is, which moves as the view turns. As runtimes of headsets and upscalers take it.
-  bool isNormalized = false;
+  MotionUnit motion = MotionUnit::pixels;  // of the AOV `motion` alone
 };
 
 // What of a view comes back to the CPU although its frame goes into images: Frame::layers has it then, as if

@@ -45,8 +45,9 @@ void Deliver::create(FrameBuilder& frame) {
     desc.fragment = {shaders::deliver_depth_frag};
     desc.depthFormat = key_.format;
     desc.depthCompare = VK_COMPARE_OP_ALWAYS;
-  } else if (key_.isNormalized) {
+  } else if (key_.isDeviceMotion()) {
     desc.fragment = {shaders::deliver_motion_frag};
+    desc.constants = {key_.motion == MotionUnit::ndcUpwards};
     desc.colorFormats = {key_.format};
   } else {
     desc.fragment = {shaders::deliver_frag};
@@ -55,7 +56,7 @@ void Deliver::create(FrameBuilder& frame) {
     desc.colorFormats = {key_.format};
   }
   // How motion is counted is the frame's affair.
-  if (key_.isNormalized) desc.sets = {frame.frameLayout().handle()};
+  if (key_.isDeviceMotion()) desc.sets = {frame.frameLayout().handle()};
   setNumber_ = uint32_t(desc.sets.size());
   desc.sets.push_back(layout_.handle());
   desc.pushConstantBytes = 12;
@@ -88,7 +89,7 @@ void Deliver::record(VkCommandBuffer commands) const {
   vkCmdSetViewport(commands, 0, 1, &viewport);
   vkCmdSetScissor(commands, 0, 1, &rectangle);
   pipeline_.bind(commands);
-  if (key_.isNormalized) pipeline_.bindSet(commands, 0, frame_->frameSet());
+  if (key_.isDeviceMotion()) pipeline_.bindSet(commands, 0, frame_->frameSet());
   pipeline_.bindSet(commands, setNumber_, set_[0]);
   pipeline_.push(commands, {key_.view, uint32_t(key_.x), uint32_t(key_.y)});
   vkCmdDraw(commands, 3, 1, 0, 0);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "frame/pass.h"
+#include "scumble/vulkan.h"
 
 namespace scumble::renderer {
 
@@ -17,9 +18,10 @@ struct TargetKey {
   uint32_t width = 0, height = 0, layer = 0;  // of the image; which of its layers
   int32_t x = 0, y = 0;                       // of the rectangle
   VkImageLayout before = VK_IMAGE_LAYOUT_UNDEFINED, after = VK_IMAGE_LAYOUT_UNDEFINED;
-  uint32_t view = 0;          // of those that are drawn together
-  std::string aov;            // empty: the picture
-  bool isNormalized = false;  // motion, in normalised device coordinates
+  uint32_t view = 0;  // of those that are drawn together
+  std::string aov;    // empty: the picture
+  MotionUnit motion = MotionUnit::pixels;
+  bool isDeviceMotion() const { return motion != MotionUnit::pixels; }
   bool isDepthBuffer() const { return format == VK_FORMAT_D32_SFLOAT; }
   bool operator==(const TargetKey&) const = default;
 };

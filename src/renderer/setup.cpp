@@ -91,7 +91,7 @@ void Setup::declareTarget(const TargetKey& target, gpu::Handle picture) {
       target.aov.empty() || target.isDepthBuffer() ? nullptr : builder_->offered(target.aov);
   // Beside motion, the depth that comes with it: no surface is drawn twice.
   const bool hasFacts = std::any_of(key_.targets.begin(), key_.targets.end(),
-                                    [](const TargetKey& key) { return key.isNormalized; });
+                                    [](const TargetKey& key) { return key.isDeviceMotion(); });
   const gpu::Handle source = target.isDepthBuffer() ? builder_->get(hasFacts ? kDepthOfFacts : kDepth)
                              : offer                ? offer->images.front()
                                                     : picture;

@@ -45,8 +45,8 @@ Status checkTarget(const VulkanTarget& target, const std::vector<View>& views, c
       uint64_t(target.offset.y) + size.y > target.extent.height)
     return usage("a view's rectangle reaches out of its target",
                  "it has the view's size; see VulkanTarget::offset");
-  if (target.isNormalized && target.aov != "motion")
-    return usage("a target is normalised of which the AOV is not 'motion'", "see VulkanTarget::isNormalized");
+  if (target.motion != MotionUnit::pixels && target.aov != "motion")
+    return usage("a target that is not of motion has a unit of it", "see VulkanTarget::motion");
   if (!target.aov.empty() && (Renderer::hasSizeOfItsOwn(target.aov) || target.aov == "blur"))
     return usage("the AOV '" + target.aov + "' has a size of its own", "read it back instead");
   return Done{};
@@ -68,7 +68,7 @@ Status begin(Renderer& renderer, const Scene& scene, const Look& look, double ti
     key.width = target.extent.width, key.height = target.extent.height, key.layer = target.layer;
     key.x = target.offset.x, key.y = target.offset.y;
     key.before = target.before, key.after = target.after;
-    key.aov = target.aov, key.isNormalized = target.isNormalized;
+    key.aov = target.aov, key.motion = target.motion;
     for (const Delivery::Target& other : delivery.targets)
       if (other.image == target.image &&
           (other.key.format != key.format || other.key.width != key.width || other.key.height != key.height ||

@@ -193,6 +193,25 @@ MeshId SceneEditor::meshOf(NodeId id) const {
                                                  : MeshId::none;
 }
 
+NodeId SceneEditor::carrierOf(NodeId id) const {
+  const SceneData& data = edited_->data;
+  if (!isIndex(id, data.nodes.size())) return NodeId::none;
+  const int skin = data.nodes[size_t(id)].skin;
+  if (skin < 0 || data.skins[size_t(skin)].joints.empty()) return id;
+  const auto pathTo = [&](int node) {
+    std::vector<int> path;
+    for (; node >= 0; node = data.nodes[size_t(node)].parent) path.insert(path.begin(), node);
+    return path;
+  };
+  std::vector<int> common = pathTo(data.skins[size_t(skin)].joints.front());
+  const int first = common.back();
+  for (const int joint : data.skins[size_t(skin)].joints) {
+    const std::vector<int> path = pathTo(joint);
+    common.erase(std::mismatch(common.begin(), common.end(), path.begin(), path.end()).first, common.end());
+  }
+  return NodeId(common.empty() ? first : common.back());
+}
+
 size_t SceneEditor::nodeCount() const {
   return edited_->data.nodes.size();
 }

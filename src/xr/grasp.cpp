@@ -10,6 +10,8 @@ namespace scumble::xr {
 
 namespace {
 
+constexpr float kFlat = 1e-18f;  // cubic metres that a cubic metre becomes
+
 glm::mat4 matrixOf(const Pose& pose) {
   glm::mat4 matrix = glm::mat4_cast(pose.turn);
   matrix[3] = glm::vec4(pose.place, 1);
@@ -23,14 +25,16 @@ std::vector<NodeId> pathTo(const SceneEditor& editor, NodeId node) {
   return path;
 }
 
-// Whether all meshes hang below a node.
+// Whether all meshes go with a node.
 bool isEverything(const SceneEditor& editor, NodeId node) {
   std::vector<bool> isBelow(editor.nodeCount(), false);
   for (size_t i = 0; i < isBelow.size(); ++i) {
     const NodeId own = NodeId(int(i)), parent = editor.parentOf(own);
     isBelow[i] = own == node || (parent != NodeId::none && isBelow[size_t(parent)]);
-    if (!isBelow[i] && editor.meshOf(own) != MeshId::none) return false;
   }
+  for (size_t i = 0; i < isBelow.size(); ++i)
+    if (editor.meshOf(NodeId(int(i))) != MeshId::none && !isBelow[size_t(editor.carrierOf(NodeId(int(i))))])
+      return false;
   return true;
 }
 
@@ -55,9 +59,12 @@ Result<Grasp> Grasp::take(SceneEditor& editor, NodeId hit, int support, const Mo
   size_t first = 0;
   bool isCarried = false;
   Error why{ErrorKind::usage, "", 0, "", "it carries you", "choose another camera to stand at"};
-  for (const NodeId node : pathTo(editor, hit)) {
+  const NodeId touched = editor.carrierOf(hit);
+  for (const NodeId node : pathTo(editor, touched)) {
     const bool isBeneath = std::find(carrying.begin(), carrying.end(), node) != carrying.end();
-    if (isBeneath || (node != hit && grasp.path_.empty() && isEverything(editor, node))) continue;
+    if (isBeneath || (node != touched && grasp.path_.empty() && isEverything(editor, node))) continue;
+    // In a space that is flat nothing can be placed.
+    if (!(std::abs(glm::determinant(glm::mat3(aboveOf(editor, node, moment.world)))) > kFlat)) continue;
     // Nodes that a clip moves are the clip's; what goes along with one of those is a thing by itself.
     if (Status status = editor.setTransform(node, editor.transformOf(node)); !status) {
       why = status.error();
@@ -93,15 +100,34 @@ Status Grasp::follow(SceneEditor& editor, const Moment& moment) const {
       node(), glm::inverse(aboveOf(editor, node(), moment.world)) * matrixOf(moment.hand) * inHand_);
 }
 
+bool Grasp::concerns(const SceneEditor& editor, const Grasp& other) const {
+  const std::vector<NodeId> own = pathTo(editor, node()), its = pathTo(editor, other.node());
+  const size_t least = std::min(own.size(), its.size());
+  return std::equal(own.begin(), own.begin() + ptrdiff_t(least), its.begin());
+}
+
 std::string Grasp::told(const SceneEditor& editor, const std::vector<glm::mat4>& moved) const {
+  const glm::mat4 now = editor.transformOf(node());
+  float way = 0, size = 1;
+  for (int column = 0; column < 4; ++column) {
+    way = std::max(way, glm::length(now[column] - before_[column]));
+    size = std::max(size, glm::length(before_[column]));
+  }
+  if (way < 1e-4f * size) return "";
   const glm::mat4 world = aboveOf(editor, node(), moved) * editor.transformOf(node());
-  const glm::vec3 degrees = glm::degrees(glm::eulerAngles(
-      glm::quat_cast(glm::mat3(glm::normalize(glm::vec3(world[0])), glm::normalize(glm::vec3(world[1])),
-                               glm::normalize(glm::vec3(world[2]))))));
-  char text[160];
-  std::snprintf(text, sizeof text, " at %.2f, %.2f, %.2f, turned by %.0f, %.0f, %.0f degrees", world[3].x,
-                world[3].y, world[3].z, rounded(degrees.x), rounded(degrees.y), rounded(degrees.z));
-  return "'" + editor.nameOf(node()) + "'" + text;
+  const std::string name = editor.nameOf(node());
+  std::string text = name.empty() ? "node " + std::to_string(int(node()) + 1) : "'" + name + "'";
+  char numbers[120];
+  std::snprintf(numbers, sizeof numbers, " at %.2f, %.2f, %.2f", world[3].x, world[3].y, world[3].z);
+  text += numbers;
+  // What is flat has no turn.
+  const glm::vec3 x(world[0]), y(world[1]), z(world[2]);
+  if (!(std::abs(glm::dot(glm::cross(x, y), z)) > kFlat)) return text;
+  const glm::vec3 degrees = glm::degrees(
+      glm::eulerAngles(glm::quat_cast(glm::mat3(glm::normalize(x), glm::normalize(y), glm::normalize(z)))));
+  std::snprintf(numbers, sizeof numbers, ", turned by %.0f, %.0f, %.0f degrees", rounded(degrees.x),
+                rounded(degrees.y), rounded(degrees.z));
+  return text + numbers;
 }
 
 }  // namespace scumble::xr

@@ -27,7 +27,10 @@ class Grasp {
   NodeId node() const { return path_[level_]; }
   // Where the hand takes it: as it was taken hold of, so it stays in the hand.
   Status follow(SceneEditor& editor, const Moment& moment) const;
-  // Where it is now: its name, its origin in the world, metres, and degrees about x, then y, then z.
+  // Whether what is held is also held by another one, or is a part of that, or has it as a part.
+  bool concerns(const SceneEditor& editor, const Grasp& other) const;
+  // Where it is now: its name, its origin in the world, metres, and degrees about x, then y, then z. Empty:
+  // where it was.
   std::string told(const SceneEditor& editor, const std::vector<glm::mat4>& world) const;
 
  private:

@@ -64,6 +64,21 @@ TEST(GraspsOfHands, takeWhatAPartBelongsTo) {
   const Result<Grasp> own = Grasp::take(s.editor, s.hull, int(s.hull), {hand, s.world()});
   ASSERT_FALSE(own.ok());
   EXPECT_EQ(own.error().problem, "it carries you");
+  // Two hands on one thing, or on a thing and a part of it.
+  const Grasp boat = *Grasp::take(s.editor, s.sail, -1, {hand, s.world()}),
+              rock = *Grasp::take(s.editor, s.rock, -1, {hand, s.world()});
+  Grasp sail = boat;
+  ASSERT_TRUE(sail.widen(s.editor, false, {hand, s.world()}));
+  EXPECT_TRUE(boat.concerns(s.editor, sail));
+  EXPECT_TRUE(sail.concerns(s.editor, boat));
+  EXPECT_FALSE(boat.concerns(s.editor, rock));
+  // What hangs in a flat space cannot be placed; the flat thing itself can.
+  ASSERT_TRUE(s.editor.setTransform(s.boat, glm::scale(s.editor.transformOf(s.boat), {1, 1, 0})).ok());
+  Result<Grasp> flat = Grasp::take(s.editor, s.sail, -1, {hand, s.world()});
+  ASSERT_TRUE(flat.ok());
+  EXPECT_FALSE(flat->widen(s.editor, false, {hand, s.world()}));
+  ASSERT_TRUE(flat->follow(s.editor, {handAt({2, 1, 1}, 0), s.world()}).ok());
+  EXPECT_EQ(flat->told(s.editor, s.world()).find("nan"), std::string::npos);
   // The ground, the sea: no node of the scene.
   EXPECT_FALSE(Grasp::take(s.editor, NodeId(5), -1, {hand, s.world()}).ok());
   EXPECT_FALSE(Grasp::take(s.editor, NodeId::none, -1, {hand, s.world()}).ok());

@@ -134,9 +134,7 @@ HandsState Hands::follow(bool isFocused, XrSpace room, XrTime time) {
     // Where it is costs the runtime something, and matters only then.
     if (state.hands[hand].points || state.hands[hand].grabs) state.hands[hand].aim = aimOf(hand, room, time);
   }
-  // A stick of a hand that holds something is about that.
-  if (!state.hands[0].grabs) state.steering.walk = state.hands[0].stick;
-  if (!state.hands[1].grabs) state.steering.turn = state.hands[1].stick.x;
+  state.steering.walk = state.hands[0].stick, state.steering.turn = state.hands[1].stick.x;
   return state;
 }
 

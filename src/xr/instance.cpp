@@ -21,20 +21,16 @@ const char* const kWelcome[] = {XR_FB_DISPLAY_REFRESH_RATE_EXTENSION_NAME,
                                 XR_FB_SPACE_WARP_EXTENSION_NAME,
                                 XR_VARJO_QUAD_VIEWS_EXTENSION_NAME};
 
-std::vector<std::string> extensionsThere(const Functions& call) {
-  std::vector<std::string> names;
+std::map<std::string, uint32_t> extensionsThere(const Functions& call) {
+  std::map<std::string, uint32_t> versions;
   for (const XrExtensionProperties& extension : listed<XrExtensionProperties>(
            "xrEnumerateInstanceExtensionProperties",
            [&](uint32_t capacity, uint32_t*count, XrExtensionProperties*all) {
              return call.EnumerateInstanceExtensionProperties(nullptr, capacity, count, all);
            },
            {XR_TYPE_EXTENSION_PROPERTIES}))
-    names.emplace_back(extension.extensionName);
-  return names;
-}
-
-bool isIn(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
+    versions[extension.extensionName] = std::max(extension.extensionVersion, 1u);
+  return versions;
 }
 
 // What the runtime makes for Vulkan.
@@ -65,19 +61,18 @@ Result<std::unique_ptr<Instance>> Instance::create() {
   std::unique_ptr<Instance> instance(new Instance);
   instance->call_ = *functions;
   try {
-    const std::vector<std::string> there = extensionsThere(instance->call_);
-    if (!isIn(there, XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME))
+    const std::map<std::string, uint32_t> there = extensionsThere(instance->call_);
+    if (!there.count(XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME))
       return Error{ErrorKind::noUsableGpu,
                    "",
                    0,
                    "",
                    "the OpenXR runtime does not take Vulkan (XR_KHR_vulkan_enable2)",
                    "choose another runtime by XR_RUNTIME_JSON"};
-    instance->extensions_ = {XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME};
+    std::vector<const char*> names{XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME};
     for (const char* const name : kWelcome)
-      if (isIn(there, name)) instance->extensions_.emplace_back(name);
-    std::vector<const char*> names;
-    for (const std::string& name : instance->extensions_) names.push_back(name.c_str());
+      if (there.count(name)) names.push_back(name);
+    for (const char* const name : names) instance->extensions_[name] = there.at(name);
     XrInstanceCreateInfo info{XR_TYPE_INSTANCE_CREATE_INFO};
     std::strncpy(info.applicationInfo.applicationName, "scumble", XR_MAX_APPLICATION_NAME_SIZE - 1);
     std::strncpy(info.applicationInfo.engineName, "scumble", XR_MAX_ENGINE_NAME_SIZE - 1);
@@ -103,8 +98,9 @@ Instance::~Instance() {
   if (instance_ && call_.DestroyInstance) call_.DestroyInstance(instance_);
 }
 
-bool Instance::has(const std::string& extension) const {
-  return isIn(extensions_, extension);
+uint32_t Instance::version(const std::string& extension) const {
+  const auto found = extensions_.find(extension);
+  return found == extensions_.end() ? 0 : found->second;
 }
 
 void Instance::findHeadset() {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,7 +24,8 @@ class Instance {
 
   const Functions& call() const { return call_; }
   XrInstance handle() const { return instance_; }
-  bool has(const std::string& extension) const;
+  bool has(const std::string& extension) const { return version(extension) > 0; }
+  uint32_t version(const std::string& extension) const;  // 0: it is not there
   // With its version.
   const std::string& runtime() const { return runtime_; }
 
@@ -44,7 +46,7 @@ class Instance {
   Functions call_;
   XrInstance instance_ = XR_NULL_HANDLE;
   XrSystemId system_ = XR_NULL_SYSTEM_ID;
-  std::vector<std::string> extensions_;  // that were switched on
+  std::map<std::string, uint32_t> extensions_;  // that were switched on, by their versions
   std::string runtime_, headset_;
   glm::uvec2 motionSize_{0};
 };

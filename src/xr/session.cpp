@@ -167,9 +167,10 @@ glm::uvec2 Session::recommendedMotionSize() const {
     eyes[eye].next = &motions[eye];
   }
   uint32_t count = 0;
-  must(call_.EnumerateViewConfigurationViews(instance_.handle(), instance_.system(), views_, kEyes, &count,
-                                             eyes.data()),
-       "xrEnumerateViewConfigurationViews");
+  // What it does not say there is none of.
+  if (XR_FAILED(call_.EnumerateViewConfigurationViews(instance_.handle(), instance_.system(), views_, kEyes,
+                                                      &count, eyes.data())))
+    return glm::uvec2(0);
   glm::uvec2 size(0);
   for (const XrFrameSynthesisConfigView& motion : motions)
     size = glm::max(size, glm::uvec2(motion.recommendedMotionVectorImageRectWidth,

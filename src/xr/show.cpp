@@ -42,7 +42,11 @@ class Show {
         instance_(instance),
         clock_(options.time),
         looks_(options.looks),
-        touch_(options.scene, [this](const std::string& line) { tell(line); }),
+        touch_(
+            options.scene, [this](const std::string& line) { tell(line); },
+            [this](const std::string& line) {
+              if (options_.changed) options_.changed(line);
+            }),
         follower_(options.spectator ? options.spectator->inertia : 0),
         resolution_(options.resolution) {}
 
@@ -62,7 +66,12 @@ class Show {
   using Watch = std::chrono::steady_clock;
   struct FramesEnd {
     Show& show;
-    ~FramesEnd() { (void)show.finish(0); }
+    ~FramesEnd() { show.discard(); }
+  };
+
+  struct HandsEnd {
+    Show& show;
+    ~HandsEnd() { show.letGo(); }
   };
 
   bool isEnding() const {
@@ -100,6 +109,7 @@ class Show {
                       {options_.isStanding, options_.refreshRate, options_.hasVignette,
                        options_.synthesis != FrameSynthesis::off});
       const FramesEnd end{*this};  // before its images go
+      const HandsEnd open{*this};
       if (!lostSince_) {
         tell(instance_.headset() + " on " + instance_.runtime() + ": twice " + told(session.sizes().front()) +
              (session.sizes().size() > 1 ? ", and " + told(session.sizes().back()) + " in their middles"
@@ -113,6 +123,7 @@ class Show {
       isSynthesizing_ = options_.synthesis == FrameSynthesis::on;
       before_.reset();
       if (status) status = runFrames(session);
+      if (const Status finished = finish(0); status.ok()) status = finished;
       isLost_ = session.isLost();
     } catch (const XrFailure& failure) {
       if (failure.result() != XR_ERROR_SESSION_LOST) throw;
@@ -138,7 +149,7 @@ class Show {
     const Watch::time_point start = Watch::now();
     const std::chrono::duration<double> patience(options_.readying);
     size_t ready = 1;
-    for (; ready < looks_.size() && Watch::now() - start < patience; ++ready) {
+    for (; ready < looks_.size() && Watch::now() - start < patience && !isEnding(); ++ready) {
       const Result<Camera> camera = standNow();
       if (!camera) return camera.error();
       if (Status status =
@@ -147,7 +158,7 @@ class Show {
           !status)
         return status;
     }
-    if (ready < looks_.size() && options_.readying > 0)
+    if (ready < looks_.size() && options_.readying > 0 && !isEnding())
       tell(std::to_string(ready) + " of " + std::to_string(looks_.size()) +
            " looks are ready; the others take a moment when they are taken");
     return draw(false);
@@ -174,7 +185,7 @@ class Show {
       clock_.go(moment.display, isPaused_ || !session.isWorn() || !moment.shouldRender);
       // Whoever recentres wants to be where the camera is.
       if (moment.display >= recentring) {
-        walk_.reset(), before_.reset();
+        walk_.reset(), before_.reset(), touch_.letGoOfAll();
         recentring = kNever;
       }
       const bool isSeen = moment.shouldRender && moment.isPlaced && !askedAt;
@@ -214,14 +225,16 @@ class Show {
     const double sinceLast = clock_.sinceLast();
     const Result<Camera> camera = standNow();
     if (!camera) return camera.error();
-    walk_.go(camera->stand, between(moment.eyes[0].pose, moment.eyes[1].pose), hands.steering,
+    // The stick of a hand that has hold of a thing is about that.
+    Steering steering = hands.steering;
+    if (touch_.hasThing(0)) steering.walk = glm::vec2(0);
+    steering.mayTurn = !touch_.hasThing(1);
+    walk_.go(camera->stand, between(moment.eyes[0].pose, moment.eyes[1].pose), steering,
              float(std::min(sinceLast, kLongestStep)));
     // It comes and goes within a quarter of a second or so; what is not seen is not drawn.
     darkness_ += (walk_.motion() - darkness_) * float(1 - std::exp(-sinceLast / kDarkening));
     if (darkness_ < 0.01f) darkness_ = 0;
-    if (Status status = touch_.go(hands, {walk_.on(camera->stand), camera->node, clock_.time()}, look());
-        !status)
-      return status;
+    touch_.go(hands, {walk_.on(camera->stand), camera->node, clock_.time(), looks_[look_].first}, look());
     return begin(
         session, camera, moment, [&](Moment& latest) { return session.locate(latest); },
         touch_.takeQuestion());
@@ -334,11 +347,14 @@ class Show {
     };
     targets.images = session.acquire(synthesizes);
     const double time = clock_.time();
-    const Status status = scumble::begin(*renderer_, touch_.scene(), look(), time, views, options, targets);
+    Status status = scumble::begin(*renderer_, touch_.scene(), look(), time, views, options, targets);
     if (status) {
       if (locate) {
-        if (!firstDisplay_) firstDisplay_ = moment.display;
-        under.seconds = double(moment.display - *firstDisplay_) * 1e-9;
+        // While nobody saw anything nothing was to be seen.
+        if (lastDisplay_)
+          seen_ += std::clamp<XrDuration>(moment.display - *lastDisplay_, 0, Clock::kLongestStep);
+        lastDisplay_ = moment.display;
+        under.seconds = double(seen_) * 1e-9;
         under.isSeen = true;
       }
       under_.push_back(under);
@@ -373,6 +389,20 @@ class Show {
     return Done{};
   }
 
+  // As a session ends: what was held is told.
+  void letGo() noexcept {
+    try {
+      touch_.letGoOfAll();
+    } catch (...) {
+      // Its words are lost.
+    }
+  }
+
+  // Of frames under way nobody wants anything any more.
+  void discard() {
+    for (; !under_.empty(); under_.pop_front()) (void)renderer_->finish();
+  }
+
   const ShowOptions& options_;
   Instance& instance_;
   std::unique_ptr<Renderer> renderer_;
@@ -395,8 +425,9 @@ class Show {
     std::optional<Touch::Question> question;
     size_t pointer = 0;  // which view looks for the answer
   };
-  std::deque<Under> under_;  // the oldest first
-  std::optional<XrTime> firstDisplay_;
+  std::deque<Under> under_;            // the oldest first
+  std::optional<XrTime> lastDisplay_;  // of a frame that was seen
+  XrDuration seen_ = 0;                // nanoseconds
   // Where everything was in the frame that was seen before, where the runtime makes frames between.
   struct Before {
     std::vector<View> views;

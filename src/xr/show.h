@@ -26,7 +26,8 @@ struct Spectator {
   float verticalFov = 60;      // degrees
   float inertia = 0.3f;        // seconds in which its head comes nearer by two thirds; 0: it is the wearer's
   // Each frame, when it is done: its picture in codes, and when it was to be seen, in seconds since the first
-  // one. Called by the thread that shows; what takes long belongs on another one.
+  // one, of which times when nothing was seen count one at most. Called by the thread that shows; what takes
+  // long belongs on another one.
   std::function<void(std::shared_ptr<const Image> picture, double seconds)> see;
 };
 
@@ -58,6 +59,8 @@ struct ShowOptions {
   std::optional<uint64_t> frames;  // ends when so many were drawn; none: when the runtime or somebody ends it
   std::function<bool()> isEnding;  // asked once a frame: whether somebody ends it
   std::function<void(const std::string&)> tell;  // a line for who is at the keyboard
+  // One for what hands have changed: where a thing is now, and options that give the colours.
+  std::function<void(const std::string&)> changed;
 };
 
 struct ShowReport {

@@ -37,9 +37,13 @@ class Synthesis {
 
  private:
   enum class Kind { ext, fb };
-  Synthesis(Kind kind, const Functions& call, XrSession session, glm::uvec2 size);
+  Synthesis(const Instance& instance, XrSession session, glm::uvec2 size);
 
-  Kind kind_;
+  const Kind kind_;
+  // Which way y goes. XR_FB_space_warp takes it upwards, as OpenGL has it; XR_EXT_frame_synthesis says
+  // Vulkan's way, and runtimes that have both extensions go the other one's.
+  const bool isUpwards_;
+  const bool canSkip_;  // it can be told that a frame is like none before
   EyeImages motion_, depth_;
   std::array<XrFrameSynthesisInfo, kEyes> ext_;
   std::array<XrCompositionLayerSpaceWarpInfoFB, kEyes> fb_;

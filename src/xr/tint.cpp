@@ -17,6 +17,10 @@ Result<Tint> Tint::take(const Look& look, const std::string& material, double ti
   if (material.empty())
     return Error{
         ErrorKind::usage, "", 0, "", "the material has no name", "give it one, so that looks know it"};
+  if (material.find_first_of("=*?[]\n\r") != std::string::npos)
+    return Error{
+        ErrorKind::usage,      "", 0, "", "looks cannot name a material with =, *, ? or [ in its name",
+        "give it another name"};
   Tint tint;
   tint.hand_ = hand;
   for (const char* const side : {"lit", "shadowed"})
@@ -50,7 +54,10 @@ std::string Tint::told() const {
       if (knob.now == knob.before) continue;
       char number[32];
       std::snprintf(number, sizeof number, "%.3g", knob.now);
-      text += (text.empty() ? "--set '" : " --set '") + knob.path + "=" + number + "'";
+      // As shells take words.
+      std::string word;
+      for (const char letter : knob.path) word += letter == '\'' ? "'\\''" : std::string(1, letter);
+      text += (text.empty() ? "--set '" : " --set '") + word + "=" + number + "'";
     }
   return text;
 }

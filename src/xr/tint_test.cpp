@@ -50,7 +50,12 @@ TEST(TintsInHands, huesTurnWithTheWristAndLightnessRisesWithTheHand) {
   EXPECT_EQ(valueOf(look, "materials.Sail.lit.brightness"), 3);
   ASSERT_TRUE(tint->follow(look, rolled(170)).ok());
   EXPECT_NEAR(std::abs(valueOf(look, "materials.Sail.lit.hue")), 180, 0.05);
-  EXPECT_FALSE(Tint::take(look, "", 0, rolled(0)).ok());
+  for (const char* const name : {"", "a=b", "a*", "a[b]", "a\nb"})
+    EXPECT_FALSE(Tint::take(look, name, 0, rolled(0)).ok()) << name;
+  Result<Tint> quoted = Tint::take(look, "Bob's", 0, rolled(0));
+  ASSERT_TRUE(quoted.ok() && quoted->follow(look, rolled(10)).ok());
+  EXPECT_NE(quoted->told().find(R"(--set 'materials.Bob'\''s.lit.hue=20')"), std::string::npos)
+      << quoted->told();
 }
 
 }  // namespace

@@ -18,55 +18,65 @@ const Image* layerOf(const Frame& frame, const char* name, size_t view) {
 
 }  // namespace
 
-Touch::Touch(const Scene& scene, std::function<void(const std::string&)> tell)
-    : editor_(scene), scene_(scene), tell_(std::move(tell)) {
+Touch::Touch(const Scene& scene, Tell tell, Tell changed)
+    : editor_(scene), scene_(scene), tell_(std::move(tell)), changed_(std::move(changed)) {
   if (const Result<Scene> edited = editor_.scene()) scene_ = *edited;
 }
 
-Status Touch::go(const HandsState& hands, const Place& place, Look& look) {
+void Touch::go(const HandsState& hands, const Place& place, Look& look) {
   rays_.clear();
+  look_ = place.look, scale_ = place.stand.scale;
   bool isMoved = false;
   // Where everything is matters only to hands that are closed.
-  const bool isGrabbing =
-      std::any_of(held_.begin(), held_.end(), [](const Held& held) { return held.use == Use::thing; });
   Grasp::Moment moment;
-  if (isGrabbing) moment.world = nodesToWorld(scene_, look, place.time);
+  if (std::any_of(held_.begin(), held_.end(), [](const Held& held) { return held.use == Use::thing; }))
+    moment.world = world_ = nodesToWorld(scene_, look, place.time);
   for (size_t h = 0; h < kHands; ++h) {
     const Hand& hand = hands.hands[h];
     Held& held = held_[h];
     const Use use = hand.grabs ? Use::thing : hand.points ? Use::colours : Use::none;
     if (use != held.use) {
-      letGo(held, moment.world);
+      letGo(held);
       held = {use, ++count_};
     }
+    // One that is pushed already as the hand closes means something else.
+    const int push = held.push.go(hand.stick.y);
     if (use == Use::none || !hand.aim) continue;
     if (!held.isAsked) held.aim = *hand.aim;
     moment.hand = inScene(place.stand, *hand.aim);
-    if (held.object || held.material) take(held, place, look, moment);
+    if (held.object || held.material) {
+      take(held, place, look, moment);
+      letGoOfOthers(h);
+    }
+    Status status = Done{};
     if (held.grasp) {
-      if (const int push = held.push.go(hand.stick.y)) held.grasp->widen(editor_, push > 0, moment);
-      if (Status status = held.grasp->follow(editor_, moment); !status) return status;
+      if (push != 0 && held.grasp->widen(editor_, push > 0, moment)) letGoOfOthers(h);
+      status = held.grasp->follow(editor_, moment);
       isMoved = true;
     }
-    if (held.tint)
-      if (Status status = held.tint->follow(look, *hand.aim); !status) return status;
+    if (held.tint) status = held.tint->follow(look, *hand.aim);
+    if (!status) {
+      tell_("'" + held.name + "' is let go: " + status.error().problem);
+      held.grasp.reset(), held.tint.reset();
+    }
     const glm::vec3 ahead = hand.aim->turn * glm::vec3(0, 0, -held.reach);
     rays_.push_back({hand.aim->place, hand.aim->place + ahead});
   }
-  if (!isMoved) return Done{};
-  Result<Scene> scene = editor_.scene();
-  if (!scene) return scene.error();
-  scene_ = std::move(scene).value();
-  return Done{};
+  if (!isMoved) return;
+  if (Result<Scene> scene = editor_.scene()) {
+    scene_ = std::move(scene).value();
+  } else {
+    tell_("what is held is let go: " + scene.error().problem);
+    for (Held& held : held_) held.grasp.reset();
+  }
 }
 
 std::optional<Touch::Question> Touch::takeQuestion() {
   for (size_t h = 0; h < kHands; ++h) {
     Held& held = held_[h];
-    // A hand whose place nobody knows yet has no ray either.
-    if (held.use == Use::none || held.isAsked || rays_.empty()) continue;
+    if (held.use == Use::none || held.isAsked || !held.aim) continue;
     held.isAsked = true;
-    return Question{h, held.number, held.aim};
+    return Question{h, held.number, scale_, *held.aim};
   }
   return std::nullopt;
 }
@@ -76,7 +86,7 @@ void Touch::answer(const Question& question, const Frame& frame, size_t view) {
   const Image *const id = layerOf(frame, "id", view), *const depth = layerOf(frame, "depth", view);
   // It may hold something else by now.
   if (held.number != question.number || !id || !depth) return;
-  held.reach = std::min(depth->at(0, 0, 0), kFarthest);
+  held.reach = std::min(depth->at(0, 0, 0) / question.scale, kFarthest);
   const auto object = size_t(std::lround(id->at(0, 0, 0))), material = size_t(std::lround(id->at(0, 0, 1)));
   if (object == 0 || object > frame.objects.size() || material > frame.materials.size()) return;
   if (held.use == Use::thing) {
@@ -89,7 +99,6 @@ void Touch::answer(const Question& question, const Frame& frame, size_t view) {
 }
 
 void Touch::take(Held& held, const Place& place, const Look& look, const Grasp::Moment& moment) {
-  held.reach /= place.stand.scale;
   const auto tellWhy = [&](const Error& error) {
     tell_("'" + held.name + "' stays as it is: " + error.problem);
   };
@@ -100,7 +109,7 @@ void Touch::take(Held& held, const Place& place, const Look& look, const Grasp::
     else
       tellWhy(grasp.error());
   } else {
-    Result<Tint> tint = Tint::take(look, *held.material, place.time, held.aim);
+    Result<Tint> tint = Tint::take(look, *held.material, place.time, *held.aim);
     if (tint)
       held.tint = std::move(tint).value();
     else
@@ -109,16 +118,39 @@ void Touch::take(Held& held, const Place& place, const Look& look, const Grasp::
   held.object.reset(), held.material.reset();
 }
 
-void Touch::letGo(const Held& held, const std::vector<glm::mat4>& world) const {
-  if (held.grasp) tell_("moved: " + held.grasp->told(editor_, world));
-  if (held.tint && !held.tint->told().empty()) tell_("colours: " + held.tint->told());
+void Touch::letGo(const Held& held) const {
+  if (held.grasp)
+    if (const std::string told = held.grasp->told(editor_, world_); !told.empty()) changed_("moved: " + told);
+  if (held.tint)
+    if (const std::string told = held.tint->told(); !told.empty())
+      changed_("colours: --look '" + look_ + "' " + told);
+}
+
+// What one hand takes the other has no more.
+void Touch::letGoOfOthers(size_t hand) {
+  const std::optional<Grasp>& own = held_[hand].grasp;
+  for (size_t h = 0; h < kHands && own; ++h) {
+    std::optional<Grasp>& other = held_[h].grasp;
+    if (h != hand && other && other->concerns(editor_, *own)) {
+      letGo(held_[h]);
+      other.reset();
+    }
+  }
 }
 
 void Touch::letGoOfColours() {
   for (Held& held : held_) {
     if (held.use != Use::colours) continue;
-    letGo(held, {});
-    held.tint.reset(), held.material.reset();
+    letGo(held);
+    // Nothing more until it is pulled anew; an answer that is under way comes too late.
+    held = {Use::colours, ++count_, true};
+  }
+}
+
+void Touch::letGoOfAll() {
+  for (Held& held : held_) {
+    letGo(held);
+    held = {held.use, ++count_, true};
   }
 }
 

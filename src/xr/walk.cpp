@@ -35,7 +35,7 @@ void Walk::go(const Stand& stand, const Pose& head, const Steering& steering, fl
     place_ += aboutVertical(heading_) * glm::vec3(step.x, 0, step.y);
   }
   const int turn = turn_.go(steering.turn);
-  if (turn == 0) return;
+  if (turn == 0 || !steering.mayTurn) return;
   // The head stays where it is.
   const auto headPlace = [&] { return place_ + stand.scale * (aboutVertical(heading_) * head.place); };
   const glm::vec3 before = headPlace();

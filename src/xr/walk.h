@@ -11,6 +11,7 @@ namespace scumble::xr {
 struct Steering {
   glm::vec2 walk{0};
   float turn = 0;
+  bool mayTurn = true;  // else a push is over before it turns anything
 };
 
 constexpr float kWalkSpeed = 1.5f;   // metres of the room a second

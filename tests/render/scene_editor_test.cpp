@@ -8,6 +8,7 @@
 #include <random>
 
 #include "scene/scene_data.h"
+#include "tests/support/animated_scene.h"
 #include "tests/support/aov.h"
 #include "tests/support/render_test.h"
 
@@ -407,6 +408,35 @@ TEST_P(Edited, framesUnderWayKeepTheirScene) {
     ASSERT_TRUE(renderer().begin(scene, Look(), 0, seen, sized(kWidth, kHeight)).ok());
   for (size_t i = 0; i < scenes.size(); ++i)
     expectSame(must(renderer().finish()), expected[i], std::to_string(i));
+}
+
+// Meshes with joints hang anywhere, and go with what is above all their joints.
+TEST_P(Edited, carriersOfMeshes) {
+  AnimatedScene s;
+  const int grey = s.material(TestScene::colored("Grey", {0.5f, 0.5f, 0.5f, 1}));
+  const int boat = s.node({{"name", "boat"}}), hips = s.node({{"name", "hips"}}, boat),
+            left = s.node({{"name", "left"}}, hips), right = s.node({{"name", "right"}}, hips),
+            leftToe = s.node({{"name", "left toe"}}, left), rightToe = s.node({{"name", "right toe"}}, right),
+            alone = s.node({{"name", "alone"}});
+  const auto bound = [&](const char* name, const std::vector<int>& joints) {
+    s.node({{"name", name},
+            {"mesh", s.mesh(bendingBar(4), grey)},
+            {"skin", s.skin(joints, std::vector<glm::mat4>(joints.size(), glm::mat4(1.0f)))}});
+  };
+  bound("legs", {left, right, leftToe, rightToe});
+  bound("chain", {hips, left, leftToe, right});
+  bound("torn", {alone, left, right, leftToe});
+  s.node({{"name", "plain"}, {"mesh", s.mesh({sphereMesh({0, 0, 0}, 0.5f, 8)}, grey)}}, boat);
+  const SceneEditor editor(s.load());
+  const auto carrier = [&](const char* name) {
+    return editor.nameOf(editor.carrierOf(editor.findNode(name)));
+  };
+  EXPECT_EQ(carrier("legs"), "hips");
+  EXPECT_EQ(carrier("chain"), "hips");
+  EXPECT_EQ(carrier("torn"), "alone");
+  EXPECT_EQ(carrier("plain"), "plain");
+  EXPECT_EQ(carrier("boat"), "boat");
+  EXPECT_EQ(editor.carrierOf(NodeId(99)), NodeId::none);
 }
 
 // Motion from one scene to the next is that of a camera which goes the other way.

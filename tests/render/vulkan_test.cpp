@@ -503,7 +503,9 @@ TEST_F(Vulkan, motionThatIsNormalized) {
     VulkanTargets targets;
     for (size_t v = 0; v < eyes.size(); ++v) {
       VulkanTarget& motion = targets.images.emplace_back(target(motions, VK_FORMAT_R32G32B32A32_SFLOAT));
-      motion.aov = "motion", motion.isNormalized = true, motion.view = v, motion.layer = uint32_t(v);
+      motion.aov = "motion",
+      motion.motion = stereo == Stereo::mono ? MotionUnit::ndc : MotionUnit::ndcUpwards, motion.view = v,
+      motion.layer = uint32_t(v);
       VulkanTarget& depth = targets.images.emplace_back(target(depths, VK_FORMAT_D32_SFLOAT));
       depth.aov = "depth", depth.view = v, depth.layer = uint32_t(v);
     }
@@ -531,6 +533,7 @@ TEST_F(Vulkan, motionThatIsNormalized) {
           glm::vec4 moved;
           float depth;
           std::memcpy(&moved, &bytes[(y * kWidth + x) * 16], 16);
+          if (stereo == Stereo::stereo) moved.y = -moved.y;
           std::memcpy(&depth, &depthBytes[(y * kWidth + x) * 4], 4);
           const glm::vec2 ndc = (glm::vec2(x, y) + 0.5f) / glm::vec2(kWidth, kHeight) * 2.0f - 1.0f;
           glm::dvec4 before;
@@ -654,6 +657,7 @@ TEST_F(Vulkan, targetsThatDoNotFitAreRefused) {
   EXPECT_NE(refusal([](VulkanTarget& t) { t.aov = "shadow-map"; }).find("size of its own"),
             std::string::npos);
   EXPECT_NE(refusal([](VulkanTarget& t) { t.aov = "dept"; }).find("no AOV"), std::string::npos);
+  EXPECT_NE(refusal([](VulkanTarget& t) { t.motion = MotionUnit::ndc; }).find("motion"), std::string::npos);
   EXPECT_EQ(createRenderer(VulkanDevice()).error().kind, ErrorKind::usage);
 }
 

@@ -63,14 +63,14 @@ XrResult XRAPI_CALL enumerateInstanceExtensionProperties(const char*, uint32_t c
   if (r.script.value("depth", false)) names.emplace_back(XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME);
   if (r.offersRates()) names.emplace_back(XR_FB_DISPLAY_REFRESH_RATE_EXTENSION_NAME);
   if (r.hasInsets()) names.emplace_back(XR_VARJO_QUAD_VIEWS_EXTENSION_NAME);
-  if (r.synthesis() == "ext") names.emplace_back(kFrameSynthesisExtension);
-  if (r.synthesis() == "fb") names.emplace_back(XR_FB_SPACE_WARP_EXTENSION_NAME);
+  if (r.synthesis() == "ext" || r.synthesis() == "both") names.emplace_back(kFrameSynthesisExtension);
+  if (r.synthesis() == "fb" || r.synthesis() == "both") names.emplace_back(XR_FB_SPACE_WARP_EXTENSION_NAME);
   names.emplace_back(kUserPresenceExtension);
   std::vector<XrExtensionProperties> all;
   for (const std::string& name : names) {
     XrExtensionProperties& one = all.emplace_back(XrExtensionProperties{XR_TYPE_EXTENSION_PROPERTIES});
     std::strncpy(one.extensionName, name.c_str(), XR_MAX_EXTENSION_NAME_SIZE - 1);
-    one.extensionVersion = 1;
+    one.extensionVersion = name == XR_FB_SPACE_WARP_EXTENSION_NAME ? r.script.value("fbVersion", 2u) : 1;
   }
   for (uint32_t i = 0; i < capacity; ++i)
     NEED(out[i].type == XR_TYPE_EXTENSION_PROPERTIES, "an extension's structure has no type",

@@ -19,13 +19,13 @@
 //   period        seconds from frame to frame; default: by the refresh rate
 //   comesBack     after how many xrGetSystem a headset that was lost is there again
 //   hands         {"walk": [[x, y], ...], "turn": ..., "pause": [0, 1, ...], "look": ...} by frame; of each
-//                 hand "point left", "grab right" and the like, and "aim left": [[x, y, z, qx, qy, qz, qw],
-//                 ...]
+//                 hand "point left", "grab right", "aim left": [[x, y, z, qx, qy, qz, qw], ...]
 //   insets        {"size": ..., "angles": ...}: it has views of four, and likes them best
-//   (XR_VARJO_quad_views) synthesis     "ext" or "fb": makes frames by that extension; and motionSize, pixels
-//   of an eye's motion events        [{"frame": N, "event": ...}], as frame N is waited for: hide, show,
-//   blur, focus, stop, exit,
-//                 loseSession, loseInstance, recentre, redrawFloor, takeOff, putOn
+//   synthesis     "ext", "fb" or "both": it makes frames by those extensions
+//   fbVersion     of the latter's (2)
+//   motionSize    that it recommends for them, pixels
+//   events        [{"frame": N, "event": ...}], as frame N is waited for: hide, show, blur, focus,
+//                 stop, exit, loseSession, loseInstance, recentre, redrawFloor, takeOff, putOn
 //   mute          true: it is asked to end, and does not answer
 //   fail          {"xrCreateSession": -2, "xrLocateViews": [-2, 3]}: calls that give this result, always or
 //                 from the third on
@@ -33,8 +33,8 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <cstdlib>
+#include <cstring>
 #include <deque>
 #include <fstream>
 #include <map>

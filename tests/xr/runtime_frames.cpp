@@ -232,10 +232,12 @@ XrResult lookAtChain(const XrCompositionLayerProjectionView& view, const std::st
                            name + ".depth", eye);
     } else if (next->type == kTypeFrameSynthesisInfo && r.extensions.count(kFrameSynthesisExtension)) {
       const auto& info = *reinterpret_cast<const XrFrameSynthesisInfo*>(next);
-      NEED(info.motionVectorScale.x == 1 && info.motionVectorScale.y == 1 && info.motionVectorScale.z == 1 &&
-               info.motionVectorOffset.x == 0,
+      NEED(info.motionVectorScale.x == 1 && std::abs(info.motionVectorScale.y) == 1 &&
+               info.motionVectorScale.z == 1 && info.motionVectorOffset.x == 0 &&
+               info.motionVectorOffset.y == 0,
            "motion that is scaled", XR_ERROR_VALIDATION_FAILURE);
       result = lookAtMotion(info, name, eye);
+      if (result == XR_SUCCESS) eye["motion"]["up"] = info.motionVectorScale.y;
     } else if (next->type == XR_TYPE_COMPOSITION_LAYER_SPACE_WARP_INFO_FB &&
                r.extensions.count(XR_FB_SPACE_WARP_EXTENSION_NAME)) {
       result = lookAtMotion(*reinterpret_cast<const XrCompositionLayerSpaceWarpInfoFB*>(next), name, eye);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`scumble xr` against a runtime without a headset (runtime.cpp): what is shown, in which order it is asked for, and what goes wrong.
+"""`scumble xr` against a runtime without a headset (runtime.h): what is shown, in which order it is asked for, and what goes wrong.
 
     tests/xr/xr_test.py SCUMBLE DEMO_SCENE FOLDER [unittest's options]     FOLDER: a build's xr_test
 
@@ -372,8 +372,8 @@ class Xr(unittest.TestCase):
         self.assertEqual(done.returncode, DONE, done.stderr)
         report = self.report()
         self.assertEqual(report["mistakes"], [])
-        told = re.findall(r"^scumble: colours: (.*)$", done.stderr, re.M)
-        self.assertEqual(len(told), 1, done.stderr)
+        told = re.findall(r"^colours: (.*)$", done.stdout, re.M)
+        self.assertEqual(len(told), 1, done.stdout)
         words = shlex.split(told[0])
         self.assertIn("materials.Sail.lit.hue=40", words)
         self.assertIn("materials.Sail.shadowed.brightness=1.41", words)
@@ -407,31 +407,47 @@ class Xr(unittest.TestCase):
         hands = {"pause": [1], "grab left": [0] + [1] * 8 + [0], "aim left": [self.HAND] * 5 + [moved]}
         done = self.call(frames=12, hands=hands)
         self.assertEqual((done.returncode, self.report()["mistakes"]), (DONE, []), done.stderr)
-        told = re.search(r"^scumble: moved: 'Boat' at (\S+), (\S+), (\S+), turned by", done.stderr, re.M)
-        self.assertTrue(told, done.stderr)
+        told = re.search(r"^moved: 'Boat' at (\S+), (\S+), (\S+), turned by", done.stdout, re.M)
+        self.assertTrue(told, done.stdout)
         whole = self.picture(11)
         self.assertLess(alike(whole, self.picture(0), 2), 0.97)
         self.assertTrue(self.picture(11) == self.picture(8), "it does not stay where it was let go")
         self.assertGreater(alike(self.picture(4), self.picture(0)), 0.999, "it jumps as it is taken")
-        # As far as the hand.
-        self.call(frames=12, hands={**hands, "aim left": [self.HAND]})
-        still = re.search(r"'Boat' at (\S+), (\S+), (\S+),", self.call(frames=12, hands={**hands, "aim left": [self.HAND]}).stderr)
-        way = [float(a) - float(b) for a, b in zip(told.groups(), still.groups())]
-        for is_so, wanted in zip(way, (1.8 * self.RIGHT[0], 1, 1.8 * self.RIGHT[2])):
+        # As far as the hand; and nothing is told of what is where it was.
+        self.assertEqual(self.call(frames=12, hands={**hands, "aim left": [self.HAND]}).stdout, "")
+        back = [self.HAND] * 5 + [[1, -0.1, -0.2, 0, 0, 0, 1]]
+        less = re.search(r"'Boat' at (\S+), (\S+), (\S+),", self.call(frames=12, hands={**hands, "aim left": back}).stdout)
+        way = [float(a) - float(b) for a, b in zip(told.groups(), less.groups())]
+        for is_so, wanted in zip(way, (0.9 * self.RIGHT[0], 1, 0.9 * self.RIGHT[2])):
             self.assertAlmostEqual(is_so, wanted, delta=0.011)
         # A part of it, by a push of the stick of that hand, which walks nowhere meanwhile. Those that clips move stay.
-        done = self.call(frames=12, hands={**hands, "aim left": [self.HAND] * 7 + [moved], "walk": [[0, 0]] * 5 + [[0, -1], [0, 0]]})
+        later = {**hands, "aim left": [self.HAND] * 7 + [moved]}
+        done = self.call(frames=12, hands={**later, "walk": [[0, 0]] * 5 + [[0, -1], [0, 0]]})
         self.assertEqual((done.returncode, self.report()["mistakes"]), (DONE, []), done.stderr)
-        self.assertRegex(done.stderr, r"moved: '(Sails|Hull)' at")
+        self.assertRegex(done.stdout, r"moved: '(Sails|Hull)' at")
         part = self.picture(11)
         self.assertLess(alike(part, self.picture(0), 2), 0.99)
         self.assertLess(alike(part, whole, 2), 0.99)
-        # Nobody lifts what they stand on.
-        down = [0, 0, 0, -math.sin(0.35), 0, 0, math.cos(0.35)]
-        done = self.call(camera=["--camera", "Sailor"], frames=9, hands={"pause": [1], "grab left": [0] + [1] * 6 + [0], "aim left": [down]})
-        self.assertEqual((done.returncode, self.report()["mistakes"]), (DONE, []), done.stderr)
-        self.assertRegex(done.stderr, r"moved: '|stays as it is")
-        self.assertNotIn("moved: 'Boat'", done.stderr)
+        # A stick that was pushed before is none of that.
+        self.assertIn("moved: 'Boat'", self.call(frames=12, hands={**later, "walk": [[0, -1]]}, scale=1).stdout)
+        # What one hand takes the other has no more.
+        done = self.call(frames=14, hands={"pause": [1], "grab left": [0] + [1] * 12, "aim left": [self.HAND] * 6 + [moved], "grab right": [0] * 7 + [1] * 4 + [0], "aim right": [[0.1, -0.1, -0.2, 0, 0, 0, 1]] * 7 + [[1.9, 0.9, -0.2, 0, 0, 0, 1]]})
+        self.assertEqual(done.stdout.count("moved: 'Boat'"), 1, done.stdout)
+        self.assertEqual(self.report()["mistakes"], [])
+        # What is held at the end is told; also to who wants quiet.
+        self.assertIn("moved: 'Boat'", self.call("--quiet", frames=9, hands={**hands, "grab left": [0, 1]}).stdout)
+        # Who sits in it is a part of it, though the mesh, which has joints, hangs elsewhere.
+        aside, down = -0.285 / 2, -0.078 / 2
+        turn = [math.cos(aside) * math.sin(down), math.sin(aside) * math.cos(down), -math.sin(aside) * math.sin(down), math.cos(aside) * math.cos(down)]
+        at_sailor = {"pause": [1], "aim left": [[0, 0, 0, *turn]] * 6 + [[0, 1, 0, *turn]]}
+        self.assertRegex(self.call(frames=9, hands={**at_sailor, "point left": [0] + [1] * 7 + [0]}).stdout, r"materials\.(Skin|Coat|Cap|Beard)\.")
+        self.assertIn("moved: 'Boat'", self.call(frames=9, hands={**at_sailor, "grab left": [0] + [1] * 7 + [0]}).stdout)
+        # A hand of which nobody knows where it is takes nothing; nor does one at the sky take its stick away.
+        up = [0, 0, 0, math.sin(0.6), 0, 0, math.cos(0.6)]
+        done = self.call(frames=9, hands={"pause": [1], "grab left": [0, 1, 1, 1, 1, 1, 0], "aim left": [None] * 4 + [up], "grab right": [0, 1, 1, 1, 1, 0], "aim right": [up]})
+        self.assertEqual((done.returncode, done.stdout), (DONE, ""), done.stderr)
+        self.shown(frames=6, hands={"pause": [1]})
+        self.assertLess(alike((self.call(frames=30, hands={"pause": [1], "grab left": [1], "aim left": [up], "walk": [[0, 1]]}), self.picture(29))[1], self.picture(0), 2), 0.999)
 
     def test_hands_are_others_without_the_focus(self):
         self.shown(frames=6)
@@ -448,14 +464,17 @@ class Xr(unittest.TestCase):
         poses = [AHEAD, [0.05, 0.02, -0.1, 0, math.sin(turn / 2), 0, math.cos(turn / 2)]]
         self.shown(frames=4, poses=poses, hands={"pause": [1]})
         pictures = [self.picture(i, eye) for i in range(4) for eye in ("left", "right")]
-        for kind, layers in (("ext", True), ("fb", True), ("fb", False)):
+        for kind, layers in (("ext", True), ("both", True), ("fb", True), ("fb", False)):
             frames = self.shown("--synthesis", "on", frames=4, poses=poses, hands={"pause": [1]}, synthesis=kind, layers=layers)
             self.assertTrue(pictures == [self.picture(i, eye) for i in range(4) for eye in ("left", "right")], "marks lie elsewhere")
             for index, eye in enumerate(("left", "right")):
                 # The first one is like none before.
                 first = frames[0]["eyes"][index]
-                self.assertTrue("motion" not in first if kind == "ext" else first["motion"]["flags"] == 1)
-                self.assertEqual(frames[1]["eyes"][index]["motion"]["flags"], 0)
+                self.assertTrue("motion" not in first if kind != "fb" else first["motion"]["flags"] == 1)
+                self.assertEqual(frames[1]["eyes"][index]["motion"]["flags"], 0 if kind == "fb" else 2)
+                # Which way y goes.
+                up = -1 if kind == "fb" else 1
+                self.assertEqual(frames[1]["eyes"][index]["motion"].get("up"), {"ext": 1, "both": -1, "fb": None}[kind])
                 self.assertAlmostEqual(frames[1]["eyes"][index]["motion"]["farZ"], 0.05, 6)
                 self.assertEqual(frames[1]["eyes"][index]["motion"]["room"], [0, 0, 0, 0, 0, 0, 1])
                 width, height = 24, 16
@@ -463,12 +482,12 @@ class Xr(unittest.TestCase):
                 depth = struct.unpack(f"<{width * height}f", (self.record / f"frame-0001-{eye}.ppm.motion-depth").read_bytes())
                 self.assertGreater(sum(d == 0 for d in depth), 20)
                 self.assertGreater(sum(d > 0 for d in depth), 100)
-                across, up = math.tan(ACROSS), math.tan(UP)
+                across, high = math.tan(ACROSS), math.tan(UP)
                 aside = -0.032 if eye == "left" else 0.032
                 off = 0
                 for i, d in enumerate(depth):
                     x, y = ((i % width + 0.5) / width * 2 - 1), ((i // width + 0.5) / height * 2 - 1)
-                    ray = (x * across, -y * up, -1)
+                    ray = (x * across, -y * high, -1)
                     far = 0.05 / d if d > 0 else 1
                     # In the eye, in the head, in the room, and back to the eye before.
                     place = [c * far for c in ray]
@@ -478,8 +497,8 @@ class Xr(unittest.TestCase):
                     place = [c * place[0] + s * place[2], place[1], -s * place[0] + c * place[2]]
                     if d > 0:
                         place = [place[0] + 0.05 - aside, place[1] + 0.02, place[2] - 0.1]
-                    before = (place[0] / -place[2] / across, -place[1] / -place[2] / up, 0.05 / -place[2] if d > 0 else 0)
-                    wanted = (x - before[0], y - before[1], d - before[2])
+                    before = (place[0] / -place[2] / across, -place[1] / -place[2] / high, 0.05 / -place[2] if d > 0 else 0)
+                    wanted = (x - before[0], up * (y - before[1]), d - before[2])
                     off += any(abs(a - b) > 2e-3 for a, b in zip(motion[4 * i:4 * i + 3], wanted))
                 self.assertLessEqual(off, 4, eye)
                 # And nothing moves where nobody does.
@@ -489,6 +508,9 @@ class Xr(unittest.TestCase):
         frames = self.shown("--synthesis", "on", frames=5, synthesis="fb", hands={"walk": [[0, 0], [0, 0], [0, 1]], "turn": [[0, 0]] * 4 + [[1, 0]]})
         self.assertAlmostEqual(frames[3]["eyes"][0]["motion"]["room"][2], -1.5 / 72, 4)
         self.assertEqual([frame["eyes"][0]["motion"]["flags"] for frame in frames], [1, 0, 0, 0, 1])
+        # One that has no word for that gets none of it then.
+        frames = self.shown("--synthesis", "on", frames=2, synthesis="fb", fbVersion=1)
+        self.assertEqual(["motion" in frame["eyes"][0] for frame in frames], [False, True])
 
     def test_frames_are_made_between_where_there_is_no_time(self):
         words = ("--resolution", "auto", "--synthesis", "auto")
@@ -563,6 +585,17 @@ class Xr(unittest.TestCase):
             with self.subTest(words=words):
                 self.bad(USAGE, *words, says=says)
         self.bad(5, "-o", "/no/such/folder/a.mp4", says="/no/such/folder")
+        done = subprocess.run([scumble, "xr", demo_scene, "--frames", "0", "--ready", "0", "-o", str(self.folder / "none.mp4")], env=self.environment({}),
+                              capture_output=True, text=True, timeout=100)
+        self.assertEqual(done.returncode, 5, done.stderr)
+        self.assertIn("no frame was seen", done.stderr)
+        done = subprocess.run([scumble, "xr", demo_scene, "--frames", "-1"], env=self.environment({}), capture_output=True, text=True, timeout=100)
+        self.assertEqual(done.returncode, USAGE, done.stderr)
+        # What nobody saw is a second at most.
+        self.shown("-o", str(film), "--size", "64x64", "--fps", "10", frames=3, period=20)
+        counted = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=nb_read_frames", "-of", "csv=p=0", str(film)],
+                                 capture_output=True, text=True, check=True).stdout.strip()
+        self.assertEqual(counted, "21")
 
     def test_looks_are_made_ready(self):
         done = self.call("--ready", "600", "--look", "manga", frames=3, hands={"look": [0, 1, 1], "pause": [1]})
@@ -681,7 +714,7 @@ class Xr(unittest.TestCase):
 
     def test_words_that_make_no_sense(self):
         for words in (["--scale", "0"], ["--scale", "nan"], ["--rate", "-1"], ["--samples", "3"], ["--time", "1e9"], ["--eye", "1,2"],
-                      ["--fov", "40"], ["--frames", "-1"], ["--camera", "zzz"], ["--frame", "zzz"], ["--look", "no-such-look"]):
+                      ["--fov", "40"], ["--camera", "zzz"], ["--frame", "zzz"], ["--look", "no-such-look"]):
             with self.subTest(words=words):
                 done = self.call(*words)
                 self.assertEqual(done.returncode, USAGE, done.stderr)
