@@ -10,7 +10,7 @@ namespace scumble::xr {
 
 namespace {
 
-constexpr float kFlat = 1e-18f;  // cubic metres that a cubic metre becomes
+constexpr float kFlatSpace = 1e-18f;  // cubic metres that a cubic metre becomes
 
 glm::mat4 matrixOf(const Pose& pose) {
   glm::mat4 matrix = glm::mat4_cast(pose.turn);
@@ -64,7 +64,7 @@ Result<Grasp> Grasp::take(SceneEditor& editor, NodeId hit, int support, const Mo
     const bool isBeneath = std::find(carrying.begin(), carrying.end(), node) != carrying.end();
     if (isBeneath || (node != touched && grasp.path_.empty() && isEverything(editor, node))) continue;
     // In a space that is flat nothing can be placed.
-    if (!(std::abs(glm::determinant(glm::mat3(aboveOf(editor, node, moment.world)))) > kFlat)) continue;
+    if (!(std::abs(glm::determinant(glm::mat3(aboveOf(editor, node, moment.world)))) > kFlatSpace)) continue;
     // Nodes that a clip moves are the clip's; what goes along with one of those is a thing by itself.
     if (Status status = editor.setTransform(node, editor.transformOf(node)); !status) {
       why = status.error();
@@ -122,7 +122,7 @@ std::string Grasp::told(const SceneEditor& editor, const std::vector<glm::mat4>&
   text += numbers;
   // What is flat has no turn.
   const glm::vec3 x(world[0]), y(world[1]), z(world[2]);
-  if (!(std::abs(glm::dot(glm::cross(x, y), z)) > kFlat)) return text;
+  if (!(std::abs(glm::dot(glm::cross(x, y), z)) > kFlatSpace)) return text;
   const glm::vec3 degrees = glm::degrees(
       glm::eulerAngles(glm::quat_cast(glm::mat3(glm::normalize(x), glm::normalize(y), glm::normalize(z)))));
   std::snprintf(numbers, sizeof numbers, ", turned by %.0f, %.0f, %.0f degrees", rounded(degrees.x),
