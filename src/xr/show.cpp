@@ -29,6 +29,7 @@ constexpr auto kEndPatience = std::chrono::seconds(5);  // for a runtime that is
 // What decides where marks lie is of the eyes alone: others look on.
 constexpr int kEyesRig = 0, kInsetsRig = 1, kMotionRig = 2, kSpectatorRig = 3, kPointerRig = 4;
 constexpr float kCutTurn = 0.2f, kCutStep = 1;  // radians and metres from frame to frame: nobody goes so fast
+constexpr float kPointerAngle = 1e-3f;          // radians, to all sides of where a hand points
 constexpr size_t kUnderWay = 2;  // frames that the device may have at once: it need not wait for the CPU
 
 std::string told(const glm::uvec2& size) {
@@ -64,14 +65,9 @@ class Show {
 
  private:
   using Watch = std::chrono::steady_clock;
-  struct FramesEnd {
+  struct SessionEnd {
     Show& show;
-    ~FramesEnd() { show.discard(); }
-  };
-
-  struct HandsEnd {
-    Show& show;
-    ~HandsEnd() { show.letGo(); }
+    ~SessionEnd() { show.letGo(), show.discard(); }
   };
 
   bool isEnding() const {
@@ -108,8 +104,7 @@ class Show {
       Session session(instance_, vulkanDeviceOf(*renderer_),
                       {options_.isStanding, options_.refreshRate, options_.hasVignette,
                        options_.synthesis != FrameSynthesis::off});
-      const FramesEnd end{*this};  // before its images go
-      const HandsEnd open{*this};
+      const SessionEnd end{*this};  // before its images go
       if (!lostSince_) {
         tell(instance_.headset() + " on " + instance_.runtime() + ": twice " + told(session.sizes().front()) +
              (session.sizes().size() > 1 ? ", and " + told(session.sizes().back()) + " in their middles"
@@ -267,6 +262,34 @@ class Show {
     return views;
   }
 
+  // Who looks on, of a frame that is seen, or not: by a head that is steadied in the camera's own room, so
+  // that they are at once where the camera goes.
+  View spectatorView(const Camera& camera, const Stand& stand, const Moment& moment, bool isSeen) {
+    const Spectator& spectator = *options_.spectator;
+    const glm::vec2 size(spectator.size);
+    const float up = 0.5f * glm::radians(spectator.verticalFov),
+                across = std::atan(std::tan(up) * size.x / size.y);
+    const Pose head = inRoom(camera.stand, inScene(stand, between(moment.eyes[0].pose, moment.eyes[1].pose)));
+    const Pose steady = isSeen ? follower_.go(head, float(clock_.sinceLast())) : head;
+    return viewFrom(camera, camera.stand, {steady, {-across, across, up, -up}}, kSpectatorRig,
+                    spectator.size);
+  }
+
+  // Motion is since the frame before, where there is one.
+  SynthesisMoment goOnFromBefore(const Stand& stand, const std::vector<View>& views,
+                                 RenderOptions& options) const {
+    SynthesisMoment moment{Pose(), true, kNearPlane};
+    options.previousViews = views;
+    if (!before_) return moment;
+    std::copy(before_->views.begin(), before_->views.end(), options.previousViews.begin());
+    options.previousTime = before_->time;
+    options.previousScene = before_->scene;
+    moment.room = seenFrom(before_->stand, stand);
+    const float turned = 2 * std::acos(std::min(std::abs(moment.room.turn.w), 1.0f));
+    moment.isCut = turned > kCutTurn || glm::length(moment.room.place) > kCutStep;
+    return moment;
+  }
+
   // Sends a frame. `locate`: where the eyes are by now, asked at the last moment; what is shown is told with
   // the eyes that it was drawn from. `question`: what it is asked beside.
   Status begin(Session& session, const Result<Camera>& camera, Moment& moment,
@@ -290,8 +313,6 @@ class Show {
 
     // Eyes; the same for what moves; who looks on; and where a hand points.
     const bool synthesizes = isSynthesizing_ && session.motionSize() != glm::uvec2(0);
-    VulkanTargets targets;
-    Under under;
     const auto eyesNow = [&](std::vector<View>& views) {
       const std::vector<View> eyes = viewsOf(*camera, stand, moment);
       std::copy(eyes.begin(), eyes.end(), views.begin());
@@ -300,42 +321,23 @@ class Show {
     };
     std::vector<View> views(moment.eyes.size() + (synthesizes ? kEyes : 0));
     eyesNow(views);
+    VulkanTargets targets;
+    Under under;
     if (options_.spectator) {
-      const float up = std::atan(std::tan(0.5f * glm::radians(options_.spectator->verticalFov)));
-      const glm::vec2 size(options_.spectator->size);
-      const float across = std::atan(std::tan(up) * size.x / size.y);
-      const Pose head = inScene(stand, between(moment.eyes[0].pose, moment.eyes[1].pose));
-      // Where the camera goes it goes at once: it is the head that is steadied.
-      const Pose own = inRoom(camera->stand, head);
-      const Pose steady = locate ? follower_.go(own, float(clock_.sinceLast())) : own;
       under.spectator = views.size();
-      views.push_back(viewFrom(*camera, camera->stand, {steady, {-across, across, up, -up}}, kSpectatorRig,
-                               options_.spectator->size));
+      views.push_back(spectatorView(*camera, stand, moment, locate != nullptr));
       targets.readbacks.push_back({views.size() - 1, ""});
     }
     if (question) {
-      constexpr float kAngle = 1e-3f;  // radians, to all sides
       under.question = question, under.pointer = views.size();
-      views.push_back(
-          viewFrom(*camera, stand, {question->aim, {-kAngle, kAngle, kAngle, -kAngle}}, kPointerRig, {1, 1}));
+      const Eye along{question->aim, {-kPointerAngle, kPointerAngle, kPointerAngle, -kPointerAngle}};
+      views.push_back(viewFrom(*camera, stand, along, kPointerRig, {1, 1}));
       for (const char* const aov : {"id", "depth"}) targets.readbacks.push_back({views.size() - 1, aov});
     }
-
     RenderOptions options = renderOptions(moment);
     options.formats[""] = PixelFormat::srgb8;
     synthesis_.reset();
-    if (synthesizes) {
-      synthesis_ = SynthesisMoment{Pose(), true, kNearPlane};
-      options.previousViews = views;
-      if (before_) {
-        std::copy(before_->views.begin(), before_->views.end(), options.previousViews.begin());
-        options.previousTime = before_->time;
-        options.previousScene = before_->scene;
-        synthesis_->room = seenFrom(before_->stand, stand);
-        synthesis_->isCut = std::abs(stand.heading - before_->stand.heading) > kCutTurn ||
-                            glm::length(synthesis_->room.place) > kCutStep;
-      }
-    }
+    if (synthesizes) synthesis_ = goOnFromBefore(stand, views, options);
     // Nothing is thrown through the renderer.
     std::exception_ptr failure;
     options.latch = [&](std::vector<View>& latched) {
@@ -399,7 +401,7 @@ class Show {
   }
 
   // Of frames under way nobody wants anything any more.
-  void discard() {
+  void discard() noexcept {
     for (; !under_.empty(); under_.pop_front()) (void)renderer_->finish();
   }
 

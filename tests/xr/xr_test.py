@@ -157,6 +157,22 @@ class Xr(unittest.TestCase):
             self.assertGreater(alike(self.picture(2, eye), wanted), 0.999, eye)
         self.assertLess(alike(self.picture(0), self.picture(2)), 0.999, "nothing moves")
 
+    def test_khronos_validation_finds_nothing(self):
+        if not Path("/usr/share/openxr/1/api_layers/explicit.d/XrApiLayer_core_validation.x86_64-linux-gnu.json").exists():
+            self.skipTest("openxr-layer-corevalidation is not installed")
+        held = {"point left": [0, 1], "aim left": [self.HAND], "grab right": [0, 1], "aim right": [self.HAND], "walk": [[0, 1]], "turn": [[0, 0], [1, 0]]}
+        for script in ({"depth": True, "refreshRates": [72, 90], "events": [{"frame": 3, "event": "stop"}]}, {"synthesis": "fb"},
+                       {"depth": True, "insets": {"size": list(SIZE)}}, {"layers": False}):
+            with self.subTest(script=script):
+                words = self.folder / "words.txt"
+                environment = {**self.environment({"hands": held, **script}), "XR_ENABLE_API_LAYERS": "XR_APILAYER_LUNARG_core_validation",
+                               "XR_CORE_VALIDATION_EXPORT_TYPE": "text", "XR_CORE_VALIDATION_FILE_NAME": str(words)}
+                done = subprocess.run([scumble, "xr", demo_scene, *CAMERA, "--samples", "1", "--ready", "0", "--synthesis", "on", "--frames", "6"], env=environment,
+                                      capture_output=True, text=True, timeout=100)
+                self.assertEqual(done.returncode, DONE, done.stderr)
+                self.assertIn("Core Validation", done.stdout + done.stderr, "the layer was not there")
+                self.assertEqual(words.read_text() if words.exists() else "", "")
+
     def test_the_same_script_gives_the_same_bytes(self):
         poses = [[0.01 * i, 0.02 * i, 0, 0, math.sin(0.05 * i), 0, math.cos(0.05 * i)] for i in range(3)]
         self.shown(frames=3, poses=poses)
