@@ -114,9 +114,9 @@ struct VulkanReadback {
 // Everything that one frame is drawn into. Targets in one image have the same format, extent and layouts.
 struct VulkanTargets {
   std::vector<VulkanTarget> images;
-  std::vector<VulkanReadback> readbacks;
   // Before anything of the frame runs, and when all of it has.
   std::vector<VkSemaphoreSubmitInfo> waits, signals;
+  std::vector<VulkanReadback> readbacks;
 };
 
 // Renderer::begin(), but that the frame goes into images instead of back to the CPU; RenderOptions::aovs are
