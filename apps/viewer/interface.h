@@ -16,6 +16,14 @@
 
 namespace scumble::viewer {
 
+// ImGui's context, as long as a window; it writes no file.
+struct InterfaceContext {
+  InterfaceContext() { ImGui::CreateContext(), ImGui::GetIO().IniFilename = nullptr; }
+  ~InterfaceContext() { ImGui::DestroyContext(); }
+  InterfaceContext(const InterfaceContext&) = delete;
+  InterfaceContext& operator=(const InterfaceContext&) = delete;
+};
+
 // A part of the interface that stays where it is.
 constexpr ImGuiWindowFlags kFixedWindow = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                           ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |

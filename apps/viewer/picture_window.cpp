@@ -11,28 +11,13 @@
 
 namespace scumble::viewer {
 
-namespace {
-
-// For as long as the window is there.
-struct Letters {
-  Letters() { ImGui::CreateContext(), ImGui::GetIO().IniFilename = nullptr; }
-  ~Letters() { ImGui::DestroyContext(); }
-  Letters(const Letters&) = delete;
-  Letters& operator=(const Letters&) = delete;
-};
-
-}  // namespace
-
 Result<std::unique_ptr<PictureWindow>> PictureWindow::open(const std::string& title, const glm::uvec2& size,
                                                            const RendererOptions& options) {
   std::unique_ptr<PictureWindow> made(new PictureWindow);
   Result<std::unique_ptr<Window>> window = Window::open(title, size.x, size.y);
   if (!window) return window.error();
   made->window_ = std::move(window).value();
-  VulkanWishes wishes;
-  wishes.instanceExtensions = Window::instanceExtensions();
-  wishes.deviceExtensions = {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
-  Result<std::unique_ptr<Renderer>> renderer = createRenderer(wishes, options);
+  Result<std::unique_ptr<Renderer>> renderer = createRenderer(Window::vulkanWishes(), options);
   if (!renderer) return renderer.error();
   made->renderer_ = std::move(renderer).value();
   return made;
@@ -70,7 +55,7 @@ Status PictureWindow::run() {
 
 Status PictureWindow::draw() {
   const VulkanDevice device = vulkanDeviceOf(*renderer_);
-  const Letters letters;
+  const InterfaceContext context;
   Screen screen(device, window_->makeSurface(device.instance));
   InterfacePass pass(device, screen.format());
   // What is drawn stays until a frame later than the last that draws it.

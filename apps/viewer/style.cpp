@@ -38,7 +38,6 @@ ImVec4 grey(float level, float alpha = 1) {
 
 void setStyle(float scale) {
   ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;
   io.Fonts->Clear();
   const std::string file = letterFile();
   // Letters, and what names of files need in Europe.

@@ -45,12 +45,6 @@ double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// ImGui's context, as long as the window.
-struct Context {
-  Context() { ImGui::CreateContext(); }
-  ~Context() { ImGui::DestroyContext(); }
-};
-
 // What is there as long as the device is.
 struct Drawing {
   Drawing(const ViewerOptions& options, const Window& window, std::unique_ptr<Renderer> renderer)
@@ -797,12 +791,9 @@ class Viewer : Hands::Doer {
 };
 
 Result<std::unique_ptr<Renderer>> rendererFor(const ViewerOptions& options, const std::string& shaderFolder) {
-  VulkanWishes wishes;
-  wishes.instanceExtensions = Window::instanceExtensions();
-  wishes.deviceExtensions = {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
   RendererOptions renderer = options.renderer;
   renderer.shaderFolder = shaderFolder;
-  return createRenderer(wishes, renderer);
+  return createRenderer(Window::vulkanWishes(), renderer);
 }
 
 }  // namespace
@@ -821,7 +812,7 @@ Status runViewer(const ViewerOptions& options) {
   }
   Result<std::unique_ptr<Renderer>> renderer = rendererFor(options, shaderFolder);
   if (!renderer) return renderer.error();
-  const Context context;
+  const InterfaceContext context;
   Viewer viewer(options, **window);
   viewer.setShaders(std::move(shaders));
 

@@ -79,10 +79,13 @@ Window::~Window() {
   glfwTerminate();
 }
 
-std::vector<std::string> Window::instanceExtensions() {
+VulkanWishes Window::vulkanWishes() {
   uint32_t count = 0;
   const char** const names = glfwGetRequiredInstanceExtensions(&count);
-  return {names, names + count};
+  VulkanWishes wishes;
+  wishes.instanceExtensions = {names, names + count};
+  wishes.deviceExtensions = {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
+  return wishes;
 }
 
 VkSurfaceKHR Window::makeSurface(VkInstance instance) const {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "scumble/result.h"
+#include "scumble/vulkan.h"
 
 struct GLFWwindow;
 
@@ -54,7 +55,8 @@ class Window {
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
 
-  static std::vector<std::string> instanceExtensions();
+  // Of a device that shows what it draws in windows.
+  static VulkanWishes vulkanWishes();
   // Throws VulkanFailure.
   VkSurfaceKHR makeSurface(VkInstance instance) const;
 

@@ -57,7 +57,6 @@ void Deliver::create(FrameBuilder& frame) {
   }
   // How motion is counted is the frame's affair.
   if (key_.isDeviceMotion()) desc.sets = {frame.frameLayout().handle()};
-  setNumber_ = uint32_t(desc.sets.size());
   desc.sets.push_back(layout_.handle());
   desc.pushConstantBytes = 12;
   pipeline_ = gpu::Pipeline(frame.device(), desc);
@@ -90,7 +89,7 @@ void Deliver::record(VkCommandBuffer commands) const {
   vkCmdSetScissor(commands, 0, 1, &rectangle);
   pipeline_.bind(commands);
   if (key_.isDeviceMotion()) pipeline_.bindSet(commands, 0, frame_->frameSet());
-  pipeline_.bindSet(commands, setNumber_, set_[0]);
+  pipeline_.bindSet(commands, key_.isDeviceMotion() ? 1 : 0, set_[0]);
   pipeline_.push(commands, {key_.view, uint32_t(key_.x), uint32_t(key_.y)});
   vkCmdDraw(commands, 3, 1, 0, 0);
   vkCmdEndRendering(commands);

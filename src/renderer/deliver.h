@@ -48,7 +48,6 @@ class Deliver {
   const gpu::GraphResources* resources_ = nullptr;
   gpu::SetLayout layout_;
   gpu::DescriptorSets set_;
-  uint32_t setNumber_ = 0;
   gpu::Pipeline pipeline_;
 };
 

@@ -1,6 +1,7 @@
 // What both eyes are drawn into: an array of two layers, or, where the runtime has none, two images.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,5 +32,13 @@ class EyeImages {
   bool isDepth_;
   std::vector<std::unique_ptr<Swapchain>> chains_;
 };
+
+// What runtimes are told of our depths, by any of the structures that have these members: reversed, so that 0
+// is endlessly far away, and nearZ, which is where minDepth lies, is the farther one. Metres of the room.
+template <class Info>
+void tellDepths(Info& info, float nearPlane) {
+  info.minDepth = 0, info.nearZ = std::numeric_limits<float>::infinity();
+  info.maxDepth = 1, info.farZ = nearPlane;
+}
 
 }  // namespace scumble::xr

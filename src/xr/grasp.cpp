@@ -12,12 +12,6 @@ namespace {
 
 constexpr float kFlatSpace = 1e-18f;  // cubic metres that a cubic metre becomes
 
-glm::mat4 matrixOf(const Pose& pose) {
-  glm::mat4 matrix = glm::mat4_cast(pose.turn);
-  matrix[3] = glm::vec4(pose.place, 1);
-  return matrix;
-}
-
 // From the world down to it.
 std::vector<NodeId> pathTo(const SceneEditor& editor, NodeId node) {
   std::vector<NodeId> path;

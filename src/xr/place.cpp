@@ -21,6 +21,12 @@ XrPosef xrOf(const Pose& pose) {
   return {{pose.turn.x, pose.turn.y, pose.turn.z, pose.turn.w}, {pose.place.x, pose.place.y, pose.place.z}};
 }
 
+glm::mat4 matrixOf(const Pose& pose) {
+  glm::mat4 matrix = glm::mat4_cast(pose.turn);
+  matrix[3] = glm::vec4(pose.place, 1);
+  return matrix;
+}
+
 Pose between(const Pose& a, const Pose& b) {
   return {glm::normalize(glm::slerp(a.turn, b.turn, 0.5f)), 0.5f * (a.place + b.place)};
 }
@@ -61,11 +67,8 @@ bool canBeSeenFrom(const Pose& eye, const XrFovf& angles) {
 }
 
 View viewOf(const Stand& stand, const Pose& eye, const XrFovf& angles, float nearPlane) {
-  const Pose seen = inScene(stand, eye);
-  glm::mat4 toWorld = glm::mat4_cast(seen.turn);
-  toWorld[3] = glm::vec4(seen.place, 1);
   View view;
-  view.worldToEye = glm::inverse(toWorld);
+  view.worldToEye = glm::inverse(matrixOf(inScene(stand, eye)));
   view.eyeToClip = projectionOf(angles, nearPlane);
   return view;
 }

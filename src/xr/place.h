@@ -15,6 +15,7 @@ struct Pose {
 };
 Pose poseOf(const XrPosef& pose);
 XrPosef xrOf(const Pose& pose);
+glm::mat4 matrixOf(const Pose& pose);  // from its own space to that which it is in
 
 // Half way: a head, of its eyes.
 Pose between(const Pose& a, const Pose& b);

@@ -5,7 +5,6 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "xr/place.h"
-#include "xr/upload.h"
 
 namespace scumble::xr {
 
@@ -32,14 +31,7 @@ Texels discOf(VkFormat format) {
 }  // namespace
 
 Pointer::Pointer(const Instance& instance, XrSession session, const VulkanDevice& device, VkFormat format)
-    : picture_(instance.call(), session,
-               {format,
-                XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT | XR_SWAPCHAIN_USAGE_SAMPLED_BIT |
-                    XR_SWAPCHAIN_USAGE_TRANSFER_DST_BIT,
-                kDiscSide, kDiscSide}) {
-  upload(device, picture_.acquire(), {kDiscSide, kDiscSide}, discOf(format).bytes());
-  picture_.release();
-}
+    : picture_(instance.call(), session, device, discOf(format)) {}
 
 void Pointer::addLayers(const Ray& ray, const glm::vec3& head, XrSpace space,
                         std::vector<XrCompositionLayerQuad>& layers) const {
@@ -54,7 +46,7 @@ void Pointer::addLayers(const Ray& ray, const glm::vec3& head, XrSpace space,
         XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT | XR_COMPOSITION_LAYER_UNPREMULTIPLIED_ALPHA_BIT;
     quad.space = space;
     quad.eyeVisibility = XR_EYE_VISIBILITY_BOTH;
-    quad.subImage = picture_.part(kDiscSide, kDiscSide);
+    quad.subImage = picture_.whole();
     quad.pose = xrOf({glm::quat_cast(glm::mat3(x, y, glm::cross(x, y))), place});
     quad.size = {size.x, size.y};
     layers.push_back(quad);

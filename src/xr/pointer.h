@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "xr/instance.h"
-#include "xr/swapchain.h"
+#include "xr/upload.h"
 
 namespace scumble::xr {
 
@@ -24,7 +24,7 @@ class Pointer {
                  std::vector<XrCompositionLayerQuad>& layers) const;
 
  private:
-  Swapchain picture_;
+  StillPicture picture_;
 };
 
 }  // namespace scumble::xr

@@ -317,9 +317,7 @@ void Session::end(const Moment& moment, const std::optional<DrawnEyes>& drawn) {
       if (pair.depths) {
         depths[v] = {XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR};
         depths[v].subImage = pair.depths->part(eye, size);
-        // Reversed: 0 is endlessly far away, and so nearZ, which is where minDepth lies, is the farther one.
-        depths[v].minDepth = 0, depths[v].nearZ = std::numeric_limits<float>::infinity();
-        depths[v].maxDepth = 1, depths[v].farZ = drawn->nearPlane;
+        tellDepths(depths[v], drawn->nearPlane);
         views[v].next = &depths[v];
       }
       if (drawn->synthesis && synthesis_)

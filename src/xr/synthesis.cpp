@@ -1,7 +1,6 @@
 #include "xr/synthesis.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "xr/failure.h"
 
@@ -23,9 +22,7 @@ void fill(Info& info, const EyeImages& motion, const EyeImages& depth, size_t ey
   info.motionVectorSubImage = motion.part(eye, motion.size());
   info.depthSubImage = depth.part(eye, depth.size());
   info.appSpaceDeltaPose = xrOf(moment.room);
-  // Reversed, as in Session::end().
-  info.minDepth = 0, info.nearZ = std::numeric_limits<float>::infinity();
-  info.maxDepth = 1, info.farZ = moment.nearPlane;
+  tellDepths(info, moment.nearPlane);
 }
 
 }  // namespace

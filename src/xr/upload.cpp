@@ -86,18 +86,7 @@ void toLayout(VkCommandBuffer commands, VkImage image, VkImageLayout before, VkI
   vkCmdPipelineBarrier2(commands, &info);
 }
 
-}  // namespace
-
-void Texels::set(uint32_t x, uint32_t y, const glm::vec4& rgba) {
-  uint8_t* const texel = &bytes_[4 * channelBytes_ * (size_t(y) * side_ + x)];
-  for (int channel = 0; channel < 4; ++channel) {
-    const float value = rgba[isBgra_ && channel < 3 ? 2 - channel : channel];
-    const uint16_t code = channelBytes_ == 2 ? glm::packHalf1x16(value)
-                                             : uint16_t(std::lround(255 * std::clamp(value, 0.0f, 1.0f)));
-    std::memcpy(texel + size_t(channel) * channelBytes_, &code, channelBytes_);
-  }
-}
-
+// Leaves the image, which has one layer, as runtimes want it back.
 void upload(const VulkanDevice& device, VkImage image, VkExtent2D extent, const std::vector<uint8_t>& bytes) {
   const Upload with(device, bytes);
   const VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
@@ -117,6 +106,30 @@ void upload(const VulkanDevice& device, VkImage image, VkExtent2D extent, const 
   const std::lock_guard lock(*device.queueLock);
   mustBe(vkQueueSubmit2(device.queue, 1, &submit, VK_NULL_HANDLE));
   mustBe(vkQueueWaitIdle(device.queue));
+}
+
+}  // namespace
+
+void Texels::set(uint32_t x, uint32_t y, const glm::vec4& rgba) {
+  uint8_t* const texel = &bytes_[4 * channelBytes_ * (size_t(y) * side_ + x)];
+  for (int channel = 0; channel < 4; ++channel) {
+    const float value = rgba[isBgra_ && channel < 3 ? 2 - channel : channel];
+    const uint16_t code = channelBytes_ == 2 ? glm::packHalf1x16(value)
+                                             : uint16_t(std::lround(255 * std::clamp(value, 0.0f, 1.0f)));
+    std::memcpy(texel + size_t(channel) * channelBytes_, &code, channelBytes_);
+  }
+}
+
+StillPicture::StillPicture(const Functions& call, XrSession session, const VulkanDevice& device,
+                           const Texels& texels)
+    : side_(texels.side()),
+      swapchain_(call, session,
+                 {texels.format(),
+                  XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT | XR_SWAPCHAIN_USAGE_SAMPLED_BIT |
+                      XR_SWAPCHAIN_USAGE_TRANSFER_DST_BIT,
+                  side_, side_}) {
+  upload(device, swapchain_.acquire(), {side_, side_}, texels.bytes());
+  swapchain_.release();
 }
 
 }  // namespace scumble::xr

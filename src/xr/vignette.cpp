@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "xr/failure.h"
-#include "xr/upload.h"
 
 namespace scumble::xr {
 
@@ -37,14 +36,7 @@ float darknessAt(float tangent, float strength) {
 }
 
 Vignette::Vignette(const Instance& instance, XrSession session, const VulkanDevice& device, VkFormat format)
-    : call_(instance.call()),
-      picture_(call_, session,
-               {format,
-                XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT | XR_SWAPCHAIN_USAGE_SAMPLED_BIT |
-                    XR_SWAPCHAIN_USAGE_TRANSFER_DST_BIT,
-                kSide, kSide}) {
-  upload(device, picture_.acquire(), {kSide, kSide}, pictureOf(format).bytes());
-  picture_.release();
+    : call_(instance.call()), picture_(call_, session, device, pictureOf(format)) {
   const XrReferenceSpaceCreateInfo space{
       XR_TYPE_REFERENCE_SPACE_CREATE_INFO, nullptr, XR_REFERENCE_SPACE_TYPE_VIEW, {{0, 0, 0, 1}, {0, 0, 0}}};
   must(call_.CreateReferenceSpace(session, &space, &head_), "xrCreateReferenceSpace");
@@ -60,7 +52,7 @@ std::optional<XrCompositionLayerQuad> Vignette::layer(float strength) const {
   quad.layerFlags = XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT;
   quad.space = head_;
   quad.eyeVisibility = XR_EYE_VISIBILITY_BOTH;
-  quad.subImage = picture_.part(kSide, kSide);
+  quad.subImage = picture_.whole();
   quad.pose = {{0, 0, 0, 1}, {0, 0, -1}};
   const float side = 2 * kReach * openingAt(strength);
   quad.size = {side, side};

@@ -7,7 +7,7 @@
 
 #include "scumble/vulkan.h"
 #include "xr/instance.h"
-#include "xr/swapchain.h"
+#include "xr/upload.h"
 
 namespace scumble::xr {
 
@@ -28,7 +28,7 @@ class Vignette {
 
  private:
   const Functions& call_;
-  Swapchain picture_;
+  StillPicture picture_;
   XrSpace head_ = XR_NULL_HANDLE;
 };
 
