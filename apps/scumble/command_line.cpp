@@ -19,12 +19,16 @@ bool isOption(const std::string& word) {
 // The command that was given, or the program.
 const CLI::App& commandOf(const CLI::App& program) {
   const std::vector<CLI::App*> given = program.get_subcommands();
-  return given.empty() ? program : *given.front();
+  return given.empty() ? program : commandOf(*given.front());
+}
+
+// "scumble farm slurm".
+std::string callOf(const CLI::App& command) {
+  return command.get_parent() ? callOf(*command.get_parent()) + " " + command.get_name() : "scumble";
 }
 
 std::string helpOf(const CLI::App& command) {
-  const CLI::App* parent = command.get_parent();
-  return "`scumble " + (parent ? command.get_name() + " " : std::string()) + "--help` shows what there is";
+  return "`" + callOf(command) + " --help` shows what there is";
 }
 
 // The option that the parser's message is about, or null.
@@ -62,15 +66,17 @@ Error unexpected(const CLI::App& command, const std::string& word) {
       for (const std::string& each : option->get_lnames()) known.push_back("--" + each);
     return usage("there is no option '" + name + "'", suggestion(name, known, helpOf(command)));
   }
-  if (command.get_parent()) return usage("'" + word + "' is one argument too many", helpOf(command));
+  if (command.get_parent() && command.get_subcommands(nullptr).empty())
+    return usage("'" + word + "' is one argument too many", helpOf(command));
   std::vector<std::string> known;
   for (const CLI::App* each : command.get_subcommands(nullptr)) known.push_back(each->get_name());
   std::error_code ignored;
   const bool isScene =
       word.ends_with(".glb") || word.ends_with(".gltf") || std::filesystem::is_regular_file(word, ignored);
-  return usage("there is no command '" + word + "'",
-               isScene ? "did you mean `scumble render " + word + "`?"
-                       : suggestion(word, known, "`scumble --help` lists them"));
+  const std::string before = command.get_parent() ? command.get_name() + " " : "";
+  return usage("there is no command '" + before + word + "'",
+               isScene && before.empty() ? "did you mean `scumble render " + word + "`?"
+                                         : suggestion(word, known, helpOf(command)));
 }
 
 }  // namespace
@@ -85,11 +91,13 @@ std::vector<std::string> wordsOf(int argc, char** argv) {
 
 void refuseSlips(CLI::App& program) {
   const CLI::Validator given([](const std::string& value) { return value.empty() ? "it is empty" : ""; }, "");
-  for (CLI::App* command : program.get_subcommands(nullptr))
+  for (CLI::App* command : program.get_subcommands(nullptr)) {
+    refuseSlips(*command);
     for (CLI::Option* option : command->get_options()) {
       if (option->get_expected_max() == 0) option->disable_flag_override();
       if (option->get_expected_max() > 0 && !option->get_positional()) option->check(given);
     }
+  }
 }
 
 Error wrongWords(const CLI::App& program, const CLI::ParseError& error) {
@@ -107,7 +115,7 @@ Error wrongWords(const CLI::App& program, const CLI::ParseError& error) {
   const std::string name = option->get_name();
   const std::vector<std::string>& values = option->results();
   if (dynamic_cast<const CLI::RequiredError*>(&error))
-    return usage(name + " is missing", "write `scumble " + command.get_name() + " " + name + "`");
+    return usage(name + " is missing", "write `" + callOf(command) + " " + name + "`");
   if (dynamic_cast<const CLI::ConversionError*>(&error) && !values.empty())
     return usage("'" + values.back() + "' is no " + kindOf(*option), "give " + name + " another");
   if (option->get_expected_max() == 0)

@@ -6,6 +6,8 @@
 namespace scumble::app {
 
 void addRender(CLI::App& program, int& exitCode);
+void addFilm(CLI::App& program, int& exitCode);
+void addFarm(CLI::App& program, int& exitCode);
 void addView(CLI::App& program, int& exitCode);
 void addXr(CLI::App& program, int& exitCode);
 void addBench(CLI::App& program, int& exitCode);

@@ -41,6 +41,8 @@ int run(int argc, char** argv) {
     program.add_flag("--version", version, "Name the build and the device");
     int exitCode = app::kDone;
     app::addRender(program, exitCode);
+    app::addFilm(program, exitCode);
+    app::addFarm(program, exitCode);
     app::addView(program, exitCode);
     app::addXr(program, exitCode);
     app::addDescriptions(program, exitCode);

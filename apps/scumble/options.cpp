@@ -204,7 +204,8 @@ void PictureArguments::addTo(CLI::App& command) {
       "--fov", fov,
       "Vertical field of view, degrees (default: the look's camera.fov, the scene's camera's, else 34)");
   command.add_option("--size", size, "Width and height in pixels")->type_name("WxH")->capture_default_str();
-  command.add_option("--device", device, "A GPU by name or number, or cpu (`scumble devices` lists them)");
+  command.add_option("--device", device,
+                     "A GPU by name or number, cpu, or gpu for any other (`scumble devices` lists them)");
   addQualityTo(command);
 }
 

@@ -72,6 +72,16 @@ std::string OutputPlan::framePath(std::optional<int> number) const {
   return number ? numbered(path, *number) : path;
 }
 
+std::string rangesOf(const std::vector<int>& numbers) {
+  std::string text;
+  for (size_t first = 0, next = 0; first < numbers.size(); first = next) {
+    for (next = first + 1; next < numbers.size() && numbers[next] == numbers[next - 1] + 1;) ++next;
+    text += (text.empty() ? "" : ", ") + std::to_string(numbers[first]);
+    if (next - first > 1) text += ".." + std::to_string(numbers[next - 1]);
+  }
+  return text;
+}
+
 bool OutputPlan::isFileOfItsOwn(const std::string& aov) const {
   return kind() != OutputKind::exr || Renderer::hasSizeOfItsOwn(aov);
 }

@@ -16,6 +16,8 @@ namespace scumble::app {
 
 // A path with #### replaced by the number, zero-padded; without them, as it is.
 std::string numbered(const std::string& path, int number);
+// "3..5, 9": whole numbers that grow, as ranges.
+std::string rangesOf(const std::vector<int>& numbers);
 
 struct OutputPlan {
   std::string path;  // as given, or made from the scene's name

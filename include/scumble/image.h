@@ -84,6 +84,12 @@ SCUMBLE_API Result<Image> readPng(const std::string& path);
 // ErrorKind::unusableFile.
 SCUMBLE_API Result<Image> readPicture(const std::string& path);
 
+// The picture of an EXR: channels R, G, B and, where there is one, A, as linear floats; a colour, straight
+// again, since files hold it multiplied by its alpha. `view`: "left", "right", or empty for the default one;
+// a file without views has one picture for both. The picture is the file's data window. Fails with
+// ErrorKind::unusableFile, also for a view that a file with views lacks.
+SCUMBLE_API Result<Image> readExr(const std::string& path, const std::string& view = "");
+
 // Float, compressed without loss. Colours (Image::isColor) are multiplied by their alpha, as OpenEXR and
 // compositors have it; a colour of which nothing is there is black. Everything else is as given. Channels are
 // named LAYER.CHANNEL. In stereo (layers with views) the standard multiView attribute lists the views, "left"

@@ -48,7 +48,8 @@ SCUMBLE_API Result<std::vector<GpuInfo>> listGpus(const std::string& choice = ""
 enum class ImagePassKind { automatic, fragment, compute };
 
 struct RendererOptions {
-  std::string device;       // part of a name, a number of listGpus(), "cpu", or empty: the best one
+  std::string
+      device;  // part of a name, a number of listGpus(), "cpu", "gpu" (any other), or empty: the best one
   bool validation = false;  // Vulkan validation layers; messages go to `log` and are counted
   std::string cacheFolder;  // compiled pipelines are kept here between runs; empty: nowhere
   ImagePassKind imagePasses = ImagePassKind::automatic;  // how image passes run; automatic measures nothing,

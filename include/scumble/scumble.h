@@ -192,7 +192,7 @@ typedef void (*scumble_log)(void* user, int32_t level, const char* text);
 
 /* Start from scumble_renderer_options_default. */
 typedef struct scumble_renderer_options {
-  const char* device;       /* part of a name, a number, "cpu", or null: the best one */
+  const char* device;       /* part of a name, a number, "cpu", "gpu" (any other), or null: the best */
   const char* cache_folder; /* where compiled pipelines are kept; null: nowhere */
   int32_t validation;       /* Vulkan's validation layers watch */
   scumble_log log;          /* null: their messages go to stderr, and others nowhere */

@@ -63,6 +63,24 @@ bool isWholeWebp(const std::string& path, std::ifstream& file, uint32_t width, u
   return sizeOf(file) == uint64_t(told) + 8 && hasSize(path, width, height);
 }
 
+// The table of its rows stands in front, and is there before they are: that the outermost ones can be read is
+// what tells that the file's end is there.
+bool isWholeExr(const std::string& path, uint32_t width, uint32_t height) {
+  Imf::InputFile exr(path.c_str());
+  const auto window = exr.header().dataWindow();
+  if (!exr.isComplete() || !fits(width, uint32_t(window.max.x - window.min.x + 1)) ||
+      !fits(height, uint32_t(window.max.y - window.min.y + 1)))
+    return false;
+  // Of tiles the order is free, and nothing here writes them.
+  if (exr.header().hasTileDescription()) return true;
+  for (const int row : {window.min.y, window.max.y}) {
+    const char* data = nullptr;
+    int size = 0;
+    exr.rawPixelData(row, data, size);  // throws at the file's end
+  }
+  return true;
+}
+
 }  // namespace
 
 bool isWholePicture(const std::string& path, uint32_t width, uint32_t height) {
@@ -73,10 +91,7 @@ bool isWholePicture(const std::string& path, uint32_t width, uint32_t height) {
     if (!file.read(reinterpret_cast<char*>(start.data()), start.size())) return false;
     if (std::memcmp(start.data(), kExrStart, sizeof(kExrStart)) == 0) {
       file.close();
-      const Imf::InputFile exr(path.c_str());
-      const auto window = exr.header().dataWindow();
-      return exr.isComplete() && fits(width, uint32_t(window.max.x - window.min.x + 1)) &&
-             fits(height, uint32_t(window.max.y - window.min.y + 1));
+      return isWholeExr(path, width, height);
     }
     if (startsAs(start, "\xff\xd8\xff")) return isWholeJpeg(path, file, width, height);
     if (startsAs(start, "RIFF")) return isWholeWebp(path, file, width, height);

@@ -254,10 +254,11 @@ Result<size_t> chooseDevice(const std::vector<DeviceInfo>& devices, const std::s
     const bool wanted = choice.empty()    ? true
                         : isNumber        ? size_t(std::stoi(choice)) == i
                         : choice == "cpu" ? device.isCpu
+                        : choice == "gpu" ? !device.isCpu
                                           : containsIgnoringCase(device.name, choice);
     if (!wanted) continue;
     if (!device.unusableBecause.empty()) {
-      if (!choice.empty())
+      if (!choice.empty() && choice != "gpu")
         return fail("the device '" + device.name + "' cannot be used: " + device.unusableBecause);
       continue;
     }
@@ -265,8 +266,9 @@ Result<size_t> chooseDevice(const std::vector<DeviceInfo>& devices, const std::s
     if (!best || rank(device) > rank(devices[*best])) best = i;
   }
   if (best) return *best;
-  return fail(choice.empty() ? "no usable Vulkan 1.3 device was found"
-                             : "no device is called '" + choice + "'");
+  return fail(choice.empty()    ? "no usable Vulkan 1.3 device was found"
+              : choice == "gpu" ? "no usable Vulkan 1.3 device but this machine's processor was found"
+                                : "no device is called '" + choice + "'");
 }
 
 void Device::describePhysical() {

@@ -26,7 +26,8 @@ struct VulkanWishes;
 namespace gpu {
 
 struct DeviceOptions {
-  std::string choice;  // part of a name, a number in the order of listDevices(), "cpu", or empty: the best
+  std::string choice;  // part of a name, a number in the order of listDevices(), "cpu", "gpu" (any other), or
+                       // empty: the best
   bool validation = false;  // core and synchronisation validation; noUsableGpu where the layer is absent
   std::string cacheFolder;  // where compiled pipelines and what the probe found are kept; empty: nowhere
   // What somebody wants of the device besides; a device without the extensions is no usable GPU. May be null.

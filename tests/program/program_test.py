@@ -28,7 +28,7 @@ from png import read_png as png  # noqa: E402
 SMALL = ["--size", "160x90", "--samples", "1", "--validate"]
 TINY = ["--size", "32x18", "--samples", "1", "--validate"]
 DONE, OUR_FAULT, USAGE, UNUSABLE, NO_GPU, NOT_WRITTEN = range(6)
-COMMANDS = ["render", "view", "xr", "info", "looks", "params", "schema", "devices", "bench", "measure", "paint", "bake"]
+COMMANDS = ["render", "film", "farm", "view", "xr", "info", "looks", "params", "schema", "devices", "bench", "measure", "paint", "bake"]
 scumble = demo_scene = None
 shared = None  # a folder for what several tests read
 
@@ -187,7 +187,7 @@ class Commands(Program):
         text = self.good("render", "--help")
         for option in ("-o", "--look", "--set", "--camera", "--orbit", "--eye", "--target", "--roll", "--fov", "--size",
                        "--samples", "--time", "--frames", "--fps", "--stereo", "--ipd", "--aov", "--background", "--device",
-                       "--seed", "--stats", "--graph", "--quiet", "--resume", "--allow-outside", "--clip", "--quality", "--svg", "--panorama"):
+                       "--seed", "--stats", "--graph", "--quiet", "--resume", "--missing", "--allow-outside", "--clip", "--quality", "--svg", "--panorama"):
             self.assertRegex(text, rf"(^|[\s,]){option}\b", option)
         for default in ("1280x720", "0.063", "24"):
             self.assertIn(default, text)

@@ -1,0 +1,35 @@
+// The files that a call reads, in one archive, in which they lie to each other and to the folder of the call
+// as they do here: so that the same call, made inside of what is unpacked, reads the same.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scumble/result.h"
+
+namespace scumble::app {
+
+class PackedInputs {
+ public:
+  explicit PackedInputs(const std::vector<std::string>& files);
+
+  // The folder in it where the call is made, and an input as it is called there.
+  std::string inside() const { return inside_; }
+  std::string fromInside(const std::string& file) const;
+
+  // Each once, below the folder that holds all of them, in order.
+  const std::vector<std::string>& files() const { return files_; }
+  uint64_t bytes() const;
+
+  // Packs them, by the program tar; the same files give the same bytes, and the archive's name says which.
+  // Gives the name. Fails with outputNotWritten.
+  Result<std::string> pack(const std::string& folder) const;
+
+ private:
+  std::filesystem::path here_, root_;
+  std::string inside_;
+  std::vector<std::string> files_;
+};
+
+}  // namespace scumble::app
