@@ -56,7 +56,7 @@ int nameMissing(const RenderPlan& plan) {
                "draw them with --resume in place of --missing"});
 }
 
-Status writeStats(const RenderPlan& plan, const Renderer& renderer, nlohmann::json times,
+Status writeStats(const RenderPlan& plan, const Renderer& renderer, const nlohmann::json& times,
                   nlohmann::json frames) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
