@@ -180,8 +180,7 @@ Result<std::vector<std::vector<std::string>>> filmCalls(const FarmArguments& arg
       fps << plan.args.fps;
       call.push_back("--fps=" + fps.str());
     }
-    if (plan.output.layout && from.size() == 1)
-      call.push_back(std::string("--stereo=") + plan.output.layout->name);
+    if (plan.output.layout) call.push_back(std::string("--stereo=") + plan.output.layout->name);
     if (plan.args.kind) call.push_back(std::string("--panorama=") + plan.args.kind->name);
     call.push_back("--output=" + to[i]);
     call.push_back(from[i]);
@@ -195,9 +194,16 @@ Status checkWords(const FarmArguments& args, const SlurmJob& job) {
     if (!option.starts_with("-") || option.find('\n') != std::string::npos)
       return usage("--sbatch '" + option + "' is no option of sbatch",
                    "write it like --sbatch=--partition=gpu");
-  // A line of a script holds it.
-  if (job.folder.find('\n') != std::string::npos)
-    return usage("the folder's name has several lines", "give another one with --folder");
+  // A line of a script holds it, in which Slurm takes a backslash for an order.
+  if (job.folder.find_first_of("\n\\") != std::string::npos)
+    return usage("the folder '" + job.folder + "' has a backslash or several lines in its name",
+                 "give another one with --folder");
+  // Tasks run in a folder of the node.
+  if (!args.stage.empty() && !args.stage.starts_with('/'))
+    return usage("--stage " + args.stage + " is no absolute path", "write it like /scratch");
+  if (args.program.find('/') != std::string::npos && !args.program.starts_with('/'))
+    return usage("--program " + args.program + " is no absolute path",
+                 "write it like /opt/scumble/bin/scumble");
   if (args.gpu != "auto" && args.gpu != "yes" && args.gpu != "no")
     return usage("--gpu " + args.gpu + " is unknown", "use auto, yes or no");
   if (args.atOnce && *args.atOnce < 1)
@@ -229,7 +235,8 @@ int run(const FarmArguments& args) {
     return failUsage("'" + plan->output.path + "' is not a sequence of frames, which are what is handed out",
                      "name it like shot.####.exr, and give --film shot.mp4 for a film of them");
   const std::string output = fs::absolute(plan->output.path).lexically_normal().string();
-  PackedInputs inputs(plan->inputs());
+  const Result<PackedInputs> inputs = PackedInputs::of(plan->inputs());
+  if (!inputs) return fail(inputs.error());
   SlurmJob job;
   job.name = nameOf(output);
   job.folder =
@@ -241,7 +248,7 @@ int run(const FarmArguments& args) {
   std::error_code ignored;
   job.program = args.program.empty() ? fs::canonical("/proc/self/exe", ignored).string() : args.program;
   job.inputs = "inputs.SUM.tar";
-  job.inside = inputs.inside();
+  job.inside = inputs->inside();
   job.stage = args.stage;
   job.first = plan->numbers.front(), job.last = plan->numbers.back();
   job.atOnce = args.atOnce;
@@ -249,7 +256,7 @@ int run(const FarmArguments& args) {
   Result<std::vector<std::vector<std::string>>> films = filmCalls(args, *plan, output);
   if (!films) return fail(films.error());
   job.films = std::move(films).value();
-  job.call = callOf(args, *plan, inputs, output);
+  job.call = callOf(args, *plan, *inputs, output);
 
   const std::optional<Cluster> found = clusterHere();
   const Cluster cluster = found.value_or(Cluster());
@@ -261,21 +268,24 @@ int run(const FarmArguments& args) {
   job.wantsGpu = args.gpu == "yes" || (args.gpu == "auto" && cluster.hasGpus);
   // Without it a node whose GPU does not work would draw on its processor, and a little differently.
   if (job.wantsGpu && !args.render.isGiven("--device")) job.call.insert(job.call.begin() + 1, "--device=gpu");
-  const Result<int> chunk = chunkFor(args, *plan, cluster);
+  // Where frames will be drawn by GPUs, a processor's time says nothing.
+  RenderPlan timed = *plan;
+  if (job.wantsGpu && timed.args.picture.device.empty()) timed.args.picture.device = "gpu";
+  const Result<int> chunk = chunkFor(args, timed, cluster);
   if (!chunk) return fail(chunk.error());
   job.chunk = *chunk;
 
   std::printf("frames: %d (%d..%d), %d a task; tasks: %d; files that are read: %zu, %.1f MB\n", job.frames(),
-              job.first, job.last, job.chunk, job.tasks(), inputs.files().size(),
-              double(inputs.bytes()) / 1e6);
+              job.first, job.last, job.chunk, job.tasks(), inputs->files().size(),
+              double(inputs->bytes()) / 1e6);
   if (args.dryRun) {
-    for (const std::string& file : inputs.files()) std::printf("  %s\n", file.c_str());
+    for (const std::string& file : inputs->files()) std::printf("  %s\n", file.c_str());
     std::printf("\n== %s/render.sbatch\n%s\n== %s/finish.sbatch\n%s\n== %s/submit\n%s", job.folder.c_str(),
                 job.renderScript().c_str(), job.folder.c_str(), job.finishScript().c_str(),
                 job.folder.c_str(), job.submitScript().c_str());
     return kDone;
   }
-  if (const Status status = write(job, inputs); !status) return fail(status.error());
+  if (const Status status = write(job, *inputs); !status) return fail(status.error());
   const std::vector<std::string> submit{"bash", job.folder + "/submit"};
   if (!args.submit) {
     std::printf("to submit them: %s\n", shellWords(submit).c_str());

@@ -33,7 +33,8 @@ struct FilmArguments {
 std::vector<int> numbersThere(const std::string& pattern) {
   const fs::path path(pattern);
   const std::string name = path.filename().string();
-  const std::string before = name.substr(0, name.find('#')), after = name.substr(name.rfind('#') + 1);
+  const auto [begin, end] = numberIn(name);
+  const std::string before = name.substr(0, begin), after = name.substr(end);
   std::optional<int> first, last;
   std::error_code ignored;
   for (const fs::directory_entry& entry :
@@ -87,13 +88,13 @@ Status checkAllThere(const FilmArguments& args, const std::vector<int>& numbers)
                args.pictures,
                0,
                "",
-               std::to_string(missing.size()) + " of " + std::to_string(numbers.size()) +
-                   " pictures are not there, whole: " + rangesOf(missing),
+               "of " + std::to_string(numbers.size()) + " pictures, " + std::to_string(missing.size()) +
+                   (missing.size() == 1 ? " is" : " are") + " not there, whole: " + rangesOf(missing),
                "draw them with `scumble render --resume`, or give --frames"};
 }
 
 int run(const FilmArguments& args) {
-  if (args.pictures.find('#') == std::string::npos)
+  if (numberIn(args.pictures).first == args.pictures.size())
     return failUsage("'" + args.pictures + "' names no sequence", "name it like shot.####.png");
   const Result<const OutputFormat*> from = formatOf(args.pictures), to = formatOf(args.output);
   if (!from) return fail(from.error());
@@ -109,9 +110,6 @@ int run(const FilmArguments& args) {
   const Result<const StereoLayout*> layout =
       stereoLayoutOf(args.stereo.empty() && *kind ? (*kind)->stereo : args.stereo);
   if (!layout) return fail(layout.error());
-  if (*layout && (*layout)->isSeparate)
-    return failUsage("separate eyes are films of their own",
-                     "make one of name.####.left.png, and one of .right");
   if (!args.frames.empty() && !parseFrames(args.frames))
     return failUsage("--frames " + args.frames + " is no range", "write it like 0..23");
   OutputFiles files({});
@@ -132,11 +130,12 @@ int run(const FilmArguments& args) {
   options.format = (*to)->film;
   options.fps = args.fps;
   options.quality = args.quality;
-  if (*layout) options.layout = (*layout)->film;
+  const StereoLayout* const both = *layout && !(*layout)->isSeparate ? *layout : nullptr;
+  if (both) options.layout = both->film;
   if (*kind) options.projection = (*kind)->projection;
   std::unique_ptr<FilmWriter> film;
   Progress progress(int(numbers.size()), args.quiet);
-  const Pictures pictures(args, *layout);
+  const Pictures pictures(args, both);
   // The next ones are read while one is encoded.
   const size_t ahead = std::clamp(std::thread::hardware_concurrency(), 1u, kMostAhead);
   std::deque<std::future<Result<Image>>> next;
@@ -146,7 +145,12 @@ int run(const FilmArguments& args) {
           std::async(std::launch::async, [&, number = numbers[begun]] { return pictures.read(number); }));
     const Result<Image> picture = next.front().get();
     next.pop_front();
-    if (!picture) return fail(picture.error());
+    if (!picture) {
+      // Whole by its ends, and damaged between them.
+      Error damaged = picture.error();
+      damaged.advice = "delete it, and draw it again with `scumble render --resume`";
+      return fail(damaged);
+    }
     if (!film) {
       options.width = picture->width, options.height = picture->height;
       Result<std::unique_ptr<FilmWriter>> created = FilmWriter::create(args.output, options);
@@ -187,7 +191,9 @@ void addFilm(CLI::App& program, int& exitCode) {
   command->add_option("--quality", args->quality,
                       "Constant quality, lower is better: MP4 0 to 51 (16), WebM 0 to 63 (20)");
   command->add_option("--stereo", args->stereo,
-                      "How two eyes lie in them, for players; of .exr with two views, how they are laid: " +
+                      "How two eyes lie in them, for players; of .exr with two views, how they are laid; "
+                      "separate: they are one "
+                      "eye's: " +
                           stereoLayoutNames());
   command
       ->add_option("--panorama", args->panorama,

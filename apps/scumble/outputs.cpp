@@ -58,11 +58,15 @@ Result<OutputPlan> OutputPlan::make(const std::string& given, const std::string&
   return plan;
 }
 
+std::pair<size_t, size_t> numberIn(const std::string& path) {
+  const size_t name = path.rfind('/') == std::string::npos ? 0 : path.rfind('/') + 1;
+  const size_t first = std::min(path.find('#', name), path.size());
+  return {first, std::min(path.find_first_not_of('#', first), path.size())};
+}
+
 std::string numbered(const std::string& path, int number) {
-  const size_t first = path.find('#');
-  if (first == std::string::npos) return path;
-  size_t last = first;
-  while (last < path.size() && path[last] == '#') ++last;
+  const auto [first, last] = numberIn(path);
+  if (first == last) return path;
   std::string digits = std::to_string(std::abs(number));
   if (digits.size() < last - first) digits.insert(0, last - first - digits.size(), '0');
   return path.substr(0, first) + (number < 0 ? "-" : "") + digits + path.substr(last);

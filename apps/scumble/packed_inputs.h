@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -12,14 +13,15 @@ namespace scumble::app {
 
 class PackedInputs {
  public:
-  explicit PackedInputs(const std::vector<std::string>& files);
+  // Fails with usage where two of them would lie in one place, which links and ".." can bring about.
+  static Result<PackedInputs> of(const std::vector<std::string>& files);
 
   // The folder in it where the call is made, and an input as it is called there.
   std::string inside() const { return inside_; }
   std::string fromInside(const std::string& file) const;
 
-  // Each once, below the folder that holds all of them, in order.
-  const std::vector<std::string>& files() const { return files_; }
+  // Their places, each once, in order.
+  std::vector<std::string> files() const;
   uint64_t bytes() const;
 
   // Packs them, by the program tar; the same files give the same bytes, and the archive's name says which.
@@ -27,9 +29,10 @@ class PackedInputs {
   Result<std::string> pack(const std::string& folder) const;
 
  private:
-  std::filesystem::path here_, root_;
+  PackedInputs() = default;
+  std::filesystem::path here_;
   std::string inside_;
-  std::vector<std::string> files_;
+  std::map<std::string, std::filesystem::path> files_;  // by their places in the archive
 };
 
 }  // namespace scumble::app

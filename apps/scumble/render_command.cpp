@@ -52,18 +52,18 @@ int nameMissing(const RenderPlan& plan) {
   return fail({ErrorKind::unusableFile, plan.output.path, 0, "",
                plan.isPicture ? "it is not there, whole"
                               : std::to_string(plan.numbers.size()) +
-                                    " frames are not there, whole: " + rangesOf(plan.numbers),
+                                    (plan.numbers.size() == 1 ? " frame is" : " frames are") +
+                                    " not there, whole: " + rangesOf(plan.numbers),
                "draw them with --resume in place of --missing"});
 }
 
-Status writeStats(const RenderPlan& plan, const Renderer& renderer, const nlohmann::json& times,
+// `renderer`: null where nothing was drawn.
+Status writeStats(const RenderPlan& plan, const Renderer* renderer, const nlohmann::json& times,
                   nlohmann::json frames) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   const SceneTimings& import = plan.scene.timings();
-  nlohmann::json report{{"device", renderer.gpu().name},
-                        {"driver", renderer.gpu().driver},
-                        {"size", {plan.options.width, plan.options.height}},
+  nlohmann::json report{{"size", {plan.options.width, plan.options.height}},
                         {"samples", plan.options.samples},
                         {"views", plan.output.viewCount()},
                         {"import",
@@ -74,6 +74,7 @@ Status writeStats(const RenderPlan& plan, const Renderer& renderer, const nlohma
                         {"peakResidentBytes", uint64_t(usage.ru_maxrss) * 1024},
                         {"frames", std::move(frames)}};
   report.update(times);
+  if (renderer) report["device"] = renderer->gpu().name, report["driver"] = renderer->gpu().driver;
   return writeText(plan.args.stats, textOf(report));
 }
 
@@ -89,8 +90,14 @@ int run(const RenderArguments& args) {
   if (!plan) return fail(plan.error());
   if (args.missing) return nameMissing(*plan);
   lap("sceneMilliseconds");
-  const Result<std::unique_ptr<Renderer>> renderer = rendererFor(*plan);
-  if (!renderer) return fail(renderer.error());
+  const std::vector<double> times = plan->times();
+  std::unique_ptr<Renderer> renderer;
+  // What is there already needs no device.
+  if (!times.empty()) {
+    Result<std::unique_ptr<Renderer>> created = rendererFor(*plan);
+    if (!created) return fail(created.error());
+    renderer = std::move(created).value();
+  }
   lap("deviceMilliseconds");
 
   // Draw, and write beside it: pictures on several threads, a film in order.
@@ -101,7 +108,6 @@ int run(const RenderArguments& args) {
     if (!created) return fail(created.error());
     film = std::move(created).value();
   }
-  const std::vector<double> times = plan->times();
   Progress progress(int(times.size()), args.quiet);
   const int writers = film ? 1 : int(std::clamp(std::thread::hardware_concurrency() / 2, 1u, kMostWriters));
   FrameWriter writer(
@@ -112,7 +118,7 @@ int run(const RenderArguments& args) {
       },
       [&](int number) { progress.done("frame " + std::to_string(number)); });
   nlohmann::json frames = nlohmann::json::array();
-  Status status = drawFrames(*plan, **renderer, times, progress, [&](size_t i, Frame frame) {
+  Status status = drawFrames(*plan, *renderer, times, progress, [&](size_t i, Frame frame) {
     for (const Drawing& drawing : frame.drawings)
       if (drawing.leftOut > 0)
         warn({std::to_string(drawing.leftOut) + " lines are left out of the drawing: there are too many"});
@@ -126,7 +132,7 @@ int run(const RenderArguments& args) {
   const double rendering = millisecondsSince(lapStart);
 
   if (!args.stats.empty())
-    if (const Status written = writeStats(*plan, **renderer,
+    if (const Status written = writeStats(*plan, renderer.get(),
                                           {{"steps", steps},
                                            {"renderMilliseconds", rendering},
                                            {"writeMilliseconds", writer.milliseconds()},
@@ -134,8 +140,8 @@ int run(const RenderArguments& args) {
                                           std::move(frames));
         !written)
       return fail(written.error());
-  if (!args.graph.empty())
-    if (const Status written = writeText(args.graph, (*renderer)->graph()); !written)
+  if (!args.graph.empty() && renderer)
+    if (const Status written = writeText(args.graph, renderer->graph()); !written)
       return fail(written.error());
   return kDone;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 
 #include "programs.h"
@@ -52,21 +53,22 @@ program={}
 inputs={}
 inside={}
 
-# What is read, once on each node. Copies that nobody has used for a week are deleted.
+# What is read, once on each node.
 stage={}/scumble-$UID
 (umask 077 && mkdir -p -- "$stage")
 [ -O "$stage" ] || {{ echo "$stage belongs to somebody else; give another place with --stage" >&2; exit 5; }}
-find "$stage" -mindepth 1 -maxdepth 1 -name 'inputs.*' -mtime +7 -exec rm -rf -- {{}} +
 here=$stage/${{inputs%.tar}}
-exec 9>"$here.lock"
+exec 9>"$stage/lock"
 flock 9
+# Copies of others that nobody has used for a week.
+find "$stage" -mindepth 1 -maxdepth 1 -name 'inputs.*' ! -name "${{inputs%.tar}}" -mtime +7 -exec rm -rf -- {{}} + || true
 if [ ! -d "$here" ]; then
   rm -rf -- "$here.part"
   mkdir -- "$here.part"
   tar -xf "$folder/$inputs" -C "$here.part"
   mv -- "$here.part" "$here"
 fi
-touch -- "$here" "$here.lock"
+touch -- "$here"
 exec 9>&-
 mkdir -p -- "$here/$inside"
 cd -- "$here/$inside"
@@ -77,8 +79,15 @@ export XDG_CACHE_HOME=$stage/cache
                      stage.empty() ? "${TMPDIR:-/tmp}" : shellWord(stage));
 }
 
+// Who asks for a kind of GPU by an option of their own has asked.
+bool SlurmJob::asksForGpu() const {
+  return wantsGpu && std::none_of(options.begin(), options.end(), [](const std::string& option) {
+           return option.starts_with("--gres") || option.starts_with("--gpus");
+         });
+}
+
 std::string SlurmJob::renderScript() const {
-  return head("", "%a") + (wantsGpu ? "#SBATCH --gres=gpu:1\n" : "") +
+  return head("", "%A.%a") + (asksForGpu() ? "#SBATCH --gres=gpu:1\n" : "") +
          fmt::format("#SBATCH --array=0-{}{}\n", tasks() - 1, atOnce ? "%" + std::to_string(*atOnce) : "") +
          staging() +
          fmt::format(R"bash(
@@ -102,9 +111,10 @@ exit "$code"
 }
 
 std::string SlurmJob::finishScript() const {
-  std::string text = head("-finish", "finish") + staging() +
+  std::string text = head("-finish", "%j.finish") + staging() +
                      fmt::format(R"bash(
-devices=$(cat "$folder/stats/$1"/*.json 2>/dev/null | sed -n 's/^ *"device": "\(.*\)",*$/\1/p' | sort | uniq -c)
+# A task that was killed has left no report, and one that found nothing to draw names no device.
+devices=$({{ cat "$folder/stats/$1"/*.json 2>/dev/null || true; }} | sed -n 's/^ *"device": "\(.*\)",*$/\1/p' | sort | uniq -c)
 [ -z "$devices" ] || printf 'tasks, and what drew them:\n%s\n' "$devices"
 [ "$(grep -c . <<<"$devices")" -lt 2 ] || echo "warning: devices round differently; draw a film with one kind" >&2
 "$program" {} --frames={}..{} --missing --quiet

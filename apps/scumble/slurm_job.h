@@ -38,6 +38,7 @@ struct SlurmJob {
  private:
   std::string head(const std::string& what, const std::string& log) const;
   std::string staging() const;
+  bool asksForGpu() const;
 };
 
 }  // namespace scumble::app

@@ -46,9 +46,7 @@ function compileJob(job) {
     }
     job.addTask(check);
     if (settings.film) {
-        const film = task("film", "ffmpeg", settings, [
-            ["film", "--frames=" + ranges[0], "--fps=" + settings.fps, "--output=" + settings.film, settings.output],
-        ]);
+        const film = task("film", "ffmpeg", settings, filmCalls(settings, ranges[0]));
         film.addDependency(check);
         job.addTask(film);
     }
@@ -68,12 +66,44 @@ function renderWords(settings, range, how) {
     return words.concat(["--frames=" + range, "--fps=" + settings.fps, "--output=" + settings.output, how, settings.scene]);
 }
 
-// Flamenco's "3-10,12" as scumble's "3..10" and "12..12".
-function rangesOf(chunk) {
-    return chunk.split(",").map(function (range) {
-        const ends = range.trim().split("-");
-        return ends[0] + ".." + ends[ends.length - 1];
+// What players have to know of the frames is among their options; each of separate eyes has a film.
+function filmCalls(settings, range) {
+    const options = wordsOf(settings.options || "");
+    const words = ["film", "--frames=" + range, "--fps=" + settings.fps];
+    for (const name of ["--stereo", "--panorama"])
+        if (valueOf(options, name)) words.push(name + "=" + valueOf(options, name));
+    const eyes = valueOf(options, "--stereo") === "separate" ? [".left", ".right"] : [""];
+    return eyes.map(function (eye) {
+        return words.concat(["--output=" + withPart(settings.film, eye), withPart(settings.output, eye)]);
     });
+}
+
+// Of "--name value" or "--name=value".
+function valueOf(words, name) {
+    for (let i = 0; i < words.length; ++i) {
+        if (words[i] === name) return words[i + 1];
+        if (words[i].startsWith(name + "=")) return words[i].substring(name.length + 1);
+    }
+    return "";
+}
+
+// "dir/name.png" with ".left" is "dir/name.left.png".
+function withPart(file, part) {
+    const dot = file.lastIndexOf(".");
+    return file.substring(0, dot) + part + file.substring(dot);
+}
+
+// Flamenco's "3-10,12,13" as scumble's "3..10" and "12..13".
+function rangesOf(chunk) {
+    const ranges = [];
+    for (const part of chunk.split(",")) {
+        const ends = part.trim().split("-").map(Number);
+        const first = ends[0], last = ends[ends.length - 1];
+        const before = ranges[ranges.length - 1];
+        if (before && before[1] + 1 === first) before[1] = last;
+        else ranges.push([first, last]);
+    }
+    return ranges.map(function (range) { return range[0] + ".." + range[1]; });
 }
 
 // As a shell would split them: white space between words, but not within quotes.

@@ -86,8 +86,9 @@ SCUMBLE_API Result<Image> readPicture(const std::string& path);
 
 // The picture of an EXR: channels R, G, B and, where there is one, A, as linear floats; a colour, straight
 // again, since files hold it multiplied by its alpha. `view`: "left", "right", or empty for the default one;
-// a file without views has one picture for both. The picture is the file's data window. Fails with
-// ErrorKind::unusableFile, also for a view that a file with views lacks.
+// a file without views has one picture for both. The picture is what the file's display
+// window shows; where there is no data, 0. Fails with ErrorKind::unusableFile, also for a view that a file
+// with views lacks.
 SCUMBLE_API Result<Image> readExr(const std::string& path, const std::string& view = "");
 
 // Float, compressed without loss. Colours (Image::isColor) are multiplied by their alpha, as OpenEXR and

@@ -1,3 +1,7 @@
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfOutputFile.h>
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -58,6 +62,34 @@ TEST(ExrRead, eachEye) {
     EXPECT_EQ(none.error().kind, ErrorKind::unusableFile);
     EXPECT_NE(none.error().message().find(view), std::string::npos) << none.error().message();
   }
+}
+
+// What a compositor has cut to what is there, and what is drawn beyond the picture's edge.
+TEST(ExrRead, theDisplayWindowIsWhatIsSeen) {
+  const TestFolder folder;
+  const std::string path = folder.file("a.exr");
+  Imf::Header header(Imath::Box2i({0, 0}, {5, 3}), Imath::Box2i({-1, 1}, {3, 2}));
+  std::vector<float> numbers(5 * 2);
+  for (size_t i = 0; i < numbers.size(); ++i) numbers[i] = float(i + 1);
+  Imf::FrameBuffer buffer;
+  for (const char* name : {"R", "G", "B"}) {
+    header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    buffer.insert(name, Imf::Slice::Make(Imf::FLOAT, numbers.data(), header.dataWindow(), 4, 5 * 4));
+  }
+  {
+    Imf::OutputFile file(path.c_str(), header);
+    file.setFrameBuffer(buffer);
+    file.writePixels(2);
+  }
+  const Result<Image> read = readExr(path);
+  ASSERT_TRUE(read.ok()) << read.error().message();
+  ASSERT_EQ(read->width, 6u);
+  ASSERT_EQ(read->height, 4u);
+  for (uint32_t y = 0; y < 4; ++y)
+    for (uint32_t x = 0; x < 6; ++x) {
+      const bool isThere = (y == 1 || y == 2) && x <= 3;
+      EXPECT_EQ(read->at(x, y, 1), isThere ? float((y - 1) * 5 + x + 2) : 0.0f) << x << " " << y;
+    }
 }
 
 TEST(ExrRead, whatIsNoPictureIsRefusedInOneLine) {

@@ -87,11 +87,21 @@ process.stdout.write(JSON.stringify(job.tasks));"""
                          [("render 1-3", "scumble"), ("render 5,8,9", "scumble"), ("render 10-12", "scumble"), ("check", "misc")])
         self.assertEqual(tasks[-1]["dependencies"], [task["name"] for task in tasks[:-1]])
         words = [command["parameters"]["args"] for command in tasks[1]["commands"]]
-        self.assertEqual([each[-5] for each in words], ["--frames=5..5", "--frames=8..8", "--frames=9..9"])
+        self.assertEqual([each[-5] for each in words], ["--frames=5..5", "--frames=8..9"])
         self.assertEqual(words[0], ["render", "--set", "paint.a b=1", "--orbit=-30,15", "--aov=depth", "--look=ink", "--frames=5..5", "--fps=24",
                                     "--output=/s/f.####.png", "--resume", "/s/a b.glb"])
         self.assertEqual({command["parameters"]["exe"] for task in tasks for command in task["commands"]}, {"{scumble}"})
         self.assertEqual([command["parameters"]["args"][-5] for command in tasks[-1]["commands"]], ["--frames=1..3", "--frames=5..5", "--frames=8..12"])
+
+    def test_films_know_what_frames_are(self):
+        def calls(**settings):
+            return [command["parameters"]["args"] for command in self.compile(scene="/s/a.glb", output="/s/f.####.exr", film="/s/f.mp4", **settings)[-1]["commands"]]
+
+        self.assertEqual(calls(frames="0-1", fps=12), [["film", "--frames=0..1", "--fps=12", "--output=/s/f.mp4", "/s/f.####.exr"]])
+        self.assertEqual(calls(frames="0-9", options="--stereo side-by-side --panorama=vr180"),
+                         [["film", "--frames=0..9", "--fps=24", "--stereo=side-by-side", "--panorama=vr180", "--output=/s/f.mp4", "/s/f.####.exr"]])
+        self.assertEqual(calls(frames="0-9", options="--stereo=separate"),
+                         [["film", "--frames=0..9", "--fps=24", "--stereo=separate", f"--output=/s/f.{eye}.mp4", f"/s/f.####.{eye}.exr"] for eye in ("left", "right")])
 
     def test_a_film_of_frames_with_gaps_is_refused(self):
         with self.assertRaisesRegex(AssertionError, "without gaps"):

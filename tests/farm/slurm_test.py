@@ -212,7 +212,7 @@ def with_faults(cluster, scumble, folder):
         assert not (reports / f"{number}.0.json").exists() and (reports / f"{number}.1.json").exists(), sorted(path.name for path in reports.iterdir())
         # What the first try has drawn is not drawn again.
         assert len(json.loads((reports / f"{number}.1.json").read_text())["frames"]) < CHUNK
-    said = (folder / "shot.farm/logs/finish.txt").read_text()
+    said = (folder / f"shot.farm/logs/{finish}.finish.txt").read_text()
     assert f"all {FRAMES} frames are there, whole" in said, said
 
 

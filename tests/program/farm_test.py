@@ -55,7 +55,7 @@ class Film(Program):
 
     def both(self, film, pictures, *options, of_film=()):
         """The bytes of a film that is drawn, and of one that is made of its pictures."""
-        call = ["render", "moving.gltf", "--frames", "3..8", *options, *QUIET]
+        call = ["render", "moving.gltf", "--frames", "3..8", *(QUIET if "--size" not in options else QUIET[2:]), *options]
         self.good(*call, "-o", "drawn" + film)
         self.good(*call, "-o", pictures)
         self.good("film", pictures, "-o", "made" + film, "--quiet", *of_film)
@@ -94,8 +94,8 @@ class Film(Program):
         shutil.copy(self.folder / "f.0001.png", self.folder / "f.1.png")  # is none of them
         self.before = self.files()
         for code, args, says in (
-                (UNUSABLE, ["f.####.png", "-o", "x.mp4"], "f.####.png: 1 of 5 pictures are not there, whole: 2;"),
-                (UNUSABLE, ["f.####.png", "-o", "x.mp4", "--frames", "3..6"], "2 of 4 pictures are not there, whole: 5..6"),
+                (UNUSABLE, ["f.####.png", "-o", "x.mp4"], "f.####.png: of 5 pictures, 1 is not there, whole: 2;"),
+                (UNUSABLE, ["f.####.png", "-o", "x.mp4", "--frames", "3..6"], "of 4 pictures, 2 are not there, whole: 5..6"),
                 (UNUSABLE, ["g.####.png", "-o", "x.mp4"], "there is no such picture"),
                 (UNUSABLE, ["no/f.####.png", "-o", "x.mp4"], "there is no such picture"),
                 (USAGE, ["f.0001.png", "-o", "x.mp4"], "names no sequence"),
@@ -105,7 +105,6 @@ class Film(Program):
                 (USAGE, ["f.####.png", "-o", "x.mp4", "--frames", "3"], "is no range"),
                 (USAGE, ["f.####.png", "-o", "x.mp4", "--fps", "0"], "--fps is out of range"),
                 (USAGE, ["f.####.png", "-o", "x.mp4", "--quality", "99"], "--quality 99"),
-                (USAGE, ["f.####.png", "-o", "x.mp4", "--stereo", "separate"], "films of their own"),
                 (NOT_WRITTEN, ["f.####.png", "-o", "no/x.mp4"], "the folder does not exist")):
             with self.subTest(args=args):
                 self.bad(code, "film", *args, says=says)
@@ -115,6 +114,37 @@ class Film(Program):
         self.good("render", "box.gltf", "-o", "f.2.png", "--size", "48x18", "--samples", "1", "--quiet")
         self.before = self.files()
         self.bad(UNUSABLE, "film", "f.#.png", "-o", "x.mp4", "--quiet", says="f.2.png: it has 48 x 18 pixels")
+
+
+    def test_eyes_and_panoramas(self):
+        # What is known of them goes into the film, and which eye's turn it is counts by the frame's number.
+        for options, of_film in ((["--stereo", "wiggle"], ["--stereo", "wiggle"]),
+                                 (["--panorama", "mono360", "--size", "64x32"], ["--panorama", "mono360"]),
+                                 (["--panorama", "vr180", "--size", "32x32"], ["--panorama", "vr180"])):
+            with self.subTest(options=options):
+                drawn, made = self.both(".mp4", f"{options[1]}.####.exr", *options, of_film=of_film)
+                self.same(drawn, made)
+        call = ["render", "moving.gltf", "--frames", "0..1", "--panorama", "vr180", "--stereo", "separate", "--size", "32x32", "--samples", "1", "--quiet"]
+        self.good(*call, "-o", "e.mp4")
+        self.good(*call, "-o", "e.####.exr")
+        for eye in ("left", "right"):
+            self.good("film", f"e.####.{eye}.exr", "-o", f"made.{eye}.mp4", "--panorama", "vr180", "--stereo", "separate", "--quiet")
+            self.same((self.folder / f"e.{eye}.mp4").read_bytes(), (self.folder / f"made.{eye}.mp4").read_bytes())
+
+    def test_numbers_stand_in_the_file_name_alone(self):
+        (self.folder / "x#1").mkdir()
+        self.good("render", "box.gltf", "--frames", "3..4", "-o", "x#1/a.##.b.##.png", *QUIET)
+        self.assertEqual(self.new_files() - {"moving.gltf"}, {"x#1/a.03.b.##.png", "x#1/a.04.b.##.png"})
+        self.good("film", "x#1/a.##.b.##.png", "-o", "x.mp4", "--quiet")
+
+    def test_a_picture_that_is_damaged_inside(self):
+        self.good("render", "moving.gltf", "--frames", "0..2", "-o", "f.##.png", *QUIET)
+        path = self.folder / "f.01.png"
+        content = bytearray(path.read_bytes())
+        content[len(content) // 2] ^= 0xff
+        path.write_bytes(content)
+        self.before = self.files()
+        self.bad(UNUSABLE, "film", "f.##.png", "-o", "x.mp4", "--quiet", says=["f.01.png", "; delete it, and draw it again with"])
 
 
 class Farm(Program):
@@ -216,6 +246,103 @@ class Farm(Program):
         self.assertEqual(left.wait(60), 0)
         self.assertEqual(self.script("f.farm", "finish.sbatch", "7").returncode, 0)
 
+    def test_links_and_parent_folders(self):
+        """What is drawn is what a plain call draws, also where a name without '..' would be another file."""
+        (self.folder / "other/deep").mkdir(parents=True)
+        (self.folder / "link").symlink_to("other/deep")
+        self.put("other/box.gltf", program_test.gltf((0.1, 0.2, 0.9)))
+        self.farm("link/../box.gltf", "--frames", "0..1", "-o", "f.#.png", "--chunk", "9", *TINY)
+        self.assertEqual(self.script("f.farm", "render.sbatch", task=0).returncode, 0)
+        self.good("render", "link/../box.gltf", "--frames", "0..1", "-o", "g.#.png", *QUIET)
+        self.same((self.folder / "f.0.png").read_bytes(), (self.folder / "g.0.png").read_bytes())
+        self.before = self.files()
+        self.bad(USAGE, "farm", "slurm", "link/../box.gltf", "box.gltf", "--frames", "0..1", "-o", "f.#.png", "--chunk", "9", *TINY,
+                 says="another input has the same name", environment={"SLURM_CONF": str(self.nowhere)})
+
+    def test_many_tasks_stage_at_once(self):
+        self.farm("moving.gltf", "--frames", "0..7", "-o", "f.####.png", "--chunk", "1", *TINY)
+        stage = self.node / f"scumble-{os.getuid()}"
+        stage.mkdir()
+        for round_ in range(3):
+            # Also where the copy that is there is old, and there are others.
+            for name in [f"inputs.{i:016}" for i in range(20)] + [path.name for path in stage.glob("inputs.*")]:
+                (stage / name).mkdir(exist_ok=True)
+                os.utime(stage / name, (0, 0))
+            tasks = [subprocess.Popen(["bash", str(self.folder / "f.farm/render.sbatch")], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
+                                      env={**os.environ, "SLURM_ARRAY_JOB_ID": "7", "SLURM_ARRAY_TASK_ID": str(task)}) for task in range(4)]
+            for task in tasks:
+                said = task.communicate(timeout=60)[0]
+                self.assertEqual(task.returncode, 0, said)
+            self.assertEqual(sorted(path.name for path in stage.iterdir()),
+                             sorted(["cache", "lock", *(path.stem for path in (self.folder / "f.farm").glob("inputs.*.tar"))]))
+
+    def test_a_device_that_is_lost_is_tried_again(self):
+        program = self.folder / "program"
+        program.write_text(f"""#!/bin/bash
+echo try >>{str(self.folder)!r}/tries
+[ "$(wc -l <{str(self.folder)!r}/tries)" -ge "$LOST" ] || exit 4
+exit 3
+""")
+        program.chmod(0o755)
+        self.farm("moving.gltf", "--frames", "0..1", "-o", "f.####.png", "--chunk", "9", *TINY, "--program", str(program))
+        script = self.folder / "f.farm/render.sbatch"
+        script.write_text(script.read_text().replace("sleep 20", "sleep 0"))
+        for lost, code, tries in ((3, 3, 3), (9, 4, 3), (1, 3, 1)):
+            self.assertEqual(self.script("f.farm", "render.sbatch", task=0, LOST=str(lost)).returncode, code)
+            self.assertEqual(len((self.folder / "tries").read_text().split()), tries)
+            (self.folder / "tries").unlink()
+
+    def test_the_end_comes_however_tasks_ended(self):
+        self.farm("moving.gltf", "--frames", "0..1", "-o", "f.####.png", "--chunk", "9", *TINY)
+        done = self.script("f.farm", "finish.sbatch", "7")
+        self.assertEqual(done.returncode, UNUSABLE)
+        self.assertIn("2 frames are not there, whole: 0..1", done.stderr)
+        for job, devices, says in (("8", ["One", "One"], False), ("9", ["One", "Two", ""], True)):
+            reports = self.folder / "f.farm/stats" / job
+            reports.mkdir(parents=True)
+            for number, device in enumerate(devices):
+                (reports / f"{number}.0.json").write_text(json.dumps({"device": device} if device else {}, indent=2))
+            done = self.script("f.farm", "finish.sbatch", job)
+            self.assertEqual("devices round differently" in done.stderr, says, done.stderr)
+            self.assertRegex(done.stdout, r"\b" + str(devices.count("One")) + " One\n")
+        # What is there needs no device.
+        self.good("render", "moving.gltf", "--frames", "0..1", "-o", "f.####.png", *QUIET)
+        nobody = {"VK_ICD_FILENAMES": "/no.json", "VK_DRIVER_FILES": "/no.json"}
+        done = self.script("f.farm", "render.sbatch", task=0, **nobody)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("all 2 frames are there", self.script("f.farm", "finish.sbatch", "7", **nobody).stdout)
+
+    def cluster(self, **says):
+        """Programs of Slurm that print what they are told, and keep their words."""
+        programs = self.folder / "programs"
+        programs.mkdir()
+        for name, text in says.items():
+            (programs / name).write_text(f"#!/bin/bash\nprintf '%s ' {name} \"$@\" >>{str(self.folder)!r}/words\necho >>{str(self.folder)!r}/words\n{text}\n")
+            (programs / name).chmod(0o755)
+        return {"PATH": f"{programs}:{os.environ['PATH']}"}
+
+    def test_what_the_cluster_says(self):
+        environment = self.cluster(sinfo="echo '3 (null)'; echo '2 gres:gpu:4'; echo '2 gpu:a100:2(S:0)'", scontrol="echo 'MaxArraySize            = 5'",
+                                   sbatch="[ -z \"$REFUSED\" ] || [[ $1 = --parsable && $2 != --dep* ]] || exit 1; echo '42;name'", scancel="")
+        call = ["farm", "slurm", "moving.gltf", "--frames", "0..99", "-o", "f.####.png", *TINY, "--stage", str(self.node)]
+        done = self.run_program(*call, "--chunk", "10", "--submit", environment=environment)
+        self.assertEqual(done.returncode, DONE, done.stderr)
+        self.assertIn("it is 20", done.stderr)
+        self.assertIn("job 42 draws 100 frames in 5 tasks; job 42 then", done.stdout)
+        words = (self.folder / "words").read_text().splitlines()
+        self.assertEqual([line.strip() for line in words if line.startswith("sbatch")],
+                         [f"sbatch --parsable {self.folder}/f.farm/render.sbatch", f"sbatch --parsable --dependency=afterany:42 {self.folder}/f.farm/finish.sbatch 42"])
+        text = (self.folder / "f.farm/render.sbatch").read_text()
+        self.assertIn("#SBATCH --gres=gpu:1\n", text)
+        self.assertIn("--device=gpu", text)
+        # Whoever asks for a kind of GPU has asked.
+        asked = self.run_program(*call, "--chunk", "20", "--dry-run", "--sbatch=--gres=gpu:a100:1", environment=environment).stdout
+        self.assertNotIn("--gres=gpu:1\n", asked)
+        # Without the second job there is no first one.
+        done = self.run_program(*call, "--chunk", "20", "--submit", environment={**environment, "REFUSED": "1"})
+        self.assertEqual(done.returncode, NOT_WRITTEN, done.stdout)
+        self.assertIn("scancel 42", (self.folder / "words").read_text())
+
     def test_gpus(self):
         args = ["moving.gltf", "--frames", "0..1", "-o", "f.####.png", "--chunk", "1", *TINY, "--dry-run"]
         self.assertNotRegex(self.farm(*args), "gres|--device=gpu")
@@ -257,6 +384,9 @@ class Farm(Program):
                 (USAGE, ["slurm", *sequence, "--sbatch=partition"], "is no option of sbatch"),
                 (USAGE, ["slurm", *sequence, "--resume"], "there is no option '--resume'"),
                 (UNUSABLE, ["slurm", "none.gltf", *sequence[1:]], "there is no such file"),
+                (USAGE, ["slurm", *sequence, "--stage", "disk"], "--stage disk is no absolute path"),
+                (USAGE, ["slurm", *sequence, "--program", "bin/scumble"], "is no absolute path"),
+                (USAGE, ["slurm", *sequence, "--folder", "back\\slash"], "has a backslash"),
                 (NOT_WRITTEN, ["slurm", *sequence, "--folder", "/proc/no"], "choose another --folder"),
                 (NOT_WRITTEN, ["slurm", *sequence, "--film", "no/f.mp4"], "the folder does not exist")):
             with self.subTest(args=args):
