@@ -35,8 +35,8 @@ execute_process(COMMAND ${GZIP} -9nc ${CMAKE_SOURCE_DIR}/packaging/changelog
 
 deb(program scumble graphics "painterly renderer: glTF scenes become moving paintings
 scumble takes a glTF 2.0 scene, or a painting made in space, and a look, and
-paints pictures and films of it: flat colours and torn edges, ink, watercolour
-or strokes of a brush. It has a command line, a window, and headsets' eyes.
+paints pictures and films of it: flat colours and torn edges, drawn lines and
+washes, or strokes of a brush. It has a command line and a window.
 .
 It runs on any Vulkan 1.3 GPU, and on the CPU by Mesa's driver.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
