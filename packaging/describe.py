@@ -15,9 +15,9 @@ EXIT_CODES = (("0", "Done."), ("1", "Our own fault."), ("2", "Wrong usage."), ("
               ("4", "No usable GPU, or it was lost."), ("5", "The output cannot be written."))
 FILES = (("SCENE.look.json", "The look of the scene beside it, where none is named."),
          ("$XDG_CACHE_HOME/scumble, ~/.cache/scumble", "Compiled pipelines and what is known of drivers; may be deleted at any time."))
-# What an option's value is completed by; all others by files.
+# What an option's value is completed by, beside those whose help lists it (auto|yes|no); all others by files.
 WORDS = {"--stereo": "side-by-side over-under crossed anaglyph wiggle separate", "--panorama": "vr180 ods mono360", "--samples": "1 4",
-         "--pattern-coordinates": "auto file own", "--gpu": "auto yes no", "--synthesis": "off on auto"}
+         "--synthesis": "off on auto"}
 
 
 class Help:
@@ -97,7 +97,9 @@ def bash(program, pages):
             knobs.append(f"{block}.{found[1]}=")
     knobs = sorted(set(knobs))
     aovs = re.search(r"some of (.*)$", dict(entry for _, entries in pages[1].sections for entry in entries if entry[0].startswith("--aov"))["--aov TEXT ..."])[1]
-    cases = [f'    {option}) COMPREPLY=($(compgen -W "{words}" -- "$word")); return ;;' for option, words in sorted(WORDS.items())]
+    choices = (re.match(r"(--[a-z-]+) ([a-z]+(?:\|[a-z]+)+)(?:=|$)", name) for page in pages for _, name in page.options)
+    listed = {found[1]: found[2].replace("|", " ") for found in choices if found}
+    cases = [f'    {option}) COMPREPLY=($(compgen -W "{words}" -- "$word")); return ;;' for option, words in sorted({**listed, **WORDS}.items())]
     commands = [f'    "{page.name}") words="{" ".join([*page.commands, *(name for names, _ in page.options for name in names)])}" ;;' for page in pages]
     return f"""# bash completion for scumble; made by packaging/describe.py from what the program says of itself.
 

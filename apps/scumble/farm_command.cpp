@@ -1,4 +1,6 @@
 // scumble farm: frames for engines that hand work to many machines.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -162,7 +164,7 @@ Result<std::vector<std::vector<std::string>>> filmCalls(const FarmArguments& arg
   if (args.film.empty()) return calls;
   const Result<const OutputFormat*> format = formatOf(args.film);
   if (!format) return format.error();
-  if ((*format)->kind != OutputKind::film || args.film.find('#') != std::string::npos)
+  if ((*format)->kind != OutputKind::film || isNumbered(args.film))
     return usage("'" + args.film + "' is no film", "name it like shot.mp4, .webm or .gif");
   if (plan.output.kind() == OutputKind::drawing)
     return usage("a film is of pictures, and '" + plan.output.path + "' are drawings", "leave --film out");
@@ -174,12 +176,7 @@ Result<std::vector<std::vector<std::string>>> filmCalls(const FarmArguments& arg
     if (const Status status = files.add(to[i], "--film"); !status) return status.error();
     std::vector<std::string> call{"film", "--frames=" + std::to_string(plan.numbers.front()) + ".." +
                                               std::to_string(plan.numbers.back())};
-    if (plan.args.isGiven("--fps")) {
-      std::ostringstream fps;
-      fps.precision(17);
-      fps << plan.args.fps;
-      call.push_back("--fps=" + fps.str());
-    }
+    call.push_back(fmt::format("--fps={}", plan.args.fps));
     if (plan.output.layout) call.push_back(std::string("--stereo=") + plan.output.layout->name);
     if (plan.args.kind) call.push_back(std::string("--panorama=") + plan.args.kind->name);
     call.push_back("--output=" + to[i]);

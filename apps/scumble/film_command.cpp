@@ -43,16 +43,14 @@ std::vector<int> numbersThere(const std::string& pattern) {
     if (found.size() <= before.size() + after.size() || !found.starts_with(before) || !found.ends_with(after))
       continue;
     const std::string digits = found.substr(before.size(), found.size() - before.size() - after.size());
-    const auto range = parseFrames(digits + ".." + digits);
+    const Result<std::vector<int>> number = parseFrames(digits + ".." + digits);
     // Only as it would be written: with as many digits.
-    if (!range || fs::path(numbered(pattern, range->first)).filename() != found) continue;
-    first = std::min(first.value_or(range->first), range->first);
-    last = std::max(last.value_or(range->first), range->first);
+    if (!number || fs::path(numbered(pattern, number->front())).filename() != found) continue;
+    first = std::min(first.value_or(number->front()), number->front());
+    last = std::max(last.value_or(number->front()), number->front());
   }
-  std::vector<int> numbers;
-  if (first)
-    for (int number = *first; number <= *last; ++number) numbers.push_back(number);
-  return numbers;
+  if (!first) return {};
+  return parseFrames(std::to_string(*first) + ".." + std::to_string(*last)).value();
 }
 
 // Pictures as they go into the film.
@@ -73,7 +71,6 @@ class Pictures {
   }
 
  private:
-  static constexpr const char* kEyes[] = {"left", "right"};
   const std::string pattern_;
   const double fps_;
   const StereoLayout* const layout_;
@@ -94,7 +91,7 @@ Status checkAllThere(const FilmArguments& args, const std::vector<int>& numbers)
 }
 
 int run(const FilmArguments& args) {
-  if (numberIn(args.pictures).first == args.pictures.size())
+  if (!isNumbered(args.pictures))
     return failUsage("'" + args.pictures + "' names no sequence", "name it like shot.####.png");
   const Result<const OutputFormat*> from = formatOf(args.pictures), to = formatOf(args.output);
   if (!from) return fail(from.error());
@@ -110,17 +107,12 @@ int run(const FilmArguments& args) {
   const Result<const StereoLayout*> layout =
       stereoLayoutOf(args.stereo.empty() && *kind ? (*kind)->stereo : args.stereo);
   if (!layout) return fail(layout.error());
-  if (!args.frames.empty() && !parseFrames(args.frames))
-    return failUsage("--frames " + args.frames + " is no range", "write it like 0..23");
+  Result<std::vector<int>> asked = std::vector<int>();
+  if (!args.frames.empty()) asked = parseFrames(args.frames);
+  if (!asked) return fail(asked.error());
   OutputFiles files({});
   if (const Status status = files.add(args.output, "the film"); !status) return fail(status.error());
-  std::vector<int> numbers;
-  if (args.frames.empty()) {
-    numbers = numbersThere(args.pictures);
-  } else {
-    const auto range = *parseFrames(args.frames);
-    for (int number = range.first; number <= range.second; ++number) numbers.push_back(number);
-  }
+  const std::vector<int> numbers = asked->empty() ? numbersThere(args.pictures) : *asked;
   if (numbers.empty())
     return fail(
         {ErrorKind::unusableFile, args.pictures, 0, "", "there is no such picture", "check the name"});

@@ -13,7 +13,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* kEyes[] = {"left", "right"};
 constexpr const char* kCryptomatte = "cryptomatte";  // the AOV
 
 // "dir/name.png" with "left" gives "dir/name.left.png".
@@ -62,6 +61,10 @@ std::pair<size_t, size_t> numberIn(const std::string& path) {
   const size_t name = path.rfind('/') == std::string::npos ? 0 : path.rfind('/') + 1;
   const size_t first = std::min(path.find('#', name), path.size());
   return {first, std::min(path.find_first_not_of('#', first), path.size())};
+}
+
+bool isNumbered(const std::string& path) {
+  return numberIn(path).first < path.size();
 }
 
 std::string numbered(const std::string& path, int number) {

@@ -16,6 +16,7 @@ namespace scumble::app {
 
 // Where the first #### of a file's name begins and ends; both at its end where there is none.
 std::pair<size_t, size_t> numberIn(const std::string& path);
+bool isNumbered(const std::string& path);
 // A path with that replaced by the number, zero-padded; without them, as it is.
 std::string numbered(const std::string& path, int number);
 // "3..5, 9": whole numbers that grow, as ranges.
@@ -42,7 +43,7 @@ struct OutputPlan {
   // The path of frame `number`: #### is replaced by the number, zero-padded.
   std::string framePath(std::optional<int> number) const;
   OutputKind kind() const { return format->kind; }
-  bool isSequence() const { return numberIn(path).first < path.size(); }
+  bool isSequence() const { return isNumbered(path); }
 
   // The files of a frame's picture: one, or one an eye.
   std::vector<std::string> picturePaths(const std::string& framePath) const;

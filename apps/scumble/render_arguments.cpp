@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <numeric>
 #include <sstream>
 
 #include "report.h"
@@ -98,8 +99,7 @@ Result<std::vector<int>> frameNumbers(const RenderArguments& args, const OutputP
                    "add --frames A..B or --turntable"};
     for (int number = 0; number < std::min(frames, double(kMostFrame)); ++number) numbers.push_back(number);
   } else {
-    const auto range = *parseFrames(args.frames);
-    for (int number = range.first; number <= range.second; ++number) numbers.push_back(number);
+    numbers = parseFrames(args.frames).value();
   }
   if (args.resume || args.missing)
     std::erase_if(numbers, [&](int number) { return output.isThere(output.framePath(number)); });
@@ -128,14 +128,18 @@ void warnOfIdle(const RenderArguments& args, const OutputPlan& output) {
 
 }  // namespace
 
-std::optional<std::pair<int, int>> parseFrames(const std::string& text) {
+Result<std::vector<int>> parseFrames(const std::string& text) {
+  const Error noRange = usage("--frames " + text + " is no range",
+                              "write it like 0..23, with numbers up to " + std::to_string(kMostFrame));
   char* end = nullptr;
   const long long first = std::strtoll(text.c_str(), &end, 10);
-  if (end == text.c_str() || std::strncmp(end, "..", 2) != 0) return std::nullopt;
+  if (end == text.c_str() || std::strncmp(end, "..", 2) != 0) return noRange;
   const char* second = end + 2;
   const long long last = std::strtoll(second, &end, 10);
-  if (end == second || *end || last < first || first < -kMostFrame || last > kMostFrame) return std::nullopt;
-  return std::pair{int(first), int(last)};
+  if (end == second || *end || last < first || first < -kMostFrame || last > kMostFrame) return noRange;
+  std::vector<int> numbers(size_t(last - first + 1));
+  std::iota(numbers.begin(), numbers.end(), int(first));
+  return numbers;
 }
 
 Status checkFps(double fps) {
@@ -204,11 +208,9 @@ Result<RenderPlan> planRender(RenderArguments args) {
   const bool isFilm = output->kind() == OutputKind::film;
   // Times and frames.
   if (!args.frames.empty()) {
-    const auto range = parseFrames(args.frames);
-    if (!range)
-      return usage("--frames " + args.frames + " is no range",
-                   "write it like 0..23, with numbers up to 10000000");
-    if (range->first != range->second && !output->isSequence() && !isFilm)
+    const Result<std::vector<int>> range = parseFrames(args.frames);
+    if (!range) return range.error();
+    if (range->size() > 1 && !output->isSequence() && !isFilm)
       return usage("several frames cannot go into one '" + output->path + "'",
                    "name it like picture.####.png, or picture.mp4");
   }
@@ -266,8 +268,8 @@ Result<RenderPlan> planRender(RenderArguments args) {
 std::vector<double> RenderPlan::times() const {
   std::vector<double> times;
   for (const int number : numbers) times.push_back(number / args.fps);
-  const bool isLeftOut = (args.resume || args.missing) && output.isThere(output.path);
-  if (isPicture && !isLeftOut) times.push_back(args.time.value_or(0));
+  const bool leavesOut = args.resume || args.missing;
+  if (isPicture && !(leavesOut && output.isThere(output.path))) times.push_back(args.time.value_or(0));
   return times;
 }
 

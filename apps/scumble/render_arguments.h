@@ -47,8 +47,8 @@ struct RenderArguments {
   const CLI::App* command_ = nullptr;
 };
 
-// "3..17": the first and the last; nothing when it is not of that form.
-std::optional<std::pair<int, int>> parseFrames(const std::string& text);
+// "3..5": 3, 4 and 5. Fails with usage for what is not of that form.
+Result<std::vector<int>> parseFrames(const std::string& text);
 // Fails with usage where it is out of range.
 Status checkFps(double fps);
 

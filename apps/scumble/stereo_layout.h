@@ -23,6 +23,9 @@ struct StereoLayout {
   Image (*arrangeFacts)(const Image& left, const Image& right) = nullptr;
 };
 
+// As views of EXR files and parts of files' names have them.
+inline constexpr const char* kEyes[] = {"left", "right"};
+
 // Of this name; empty: null, one eye. Fails with usage for others.
 Result<const StereoLayout*> stereoLayoutOf(const std::string& name);
 

@@ -359,6 +359,8 @@ exit 3
         self.assertIn("10 a task; tasks: 1000", text)
         text = self.farm(*args, "--frames", "0..99")
         self.assertRegex(text, r"a frame takes \d+\.\d+ s here \(.+\), and starting \d+\.\d s\n")
+        (self.folder / "x#1").mkdir()
+        self.assertIn("--output=" + str(self.folder / "x#1/f.mp4"), self.farm(*args, "--frames", "0..9", "--film", "x#1/f.mp4"))
         text = self.farm(*args, "--turntable", "2")
         self.assertIn("frames: 48 (0..47)", text)
         self.assertRegex(text, r"--turntable=?\S* .*--frames=")
