@@ -33,7 +33,7 @@ struct PerField {
 // left of it.
 struct TemporalError {
   PerField dolly, orbit, roll, object;
-  PerField mean() const;
+  SCUMBLE_API PerField mean() const;
 };
 
 // What stands on the screen when the picture is magnified.

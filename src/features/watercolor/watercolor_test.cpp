@@ -185,6 +185,23 @@ TEST_P(Watercolor, stampsStayOnTheirObject) {
 }
 
 // Cells of a Voronoi diagram: everywhere one, of one value.
+// Where vertices are on the device alone (SceneOptions::keepsVertices), surfaces are painted as elsewhere.
+TEST_P(Watercolor, stampsStayWhereVerticesAreDropped) {
+  const std::string text = board().text();
+  const auto stampsOf = [&](bool keepsVertices) {
+    const Result<Scene> scene =
+        Scene::loadFromMemory(text.data(), text.size(), "test.gltf", "", {.keepsVertices = keepsVertices});
+    return draw(*scene, quietLook(plainWash({{"watercolor.hue", "1"}})),
+                viewsFrom(*scene, {{0, 0, 3}}, kWidth, kHeight, GetParam()),
+                sized(kWidth, kHeight, {"pigment"}));
+  };
+  const Frame kept = stampsOf(true), dropped = stampsOf(false);
+  for (size_t v = 0; v < viewCount(); ++v) {
+    EXPECT_GT(texel(aov(kept, "pigment", v), kWidth / 2, kHeight / 2).w, 0);
+    EXPECT_EQ(largestDifference(aov(kept, "pigment", v), aov(dropped, "pigment", v)), 0);
+  }
+}
+
 TEST_P(Watercolor, cellsCoverTheSurface) {
   const Frame frame =
       paint(board(8), plainWash({{"watercolor.generator", "cells"}, {"watercolor.spacing", "280"}}),

@@ -16,7 +16,7 @@ constexpr double kCandidates = 131072;
 constexpr double kFewest = 512, kMost = 131072;
 
 bool isPainted(const GeometryItem& item) {
-  return item.shown && !item.primitive->indices.empty() && !item.primitive->isPaint;
+  return item.shown && item.primitive->indexCount() > 0 && !item.primitive->isPaint;
 }
 
 }  // namespace
