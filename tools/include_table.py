@@ -47,6 +47,7 @@ TABLE = {
     "apps/viewer": [PUBLIC],
     "apps/scumble": [PUBLIC, "apps/viewer", "src/xr"],
     "examples": [PUBLIC],
+    "python": [PUBLIC],
     # The cost of one technique by itself is measured from inside.
     "bench": [*PASS, "examples", "src/passes/*", "src/features/*"],
     # Tests of the whole look wherever they must; tests of one room lie in that room and follow its line.
@@ -64,6 +65,7 @@ LIBRARIES = {
     "apps/viewer": ["std", "system", "glm", "nlohmann", "vulkan", "GLFW", "imgui", "fontconfig"],
     "apps/scumble": ["std", "system", "CLI", "fmt", "nlohmann", "cairo"],
     "examples": ["std", "glm", "nlohmann"],
+    "python": ["std", "glm", "pybind11"],
 }
 # The public headers for engines that bring their own device, and for C.
 LIBRARIES_OF_FILE = {"include/scumble/vulkan.h": ["std", "glm", "vulkan"], "include/scumble/scumble.h": ["system"]}
@@ -71,7 +73,7 @@ SYSTEM = {"unistd.h", "spawn.h", "fcntl.h", "signal.h", "termios.h", "stdlib.h",
           "stdint.h", "malloc.h"}
 
 SOURCES = {".h", ".hpp", ".cpp", ".cc", ".inl", ".params", ".glsl", ".vert", ".frag", ".comp", ".geom", ".tesc", ".tese"}
-FOLDERS = ["include", "src", "apps", "examples", "bench", "tests"]
+FOLDERS = ["include", "src", "apps", "examples", "python", "bench", "tests"]
 # Where the compilers look, besides the folder of the including file.
 SEARCH = ["src", "include", "examples", "bench", "tests", "src/shading", ""]
 INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^>"]+)[>"]')

@@ -16,7 +16,7 @@ import tempfile
 from pathlib import Path
 
 RENDER = ["--size", "320x180", "--quiet", "--device", "cpu"]
-PACKAGES = ("scumble", "libscumble1", "libscumble-dev", "scumble-doc")
+PACKAGES = ("scumble", "libscumble1", "libscumble-dev", "scumble-doc", "python3-scumble")
 
 
 def run(*words, **how):
@@ -48,6 +48,9 @@ def contents(debs, version):
             "/usr/share/mime/packages/scumble.xml", "/usr/share/metainfo/org.scumble.scumble.metainfo.xml", "/usr/share/man/man1/scumble-farm-slurm.1.gz",
             "/usr/share/bash-completion/completions/scumble", "/usr/share/scumble/looks/ink.json", "/usr/share/scumble/farm/flamenco/scumble.js"} <= has["scumble"]
     assert "/usr/share/doc/scumble/docs/looks.md" in has["scumble-doc"]
+    module = {path.removeprefix("/usr/lib/python3/dist-packages/scumble/") for path in has["python3-scumble"]}
+    assert {"__init__.py", "_scumble.pyi", "py.typed", f"_scumble.cpython-{sys.version_info[0]}{sys.version_info[1]}-{triplet}.so"} <= module, module
+    assert f"libscumble1 (= {version})" in field(debs["python3-scumble"], "Depends"), field(debs["python3-scumble"], "Depends")
     assert f"libscumble1 (= {version})" in field(debs["libscumble-dev"], "Depends")
     for name in ("scumble", "libscumble1"):
         needs = field(debs[name], "Depends")
@@ -94,7 +97,7 @@ def bare_root(build, debs, temporary):
         return
     inside = temporary / "inside"
     inside.mkdir()
-    for name in ("scumble", "libscumble1", "scumble-doc"):
+    for name in ("scumble", "libscumble1", "scumble-doc", "python3-scumble"):
         shutil.copy(debs[name], inside)
     shutil.copy(build / "c_face", inside)
     run(build / "demo_scene", inside / "demo.glb")
@@ -107,10 +110,13 @@ scumble render demo.glb -o /tmp/out/demo.png {" ".join(RENDER)}
 scumble render demo.glb -o /tmp/out/both.exr --look watercolour --stereo side-by-side {" ".join(RENDER)}
 ./c_face demo.glb /tmp/out/c.png
 ldd ./c_face | grep /lib/.*/libscumble.so.1
+python3 -c 'import scumble
+scumble.Renderer("cpu").render(scumble.Scene("demo.glb"), size=(320, 180)).save("/tmp/out/python.png")'
+ls /usr/lib/python3/dist-packages/scumble/__pycache__ | grep _renderer
 scumble devices >/tmp/out/devices.txt
 test -s /usr/share/man/man1/scumble.1.gz
 apt-get remove -y scumble libscumble1 >/dev/null
-if [ -e /usr/bin/scumble ]; then exit 1; fi
+if [ -e /usr/bin/scumble ] || [ -e /usr/lib/python3/dist-packages/scumble ]; then exit 1; fi
 """)
     targets = run("apt-get", "indextargets", "--format", "$(REPO_URI)", "Created-By: Packages", "Codename: bookworm").split()
     out = temporary / "out"
@@ -119,7 +125,8 @@ if [ -e /usr/bin/scumble ]; then exit 1; fi
     drawn = temporary / "here.png"
     run(build / "scumble", "render", inside / "demo.glb", "-o", drawn, *RENDER)
     if run(build / "scumble", "devices").splitlines()[0].split("  ")[:2] == (out / "devices.txt").read_text().splitlines()[0].split("  ")[:2]:
-        assert drawn.read_bytes() == (out / "demo.png").read_bytes(), "the installed program draws other bytes"
+        for name in ("demo.png", "python.png"):
+            assert drawn.read_bytes() == (out / name).read_bytes(), f"what is installed draws another {name}"
     else:
         print("the drivers differ, so the pictures' bytes are not compared")
     assert (out / "both.exr").stat().st_size > 100_000 and (out / "c.png").stat().st_size > 1000

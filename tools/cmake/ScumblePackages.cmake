@@ -65,4 +65,19 @@ pictures: art direction, every knob, embedding, and how it is built.")
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
 set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SUGGESTS "scumble")
 
+if(TARGET scumble_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+  deb(python python3-scumble python "painterly renderer (Python module)
+scumble paints pictures and films of glTF scenes. This is its module for
+Python 3: scenes from files and arrays, looks, frames as numpy arrays, films.")
+  # The library is not installed where this is made: what it is called stands here, and what it needs is its own matter.
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+  set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR})
+  math(EXPR next "${Python_VERSION_MINOR} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "${library} (= ${PROJECT_VERSION}), python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next}), python3-numpy")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "ffmpeg, mesa-vulkan-drivers | vulkan-icd")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "scumble-doc")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${CMAKE_SOURCE_DIR}/packaging/python/postinst ${CMAKE_SOURCE_DIR}/packaging/python/prerm)
+endif()
+
 include(CPack)
