@@ -50,7 +50,8 @@ RenderOptions toOptions(const py::dict& settings) {
       options.transparent = value.cast<bool>();
     } else if (name == "background") {
       if (!value.is_none())
-        options.background = std::make_shared<Image>(toLinearImage(value.cast<py::array>(), "the background"));
+        options.background =
+            std::make_shared<Image>(toLinearImage(value.cast<py::array>(), "the background"));
     } else if (name == "previous_views") {
       options.previousViews = value.cast<std::vector<View>>();
     } else if (name == "previous_time") {
@@ -68,7 +69,8 @@ py::dict toPython(const FrameStats& stats) {
   return py::dict("gpu_ms"_a = stats.gpuMilliseconds, "cpu_ms"_a = stats.cpuMilliseconds,
                   "readback_ms"_a = stats.readbackMilliseconds, "upload_ms"_a = stats.uploadMilliseconds,
                   "setup_ms"_a = stats.setupMilliseconds, "pipelines"_a = stats.pipelines,
-                  "written_primitives"_a = stats.writtenPrimitives, "written_textures"_a = stats.writtenTextures,
+                  "written_primitives"_a = stats.writtenPrimitives,
+                  "written_textures"_a = stats.writtenTextures,
                   "written_materials"_a = stats.writtenMaterials, "uploaded_bytes"_a = stats.uploadedBytes,
                   "triangles"_a = stats.triangles, "draw_calls"_a = stats.drawCalls,
                   "device_bytes"_a = stats.deviceBytes, "passes_ms"_a = passes);

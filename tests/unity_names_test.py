@@ -96,7 +96,7 @@ def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent)
     failures = 0
     # What is compiled into one target, and which headers it sees.
-    for sources, headers in ((["src"], ["src", "include"]), (["apps"], ["apps", "include"]),
+    for sources, headers in ((["src"], ["src", "include"]), (["apps"], ["apps", "include"]), (["python"], ["python", "include"]),
                              (["examples/demo_scene"], ["examples/demo_scene", "examples/mesh_kit"]),
                              (["examples/still_life"], ["examples/still_life", "examples/mesh_kit"]),
                              (["examples/henry_room"], ["examples/henry_room", "examples/mesh_kit"]),
