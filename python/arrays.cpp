@@ -37,8 +37,9 @@ const void* dataOf(const Image& image) {
 
 // Any object that numpy takes for numbers, in rows without gaps.
 py::array numbersOf(const py::object& numbers, const std::string& what) {
+  if (py::hasattr(numbers, "mask")) raiseUsage(what + " have a mask", "fill it: array.filled(0)");
   const py::array array = py::array::ensure(numbers, py::array::c_style);
-  if (!array || std::string("biuf").find(array.dtype().kind()) == std::string::npos) {
+  if (!array || std::string("iuf").find(array.dtype().kind()) == std::string::npos) {
     PyErr_Clear();
     raiseUsage(what + " are no numbers", "give an array of numbers");
   }
@@ -66,6 +67,19 @@ Rows<Vector> toFloatRows(const py::object& numbers, const std::string& what, int
   return {floats, {reinterpret_cast<const Vector*>(floats.data()), size_t(floats.shape(0))}};
 }
 
+template <class Matrix, int kSide>
+Matrix toSquare(const py::handle& numbers, const std::string& what) {
+  const py::array array = numbersOf(py::reinterpret_borrow<py::object>(numbers), what);
+  if (array.ndim() != 2 || array.shape(0) != kSide || array.shape(1) != kSide)
+    raiseUsage(what + " has the shape " + shapeOf(array),
+               "give a matrix of " + std::to_string(kSide) + " by " + std::to_string(kSide));
+  const py::array_t<float> rows = converted<float>(array, what);
+  Matrix matrix;
+  for (int row = 0; row < kSide; ++row)
+    for (int column = 0; column < kSide; ++column) matrix[column][row] = *rows.data(row, column);
+  return matrix;
+}
+
 }  // namespace
 
 py::array toArray(Image image) {
@@ -90,7 +104,8 @@ py::array toArray(std::vector<Image> views) {
   return result;
 }
 
-Image toImage(const py::array& array, const std::string& what) {
+Image toImage(const py::object& pixels, const std::string& what) {
+  const py::array array = numbersOf(pixels, what);
   const auto ndim = array.ndim();
   const py::ssize_t channels = ndim == 3 ? array.shape(2) : 1;
   if ((ndim != 2 && ndim != 3) || (channels != 1 && channels != 3 && channels != 4))
@@ -121,8 +136,8 @@ Image toImage(const py::array& array, const std::string& what) {
   return image;
 }
 
-Image toLinearImage(const py::array& array, const std::string& what) {
-  Image image = toImage(array, what);
+Image toLinearImage(const py::object& pixels, const std::string& what) {
+  Image image = toImage(pixels, what);
   if (image.format != PixelFormat::srgb8) return image;
   std::array<float, 256> linear;  // IEC 61966-2-1
   for (size_t code = 0; code < linear.size(); ++code) {
@@ -138,14 +153,10 @@ Image toLinearImage(const py::array& array, const std::string& what) {
 }
 
 glm::mat4 toMatrix(const py::handle& numbers, const std::string& what) {
-  const py::array array = numbersOf(py::reinterpret_borrow<py::object>(numbers), what);
-  if (array.ndim() != 2 || array.shape(0) != 4 || array.shape(1) != 4)
-    raiseUsage(what + " has the shape " + shapeOf(array), "give a matrix of 4 by 4");
-  const py::array_t<float> rows = converted<float>(array, what);
-  glm::mat4 matrix;
-  for (int row = 0; row < 4; ++row)
-    for (int column = 0; column < 4; ++column) matrix[column][row] = *rows.data(row, column);
-  return matrix;
+  return toSquare<glm::mat4, 4>(numbers, what);
+}
+glm::mat3 toMatrix3(const py::handle& numbers, const std::string& what) {
+  return toSquare<glm::mat3, 3>(numbers, what);
 }
 
 py::array toArray(const glm::mat4& matrix) {
@@ -183,7 +194,7 @@ Rows<uint32_t> toIndices(const py::object& numbers, const std::string& what) {
   const py::object least = array.attr("min")(), most = array.attr("max")();
   if (least < py::int_(0) || most > py::int_(std::numeric_limits<uint32_t>::max()))
     raiseUsage(what + " go from " + std::string(py::str(least)) + " to " + std::string(py::str(most)),
-               "indices count from 0");
+               "they count from 0 to 4294967295");
   const py::array_t<uint32_t> values = converted<uint32_t>(array, what);
   return {values, {values.data(), size_t(values.size())}};
 }
@@ -211,6 +222,7 @@ Rows<glm::u8vec4> toColors(const py::object& numbers, const std::string& what) {
 
 std::vector<glm::mat4> toMatrices(const py::object& numbers, const std::string& what) {
   std::vector<glm::mat4> matrices;
+  if (!py::isinstance<py::iterable>(numbers)) refuse(numbers, what, "n matrices of 4 by 4");
   for (const py::handle matrix : py::reinterpret_borrow<py::iterable>(numbers))
     matrices.push_back(toMatrix(matrix, what));
   return matrices;

@@ -24,13 +24,14 @@ py::array toArray(scumble::Image image);
 py::array toArray(std::vector<scumble::Image> views);
 
 // Height by width, or by width by 1, 3 or 4 channels: uint8 (sRGB's codes) or any kind of float (linear).
-scumble::Image toImage(const py::array& array, const std::string& what);
+scumble::Image toImage(const py::object& pixels, const std::string& what);
 // The same, linear in any case.
-scumble::Image toLinearImage(const py::array& array, const std::string& what);
+scumble::Image toLinearImage(const py::object& pixels, const std::string& what);
 
 // 4 by 4, as mathematics writes it: the last column is where things are moved to.
 glm::mat4 toMatrix(const py::handle& array, const std::string& what);
 py::array toArray(const glm::mat4& matrix);
+glm::mat3 toMatrix3(const py::handle& array, const std::string& what);  // likewise
 glm::vec3 toVec3(const py::handle& numbers, const std::string& what);
 
 // Rows of vectors, kept alive with the array that they lie in.

@@ -3,7 +3,12 @@
 
 #include <pybind11/pybind11.h>
 
+#include "calls.h"
+#include "scumble/renderer.h"
+
 namespace scumble_python {
+
+using SingleRenderer = Single<scumble::Renderer>;
 
 void addPictures(pybind11::module_& module);
 void addLook(pybind11::module_& module);

@@ -32,9 +32,14 @@ void raise(const Error& error) {
       name = "Cancelled";
       break;
   }
+  // Names of files are bytes, and come back as Python has them.
+  const auto text = [](const std::string& bytes) {
+    return py::reinterpret_steal<py::str>(
+        PyUnicode_DecodeUTF8(bytes.data(), Py_ssize_t(bytes.size()), "surrogateescape"));
+  };
   const py::object type = py::module_::import("scumble._errors").attr(name);
-  const py::object instance =
-      type(error.message(), error.file, error.line, error.jsonPath, error.problem, error.advice);
+  const py::object instance = type(text(error.message()), text(error.file), error.line, text(error.jsonPath),
+                                   text(error.problem), text(error.advice));
   PyErr_SetObject(type.ptr(), instance.ptr());
   throw py::error_already_set();
 }
@@ -43,7 +48,85 @@ void raiseUsage(const std::string& problem, const std::string& advice) {
   raise({ErrorKind::usage, "", 0, "", problem, advice});
 }
 
+std::string kindOf(bool) {
+  return "True or False";
+}
+std::string kindOf(double) {
+  return "a number";
+}
+std::string kindOf(float) {
+  return "a number";
+}
+std::string kindOf(int) {
+  return "a whole number";
+}
+std::string kindOf(uint32_t) {
+  return "a whole number from 0 on";
+}
+std::string kindOf(const std::string&) {
+  return "a text";
+}
+
+void refuse(const py::handle& value, const std::string& name, const std::string& kind) {
+  constexpr size_t kMostLetters = 60;
+  std::string shown = py::repr(value);
+  if (shown.size() > kMostLetters) shown = py::str(py::type::handle_of(value));
+  raiseUsage(name + " cannot be " + shown, "give " + kind);
+}
+
+size_t wordOf(const py::handle& value, const std::string& name, const std::vector<std::string>& words) {
+  std::string all;
+  for (size_t i = 0; i < words.size(); ++i) {
+    if (py::isinstance<py::str>(value) && value.cast<std::string>() == words[i]) return i;
+    all += (i == 0 ? "'" : i + 1 < words.size() ? ", '" : " or '") + words[i] + "'";
+  }
+  refuse(value, name, all);
+}
+
+namespace {
+
+std::atomic<int> running = 0;
+std::atomic<bool> isEnding = false;
+std::thread::id endingThread;
+
+void refuseAtTheEnd() {
+  if (!isEnding || std::this_thread::get_id() == endingThread) return;
+  PyErr_SetNone(PyExc_SystemExit);
+  throw py::error_already_set();
+}
+
+}  // namespace
+
+Running::Running() {
+  refuseAtTheEnd();
+  ++running;
+}
+Running::~Running() {
+  --running;
+}
+void Running::addTo(py::module_& module) {
+  module.def("_end", [] {
+    endingThread = std::this_thread::get_id();
+    isEnding = true;
+    const py::gil_scoped_release released;
+    while (running > 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  });
+  py::module_::import("atexit").attr("register")(module.attr("_end"));
+}
+
+namespace {
+
+// True and everything that is no truth value go on.
+bool saysStop(const py::handle& answer) {
+  const bool isTruth =
+      PyBool_Check(answer.ptr()) || py::isinstance(answer, py::module_::import("numpy").attr("bool_"));
+  return isTruth && PyObject_IsTrue(answer.ptr()) == 0;
+}
+
+}  // namespace
+
 void runWatched(const std::function<void(const Progress&)>& call, const py::object& progress) {
+  const Running counted;
   std::mutex mutex;
   std::condition_variable ended;
   bool hasEnded = false;
@@ -72,13 +155,13 @@ void runWatched(const std::function<void(const Progress&)>& call, const py::obje
       std::unique_lock lock(mutex);
       isOver = ended.wait_for(lock, std::chrono::milliseconds(50), [&] { return hasEnded; });
     }
+    if (isEnding) stops = true;
     if (stops) continue;
     try {
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       if (const double now = part; !progress.is_none() && now > told) {
         told = now;
-        const py::object goesOn = progress(now);
-        if (!goesOn.is_none() && !py::cast<bool>(goesOn)) stops = true;
+        if (saysStop(progress(now))) stops = true;
       }
     } catch (...) {
       stoppedBy = std::current_exception();
@@ -86,6 +169,7 @@ void runWatched(const std::function<void(const Progress&)>& call, const py::obje
     }
   }
   worker.join();
+  if (stops) refuseAtTheEnd();
   if (stoppedBy) std::rethrow_exception(stoppedBy);
   if (thrown) std::rethrow_exception(thrown);
 }

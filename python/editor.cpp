@@ -14,20 +14,6 @@ using namespace pybind11::literals;
 namespace scumble_python {
 namespace {
 
-// Which of some words a value is.
-template <class Enum>
-Enum wordOf(const py::handle& value, const std::string& what, const std::vector<std::string>& words) {
-  const std::string word = py::str(value);
-  const auto found = std::find(words.begin(), words.end(), word);
-  if (found == words.end()) {
-    std::string all;
-    for (const std::string& one : words)
-      all += (all.empty() ? "" : &one == &words.back() ? " or " : ", ") + one;
-    raiseUsage(what + " cannot be '" + word + "'", "say " + all);
-  }
-  return Enum(found - words.begin());
-}
-
 [[noreturn]] void refuseKey(const std::string& what, const std::string& key, const std::string& known) {
   raiseUsage(what + " has no '" + key + "'", "it has " + known);
 }
@@ -36,30 +22,26 @@ TextureSlot toSlot(const py::handle& value, const std::string& what) {
   TextureSlot slot;
   if (value.is_none()) return slot;
   if (!py::isinstance<py::dict>(value)) {
-    slot.texture = TextureId(value.cast<int>());
+    slot.texture = TextureId(as<int>(value, what, "a texture's number, or a dict"));
     return slot;
   }
   const std::vector<std::string> wraps = {"repeat", "mirrored-repeat", "clamp-to-edge"};
   for (const auto& [key, item] : py::reinterpret_borrow<py::dict>(value)) {
     const std::string name = py::str(key);
     if (name == "texture") {
-      slot.texture = TextureId(item.cast<int>());
+      slot.texture = TextureId(as<int>(item, name));
     } else if (name == "wrap_u") {
-      slot.wrapU = wordOf<TextureSlot::Wrap>(item, name, wraps);
+      slot.wrapU = TextureSlot::Wrap(wordOf(item, name, wraps));
     } else if (name == "wrap_v") {
-      slot.wrapV = wordOf<TextureSlot::Wrap>(item, name, wraps);
+      slot.wrapV = TextureSlot::Wrap(wordOf(item, name, wraps));
     } else if (name == "nearest") {
-      slot.nearest = item.cast<bool>();
+      slot.nearest = as<bool>(item, name);
     } else if (name == "mipmaps") {
-      slot.mipmaps = item.cast<bool>();
+      slot.mipmaps = as<bool>(item, name);
     } else if (name == "uv_set") {
-      slot.uvSet = item.cast<int>();
+      slot.uvSet = as<int>(item, name);
     } else if (name == "transform") {
-      const auto rows = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(item);
-      if (!rows || rows.ndim() != 2 || rows.shape(0) != 3 || rows.shape(1) != 3)
-        raiseUsage("the transform of a texture is no matrix of 3 by 3");
-      for (int row = 0; row < 3; ++row)
-        for (int column = 0; column < 3; ++column) slot.transform[column][row] = *rows.data(row, column);
+      slot.transform = toMatrix3(item, "the transform of a texture");
     } else {
       refuseKey(what, name, "texture, wrap_u, wrap_v, nearest, mipmaps, uv_set and transform");
     }
@@ -71,14 +53,11 @@ void change(MaterialDesc& material, const py::kwargs& settings) {
   for (const auto& [key, value] : settings) {
     const std::string name = py::str(key);
     if (name == "name") {
-      material.name = value.cast<std::string>();
+      material.name = as<std::string>(value, name);
     } else if (name == "base_color") {
-      if (py::len(value) == 4) {
-        const auto numbers = value.cast<std::vector<float>>();
-        material.baseColor = {numbers[0], numbers[1], numbers[2], numbers[3]};
-      } else {
-        material.baseColor = {toVec3(value, name), 1};
-      }
+      const auto numbers = as<std::vector<float>>(value, name, "3 or 4 linear numbers from 0 to 1");
+      if (numbers.size() != 3 && numbers.size() != 4) refuse(value, name, "3 or 4 linear numbers");
+      material.baseColor = {numbers[0], numbers[1], numbers[2], numbers.size() == 4 ? numbers[3] : 1.0f};
     } else if (name == "base_color_texture") {
       material.baseColorTexture = toSlot(value, name);
     } else if (name == "emissive") {
@@ -86,13 +65,13 @@ void change(MaterialDesc& material, const py::kwargs& settings) {
     } else if (name == "emissive_texture") {
       material.emissiveTexture = toSlot(value, name);
     } else if (name == "alpha") {
-      material.alpha = wordOf<MaterialDesc::Alpha>(value, name, {"opaque", "mask", "blend"});
+      material.alpha = MaterialDesc::Alpha(wordOf(value, name, {"opaque", "mask", "blend"}));
     } else if (name == "alpha_cutoff") {
-      material.alphaCutoff = value.cast<float>();
+      material.alphaCutoff = as<float>(value, name);
     } else if (name == "double_sided") {
-      material.doubleSided = value.cast<bool>();
+      material.doubleSided = as<bool>(value, name);
     } else if (name == "unlit") {
-      material.unlit = value.cast<bool>();
+      material.unlit = as<bool>(value, name);
     } else if (name == "shadowed_color") {
       material.shadowedColor = value.is_none() ? std::optional<glm::vec3>() : toVec3(value, name);
     } else if (name == "lit_texture") {
@@ -141,7 +120,7 @@ struct Parts {
       else if (name == "roundness")
         part.roundness = keep(toFloats(item, name));
       else if (name == "material")
-        part.material = MaterialId(item.cast<int>());
+        part.material = MaterialId(as<int>(item, name));
       else
         refuseKey("a mesh", name,
                   "positions, indices, normals, uv, uv1, colors, warp_scales, roundness and material");
@@ -159,17 +138,20 @@ Parts toParts(const py::kwargs& settings) {
   }
   if (py::len(settings) > 1)
     raiseUsage("parts stands beside other settings of a mesh", "give each part its own");
-  for (const py::handle part : py::iterable(settings["parts"])) parts.add(part.cast<py::dict>());
+  for (const py::handle part : py::iterable(settings["parts"]))
+    parts.add(as<py::dict>(part, "a part", "a dict of arrays"));
   return parts;
 }
 
 TextureDesc toTexture(const py::array_t<uint8_t, py::array::c_style>& pixels, const std::string& name) {
   if (pixels.ndim() != 3 || pixels.shape(2) != 4)
-    raiseUsage("a texture's pixels are no RGBA", "give height by width by 4, uint8");
+    raiseUsage("a texture's pixels are neither RGB nor RGBA", "give height by width by 3 or 4, uint8");
   return {name, uint32_t(pixels.shape(1)), uint32_t(pixels.shape(0)), {pixels.data(), size_t(pixels.size())}};
 }
 // RGB is opaque.
-py::array_t<uint8_t, py::array::c_style> toRgba(const py::array& pixels) {
+py::array_t<uint8_t, py::array::c_style> toRgba(const py::object& given) {
+  const py::array pixels = py::array::ensure(given);
+  if (!pixels) refuse(given, "a texture", "height by width by 3 or 4, uint8");
   if (pixels.dtype().kind() != 'u' || pixels.itemsize() != 1)
     raiseUsage("a texture has numbers of the kind " + std::string(py::str(pixels.dtype())),
                "give uint8 (sRGB)");
@@ -188,6 +170,12 @@ py::array_t<uint8_t, py::array::c_style> toRgba(const py::array& pixels) {
 NodeId idOf(int id) {
   return NodeId(id);
 }
+// Of a node that there is.
+NodeId nodeOf(const SceneEditor& editor, int id) {
+  if (id < 0 || size_t(id) >= editor.nodeCount())
+    raiseUsage("there is no node " + std::to_string(id), "ids are what add_node or find_node gave");
+  return NodeId(id);
+}
 
 }  // namespace
 
@@ -201,7 +189,7 @@ void addEditor(py::module_& module) {
       .def(py::init<const Scene&>(), "scene"_a)
       .def(
           "add_texture",
-          [](SceneEditor& editor, const py::array& pixels, const std::string& name) {
+          [](SceneEditor& editor, const py::object& pixels, const std::string& name) {
             const auto rgba = toRgba(pixels);
             return int(valueOf(editor.addTexture(toTexture(rgba, name))));
           },
@@ -209,7 +197,7 @@ void addEditor(py::module_& module) {
           "pixels: height by width by 3 or 4, uint8 (sRGB, straight alpha). Gives its id.")
       .def(
           "set_texture",
-          [](SceneEditor& editor, int id, const py::array& pixels, const std::string& name) {
+          [](SceneEditor& editor, int id, const py::object& pixels, const std::string& name) {
             const auto rgba = toRgba(pixels);
             done(editor.setTexture(TextureId(id), toTexture(rgba, name)));
           },
@@ -279,16 +267,21 @@ void addEditor(py::module_& module) {
           },
           "name"_a, "The first of this name ('boat/Deck': one called Deck below one called boat), or None.")
       .def(
-          "name_of", [](const SceneEditor& editor, int node) { return editor.nameOf(idOf(node)); }, "node"_a)
+          "name_of", [](const SceneEditor& editor, int node) { return editor.nameOf(nodeOf(editor, node)); },
+          "node"_a)
       .def(
-          "mesh_of", [](const SceneEditor& editor, int node) { return int(editor.meshOf(idOf(node))); },
+          "mesh_of",
+          [](const SceneEditor& editor, int node) { return int(editor.meshOf(nodeOf(editor, node))); },
           "node"_a, "-1: none.")
       .def(
-          "parent_of", [](const SceneEditor& editor, int node) { return int(editor.parentOf(idOf(node))); },
+          "parent_of",
+          [](const SceneEditor& editor, int node) { return int(editor.parentOf(nodeOf(editor, node))); },
           "node"_a, "-1: the world.")
       .def(
           "transform_of",
-          [](const SceneEditor& editor, int node) { return toArray(editor.transformOf(idOf(node))); },
+          [](const SceneEditor& editor, int node) {
+            return toArray(editor.transformOf(nodeOf(editor, node)));
+          },
           "node"_a, "To its parent's space, at rest: 4 by 4.")
       .def_property_readonly("node_count", &SceneEditor::nodeCount)
       .def(
@@ -314,17 +307,17 @@ void addEditor(py::module_& module) {
           "Its mesh is drawn once for each: n by 4 by 4, from instance to node space.")
       .def(
           "set_light",
-          [](SceneEditor& editor, int node, const std::optional<std::string>& kind, const py::object& color,
-             float intensity, float range, float innerCone, float outerCone) {
+          [](SceneEditor& editor, int node, const py::object& kind, const py::object& color, float intensity,
+             float range, float innerCone, float outerCone) {
             std::optional<LightDesc> light;
-            if (kind)
-              light = LightDesc{.kind = wordOf<LightDesc::Kind>(py::str(*kind), "a light",
-                                                                {"directional", "point", "spot"}),
-                                .color = toVec3(color, "color"),
-                                .intensity = intensity,
-                                .range = range,
-                                .innerCone = innerCone,
-                                .outerCone = outerCone};
+            if (!kind.is_none())
+              light = LightDesc{
+                  .kind = LightDesc::Kind(wordOf(kind, "a light", {"directional", "point", "spot"})),
+                  .color = toVec3(color, "color"),
+                  .intensity = intensity,
+                  .range = range,
+                  .innerCone = innerCone,
+                  .outerCone = outerCone};
             done(editor.setLight(idOf(node), light));
           },
           "node"_a, "kind"_a, py::kw_only(), "color"_a = py::make_tuple(1.0, 1.0, 1.0), "intensity"_a = 1.0f,

@@ -30,38 +30,34 @@ py::object toPython(const KnobValue& value) {
       value);
 }
 
-// numpy's numbers are numbers as well; None is nothing that a knob takes.
-KnobValue toKnobValue(const py::object& value, const std::string& path) {
+// numpy's numbers are numbers as well, and so are arrays of one.
+KnobValue toKnobValue(py::object value, const std::string& path) {
   if (py::isinstance<py::str>(value)) return value.cast<std::string>();
-  const py::object numpy = py::module_::import("numpy");
-  if (PyBool_Check(value.ptr()) || py::isinstance(value, numpy.attr("bool_"))) return value.cast<bool>();
-  if (py::isinstance<py::int_>(value) || py::isinstance(value, numpy.attr("integer"))) {
+  if (py::hasattr(value, "size") && py::hasattr(value, "item") &&
+      py::object(value.attr("size")).equal(py::int_(1)))
+    value = value.attr("item")();
+  if (PyBool_Check(value.ptr())) return value.cast<bool>();
+  if (py::isinstance<py::int_>(value)) {
     const double number = py::float_(value);
     if (std::abs(number) > 2147483647.0) return number;
     return int(number);
   }
-  if (py::isinstance<py::float_>(value) || py::isinstance(value, numpy.attr("floating")))
-    return double(py::float_(value));
-  if (py::isinstance<py::sequence>(value) || py::isinstance<py::array>(value))
-    return toVec3(value, "the value of " + path);
-  raiseUsage("a knob takes no " + std::string(py::str(py::type::handle_of(value).attr("__name__"))),
-             "give a number, a bool, a text or three numbers");
+  if (py::isinstance<py::float_>(value)) return value.cast<double>();
+  const bool isList = py::isinstance<py::sequence>(value) && !py::isinstance<py::bytes>(value);
+  if (isList || py::isinstance<py::array>(value)) return toVec3(value, "the value of " + path);
+  refuse(value, "a knob", "a number, True or False, a text or three numbers");
 }
 
-const std::vector<std::string> kInterpolations = {"step", "linear", "cubic", "ease"};
-
-KnobTrack toTrack(const py::iterable& keys, const std::string& interpolation, bool repeat,
+KnobTrack toTrack(const py::iterable& keys, const py::object& interpolation, bool repeat,
                   const std::string& path) {
   KnobTrack track{.repeat = repeat};
-  const auto found = std::find(kInterpolations.begin(), kInterpolations.end(), interpolation);
-  if (found == kInterpolations.end())
-    raiseUsage("there is no interpolation '" + interpolation + "'", "say step, linear, cubic or ease");
-  track.interpolation = Interpolation(found - kInterpolations.begin());
+  track.interpolation =
+      Interpolation(wordOf(interpolation, "interpolation", {"step", "linear", "cubic", "ease"}));
   for (const py::handle key : keys) {
     if (!py::isinstance<py::sequence>(key) || py::len(key) != 2)
       raiseUsage("a key is no pair", "give (seconds, value)");
     const py::sequence pair = py::reinterpret_borrow<py::sequence>(key);
-    track.keys.push_back({py::float_(py::object(pair[0])), toKnobValue(pair[1], path)});
+    track.keys.push_back({as<double>(pair[0], "the time of a key"), toKnobValue(pair[1], path)});
   }
   return track;
 }
@@ -92,7 +88,8 @@ void addLook(py::module_& module) {
           "text"_a, "file"_a = "look.json",
           "A look from the text of a look's file. file: what messages call it, and beside what its pictures "
           "lie.")
-      .def("copy", [](const Look& look) { return look; })
+      .def(
+          "copy", [](const Look& look) { return look; }, "Another one of the same settings.")
       .def("__copy__", [](const Look& look) { return look; })
       .def(
           "__deepcopy__", [](const Look& look, const py::dict&) { return look; }, "memo"_a)
@@ -112,7 +109,7 @@ void addLook(py::module_& module) {
           "path"_a, "value"_a)
       .def(
           "set_track",
-          [](Look& look, const std::string& path, const py::iterable& keys, const std::string& interpolation,
+          [](Look& look, const std::string& path, const py::iterable& keys, const py::object& interpolation,
              bool repeat) { done(look.set(path, toTrack(keys, interpolation, repeat, path))); },
           "path"_a, "keys"_a, "interpolation"_a = "linear", "repeat"_a = false,
           "Lets a knob change with time. keys: (seconds, value), ...; interpolation: step, linear, cubic or "
@@ -132,9 +129,15 @@ void addLook(py::module_& module) {
           "__getitem__",
           [](const Look& look, const std::string& path) { return toPython(valueOf(look.get(path))); },
           "path"_a)
+      .def(
+          "__contains__",
+          [](const Look& look, const py::object& path) {
+            return py::isinstance<py::str>(path) && look.get(path.cast<std::string>()).ok();
+          },
+          "path"_a, "Whether there is such a knob.")
       .def_property_readonly("animated", &Look::animated, "Paths of settings that change with time.")
       .def_property_readonly("last_key_time", &Look::lastKeyTime, "Seconds of the last key of all tracks.")
-      .def_property_readonly("description", &Look::description)
+      .def_property_readonly("description", &Look::description, "What its file says it is.")
       .def_property_readonly("files", &Look::files, "Files that it was read from.")
       .def_property_readonly(
           "warnings", [](const Look& look) { return look.warnings(); },
@@ -154,6 +157,7 @@ void addLook(py::module_& module) {
         return "<scumble.Look" + (look.description().empty() ? "" : ": " + look.description()) + ">";
       });
 
+  module.attr("Look").attr("__iter__") = py::none();  // it has no keys to go through
   module.def(
       "looks",
       [] {

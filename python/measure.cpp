@@ -73,26 +73,28 @@ std::function<bool(int, int)> inSteps(const Progress& progress) {
 void addMeasure(py::module_& module) {
   module.def(
       "_measure",
-      [](Renderer& renderer, const Scene& scene, const Look& look, const py::dict& viewpoint,
+      [](SingleRenderer& single, const Scene& scene, const Look& look, const py::dict& viewpoint,
          std::pair<uint32_t, uint32_t> size, uint32_t samples, uint32_t seed, std::optional<float> ipd,
          const py::object& progress) {
         MeasureOptions options = toMeasureOptions(viewpoint, size, samples, seed, ipd);
+        const auto renderer = single.turn();
         return toPython(runLong(progress, [&, scene, look](const Progress& part) {
           options.progress = inSteps(part);
-          return measure(renderer, scene, look, options);
+          return measure(*renderer, scene, look, options);
         }));
       },
       "renderer"_a, "scene"_a, "look"_a, "viewpoint"_a, "size"_a, "samples"_a, "seed"_a, "ipd"_a,
       "progress"_a);
   module.def(
       "_measure_lines",
-      [](Renderer& renderer, const Scene& scene, const Look& look, const std::string& aov,
+      [](SingleRenderer& single, const Scene& scene, const Look& look, const std::string& aov,
          const py::dict& viewpoint, std::pair<uint32_t, uint32_t> size, uint32_t samples, uint32_t seed,
          const py::object& progress) {
         MeasureOptions options = toMeasureOptions(viewpoint, size, samples, seed, {});
+        const auto renderer = single.turn();
         const LineMeasurements measured = runLong(progress, [&, scene, look](const Progress& part) {
           options.progress = inSteps(part);
-          return measureLines(renderer, scene, look, aov, options);
+          return measureLines(*renderer, scene, look, aov, options);
         });
         py::dict result = toPython(measured.lines);
         result["views"] = measured.views;
@@ -102,9 +104,9 @@ void addMeasure(py::module_& module) {
       "progress"_a);
   module.def(
       "_steadiness",
-      [](const std::string& method, const std::vector<py::array>& drawings, double degreesAStep) {
+      [](const std::string& method, const std::vector<py::object>& drawings, double degreesAStep) {
         std::vector<Image> images;
-        for (const py::array& drawing : drawings) images.push_back(toImage(drawing, "a drawing"));
+        for (const py::object& drawing : drawings) images.push_back(toImage(drawing, "a drawing"));
         return toPython(
             runLong(py::none(), [&](const Progress&) { return steadinessOf(method, images, degreesAStep); }));
       },

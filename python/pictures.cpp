@@ -2,6 +2,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <memory>
 
@@ -30,19 +31,22 @@ std::string endingOf(const std::string& path) {
 
 py::array readAny(const Path& file, const std::string& view) {
   const std::string path = file.string();
-  const py::gil_scoped_release released;
-  Result<Image> image = endingOf(path) == "exr" ? readExr(path, view) : readPicture(path);
-  const py::gil_scoped_acquire acquired;
-  return toArray(valueOf(std::move(image)));
+  const auto read = [&] {
+    const WithoutGil released;
+    return endingOf(path) == "exr" ? readExr(path, view) : readPicture(path);
+  };
+  return toArray(valueOf(read()));
 }
 
-void writeAny(const Path& file, const py::array& pixels, std::optional<int> quality) {
+void writeAny(const Path& file, const py::object& pixels, std::optional<int> quality) {
   const std::string path = file.string();
   const Image image = toImage(pixels, "the picture");
   const std::string ending = endingOf(path);
+  if (quality && ending != "jpg" && ending != "jpeg" && ending != "webp")
+    raise({ErrorKind::usage, path, 0, "", "such a file has no quality", "leave it out"});
   Status status = Done{};
   {
-    const py::gil_scoped_release released;
+    const WithoutGil released;
     if (ending == "png")
       status = writePng(path, image);
     else if (ending == "jpg" || ending == "jpeg")
@@ -65,19 +69,20 @@ void writeAny(const Path& file, const py::array& pixels, std::optional<int> qual
 // Layers of (name, view, pixels, channels, whether it is a colour).
 using Layer = std::tuple<std::string, std::string, py::array, std::vector<std::string>, bool>;
 
-void writeLayers(const std::string& path, const std::vector<Layer>& layers,
+void writeLayers(const Path& path, const std::vector<Layer>& layers,
                  const std::map<std::string, std::vector<std::string>>& cryptomattes) {
   std::deque<Image> images;
   std::vector<ImageLayer> described;
   for (const auto& [name, view, pixels, channels, isColor] : layers) {
-    const std::string what = "the layer '" + name + "'";
+    const std::string what = name.empty() ? "the picture" : "the layer '" + name + "'";
     const bool isHalf = pixels.dtype().kind() == 'f' && pixels.itemsize() == 2;
     const auto floats = py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(pixels);
     if (!floats || floats.ndim() != 3 || size_t(floats.shape(2)) != channels.size())
       raiseUsage(what + " is no picture of " + std::to_string(channels.size()) + " channels",
                  "give height by width by channels");
     if (pixels.dtype().kind() != 'f')
-      raiseUsage(what + " holds " + std::string(py::str(pixels.dtype())), "EXR files hold floats");
+      raiseUsage(what + " holds " + std::string(py::str(pixels.dtype())),
+                 "EXR files hold floats: ask for float32 or float16");
     images.push_back({uint32_t(floats.shape(1)), uint32_t(floats.shape(0)), channels,
                       std::vector<float>(floats.data(), floats.data() + floats.size()), isColor});
     described.push_back({name, view, &images.back(), isHalf});
@@ -86,17 +91,17 @@ void writeLayers(const std::string& path, const std::vector<Layer>& layers,
   for (const auto& [layer, objects] : cryptomattes) options.cryptomattes.push_back({layer, objects});
   Status status = Done{};
   {
-    const py::gil_scoped_release released;
-    status = writeExr(path, described, options);
+    const WithoutGil released;
+    status = writeExr(path.string(), described, options);
   }
   done(status);
 }
 
 // A film that is being written. The library's writer learns the pictures' size from the first one.
-class PythonFilm {
+class GrowingFilm {
  public:
-  PythonFilm(std::string path, double fps, std::optional<int> quality, FilmLayout layout,
-             FilmProjection projection)
+  GrowingFilm(std::string path, double fps, std::optional<int> quality, FilmLayout layout,
+              FilmProjection projection)
       : path_(std::move(path)) {
     const std::string ending = endingOf(path_);
     if (ending != "mp4" && ending != "webm" && ending != "gif")
@@ -111,12 +116,12 @@ class PythonFilm {
                 .projection = projection};
   }
 
-  void add(const py::array& pixels) {
+  void add(const py::object& pixels) {
     const Image picture = toImage(pixels, "the picture");
     if (hasEnded_) raiseUsage("the film has ended", "make another one");
     Status status = Done{};
     {
-      const py::gil_scoped_release released;
+      const WithoutGil released;
       status = added(picture);
     }
     done(status);
@@ -128,7 +133,7 @@ class PythonFilm {
     if (!writer_) raise({ErrorKind::usage, path_, 0, "", "a film needs at least one picture", ""});
     Status status = Done{};
     {
-      const py::gil_scoped_release released;
+      const WithoutGil released;
       status = writer_->finish();
       writer_.reset();
     }
@@ -137,7 +142,7 @@ class PythonFilm {
 
   // Leaves nothing behind, but of a film that was finished.
   void abandon() {
-    const py::gil_scoped_release released;
+    const WithoutGil released;
     hasEnded_ = true;
     writer_.reset();
   }
@@ -188,40 +193,44 @@ void addPictures(py::module_& module) {
       "straight): uint8 is sRGB, floats are linear. quality: of .jpg 1 to 100 (92), of .webp 0 to 100 (90).");
   module.def("_write_exr", &writeLayers, "path"_a, "layers"_a, "cryptomattes"_a);
 
-  py::class_<PythonFilm>(module, "_FilmWriter")
-      .def(py::init([](const std::string& path, double fps, std::optional<int> quality,
-                       const std::string& layout, const std::string& projection) {
-             const std::vector<std::string> layouts = {"mono", "side-by-side", "over-under"},
-                                            projections = {"flat", "sphere", "half-sphere"};
-             const auto indexIn = [](const std::vector<std::string>& words, const std::string& word) {
-               const auto found = std::find(words.begin(), words.end(), word);
-               if (found == words.end())
-                 raiseUsage("there is no '" + word + "'",
-                            "say " + words[0] + ", " + words[1] + " or " + words[2]);
-               return int(found - words.begin());
-             };
-             return PythonFilm(path, fps, quality, FilmLayout(indexIn(layouts, layout)),
-                               FilmProjection(indexIn(projections, projection)));
+  using SingleFilm = Single<GrowingFilm>;
+  py::class_<SingleFilm>(module, "_FilmWriter")
+      .def(py::init([](const Path& path, double fps, std::optional<int> quality, const py::object& layout,
+                       const py::object& projection) {
+             const auto laid = FilmLayout(wordOf(layout, "layout", {"mono", "side-by-side", "over-under"}));
+             const auto projected =
+                 FilmProjection(wordOf(projection, "projection", {"flat", "sphere", "half-sphere"}));
+             return std::make_unique<SingleFilm>(
+                 std::make_unique<GrowingFilm>(path.string(), fps, quality, laid, projected));
            }),
            "path"_a, "fps"_a, "quality"_a, "layout"_a, "projection"_a)
-      .def("add", &PythonFilm::add, "pixels"_a)
-      .def("finish", &PythonFilm::finish)
-      .def("abandon", &PythonFilm::abandon);
+      .def(
+          "add", [](SingleFilm& film, const py::object& pixels) { film.turn()->add(pixels); }, "pixels"_a)
+      .def("finish", [](SingleFilm& film) { film.turn()->finish(); })
+      .def("abandon", [](SingleFilm& film) { film.turn()->abandon(); });
 
-  py::class_<FilmReader>(module, "FilmReader",
-                         "The pictures of a film that ffmpeg reads, by time. Times that grow are fast.")
-      .def(py::init([](const Path& path) { return valueOf(FilmReader::open(path.string())); }), "path"_a)
+  using SingleReader = Single<FilmReader>;
+  py::class_<SingleReader>(module, "FilmReader",
+                           "The pictures of a film that ffmpeg reads, by time. Times that grow are fast.")
+      .def(py::init([](const Path& path) {
+             return std::make_unique<SingleReader>(valueOf(FilmReader::open(path.string())));
+           }),
+           "path"_a)
       .def(
           "at",
-          [](FilmReader& reader, double time) {
-            Result<std::shared_ptr<const Image>> image = [&] {
-              const py::gil_scoped_release released;
-              return reader.at(time);
-            }();
-            return toArray(Image(*valueOf(std::move(image))));
+          [](SingleReader& single, double time) {
+            if (std::isnan(time)) raiseUsage("the time is no number", "give seconds");
+            const auto reader = single.turn();
+            const auto read = [&] {
+              const WithoutGil released;
+              return reader->at(time);
+            };
+            return toArray(Image(*valueOf(read())));
           },
           "time"_a, "The picture that stands at a time in seconds: float32, height by width by RGB, linear.")
-      .def_property_readonly("last_time", &FilmReader::lastTime, "Of the last picture, seconds.");
+      .def_property_readonly(
+          "last_time", [](SingleReader& reader) { return reader.turn()->lastTime(); },
+          "Of the last picture, seconds.");
 
   py::class_<Drawing>(module, "Drawing", "The lines of a frame as strokes (render(..., drawing=True)).")
       .def_property_readonly(

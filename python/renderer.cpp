@@ -18,44 +18,45 @@ namespace {
 
 // The picture's name among AOVs: the library's is empty.
 constexpr const char* kPicture = "picture";
-std::string aovOf(const std::string& name) {
-  return name == kPicture ? "" : name;
-}
 
-PixelFormat formatOf(const std::string& dtype) {
-  if (dtype == "float32") return PixelFormat::float32;
-  if (dtype == "float16") return PixelFormat::half;
-  if (dtype == "uint8") return PixelFormat::srgb8;
-  raiseUsage("pictures do not come as '" + dtype + "'", "say float32, float16 or uint8");
-}
+// A picture behind everything, that is uploaded once as long as it is the same object.
+struct Background {
+  std::shared_ptr<const Image> image;
+};
 
 RenderOptions toOptions(const py::dict& settings) {
   RenderOptions options;
   for (const auto& [key, value] : settings) {
     const std::string name = py::str(key);
     if (name == "size") {
-      std::tie(options.width, options.height) = value.cast<std::pair<uint32_t, uint32_t>>();
+      std::tie(options.width, options.height) =
+          as<std::pair<uint32_t, uint32_t>>(value, name, "(width, height), whole numbers from 1 on");
     } else if (name == "samples") {
-      options.samples = value.cast<uint32_t>();
+      options.samples = as<uint32_t>(value, name);
     } else if (name == "seed") {
-      options.seed = value.cast<uint32_t>();
+      options.seed = as<uint32_t>(value, name);
     } else if (name == "aovs") {
-      options.aovs = value.cast<std::vector<std::string>>();
+      if (py::isinstance<py::str>(value)) refuse(value, name, "a list of names");
+      options.aovs = as<std::vector<std::string>>(value, name, "a list of names");
     } else if (name == "dtypes") {
-      for (const auto& [layer, dtype] : value.cast<std::map<std::string, std::string>>())
-        options.formats[aovOf(layer)] = formatOf(dtype);
+      for (const auto& [layer, dtype] : as<py::dict>(value, name, "a dict of dtypes by names")) {
+        const auto aov = as<std::string>(layer, "a name among dtypes");
+        const auto format =
+            PixelFormat(wordOf(dtype, "the dtype of " + aov, {"float32", "float16", "uint8"}));
+        if (format == PixelFormat::half && Renderer::needsFloat(aov))
+          raiseUsage("the numbers of " + aov + " do not fit into float16", "leave it out of dtypes");
+        options.formats[aov == kPicture ? "" : aov] = format;
+      }
     } else if (name == "drawing") {
-      options.drawing = value.cast<bool>();
+      options.drawing = as<bool>(value, name);
     } else if (name == "transparent") {
-      options.transparent = value.cast<bool>();
+      options.transparent = as<bool>(value, name);
     } else if (name == "background") {
-      if (!value.is_none())
-        options.background =
-            std::make_shared<Image>(toLinearImage(value.cast<py::array>(), "the background"));
+      options.background = value.cast<const Background&>().image;
     } else if (name == "previous_views") {
       options.previousViews = value.cast<std::vector<View>>();
     } else if (name == "previous_time") {
-      if (!value.is_none()) options.previousTime = value.cast<double>();
+      options.previousTime = as<double>(value, name);
     } else {
       raiseUsage("a frame has no '" + name + "'");
     }
@@ -91,19 +92,6 @@ py::tuple toPython(Frame frame) {
                         toPython(frame.stats));
 }
 
-Panorama toPanorama(const std::string& kind, float ipd, float knobHeight, float strip) {
-  Panorama panorama{.ipd = ipd, .knobHeight = knobHeight, .strip = strip};
-  if (kind == "vr180")
-    panorama.kind = PanoramaKind::vr180;
-  else if (kind == "ods")
-    panorama.kind = PanoramaKind::ods;
-  else if (kind == "mono360")
-    panorama.kind = PanoramaKind::mono360;
-  else
-    raiseUsage("there is no panorama '" + kind + "'", "say vr180, ods or mono360");
-  return panorama;
-}
-
 }  // namespace
 
 void addRenderer(py::module_& module) {
@@ -111,7 +99,7 @@ void addRenderer(py::module_& module) {
       "_devices",
       [](const std::string& choice, const std::string& cacheFolder) {
         Result<std::vector<GpuInfo>> found = [&] {
-          const py::gil_scoped_release released;
+          const WithoutGil released;
           return listGpus(choice, cacheFolder);
         }();
         py::list all;
@@ -123,72 +111,88 @@ void addRenderer(py::module_& module) {
       },
       "choice"_a, "cache"_a);
   module.def("aovs", &Renderer::aovNames, "Names of everything that render() gives beside the picture.");
-  module.def("played_seconds", &playedSeconds, "scene"_a, "look"_a = Look(),
-             "Seconds after which every clip that a look plays has played once; 0 where none does.");
+  module.def("_played_seconds", &playedSeconds, "scene"_a, "look"_a);
   module.attr("_MAX_BEGUN") = Renderer::kMaxBegun;
 
-  py::class_<Renderer>(module, "_Renderer")
+  py::class_<Background>(module, "_Background")
+      .def(py::init([](const py::object& pixels) {
+             return Background{std::make_shared<Image>(toLinearImage(pixels, "the background"))};
+           }),
+           "pixels"_a);
+
+  py::class_<SingleRenderer>(module, "_Renderer")
       .def(py::init([](const std::string& device, const std::string& cache, bool validation) {
              const RendererOptions options{.device = device, .validation = validation, .cacheFolder = cache};
-             return runLong(py::none(), [&](const Progress&) { return Renderer::create(options); });
+             return std::make_unique<SingleRenderer>(
+                 runLong(py::none(), [&](const Progress&) { return Renderer::create(options); }));
            }),
            "device"_a, "cache"_a, "validation"_a)
       .def(
           "render",
-          [](Renderer& renderer, const Scene& scene, const Look& look, double time,
+          [](SingleRenderer& single, const Scene& scene, const Look& look, double time,
              const std::vector<View>& views, const py::dict& settings, const py::object& progress) {
             RenderOptions options = toOptions(settings);
+            const auto renderer = single.turn();
             return toPython(runLong(progress, [&, scene, look](const Progress& part) {
               options.progress = part;
-              return renderer.render(scene, look, time, views, options);
+              return renderer->render(scene, look, time, views, options);
             }));
           },
           "scene"_a, "look"_a, "time"_a, "views"_a, "settings"_a, "progress"_a)
       .def(
           "begin",
-          [](Renderer& renderer, const Scene& scene, const Look& look, double time,
+          [](SingleRenderer& single, const Scene& scene, const Look& look, double time,
              const std::vector<View>& views, const py::dict& settings) {
             RenderOptions options = toOptions(settings);
+            const auto renderer = single.turn();
             runLong(py::none(), [&, scene, look](const Progress& part) {
               options.progress = part;
-              return renderer.begin(scene, look, time, views, options);
+              return renderer->begin(scene, look, time, views, options);
             });
           },
           "scene"_a, "look"_a, "time"_a, "views"_a, "settings"_a)
       .def("finish",
-           [](Renderer& renderer) {
-             return toPython(runLong(py::none(), [&](const Progress&) { return renderer.finish(); }));
+           [](SingleRenderer& single) {
+             const auto renderer = single.turn();
+             return toPython(runLong(py::none(), [&](const Progress&) { return renderer->finish(); }));
            })
-      .def_property_readonly("frames_begun", &Renderer::framesBegun)
       .def(
           "prepare",
-          [](Renderer& renderer, const Scene& scene, const Look& look, const std::vector<View>& views,
+          [](SingleRenderer& single, const Scene& scene, const Look& look, const std::vector<View>& views,
              const py::dict& settings, const py::object& progress) {
             RenderOptions options = toOptions(settings);
+            const auto renderer = single.turn();
             runLong(progress, [&, scene, look](const Progress& part) {
               options.progress = part;
-              return renderer.prepare(scene, look, views, options);
+              return renderer->prepare(scene, look, views, options);
             });
           },
           "scene"_a, "look"_a, "views"_a, "settings"_a, "progress"_a)
       .def(
           "panorama",
-          [](Renderer& renderer, const Scene& scene, const Look& look, double time, const View& from,
-             const std::string& kind, float ipd, float knobHeight, float strip, const py::dict& settings,
+          [](SingleRenderer& single, const Scene& scene, const Look& look, double time, const View& from,
+             const py::object& kind, float ipd, float knobHeight, float strip, const py::dict& settings,
              const py::object& progress) {
-            const Panorama panorama = toPanorama(kind, ipd, knobHeight, strip);
+            const Panorama panorama{.kind = PanoramaKind(wordOf(kind, "kind", {"vr180", "ods", "mono360"})),
+                                    .ipd = ipd,
+                                    .knobHeight = knobHeight,
+                                    .strip = strip};
             RenderOptions options = toOptions(settings);
+            const auto renderer = single.turn();
             options.width = options.height * aspectOf(panorama.kind);
             return toPython(runLong(progress, [&, scene, look](const Progress& part) {
               options.progress = part;
-              return renderPanorama(renderer, scene, look, time, from, panorama, options);
+              return renderPanorama(*renderer, scene, look, time, from, panorama, options);
             }));
           },
           "scene"_a, "look"_a, "time"_a, "view"_a, "kind"_a, "ipd"_a, "knob_height"_a, "strip"_a,
           "settings"_a, "progress"_a)
-      .def("graph", &Renderer::graph)
-      .def_property_readonly("device", [](const Renderer& renderer) { return renderer.gpu().name; })
-      .def_property_readonly("validation_messages", &Renderer::validationMessages);
+      .def_property_readonly("frames_begun",
+                             [](SingleRenderer& single) { return single.turn()->framesBegun(); })
+      .def("graph", [](SingleRenderer& single) { return single.turn()->graph(); })
+      .def_property_readonly("device", [](SingleRenderer& single) { return single.turn()->gpu().name; })
+      .def_property_readonly("validation_messages",
+                             [](SingleRenderer& single) { return single.turn()->validationMessages(); });
 }
 
 }  // namespace scumble_python

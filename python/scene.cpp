@@ -13,11 +13,11 @@ using namespace pybind11::literals;
 namespace scumble_python {
 namespace {
 
-PatternCoordinates patternsOf(const std::string& word) {
-  if (word == "automatic") return PatternCoordinates::automatic;
-  if (word == "file") return PatternCoordinates::file;
-  if (word == "own") return PatternCoordinates::own;
-  raiseUsage("there are no patterns '" + word + "'", "say automatic, file or own");
+SceneOptions toSceneOptions(int scene, const py::object& patterns, bool allowOutside) {
+  return {
+      .scene = scene,
+      .allowOutside = allowOutside,
+      .patternCoordinates = PatternCoordinates(wordOf(patterns, "patterns", {"automatic", "file", "own"}))};
 }
 
 py::dict summaryOf(const Scene& scene) {
@@ -40,10 +40,9 @@ py::dict summaryOf(const Scene& scene) {
 
 void addScene(py::module_& module) {
   py::class_<Scene>(module, "Scene", "A scene in memory. It never changes; SceneEditor makes others of it.")
-      .def(py::init([](const Path& path, int scene, const std::string& patterns, bool allowOutside,
+      .def(py::init([](const Path& path, int scene, const py::object& patterns, bool allowOutside,
                        const py::object& progress) {
-             SceneOptions options{
-                 .scene = scene, .allowOutside = allowOutside, .patternCoordinates = patternsOf(patterns)};
+             SceneOptions options = toSceneOptions(scene, patterns, allowOutside);
              return runLong(progress, [&](const Progress& part) {
                options.progress = part;
                return Scene::load(path.string(), options);
@@ -57,15 +56,21 @@ void addScene(py::module_& module) {
            "part that is done.")
       .def_static(
           "from_bytes",
-          [](const py::bytes& bytes, const std::string& name, const Path& folder) {
-            const std::string_view view = bytes;
-            return runLong(py::none(), [&](const Progress& part) {
-              return Scene::loadFromMemory(view.data(), view.size(), name, folder.string(),
-                                           {.progress = part});
+          [](const py::buffer& bytes, const std::string& name, const Path& folder, int scene,
+             const py::object& patterns, bool allowOutside, const py::object& progress) {
+            const py::buffer_info info = bytes.request();
+            SceneOptions options = toSceneOptions(scene, patterns, allowOutside);
+            return runLong(progress, [&](const Progress& part) {
+              options.progress = part;
+              return Scene::loadFromMemory(info.ptr, size_t(info.size * info.itemsize), name, folder.string(),
+                                           options);
             });
           },
-          "bytes"_a, py::kw_only(), "name"_a = "scene", "folder"_a = "",
-          "A glTF or GLB in memory. folder: where its files lie; without one it must hold everything itself.")
+          "bytes"_a, py::kw_only(), "name"_a = "scene", "folder"_a = "", "scene"_a = -1,
+          "patterns"_a = "automatic", "allow_outside"_a = false, "progress"_a = py::none(),
+          "A glTF or GLB in memory, bytes or another buffer. folder: where its files lie; without one it "
+          "must "
+          "hold everything itself.")
       .def_static(
           "combine", [](const std::vector<Scene>& scenes) { return Scene::combine(scenes); }, "scenes"_a,
           "Several scenes in one world.")
@@ -78,17 +83,17 @@ void addScene(py::module_& module) {
               for (const auto& [key, value] : one) {
                 const std::string name = py::str(key);
                 if (name == "scene")
-                  place.scene = value.cast<Scene>();
+                  place.scene = as<Scene>(value, name, "a Scene");
                 else if (name == "name")
-                  place.name = value.cast<std::string>();
+                  place.name = as<std::string>(value, name);
                 else if (name == "at")
                   place.at = toVec3(value, "at");
                 else if (name == "turn")
                   place.turn = toVec3(value, "turn");
                 else if (name == "scale")
-                  place.scale = value.cast<float>();
+                  place.scale = as<float>(value, name);
                 else if (name == "on")
-                  place.on = value.cast<std::string>();
+                  place.on = as<std::string>(value, name);
                 else
                   raiseUsage("a place has no '" + name + "'", "it has scene, name, at, turn, scale and on");
               }

@@ -18,24 +18,25 @@ Viewpoint toViewpoint(const py::dict& settings) {
     if (name == "camera") {
       viewpoint.camera = py::str(value);
     } else if (name == "frame") {
-      viewpoint.frame = value.cast<std::string>();
+      viewpoint.frame = as<std::string>(value, name);
     } else if (name == "orbit") {
-      const auto angles = value.cast<std::vector<float>>();
+      const auto angles =
+          as<std::vector<float>>(value, name, "(azimuth, elevation) or (azimuth, elevation, distance)");
       if (angles.size() != 2 && angles.size() != 3)
         raiseUsage("orbit has " + std::to_string(angles.size()) + " numbers",
                    "give (azimuth, elevation) or (azimuth, elevation, distance)");
       viewpoint.orbit = true, viewpoint.azimuth = angles[0], viewpoint.elevation = angles[1];
       if (angles.size() == 3) viewpoint.distance = angles[2];
     } else if (name == "turntable") {
-      viewpoint.turntable = value.cast<double>();
+      viewpoint.turntable = as<double>(value, name);
     } else if (name == "eye") {
       viewpoint.eye = toVec3(value, name);
     } else if (name == "target") {
       viewpoint.target = toVec3(value, name);
     } else if (name == "roll") {
-      viewpoint.roll = value.cast<float>();
+      viewpoint.roll = as<float>(value, name);
     } else if (name == "fov") {
-      viewpoint.verticalFov = value.cast<float>();
+      viewpoint.verticalFov = as<float>(value, name);
     } else {
       raiseUsage("a viewpoint has no '" + name + "'",
                  "it has camera, frame, orbit, turntable, eye, target, roll and fov");
@@ -69,16 +70,30 @@ void addViews(py::module_& module) {
       .def_readonly("level", &View::isLevel)
       .def_property_readonly("size",
                              [](const View& view) { return py::make_tuple(view.size.x, view.size.y); })
-      .def_readonly("rig", &View::rig);
+      .def_readonly("rig", &View::rig)
+      .def("__copy__", [](const View& view) { return view; })
+      .def(
+          "__deepcopy__", [](const View& view, const py::dict&) { return view; }, "memo"_a)
+      .def("__repr__", [](const View& view) {
+        const glm::vec3 eye(glm::inverse(view.worldToEye)[3]);
+        return "<scumble.View from " + std::to_string(eye.x) + ", " + std::to_string(eye.y) + ", " +
+               std::to_string(eye.z) + ">";
+      });
 
   module.def(
       "perspective",
-      [](float fov, float aspect, float near) { return toArray(perspectiveProjection(fov, aspect, near)); },
+      [](float fov, float aspect, float near) {
+        if (!(fov > 0 && fov < 3.1415926f)) raiseUsage("fov is out of range", "it is in radians, below pi");
+        if (!(aspect > 0) || !(near > 0)) raiseUsage("aspect and near are above 0");
+        return toArray(perspectiveProjection(fov, aspect, near));
+      },
       "fov"_a, "aspect"_a, "near"_a = 0.1f,
       "A projection for View without a far plane: fov is vertical, radians; near in metres.");
   module.def(
       "orthographic",
       [](float halfHeight, float aspect, float near, float far) {
+        if (!(halfHeight > 0) || !(aspect > 0) || !(near < far))
+          raiseUsage("half_height and aspect are above 0, and near is less than far");
         return toArray(orthographicProjection(halfHeight, aspect, near, far));
       },
       "half_height"_a, "aspect"_a, "near"_a, "far"_a, "A parallel projection for View; metres.");
@@ -91,18 +106,14 @@ void addViews(py::module_& module) {
       },
       "scene"_a, "viewpoint"_a, "aspect"_a, "stereo"_a, "ipd"_a, "look"_a, "time"_a);
   module.def(
-      "nodes_to_world",
+      "_nodes_to_world",
       [](const Scene& scene, const Look& look, double time) {
         const std::vector<glm::mat4> matrices = nodesToWorld(scene, look, time);
         py::array_t<float> all({matrices.size(), size_t(4), size_t(4)});
-        for (size_t i = 0; i < matrices.size(); ++i)
-          for (int row = 0; row < 4; ++row)
-            for (int column = 0; column < 4; ++column)
-              *all.mutable_data(i, row, column) = matrices[i][column][row];
+        for (size_t i = 0; i < matrices.size(); ++i) all[py::int_(i)] = toArray(matrices[i]);
         return all;
       },
-      "scene"_a, "look"_a = Look(), "time"_a = 0.0,
-      "Where each node is at a time in seconds: n by 4 by 4, from its own space to the world.");
+      "scene"_a, "look"_a, "time"_a);
 }
 
 }  // namespace scumble_python

@@ -15,7 +15,7 @@ Ctrl+C stops what takes long.
 from ._errors import Cancelled, Error, InternalError, NoUsableGpu, OutputNotWritten, UnusableFile, UsageError
 from ._films import FilmWriter
 from ._frames import Frame
-from ._renderer import Renderer, devices, make_views, steadiness
+from ._renderer import Renderer, devices, make_views, nodes_to_world, played_seconds, steadiness
 from ._scumble import (
     Drawing,
     FilmReader,
@@ -28,10 +28,8 @@ from ._scumble import (
     knobs,
     look_schema,
     looks,
-    nodes_to_world,
     orthographic,
     perspective,
-    played_seconds,
     read_picture,
     write_picture,
 )
@@ -41,3 +39,9 @@ __all__ = [
     "SceneEditor", "UnusableFile", "UsageError", "View", "__version__", "aovs", "devices", "knobs", "look_schema", "looks", "make_views", "nodes_to_world",
     "orthographic", "perspective", "played_seconds", "read_picture", "steadiness", "write_picture",
 ]
+
+# As who they are known.
+for _class in (Cancelled, Drawing, Error, FilmReader, FilmWriter, Frame, InternalError, Look, NoUsableGpu, OutputNotWritten, Renderer, Scene, SceneEditor,
+               UnusableFile, UsageError, View):
+    _class.__module__ = "scumble"
+del _class

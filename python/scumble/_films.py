@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import os
 from types import TracebackType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from . import _scumble
 from ._frames import Frame
 
 if TYPE_CHECKING:
-    import numpy as np
+    from numpy.typing import ArrayLike
 
 
 class FilmWriter:
@@ -22,15 +22,15 @@ class FilmWriter:
 
     The file appears whole when the block is left, and not at all where it is left by an exception. The first picture decides the
     size; there is no alpha. fps: 0.01 to 1000 (a GIF: 50). quality: constant, lower is better: of .mp4 0 to 51 (16), of .webm 0 to
-    63 (20). layout: how two eyes lie in each picture, "mono", "side-by-side" or "over-under"; projection: "flat", "sphere" or
+    63 (20). Odd sizes grow by a pixel in both. layout: how two eyes lie in each picture, "mono", "side-by-side" or "over-under"; projection: "flat", "sphere" or
     "half-sphere" (Renderer.panorama). Players learn both from an .mp4.
     """
 
     def __init__(self, path: str | os.PathLike[str], *, fps: float = 24, quality: int | None = None, layout: str = "mono",
                  projection: str = "flat") -> None:
-        self._writer = _scumble._FilmWriter(os.fspath(path), fps, quality, layout, projection)
+        self._writer = _scumble._FilmWriter(path, fps, quality, layout, projection)
 
-    def add(self, picture: Frame | np.ndarray[Any, np.dtype[Any]]) -> None:
+    def add(self, picture: Frame | ArrayLike) -> None:
         """The next picture: a frame (two eyes side by side), or an array as write_picture takes it."""
         self._writer.add(picture.image() if isinstance(picture, Frame) else picture)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import os
 import tempfile
 from typing import TYPE_CHECKING, Any
@@ -42,6 +43,8 @@ class Frame(dict[str, np.ndarray[Any, np.dtype[Any]]]):
 
     def eye(self, view: int, name: str = "picture") -> np.ndarray[Any, np.dtype[Any]]:
         """One view's array: height by width by channels."""
+        if not -self.views <= view < self.views:
+            raise IndexError(f"there are {self.views} views, and no {view}")
         array = self[name]
         return array[view] if array.ndim == 4 else array
 
@@ -56,7 +59,7 @@ class Frame(dict[str, np.ndarray[Any, np.dtype[Any]]]):
         An EXR has the picture as R, G, B, A, each AOV as a layer of its name, and two eyes as views. quality: of .jpg 1 to 100
         (92), of .webp 0 to 100 (90).
         """
-        path = os.fspath(path)
+        path = os.fsdecode(path)
         if not path.lower().endswith(".exr"):
             _scumble.write_picture(path, self.image(), quality)
             return
@@ -73,6 +76,10 @@ class Frame(dict[str, np.ndarray[Any, np.dtype[Any]]]):
                 layers.append(("" if name == "picture" else name, ("left", "right")[view] if self.views == 2 else "",
                                self.eye(view, name), list(self.channels[name]), name in self.colors))
         _scumble._write_exr(path, layers, {CRYPTOMATTE: self.objects} if CRYPTOMATTE in self else {})
+
+    def copy(self) -> Frame:
+        """Another one with the same arrays."""
+        return copy.copy(self)
 
     def _repr_png_(self) -> bytes:
         with tempfile.TemporaryDirectory(prefix="scumble_") as folder:

@@ -6,6 +6,8 @@ import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+import numpy as np
+
 from . import _scumble
 from ._errors import Cancelled, UsageError
 from ._films import FilmWriter
@@ -13,10 +15,10 @@ from ._frames import Frame
 from ._scumble import Look, Scene, View
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import ArrayLike
+    from numpy.typing import ArrayLike, NDArray
 
 Progress: TypeAlias = "Callable[[float], bool | None]"
+LookLike: TypeAlias = "Look | str | os.PathLike[str]"  # itself, or its name or file
 
 BEFORE = 1 / 24  # seconds from a frame to the next, where it is not said
 # What says where the camera stands; and what render() takes besides scene, look and progress.
@@ -24,21 +26,30 @@ VIEWPOINT = ("camera", "frame", "orbit", "turntable", "eye", "target", "roll", "
 FRAME = (*VIEWPOINT, "size", "samples", "aovs", "dtypes", "stereo", "ipd", "views", "seed", "transparent", "background", "drawing")
 
 
-def devices(choice: str = "", *, cache: str | os.PathLike[str] = "") -> list[dict[str, Any]]:
+def devices(choice: str | int = "", *, cache: str | os.PathLike[str] = "") -> list[dict[str, Any]]:
     """Every Vulkan device, each a dict: name, driver, api_version, cpu, unusable_because, would_be_used (for this choice, as
     Renderer takes it), workarounds."""
-    return _scumble._devices(choice, os.fspath(cache))
+    return _scumble._devices(str(choice), os.fsdecode(cache))
 
 
-def _look(look: Look | str) -> Look:
-    return Look(look) if isinstance(look, str) else look
+def _look(look: LookLike) -> Look:
+    """A look that nobody else changes."""
+    if isinstance(look, Look):
+        return look.copy()
+    if isinstance(look, (str, os.PathLike)):
+        return Look(look)
+    raise TypeError(f"a look cannot be {type(look).__name__}; give a scumble.Look, or its name or file")
+
+
+def _says_stop(answer: Any) -> bool:
+    return isinstance(answer, (bool, np.bool_)) and not answer
 
 
 def _viewpoint(options: Any) -> dict[str, Any]:
     return {name: options[name] for name in VIEWPOINT if options.get(name) is not None}
 
 
-def make_views(scene: Scene, look: Look | str = "age-of-sail", time: float = 0, *, aspect: float = 16 / 9, stereo: bool = False, ipd: float = 0.063,
+def make_views(scene: Scene, look: LookLike = "age-of-sail", time: float = 0, *, aspect: float = 16 / 9, stereo: bool = False, ipd: float = 0.063,
                camera: str | int | None = None, frame: str | None = None, orbit: Sequence[float] | None = None,
                turntable: float | None = None, eye: ArrayLike | None = None, target: ArrayLike | None = None,
                roll: float | None = None, fov: float | None = None) -> list[View]:
@@ -47,24 +58,36 @@ def make_views(scene: Scene, look: Look | str = "age-of-sail", time: float = 0, 
     return _scumble._views(scene, viewpoint, aspect, stereo, ipd, _look(look), time)
 
 
-def steadiness(drawings: Sequence[ArrayLike], *, method: str = "", degrees_a_step: float = 0.125) -> dict[str, Any]:
-    """How steady pictures of lines are that anybody drew, dark on light, so many degrees apart: drawn (pixels), changes and flickers
-    (of those, a degree)."""
-    import numpy as np
+def played_seconds(scene: Scene, look: LookLike = "age-of-sail") -> float:
+    """Seconds after which every clip that a look plays has played once; 0 where none does."""
+    return _scumble._played_seconds(scene, _look(look))
 
-    return _scumble._steadiness(method, [np.asarray(drawing) for drawing in drawings], degrees_a_step)
+
+def nodes_to_world(scene: Scene, look: LookLike = "age-of-sail", time: float = 0) -> NDArray[np.float32]:
+    """Where each node is at a time in seconds: n by 4 by 4, from its own space to the world."""
+    return _scumble._nodes_to_world(scene, _look(look), time)
+
+
+def steadiness(drawings: Sequence[ArrayLike], *, method: str = "somebody", degrees_a_step: float = 0.125) -> dict[str, Any]:
+    """How steady pictures of lines are that anybody drew, dark on light, so many degrees apart: drawn (pixels), changes and flickers
+    (of those, a degree). method: who drew, for messages."""
+    return _scumble._steadiness(method, list(drawings), degrees_a_step)
 
 
 def _settings(options: dict[str, Any]) -> dict[str, Any]:
     """What the library's RenderOptions are made of."""
     settings = {name: options[name] for name in ("size", "samples", "seed", "drawing", "transparent") if name in options}
-    settings["aovs"] = list(options.get("aovs", ()))
-    settings["dtypes"] = dict(options.get("dtypes") or {})
+    if "size" in settings and not (isinstance(settings["size"], (Sequence, np.ndarray)) and len(settings["size"]) == 2):
+        raise UsageError(f"size cannot be {settings['size']!r}; give (width, height), whole numbers from 1 on")
+    aovs = options.get("aovs", ())
+    settings["aovs"] = aovs if isinstance(aovs, str) else [aov for aov in aovs if aov != "picture"]
+    # As numpy has them: types, dtypes and names.
+    settings["dtypes"] = {name: dtype if isinstance(dtype, str) else np.dtype(dtype).name for name, dtype in (options.get("dtypes") or {}).items()}
     background = options.get("background")
     if isinstance(background, (str, os.PathLike)):
-        background = _scumble.read_picture(os.fspath(background))
+        background = _scumble.read_picture(background)
     if background is not None:
-        settings["background"] = background
+        settings["background"] = _scumble._Background(background)
     return settings
 
 
@@ -76,13 +99,17 @@ class _Call:
             if name not in FRAME:
                 raise TypeError(f"a frame has no option '{name}'")
         self.scene, self.look = scene, look
+        if not isinstance(scene, Scene):
+            raise TypeError(f"a scene cannot be {type(scene).__name__}; give a scumble.Scene")
         self.views: list[View] | None = None if options.get("views") is None else list(options["views"])
         self.stereo: bool = options.get("stereo", False)
         self.ipd: float = options.get("ipd", 0.063)
         self.viewpoint = _viewpoint(options)
         self.settings = _settings(options)
         width, height = self.settings.get("size", (1280, 720))
-        self.aspect = width / max(1, height)
+        self.aspect = width / height if height else 1
+        if self.views is not None and len({view.size for view in self.views}) > 1:
+            raise UsageError("views of several sizes are no one array; draw them one after the other")
         if self.views is not None and (self.viewpoint or self.stereo):
             raise UsageError("views stand beside " + ("stereo" if self.stereo else next(iter(self.viewpoint))) + "; give one of them")
 
@@ -105,9 +132,15 @@ class Renderer:
     """
 
     def __init__(self, device: str | int = "", *, cache: str | os.PathLike[str] = "", validation: bool = False) -> None:
-        self._renderer = _scumble._Renderer(str(device), os.fspath(cache), validation)
+        self._renderer = _scumble._Renderer(str(device), os.fsdecode(cache), validation)
+        self._frames: object = None  # whose frames are under way
 
-    def render(self, scene: Scene, look: Look | str = "age-of-sail", time: float = 0, *, size: tuple[int, int] = (1280, 720), samples: int = 4,
+    def _free(self) -> _scumble._Renderer:
+        if self._frames is not None:
+            raise UsageError("frames() of this renderer are under way; close that iterator, or take all of them, first")
+        return self._renderer
+
+    def render(self, scene: Scene, look: LookLike = "age-of-sail", time: float = 0, *, size: tuple[int, int] = (1280, 720), samples: int = 4,
                aovs: Sequence[str] = (), dtypes: dict[str, str] | None = None, stereo: bool = False, ipd: float = 0.063,
                views: Sequence[View] | None = None, seed: int = 0, transparent: bool = False,
                background: ArrayLike | str | os.PathLike[str] | None = None, drawing: bool = False, previous_time: float | None = None,
@@ -133,61 +166,80 @@ class Renderer:
                        turntable=turntable, eye=eye, target=target, roll=roll, fov=fov)
         call = _Call(scene, look, options)
         now, settings = call.at(time, time - BEFORE if previous_time is None else previous_time)
-        return Frame(self._renderer.render(scene, look, time, now, settings, progress), len(now))
+        return Frame(self._free().render(scene, look, time, now, settings, progress), len(now))
 
-    def frames(self, scene: Scene, look: Look | str, times: Iterable[float], *, previous_time: float | None = None,
+    def frames(self, scene: Scene, look: LookLike, times: Iterable[float], *, previous_time: float | None = None,
                **options: Any) -> Iterator[Frame]:
         """Frames of many times (seconds), one after the other, faster than one by one: while one is looked at, the next is drawn.
 
         options: as render() takes them. The frame before each is the one before in times, before the first that of previous_time.
         Until the last frame has come, or the iterator is closed, the renderer is busy.
         """
-        look = _look(look)
-        call = _Call(scene, look, options)
-        previous = previous_time
-        counts: list[int] = []
+        return self._drawn(_Call(scene, _look(look), options), iter(times), previous_time)
+
+    def _drawn(self, call: _Call, times: Iterator[float], previous: float | None) -> Iterator[Frame]:
+        counts: list[int] = []  # of views of the frames that are under way
+
+        def finish() -> Frame:
+            count = counts.pop(0)
+            return Frame(self._renderer.finish(), count)
+
+        self._free()
+        self._frames = counts
         try:
             for time in times:
                 if len(counts) == _scumble._MAX_BEGUN - 1:
-                    yield Frame(self._renderer.finish(), counts.pop(0))
+                    yield finish()
                 now, settings = call.at(time, time - BEFORE if previous is None else previous)
-                self._renderer.begin(scene, look, time, now, settings)
+                self._renderer.begin(call.scene, call.look, time, now, settings)
                 counts.append(len(now))
                 previous = time
             while counts:
-                yield Frame(self._renderer.finish(), counts.pop(0))
+                yield finish()
         finally:
-            while self._renderer.frames_begun:
-                self._renderer.finish()
+            try:
+                while self._renderer.frames_begun:  # Ctrl+C may have struck anywhere
+                    self._renderer.finish()
+            finally:
+                self._frames = None
 
-    def film(self, path: str | os.PathLike[str], scene: Scene, look: Look | str = "age-of-sail", *, seconds: float | None = None, fps: float = 24,
+    def film(self, path: str | os.PathLike[str], scene: Scene, look: LookLike = "age-of-sail", *, seconds: float | None = None, fps: float = 24,
              start: float = 0, quality: int | None = None, progress: Progress | None = None, **options: Any) -> None:
         """Makes a film, as `scumble render -o PATH` does: .mp4, .webm or .gif.
 
         seconds: how long; without it as long as the clips play, or the turntable, or the look's tracks. Two eyes lie side by side.
-        options: as render() takes them.
+        options: as render() takes them, but for those that ask for more than the picture.
         """
         look = _look(look)
+        for name in ("aovs", "dtypes", "drawing"):
+            if name in options:
+                raise TypeError(f"a film has no '{name}'")
         if seconds is None:
-            seconds = options.get("turntable") or _scumble.played_seconds(scene, look) or look.last_key_time
+            seconds = options.get("turntable") or _scumble._played_seconds(scene, look) or look.last_key_time
             if not seconds:
                 raise UsageError("nothing moves, so that it is not known how long the film is to be; give seconds")
+        if not (0 < seconds < 1e6 and 0.01 <= fps <= 1000):
+            raise UsageError(f"a film of {seconds} seconds at {fps} frames a second; give seconds above 0, and fps from 0.01 to 1000")
         count = max(1, round(seconds * fps))
+        eyes = 1 + bool(options.get("stereo")) if options.get("views") is None else len(options["views"])
+        if eyes > 2:
+            raise UsageError(f"a film of {eyes} views; give one or two")
         options = {**options, "dtypes": {"picture": "uint8"}}
         times = (start + i / fps for i in range(count))
-        with FilmWriter(path, fps=fps, quality=quality, layout="side-by-side" if options.get("stereo") else "mono") as film:
+        self._free()
+        with FilmWriter(path, fps=fps, quality=quality, layout="side-by-side" if eyes == 2 else "mono") as film:
             for i, frame in enumerate(self.frames(scene, look, times, previous_time=start - 1 / fps, **options)):
                 film.add(frame)
-                if progress is not None and progress((i + 1) / count) is False:
+                if progress is not None and _says_stop(progress((i + 1) / count)):
                     raise Cancelled("the film was stopped")
 
-    def prepare(self, scene: Scene, look: Look | str = "age-of-sail", *, progress: Progress | None = None, **options: Any) -> None:
+    def prepare(self, scene: Scene, look: LookLike = "age-of-sail", *, progress: Progress | None = None, **options: Any) -> None:
         """Sends a scene to the device and compiles what frames with these options need, so that none waits later."""
         look = _look(look)
         now, settings = _Call(scene, look, options).at(0, 0)
-        self._renderer.prepare(scene, look, now, settings, progress)
+        self._free().prepare(scene, look, now, settings, progress)
 
-    def panorama(self, scene: Scene, look: Look | str = "age-of-sail", time: float = 0, *, kind: str = "vr180", height: int = 1024,
+    def panorama(self, scene: Scene, look: LookLike = "age-of-sail", time: float = 0, *, kind: str = "vr180", height: int = 1024,
                  ipd: float = 0.063, knob_height: float = 90, strip: float = 6, samples: int = 4, aovs: Sequence[str] = (),
                  dtypes: dict[str, str] | None = None, seed: int = 0, progress: Progress | None = None,
                  **viewpoint: Any) -> Frame:
@@ -199,19 +251,19 @@ class Renderer:
         look = _look(look)
         view = _scumble._views(scene, viewpoint, 1, False, ipd, look, time)[0]
         settings = _settings(dict(size=(height, height), samples=samples, aovs=aovs, dtypes=dtypes, seed=seed))
-        return Frame(self._renderer.panorama(scene, look, time, view, kind, ipd, knob_height, strip, settings, progress),
+        return Frame(self._free().panorama(scene, look, time, view, kind, ipd, knob_height, strip, settings, progress),
                      1 if kind == "mono360" else 2)
 
-    def measure(self, scene: Scene, look: Look | str = "age-of-sail", *, size: tuple[int, int] = (960, 540), samples: int = 1, seed: int = 0,
+    def measure(self, scene: Scene, look: LookLike = "age-of-sail", *, size: tuple[int, int] = (960, 540), samples: int = 1, seed: int = 0,
                 ipd: float | None = None, progress: Progress | None = None, **viewpoint: Any) -> dict[str, Any]:
         """How well MetaTexture and its three rivals keep to surfaces and to the screen, as `scumble measure` does: modes, targets and
         what they were measured with (docs/measure.md). Draws some 500 frames."""
-        return _scumble._measure(self._renderer, scene, _look(look), dict(viewpoint), size, samples, seed, ipd, progress)
+        return _scumble._measure(self._free(), scene, _look(look), dict(viewpoint), size, samples, seed, ipd, progress)
 
-    def measure_lines(self, scene: Scene, look: Look | str, aov: str = "ink", *, size: tuple[int, int] = (960, 540), samples: int = 1,
+    def measure_lines(self, scene: Scene, look: LookLike, aov: str = "ink", *, size: tuple[int, int] = (960, 540), samples: int = 1,
                       seed: int = 0, progress: Progress | None = None, **viewpoint: Any) -> dict[str, Any]:
         """How steady the lines of an AOV are while one walks around the scene: drawn, changes, flickers; and the views."""
-        return _scumble._measure_lines(self._renderer, scene, _look(look), aov, dict(viewpoint), size, samples, seed, progress)
+        return _scumble._measure_lines(self._free(), scene, _look(look), aov, dict(viewpoint), size, samples, seed, progress)
 
     def graph(self) -> str:
         """The steps of the last frame, for Graphviz."""

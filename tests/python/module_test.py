@@ -123,6 +123,7 @@ class Pictures(unittest.TestCase):
         codes = RENDERER.render(SCENE, size=SIZE, dtypes={"picture": "uint8"})["picture"]
         self.assertLess(np.abs(srgb(floats[..., :3]) * 255 - codes[..., :3]).max(), 0.51)
 
+        self.assertEqual(RENDERER.render(SCENE, size=SIZE, dtypes={"picture": np.uint8})["picture"].dtype, np.uint8)
         both = RENDERER.render(SCENE, size=SIZE, samples=1, stereo=True, aovs=["depth", "shadow-map"])
         self.assertEqual(both["picture"].shape, (2, 90, 160, 4))
         self.assertEqual(both["shadow-map"].ndim, 3)
@@ -209,6 +210,10 @@ class Looks(unittest.TestCase):
         self.assertEqual(look["warp.boilDrawings"], 3)
         self.assertEqual(look["camera.shift"], (1, 2, 3))
         np.testing.assert_allclose(look["background.zenith"], (1, 0, 0), atol=1e-6)
+        self.assertTrue("shadow.threshold" in look and "shadow.treshold" not in look and 3 not in look)
+        look["shadow.threshold"] = np.array([0.5])
+        (FOLDER / "mine.json").write_text('{"shadow": {"threshold": 0.5}}')
+        RENDERER.render(SCENE, FOLDER / "mine.json", size=SIZE, samples=1)
         other = copy.deepcopy(look)
         other["shadow.threshold"] = 0.75
         self.assertEqual(look["shadow.threshold"], 0.5)
@@ -342,10 +347,35 @@ class Films(unittest.TestCase):
     def test_a_closed_iterator_leaves_the_renderer_free(self):
         frames = RENDERER.frames(SCENE, "ink", (i / 24 for i in range(1000)), size=SIZE, samples=1)
         next(frames)
-        with self.assertRaisesRegex(scumble.UsageError, "have been begun"):
+        with self.assertRaisesRegex(scumble.UsageError, "close that iterator"):
             RENDERER.render(SCENE, size=SIZE)
         frames.close()
         RENDERER.render(SCENE, size=SIZE, samples=1)
+
+    def test_two_iterators_do_not_take_each_others_frames(self):
+        first, second = (RENDERER.frames(SCENE, look, [0, 1, 2], size=SIZE, samples=1) for look in ("age-of-sail", "ink"))
+        next(first)
+        for call in (lambda: next(second), lambda: RENDERER.film(FOLDER / "x.mp4", SCENE, seconds=1, size=SIZE), lambda: RENDERER.prepare(SCENE)):
+            with self.assertRaisesRegex(scumble.UsageError, "close that iterator"):
+                call()
+        self.assertFalse((FOLDER / "x.mp4").exists())
+        self.assertEqual(len(list(first)), 2)
+        with self.assertRaises(TypeError):
+            RENDERER.frames(SCENE, "ink", [0], lens=1)  # at once, not with the first frame
+
+    def test_a_look_that_changes_changes_later_calls(self):
+        look = scumble.Look()
+        frames = RENDERER.frames(SCENE, look, [0, 0, 0], size=SIZE, samples=1)
+        first = next(frames)["picture"].copy()
+        look["palette.saturation"] = 3
+        for frame in frames:
+            np.testing.assert_array_equal(frame["picture"], first)
+
+    def test_two_views_are_two_eyes(self):
+        RENDERER.film(FOLDER / "a.mp4", SCENE, seconds=0.1, size=(96, 54), samples=1, stereo=True)
+        RENDERER.film(FOLDER / "b.mp4", SCENE, seconds=0.1, size=(96, 54), samples=1, views=scumble.make_views(SCENE, stereo=True, aspect=96 / 54))
+        self.assertEqual(*((FOLDER / name).read_bytes().count(b"st3d") for name in ("a.mp4", "b.mp4")))
+        self.assertIn(b"st3d", (FOLDER / "b.mp4").read_bytes())
 
     def test_by_hand_and_read_back(self):
         grey = [np.full((32, 48, 3), 40 * i, np.uint8) for i in range(1, 5)]
@@ -400,7 +430,7 @@ class Mistakes(unittest.TestCase):
                 (lambda: scumble.Look("inkk"), scumble.UsageError, "ink"),
                 (lambda: look.set("shadow.treshold", 1), scumble.UsageError, "did you mean 'shadow.threshold'"),
                 (lambda: look.set("shadow.threshold", 90), scumble.UsageError, "out of range"),
-                (lambda: look.set("shadow.threshold", None), scumble.UsageError, "NoneType"),
+                (lambda: look.set("shadow.threshold", None), scumble.UsageError, "cannot be None"),
                 (lambda: look.set("shadow.threshold", [1, 2]), scumble.UsageError, "shape"),
                 (lambda: look.set_track("shadow.threshold", [(0, 1), (0, 1)]), scumble.UsageError, ""),
                 (lambda: look.set_track("shadow.threshold", [0]), scumble.UsageError, "pair"),
@@ -414,6 +444,24 @@ class Mistakes(unittest.TestCase):
                 (lambda: RENDERER.render(SCENE, orbit=(1,)), scumble.UsageError, "azimuth"),
                 (lambda: RENDERER.render(SCENE, eye=(1, 2), target=(0, 0, 0)), scumble.UsageError, "three numbers"),
                 (lambda: RENDERER.render(SCENE, lens=3), TypeError, "lens"),
+                (lambda: RENDERER.render(SCENE, size=(96.0, 54.0)), scumble.UsageError, "size cannot be"),
+                (lambda: RENDERER.render(SCENE, size="96x54"), scumble.UsageError, "width, height"),
+                (lambda: RENDERER.render(SCENE, samples=1.5), scumble.UsageError, "samples cannot be 1.5; give a whole number"),
+                (lambda: RENDERER.render(SCENE, aovs="depth"), scumble.UsageError, "list of names"),
+                (lambda: RENDERER.render(SCENE, aovs=["id"], dtypes={"id": np.float16}), scumble.UsageError, "float16"),
+                (lambda: RENDERER.render(SCENE, fov="40"), scumble.UsageError, "fov cannot be '40'"),
+                (lambda: RENDERER.render(SCENE, frame=3), scumble.UsageError, "frame cannot be 3"),
+                (lambda: RENDERER.render(SCENE, look=None), TypeError, "look"),
+                (lambda: RENDERER.film(FOLDER / "a.mp4", SCENE, seconds=0), scumble.UsageError, "above 0"),
+                (lambda: RENDERER.film(FOLDER / "a.mp4", SCENE, seconds=1, fps=0), scumble.UsageError, "fps"),
+                (lambda: RENDERER.film(FOLDER / "a.mp4", SCENE, seconds=1, aovs=["depth"]), TypeError, "aovs"),
+                (lambda: scumble.perspective(40, 1.5), scumble.UsageError, "radians"),
+                (lambda: scumble.Scene(os.fsdecode(b"/nowhere/\xff.glb")), scumble.UnusableFile, "no such file"),
+                (lambda: scumble.write_picture(FOLDER / "a.png", np.zeros((2, 2, 3)), quality=5), scumble.UsageError, "quality"),
+                (lambda: editor.name_of(999), scumble.UsageError, "no node 999"),
+                (lambda: editor.transform_of(-1), scumble.UsageError, "no node"),
+                (lambda: editor.add_material(base_color="#fff"), scumble.UsageError, "linear numbers"),
+                (lambda: editor.add_mesh(positions=np.ma.masked_array(triangle_at, False)), scumble.UsageError, "mask"),
                 (lambda: RENDERER.render(SCENE, views=[], size=SIZE), scumble.UsageError, "view"),
                 (lambda: RENDERER.render(SCENE, views=scumble.make_views(SCENE), orbit=(0, 0)), scumble.UsageError, "orbit"),
                 (lambda: RENDERER.render(SCENE, background=np.zeros((4, 4, 2))), scumble.UsageError, "4, 2"),
@@ -468,6 +516,9 @@ class Long(unittest.TestCase):
         self.assertTrue(parts and 0 <= parts[0] and parts[-1] <= 1)
         with self.assertRaises(scumble.Cancelled):
             scumble.Renderer("cpu").render(SCENE, size=SIZE, progress=lambda part: False)
+        with self.assertRaises(scumble.Cancelled):
+            RENDERER.film(FOLDER / "stopped.mp4", SCENE, seconds=5, size=SIZE, samples=1, progress=lambda part: np.bool_(False))
+        scumble.Renderer("cpu").render(SCENE, size=SIZE, progress=lambda part: 0)  # no truth value: it goes on
         with self.assertRaises(ZeroDivisionError):
             scumble.Renderer("cpu").render(SCENE, size=SIZE, progress=lambda part: 1 / 0)
         with self.assertRaises(scumble.Cancelled):
@@ -542,6 +593,69 @@ print(renderer.render(scene, size=(96, 54), samples=1)["picture"].shape)
             self.assertLess(float(line.split()[1]), 5)
         self.assertEqual(lines[-1], "(54, 96, 4)")
         self.assertFalse((FOLDER / "struck.mp4").exists())
+
+    def test_what_one_thread_at_a_time_uses(self):
+        """Others are told, and nothing breaks."""
+        with scumble.FilmWriter(FOLDER / "threads.mp4") as film:
+            film.add(np.zeros((32, 32, 3), np.uint8))
+        reader = scumble.FilmReader(FOLDER / "threads.mp4")
+        film = scumble.FilmWriter(FOLDER / "many.mp4")
+        ended = threading.Event()
+
+        def insist(call):
+            for _ in range(40):
+                try:
+                    call()
+                except scumble.UsageError as error:
+                    assert "another call" in str(error), error
+
+        threads = [threading.Thread(target=insist, args=[call]) for call in (lambda: film.add(np.zeros((32, 32, 3), np.uint8)), lambda: reader.at(0)) * 3]
+        for thread in threads:
+            thread.start()
+        drawing = threading.Thread(target=lambda: ([RENDERER.render(SCENE, ("ink", "manga")[i % 2], size=(96, 54), samples=1) for i in range(12)], ended.set()))
+        drawing.start()
+        while not ended.is_set():
+            insist(RENDERER.graph)
+        for thread in (*threads, drawing):
+            thread.join()
+        film.finish()
+
+    def test_ends_while_daemons_draw(self):
+        code = f"""
+import threading, time
+import scumble
+scene = scumble.Scene({str(FOLDER / "demo.glb")!r})
+renderer = scumble.Renderer("cpu")
+def draw():
+    while True:
+        renderer.render(scene, size=(96, 54), samples=1)
+def load():
+    while True:
+        scumble.Scene({str(FOLDER / "demo.glb")!r})
+for work in (draw, load):
+    threading.Thread(target=work, daemon=True).start()
+time.sleep(0.7)
+"""
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, env=os.environ, timeout=60)
+        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "", ""))
+
+    def test_forks(self):
+        """A renderer stays with the process that made it."""
+        code = f"""
+import os, sys
+import scumble
+renderer = scumble.Renderer("cpu")
+renderer.render(scumble.Scene({str(FOLDER / "demo.glb")!r}), size=(96, 54), samples=1)
+if os.fork() == 0:
+    try:
+        renderer.graph()
+    except scumble.UsageError as error:
+        print("forked" if "forked" in str(error) else error)
+    sys.exit(0)
+print("child", os.wait()[1])
+"""
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, env=os.environ, timeout=60)
+        self.assertEqual((done.returncode, sorted(done.stdout.split("\n"))), (0, ["", "child 0", "forked"]), done.stderr)
 
     def test_memory_stays(self):
         def used():
