@@ -38,7 +38,7 @@ const void* dataOf(const Image& image) {
 // Any object that numpy takes for numbers, in rows without gaps.
 py::array numbersOf(const py::object& numbers, const std::string& what) {
   if (py::hasattr(numbers, "mask")) raiseUsage(what + " have a mask", "fill it: array.filled(0)");
-  const py::array array = py::array::ensure(numbers, py::array::c_style);
+  py::array array = py::array::ensure(numbers, py::array::c_style);
   if (!array || std::string("iuf").find(array.dtype().kind()) == std::string::npos) {
     PyErr_Clear();
     raiseUsage(what + " are no numbers", "give an array of numbers");
