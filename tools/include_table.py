@@ -65,7 +65,7 @@ LIBRARIES = {
     "apps/viewer": ["std", "system", "glm", "nlohmann", "vulkan", "GLFW", "imgui", "fontconfig"],
     "apps/scumble": ["std", "system", "CLI", "fmt", "nlohmann", "cairo"],
     "examples": ["std", "glm", "nlohmann"],
-    "python": ["std", "glm", "pybind11"],
+    "python": ["std", "system", "glm", "pybind11"],
 }
 # The public headers for engines that bring their own device, and for C.
 LIBRARIES_OF_FILE = {"include/scumble/vulkan.h": ["std", "glm", "vulkan"], "include/scumble/scumble.h": ["system"]}
