@@ -179,7 +179,6 @@ void addRenderer(py::module_& module) {
                                     .strip = strip};
             RenderOptions options = toOptions(settings);
             const auto renderer = single.turn();
-            options.width = options.height * aspectOf(panorama.kind);
             return toPython(runLong(progress, [&, scene, look](const Progress& part) {
               options.progress = part;
               return renderPanorama(*renderer, scene, look, time, from, panorama, options);

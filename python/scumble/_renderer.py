@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
@@ -15,7 +15,7 @@ from ._frames import Frame
 from ._scumble import Look, Scene, View
 
 if TYPE_CHECKING:
-    from numpy.typing import ArrayLike, NDArray
+    from numpy.typing import ArrayLike, DTypeLike, NDArray
 
 Progress: TypeAlias = "Callable[[float], bool | None]"
 LookLike: TypeAlias = "Look | str | os.PathLike[str]"  # itself, or its name or file
@@ -133,6 +133,7 @@ class Renderer:
 
     def __init__(self, device: str | int = "", *, cache: str | os.PathLike[str] = "", validation: bool = False) -> None:
         self._renderer = _scumble._Renderer(str(device), os.fsdecode(cache), validation)
+        self._device = self._renderer.device
         self._frames: object = None  # whose frames are under way
 
     def _free(self) -> _scumble._Renderer:
@@ -141,7 +142,7 @@ class Renderer:
         return self._renderer
 
     def render(self, scene: Scene, look: LookLike = "age-of-sail", time: float = 0, *, size: tuple[int, int] = (1280, 720), samples: int = 4,
-               aovs: Sequence[str] = (), dtypes: dict[str, str] | None = None, stereo: bool = False, ipd: float = 0.063,
+               aovs: Sequence[str] = (), dtypes: Mapping[str, DTypeLike] | None = None, stereo: bool = False, ipd: float = 0.063,
                views: Sequence[View] | None = None, seed: int = 0, transparent: bool = False,
                background: ArrayLike | str | os.PathLike[str] | None = None, drawing: bool = False, previous_time: float | None = None,
                progress: Progress | None = None, camera: str | int | None = None, frame: str | None = None, orbit: Sequence[float] | None = None,
@@ -153,9 +154,9 @@ class Renderer:
         aovs() that come beside the picture. dtypes: as what arrays come, such as {"picture": "uint8"}: "float32", "float16", or for
         colours "uint8" (sRGB). stereo: two eyes, ipd metres apart. views: from where exactly, instead of a viewpoint. transparent:
         alpha is 0 where nothing is. background: a picture behind everything, an array or a file. drawing: the look's lines as
-        strokes, too (Frame.drawings). previous_time: when the frame before is, for the AOV "motion" and for washes, which go with what
-        moves; None: 1/24 s earlier, as the program has it. progress: called with the part that is
-        done while the scene goes to the device and pipelines are compiled; where it returns False, Cancelled is raised.
+        strokes, too (Frame.drawings). previous_time: when the frame before is, for the AOV "motion"; None: 1/24 s earlier. progress:
+        called with the part that is done while the scene goes to the device and pipelines are compiled; where it returns False,
+        Cancelled is raised.
 
         The viewpoint: camera (a scene's, by name or number), frame (nodes to frame), orbit (azimuth, elevation[, distance]: degrees
         and radii of what is framed), turntable (seconds), eye and target (metres), roll and fov (degrees).
@@ -241,7 +242,7 @@ class Renderer:
 
     def panorama(self, scene: Scene, look: LookLike = "age-of-sail", time: float = 0, *, kind: str = "vr180", height: int = 1024,
                  ipd: float = 0.063, knob_height: float = 90, strip: float = 6, samples: int = 4, aovs: Sequence[str] = (),
-                 dtypes: dict[str, str] | None = None, seed: int = 0, progress: Progress | None = None,
+                 dtypes: Mapping[str, DTypeLike] | None = None, seed: int = 0, progress: Progress | None = None,
                  **viewpoint: Any) -> Frame:
         """A picture all around: "vr180" and "ods" for two eyes (half and whole), "mono360" for one.
 
@@ -249,8 +250,12 @@ class Renderer:
         picture's height where knobs count pixels at 1080 lines; strip: degrees for which an eye keeps its place.
         """
         look = _look(look)
-        view = _scumble._views(scene, viewpoint, 1, False, ipd, look, time)[0]
-        settings = _settings(dict(size=(height, height), samples=samples, aovs=aovs, dtypes=dtypes, seed=seed))
+        # What is framed is seen by a wide angle, as the program has it.
+        viewpoint = {"fov": 80, **viewpoint}
+        aspect = 1 if kind == "vr180" else 2
+        view, before = (_scumble._views(scene, viewpoint, aspect, False, ipd, look, at)[0] for at in (time, time - BEFORE))
+        settings = _settings(dict(size=(height * aspect, height), samples=samples, aovs=aovs, dtypes=dtypes, seed=seed))
+        settings |= {"previous_time": time - BEFORE, "previous_views": [before]}
         return Frame(self._free().panorama(scene, look, time, view, kind, ipd, knob_height, strip, settings, progress),
                      1 if kind == "mono360" else 2)
 
@@ -272,7 +277,7 @@ class Renderer:
     @property
     def device(self) -> str:
         """Its name."""
-        return self._renderer.device
+        return self._device
 
     @property
     def validation_messages(self) -> int:

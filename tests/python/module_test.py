@@ -186,8 +186,14 @@ class Pictures(unittest.TestCase):
         self.assertTrue(drawing.svg(centerlines=True).startswith("<?xml"))
 
     def test_panorama(self):
-        frame = RENDERER.panorama(SCENE, kind="mono360", height=64, samples=1, strip=15)
-        self.assertEqual(frame["picture"].shape, (64, 128, 4))
+        """The program's."""
+        for kind, size in (("mono360", "128x64"), ("vr180", "64x64")):
+            frame = RENDERER.panorama(SCENE, kind=kind, height=64, samples=1, strip=15)
+            self.assertEqual(frame.image().shape, (64, 128, 4))
+            frame.save(FOLDER / "here.png")
+            program("render", FOLDER / "demo.glb", "-o", FOLDER / "there.png", "--panorama", kind, "--size", size, "--samples", "1", "--strip", "15",
+                    "--device", "cpu", "--quiet")
+            self.assertEqual((FOLDER / "here.png").read_bytes(), (FOLDER / "there.png").read_bytes(), kind)
 
     def test_the_same_call_gives_the_same_bytes(self):
         first, second = (RENDERER.render(SCENE, "storm", 1.25, size=SIZE, samples=1, aovs=["warp"]) for _ in range(2))
