@@ -35,7 +35,7 @@ def main():
         for name in re.findall(r'sheet\("(\w+\.png)"', "".join(blocks)):
             picture = scumble.read_picture(name)[..., :3]
             dark = float((picture.mean(-1) < 0.3).mean())
-            assert 0.03 < dark < 0.8, f"{100 * dark:.1f} percent of {name} is dark"
+            assert 0.01 < dark < 0.8, f"{100 * dark:.1f} percent of {name} is dark"
 
     deviation = ran["deviation"]
     assert deviation["off", 1] < 0.75 * deviation["off", 0.01], deviation
