@@ -64,11 +64,13 @@ class Running {
   static void addTo(py::module_& module);  // what waits
 };
 
-// While it lives, other threads run Python.
-class WithoutGil {
-  Running running_;
-  py::gil_scoped_release released_;
-};
+// What a call gives while other threads run Python.
+template <class Call>
+auto withoutGil(Call call) {
+  const Running running;
+  const py::gil_scoped_release released;
+  return call();
+}
 
 // Something that one thread at a time uses, in the process that made it. It is left to itself in a child of
 // fork(), where its threads are not.

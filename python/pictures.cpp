@@ -31,11 +31,8 @@ std::string endingOf(const std::string& path) {
 
 py::array readAny(const Path& file, const std::string& view) {
   const std::string path = file.string();
-  const auto read = [&] {
-    const WithoutGil released;
-    return endingOf(path) == "exr" ? readExr(path, view) : readPicture(path);
-  };
-  return toArray(valueOf(read()));
+  return toArray(
+      valueOf(withoutGil([&] { return endingOf(path) == "exr" ? readExr(path, view) : readPicture(path); })));
 }
 
 void writeAny(const Path& file, const py::object& pixels, std::optional<int> quality) {
@@ -44,26 +41,18 @@ void writeAny(const Path& file, const py::object& pixels, std::optional<int> qua
   const std::string ending = endingOf(path);
   if (quality && ending != "jpg" && ending != "jpeg" && ending != "webp")
     raise({ErrorKind::usage, path, 0, "", "such a file has no quality", "leave it out"});
-  Status status = Done{};
-  {
-    const WithoutGil released;
-    if (ending == "png")
-      status = writePng(path, image);
-    else if (ending == "jpg" || ending == "jpeg")
-      status = writeJpeg(path, image, quality.value_or(92));
-    else if (ending == "webp")
-      status = writeWebp(path, image, quality.value_or(90));
-    else if (ending == "exr")
-      status = writeExr(path, {{.view = "", .image = &image}});
-    else
-      status = Error{ErrorKind::usage,
-                     path,
-                     0,
-                     "",
-                     "what kind of picture that is to be is unknown",
-                     "end the name in .png, .jpg, .webp or .exr"};
-  }
-  done(status);
+  done(withoutGil([&]() -> Status {
+    if (ending == "png") return writePng(path, image);
+    if (ending == "jpg" || ending == "jpeg") return writeJpeg(path, image, quality.value_or(92));
+    if (ending == "webp") return writeWebp(path, image, quality.value_or(90));
+    if (ending == "exr") return writeExr(path, {{.view = "", .image = &image}});
+    return Error{ErrorKind::usage,
+                 path,
+                 0,
+                 "",
+                 "what kind of picture that is to be is unknown",
+                 "end the name in .png, .jpg, .webp or .exr"};
+  }));
 }
 
 // Layers of (name, view, pixels, channels, whether it is a colour).
@@ -89,12 +78,7 @@ void writeLayers(const Path& path, const std::vector<Layer>& layers,
   }
   ExrOptions options;
   for (const auto& [layer, objects] : cryptomattes) options.cryptomattes.push_back({layer, objects});
-  Status status = Done{};
-  {
-    const WithoutGil released;
-    status = writeExr(path.string(), described, options);
-  }
-  done(status);
+  done(withoutGil([&] { return writeExr(path.string(), described, options); }));
 }
 
 // A film that is being written. The library's writer learns the pictures' size from the first one.
@@ -119,32 +103,24 @@ class GrowingFilm {
   void add(const py::object& pixels) {
     const Image picture = toImage(pixels, "the picture");
     if (hasEnded_) raiseUsage("the film has ended", "make another one");
-    Status status = Done{};
-    {
-      const WithoutGil released;
-      status = added(picture);
-    }
-    done(status);
+    done(withoutGil([&] { return added(picture); }));
   }
 
   void finish() {
     if (hasEnded_) return;
     hasEnded_ = true;
     if (!writer_) raise({ErrorKind::usage, path_, 0, "", "a film needs at least one picture", ""});
-    Status status = Done{};
-    {
-      const WithoutGil released;
-      status = writer_->finish();
+    done(withoutGil([&] {
+      Status status = writer_->finish();
       writer_.reset();
-    }
-    done(status);
+      return status;
+    }));
   }
 
   // Leaves nothing behind, but of a film that was finished.
   void abandon() {
-    const WithoutGil released;
     hasEnded_ = true;
-    writer_.reset();
+    withoutGil([&] { writer_.reset(); });
   }
 
  private:
@@ -221,11 +197,7 @@ void addPictures(py::module_& module) {
           [](SingleReader& single, double time) {
             if (std::isnan(time)) raiseUsage("the time is no number", "give seconds");
             const auto reader = single.turn();
-            const auto read = [&] {
-              const WithoutGil released;
-              return reader->at(time);
-            };
-            return toArray(Image(*valueOf(read())));
+            return toArray(Image(*valueOf(withoutGil([&] { return reader->at(time); }))));
           },
           "time"_a, "The picture that stands at a time in seconds: float32, height by width by RGB, linear.")
       .def_property_readonly(

@@ -98,12 +98,8 @@ void addRenderer(py::module_& module) {
   module.def(
       "_devices",
       [](const std::string& choice, const std::string& cacheFolder) {
-        Result<std::vector<GpuInfo>> found = [&] {
-          const WithoutGil released;
-          return listGpus(choice, cacheFolder);
-        }();
         py::list all;
-        for (const GpuInfo& gpu : valueOf(std::move(found)))
+        for (const GpuInfo& gpu : valueOf(withoutGil([&] { return listGpus(choice, cacheFolder); })))
           all.append(py::dict("name"_a = gpu.name, "driver"_a = gpu.driver, "api_version"_a = gpu.apiVersion,
                               "cpu"_a = gpu.isCpu, "unusable_because"_a = gpu.unusableBecause,
                               "would_be_used"_a = gpu.wouldBeUsed, "workarounds"_a = gpu.workarounds));
