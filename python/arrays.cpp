@@ -40,7 +40,6 @@ py::array numbersOf(const py::object& numbers, const std::string& what) {
   if (py::hasattr(numbers, "mask")) raiseUsage(what + " have a mask", "fill it: array.filled(0)");
   py::array array = py::array::ensure(numbers, py::array::c_style);
   if (!array || std::string("iuf").find(array.dtype().kind()) == std::string::npos) {
-    PyErr_Clear();
     raiseUsage(what + " are no numbers", "give an array of numbers");
   }
   return array;
@@ -50,7 +49,6 @@ template <class T>
 py::array_t<T> converted(const py::array& array, const std::string& what) {
   auto result = py::array_t<T, py::array::c_style | py::array::forcecast>::ensure(array);
   if (!result) {
-    PyErr_Clear();
     raiseUsage(what + " cannot be made numbers of the kind that is needed");
   }
   return result;

@@ -167,9 +167,6 @@ py::array_t<uint8_t, py::array::c_style> toRgba(const py::object& given) {
   return rgba;
 }
 
-NodeId idOf(int id) {
-  return NodeId(id);
-}
 // Of a node that there is.
 NodeId nodeOf(const SceneEditor& editor, int id) {
   if (id < 0 || size_t(id) >= editor.nodeCount())
@@ -201,7 +198,7 @@ void addEditor(py::module_& module) {
             const auto rgba = toRgba(pixels);
             done(editor.setTexture(TextureId(id), toTexture(rgba, name)));
           },
-          "id"_a, "pixels"_a, "name"_a = "")
+          "id"_a, "pixels"_a, "name"_a = "", "Puts another one in its place, as add_texture takes it.")
       .def(
           "add_material",
           [](SceneEditor& editor, const py::kwargs& settings) {
@@ -254,7 +251,7 @@ void addEditor(py::module_& module) {
           [](SceneEditor& editor, const std::string& name, int parent, const py::object& transform,
              int mesh) {
             return int(valueOf(editor.addNode(
-                {name, idOf(parent), transform.is_none() ? glm::mat4(1) : toMatrix(transform, "transform"),
+                {name, NodeId(parent), transform.is_none() ? glm::mat4(1) : toMatrix(transform, "transform"),
                  MeshId(mesh)})));
           },
           py::kw_only(), "name"_a = "", "parent"_a = -1, "transform"_a = py::none(), "mesh"_a = -1,
@@ -287,21 +284,21 @@ void addEditor(py::module_& module) {
       .def(
           "set_transform",
           [](SceneEditor& editor, int node, const py::object& transform) {
-            done(editor.setTransform(idOf(node), toMatrix(transform, "transform")));
+            done(editor.setTransform(NodeId(node), toMatrix(transform, "transform")));
           },
           "node"_a, "transform"_a, "4 by 4, to its parent's space.")
       .def(
           "set_visible",
-          [](SceneEditor& editor, int node, bool visible) { done(editor.setVisible(idOf(node), visible)); },
+          [](SceneEditor& editor, int node, bool visible) { done(editor.setVisible(NodeId(node), visible)); },
           "node"_a, "visible"_a, "Whether its mesh and all below it are drawn.")
       .def(
           "set_node_mesh",
-          [](SceneEditor& editor, int node, int mesh) { done(editor.setMesh(idOf(node), MeshId(mesh))); },
+          [](SceneEditor& editor, int node, int mesh) { done(editor.setMesh(NodeId(node), MeshId(mesh))); },
           "node"_a, "mesh"_a)
       .def(
           "set_instances",
           [](SceneEditor& editor, int node, const py::object& transforms) {
-            done(editor.setInstances(idOf(node), toMatrices(transforms, "transforms")));
+            done(editor.setInstances(NodeId(node), toMatrices(transforms, "transforms")));
           },
           "node"_a, "transforms"_a,
           "Its mesh is drawn once for each: n by 4 by 4, from instance to node space.")
@@ -318,7 +315,7 @@ void addEditor(py::module_& module) {
                   .range = range,
                   .innerCone = innerCone,
                   .outerCone = outerCone};
-            done(editor.setLight(idOf(node), light));
+            done(editor.setLight(NodeId(node), light));
           },
           "node"_a, "kind"_a, py::kw_only(), "color"_a = py::make_tuple(1.0, 1.0, 1.0), "intensity"_a = 1.0f,
           "range"_a = 0.0f, "inner_cone"_a = 0.0f, "outer_cone"_a = 0.785398f,

@@ -22,8 +22,8 @@ class FilmWriter:
 
     The file appears whole when the block is left, and not at all where it is left by an exception. The first picture decides the
     size; there is no alpha. fps: 0.01 to 1000 (a GIF: 50). quality: constant, lower is better: of .mp4 0 to 51 (16), of .webm 0 to
-    63 (20). Odd sizes grow by a pixel in both. layout: how two eyes lie in each picture, "mono", "side-by-side" or "over-under"; projection: "flat", "sphere" or
-    "half-sphere" (Renderer.panorama). Players learn both from an .mp4.
+    63 (20). Odd sizes grow by a pixel in both. layout: how two eyes lie in each picture, "mono", "side-by-side" or "over-under";
+    projection: "flat", "sphere" or "half-sphere" (Renderer.panorama). Players learn both from an .mp4.
     """
 
     def __init__(self, path: str | os.PathLike[str], *, fps: float = 24, quality: int | None = None, layout: str = "mono",

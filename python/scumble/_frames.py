@@ -56,8 +56,8 @@ class Frame(dict[str, np.ndarray[Any, np.dtype[Any]]]):
     def save(self, path: str | os.PathLike[str], *, quality: int | None = None) -> None:
         """Writes a .png, .jpg or .webp of the picture, with two eyes side by side, or an .exr of everything.
 
-        An EXR has the picture as R, G, B, A, each AOV as a layer of its name, and two eyes as views. quality: of .jpg 1 to 100
-        (92), of .webp 0 to 100 (90).
+        An EXR has the picture as R, G, B, A, each AOV as a layer of its name (but "shadow-map", whose size is its own), and two
+        eyes as views. quality: of .jpg 1 to 100 (92), of .webp 0 to 100 (90).
         """
         path = os.fsdecode(path)
         if not path.lower().endswith(".exr"):
