@@ -43,6 +43,7 @@ TABLE = {
     "src/c": [PUBLIC],
     "src/measure": [PUBLIC, "src/base"],
     "src/panorama": [PUBLIC, "src/base", "src/scene"],
+    "src/study": [PUBLIC, "src/base"],
     "src/xr": [PUBLIC],
     "apps/viewer": [PUBLIC],
     "apps/scumble": [PUBLIC, "apps/viewer", "src/xr"],

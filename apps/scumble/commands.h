@@ -14,6 +14,7 @@ void addBench(CLI::App& program, int& exitCode);
 void addMeasure(CLI::App& program, int& exitCode);
 void addPaint(CLI::App& program, int& exitCode);
 void addBake(CLI::App& program, int& exitCode);
+void addLook(CLI::App& program, int& exitCode);
 void addDescriptions(CLI::App& program, int& exitCode);  // info, looks, params, schema, devices
 
 }  // namespace scumble::app

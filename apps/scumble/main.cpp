@@ -50,6 +50,7 @@ int run(int argc, char** argv) {
     app::addMeasure(program, exitCode);
     app::addPaint(program, exitCode);
     app::addBake(program, exitCode);
+    app::addLook(program, exitCode);
     program.footer(
         "Example: scumble render boat.glb -o boat.png\n`scumble COMMAND --help` shows a command's options.");
 

@@ -120,7 +120,7 @@ TEST_P(Prepare, anyOneKnob) {
   }
 }
 
-// Any two of those that take other pipelines, in both orders.
+// Any two of those that take other pipelines.
 TEST_P(Prepare, anyTwoKnobs) {
   NOT_WITH_SANITIZERS();
   const Look look;
@@ -133,6 +133,8 @@ TEST_P(Prepare, anyTwoKnobs) {
       {"warp.distance", 0.5},          {"warp.metatexture.skew", "exact"}};
   for (const auto& [first, value] : settings)
     for (const auto& [second, other] : settings) {
+      // Which of two knobs was set first makes no difference.
+      if (std::string_view(first) > second) continue;
       Look changed = look;
       ASSERT_TRUE(changed.set(first, value).ok()) << first;
       ASSERT_TRUE(changed.set(second, other).ok()) << second;
