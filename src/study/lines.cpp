@@ -83,11 +83,11 @@ StudiedLines linesOf(const LabPicture& picture, const Unlined& unlined) {
   color /= count;
   lines.color = glm::clamp(linearFromOklab(color), 0.0, 1.0);
 
-  // Black areas need no line around them, and show none: with a black ink, borders count where both sides are
+  // Black areas need no line around them, and show none: with black lines, borders count where both sides are
   // lighter.
   const double deviation = std::sqrt(std::max(0.0, squares / count - color.x * color.x));
-  const bool isOneInk = deviation < 0.025 && std::hypot(color.y, color.z) < 0.03 && color.x < 0.4;
-  const double visibleFrom = isOneInk ? color.x + 0.12 : 0;
+  const bool isOneBlack = deviation < 0.025 && std::hypot(color.y, color.z) < 0.03 && color.x < 0.4;
+  const double visibleFrom = isOneBlack ? color.x + 0.12 : 0;
   const Plane darkest = leastWithin(unlined.areas, 2);
   double borders = 0, onBorders = 0, offBorders = 0;
   for (size_t i = 0; i < drawn.values.size(); ++i) {

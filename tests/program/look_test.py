@@ -116,7 +116,7 @@ class Command(Program):
 
 
 def table(scumble, scenes):
-    """For each look and scene: how far what the found look paints is from what the look has painted, and how far the default
+    """For each look, scene by scene: how far what the found look paints is from what the look has painted, and how far the default
     look's picture is; and whether lines and paper were told."""
     folder = Path(tempfile.mkdtemp())
 
@@ -125,17 +125,20 @@ def table(scumble, scenes):
         return json.loads(subprocess.run([scumble, "look", folder / f"{name}.png", "-o", folder / f"{name}.json", "--json"],
                                          check=True, capture_output=True, text=True).stdout)
     looks = [line.split()[0] for line in subprocess.run([scumble, "looks"], check=True, capture_output=True, text=True).stdout.splitlines()]
-    print("| look | scene | palette | default look's | darkest | lightest | lines | paper |\n|---|---|---|---|---|---|---|---|")
-    for scene in scenes:
-        plain = study("age-of-sail", scene, "plain")
-        for look in looks:
+    print("| look | palette | default look's | darkest | lightest | lines | paper |\n|---|---|---|---|---|---|---|")
+    plain = {scene: study("age-of-sail", scene, "plain") for scene in scenes}
+    for look in looks:
+        rows = []
+        for scene in scenes:
             first = study(look, scene, "first")
             again = study(str(folder / "first.json"), scene, "again")
-            value = [abs(first["value"][k] - again["value"][k]) for k in ("darkest", "lightest")]
-            told = ["yes" if a == b else "**no**" for a, b in ((first["lines"]["isDrawn"], again["lines"]["isDrawn"]),
-                                                              (first["isOnPaper"], again["isOnPaper"]))]
-            print(f"| `{look}` | {Path(scene).stem} | {apart(first, again):.3f} | {apart(first, plain):.3f} | {value[0]:.3f} | "
-                  f"{value[1]:.3f} | {told[0]} | {told[1]} |", flush=True)
+            rows.append((apart(first, again), apart(first, plain[scene]),
+                         *(abs(first["value"][k] - again["value"][k]) for k in ("darkest", "lightest")),
+                         first["lines"]["isDrawn"] == again["lines"]["isDrawn"], first["isOnPaper"] == again["isOnPaper"]))
+        *numbers, lines, paper = zip(*rows)
+        cells = [", ".join(f"{value:.3f}" for value in of_scenes) for of_scenes in numbers]
+        cells += [", ".join("yes" if value else "**no**" for value in of_scenes) for of_scenes in (lines, paper)]
+        print(f"| `{look}` | {' | '.join(cells)} |", flush=True)
     shutil.rmtree(folder)
 
 
