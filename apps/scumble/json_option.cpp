@@ -9,7 +9,9 @@ namespace scumble::app {
 
 bool JsonOption::isFile(const std::string& word) {
   const std::string ending = endingOf(word);
-  return !word.starts_with('-') && ending != ".glb" && ending != ".gltf";
+  for (const char* input : {".glb", ".gltf", ".png", ".jpg", ".jpeg", ".webp", ".exr"})
+    if (ending == input) return false;
+  return !word.starts_with('-');
 }
 
 void JsonOption::addTo(CLI::App& command) {

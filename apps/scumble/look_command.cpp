@@ -84,9 +84,9 @@ std::string summaryOf(const PictureStudy& study, const std::string& out) {
 
 int run(const LookFromPicture& args) {
   const std::string out =
-      args.out.empty() ? std::filesystem::path(args.picture).stem().string() + ".look.json" : args.out;
+      args.out.empty() ? std::filesystem::path(args.picture).stem().string() + ".found.json" : args.out;
   if (endingOf(out) != ".json")
-    return failUsage("a look cannot go into '" + out + "'", "name it like painting.look.json");
+    return failUsage("a look cannot go into '" + out + "'", "name it like painting.json");
   OutputFiles files({args.picture});
   if (const Status status = files.add(out, "-o"); !status) return fail(status.error());
   if (const Status status = files.add(args.json.file(), "--json"); !status) return fail(status.error());
@@ -113,7 +113,9 @@ void addLook(CLI::App& program, int& exitCode) {
   auto args = std::make_shared<LookFromPicture>();
   CLI::App* command = program.add_subcommand("look", "A look from a picture of a painting");
   command->add_option("PICTURE", args->picture, "A PNG, JPEG, WebP or EXR")->required();
-  command->add_option("-o", args->out, "Where the look is written (default: the picture's name + .look.json)")
+  command
+      ->add_option("-o", args->out,
+                   "Where the look is written (default: the picture's name + .found.json, here)")
       ->type_name("LOOK.json");
   args->json.addTo(*command);
   command->add_flag("--quiet", args->quiet, "Print nothing");

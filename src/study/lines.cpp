@@ -67,8 +67,6 @@ StudiedLines linesOf(const LabPicture& picture, const Unlined& unlined) {
       widths.push_back(widthAt(drawn, x, y, deep));
     }
   StudiedLines lines;
-  lines.thin = quantile(widths, 0.25) * picture.pixelsAt1080;
-  lines.thick = quantile(widths, 0.75) * picture.pixelsAt1080;
   if (middles.empty()) return lines;
 
   // Thin lines are mixed with what they lie on; the deepest are not.
@@ -81,7 +79,6 @@ StudiedLines linesOf(const LabPicture& picture, const Unlined& unlined) {
       color += here, squares += here.x * here.x, count += 1;
     }
   color /= count;
-  lines.color = glm::clamp(linearFromOklab(color), 0.0, 1.0);
 
   // Black areas need no line around them, and show none: with black lines, borders count where both sides are
   // lighter.
@@ -100,8 +97,13 @@ StudiedLines linesOf(const LabPicture& picture, const Unlined& unlined) {
     onBorders += around.values[i] > unlined.depth;
   }
   lines.onBorders = borders > 0 ? onBorders / borders : 0;
-  lines.offBorders = offBorders / std::max(1.0, borders);
+  // Of a picture with hardly a border, specks are no drawing.
+  lines.offBorders = offBorders / std::max(borders, 0.002 * double(drawn.values.size()));
   lines.isDrawn = lines.onBorders + lines.offBorders > kDrawnLines;
+  if (!lines.isDrawn) return lines;
+  lines.thin = quantile(widths, 0.25) * picture.pixelsAt1080;
+  lines.thick = quantile(widths, 0.75) * picture.pixelsAt1080;
+  lines.color = glm::clamp(linearFromOklab(color), 0.0, 1.0);
   return lines;
 }
 

@@ -58,7 +58,8 @@ StudiedMarks marksOf(const LabPicture& picture) {
     power += deviation * deviation, octave += i * deviation * deviation;
   }
   // A bar is strongest between two Gaussians whose deviations are half its width on the (geometric) mean.
-  if (power > 0)
+  constexpr double kRounding = 1e-4;
+  if (found.contrast > kRounding)
     found.width = 2 * kScales[0] * std::sqrt(2) * std::exp2(octave / power) * picture.pixelsAt1080;
   std::vector<float> directions;
   for (int top = 1; top + kTile < marks.height; top += kTile)

@@ -116,6 +116,8 @@ Palette paletteOf(const LabPicture& picture, const std::vector<bool>& isEven) {
     color.share += bin.count / all;
     if (glm::distance(color.lab, bin.lab) < kNearColors) near += bin.count;
   }
+  std::sort(colors.begin(), colors.end(),
+            [](const LabColor& a, const LabColor& b) { return a.share > b.share; });
   palette.fewness = near / all;
   return palette;
 }

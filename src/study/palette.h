@@ -14,12 +14,12 @@ struct LabColor {
 
 struct Palette {
   std::vector<LabColor> colors;  // the largest share first
-  double fewness = 0;            // share of the picture within kNearColors of one of them
+  double fewness = 0;            // share of what is even within kNearColors of one of them
 };
 
 // Groups of the picture's colours where `isEven`: k-means in OKLab from the most frequent colour on, each
 // further one where most of the picture is farthest from those that are there; what is nearer than
-// kNearColors becomes one, and what is less than a 500th of the picture is left out.
+// kNearColors becomes one, and what is less than a 500th of what is even is left out.
 Palette paletteOf(const LabPicture& picture, const std::vector<bool>& isEven);
 
 }  // namespace scumble::study

@@ -44,7 +44,7 @@ const LabColor* paperIn(const Palette& palette, const LabPicture& picture, doubl
                         [](const LabColor& a, const LabColor& b) { return a.lab.x < b.lab.x; });
   if (paper.lab.x < kLight || paper.share < kShare) return nullptr;
   const int width = picture.lightness.width, height = picture.lightness.height;
-  const int side = std::max(1, int(kCorner * height));
+  const int side = std::max(1, int(kCorner * std::min(width, height)));
   int bare = 0;
   for (const int left : {0, width - side})
     for (const int top : {0, height - side}) {
@@ -71,19 +71,25 @@ double chromaOf(const LabPicture& picture, const LabColor* paper) {
 }  // namespace
 
 Result<PictureStudy> studyPicture(const Image& picture) {
-  if (picture.channels.size() < 3 || !picture.isColor || picture.format != PixelFormat::float32 ||
+  const std::vector<std::string>& names = picture.channels;
+  const bool isRgb = (names.size() == 3 || (names.size() == 4 && names[3] == "A")) && names[0] == "R" &&
+                     names[1] == "G" && names[2] == "B";
+  if (!isRgb || !picture.isColor || picture.format != PixelFormat::float32 ||
       picture.pixels.size() != size_t(picture.width) * picture.height * picture.channels.size())
     return usage("what is studied is no picture of colours in floats", "read one with readPicture()");
-  if (std::min(picture.width, picture.height) < kLeastStudySide)
-    return usage("a picture of " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
-                     " pixels is too small to see how it was painted",
-                 "give one of " + std::to_string(kLeastStudySide) + " pixels a side or more");
   if (std::any_of(picture.pixels.begin(), picture.pixels.end(), [](float v) { return !std::isfinite(v); }))
     return usage("the picture has values that are not finite", "give one without");
 
-  const LabPicture lab = labOf(picture, kStudyLines);
+  const double most = std::sqrt(double(kStudyPixels) * picture.height / picture.width);
+  if (picture.width == 0 || picture.height == 0)
+    return usage("the picture has no pixels", "give one with some");
+  const LabPicture lab = labOf(picture, uint32_t(std::clamp(most, 1.0, double(kStudyLines))));
   PictureStudy found;
   found.width = uint32_t(lab.lightness.width), found.height = uint32_t(lab.lightness.height);
+  if (std::min(found.width, found.height) < kLeastStudySide)
+    return usage("a picture of " + std::to_string(picture.width) + " x " + std::to_string(picture.height) +
+                     " pixels is too small or too narrow to see how it was painted",
+                 "give one of " + std::to_string(kLeastStudySide) + " pixels a side or more");
   found.division = divisionOf(lab.lightness);
   found.light = familyOf(lab, found.division, true);
   found.dark = familyOf(lab, found.division, false);
@@ -105,6 +111,7 @@ Result<PictureStudy> studyPicture(const Image& picture) {
   found.borders = bordersOf(found.lines.isDrawn ? unlined.areas : lab.lightness, lab.pixelsAt1080);
   const LabColor* const paper = paperIn(palette, lab, found.marks.grain);
   found.isOnPaper = paper != nullptr;
+  if (paper) found.paper = rgbOf(paper->lab);
   found.chroma = chromaOf(lab, paper);
   return found;
 }

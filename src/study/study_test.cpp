@@ -233,6 +233,32 @@ TEST(Study, sizeOfThePictureCountsForNothing) {
   EXPECT_NEAR(small.division, studied(discs(0)).division, 0.01);
 }
 
+// A corner's square is a part of the shorter side; memory beside the picture is none of it.
+TEST(Study, narrowPicturesAreLookedAtWithinThem) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> any(0.9, 1);
+  const auto noise = [&](double, double) { return Lab(any(random), 0, 0); };
+  EXPECT_TRUE(studied(pictureOf(noise, 800, 100.0 / 800, 1)).isOnPaper);
+  EXPECT_EQ(studied(pictureOf(noise, 64, 40, 1)).height, 64u);
+}
+
+TEST(Study, specksAreNoLines) {
+  const PictureStudy study = studied([](double x, double y) {
+    return std::max(std::abs(x - 0.7), std::abs(y - 0.4)) < 0.003 ? Lab(0.2, 0, 0) : Lab(0.7, 0, -0.05);
+  });
+  EXPECT_FALSE(study.lines.isDrawn);
+  EXPECT_LT(study.lines.offBorders, 0.1);
+}
+
+TEST(Study, fewLinesLeaveEdgesAndStrokesOut) {
+  for (const int lines : {128, 256}) {
+    const std::string text =
+        lookTextOf(studied(pictureOf(border([](double y) { return 0.3 * y; }), lines)), "");
+    for (const char* knob : {"\"warp\"", "\"shadow\"", "\"texture\""})
+      EXPECT_EQ(text.find(knob), std::string::npos) << lines << knob;
+  }
+}
+
 TEST(Study, whatIsTransparentIsWhitePaper) {
   Image image = pictureOf([](double, double) { return Lab(0.5, 0, 0); }, 80);
   Image clear{image.width, image.height, {"R", "G", "B", "A"}, {}, true};
@@ -248,10 +274,14 @@ TEST(Study, refusesWhatIsNoPicture) {
   Image grey{100, 100, {"Y"}, std::vector<float>(100 * 100), false};
   EXPECT_EQ(kindOf(grey), ErrorKind::usage);
   Image endless{100, 100, {"R", "G", "B"}, std::vector<float>(100 * 100 * 3), true};
+  EXPECT_TRUE(studyPicture(endless).ok());
+  Image turned = endless, less = endless;
+  turned.channels = {"B", "G", "R"}, less.pixels.pop_back();
   endless.pixels[777] = INFINITY;
-  EXPECT_EQ(kindOf(endless), ErrorKind::usage);
-  endless.pixels.pop_back();
-  EXPECT_EQ(kindOf(endless), ErrorKind::usage);
+  for (const Image& image : {endless, turned, less}) EXPECT_EQ(kindOf(image), ErrorKind::usage);
+  // So narrow that little is left of it.
+  EXPECT_EQ(kindOf(Image{64, 9000, {"R", "G", "B"}, std::vector<float>(64 * 9000 * 3), true}),
+            ErrorKind::usage);
 }
 
 TEST(Study, looksAreWholeWhateverThePicture) {

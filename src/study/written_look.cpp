@@ -73,9 +73,12 @@ double pull(const ColorFamily& family) {
 }
 
 std::string told(const char* name, const ColorFamily& family) {
-  return fmt::format("{}: {} of the picture, lightness {}, chroma {}, hue {:.0f} degrees, agreement {}.",
-                     name, percent(family.share), number(family.lightness), number(family.chroma), family.hue,
-                     number(family.agreement));
+  // Of greys, whose chroma is rounding, no hue is meant.
+  const std::string hue = family.chroma > 1e-3 ? fmt::format(", hue {:.0f} degrees, agreement {}", family.hue,
+                                                             number(family.agreement))
+                                               : "";
+  return fmt::format("{}: {} of the picture, lightness {}, chroma {}{}.", name, percent(family.share),
+                     number(family.lightness), number(family.chroma), hue);
 }
 
 void writePalette(Writer& look, const PictureStudy& study) {
@@ -117,15 +120,13 @@ void writeMarks(Writer& look, const PictureStudy& study) {
       fmt::format("Grain of {} and strokes of {} in lightness, {} px wide, direction {}.",
                   number(marks.grain), number(marks.contrast), number(marks.width), number(marks.direction));
   if (study.isOnPaper) {
-    glm::vec3 paper(0);
-    for (const PaletteColor& color : study.palette)
-      if (color.color.g > paper.g) paper = color.color;
     look.section("watercolor", {told, "Its lightest colour is in the corners: bare paper."})
         .set("shown", "true")
-        .set("white", quoted(paper));
+        .set("white", quoted(study.paper));
     return;
   }
   // Of a limited palette broken up in bands, strokes have no grain in them.
+  if (study.height < kLeastLinesForMarks) return;
   if (marks.contrast < kLeastContrast || marks.grain < 0.2 * marks.contrast) return;
   const bool isStroked = marks.direction > 0.4;
   // What the built-in pictures give in full, and the size at which their strokes have a width.
@@ -150,29 +151,33 @@ std::string lookTextOf(const PictureStudy& study, const std::string& name) {
 
   // Where nothing could be followed, edges are as the default look has them.
   double softness = 1;
-  if (study.borders.counted > 0) {
+  // A few pieces of a border are no edges of a picture; with few lines, the raster is all that they show.
+  constexpr double kLeastPieces = 4;
+  const bool isFine = study.height >= kLeastLinesForMarks;
+  if (isFine && study.borders.counted >= kLeastPieces) {
     // What remains of an edge without raggedness is the raster's.
     constexpr double kSharp = 3.9, kStraight = 0.35;
     softness = std::clamp(1 + study.borders.width - kSharp, 1.0, 8.0);
     const double ragged = study.borders.raggedness;
     const double amount =
         std::min(6.0, 3.7 * std::sqrt(std::max(0.0, ragged * ragged - kStraight * kStraight)));
-    const std::string told =
-        fmt::format("Edges turn from one area to the other within {} px and leave a smooth curve by {} px.",
-                    number(study.borders.width), number(ragged));
+    const std::string told = fmt::format(
+        "{:.0f} pieces of edges: one area turns into the other within {} px, {} px off a smooth curve.",
+        study.borders.counted, number(study.borders.width), number(ragged));
     look.section("shadow", {told}).set("softness", softness);
     look.section("warp", {"The same raggedness, as tearing."})
         .set("amount", amount)
         .set("inflation", std::min(8.0, amount));
   }
   writeLimit(look, study, softness);
-  if (study.lines.isDrawn)
-    look.section("ink", {fmt::format("{} of the borders have a line, and lines on none are {} of them.",
-                                     percent(study.lines.onBorders), percent(study.lines.offBorders))})
+  if (study.lines.isDrawn) {
+    look.section("ink",
+                 {fmt::format("{} of the borders have a line, and lines on none are {} as much as those.",
+                              percent(study.lines.onBorders), percent(study.lines.offBorders))})
         .set("shown", "true")
-        .set("least", study.lines.thin)
-        .set("greatest", study.lines.thick)
         .set("line", "{ \"color\": " + quoted(study.lines.color) + " }");
+    if (isFine) look.set("least", study.lines.thin).set("greatest", study.lines.thick);
+  }
   writeMarks(look, study);
   return look.text();
 }

@@ -82,19 +82,20 @@ class Command(Program):
 
     def test_it_says_what_it_found(self):
         text = self.good("look", "two.png")
-        self.assertRegex(text, r"\Atwo\.look\.json: 3 colours, values from 0\.\d+ to 0\.\d+")
-        self.assertEqual(self.new_files(), {"two.look.json"})
-        # The look is a look, with comments, and is the scene's if it is named so.
-        written = (self.folder / "two.look.json").read_text()
+        self.assertRegex(text, r"\Atwo\.found\.json: 3 colours, values from 0\.\d+ to 0\.\d+")
+        self.assertEqual(self.new_files(), {"two.found.json"})
+        # The look is a look, with comments; a scene takes it for its own only where somebody names it so.
+        written = (self.folder / "two.found.json").read_text()
         self.assertIn("// ", written)
-        self.good("render", "box.gltf", "--look", "./two.look.json", "-o", "a.png", "--size", "64x48")
-        shutil.copy(self.folder / "two.look.json", self.folder / "box.look.json")
+        self.good("render", "box.gltf", "--look", "./two.found.json", "-o", "a.png", "--size", "64x48")
+        shutil.copy(self.folder / "two.found.json", self.folder / "box.look.json")
         self.good("render", "box.gltf", "-o", "b.png", "--size", "64x48", "--quiet")
         self.same((self.folder / "a.png").read_bytes(), (self.folder / "b.png").read_bytes())
         self.assertEqual(self.good("look", "two.png", "-o", "again.json", "--quiet"), "")
         self.same((self.folder / "again.json").read_text(), written)
         study = json.loads(self.good("look", "two.png", "--json"))
         self.assertEqual(len(study["palette"]), 3)
+        self.assertEqual(json.loads(self.good("look", "--json", "two.png")), study)
         self.good("look", "two.png", "--json", "study.txt")
         self.assertEqual(json.loads((self.folder / "study.txt").read_text()), study)
 
@@ -102,6 +103,20 @@ class Command(Program):
         for name in ("a.png", "a.jpg", "a.webp", "a.exr"):
             self.good("render", "box.gltf", "-o", name, "--size", "128x96", "--quiet")
             self.good("look", name, "-o", name + ".json")
+
+    def test_pictures_are_never_reports(self):
+        picture(self.folder / "other.png")
+        self.before = self.files()
+        before = (self.folder / "other.png").read_bytes()
+        self.bad(USAGE, "look", "--json", "other.png", "two.png")
+        self.same((self.folder / "other.png").read_bytes(), before)
+
+    def test_narrow_pictures(self):
+        picture(self.folder / "tall.png", 100, 800)
+        self.good("look", "tall.png", "-o", "tall.json")
+        picture(self.folder / "thread.png", 64, 9000)
+        self.before = self.files()
+        self.bad(UNUSABLE, "look", "thread.png", says="64 x 9000")
 
     def test_mistakes(self):
         self.bad(USAGE, "look", says="PICTURE")
