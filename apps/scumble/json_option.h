@@ -12,7 +12,8 @@ namespace scumble::app {
 
 struct JsonOption {
   static constexpr const char* kPrinted = "-";
-  // Whether a word that follows the option is its file: it is neither an option nor named like a scene or a picture.
+  // Whether a word that follows the option is its file: it is neither an option nor named like a scene or a
+  // picture.
   static bool isFile(const std::string& word);
 
   void addTo(CLI::App& command);

@@ -145,7 +145,7 @@ Plane transposed(const Plane& plane) {
 
 double quantile(std::vector<float>& values, double share) {
   if (values.empty()) return 0;
-  const auto at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1) + 0.5);
+  const auto at = values.begin() + std::lround(share * double(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
   return *at;
 }
