@@ -125,8 +125,8 @@ void writeMarks(Writer& look, const PictureStudy& study) {
         .set("white", quoted(study.paper));
     return;
   }
-  // Of a limited palette broken up in bands, strokes have no grain in them.
   if (study.height < kLeastLinesForMarks) return;
+  // Of a limited palette broken up in bands, strokes have no grain in them.
   if (marks.contrast < kLeastContrast || marks.grain < 0.2 * marks.contrast) return;
   const bool isStroked = marks.direction > 0.4;
   // What the built-in pictures give in full, and the size at which their strokes have a width.
