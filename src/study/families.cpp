@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/oklab.h"
-
 namespace scumble::study {
 
 double divisionOf(const Plane& lightness) {
@@ -47,7 +45,7 @@ ColorFamily familyOf(const LabPicture& picture, double division, bool isLight) {
   }
   if (count == 0) return family;
   sum /= count;
-  family.color = glm::clamp(linearFromOklab(sum), 0.0, 1.0);
+  family.color = rgbOf(sum);
   family.share = count / double(pixels);
   family.lightness = sum.x;
   family.chroma /= count;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/oklab.h"
-
 namespace scumble::study {
 
 namespace {
@@ -36,11 +34,10 @@ Unlined withoutLines(const LabPicture& picture, double marks) {
   Unlined unlined;
   unlined.depth = std::max(0.12, 5 * marks);
   unlined.areas = closed(picture.lightness, kReach);
-  unlined.drawn = unlined.areas;
-  const size_t pixels = picture.lightness.values.size();
-  for (size_t i = 0; i < pixels; ++i) unlined.drawn.values[i] -= picture.lightness.values[i];
+  unlined.drawn = difference(unlined.areas, picture.lightness);
   unlined.steep = steepness(blurred(unlined.areas, 1));
   const Plane nearLine = greatestWithin(unlined.drawn, 1);
+  const size_t pixels = picture.lightness.values.size();
   unlined.isEven.resize(pixels);
   // Of a picture that is all strokes, these are its areas.
   const double even = std::max(kBorderSlope, marks);
@@ -103,7 +100,7 @@ StudiedLines linesOf(const LabPicture& picture, const Unlined& unlined) {
   if (!lines.isDrawn) return lines;
   lines.thin = quantile(widths, 0.25) * picture.pixelsAt1080;
   lines.thick = quantile(widths, 0.75) * picture.pixelsAt1080;
-  lines.color = glm::clamp(linearFromOklab(color), 0.0, 1.0);
+  lines.color = rgbOf(color);
   return lines;
 }
 

@@ -8,9 +8,9 @@
 
 namespace scumble::study {
 
-// A picture without its thin dark lines, and what was taken away.
 constexpr double kBorderSlope = 0.02;  // OKLab lightness a pixel from which on a place is a border
 
+// A picture without its thin dark lines, and what was taken away.
 struct Unlined {
   Plane areas;               // lightness
   Plane drawn;               // how much darker the picture is

@@ -15,12 +15,6 @@ constexpr int kTile = 24;  // pixels
 // The deviation of a normal distribution whose size has the median 1.
 constexpr double kOfMedian = 1.4826;
 
-Plane difference(const Plane& a, const Plane& b) {
-  Plane result = a;
-  for (size_t i = 0; i < result.values.size(); ++i) result.values[i] -= b.values[i];
-  return result;
-}
-
 // The median is what most of the picture has: borders, which are in the lesser part, do not count.
 double typical(const Plane& plane) {
   std::vector<float> sizes;

@@ -106,9 +106,7 @@ Palette paletteOf(const LabPicture& picture, const std::vector<bool>& isEven) {
   }
   settle(colors, bins);
   while (mergeNearest(colors)) settle(colors, bins);
-  std::sort(colors.begin(), colors.end(),
-            [](const LabColor& a, const LabColor& b) { return a.share > b.share; });
-  while (colors.size() > 1 && colors.back().share < kLeastShare * all) colors.pop_back();
+  std::erase_if(colors, [&](const LabColor& color) { return color.share < kLeastShare * all; });
   double near = 0;
   for (LabColor& color : colors) color.share = 0;
   for (const Bin& bin : bins) {

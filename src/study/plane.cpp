@@ -95,6 +95,16 @@ LabPicture labOf(const Image& colors, uint32_t lines) {
   return lab;
 }
 
+glm::vec3 rgbOf(const glm::dvec3& lab) {
+  return glm::clamp(linearFromOklab(lab), 0.0, 1.0);
+}
+
+Plane difference(const Plane& a, const Plane& b) {
+  Plane result = a;
+  for (size_t i = 0; i < result.values.size(); ++i) result.values[i] -= b.values[i];
+  return result;
+}
+
 Plane blurred(const Plane& plane, double deviation) {
   const int reach = std::max(1, int(std::ceil(3 * deviation)));
   std::vector<float> weights;

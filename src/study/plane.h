@@ -29,6 +29,10 @@ struct LabPicture {
 // Colours of linear RGB over white, of at most this many lines: each pixel is the mean, in linear light, of
 // the area that it takes the place of.
 LabPicture labOf(const Image& colors, uint32_t lines);
+// Linear RGB of OKLab, the nearest in sRGB by channel.
+glm::vec3 rgbOf(const glm::dvec3& lab);
+
+Plane difference(const Plane& a, const Plane& b);
 
 // Convolved with a Gaussian of this deviation; the picture's ends go on.
 Plane blurred(const Plane& plane, double deviation);

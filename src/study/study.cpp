@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/oklab.h"
 #include "base/usage.h"
 #include "study/borders.h"
 #include "study/families.h"
@@ -16,10 +15,6 @@ namespace scumble {
 namespace {
 
 using namespace study;
-
-glm::vec3 rgbOf(const glm::dvec3& lab) {
-  return glm::clamp(linearFromOklab(lab), 0.0, 1.0);
-}
 
 // The middle colour of a picture's outer quarters, left and right, between two shares of its height. What a
 // picture is about stands between them more often than not.

@@ -73,8 +73,7 @@ double pull(const ColorFamily& family) {
 }
 
 std::string told(const char* name, const ColorFamily& family) {
-  // Of greys, whose chroma is rounding, no hue is meant.
-  const std::string hue = family.chroma > 1e-3 ? fmt::format(", hue {:.0f} degrees, agreement {}", family.hue,
+  const std::string hue = family.agreement > 0 ? fmt::format(", hue {:.0f} degrees, agreement {}", family.hue,
                                                              number(family.agreement))
                                                : "";
   return fmt::format("{}: {} of the picture, lightness {}, chroma {}{}.", name, percent(family.share),
@@ -165,9 +164,7 @@ std::string lookTextOf(const PictureStudy& study, const std::string& name) {
         "{:.0f} pieces of edges: one area turns into the other within {} px, {} px off a smooth curve.",
         study.borders.counted, number(study.borders.width), number(ragged));
     look.section("shadow", {told}).set("softness", softness);
-    look.section("warp", {"The same raggedness, as tearing."})
-        .set("amount", amount)
-        .set("inflation", std::min(8.0, amount));
+    look.section("warp", {"The same raggedness, as tearing."}).set("amount", amount).set("inflation", amount);
   }
   writeLimit(look, study, softness);
   if (study.lines.isDrawn) {

@@ -7,16 +7,15 @@
 import json
 import math
 import shutil
-import struct
 import subprocess
 import sys
 import tempfile
 import unittest
-import zlib
 from pathlib import Path
 
 import program_test
 from program_test import NOT_WRITTEN, UNUSABLE, USAGE, Program
+from png import make_png  # program_test knows where it lies
 
 SIZE = ["--size", "960x540"]
 
@@ -41,13 +40,9 @@ def apart(a, b):
 
 def picture(path, width=96, height=96):
     """A PNG of two colours, and a corner of a third."""
-    rows = b"".join(b"\0" + b"".join(bytes((200, 60, 40) if x < 20 and y < 20 else (240, 230, 200) if x < width // 2 else (40, 60, 110))
-                                     for x in range(width)) for y in range(height))
-
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">2I5B", width, height, 8, 2, 0, 0, 0)) +
-                     chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+    def pixel(x, y):
+        return (200, 60, 40) if x < 20 and y < 20 else (240, 230, 200) if x < width // 2 else (40, 60, 110)
+    path.write_bytes(make_png(width, height, pixel))
 
 
 class RoundTrip(Program):
