@@ -15,6 +15,7 @@ void addMeasure(CLI::App& program, int& exitCode);
 void addPaint(CLI::App& program, int& exitCode);
 void addBake(CLI::App& program, int& exitCode);
 void addLook(CLI::App& program, int& exitCode);
+void addServe(CLI::App& program, int& exitCode);
 void addDescriptions(CLI::App& program, int& exitCode);  // info, looks, params, schema, devices
 
 }  // namespace scumble::app

@@ -51,6 +51,7 @@ int run(int argc, char** argv) {
     app::addPaint(program, exitCode);
     app::addBake(program, exitCode);
     app::addLook(program, exitCode);
+    app::addServe(program, exitCode);
     program.footer(
         "Example: scumble render boat.glb -o boat.png\n`scumble COMMAND --help` shows a command's options.");
 

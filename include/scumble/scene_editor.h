@@ -56,6 +56,17 @@ struct TextureSlot {
   glm::mat3 transform{1.0f};  // uv' = transform * (u, v, 1)
 };
 
+// A line around what has the material, as MToon has it, where the look draws such lines.
+struct OutlineDesc {
+  enum class Unit {
+    metres,
+    pictureHeights
+  } unit = Unit::metres;  // pictureHeights: parts of the picture's height
+  float width = 0;        // in that unit, 0 to 1000; 0: none is drawn
+  glm::vec3 color{0.0f};  // linear
+  float lightingMix = 1;  // 0: the colour as it is; 1: times the surface's
+};
+
 struct MaterialDesc {
   enum class Alpha { opaque, mask, blend };
   std::string name = {};      // by which looks know it
@@ -70,6 +81,7 @@ struct MaterialDesc {
   // of baseColorTexture (docs/scene.md).
   std::optional<glm::vec3> shadowedColor = {};
   TextureSlot litTexture = {}, shadowedTexture = {};
+  std::optional<OutlineDesc> outline = {};
 };
 
 // Triangles with one material. Every array but the indices has an entry a vertex, or is empty. All numbers
@@ -144,6 +156,10 @@ class SCUMBLE_API SceneEditor {
   // Its mesh is drawn once for each, from instance to node space; none: once, where the node is.
   Status setInstances(NodeId id, std::span<const glm::mat4> transforms);
   Status setLight(NodeId id, const std::optional<LightDesc>& light);
+  // What it says to features, as a glTF's node does in its extras (docs/sea.md): a JSON object, of which
+  // names that features know count; empty: nothing. What they cannot read is left out, with one of the
+  // scene's warnings.
+  Status setExtras(NodeId id, const std::string& json);
 
   // What there is now; the same object until something changes. Fails with usage where transforms lead out of
   // what numbers can hold, or more than 2^28 triangles are drawn.

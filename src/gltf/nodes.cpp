@@ -197,12 +197,9 @@ int optionalIndex(const Import& import, const JsonView& json, const char* key, s
 void readExtras(const JsonView& json, Node& node, ImportWarnings& warnings) {
   const auto extras = json.json().find("extras");
   if (extras == json.json().end() || !extras->is_object()) return;
-  for (const ExtraRule& rule : extraRules())
-    if (const auto found = extras->find(rule.key); found != extras->end()) {
-      node.extras[rule.key] = std::make_shared<const Json>(*found);
-      for (const auto& [path, text] : rule.problemsOf(*found))
-        warnings.add(json.pathOf(std::string("extras.") + rule.key) + path, text);
-    }
+  scene::readExtras(*extras, node, [&](const std::string& path, const std::string& text) {
+    warnings.add(json.pathOf("extras") + path, text);
+  });
 }
 
 }  // namespace

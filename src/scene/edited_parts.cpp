@@ -144,6 +144,14 @@ Material materialOf(const MaterialDesc& given, const SceneData& scene) {
   if (given.shadowedColor)
     for (int c = 0; c < 3; ++c)
       check.require(inUnit((*given.shadowedColor)[c]), "its colour in shadow is out of range", "use 0 to 1");
+  if (given.outline) {
+    check.require(given.outline->width >= 0 && given.outline->width <= 1000,
+                  "the width of its outline is out of range", "use 0 to 1000");
+    for (int c = 0; c < 3; ++c)
+      check.require(inUnit(given.outline->color[c]), "its outline's colour is out of range", "use 0 to 1");
+    check.require(inUnit(given.outline->lightingMix), "its outline's lightingMix is out of range",
+                  "use 0 to 1");
+  }
   Material material;
   material.name = given.name;
   material.baseColor = given.baseColor;
@@ -157,6 +165,9 @@ Material materialOf(const MaterialDesc& given, const SceneData& scene) {
   material.shadowedColor = given.shadowedColor;
   material.litTexture = useOf(given.litTexture, scene, check);
   material.shadowedTexture = useOf(given.shadowedTexture, scene, check);
+  if (given.outline)
+    material.outline = Outline{Outline::Unit(given.outline->unit), given.outline->width, given.outline->color,
+                               given.outline->lightingMix};
   return material;
 }
 
@@ -174,6 +185,9 @@ MaterialDesc descOf(const Material& material) {
   desc.shadowedColor = material.shadowedColor;
   desc.litTexture = slotOf(material.litTexture);
   desc.shadowedTexture = slotOf(material.shadowedTexture);
+  if (material.outline)
+    desc.outline = OutlineDesc{OutlineDesc::Unit(material.outline->unit), material.outline->width,
+                               material.outline->color, material.outline->lightingMix};
   return desc;
 }
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <nlohmann/json.hpp>
 
 #include "base/usage.h"
 #include "scene/edited_parts.h"
+#include "scene/extras.h"
 #include "scene/find_node.h"
 #include "scene/import_failure.h"
 #include "scene/prepare_mesh.h"
@@ -296,6 +298,25 @@ Status SceneEditor::setLight(NodeId id, const std::optional<LightDesc>& light) {
       if (size_t(node.light) == data.lights.size()) data.lights.emplace_back();
       data.lights[size_t(node.light)] = made;
     }
+    return Done{};
+  });
+}
+
+Status SceneEditor::setExtras(NodeId id, const std::string& json) {
+  SceneData& data = edited_->data;
+  if (!isIndex(id, data.nodes.size())) return noSuch("node", int(id));
+  const nlohmann::json given =
+      json.empty() ? nlohmann::json::object() : nlohmann::json::parse(json, nullptr, false);
+  if (!given.is_object()) return usage("extras are no JSON object", "give one, or nothing");
+  return edited_->edit([&]() -> Status {
+    Node& node = data.nodes[size_t(id)];
+    ImportWarnings warnings;
+    readExtras(given, node, [&](const std::string& path, const std::string& text) {
+      warnings.add("extras" + path + " of \"" + node.name + "\"", text);
+    });
+    for (std::string& line : warnings.lines(data.name))
+      if (std::find(data.warnings.begin(), data.warnings.end(), line) == data.warnings.end())
+        data.warnings.push_back(std::move(line));
     return Done{};
   });
 }

@@ -1,0 +1,206 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A running `scumble serve`: requests, answers, and the memory that both share. Knows nothing of Blender.
+
+The protocol is docs/serve.md of scumble.
+"""
+import json
+import mmap
+import os
+import subprocess
+import tempfile
+import threading
+
+import numpy as np
+
+PROTOCOL = 1
+
+
+class ScumbleError(Exception):
+    """What scumble says is wrong, in its words."""
+
+    def __init__(self, message, kind="usage"):
+        super().__init__(message)
+        self.kind = kind
+
+
+class ServerGone(ScumbleError):
+    """The process has ended, or was never there."""
+
+    def __init__(self, message):
+        super().__init__(message, "gone")
+
+
+class SharedMemory:
+    """A file in memory that grows as needed, and is gone with this object."""
+
+    def __init__(self, name):
+        self.name = name
+        folder = "/dev/shm" if os.path.isdir("/dev/shm") and os.access("/dev/shm", os.W_OK) else None
+        self._file = tempfile.NamedTemporaryFile(prefix=f"scumble-{os.getpid()}-{name}-", dir=folder)
+        self.path = self._file.name
+        self.bytes = 0
+        self._map = None
+
+    def reserve(self, count):
+        """Whether it had to grow to hold so many bytes."""
+        if count <= self.bytes:
+            return False
+        self.bytes = max(count, 2 * self.bytes, 1 << 20)
+        os.truncate(self._file.fileno(), self.bytes)
+        self._map = mmap.mmap(self._file.fileno(), self.bytes)
+        return True
+
+    def write(self, offset, array):
+        self._map[offset:offset + array.nbytes] = memoryview(array).cast("B") if array.nbytes else b""
+
+    def read(self, offset, dtype, shape):
+        return np.frombuffer(self._map, dtype, int(np.prod(shape)), offset).reshape(shape).copy()
+
+    def close(self):
+        self._map = None
+        self._file.close()
+
+
+class Request:
+    """One that is under way."""
+
+    def __init__(self, number):
+        self.number = number
+        self.progress = 0.0
+        self.reply = None
+        self.changed = threading.Event()
+
+    @property
+    def is_done(self):
+        return self.reply is not None
+
+    def result(self):
+        if "error" in self.reply:
+            error = self.reply["error"]
+            if error["kind"] == "gone":
+                raise ServerGone(error["message"])
+            raise ScumbleError(error["message"], error["kind"])
+        return self.reply["done"]
+
+
+class Server:
+    """One process. Any thread may ask; answers are read by a thread of its own, which calls nobody."""
+
+    def __init__(self, program, arguments=()):
+        try:
+            self._process = subprocess.Popen([program, "serve", *arguments], stdin=subprocess.PIPE,
+                                             stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        except OSError as error:
+            raise ServerGone(f"'{program}' cannot be run ({error.strerror}); set where scumble is in the "
+                             "add-on's preferences") from None
+        self.messages = self.bytes = 0  # sent so far, as lines
+        self._lock = threading.Lock()
+        self._open = {}
+        self._last = 0
+        self._said = []
+        self._errors = threading.Thread(target=self._listen_to_errors, daemon=True)
+        self._errors.start()
+        first = self._process.stdout.readline()
+        try:
+            self.greeting = json.loads(first)
+        except ValueError:
+            self._process.wait()
+            self._errors.join(5)
+            raise ServerGone("scumble did not start: " + (self.words() or "it said nothing")) from None
+        if self.greeting.get("protocol") != PROTOCOL:
+            self.close()
+            raise ServerGone(f"scumble {self.greeting.get('scumble')} speaks another protocol than this "
+                             "add-on; install the two of one version")
+        self._is_gone = False
+        threading.Thread(target=self._listen, daemon=True).start()
+
+    @property
+    def pid(self):
+        return self._process.pid
+
+    @property
+    def is_alive(self):
+        return not self._is_gone and self._process.poll() is None
+
+    def words(self):
+        """The last lines that it has written to stderr."""
+        return " ".join(self._said[-4:])
+
+    def _listen_to_errors(self):
+        for line in self._process.stderr:
+            self._said.append(line.decode("utf-8", "replace").strip())
+            del self._said[:-20]
+
+    def _listen(self):
+        for line in self._process.stdout:
+            try:
+                message = json.loads(line)
+            except ValueError:
+                break
+            with self._lock:
+                request = self._open.get(message.get("id"))
+                if request is None:
+                    continue
+                if "progress" in message:
+                    request.progress = message["progress"]
+                else:
+                    request.reply = message
+                    del self._open[request.number]
+            request.changed.set()
+        code = self._process.wait()
+        self._errors.join(5)
+        self._lose(f"scumble has ended ({'signal' if code < 0 else 'exit code'} {abs(code)})"
+                   + (f": {self.words()}" if self.words() else ""))
+
+    def _lose(self, message):
+        with self._lock:
+            self._is_gone = True
+            lost, self._open = self._open, {}
+        for request in lost.values():
+            request.reply = {"error": {"kind": "gone", "message": message}}
+            request.changed.set()
+
+    def ask(self, do, **members):
+        """Sends a request, and returns at once."""
+        with self._lock:
+            if self._is_gone:
+                raise ServerGone("scumble has ended" + (f": {self.words()}" if self.words() else ""))
+            self._last += 1
+            request = Request(self._last)
+            line = json.dumps({"id": request.number, "do": do, **members}).encode() + b"\n"
+            self._open[request.number] = request
+            self.messages += 1
+            self.bytes += len(line)
+            try:
+                self._process.stdin.write(line)
+                self._process.stdin.flush()
+            except (OSError, ValueError):
+                pass  # its end is told by the thread that listens
+        return request
+
+    def wait(self, request, is_unwanted=lambda: False, tell=lambda part: None):
+        """Its result. `is_unwanted` is asked, and `tell` told the part that is done, ten times a second."""
+        is_cancelled = False
+        while not request.changed.wait(0.1) or not request.is_done:
+            request.changed.clear()
+            if request.is_done:
+                break
+            tell(request.progress)
+            if not is_cancelled and is_unwanted():
+                is_cancelled = True
+                self.ask("cancel", of=request.number)
+        return request.result()
+
+    def call(self, do, **members):
+        return self.wait(self.ask(do, **members))
+
+    def close(self):
+        try:
+            self._process.stdin.close()
+        except OSError:
+            pass
+        try:
+            self._process.wait(2)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
