@@ -194,13 +194,12 @@ void ServedScene::setMesh(Members& members, const std::string& key, const Client
 void ServedScene::setNode(Members& members, const std::string& key, const ClientMemory& memory) {
   const auto found = nodes_.items.find(key);
   const bool isNew = found == nodes_.items.end();
-  Node node = isNew ? Node{NodeId::none, key, "", ""} : found->second;
-  const std::string name = members.text("name").value_or(node.name),
-                    parent = members.text("parent").value_or(node.parent);
-  if (!isNew && (name != node.name || parent != node.parent))
-    refuse(members.place(name != node.name ? "name" : "parent"), "a node keeps its name and its parent",
-           "remove it, and set it anew");
-  node.name = name, node.parent = parent;
+  Node node = isNew ? Node{NodeId::none, "", ""} : found->second;
+  const std::optional<std::string> name = members.text("name");
+  const std::string parent = members.text("parent").value_or(node.parent);
+  if (!isNew && parent != node.parent)
+    refuse(members.place("parent"), "a node keeps its parent", "remove it, and set it anew");
+  node.parent = parent;
   const NodeId above =
       parent.empty() ? NodeId::none : itemOf(nodes_.items, parent, "node", members.place("parent")).id;
 
@@ -222,18 +221,20 @@ void ServedScene::setNode(Members& members, const std::string& key, const Client
   members.end();
 
   if (isNew) {
-    const auto free = std::find_if(nodes_.free.begin(), nodes_.free.end(), [&](const Node& other) {
-      return other.name == name && editor_.parentOf(other.id) == above;
-    });
+    const auto free = std::find_if(nodes_.free.begin(), nodes_.free.end(),
+                                   [&](const Node& other) { return editor_.parentOf(other.id) == above; });
     if (free != nodes_.free.end()) {
       node.id = free->id;
       nodes_.free.erase(free);
       valueOf(editor_.setVisible(node.id, true), members.place(""));
       valueOf(editor_.setTransform(node.id, glm::mat4(1.0f)), members.place(""));
     } else {
-      node.id = valueOf(editor_.addNode({.name = name, .parent = above}), members.place(""));
+      node.id = valueOf(editor_.addNode({.parent = above}), members.place(""));
     }
+    valueOf(editor_.setName(node.id, name.value_or(key)), members.place(""));
     nodes_.items[key] = node;
+  } else if (name) {
+    valueOf(editor_.setName(node.id, *name), members.place("name"));
   }
   if (transform) valueOf(editor_.setTransform(node.id, *transform), members.place("transform"));
   if (mesh) {
@@ -274,6 +275,7 @@ void ServedScene::remove(size_t kind, const std::string& key, const std::string&
     for (const auto& [user, other] : nodes_.items)
       if (other.parent == key) refuseUsed("the node", user);
     valueOf(editor_.setVisible(node.id, false), where);
+    valueOf(editor_.setName(node.id, ""), where);
     valueOf(editor_.setMesh(node.id, MeshId::none), where);
     valueOf(editor_.setInstances(node.id, {}), where);
     valueOf(editor_.setLight(node.id, std::nullopt), where);
@@ -315,7 +317,8 @@ json ServedScene::counts() const {
   return {{"textures", textures_.items.size()},
           {"materials", materials_.items.size()},
           {"meshes", meshes_.items.size()},
-          {"nodes", nodes_.items.size()}};
+          {"nodes", nodes_.items.size()},
+          {"nodesEver", editor_.nodeCount()}};
 }
 
 }  // namespace scumble::serve

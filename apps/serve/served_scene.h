@@ -38,10 +38,10 @@ class ServedScene {
   };
   struct Node {
     NodeId id;
-    std::string name, parent, mesh;
+    std::string parent, mesh;
   };
   // An editor takes nothing away. What is removed is made small, and its number serves for what is added
-  // next; a node's name and parent stay, so it serves for one that has them.
+  // next, a node's for one below the same parent.
   template <class Item>
   struct Kind {
     std::map<std::string, Item> items;

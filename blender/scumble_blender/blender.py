@@ -19,6 +19,7 @@ import numpy as np
 from . import meshes, space
 from .mirror import Description
 
+PAINTED = ("MESH", "CURVE", "SURFACE", "META", "FONT")  # objects that have surfaces
 WATTS_TO_LUMENS = 683  # as Blender's glTF exporter has it
 
 
@@ -399,8 +400,8 @@ def read_scene(depsgraph, images, is_known, changed=None):
         owner = node_key(evaluated.original)
         return f"{owner}/made/{made.setdefault((owner, evaluated.data.as_pointer()), len(made))}"
 
-    def mesh_key(evaluated, is_instance):
-        is_made = is_instance and evaluated.data is not None and evaluated.data.original != evaluated.original.data
+    def mesh_key(evaluated, placed):
+        is_made = placed is not None and evaluated.data != placed.data
         key = made_key(evaluated) if is_made else _mesh_key(evaluated)
         if key in description.meshes:
             return key
@@ -429,8 +430,7 @@ def read_scene(depsgraph, images, is_known, changed=None):
     for instance in depsgraph.object_instances:
         evaluated = instance.object
         original = evaluated.original
-        if original.type not in ("MESH", "CURVE", "SURFACE", "META", "FONT", "LIGHT", "EMPTY", "ARMATURE", "CAMERA",
-                                 "LATTICE", "SPEAKER"):
+        if original.type not in (*PAINTED, "LIGHT", "EMPTY", "ARMATURE", "CAMERA", "LATTICE", "SPEAKER"):
             if original.type not in ("LIGHT_PROBE",):
                 notes.add(f"'{original.name}' is a {original.type.lower()}, which is not taken over")
             continue
@@ -438,12 +438,12 @@ def read_scene(depsgraph, images, is_known, changed=None):
             if not instance.show_self:
                 continue
             parent = instance.parent.original if instance.parent else None
-            what = _shown(evaluated, mesh_key, True, notes)
+            what = _shown(evaluated, mesh_key, instance.instance_object, notes)
             key = "/".join((node_key(parent) if parent else "", node_key(original), what["mesh"]))
             _, _, _, matrices = instances.setdefault(key, (original.name, parent, what, []))
             matrices.append(matrix_of(evaluated, instance.matrix_world))
         else:
-            shown[node_key(original)] = (original, instance.show_self, _shown(evaluated, mesh_key, False, notes))
+            shown[node_key(original)] = (original, instance.show_self, _shown(evaluated, mesh_key, None, notes))
             worlds[node_key(original)] = matrix_of(evaluated, evaluated.matrix_world)
 
     def add(key, name, parent, world, what):
@@ -495,15 +495,15 @@ def read_scene(depsgraph, images, is_known, changed=None):
     return description, notes.lines
 
 
-def _shown(evaluated, mesh_key, is_instance, notes):
-    """What a node of this object shows."""
+def _shown(evaluated, mesh_key, placed, notes):
+    """What a node of this object shows. placed: the object that an instance is one of, or None."""
     what = {"mesh": "", "light": {"kind": "none"}}
     if evaluated.type == "LIGHT":
         what["light"] = _light(evaluated.data, notes)
-    elif evaluated.type in ("MESH", "CURVE", "SURFACE", "META", "FONT"):
+    elif evaluated.type in PAINTED:
         settings = getattr(evaluated.original, "scumble", None)
         if settings is None or not settings.is_ocean:
-            what["mesh"] = mesh_key(evaluated, is_instance)
+            what["mesh"] = mesh_key(evaluated, placed)
     return what
 
 

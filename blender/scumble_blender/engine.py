@@ -91,8 +91,12 @@ class ScumbleEngine(bpy.types.RenderEngine):
             previous = self._frame_before(session, depsgraph, width, height)
         self.update_stats("", "Telling what has changed")
         description, notes = tell_all(session, IMAGES["final"], depsgraph)
-        for note in notes:
-            self.report({"WARNING"}, f"scumble: {note}")
+        if previous and previous.pop("nodesEver") != session.count()["nodesEver"]:
+            # What came since has a place in the frame before, now that the server has met it.
+            previous = self._frame_before(session, depsgraph, width, height)
+            previous.pop("nodesEver")
+            description, notes = tell_all(session, IMAGES["final"], depsgraph)
+        self.warn(notes)
         if self.test_break():
             raise Cancelled
         eyes = self._eyes(render)
@@ -110,17 +114,20 @@ class ScumbleEngine(bpy.types.RenderEngine):
         self.update_stats("", "Painting")
         pictures, done = session.render([width, height], views, seconds(scene), aovs, region,
                                         is_unwanted=self.test_break, tell=self.update_progress, **options)
-        for note in done["warnings"]:
-            self.report({"WARNING"}, f"scumble: {note}")
+        self.warn(done["warnings"])
         x, y, w, h = (0, 0, region[2], region[3]) if region else (0, 0, width, height)
         for number, eye in enumerate(eyes):
             result = self.begin_result(x, y, w, h, layer=layer.name, view=eye)
             passes = result.layers[0].passes
             _fill(passes, "Combined", _premultiplied(pictures["picture"][number]), eye)
             for aov in aovs:
-                for name, picture in _as_passes(aov, pictures[aov][number], done, layer.name, result):
+                for name, picture in _as_passes(aov, pictures[aov][number], done, layer.name, self.get_result()):
                     _fill(passes, name, picture, eye)
             self.end_result(result)
+
+    def warn(self, notes):
+        for note in notes:
+            self.report({"WARNING"}, f"scumble: {note}")
 
     @staticmethod
     def _eyes(render):
@@ -144,7 +151,8 @@ class ScumbleEngine(bpy.types.RenderEngine):
             session.remember()
             views = [on_its_node(view, description)
                      for view in self._views(self._eyes(scene.render), scene, depsgraph, width, height)]
-            return {"time": seconds(depsgraph.scene), "views": views, "remembered": True}
+            return {"time": seconds(depsgraph.scene), "views": views, "remembered": True,
+                    "nodesEver": session.count()["nodesEver"]}
         finally:
             self.frame_set(frame, subframe)
 

@@ -114,7 +114,7 @@ class SceneMirror:
                 edits.append({"set": "mesh", "key": key, "parts": [self._part(part, arena) for part in parts]})
         identity = {}
         for key, node in description.nodes.items():
-            identity[key] = (node["name"], node["parent"], identity.get(node["parent"]))
+            identity[key] = (node["parent"], identity.get(node["parent"]))
         gone = [key for key in self.known["nodes"] if identity.get(key) != self.identity.get(key)]
         # Children first: they were told after their parents.
         edits += [{"remove": "node", "key": key} for key in reversed(gone)]

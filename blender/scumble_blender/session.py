@@ -49,6 +49,10 @@ class Session:
         """What the server that runs has been told: lines, bytes of lines and of arrays, edits of each kind, knobs."""
         return {**self.scene.sent, **self.look.sent, "lines": self.server.messages, "lineBytes": self.server.bytes}
 
+    def count(self):
+        """How much of each kind there is, and how many nodes there ever were."""
+        return self.server.call("edit", edits=[])
+
     def remember(self):
         self.server.call("remember")
 

@@ -11,7 +11,7 @@ import numpy as np
 from bpy.props import (BoolProperty, EnumProperty, FloatProperty, FloatVectorProperty, IntProperty, PointerProperty,
                        StringProperty)
 
-from . import knobs, space
+from . import blender, knobs, space
 from .cryptomatte import murmur3
 
 # What can be had beside the picture: AOVs of scumble, and what Blender's layers call them.
@@ -71,15 +71,29 @@ def _group(name, section):
                 {"__annotations__": {knob.name: _property(knob) for knob in KNOBS.get(section, ())}})
 
 
+def _part(owner, *names):
+    """A group within groups, or None where nothing in it is set: asking for it would make it, and what has been
+    evaluated is not ours to add to."""
+    for name in names:
+        if owner is None or not owner.is_property_set(name):
+            return None
+        owner = getattr(owner, name)
+    return owner
+
+
 def values_of(group, section, prefix=""):
     """What is set in a group of knobs, as the protocol takes it, by paths."""
+    if group is None:
+        return {}
     return {prefix + knob.path: knob.text(getattr(group, knob.name)) for knob in KNOBS.get(section, ())
             if group.is_property_set(knob.name)}
 
 
 def look_of(scene):
     """The base of a scene's look: its name or file, with what tells whether the file has changed."""
-    settings = scene.scumble
+    settings = _part(scene, "scumble")
+    if settings is None:
+        return ("",)
     name = settings.look
     if settings.look_file:
         name = os.path.abspath(bpy.path.abspath(settings.look_file))
@@ -95,32 +109,35 @@ def look_of(scene):
 def knobs_of(depsgraph, empties):
     """All that is set, of an evaluated scene: for the scene, by materials, by objects, and by empties."""
     scene = depsgraph.scene
-    found = values_of(scene.scumble.knobs, "scene")
+    found = values_of(_part(scene, "scumble", "knobs"), "scene")
     names = set()
     for instance in depsgraph.object_instances:
         evaluated = instance.object
         if evaluated.name in names:
             continue
         names.add(evaluated.name)
-        if evaluated.scumble.is_ocean:
-            found.update(values_of(evaluated.scumble.ocean, "ocean"))
-        found.update(values_of(evaluated.scumble.knobs, "nodes", f"nodes.{evaluated.name}."))
-        for slot in evaluated.material_slots:
+        settings = _part(evaluated, "scumble")
+        if settings is not None and settings.is_ocean:
+            found.update(values_of(_part(settings, "ocean"), "ocean"))
+        found.update(values_of(_part(settings, "knobs"), "nodes", f"nodes.{evaluated.name}."))
+        # Blender 3.4 ends where an evaluated empty is asked for its materials.
+        for slot in evaluated.material_slots if evaluated.type in blender.PAINTED else ():
             if slot.material is not None:
                 name = slot.material.name
-                found.update(values_of(slot.material.scumble.knobs, "materials", f"materials.{name}."))
+                found.update(values_of(_part(slot.material, "scumble", "knobs"), "materials", f"materials.{name}."))
     for original, world in empties:
-        settings = original.scumble
-        evaluated = original.evaluated_get(depsgraph).scumble
+        settings = _part(original.evaluated_get(depsgraph), "scumble")
+        if settings is None:
+            continue
         if settings.is_colorizer:
             prefix = f"colorizers.{original.name}."
             found.update(_place_of_volume(original, world, prefix))
-            found.update(values_of(evaluated.colorizer, "colorizers", prefix))
+            found.update(values_of(_part(settings, "colorizer"), "colorizers", prefix))
         if settings.is_decoration:
             prefix = f"decorations.{original.name}."
             at = space.vectors(world[None, :3, 3])[0]
             found[prefix + "water.at"] = [float(x) for x in at]
-            found.update(values_of(evaluated.decoration, "decorations", prefix))
+            found.update(values_of(_part(settings, "decoration"), "decorations", prefix))
     return found
 
 

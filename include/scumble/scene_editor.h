@@ -150,6 +150,7 @@ class SCUMBLE_API SceneEditor {
   glm::mat4 transformOf(NodeId id) const;  // to its parent's space, at rest; the identity of none
   // To its parent's space. Nodes that a clip moves are the clip's, and are refused.
   Status setTransform(NodeId id, const glm::mat4& transform);
+  Status setName(NodeId id, const std::string& name);
   // Whether its mesh is drawn, and those of all nodes below it. What is not takes up no space either.
   Status setVisible(NodeId id, bool visible);
   Status setMesh(NodeId id, MeshId mesh);

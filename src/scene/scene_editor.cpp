@@ -241,6 +241,14 @@ Status SceneEditor::setTransform(NodeId id, const glm::mat4& transform) {
   });
 }
 
+Status SceneEditor::setName(NodeId id, const std::string& name) {
+  if (!isIndex(id, edited_->data.nodes.size())) return noSuch("node", int(id));
+  return edited_->edit([&]() -> Status {
+    edited_->data.nodes[size_t(id)].name = name;
+    return Done{};
+  });
+}
+
 Status SceneEditor::setVisible(NodeId id, bool visible) {
   if (!isIndex(id, edited_->data.nodes.size())) return noSuch("node", int(id));
   return edited_->edit([&]() -> Status {

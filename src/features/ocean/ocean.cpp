@@ -36,8 +36,9 @@ OceanShape oceanShape(const scene::SceneData& scene, const look::LookData& look)
   const OceanParams params = look.get<OceanParams>();
   OceanShape shape;
   if (params.mode == 2) return shape;
+  const std::vector<bool> visible = scene::shownNodes(scene);
   for (size_t n = 0; n < scene.nodes.size() && shape.node < 0; ++n)
-    if (standsForOcean(scene.nodes[n])) shape.node = int(n);
+    if (visible[n] && standsForOcean(scene.nodes[n])) shape.node = int(n);
   if (params.mode == 0 && shape.node < 0) return shape;
   shape.isThere = true;
   if (shape.node >= 0) shape.origin = scene::worldMatrices(scene)[size_t(shape.node)][3];
