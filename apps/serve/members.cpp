@@ -29,7 +29,7 @@ Members::Members(const json& object, std::string where) : object_(object), where
 }
 
 std::string Members::place(const std::string& name) const {
-  return where_.empty() ? name : where_ + "." + name;
+  return where_.empty() || name.empty() ? where_ + name : where_ + "." + name;
 }
 
 const json* Members::find(const char* name) {

@@ -8,7 +8,7 @@ import numpy as np
 from gpu_extras.presets import draw_texture_2d
 
 from . import blender, cryptomatte, settings, space
-from .session import ScumbleError, ServerGone, Sessions
+from .session import Behind, ScumbleError, ServerGone, Sessions
 
 SESSIONS = Sessions()
 
@@ -166,6 +166,7 @@ class ScumbleEngine(bpy.types.RenderEngine):
     def view_draw(self, context, depsgraph):
         if self._viewport is None:
             self._viewport = Viewport(session_for("viewport"))
+        if self._viewport.is_behind:
             self._viewport.update(depsgraph)
         region = context.region
         region_data = context.region_data
@@ -201,14 +202,15 @@ class Viewport:
         self._picture = self._texture = None
         self._problem = ""
         self._is_closed = self._is_working = False
-        self._waits_for_all = True
+        self._reads_all = True  # next time
+        self.is_behind = True  # and that should be now
         self._thread = threading.Thread(target=self._work, daemon=True)
         self._thread.start()
 
     @property
     def is_busy(self):
         with self._condition:
-            return self._is_working or self._wanted is not None or self._picture is not None
+            return self._is_working or self.is_behind or self._wanted is not None or self._picture is not None
 
     def close(self):
         with self._condition:
@@ -216,7 +218,7 @@ class Viewport:
             self._condition.notify()
 
     def update(self, depsgraph):
-        changed = None if self._waits_for_all else blender.changed_meshes(depsgraph)
+        changed = None if self._reads_all else blender.changed_meshes(depsgraph)
         with self._condition:
             pending = self._description
 
@@ -231,7 +233,7 @@ class Viewport:
                 description.keep_from(self._description)
             self._description, self._look = description, look
             self._problem = notes[0] if notes else ""
-            self._waits_for_all = False
+            self._reads_all = self.is_behind = False
             self._drawn = None
 
     def look_from(self, view, width, height, depsgraph):
@@ -276,10 +278,13 @@ class Viewport:
                     view, size, time, seed = wanted
                     pictures, _ = self.session.render(size, [view], time, samples=1, seed=seed)
                 picture = _premultiplied(pictures["picture"][0])
+            except Behind:
+                self._reads_all = self.is_behind = True
             except ServerGone as error:
+                # Another one is started when something changes, and not at once: what has ended it may do so again.
                 problem = str(error)
-                self._waits_for_all = True
-            except ScumbleError as error:
+                self._reads_all = True
+            except Exception as error:  # a thread's last word would be heard by nobody
                 problem = str(error)
             with self._condition:
                 self._is_working = False

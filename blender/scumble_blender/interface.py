@@ -19,6 +19,7 @@ class SCUMBLE_OT_unset(bpy.types.Operator):
         if group is None:
             return {"CANCELLED"}
         group.property_unset(self.knob)
+        group.id_data.update_tag()
         return {"FINISHED"}
 
 

@@ -28,6 +28,10 @@ class Description:
                     mine[key] = theirs[key]
 
 
+class Behind(Exception):
+    """A description leaves out what its reader took for known: it is to be read anew, all of it."""
+
+
 def digest(value):
     """Of dicts, lists, numbers, texts and arrays, by what is in them."""
     hashed = hashlib.blake2b(digest_size=16)
@@ -95,6 +99,8 @@ class SceneMirror:
         for kind in self.KINDS:
             for key, value in getattr(description, kind).items():
                 if value is None:
+                    if key not in self.known[kind]:
+                        raise Behind(f"{key} is not known any more")
                     fresh[kind][key] = self.known[kind][key]
                 else:
                     fresh[kind][key] = digest(value)
@@ -125,11 +131,10 @@ class SceneMirror:
             edits += [{"remove": self.WORDS[kind], "key": key} for key in self.known[kind]
                       if key not in fresh[kind]]
         # What has been told in part is not known any more.
-        before, self.known = self.known, {kind: {} for kind in self.KINDS}
+        self.known = {kind: {} for kind in self.KINDS}
         if edits:
             arena.write(self.server)
             self.server.call("edit", edits=edits)
-        del before
         self.known, self.identity = fresh, identity
         for edit in edits:
             self.sent["removals" if "remove" in edit else edit["set"]] += 1

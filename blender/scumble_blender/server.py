@@ -9,10 +9,12 @@ import os
 import subprocess
 import tempfile
 import threading
+import time
 
 import numpy as np
 
 PROTOCOL = 1
+PATIENCE = 10  # seconds
 
 
 class ScumbleError(Exception):
@@ -179,16 +181,18 @@ class Server:
         return request
 
     def wait(self, request, is_unwanted=lambda: False, tell=lambda part: None):
-        """Its result. `is_unwanted` is asked, and `tell` told the part that is done, ten times a second."""
-        is_cancelled = False
-        while not request.changed.wait(0.1) or not request.is_done:
+        """Its result. `is_unwanted` is asked, and `tell` told the part that is done, ten times a second. A server
+        that goes on for long with what is unwanted is ended."""
+        cancelled_at = None
+        while not request.is_done:
+            request.changed.wait(0.1)
             request.changed.clear()
-            if request.is_done:
-                break
             tell(request.progress)
-            if not is_cancelled and is_unwanted():
-                is_cancelled = True
+            if cancelled_at is None and not request.is_done and is_unwanted():
+                cancelled_at = time.monotonic()
                 self.ask("cancel", of=request.number)
+            elif cancelled_at is not None and time.monotonic() - cancelled_at > PATIENCE:
+                self._process.kill()
         return request.result()
 
     def call(self, do, **members):

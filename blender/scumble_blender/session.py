@@ -4,7 +4,7 @@ import threading
 
 import numpy as np
 
-from .mirror import LookMirror, SceneMirror
+from .mirror import Behind, LookMirror, SceneMirror
 from .server import ScumbleError, Server, ServerGone, SharedMemory
 
 DTYPES = {"float32": np.float32, "float16": np.float16, "srgb8": np.uint8}
@@ -92,15 +92,17 @@ class Sessions:
             session = self._sessions.get(purpose)
             if session is None or (session.program, session.arguments) != (program, tuple(arguments)):
                 if session is not None:
-                    session.close()
+                    with session:
+                        session.close()
                 session = self._sessions[purpose] = Session(program, arguments)
             return session
 
     def close(self):
         with self._lock:
             for session in self._sessions.values():
-                session.close()
+                with session:
+                    session.close()
             self._sessions.clear()
 
 
-__all__ = ["ScumbleError", "ServerGone", "Session", "Sessions"]
+__all__ = ["Behind", "ScumbleError", "ServerGone", "Session", "Sessions"]

@@ -48,8 +48,13 @@ def _items(words):
     return [(word, word, meaning, murmur3(word) & 0x3FFFFFFF) for word, meaning in words]
 
 
+def _changed(group, _context):
+    """Has what is evaluated know of it, and so viewports."""
+    group.id_data.update_tag()
+
+
 def _property(knob):
-    common = {"name": knob.label, "description": knob.meaning}
+    common = {"name": knob.label, "description": knob.meaning, "update": _changed}
     if knob.kind == "toggle":
         return BoolProperty(default=knob.default, **common)
     if knob.kind == "whole":
@@ -202,11 +207,11 @@ def register():
 
     of_scene = settings(
         "ScumbleSceneSettings",
-        look=EnumProperty(name="Look", items=_items(LOOKS or [("age-of-sail", "")]), default="age-of-sail",
+        look=EnumProperty(update=_changed, name="Look", items=_items(LOOKS or [("age-of-sail", "")]), default="age-of-sail",
                           description="A look that ships with scumble"),
-        look_file=StringProperty(name="Look file", subtype="FILE_PATH", description="A look of your own, in its place"),
-        samples=EnumProperty(name="Samples", items=[("1", "1", "Fast"), ("4", "4", "Smooth edges")], default="4"),
-        seed=IntProperty(name="Seed", min=0, description="Moves every pattern"),
+        look_file=StringProperty(update=_changed, name="Look file", subtype="FILE_PATH", description="A look of your own, in its place"),
+        samples=EnumProperty(update=_changed, name="Samples", items=[("1", "1", "Fast"), ("4", "4", "Smooth edges")], default="4"),
+        seed=IntProperty(update=_changed, name="Seed", min=0, description="Moves every pattern"),
         knobs=PointerProperty(type=scene_knobs))
     of_layer = settings("ScumbleLayerSettings", **{
         "pass_" + aov.replace("-", "_"): BoolProperty(name=PASSES[aov][0] if PASSES[aov][0] == aov else f"{PASSES[aov][0]} ({aov})")
@@ -215,11 +220,11 @@ def register():
     of_object = settings(
         "ScumbleObjectSettings",
         knobs=PointerProperty(type=node_knobs),
-        is_ocean=BoolProperty(name="Ocean", description="The sea is here, at this height and in place of the mesh"),
+        is_ocean=BoolProperty(update=_changed, name="Ocean", description="The sea is here, at this height and in place of the mesh"),
         ocean=PointerProperty(type=ocean_knobs),
-        is_colorizer=BoolProperty(name="Colorizer", description="This empty grades the colours of what is in it"),
+        is_colorizer=BoolProperty(update=_changed, name="Colorizer", description="This empty grades the colours of what is in it"),
         colorizer=PointerProperty(type=colorizer_knobs),
-        is_decoration=BoolProperty(name="Wake, ripples or splash", description="This empty decorates the water"),
+        is_decoration=BoolProperty(update=_changed, name="Wake, ripples or splash", description="This empty decorates the water"),
         decoration=PointerProperty(type=decoration_knobs))
     _classes.extend([scene_knobs, ocean_knobs, material_knobs, node_knobs, colorizer_knobs,
                      decoration_knobs, of_scene, of_layer, of_material, of_object])
