@@ -49,6 +49,24 @@ TextureSlot toSlot(const py::handle& value, const std::string& what) {
   return slot;
 }
 
+OutlineDesc toOutline(const py::handle& value, const std::string& what) {
+  OutlineDesc outline;
+  for (const auto& [key, item] : as<py::dict>(value, what, "a dict")) {
+    const std::string name = py::str(key);
+    if (name == "unit")
+      outline.unit = OutlineDesc::Unit(wordOf(item, name, {"metres", "picture-heights"}));
+    else if (name == "width")
+      outline.width = as<float>(item, name);
+    else if (name == "color")
+      outline.color = toVec3(item, name);
+    else if (name == "lighting_mix")
+      outline.lightingMix = as<float>(item, name);
+    else
+      refuseKey(what, name, "unit, width, color and lighting_mix");
+  }
+  return outline;
+}
+
 void change(MaterialDesc& material, const py::kwargs& settings) {
   for (const auto& [key, value] : settings) {
     const std::string name = py::str(key);
@@ -78,11 +96,13 @@ void change(MaterialDesc& material, const py::kwargs& settings) {
       material.litTexture = toSlot(value, name);
     } else if (name == "shadowed_texture") {
       material.shadowedTexture = toSlot(value, name);
+    } else if (name == "outline") {
+      material.outline = value.is_none() ? std::optional<OutlineDesc>() : toOutline(value, name);
     } else {
       refuseKey("a material", name,
                 "name, base_color, base_color_texture, emissive, emissive_texture, alpha, alpha_cutoff, "
                 "double_sided, unlit, "
-                "shadowed_color, lit_texture and shadowed_texture");
+                "shadowed_color, lit_texture, shadowed_texture and outline");
     }
   }
 }
@@ -212,7 +232,10 @@ void addEditor(py::module_& module) {
           "shadowed_texture. A texture\n"
           "is an id, or a dict of texture, wrap_u, wrap_v ('repeat', 'mirrored-repeat', 'clamp-to-edge'), "
           "nearest, mipmaps, uv_set\n"
-          "and transform (3 by 3). Gives its id; 0 is a white one that is always there.")
+          "and transform (3 by 3); outline is None or a dict of unit ('metres', 'picture-heights'), width, "
+          "color "
+          "and\n"
+          "lighting_mix. Gives its id; 0 is a white one that is always there.")
       .def(
           "set_material",
           [](SceneEditor& editor, int id, const py::kwargs& settings) {
@@ -287,6 +310,19 @@ void addEditor(py::module_& module) {
             done(editor.setTransform(NodeId(node), toMatrix(transform, "transform")));
           },
           "node"_a, "transform"_a, "4 by 4, to its parent's space.")
+      .def(
+          "set_name",
+          [](SceneEditor& editor, int node, const std::string& name) {
+            done(editor.setName(NodeId(node), name));
+          },
+          "node"_a, "name"_a)
+      .def(
+          "set_extras",
+          [](SceneEditor& editor, int node, const py::dict& extras) {
+            const py::object text = py::module_::import("json").attr("dumps")(extras);
+            done(editor.setExtras(NodeId(node), text.cast<std::string>()));
+          },
+          "node"_a, "extras"_a, "What it says to features, as a glTF's node in its extras.")
       .def(
           "set_visible",
           [](SceneEditor& editor, int node, bool visible) { done(editor.setVisible(NodeId(node), visible)); },

@@ -303,7 +303,7 @@ def may_include(room, allowed):
 
 
 # Pages of rooms whose names are others.
-ROOM_PAGES = {"app.md": "apps/scumble", "viewer.md": "apps/viewer", "python.md": "python", "passes.md": "src/passes/*", "features.md": "src/features/*"}
+ROOM_PAGES = {"app.md": "apps/scumble", "serve.md": "apps/serve", "viewer.md": "apps/viewer", "python.md": "python", "passes.md": "src/passes/*", "features.md": "src/features/*"}
 PART_PAGES = {"ocean.md": "src/features/*", "ocean_maps.md": "src/features/*"}  # of one part of a room, which may use less
 LIBRARY_WORDS = {"CLI": "CLI11", "fmt": "fmt", "nlohmann": "nlohmann-json", "cairo": "cairo"}
 

@@ -46,7 +46,8 @@ TABLE = {
     "src/study": [PUBLIC, "src/base"],
     "src/xr": [PUBLIC],
     "apps/viewer": [PUBLIC],
-    "apps/scumble": [PUBLIC, "apps/viewer", "src/xr"],
+    "apps/serve": [PUBLIC],
+    "apps/scumble": [PUBLIC, "apps/serve", "apps/viewer", "src/xr"],
     "examples": [PUBLIC],
     "python": [PUBLIC],
     # The cost of one technique by itself is measured from inside.
@@ -64,6 +65,7 @@ LIBRARIES = {
     PUBLIC: ["std", "glm"],
     "src/xr": ["std", "system", "glm", "vulkan", "openxr"],
     "apps/viewer": ["std", "system", "glm", "nlohmann", "vulkan", "GLFW", "imgui", "fontconfig"],
+    "apps/serve": ["std", "system", "glm", "nlohmann"],
     "apps/scumble": ["std", "system", "CLI", "fmt", "nlohmann", "cairo"],
     "examples": ["std", "glm", "nlohmann"],
     "python": ["std", "system", "glm", "pybind11"],

@@ -13,7 +13,8 @@ using nlohmann::json;
 
 namespace {
 
-constexpr size_t kLongestLine = size_t(64) << 20;  // bytes
+constexpr size_t kLongestLine = size_t(64) << 20;   // bytes
+constexpr size_t kMostWaiting = size_t(256) << 20;  // bytes of lines
 constexpr int kDeepest = 32;
 constexpr uint64_t kMostId = uint64_t(1) << 53;
 
@@ -92,13 +93,20 @@ void Requests::add(const std::string& line) {
       return;
     }
     const std::lock_guard lock(mutex_);
+    if (waitingBytes_ + line.size() > kMostWaiting)
+      serve::refuse("", "too much waits already", "wait for answers");
     if (!open_.insert(number).second)
-      refuse("id", "another request of this number is not yet answered", "count up");
-    waiting_.push_back(std::move(request));
+      serve::refuse("id", "another request of this number is not yet answered", "count up");
+    waiting_.push_back({std::move(request), line.size()});
+    waitingBytes_ += line.size();
     changed_.notify_one();
   } catch (const Refusal& refusal) {
     answers_.send({{"id", id}, {"error", toJson(refusal.error)}});
   }
+}
+
+void Requests::refuse(const Error& error) {
+  answers_.send({{"id", nullptr}, {"error", toJson(error)}});
 }
 
 void Requests::read(int file) {
@@ -114,16 +122,22 @@ void Requests::read(int file) {
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) break;
     for (ssize_t i = 0; i < got; ++i) {
-      if (bytes[i] == '\n') {
-        if (!isTooLong) add(line);
-        line.clear(), isTooLong = false;
-      } else if (!isTooLong) {
-        line.push_back(bytes[i]);
-        if (line.size() <= kLongestLine) continue;
-        isTooLong = true;
-        answers_.send({{"id", nullptr},
-                       {"error", toJson({ErrorKind::usage, "", 0, "", "a line is longer than 64 MiB",
-                                         "share memory for what is large"})}});
+      // One request that is too much for this machine is no reason to end.
+      try {
+        if (bytes[i] == '\n') {
+          if (!isTooLong) add(line);
+          line.clear(), isTooLong = false;
+        } else if (!isTooLong) {
+          line.push_back(bytes[i]);
+          isTooLong = line.size() > kLongestLine;
+          if (isTooLong)
+            refuse({ErrorKind::usage, "", 0, "", "a line is longer than 64 MiB",
+                    "share memory for what is large"});
+        }
+      } catch (const std::bad_alloc&) {
+        line = std::string();
+        isTooLong = bytes[i] != '\n';
+        refuse({ErrorKind::usage, "", 0, "", "there is not enough memory for a line", "send less at once"});
       }
     }
   }
@@ -136,7 +150,8 @@ std::optional<json> Requests::take() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [&] { return isAtEnd_ || !waiting_.empty(); });
   if (waiting_.empty()) return std::nullopt;
-  json request = std::move(waiting_.front());
+  json request = std::move(waiting_.front().request);
+  waitingBytes_ -= waiting_.front().bytes;
   waiting_.pop_front();
   return request;
 }

@@ -45,10 +45,16 @@ class Requests {
 
  private:
   void add(const std::string& line);
+  void refuse(const Error& error);
   Answers& answers_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<nlohmann::json> waiting_;
+  struct Waiting {
+    nlohmann::json request;
+    size_t bytes = 0;  // of its line
+  };
+  std::deque<Waiting> waiting_;
+  size_t waitingBytes_ = 0;
   std::set<int64_t> open_, cancelled_;
   bool isAtEnd_ = false;
 };

@@ -236,15 +236,20 @@ void ServedScene::setNode(Members& members, const std::string& key, const Client
   } else if (name) {
     valueOf(editor_.setName(node.id, *name), members.place("name"));
   }
-  if (transform) valueOf(editor_.setTransform(node.id, *transform), members.place("transform"));
-  if (mesh) {
-    valueOf(editor_.setMesh(node.id, meshId), members.place("mesh"));
-    node.mesh = *mesh;
+  try {
+    if (transform) valueOf(editor_.setTransform(node.id, *transform), members.place("transform"));
+    if (mesh) {
+      valueOf(editor_.setMesh(node.id, meshId), members.place("mesh"));
+      node.mesh = *mesh;
+    }
+    if (visible) valueOf(editor_.setVisible(node.id, *visible), members.place("visible"));
+    if (instances) valueOf(editor_.setInstances(node.id, *instances), members.place("instances"));
+    if (givenLight) valueOf(editor_.setLight(node.id, light), members.place("light"));
+    if (extras) valueOf(editor_.setExtras(node.id, extras->dump()), members.place("extras"));
+  } catch (const Refusal&) {
+    if (isNew) remove(3, key, members.place(""));
+    throw;
   }
-  if (visible) valueOf(editor_.setVisible(node.id, *visible), members.place("visible"));
-  if (instances) valueOf(editor_.setInstances(node.id, *instances), members.place("instances"));
-  if (givenLight) valueOf(editor_.setLight(node.id, light), members.place("light"));
-  if (extras) valueOf(editor_.setExtras(node.id, extras->dump()), members.place("extras"));
   nodes_.items[key] = node;
 }
 

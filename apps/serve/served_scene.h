@@ -16,7 +16,8 @@ class ServedScene {
  public:
   ServedScene() : editor_("served") {}
 
-  // One edit, as docs/serve.md has it. Of a node that is refused a part may have been done.
+  // One edit, as docs/serve.md has it. Of a node that was there a part may have been done where it is
+  // refused.
   void edit(const nlohmann::json& edit, const std::string& where, const ClientMemory& memory);
   void clear();
   Result<Scene> scene() const { return editor_.scene(); }

@@ -121,8 +121,14 @@ json Server::greeting() const {
 json Server::edit(Members& request) {
   const json& edits = request.list("edits");
   request.end();
-  for (size_t i = 0; i < edits.size(); ++i)
-    scene_.edit(edits[i], "edits[" + std::to_string(i) + "]", memory_);
+  for (size_t i = 0; i < edits.size(); ++i) try {
+      scene_.edit(edits[i], "edits[" + std::to_string(i) + "]", memory_);
+    } catch (Refusal& refusal) {
+      // Numbers in a list tell people little.
+      if (edits[i].is_object() && edits[i].contains("key") && edits[i]["key"].is_string())
+        refusal.error.problem = "'" + edits[i]["key"].get<std::string>() + "': " + refusal.error.problem;
+      throw;
+    }
   return scene_.counts();
 }
 
@@ -184,7 +190,10 @@ json Server::render(Members& request, const Progress& progress) {
   if (const json* formats = request.find("formats")) {
     Members members(*formats, "formats");
     for (const auto& [name, value] : formats->items())
-      options.formats[name == kPicture ? "" : name] = PixelFormat(*members.word(name.c_str(), kFormats));
+      if (!value.is_string())
+        refuse(members.place(name), "this is no text", "write it in quotes");
+      else
+        options.formats[name == kPicture ? "" : name] = PixelFormat(*members.word(name.c_str(), kFormats));
   }
   const std::optional<Region> region = regionOf(request, options);
   const Scene scene = valueOf(scene_.scene(), "");
@@ -200,7 +209,6 @@ json Server::render(Members& request, const Progress& progress) {
     members.end();
   }
   const ClientMemory::Range range = memory_.rangeOf(request.require("into"), "into", 1);
-  const uint64_t room = range.bytes;
   request.end();
 
   options.progress = progress;
@@ -210,34 +218,46 @@ json Server::render(Members& request, const Progress& progress) {
     throw Refusal{
         {ErrorKind::internal, "", 0, "", "the validation layers have spoken", "please report this"}};
 
+  // A region is one of the picture: what has a size of its own comes whole.
+  struct Part {
+    const Image& image;
+    Region region;
+    uint64_t pixel, offset;  // bytes
+  };
   json layers = json::array();
-  uint64_t at = 0;
+  std::vector<Part> parts;
+  uint64_t bytes = 0;
   for (const Frame::Layer& layer : frame.layers)
     for (size_t v = 0; v < layer.views.size(); ++v) {
       const Image& image = layer.views[v];
-      // A region is one of the picture: what has a size of its own comes whole.
-      const Region part = region && image.width == options.width && image.height == options.height
-                              ? *region
-                              : Region{0, 0, image.width, image.height};
-      const uint64_t pixel = image.channels.size() * bytesOf(image.format), row = part.width * pixel;
-      if (row * part.height > room - at)
-        refuse("into.count", "the pictures take more than " + std::to_string(room) + " bytes",
-               "share more; each picture takes its width, height, channels and bytes a number");
+      const bool isPart = region && image.width == options.width && image.height == options.height;
+      const Part part = {image, isPart ? *region : Region{0, 0, image.width, image.height},
+                         image.channels.size() * bytesOf(image.format), bytes};
+      bytes += part.pixel * part.region.width * part.region.height;
       layers.push_back({{"name", layer.name.empty() ? kPicture : layer.name},
                         {"view", v},
-                        {"width", part.width},
-                        {"height", part.height},
+                        {"width", part.region.width},
+                        {"height", part.region.height},
                         {"channels", image.channels},
                         {"format", kFormats[size_t(image.format)]},
                         {"isColor", image.isColor},
-                        {"offset", range.offset + at}});
-      const char* from =
-          static_cast<const char*>(dataOf(image)) + (uint64_t(part.y) * image.width + part.x) * pixel;
-      for (uint32_t y = 0; y < part.height; ++y, from += image.width * pixel, at += row)
-        memory_.write(range, at, from, row);
+                        {"offset", range.offset + part.offset}});
+      parts.push_back(part);
     }
+  if (bytes > range.bytes)
+    refuse(
+        "into.count",
+        "the pictures take " + std::to_string(bytes) + " bytes, and there are " + std::to_string(range.bytes),
+        "share more");
+  for (const Part& part : parts) {
+    const uint64_t row = part.pixel * part.region.width, rowOfImage = part.pixel * part.image.width;
+    const char* from = static_cast<const char*>(dataOf(part.image)) + part.region.y * rowOfImage +
+                       part.region.x * part.pixel;
+    for (uint32_t y = 0; y < part.region.height; ++y)
+      memory_.write(range, part.offset + y * row, from + y * rowOfImage, row);
+  }
   json done = {
-      {"layers", layers}, {"bytes", at}, {"warnings", scene.warnings()}, {"stats", statsOf(frame.stats)}};
+      {"layers", layers}, {"bytes", bytes}, {"warnings", scene.warnings()}, {"stats", statsOf(frame.stats)}};
   if (!frame.objects.empty()) done["objects"] = frame.objects;
   if (!frame.materials.empty()) done["materials"] = frame.materials;
   return done;
@@ -308,6 +328,8 @@ Status Server::run(int in, int out) {
       reply["error"] = toJson(refusal.error);
     } catch (const std::bad_alloc&) {
       reply["error"] = toJson({ErrorKind::usage, "", 0, "", "there is not enough memory", "use less"});
+    } catch (const std::exception& error) {
+      reply["error"] = toJson({ErrorKind::internal, "", 0, "", error.what(), "please report this"});
     }
     requests.done(number);
     answers.send(reply);

@@ -28,4 +28,4 @@ def unregister():
     interface.unregister()
     bpy.utils.unregister_class(engine.ScumbleEngine)
     settings.unregister()
-    engine.SESSIONS.close()
+    engine.close_all()

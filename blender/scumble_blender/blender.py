@@ -20,7 +20,18 @@ from . import meshes, space
 from .mirror import Description
 
 PAINTED = ("MESH", "CURVE", "SURFACE", "META", "FONT")  # objects that have surfaces
+DEEPEST = 20  # nodes behind one another, which may lead in circles
 WATTS_TO_LUMENS = 683  # as Blender's glTF exporter has it
+
+
+def number(value, least=0.0, most=1e30):
+    """Within what scumble takes, also where it is none."""
+    value = float(value)
+    return min(max(value, least), most) if math.isfinite(value) else least
+
+
+def unit(values):
+    return [number(value, 0.0, 1.0) for value in values]
 
 
 class Notes:
@@ -55,6 +66,9 @@ class Images:
 
     def key(self, image, description, is_known, notes):
         """Its key, with its pixels in the description; None where it has none."""
+        if image is not None and image.source in ("SEQUENCE", "MOVIE", "TILED"):
+            notes.add(f"the image '{image.name}' is a {image.source.lower()}, which is not taken over")
+            return None
         if image is None or 0 in image.size[:]:
             notes.add(f"the image '{image.name if image else ''}' has no pixels")
             return None
@@ -86,16 +100,16 @@ def srgb(linear):
 # -- Materials
 
 
-def _slot(node, key, mesh_layers):
-    """A texture node as a slot, with what stands before its coordinates."""
+def _slot(node, key, layers):
+    """A texture node as a slot, with what stands before its coordinates. layers: names of UV maps, in their order."""
     slot = {"texture": key}
     wraps = {"REPEAT": "repeat", "MIRROR": "mirrored-repeat"}
     slot["wrapU"] = slot["wrapV"] = wraps.get(node.extension, "clamp-to-edge")
     if node.interpolation == "Closest":
         slot["nearest"] = True
-    before = node.inputs["Vector"]
-    if before.is_linked and before.links[0].from_node.type == "MAPPING":
-        mapping = before.links[0].from_node
+    before = _before(node.inputs["Vector"])
+    if before is not None and before.type == "MAPPING":
+        mapping = before
         move, turn, scale = (mapping.inputs[name].default_value for name in ("Location", "Rotation", "Scale"))
         sine, cosine = math.sin(turn[2]), math.cos(turn[2])
         # Blender's coordinates grow upwards, glTF's downwards: v' = 1 - v on both sides.
@@ -103,10 +117,10 @@ def _slot(node, key, mesh_layers):
                            [sine * scale[0], cosine * scale[1], move[1]], [0, 0, 1]])
         flip = np.array([[1, 0, 0], [0, -1, 1], [0, 0, 1]])
         slot["transform"] = [float(x) for x in (flip @ matrix @ flip).T.reshape(-1)]
-        before = mapping.inputs["Vector"]
-    if before.is_linked and before.links[0].from_node.type == "UVMAP":
-        name = before.links[0].from_node.uv_map
-        if name and mesh_layers and name in mesh_layers[1:]:
+        before = _before(mapping.inputs["Vector"])
+    if before is not None and before.type == "UVMAP":
+        name = before.uv_map
+        if name in layers[1:2]:
             slot["uvSet"] = 1
     return slot
 
@@ -117,14 +131,16 @@ class _Materials:
 
     def _texture(self, node):
         key = self.images.key(node.image, self.description, self.is_known, self.notes)
-        return _slot(node, key, ()) if key else None
+        return _slot(node, key, self.layers) if key else None
 
-    def _read(self, socket, material):
+    def _read(self, socket, material, depth=0):
         """What a colour's socket comes to: a factor, and a texture or None."""
         value = list(socket.default_value) if hasattr(socket.default_value, "__len__") else [socket.default_value] * 3
         if not socket.is_linked:
             return value, None
-        node = socket.links[0].from_node
+        node = _before(socket)
+        if node is None or depth > DEEPEST:
+            return value, None
         if node.type == "TEX_IMAGE":
             return [1.0, 1.0, 1.0, 1.0], self._texture(node)
         if node.type == "RGB":
@@ -135,14 +151,16 @@ class _Materials:
             inputs = [each for each in node.inputs if each.type == "RGBA" and each.enabled]
             factor, texture = [1.0, 1.0, 1.0, 1.0], None
             for each in inputs[:2]:
-                inner, inner_texture = self._read(each, material)
+                inner, inner_texture = self._read(each, material, depth + 1)
                 factor = [a * b for a, b in zip(factor, inner)]
                 texture = texture or inner_texture
             return factor, texture
         self.notes.add(f"material '{material.name}': '{node.name}' is not taken over as a colour")
         return value, None
 
-    def describe(self, material):
+    def describe(self, material, layers):
+        """layers: names of the UV maps of a mesh that has it."""
+        self.layers = layers
         described = {"name": material.name, "doubleSided": not material.use_backface_culling}
         color, texture, alpha = list(material.diffuse_color), None, 1.0
         surface = _surface(material)
@@ -154,7 +172,7 @@ class _Materials:
             glow, glow_texture = self._read(surface.inputs[glow_name], material)
             strength = surface.inputs["Emission Strength"].default_value
             if strength > 0 and (any(c > 0 for c in glow[:3])):
-                described["emissive"] = [max(c, 0.0) * strength for c in glow[:3]]
+                described["emissive"] = [number(c * strength) for c in glow[:3]]
                 if glow_texture:
                     described["emissiveTexture"] = glow_texture
             opacity = surface.inputs["Alpha"]
@@ -166,7 +184,7 @@ class _Materials:
             color, texture = self._read(surface.inputs["Color"], material)
         else:
             self.notes.add(f"material '{material.name}': its shader '{surface.name}' is drawn as plain paint")
-        described["baseColor"] = [min(max(c, 0.0), 1.0) for c in color[:3]] + [min(max(alpha, 0.0), 1.0)]
+        described["baseColor"] = unit([*color[:3], alpha])
         if texture:
             described["baseColorTexture"] = texture
         described.update(_alpha(material, surface, alpha))
@@ -181,16 +199,28 @@ class _Materials:
         described = {}
         pbr = getattr(mtoon, "pbr_metallic_roughness", None)
         if pbr is not None:
-            described["baseColor"] = [min(max(float(c), 0.0), 1.0) for c in pbr.base_color_factor]
+            described["baseColor"] = unit(pbr.base_color_factor)
         extension = mtoon.extensions.vrmc_materials_mtoon
         mode = extension.outline_width_mode
         if mode != "none":
             described["outline"] = {
                 "unit": "picture-heights" if mode == "screenCoordinates" else "metres",
-                "width": max(float(extension.outline_width_factor), 0.0),
-                "color": [min(max(float(c), 0.0), 1.0) for c in extension.outline_color_factor],
-                "lightingMix": min(max(float(extension.outline_lighting_mix_factor), 0.0), 1.0)}
+                "width": number(extension.outline_width_factor, 0.0, 1000.0),
+                "color": unit(extension.outline_color_factor),
+                "lightingMix": number(extension.outline_lighting_mix_factor, 0.0, 1.0)}
         return described
+
+
+def _before(socket):
+    """The node that gives a socket its value, past reroutes; None where none does."""
+    for _ in range(DEEPEST):
+        if not socket.is_linked:
+            return None
+        node = socket.links[0].from_node
+        if node.type != "REROUTE":
+            return node
+        socket = node.inputs[0]
+    return None
 
 
 def _surface(material):
@@ -198,9 +228,7 @@ def _surface(material):
         return None
     outputs = [node for node in material.node_tree.nodes if node.type == "OUTPUT_MATERIAL"]
     output = next((node for node in outputs if node.is_active_output), outputs[0] if outputs else None)
-    if output is None or not output.inputs["Surface"].is_linked:
-        return None
-    return output.inputs["Surface"].links[0].from_node
+    return _before(output.inputs["Surface"]) if output is not None else None
 
 
 def _alpha(material, surface, alpha):
@@ -252,8 +280,13 @@ def _colors(mesh, vertex):
     attribute = attributes[number if 0 <= number < len(attributes) else 0]
     values = np.empty(len(attribute.data) * 4, np.float32)
     attribute.data.foreach_get("color", values)
-    codes = np.rint(np.clip(values.reshape(-1, 4), 0, 1) * 255).astype(np.uint8)
+    codes = np.rint(np.clip(np.nan_to_num(values.reshape(-1, 4)), 0, 1) * 255).astype(np.uint8)
     return codes[vertex] if attribute.domain == "POINT" else codes
+
+
+def _in_order(uv_layers):
+    """The one of the render first."""
+    return sorted(uv_layers, key=lambda layer: not layer.active_render)
 
 
 def _parts(mesh, materials, has_colors):
@@ -263,24 +296,25 @@ def _parts(mesh, materials, has_colors):
         return []
     positions = np.empty(len(mesh.vertices) * 3, np.float32)
     mesh.vertices.foreach_get("co", positions)
+    if not np.isfinite(positions).all():
+        return None
     vertex = np.empty(len(mesh.loops), np.int32)
     mesh.loops.foreach_get("vertex_index", vertex)
     triangles, numbers = np.empty(count * 3, np.int32), np.empty(count, np.int32)
     mesh.loop_triangles.foreach_get("loops", triangles)
     mesh.loop_triangles.foreach_get("material_index", numbers)
-    corners = {"vertex": vertex, "normals": space.vectors(_corner_normals(mesh))}
-    layers = sorted(mesh.uv_layers, key=lambda layer: not layer.active_render)
-    for layer, name in zip(layers, ("uv0", "uv1")):
+    corners = {"vertex": vertex, "normals": space.vectors(np.nan_to_num(_corner_normals(mesh)))}
+    for layer, name in zip(_in_order(mesh.uv_layers), ("uv0", "uv1")):
         uv = np.empty(len(mesh.loops) * 2, np.float32)
         layer.data.foreach_get("uv", uv)
-        uv = uv.reshape(-1, 2)
+        uv = np.nan_to_num(uv.reshape(-1, 2), posinf=0, neginf=0)
         uv[:, 1] = 1 - uv[:, 1]
         corners[name] = uv
     if has_colors and (colors := _colors(mesh, vertex)) is not None:
         corners["colors"] = colors
     for name, attribute, most in (("warpScales", "_WARP", 64), ("roundness", "_ROUND", 1)):
         if (values := _attribute(mesh, attribute, vertex)) is not None:
-            corners[name] = np.clip(values, 0, most)
+            corners[name] = np.clip(np.nan_to_num(values), 0, most)
     return meshes.parts(corners, space.vectors(positions.reshape(-1, 3)), triangles.reshape(-1, 3), numbers, materials)
 
 
@@ -297,13 +331,13 @@ def _mesh_key(evaluated):
 
 
 def _light(lamp, notes):
-    described = {"color": [min(max(c, 0.0), 1e6) for c in lamp.color], "intensity": max(lamp.energy, 0.0)}
+    described = {"color": [number(c, 0.0, 1e6) for c in lamp.color], "intensity": number(lamp.energy)}
     if lamp.type == "SUN":
         described["kind"] = "directional"
         return described
     described["intensity"] *= WATTS_TO_LUMENS / (4 * math.pi)
     if lamp.use_custom_distance:
-        described["range"] = lamp.cutoff_distance
+        described["range"] = number(lamp.cutoff_distance)
     if lamp.type == "POINT":
         described["kind"] = "point"
         return described
@@ -319,8 +353,10 @@ def _light(lamp, notes):
     return described
 
 
-def _plain(value):
+def _plain(value, depth=0):
     """A custom property as JSON has it; None for what it has no words for."""
+    if depth > DEEPEST or (isinstance(value, float) and not math.isfinite(value)):
+        return None
     if isinstance(value, (bool, int, float, str)):
         return value
     if hasattr(value, "to_dict"):
@@ -328,9 +364,9 @@ def _plain(value):
     if hasattr(value, "to_list"):
         value = value.to_list()
     if isinstance(value, dict):
-        return {str(key): _plain(inner) for key, inner in value.items()}
+        return {str(key): _plain(inner, depth + 1) for key, inner in value.items()}
     if isinstance(value, (list, tuple)):
-        return [_plain(inner) for inner in value]
+        return [_plain(inner, depth + 1) for inner in value]
     return None
 
 
@@ -355,10 +391,18 @@ def camera_view(camera, depsgraph, width, height, engine=None):
         fit = evaluated.data.sensor_fit
         side = across if fit == "HORIZONTAL" or (fit == "AUTO" and across >= down) else down
         opengl[0][2] += 2 * shift * side / across
-    is_perspective = evaluated.data.type == "PERSP"
+    is_perspective = evaluated.data.type != "ORTHO"
     node = node_key(camera.parent.original) if camera.parent else None
     return space.view(space.without_scale(space.matrix_of_looking(to_world)),
                       space.projection(opengl, evaluated.data.clip_start if is_perspective else None), node)
+
+
+def notes_of_camera(camera):
+    """What of it is not taken over."""
+    if camera.data.type == "PANO":
+        yield f"the camera '{camera.name}' is panoramic, which is painted as its lens says"
+    if camera.data.dof.use_dof:
+        yield f"the camera '{camera.name}' has a depth of field, which is not painted"
 
 
 def region_view(region_data):
@@ -375,22 +419,35 @@ def node_key(original):
     return "object/" + original.name_full
 
 
-def read_scene(depsgraph, images, is_known, changed=None):
+class Reader:
+    """Reads scenes for one server, and knows what it has read before."""
+
+    def __init__(self):
+        self.images = Images()
+        self.surfaces = {}  # of meshes: keys of their materials, and whether they have colours
+
+    def read(self, depsgraph, is_known, changed=None):
+        return read_scene(depsgraph, self, is_known, changed)
+
+
+def read_scene(depsgraph, reader, is_known, changed=None):
     """A Description of what an evaluated scene shows, and notes of what could not be taken over.
 
     is_known(kind, key): whether a server has a mesh or a texture of that key. changed: keys of meshes whose
     vertices may be others than before; None: all may be.
     """
     description, notes = Description(), Notes()
-    materials = _Materials(images, description, is_known, notes)
+    materials = _Materials(reader.images, description, is_known, notes)
+    override = depsgraph.view_layer.material_override
     instances = {}
 
-    def material_key(material):
+    def material_key(material, evaluated):
         if material is None:
             return ""
         key = "material/" + material.name_full
         if key not in description.materials:
-            description.materials[key] = materials.describe(material)
+            layers = getattr(evaluated.data, "uv_layers", ())
+            description.materials[key] = materials.describe(material, [layer.name for layer in _in_order(layers)])
         return key
 
     made = {}
@@ -405,18 +462,24 @@ def read_scene(depsgraph, images, is_known, changed=None):
         key = made_key(evaluated) if is_made else _mesh_key(evaluated)
         if key in description.meshes:
             return key
-        slots = [slot.material for slot in evaluated.material_slots]
-        keys = [material_key(material) for material in slots]
-        if changed is not None and not is_made and key not in changed and is_known("meshes", key):
+        slots = [override or slot.material for slot in evaluated.material_slots] or [override]
+        keys = [material_key(material, evaluated) for material in slots]
+        has_colors = any(_uses_colors(material) for material in slots) or not any(slots)
+        surface = (tuple(keys), has_colors)
+        is_as_it_was = reader.surfaces.get(key) == surface
+        reader.surfaces[key] = surface
+        if changed is not None and is_as_it_was and not is_made and key not in changed and is_known("meshes", key):
             description.meshes[key] = None
             return key
         mesh = evaluated.to_mesh()
         if mesh is None:
             return ""
         try:
-            parts = _parts(mesh, keys, any(_uses_colors(material) for material in slots) or not any(slots))
+            parts = _parts(mesh, keys, has_colors)
         finally:
             evaluated.to_mesh_clear()
+        if parts is None:
+            notes.add(f"'{evaluated.name}' has vertices that lie nowhere, and is left out")
         if not parts:
             return ""
         description.meshes[key] = parts
@@ -447,6 +510,9 @@ def read_scene(depsgraph, images, is_known, changed=None):
             worlds[node_key(original)] = matrix_of(evaluated, evaluated.matrix_world)
 
     def add(key, name, parent, world, what):
+        if not np.isfinite(world).all():
+            notes.add(f"'{name}' lies nowhere, and is left out")
+            world, what = np.eye(4), {**what, "mesh": "", "light": {"kind": "none"}}
         above = worlds.get(parent) if parent else None
         inverse = space.inverse(above) if above is not None else None
         if above is not None and inverse is None:
@@ -463,6 +529,8 @@ def read_scene(depsgraph, images, is_known, changed=None):
             place(parent)
         else:
             parent = ""
+        if original.type in PAINTED and (original.is_holdout or not original.visible_camera):
+            notes.add(f"'{original.name}' is a holdout, or hidden from cameras, and is painted all the same")
         if not is_shown:
             what = {"mesh": "", "light": {"kind": "none"}}
         extras = _extras(original)
@@ -474,6 +542,7 @@ def read_scene(depsgraph, images, is_known, changed=None):
     for key in shown:
         place(key)
     for key, (name, parent, what, matrices) in instances.items():
+        matrices = [matrix for matrix in matrices if np.isfinite(matrix).all()]
         above = node_key(parent) if parent else ""
         if above not in shown:
             above = ""

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Scumble as an engine of Blender's: stills, animations, and the viewport."""
 import threading
+import traceback
+import weakref
 
 import bpy
 import gpu
@@ -8,7 +10,7 @@ import numpy as np
 from gpu_extras.presets import draw_texture_2d
 
 from . import blender, cryptomatte, settings, space
-from .session import Behind, ScumbleError, ServerGone, Sessions
+from .session import Behind, ScumbleError, Session, Sessions
 
 SESSIONS = Sessions()
 
@@ -26,13 +28,23 @@ def session_for(purpose):
     return SESSIONS.get(purpose, settings.program(), settings.arguments())
 
 
-def tell_all(session, images, depsgraph, changed=None):
+READER = blender.Reader()  # of the session "final"
+VIEWPORTS = weakref.WeakSet()
+
+
+def tell_all(session, depsgraph):
     """Brings a session's server up to date. Gives the description and what could not be taken over."""
-    description, notes = blender.read_scene(depsgraph, images, session.knows, changed)
+    description, notes = READER.read(depsgraph, session.knows)
+    knobs, more = settings.knobs_of(depsgraph, blender.empties_of(depsgraph))
     session.scene.sync(description)
-    session.look.sync(settings.look_of(depsgraph.scene),
-                      settings.knobs_of(depsgraph, blender.empties_of(depsgraph)))
-    return description, notes
+    session.look.sync(settings.look_of(depsgraph.scene), knobs)
+    return description, notes + more
+
+
+def close_all():
+    SESSIONS.close()
+    for viewport in list(VIEWPORTS):
+        viewport.close()
 
 
 def on_its_node(view, description):
@@ -51,12 +63,6 @@ class ScumbleEngine(bpy.types.RenderEngine):
 
     _viewport = None
 
-    def __del__(self):
-        # Blender may have taken the rest of it away already.
-        viewport = self.__dict__.get("_viewport") if hasattr(self, "__dict__") else None
-        if viewport is not None:
-            viewport.close()
-
     # -- Stills and animations
 
     def update_render_passes(self, scene=None, renderlayer=None):
@@ -74,14 +80,21 @@ class ScumbleEngine(bpy.types.RenderEngine):
             pass
         except ScumbleError as error:
             if error.kind != "cancelled":
-                self.report({"ERROR"}, f"scumble: {error}")
-                self.error_set(f"scumble: {error}")
+                self.fail(str(error))
+        except Exception as error:
+            traceback.print_exc()
+            self.fail(f"the add-on is at fault, please report this: {type(error).__name__}: {error}")
+
+    def fail(self, problem):
+        self.report({"ERROR"}, f"scumble: {problem}")
+        self.error_set(f"scumble: {problem}")
 
     def _render(self, session, depsgraph):
         scene, layer = depsgraph.scene, depsgraph.view_layer
         render = scene.render
-        scale = render.resolution_percentage / 100
-        width, height = max(int(render.resolution_x * scale), 1), max(int(render.resolution_y * scale), 1)
+        # As Blender rounds.
+        width, height = (max(side * render.resolution_percentage // 100, 1)
+                         for side in (render.resolution_x, render.resolution_y))
         if scene.camera is None:
             raise ScumbleError("the scene has no camera; add one, and make it the active one")
         session.start()
@@ -90,14 +103,14 @@ class ScumbleEngine(bpy.types.RenderEngine):
         if "motion" in aovs:
             previous = self._frame_before(session, depsgraph, width, height)
         self.update_stats("", "Telling what has changed")
-        description, notes = tell_all(session, IMAGES["final"], depsgraph)
+        description, notes = tell_all(session, depsgraph)
         if previous and previous.pop("nodesEver") != session.count()["nodesEver"]:
             # What came since has a place in the frame before, now that the server has met it.
             previous = self._frame_before(session, depsgraph, width, height)
             previous.pop("nodesEver")
-            description, notes = tell_all(session, IMAGES["final"], depsgraph)
-        self.warn(notes)
-        if self.test_break():
+            description, notes = tell_all(session, depsgraph)
+        self.warn([*notes, *blender.notes_of_camera(scene.camera)])
+        if self.is_unwanted():
             raise Cancelled
         eyes = self._eyes(render)
         views = [on_its_node(view, description) for view in self._views(eyes, scene, depsgraph, width, height)]
@@ -107,13 +120,13 @@ class ScumbleEngine(bpy.types.RenderEngine):
             options["previous"] = previous
         region = None
         if render.use_border:
-            left, right = (int(width * x) for x in (render.border_min_x, render.border_max_x))
-            bottom, top = (int(height * y) for y in (render.border_min_y, render.border_max_y))
+            left, right = (int(np.float32(width) * np.float32(x)) for x in (render.border_min_x, render.border_max_x))
+            bottom, top = (int(np.float32(height) * np.float32(y)) for y in (render.border_min_y, render.border_max_y))
             if right > left and top > bottom:
                 region = [left, height - top, right - left, top - bottom]
         self.update_stats("", "Painting")
         pictures, done = session.render([width, height], views, seconds(scene), aovs, region,
-                                        is_unwanted=self.test_break, tell=self.update_progress, **options)
+                                        is_unwanted=self.is_unwanted, tell=self.update_progress, **options)
         self.warn(done["warnings"])
         x, y, w, h = (0, 0, region[2], region[3]) if region else (0, 0, width, height)
         for number, eye in enumerate(eyes):
@@ -124,6 +137,10 @@ class ScumbleEngine(bpy.types.RenderEngine):
                 for name, picture in _as_passes(aov, pictures[aov][number], done, layer.name, self.get_result()):
                     _fill(passes, name, picture, eye)
             self.end_result(result)
+
+    def is_unwanted(self):
+        """Whether somebody has pressed Esc."""
+        return self.test_break()
 
     def warn(self, notes):
         for note in notes:
@@ -147,7 +164,7 @@ class ScumbleEngine(bpy.types.RenderEngine):
         frame, subframe = scene.frame_current, scene.frame_subframe
         self.frame_set(frame - 1, subframe)
         try:
-            description, _ = tell_all(session, IMAGES["final"], depsgraph)
+            description, _ = tell_all(session, depsgraph)
             session.remember()
             views = [on_its_node(view, description)
                      for view in self._views(self._eyes(scene.render), scene, depsgraph, width, height)]
@@ -158,22 +175,25 @@ class ScumbleEngine(bpy.types.RenderEngine):
 
     # -- The viewport
 
-    def view_update(self, context, depsgraph):
+    def _shown(self):
         if self._viewport is None:
-            self._viewport = Viewport(session_for("viewport"))
-        self._viewport.update(depsgraph)
+            self._viewport = Viewport()
+            # Blender takes away what an engine is before Python is asked.
+            weakref.finalize(self, self._viewport.close)
+        return self._viewport
+
+    def view_update(self, context, depsgraph):
+        self._shown().update(depsgraph)
 
     def view_draw(self, context, depsgraph):
-        if self._viewport is None:
-            self._viewport = Viewport(session_for("viewport"))
-        if self._viewport.is_behind:
-            self._viewport.update(depsgraph)
+        viewport = self._shown()
+        if viewport.is_behind:
+            viewport.update(depsgraph)
         region = context.region
         region_data = context.region_data
-        self._viewport.look_from(blender.region_view(region_data), region.width, region.height, depsgraph)
-        texture, problem = self._viewport.texture()
-        if problem:
-            self.update_stats("", f"scumble: {problem}")
+        viewport.look_from(blender.region_view(region_data), region.width, region.height, depsgraph)
+        texture, words = viewport.texture()
+        self.update_stats("", f"scumble: {words}" if words else "")
         if texture is not None:
             bind = getattr(self, "bind_display_space_shader", None)
             gpu.state.blend_set("ALPHA_PREMULT")
@@ -183,29 +203,27 @@ class ScumbleEngine(bpy.types.RenderEngine):
             if bind:
                 self.unbind_display_space_shader()
             gpu.state.blend_set("NONE")
-        if self._viewport.is_busy:
+        if viewport.is_busy:
             self.tag_redraw()
 
 
-# Of each purpose, since servers know each their own textures.
-IMAGES = {"final": blender.Images(), "viewport": blender.Images()}
-
-
 class Viewport:
-    """What one viewport shows. Blender's thread describes; a thread of its own asks the server and waits for it."""
+    """What one viewport shows, by a server of its own: others may show other scenes, layers, or parts. Blender's thread
+    describes; a thread of this one asks the server, and waits for it."""
 
-    def __init__(self, session):
-        self.session = session
+    def __init__(self):
+        self.session = Session(settings.program(), settings.arguments())
+        self._reader = blender.Reader()
         self._condition = threading.Condition()
         self._description = self._look = self._wanted = None
         self._drawn = None  # what the last picture is of
         self._picture = self._texture = None
-        self._problem = ""
+        self._problem, self._notes = "", []
         self._is_closed = self._is_working = False
         self._reads_all = True  # next time
         self.is_behind = True  # and that should be now
-        self._thread = threading.Thread(target=self._work, daemon=True)
-        self._thread.start()
+        VIEWPORTS.add(self)
+        threading.Thread(target=self._work, daemon=True).start()
 
     @property
     def is_busy(self):
@@ -218,6 +236,11 @@ class Viewport:
             self._condition.notify()
 
     def update(self, depsgraph):
+        program, arguments = settings.program(), tuple(settings.arguments())
+        if (self.session.program, self.session.arguments) != (program, arguments):
+            threading.Thread(target=self.session.close, daemon=True).start()  # which may wait for a frame
+            self.session = Session(program, arguments)
+            self._reads_all = True
         changed = None if self._reads_all else blender.changed_meshes(depsgraph)
         with self._condition:
             pending = self._description
@@ -226,13 +249,13 @@ class Viewport:
             inside = getattr(pending, kind).get(key) if pending else None
             return inside is not None or self.session.knows(kind, key)
 
-        description, notes = blender.read_scene(depsgraph, IMAGES["viewport"], is_known, changed)
-        look = (settings.look_of(depsgraph.scene), settings.knobs_of(depsgraph, blender.empties_of(depsgraph)))
+        description, notes = self._reader.read(depsgraph, is_known, changed)
+        knobs, more = settings.knobs_of(depsgraph, blender.empties_of(depsgraph))
         with self._condition:
             if self._description is not None:
                 description.keep_from(self._description)
-            self._description, self._look = description, look
-            self._problem = notes[0] if notes else ""
+            self._description, self._look = description, (settings.look_of(depsgraph.scene), knobs)
+            self._notes = notes + more
             self._reads_all = self.is_behind = False
             self._drawn = None
 
@@ -245,16 +268,16 @@ class Viewport:
                 self._condition.notify()
 
     def texture(self):
-        """The newest picture, for Blender's thread; and what is wrong."""
+        """The newest picture, for Blender's thread; and what there is to be said."""
         with self._condition:
             picture, self._picture = self._picture, None
-            problem = self._problem
+            words = self._problem or (self._notes[0] if self._notes else "")
         if picture is not None:
             height, width, _ = picture.shape
             rows = np.ascontiguousarray(picture[::-1], np.float32).reshape(-1)
             self._texture = gpu.types.GPUTexture((width, height), format="RGBA16F",
                                                  data=gpu.types.Buffer("FLOAT", width * height * 4, rows))
-        return self._texture, problem
+        return self._texture, words
 
     def _work(self):
         while True:
@@ -262,36 +285,35 @@ class Viewport:
                 while not self._is_closed and self._wanted is None:
                     self._condition.wait()
                 if self._is_closed:
-                    return
+                    break
                 wanted, self._wanted = self._wanted, None
-                description, look = self._description, self._look
+                description, look, session = self._description, self._look, self.session
                 self._description = None
                 self._is_working = True
-            problem = ""
-            picture = None
+            picture, problem, reads_all, is_behind = None, "", False, False
             try:
-                with self.session:
-                    self.session.start()
+                with session:
+                    if session.start() and description is None:
+                        raise Behind
                     if description is not None:
-                        self.session.scene.sync(description)
-                        self.session.look.sync(*look)
+                        session.scene.sync(description)
+                        session.look.sync(*look)
                     view, size, time, seed = wanted
-                    pictures, _ = self.session.render(size, [view], time, samples=1, seed=seed)
+                    pictures, _ = session.render(size, [view], time, samples=1, seed=seed)
                 picture = _premultiplied(pictures["picture"][0])
             except Behind:
-                self._reads_all = self.is_behind = True
-            except ServerGone as error:
-                # Another one is started when something changes, and not at once: what has ended it may do so again.
-                problem = str(error)
-                self._reads_all = True
+                reads_all = is_behind = True
             except Exception as error:  # a thread's last word would be heard by nobody
-                problem = str(error)
+                # All is told anew when something changes, and not at once: what went wrong may do so again.
+                problem, reads_all = str(error) or type(error).__name__, True
             with self._condition:
                 self._is_working = False
+                self._reads_all = self._reads_all or reads_all
+                self.is_behind = self.is_behind or is_behind
+                self._problem = problem
                 if picture is not None:
                     self._picture = picture
-                if problem:
-                    self._problem = problem
+        self.session.close()
 
 
 # -- Pictures as passes

@@ -80,6 +80,7 @@ class Arena:
 class SceneMirror:
     """One server's scene. `sent` counts what it has been told in all: edits of each kind, and bytes of arrays."""
 
+    MOST = 2000  # edits at once: lines have limits
     KINDS = ("textures", "materials", "meshes", "nodes")
     WORDS = {"textures": "texture", "materials": "material", "meshes": "mesh", "nodes": "node"}
 
@@ -131,10 +132,17 @@ class SceneMirror:
             edits += [{"remove": self.WORDS[kind], "key": key} for key in self.known[kind]
                       if key not in fresh[kind]]
         # What has been told in part is not known any more.
-        self.known = {kind: {} for kind in self.KINDS}
-        if edits:
-            arena.write(self.server)
-            self.server.call("edit", edits=edits)
+        try:
+            if edits:
+                arena.write(self.server)
+            for begin in range(0, len(edits), self.MOST):
+                self.server.call("edit", edits=edits[begin:begin + self.MOST])
+        except Exception:
+            # What has been told in part is not known any more, neither here nor there.
+            self.known, self.identity = {kind: {} for kind in self.KINDS}, {}
+            if self.server.is_alive:
+                self.server.call("clear")
+            raise
         self.known, self.identity = fresh, identity
         for edit in edits:
             self.sent["removals" if "remove" in edit else edit["set"]] += 1

@@ -14,7 +14,8 @@ import time
 import numpy as np
 
 PROTOCOL = 1
-PATIENCE = 10  # seconds
+PATIENCE = 10  # seconds for what was cancelled to end
+GREETING = 60  # seconds for the first word
 
 
 class ScumbleError(Exception):
@@ -33,13 +34,18 @@ class ServerGone(ScumbleError):
 
 
 class SharedMemory:
-    """A file in memory that grows as needed, and is gone with this object."""
+    """Memory that grows as needed, and is gone with this process: a file without a name, which the server opens by
+    way of this process where the system has one (Linux), and otherwise by its name."""
 
     def __init__(self, name):
         self.name = name
         folder = "/dev/shm" if os.path.isdir("/dev/shm") and os.access("/dev/shm", os.W_OK) else None
-        self._file = tempfile.NamedTemporaryFile(prefix=f"scumble-{os.getpid()}-{name}-", dir=folder)
-        self.path = self._file.name
+        self._file = tempfile.TemporaryFile(dir=folder)
+        self.path = f"/proc/{os.getpid()}/fd/{self._file.fileno()}"
+        if not os.path.exists(self.path):
+            self._file.close()
+            self._file = tempfile.NamedTemporaryFile(prefix="scumble-", dir=folder)
+            self.path = self._file.name
         self.bytes = 0
         self._map = None
 
@@ -100,21 +106,23 @@ class Server:
         self._open = {}
         self._last = 0
         self._said = []
+        self._is_gone = False
+        self._greeted = threading.Event()
+        self.greeting = None
         self._errors = threading.Thread(target=self._listen_to_errors, daemon=True)
         self._errors.start()
-        first = self._process.stdout.readline()
-        try:
-            self.greeting = json.loads(first)
-        except ValueError:
-            self._process.wait()
+        threading.Thread(target=self._listen, daemon=True).start()
+        if not self._greeted.wait(GREETING):
+            self.kill()
+            raise ServerGone(f"scumble has not said a word in {GREETING} s")
+        if not isinstance(self.greeting, dict):
+            self.kill()
             self._errors.join(5)
-            raise ServerGone("scumble did not start: " + (self.words() or "it said nothing")) from None
+            raise ServerGone("scumble did not start: " + (self.words() or "it said nothing"))
         if self.greeting.get("protocol") != PROTOCOL:
-            self.close()
+            self.kill()
             raise ServerGone(f"scumble {self.greeting.get('scumble')} speaks another protocol than this "
                              "add-on; install the two of one version")
-        self._is_gone = False
-        threading.Thread(target=self._listen, daemon=True).start()
 
     @property
     def pid(self):
@@ -139,20 +147,38 @@ class Server:
                 message = json.loads(line)
             except ValueError:
                 break
+            if not self._greeted.is_set():
+                self.greeting = message
+                self._greeted.set()
+                continue
+            number = message.get("id")
             with self._lock:
-                request = self._open.get(message.get("id"))
-                if request is None:
-                    continue
-                if "progress" in message:
-                    request.progress = message["progress"]
+                if number is None:
+                    # Of a line that was no request: whose it was cannot be told, and nobody else will.
+                    requests, self._open = list(self._open.values()), {}
+                elif "progress" in message:
+                    requests = []
+                    if number in self._open:
+                        self._open[number].progress = message["progress"]
                 else:
+                    requests = [self._open.pop(number)] if number in self._open else []
+                for request in requests:
                     request.reply = message
-                    del self._open[request.number]
-            request.changed.set()
+            for request in requests:
+                request.changed.set()
+        self._greeted.set()
+        self.kill()
         code = self._process.wait()
         self._errors.join(5)
         self._lose(f"scumble has ended ({'signal' if code < 0 else 'exit code'} {abs(code)})"
                    + (f": {self.words()}" if self.words() else ""))
+
+    def kill(self):
+        """Does nothing to one that has ended by itself."""
+        try:
+            self._process.wait(0.2)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
 
     def _lose(self, message):
         with self._lock:
@@ -169,7 +195,10 @@ class Server:
                 raise ServerGone("scumble has ended" + (f": {self.words()}" if self.words() else ""))
             self._last += 1
             request = Request(self._last)
-            line = json.dumps({"id": request.number, "do": do, **members}).encode() + b"\n"
+            try:
+                line = json.dumps({"id": request.number, "do": do, **members}, allow_nan=False).encode() + b"\n"
+            except ValueError as error:
+                raise ScumbleError(f"something cannot be sent: {error}") from None
             self._open[request.number] = request
             self.messages += 1
             self.bytes += len(line)

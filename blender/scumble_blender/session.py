@@ -17,6 +17,7 @@ class Session:
         self._lock = threading.RLock()
         self.program, self.arguments = program, tuple(arguments)
         self.server = None
+        self._is_closed = False
 
     def __enter__(self):
         self._lock.acquire()
@@ -26,16 +27,25 @@ class Session:
         self._lock.release()
 
     def start(self):
-        """Does nothing where one runs."""
+        """Does nothing where a server runs; whether a new one has been started, which knows nothing yet."""
+        if self._is_closed:
+            raise ServerGone("the add-on has been turned off")
         if self.server is not None and self.server.is_alive:
-            return
-        self.close()
-        self.server = Server(self.program, self.arguments)
+            return False
+        self._end()
+        server = Server(self.program, self.arguments)
         self._arrays, self._pictures = SharedMemory("arrays"), SharedMemory("pictures")
-        self.scene = SceneMirror(self.server, self._arrays)
-        self.look = LookMirror(self.server)
+        self.scene, self.look = SceneMirror(server, self._arrays), LookMirror(server)
+        self.server = server
+        return True
 
     def close(self):
+        """For good."""
+        self._is_closed = True
+        with self:
+            self._end()
+
+    def _end(self):
         if self.server is not None:
             self.server.close()
             self._arrays.close()
@@ -43,7 +53,8 @@ class Session:
             self.server = None
 
     def knows(self, kind, key):
-        return self.server is not None and self.server.is_alive and self.scene.knows(kind, key)
+        server = self.server
+        return server is not None and server.is_alive and self.scene.knows(kind, key)
 
     def sent(self):
         """What the server that runs has been told: lines, bytes of lines and of arrays, edits of each kind, knobs."""
@@ -92,16 +103,14 @@ class Sessions:
             session = self._sessions.get(purpose)
             if session is None or (session.program, session.arguments) != (program, tuple(arguments)):
                 if session is not None:
-                    with session:
-                        session.close()
+                    session.close()
                 session = self._sessions[purpose] = Session(program, arguments)
             return session
 
     def close(self):
         with self._lock:
             for session in self._sessions.values():
-                with session:
-                    session.close()
+                session.close()
             self._sessions.clear()
 
 

@@ -86,11 +86,11 @@ def _part(owner, *names):
     return owner
 
 
-def values_of(group, section, prefix=""):
+def values_of(group, section):
     """What is set in a group of knobs, as the protocol takes it, by paths."""
     if group is None:
         return {}
-    return {prefix + knob.path: knob.text(getattr(group, knob.name)) for knob in KNOBS.get(section, ())
+    return {knob.path: knob.text(getattr(group, knob.name)) for knob in KNOBS.get(section, ())
             if group.is_property_set(knob.name)}
 
 
@@ -112,10 +112,19 @@ def look_of(scene):
 
 
 def knobs_of(depsgraph, empties):
-    """All that is set, of an evaluated scene: for the scene, by materials, by objects, and by empties."""
+    """All that is set, of an evaluated scene: for the scene, by materials, by objects, and by empties; and notes of
+    what cannot be."""
     scene = depsgraph.scene
     found = values_of(_part(scene, "scumble", "knobs"), "scene")
-    names = set()
+    names, notes = set(), []
+
+    def add(section, name, values):
+        if values and any(letter in name for letter in "*?"):
+            notes.append(f"'{name}' has a '*' or '?' in its name, which stand for any letters in looks: what is set for "
+                         "it alone is left out")
+        else:
+            found.update({f"{section}.{name}.{path}": value for path, value in values.items()})
+
     for instance in depsgraph.object_instances:
         evaluated = instance.object
         if evaluated.name in names:
@@ -124,29 +133,26 @@ def knobs_of(depsgraph, empties):
         settings = _part(evaluated, "scumble")
         if settings is not None and settings.is_ocean:
             found.update(values_of(_part(settings, "ocean"), "ocean"))
-        found.update(values_of(_part(settings, "knobs"), "nodes", f"nodes.{evaluated.name}."))
+        add("nodes", evaluated.name, values_of(_part(settings, "knobs"), "nodes"))
         # Blender 3.4 ends where an evaluated empty is asked for its materials.
         for slot in evaluated.material_slots if evaluated.type in blender.PAINTED else ():
             if slot.material is not None:
-                name = slot.material.name
-                found.update(values_of(_part(slot.material, "scumble", "knobs"), "materials", f"materials.{name}."))
+                add("materials", slot.material.name, values_of(_part(slot.material, "scumble", "knobs"), "materials"))
     for original, world in empties:
         settings = _part(original.evaluated_get(depsgraph), "scumble")
         if settings is None:
             continue
         if settings.is_colorizer:
-            prefix = f"colorizers.{original.name}."
-            found.update(_place_of_volume(original, world, prefix))
-            found.update(values_of(_part(settings, "colorizer"), "colorizers", prefix))
+            add("colorizers", original.name, {**_place_of_volume(original, world),
+                                              **values_of(_part(settings, "colorizer"), "colorizers")})
         if settings.is_decoration:
-            prefix = f"decorations.{original.name}."
             at = space.vectors(world[None, :3, 3])[0]
-            found[prefix + "water.at"] = [float(x) for x in at]
-            found.update(values_of(_part(settings, "decoration"), "decorations", prefix))
-    return found
+            add("decorations", original.name, {"water.at": [float(x) for x in at],
+                                               **values_of(_part(settings, "decoration"), "decorations")})
+    return found, notes
 
 
-def _place_of_volume(empty, world, prefix):
+def _place_of_volume(empty, world):
     """An empty's place, turn, size and kind as a volume's; what is set by hand wins."""
     turned = space.matrix(world)
     scales = np.maximum(np.linalg.norm(turned[:3, :3], axis=0), 1e-9)
@@ -154,11 +160,11 @@ def _place_of_volume(empty, world, prefix):
     is_even = max(half) <= 1.001 * min(half)
     shapes = {"CUBE": "box", "CIRCLE": "half-space", "SINGLE_ARROW": "half-space"}
     shape = shapes.get(empty.empty_display_type, "sphere" if is_even else "ellipsoid")
-    return {prefix + "volume.shape": shape,
-            prefix + "volume.center": [float(x) for x in turned[:3, 3]],
-            prefix + "volume.rotation": space.degrees_about_x_y_z(turned[:3, :3] / scales),
-            prefix + "volume.size": half,
-            prefix + "volume.radius": max(half)}
+    return {"volume.shape": shape,
+            "volume.center": [float(x) for x in turned[:3, 3]],
+            "volume.rotation": space.degrees_about_x_y_z(turned[:3, :3] / scales),
+            "volume.size": half,
+            "volume.radius": max(half)}
 
 
 def passes_of(view_layer):
@@ -192,7 +198,7 @@ def register():
         KNOBS.update(knobs.ask(program()))
         LOOKS[:] = knobs.looks(program())
         PROBLEM = ""
-    except (OSError, ValueError) as error:
+    except Exception as error:  # whatever program this is: the preferences must be there to name another one
         PROBLEM = f"'{program()}' gives no knobs: {error}"
         print(f"scumble: {PROBLEM}")
     KNOBS["ocean"] = [knob for knob in KNOBS.get("scene", ()) if knob.path.startswith("ocean.")]

@@ -4,6 +4,8 @@ import math
 
 import numpy as np
 
+from .server import ScumbleError
+
 # x, y, z become x, z, -y.
 TO_Y_UP = np.array([[1, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]], np.float64)
 
@@ -65,7 +67,10 @@ def projection(opengl, near=None):
 
 def view(camera_to_world, eye_to_clip, node=None):
     """One for the protocol; the camera's place is one of scumble's space, without scale."""
-    described = {"worldToEye": columns(np.linalg.inv(camera_to_world)), "eyeToClip": columns(eye_to_clip)}
+    to_eye = inverse(camera_to_world)
+    if to_eye is None:
+        raise ScumbleError("the camera is scaled to nothing, or lies nowhere")
+    described = {"worldToEye": columns(to_eye), "eyeToClip": columns(eye_to_clip)}
     if node is not None:
         described["node"] = node
     return described

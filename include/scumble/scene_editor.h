@@ -65,6 +65,7 @@ struct OutlineDesc {
   float width = 0;        // in that unit, 0 to 1000; 0: none is drawn
   glm::vec3 color{0.0f};  // linear
   float lightingMix = 1;  // 0: the colour as it is; 1: times the surface's
+  bool operator==(const OutlineDesc&) const = default;
 };
 
 struct MaterialDesc {

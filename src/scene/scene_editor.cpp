@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "base/usage.h"
@@ -63,6 +64,7 @@ auto guarded(Body body) -> decltype(body()) {
 class EditedScene {
  public:
   SceneData data;
+  std::map<int, std::vector<std::string>> extrasWarnings;  // by nodes
   std::optional<Scene> present;
 
   // Changes the data by what gives a result; what there is now is another one where it is good.
@@ -322,9 +324,7 @@ Status SceneEditor::setExtras(NodeId id, const std::string& json) {
     readExtras(given, node, [&](const std::string& path, const std::string& text) {
       warnings.add("extras" + path + " of \"" + node.name + "\"", text);
     });
-    for (std::string& line : warnings.lines(data.name))
-      if (std::find(data.warnings.begin(), data.warnings.end(), line) == data.warnings.end())
-        data.warnings.push_back(std::move(line));
+    edited_->extrasWarnings[int(id)] = warnings.lines(data.name);
     return Done{};
   });
 }
@@ -338,6 +338,8 @@ Result<Scene> SceneEditor::scene() const {
     for (std::string& line : warnings.lines(data->name))
       if (std::find(data->warnings.begin(), data->warnings.end(), line) == data->warnings.end())
         data->warnings.push_back(std::move(line));
+    for (const auto& [node, lines] : edited_->extrasWarnings)
+      data->warnings.insert(data->warnings.end(), lines.begin(), lines.end());
     Scene scene;
     scene.data_ = std::move(data);
     edited_->present = scene;

@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
 
+#include "scene/extras.h"
 #include "scene/scene_data.h"
 #include "tests/support/loaded_test_gltf.h"
 #include "tests/support/test_gltf.h"
@@ -217,6 +218,56 @@ TEST(SceneEditor, lightsAreUsedAgain) {
   ASSERT_EQ(scene.data().lights.size(), 2u);
   EXPECT_EQ(scene.data().lights[size_t(scene.data().nodes[0].light)].intensity, 3);
   EXPECT_EQ(scene.data().lights[size_t(scene.data().nodes[1].light)].intensity, 1);
+}
+
+TEST(SceneEditor, namesAndExtrasChange) {
+  SceneEditor editor;
+  const NodeId node = *editor.addNode({.name = "Old"});
+  ASSERT_TRUE(editor.setName(node, "New").ok());
+  EXPECT_EQ(editor.findNode("Old"), NodeId::none);
+  EXPECT_EQ(editor.findNode("New"), node);
+  EXPECT_EQ(editor.scene()->data().nodes[0].name, "New");
+  EXPECT_EQ(refusal(editor.setName(NodeId(1), "")), "there is no node 1");
+  for (const char* wrong : {"[]", "{", "5", "null", "{}{}"})
+    EXPECT_EQ(refusal(editor.setExtras(node, wrong)), "extras are no JSON object") << wrong;
+  EXPECT_EQ(refusal(editor.setExtras(NodeId(1), "")), "there is no node 1");
+  ASSERT_TRUE(editor.setExtras(node, R"({"somebody": 1})").ok());
+  EXPECT_TRUE(editor.scene()->data().nodes[0].extras.empty()) << "what no feature knows does not count";
+  for (const scene::ExtraRule& rule : scene::extraRules()) {
+    const std::string key = rule.key;
+    ASSERT_TRUE(editor.setExtras(node, "{\"" + key + "\": true}").ok());
+    EXPECT_EQ(editor.scene()->data().nodes[0].extras.count(key), 1u) << key;
+    ASSERT_TRUE(editor.setExtras(node, "").ok());
+    EXPECT_TRUE(editor.scene()->data().nodes[0].extras.empty()) << key;
+    const Scene before = *editor.scene();
+    ASSERT_TRUE(editor.setExtras(node, "{\"" + key + "\": \"whatever\"}").ok());
+    EXPECT_EQ(editor.scene()->warnings().size(),
+              before.warnings().size() + (rule.problemsOf("whatever").empty() ? 0 : 1))
+        << key;
+  }
+}
+
+TEST(SceneEditor, outlinesAreTheMaterialsOwn) {
+  SceneEditor editor;
+  const MaterialId plain = *editor.addMaterial({});
+  EXPECT_EQ(editor.material(plain)->outline, std::nullopt);
+  OutlineDesc outline{OutlineDesc::Unit::pictureHeights, 0.01f, {0.1f, 0.2f, 0.3f}, 0.5f};
+  const MaterialId lined = *editor.addMaterial({.outline = outline});
+  const OutlineDesc got = *editor.material(lined)->outline;
+  EXPECT_EQ(got.unit, outline.unit);
+  EXPECT_EQ(got.width, outline.width);
+  EXPECT_EQ(got.color, outline.color);
+  EXPECT_EQ(got.lightingMix, outline.lightingMix);
+  outline.width = -1;
+  EXPECT_EQ(refusal(editor.setMaterial(lined, {.outline = outline})),
+            "material: the width of its outline is out of range");
+  outline = {.color = {0, 2, 0}};
+  EXPECT_EQ(refusal(editor.setMaterial(lined, {.outline = outline})),
+            "material: its outline's colour is out of range");
+  outline = {.lightingMix = 2};
+  EXPECT_EQ(refusal(editor.setMaterial(lined, {.outline = outline})),
+            "material: its outline's lightingMix is out of range");
+  EXPECT_EQ(editor.material(lined)->outline->width, 0.01f);
 }
 
 // What files have and arrays have not stays as it is.

@@ -171,6 +171,26 @@ class Pictures(unittest.TestCase):
         reds = (now[..., 0] > 2 * now[..., 2]).mean()
         self.assertGreater(reds, 0.02)
 
+    def test_a_second_uv_map(self):
+        scenes.start()
+        paint = scenes.material("Checked", (1, 1, 1), scenes.checker())
+        box = scenes.add("cube", "Box", (0, 0, 1), paint)
+        other = box.data.uv_layers.new(name="Other")
+        for corner in other.data:
+            corner.uv = (0.05, 0.05)
+        first = picture()
+        tree = paint.node_tree
+        node = tree.nodes.new("ShaderNodeUVMap")
+        image = next(each for each in tree.nodes if each.type == "TEX_IMAGE")
+        tree.links.new(node.outputs["UV"], image.inputs["Vector"])
+        node.uv_map = "UVMap"
+        np.testing.assert_array_equal(first, picture())
+        node.uv_map = "Other"
+        second = picture()
+        self.assertGreater(apart(first, second)[1], 0.02)
+        other.active_render = True  # which is then the first
+        np.testing.assert_allclose(second[60, 155], picture()[60, 155], atol=0.2)
+
     def test_shape_keys_and_armatures(self):
         scene = scenes.start()
         blob = scenes.add("uv_sphere", "Blob", (0, 0, 1), scenes.material("Green", (0.1, 0.5, 0.1)), radius=1)
@@ -685,16 +705,22 @@ class Troubles(unittest.TestCase):
 
     def test_cancelled(self):
         scenes.still_life()
-        picture()
+        before = picture()
         since = sent()
         engine = addon.engine.ScumbleEngine
-        engine.test_break = lambda self: True
+        is_unwanted = engine.is_unwanted
         try:
-            bpy.ops.render.render()
+            # Before anything is asked for, and at work, where it may be too late.
+            for patience in (0, 1):
+                asked = []
+                engine.is_unwanted = lambda self: len(asked) >= patience or asked.append(1) is not None
+                bpy.context.scene.scumble.knobs.ink_shown = True
+                self.assertLessEqual(len(render()), patience)
         finally:
-            del engine.test_break
+            engine.is_unwanted = is_unwanted
         self.assertNotIn("mesh", sent(since))
-        picture()
+        bpy.context.scene.scumble.knobs.property_unset("ink_shown")
+        np.testing.assert_array_equal(before, picture())
 
     def test_what_is_not_taken_over_is_told(self):
         scene = scenes.start()
@@ -710,6 +736,145 @@ class Troubles(unittest.TestCase):
         finally:
             addon.engine.ScumbleEngine.warn = warn
         self.assertEqual(told, ["material 'Noisy': 'Noise Texture' is not taken over as a colour"])
+
+    def test_numbers_that_are_none(self):
+        nan, inf = float("nan"), float("inf")
+        scenes.still_life()
+        before = picture()
+        told = []
+        warn = addon.engine.ScumbleEngine.warn
+        addon.engine.ScumbleEngine.warn = lambda self, notes: told.extend(notes)
+        try:
+            bpy.data.materials["Blue"].node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = (nan, 0.2, 0.6, 1)
+            bpy.data.lights["Lamp"].energy = inf
+            bpy.data.objects["Box"]["scumble_float"] = inf
+            bpy.data.objects["Table"].location.x = nan
+            bpy.data.meshes["Ball"].vertices[3].co.x = nan
+            now = picture()
+        finally:
+            addon.engine.ScumbleEngine.warn = warn
+        self.assertTrue(np.isfinite(now).all())
+        self.assertEqual(sorted(told), ["'Ball' has vertices that lie nowhere, and is left out",
+                                        "'Table' lies nowhere, and is left out"])
+
+    def test_after_a_refusal_all_is_told_anew(self):
+        scenes.still_life()
+        with_ape = picture()
+        bpy.data.objects["Ape"].hide_render = True
+        without = picture()
+        bpy.data.objects["Ape"].hide_render = False
+        picture()
+        session = addon.engine.session_for("final")
+        call = session.server.call
+
+        def refuse(do, **members):
+            if do == "edit":
+                raise addon.session.ScumbleError("refused")
+            return call(do, **members)
+
+        session.server.call = refuse
+        bpy.data.objects["Ape"].hide_render = True
+        self.assertIn("refused", self.refused())
+        session.server.call = call
+        np.testing.assert_array_equal(picture(), without)
+        bpy.data.objects["Ape"].hide_render = False
+        np.testing.assert_array_equal(picture(), with_ape)
+
+    def test_nodes_in_a_circle_and_past_reroutes(self):
+        scenes.still_life()
+        before = picture()
+        tree = bpy.data.materials["Boxes"].node_tree
+        surface = tree.nodes["Principled BSDF"]
+        for target, source in ((surface.inputs["Base Color"], None), (tree.nodes["Material Output"].inputs["Surface"], surface)):
+            link = target.links[0]
+            reroute = tree.nodes.new("NodeReroute")
+            tree.links.new(link.from_socket, reroute.inputs[0])
+            tree.links.new(reroute.outputs[0], target)
+        np.testing.assert_array_equal(before, picture())
+        mix = tree.nodes.new("ShaderNodeMixRGB")
+        mix.blend_type = "MULTIPLY"
+        tree.links.new(mix.outputs[0], mix.inputs[1])
+        tree.links.new(mix.outputs[0], surface.inputs["Base Color"])
+        picture()
+
+    def test_a_camera_that_is_scaled_to_nothing(self):
+        scene = scenes.still_life()
+        scene.camera.scale = (0, 0, 0)
+        self.assertIn("camera", self.refused())
+
+    def test_sizes_are_those_of_blender(self):
+        scene = scenes.still_life()
+        scene.render.resolution_x = scene.render.resolution_y = 100
+        scene.render.image_settings.file_format = "PNG"
+        scene.render.filepath = str(Path(FOLDER.name) / "size.png")
+        for percent in (29, 57, 58, 69):
+            scene.render.resolution_percentage = percent
+            bpy.ops.render.render(write_still=True)
+            file = saved(scene.render.filepath)
+            self.assertEqual(file.shape[:2], (percent, percent))
+            self.assertGreater(file[-1, :, :3].min(), 0)
+            self.assertGreater(file[:, -1, :3].min(), 0)
+        scene.render.resolution_percentage = 100
+        scene.render.resolution_x, scene.render.resolution_y = 320, 180
+        scene.render.use_border = scene.render.use_crop_to_border = True
+        scene.render.border_min_x, scene.render.border_max_x = 0.1, 0.7
+        scene.render.border_min_y, scene.render.border_max_y = 0.1, 0.9
+        bpy.ops.render.render(write_still=True)
+        file = saved(scene.render.filepath)
+        self.assertGreater(file[-1, :, :3].min(), 0)
+        self.assertGreater(file[:, -1, :3].min(), 0)
+
+    def test_names_that_are_patterns(self):
+        scenes.still_life()
+        plain = picture()
+        bpy.data.materials["Gold"].name = "Go?d"
+        knobs = bpy.data.materials["Go?d"].scumble.knobs
+        knobs.warp_amount = 8
+        told = []
+        warn = addon.engine.ScumbleEngine.warn
+        addon.engine.ScumbleEngine.warn = lambda self, notes: told.extend(notes)
+        try:
+            np.testing.assert_array_equal(plain, picture())
+        finally:
+            addon.engine.ScumbleEngine.warn = warn
+        self.assertIn("'Go?d'", told[0])
+
+    def test_a_server_that_does_not_answer(self):
+        scenes.still_life()
+        before = picture()
+        session = addon.engine.session_for("final")
+        addon.server.PATIENCE = 1
+        engine = addon.engine.ScumbleEngine
+        asked = []
+        is_unwanted = engine.is_unwanted
+        engine.is_unwanted = lambda self: len(asked) > 3 or asked.append(1) is not None
+        os.kill(session.server.pid, signal.SIGSTOP)
+        try:
+            self.assertIn("scumble has ended", self.refused())
+        finally:
+            engine.is_unwanted = is_unwanted
+            addon.server.PATIENCE = 10
+        np.testing.assert_array_equal(before, picture())
+        lines = Path(FOLDER.name) / "yes.sh"
+        lines.write_text("#!/bin/sh\nif [ \"$1\" = serve ]; then exec yes; fi\n")
+        lines.chmod(0o755)
+        preferences = bpy.context.preferences.addons["scumble_blender"].preferences
+        preferences.program = str(lines)
+        try:
+            self.assertIn("did not start", self.refused())
+        finally:
+            preferences.program = PROGRAM
+
+    def test_turned_off_and_on(self):
+        scenes.still_life()
+        before = picture()
+        pid = addon.engine.session_for("final").server.pid
+        bpy.ops.preferences.addon_disable(module="scumble_blender")
+        self.assertFalse(Path(f"/proc/{pid}/cmdline").exists() and Path(f"/proc/{pid}/cmdline").read_bytes())
+        bpy.ops.preferences.addon_enable(module="scumble_blender")
+        bpy.context.preferences.addons["scumble_blender"].preferences.program = PROGRAM
+        scenes.still_life()
+        self.assertLess(apart(before, picture())[0], 1e-4)
 
     def test_bpy_is_called_in_few_files(self):
         folder = Path(addon.__file__).parent

@@ -50,7 +50,7 @@ def reds(name):
 
 
 def session():
-    return addon.engine.session_for("viewport")
+    return next(iter(addon.engine.VIEWPORTS)).session
 
 
 def steps():
@@ -101,7 +101,7 @@ state = {"until": None, "condition": None}
 
 
 def leave(code):
-    addon.engine.SESSIONS.close()
+    addon.engine.close_all()
     sys.stdout.flush()
     os._exit(code)
 

@@ -85,7 +85,7 @@ def manual(program, folder):
         words = path.name.removesuffix(".1.gz").split("-")[1:]
         for option in re.findall(r"^  (-\S+)", run(program, *words, "--help"), re.M):
             assert f".B {option}" in text, f"{path.name} lacks {option}"
-    assert len(list(pages.iterdir())) == 17, sorted(path.name for path in pages.iterdir())
+    assert len(list(pages.iterdir())) == 18, sorted(path.name for path in pages.iterdir())
 
 
 def bare_root(build, debs, temporary):

@@ -28,7 +28,7 @@ from png import read_png as png  # noqa: E402
 SMALL = ["--size", "160x90", "--samples", "1", "--validate"]
 TINY = ["--size", "32x18", "--samples", "1", "--validate"]
 DONE, OUR_FAULT, USAGE, UNUSABLE, NO_GPU, NOT_WRITTEN = range(6)
-COMMANDS = ["render", "film", "farm", "view", "xr", "info", "looks", "params", "schema", "devices", "bench", "measure", "paint", "bake", "look"]
+COMMANDS = ["render", "film", "farm", "view", "xr", "info", "looks", "params", "schema", "devices", "bench", "measure", "paint", "bake", "look", "serve"]
 scumble = demo_scene = None
 shared = None  # a folder for what several tests read
 

@@ -298,6 +298,16 @@ class Scenes(unittest.TestCase):
         lit = middle(behind)
         editor.set_light(lamp, None)
         self.assertGreater(lit.sum(), 1.2 * middle(behind).sum())
+        editor.set_name(lamp, "Nobody")
+        self.assertEqual((editor.find_node("Lamp"), editor.find_node("Nobody")), (None, lamp))
+        dry = RENDERER.render(editor.scene(), **front)["picture"]
+        editor.set_extras(lamp, {"scumble_ocean": True})
+        self.assertFalse(np.array_equal(dry, RENDERER.render(editor.scene(), **front)["picture"]))
+        editor.set_extras(lamp, {})
+        np.testing.assert_array_equal(dry, RENDERER.render(editor.scene(), **front)["picture"])
+        editor.set_material(material, outline={"unit": "picture-heights", "width": 0.05, "color": (0, 1, 0), "lighting_mix": 0})
+        with self.assertRaisesRegex(scumble.UsageError, "outline"):
+            editor.set_material(material, outline={"width": -1})
 
     def test_only_what_differs_is_sent(self):
         editor = scumble.SceneEditor(SCENE)
