@@ -293,11 +293,12 @@ class Viewport:
             picture, problem, reads_all, is_behind = None, "", False, False
             try:
                 with session:
-                    if session.start() and description is None:
-                        raise Behind
+                    session.start()
                     if description is not None:
                         session.scene.sync(description)
                         session.look.sync(*look)
+                    elif not session.is_whole:
+                        raise Behind
                     view, size, time, seed = wanted
                     pictures, _ = session.render(size, [view], time, samples=1, seed=seed)
                 picture = _premultiplied(pictures["picture"][0])

@@ -88,6 +88,7 @@ class SceneMirror:
         self.server, self.memory = server, memory
         self.known = {kind: {} for kind in self.KINDS}  # digests by keys
         self.identity = {}  # of nodes: what cannot be changed
+        self.is_whole = False  # whether the server has all that it was last to be told
         self.sent = Counter()
 
     def knows(self, kind, key):
@@ -95,6 +96,7 @@ class SceneMirror:
 
     def sync(self, description):
         """Tells what is new, what is other than before, and what is gone."""
+        self.is_whole = False
         arena, edits = Arena(self.memory), []
         fresh = {kind: {} for kind in self.KINDS}
         for kind in self.KINDS:
@@ -143,7 +145,7 @@ class SceneMirror:
             if self.server.is_alive:
                 self.server.call("clear")
             raise
-        self.known, self.identity = fresh, identity
+        self.known, self.identity, self.is_whole = fresh, identity, True
         for edit in edits:
             self.sent["removals" if "remove" in edit else edit["set"]] += 1
         self.sent["bytes"] += sum(array.nbytes for _, array in arena.arrays)
@@ -172,10 +174,12 @@ class LookMirror:
     def __init__(self, server):
         self.server = server
         self.base, self.knobs = None, {}
+        self.is_whole = False  # as of scenes
         self.sent = Counter()
 
     def sync(self, base, knobs):
         """`base`: anything that differs when the look's file does; its first entry is the name or path."""
+        self.is_whole = False
         # What a look declares stays declared until it is set anew.
         is_undeclared = any(path.startswith(("colorizers.", "decorations.")) and path not in knobs
                             for path in self.knobs)
@@ -189,4 +193,4 @@ class LookMirror:
         if changed:
             self.server.call("set", knobs=changed)
             self.sent["knobs"] += len(changed)
-        self.knobs = dict(knobs)
+        self.knobs, self.is_whole = dict(knobs), True

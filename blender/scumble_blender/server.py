@@ -166,6 +166,8 @@ class Server:
                     request.reply = message
             for request in requests:
                 request.changed.set()
+        with self._lock:
+            self._is_gone = True
         self._greeted.set()
         self.kill()
         code = self._process.wait()

@@ -27,17 +27,16 @@ class Session:
         self._lock.release()
 
     def start(self):
-        """Does nothing where a server runs; whether a new one has been started, which knows nothing yet."""
+        """Does nothing where a server runs."""
         if self._is_closed:
             raise ServerGone("the add-on has been turned off")
         if self.server is not None and self.server.is_alive:
-            return False
+            return
         self._end()
         server = Server(self.program, self.arguments)
         self._arrays, self._pictures = SharedMemory("arrays"), SharedMemory("pictures")
         self.scene, self.look = SceneMirror(server, self._arrays), LookMirror(server)
         self.server = server
-        return True
 
     def close(self):
         """For good."""
@@ -51,6 +50,11 @@ class Session:
             self._arrays.close()
             self._pictures.close()
             self.server = None
+
+    @property
+    def is_whole(self):
+        """Whether the server has the scene and the look that it was last to be told."""
+        return self.scene.is_whole and self.look.is_whole
 
     def knows(self, kind, key):
         server = self.server

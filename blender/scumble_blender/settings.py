@@ -35,7 +35,8 @@ PROBLEM = ""  # why there are none
 def program():
     """Where scumble is."""
     addon = bpy.context.preferences.addons.get(__package__)
-    return (addon.preferences.program if addon else "") or os.environ.get("SCUMBLE") or shutil.which("scumble") or "scumble"
+    named = addon.preferences.program if addon else ""
+    return named or os.environ.get("SCUMBLE") or shutil.which("scumble") or "scumble"
 
 
 def arguments():
@@ -120,8 +121,8 @@ def knobs_of(depsgraph, empties):
 
     def add(section, name, values):
         if values and any(letter in name for letter in "*?"):
-            notes.append(f"'{name}' has a '*' or '?' in its name, which stand for any letters in looks: what is set for "
-                         "it alone is left out")
+            notes.append(f"'{name}' has a '*' or '?' in its name, which stand for any letters in looks: what is set "
+                         "for it alone is left out")
         else:
             found.update({f"{section}.{name}.{path}": value for path, value in values.items()})
 
@@ -149,7 +150,7 @@ def knobs_of(depsgraph, empties):
             at = space.vectors(world[None, :3, 3])[0]
             add("decorations", original.name, {"water.at": [float(x) for x in at],
                                                **values_of(_part(settings, "decoration"), "decorations")})
-    return found, notes
+    return found, list(dict.fromkeys(notes))
 
 
 def _place_of_volume(empty, world):
@@ -177,7 +178,8 @@ class ScumbleAddonPreferences(bpy.types.AddonPreferences):
 
     program: StringProperty(name="Program", subtype="FILE_PATH",
                             description="Where scumble is; empty: where the system finds it")
-    device: StringProperty(name="Device", description="A GPU by name or number, cpu, or gpu for any other; empty: the best one")
+    device: StringProperty(name="Device",
+                           description="A GPU by name or number, cpu, or gpu for any other; empty: the best one")
 
     def draw(self, context):
         self.layout.prop(self, "program")
@@ -213,24 +215,29 @@ def register():
 
     of_scene = settings(
         "ScumbleSceneSettings",
-        look=EnumProperty(update=_changed, name="Look", items=_items(LOOKS or [("age-of-sail", "")]), default="age-of-sail",
-                          description="A look that ships with scumble"),
-        look_file=StringProperty(update=_changed, name="Look file", subtype="FILE_PATH", description="A look of your own, in its place"),
-        samples=EnumProperty(update=_changed, name="Samples", items=[("1", "1", "Fast"), ("4", "4", "Smooth edges")], default="4"),
+        look=EnumProperty(update=_changed, name="Look", items=_items(LOOKS or [("age-of-sail", "")]),
+                          default="age-of-sail", description="A look that ships with scumble"),
+        look_file=StringProperty(update=_changed, name="Look file", subtype="FILE_PATH",
+                                 description="A look of your own, in its place"),
+        samples=EnumProperty(update=_changed, name="Samples", default="4",
+                             items=[("1", "1", "Fast"), ("4", "4", "Smooth edges")]),
         seed=IntProperty(update=_changed, name="Seed", min=0, description="Moves every pattern"),
         knobs=PointerProperty(type=scene_knobs))
     of_layer = settings("ScumbleLayerSettings", **{
-        "pass_" + aov.replace("-", "_"): BoolProperty(name=PASSES[aov][0] if PASSES[aov][0] == aov else f"{PASSES[aov][0]} ({aov})")
-        for aov in PASSES})
+        "pass_" + aov.replace("-", "_"): BoolProperty(name=name if name == aov else f"{name} ({aov})")
+        for aov, (name, *_) in PASSES.items()})
     of_material = settings("ScumbleMaterialSettings", knobs=PointerProperty(type=material_knobs))
     of_object = settings(
         "ScumbleObjectSettings",
         knobs=PointerProperty(type=node_knobs),
-        is_ocean=BoolProperty(update=_changed, name="Ocean", description="The sea is here, at this height and in place of the mesh"),
+        is_ocean=BoolProperty(update=_changed, name="Ocean",
+                              description="The sea is here, at this height and in place of the mesh"),
         ocean=PointerProperty(type=ocean_knobs),
-        is_colorizer=BoolProperty(update=_changed, name="Colorizer", description="This empty grades the colours of what is in it"),
+        is_colorizer=BoolProperty(update=_changed, name="Colorizer",
+                                  description="This empty grades the colours of what is in it"),
         colorizer=PointerProperty(type=colorizer_knobs),
-        is_decoration=BoolProperty(update=_changed, name="Wake, ripples or splash", description="This empty decorates the water"),
+        is_decoration=BoolProperty(update=_changed, name="Wake, ripples or splash",
+                                   description="This empty decorates the water"),
         decoration=PointerProperty(type=decoration_knobs))
     _classes.extend([scene_knobs, ocean_knobs, material_knobs, node_knobs, colorizer_knobs,
                      decoration_knobs, of_scene, of_layer, of_material, of_object])

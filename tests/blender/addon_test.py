@@ -656,8 +656,10 @@ class Troubles(unittest.TestCase):
     def test_a_server_that_has_died(self):
         scenes.still_life()
         before = picture()
-        os.kill(addon.engine.session_for("final").server.pid, signal.SIGKILL)
-        time.sleep(0.5)
+        server = addon.engine.session_for("final").server
+        os.kill(server.pid, signal.SIGKILL)
+        while server.is_alive:
+            time.sleep(0.1)
         np.testing.assert_array_equal(before, picture())  # another one has been started, and told all
 
     def test_a_server_that_dies_at_work(self):

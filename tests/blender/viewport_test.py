@@ -85,6 +85,17 @@ def steps():
     bpy.data.materials["Red"].node_tree.nodes["Principled BSDF"].inputs["Base Color"].default_value = (0.7, 0.05, 0.05, 1)
     yield lambda: reds("after") > 0.01
     assert session().server.pid != old
+    # What is wrong is told until it is mended, also where the view alone changes.
+    broken = PICTURES / "broken.json"
+    broken.write_text('{"warp": {"amuont": 2}}')
+    viewport = next(iter(addon.engine.VIEWPORTS))
+    bpy.context.scene.scumble.look_file = str(broken)
+    yield lambda: "amuont" in viewport.texture()[1]
+    area().spaces[0].region_3d.view_camera_zoom += 5
+    time.sleep(0.5)
+    yield lambda: "amuont" in viewport.texture()[1] and not viewport.is_busy
+    bpy.context.scene.scumble.look_file = ""
+    yield lambda: not viewport.texture()[1]
     # In edit mode the mesh that is worked on is shown.
     with bpy.context.temp_override(window=window(), area=area()):
         bpy.context.view_layer.objects.active = ball
