@@ -43,7 +43,8 @@ void addServe(CLI::App& program, int& exitCode) {
   command->add_flag("--validate", args->validate,
                     "Run under the Vulkan validation layers; a message from them is an error");
   command->footer(
-      "Requests come in and answers go out as JSON, one a line: docs/serve.md. It ends with its input.");
+      "Requests come in and answers go out as JSON, one a line: docs/serve.md. It ends with its input.\n"
+      "Example: scumble serve < requests.jsonl > answers.jsonl");
   command->callback([args, &exitCode] { exitCode = run(*args); });
 }
 
