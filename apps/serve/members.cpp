@@ -32,38 +32,38 @@ std::string Members::place(const std::string& name) const {
   return where_.empty() || name.empty() ? where_ + name : where_ + "." + name;
 }
 
-const json* Members::find(const char* name) {
+const json* Members::find(const std::string& name) {
   asked_.insert(name);
   const auto found = object_.find(name);
   return found == object_.end() || found->is_null() ? nullptr : &*found;
 }
 
-const json& Members::require(const char* name) {
+const json& Members::require(const std::string& name) {
   const json* found = find(name);
   if (!found) refuse(place(name), "this is missing", "docs/serve.md says what there must be");
   return *found;
 }
 
-std::optional<bool> Members::flag(const char* name) {
+std::optional<bool> Members::flag(const std::string& name) {
   const json* found = find(name);
   if (!found) return std::nullopt;
   if (!found->is_boolean()) refuse(place(name), "this is neither true nor false", "give one of them");
   return found->get<bool>();
 }
 
-std::optional<std::string> Members::text(const char* name) {
+std::optional<std::string> Members::text(const std::string& name) {
   const json* found = find(name);
   if (!found) return std::nullopt;
   if (!found->is_string()) refuse(place(name), "this is no text", "write it in quotes");
   return found->get<std::string>();
 }
 
-std::string Members::requireText(const char* name) {
+std::string Members::requireText(const std::string& name) {
   require(name);
   return *text(name);
 }
 
-std::optional<double> Members::number(const char* name) {
+std::optional<double> Members::number(const std::string& name) {
   const json* found = find(name);
   if (!found) return std::nullopt;
   if (!found->is_number() || !std::isfinite(found->get<double>()))
@@ -71,7 +71,7 @@ std::optional<double> Members::number(const char* name) {
   return found->get<double>();
 }
 
-std::optional<uint64_t> Members::whole(const char* name, uint64_t max) {
+std::optional<uint64_t> Members::whole(const std::string& name, uint64_t max) {
   const std::optional<double> given = number(name);
   if (!given) return std::nullopt;
   // Doubles tell whole numbers apart up to 2^53, which is more than there are bytes.
@@ -80,12 +80,12 @@ std::optional<uint64_t> Members::whole(const char* name, uint64_t max) {
   return uint64_t(*given);
 }
 
-uint64_t Members::requireWhole(const char* name, uint64_t max) {
+uint64_t Members::requireWhole(const std::string& name, uint64_t max) {
   require(name);
   return *whole(name, max);
 }
 
-std::optional<std::vector<float>> Members::numbers(const char* name, size_t count) {
+std::optional<std::vector<float>> Members::numbers(const std::string& name, size_t count) {
   const json* found = find(name);
   if (!found) return std::nullopt;
   const std::string advice = "give an array of " + std::to_string(count) + " numbers";
@@ -100,17 +100,17 @@ std::optional<std::vector<float>> Members::numbers(const char* name, size_t coun
   return values;
 }
 
-std::optional<glm::vec3> Members::vector(const char* name) {
+std::optional<glm::vec3> Members::vector(const std::string& name) {
   const auto values = numbers(name, 3);
   return values ? std::optional(glm::vec3((*values)[0], (*values)[1], (*values)[2])) : std::nullopt;
 }
 
-std::optional<glm::mat4> Members::matrix(const char* name) {
+std::optional<glm::mat4> Members::matrix(const std::string& name) {
   const auto values = numbers(name, 16);
   return values ? std::optional(glm::make_mat4(values->data())) : std::nullopt;
 }
 
-std::optional<std::vector<std::string>> Members::texts(const char* name) {
+std::optional<std::vector<std::string>> Members::texts(const std::string& name) {
   if (!has(name)) return std::nullopt;
   std::vector<std::string> values;
   for (const json& item : list(name)) {
@@ -120,7 +120,7 @@ std::optional<std::vector<std::string>> Members::texts(const char* name) {
   return values;
 }
 
-std::optional<size_t> Members::word(const char* name, const std::vector<std::string>& words) {
+std::optional<size_t> Members::word(const std::string& name, const std::vector<std::string>& words) {
   const std::optional<std::string> given = text(name);
   if (!given) return std::nullopt;
   const auto found = std::find(words.begin(), words.end(), *given);
@@ -129,7 +129,7 @@ std::optional<size_t> Members::word(const char* name, const std::vector<std::str
   return size_t(found - words.begin());
 }
 
-const json& Members::list(const char* name) {
+const json& Members::list(const std::string& name) {
   static const json kNone = json::array();
   const json* found = find(name);
   if (!found) return kNone;

@@ -36,24 +36,24 @@ class Members {
   Members(const nlohmann::json& object, std::string where);
 
   // Nothing where there is none, or null.
-  const nlohmann::json* find(const char* name);
-  const nlohmann::json& require(const char* name);
-  bool has(const char* name) { return find(name) != nullptr; }
+  const nlohmann::json* find(const std::string& name);
+  const nlohmann::json& require(const std::string& name);
+  bool has(const std::string& name) { return find(name) != nullptr; }
 
-  std::optional<bool> flag(const char* name);
-  std::optional<std::string> text(const char* name);
-  std::string requireText(const char* name);
-  std::optional<double> number(const char* name);
-  std::optional<uint64_t> whole(const char* name, uint64_t max);
-  uint64_t requireWhole(const char* name, uint64_t max);
-  std::optional<std::vector<float>> numbers(const char* name, size_t count);
-  std::optional<glm::vec3> vector(const char* name);
-  std::optional<glm::mat4> matrix(const char* name);  // column-major
-  std::optional<std::vector<std::string>> texts(const char* name);
+  std::optional<bool> flag(const std::string& name);
+  std::optional<std::string> text(const std::string& name);
+  std::string requireText(const std::string& name);
+  std::optional<double> number(const std::string& name);
+  std::optional<uint64_t> whole(const std::string& name, uint64_t max);
+  uint64_t requireWhole(const std::string& name, uint64_t max);
+  std::optional<std::vector<float>> numbers(const std::string& name, size_t count);
+  std::optional<glm::vec3> vector(const std::string& name);
+  std::optional<glm::mat4> matrix(const std::string& name);  // column-major
+  std::optional<std::vector<std::string>> texts(const std::string& name);
   // Its number among these words.
-  std::optional<size_t> word(const char* name, const std::vector<std::string>& words);
+  std::optional<size_t> word(const std::string& name, const std::vector<std::string>& words);
   // An array; an empty one where there is none.
-  const nlohmann::json& list(const char* name);
+  const nlohmann::json& list(const std::string& name);
 
   // Refuses members that nobody has asked for.
   void end() const;

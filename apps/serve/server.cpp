@@ -121,7 +121,8 @@ json Server::greeting() const {
 json Server::edit(Members& request) {
   const json& edits = request.list("edits");
   request.end();
-  for (size_t i = 0; i < edits.size(); ++i) try {
+  for (size_t i = 0; i < edits.size(); ++i) {
+    try {
       scene_.edit(edits[i], "edits[" + std::to_string(i) + "]", memory_);
     } catch (Refusal& refusal) {
       // Numbers in a list tell people little.
@@ -129,6 +130,7 @@ json Server::edit(Members& request) {
         refusal.error.problem = "'" + edits[i]["key"].get<std::string>() + "': " + refusal.error.problem;
       throw;
     }
+  }
   return scene_.counts();
 }
 
@@ -193,7 +195,7 @@ json Server::render(Members& request, const Progress& progress) {
       if (!value.is_string())
         refuse(members.place(name), "this is no text", "write it in quotes");
       else
-        options.formats[name == kPicture ? "" : name] = PixelFormat(*members.word(name.c_str(), kFormats));
+        options.formats[name == kPicture ? "" : name] = PixelFormat(*members.word(name, kFormats));
   }
   const std::optional<Region> region = regionOf(request, options);
   const Scene scene = valueOf(scene_.scene(), "");

@@ -363,6 +363,8 @@ class Refused(Case):
                 ("render", {"viewpoint": FRONT, "into": into, "aovs": "warp"}, "aovs"),
                 ("render", {"viewpoint": FRONT, "into": into, "formats": {"picture": "bytes"}}, "formats.picture"),
                 ("render", {"viewpoint": FRONT, "into": into, "formats": {"depth": "srgb8"}, "aovs": ["depth"]}, None),
+                ("render", {"viewpoint": FRONT, "into": into, "formats": {"picture": None}}, "formats.picture"),
+                ("render", {"viewpoint": FRONT, "into": into, "formats": {"pic\0ture": "srgb8"}}, None),
                 ("render", {"viewpoint": FRONT, "into": into, "region": [90, 0, 10, 10], "size": [96, 64]}, "region"),
                 ("render", {"viewpoint": FRONT, "into": into, "region": [0, 0, 0, 10]}, "region"),
                 ("render", {"viewpoint": FRONT, "into": {"memory": "out", "count": 100}, "size": [96, 64]}, "into.count"),
