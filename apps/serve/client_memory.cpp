@@ -9,12 +9,6 @@
 
 namespace scumble::serve {
 
-namespace {
-
-constexpr uint64_t kMostBytes = uint64_t(1) << 50;
-
-}  // namespace
-
 ClientMemory::~ClientMemory() {
   for (const auto& [name, shared] : shared_) ::close(shared.file);
 }

@@ -13,6 +13,8 @@ namespace scumble::serve {
 
 class ClientMemory {
  public:
+  static constexpr uint64_t kMostBytes = uint64_t(1) << 50;
+
   ClientMemory() = default;
   ~ClientMemory();
   ClientMemory(const ClientMemory&) = delete;

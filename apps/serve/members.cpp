@@ -10,15 +10,11 @@ namespace scumble::serve {
 
 using nlohmann::json;
 
-namespace {
-
 std::string listed(const std::vector<std::string>& words) {
   std::string all;
   for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
   return all;
 }
-
-}  // namespace
 
 void refuse(const std::string& where, const std::string& problem, const std::string& advice) {
   throw Refusal{{ErrorKind::usage, "", 0, where, problem, advice}};

@@ -19,6 +19,9 @@ struct Refusal {
   Error error;
 };
 
+// Words with commas between them.
+std::string listed(const std::vector<std::string>& words);
+
 [[noreturn]] void refuse(const std::string& where, const std::string& problem, const std::string& advice);
 
 // Throws where something failed.

@@ -75,6 +75,16 @@ Status shrink(SceneEditor& editor, TextureId id) {
 
 }  // namespace
 
+template <class Item, class Set, class Add>
+auto ServedScene::put(Kind<Item>& kind, const std::string& key, const std::string& where, Set set, Add add) {
+  const auto found = kind.items.find(key);
+  if (found == kind.items.end() && kind.free.empty()) return valueOf(add(), where);
+  const auto id = (found != kind.items.end() ? found->second : kind.free.back()).id;
+  valueOf(set(id), where);
+  if (found == kind.items.end()) kind.free.pop_back();
+  return id;
+}
+
 TextureSlot ServedScene::slotOf(Members& members, const char* name, std::set<std::string>& used) const {
   TextureSlot slot;
   const json* given = members.find(name);
@@ -106,15 +116,10 @@ void ServedScene::setTexture(Members& members, const std::string& key, const Cli
                                                          uint64_t(4) * desc.width * desc.height);
   desc.rgba = rgba;
   members.end();
-  const auto found = textures_.items.find(key);
-  if (found != textures_.items.end()) {
-    valueOf(editor_.setTexture(found->second.id, desc), members.place(""));
-  } else if (!textures_.free.empty()) {
-    valueOf(editor_.setTexture(textures_.free.back().id, desc), members.place(""));
-    textures_.items[key] = textures_.free.back(), textures_.free.pop_back();
-  } else {
-    textures_.items[key] = {valueOf(editor_.addTexture(desc), members.place(""))};
-  }
+  const TextureId id = put(
+      textures_, key, members.place(""), [&](TextureId known) { return editor_.setTexture(known, desc); },
+      [&] { return editor_.addTexture(desc); });
+  textures_.items[key] = {id};
 }
 
 void ServedScene::setMaterial(Members& members, const std::string& key) {
@@ -135,18 +140,9 @@ void ServedScene::setMaterial(Members& members, const std::string& key) {
   if (const json* outline = members.find("outline"))
     desc.outline = outlineOf(*outline, members.place("outline"));
   members.end();
-  const auto found = materials_.items.find(key);
-  MaterialId id{};
-  if (found != materials_.items.end()) {
-    id = found->second.id;
-    valueOf(editor_.setMaterial(id, desc), members.place(""));
-  } else if (!materials_.free.empty()) {
-    id = materials_.free.back().id;
-    valueOf(editor_.setMaterial(id, desc), members.place(""));
-    materials_.free.pop_back();
-  } else {
-    id = valueOf(editor_.addMaterial(desc), members.place(""));
-  }
+  const MaterialId id = put(
+      materials_, key, members.place(""), [&](MaterialId known) { return editor_.setMaterial(known, desc); },
+      [&] { return editor_.addMaterial(desc); });
   materials_.items[key] = {id, std::move(used)};
 }
 
@@ -176,18 +172,9 @@ void ServedScene::setMesh(Members& members, const std::string& key, const Client
     parts.push_back(part);
   }
   members.end();
-  const auto found = meshes_.items.find(key);
-  MeshId id{};
-  if (found != meshes_.items.end()) {
-    id = found->second.id;
-    valueOf(editor_.setMesh(id, parts), members.place("parts"));
-  } else if (!meshes_.free.empty()) {
-    id = meshes_.free.back().id;
-    valueOf(editor_.setMesh(id, parts), members.place("parts"));
-    meshes_.free.pop_back();
-  } else {
-    id = valueOf(editor_.addMesh(parts), members.place("parts"));
-  }
+  const MeshId id = put(
+      meshes_, key, members.place("parts"), [&](MeshId known) { return editor_.setMesh(known, parts); },
+      [&] { return editor_.addMesh(parts); });
   meshes_.items[key] = {id, std::move(used)};
 }
 

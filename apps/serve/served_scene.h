@@ -49,6 +49,9 @@ class ServedScene {
     std::vector<Item> free;
   };
 
+  // The number of what is set by a key: its own, one that is free, or a new one.
+  template <class Item, class Set, class Add>
+  static auto put(Kind<Item>& kind, const std::string& key, const std::string& where, Set set, Add add);
   void setTexture(Members& members, const std::string& key, const ClientMemory& memory);
   void setMaterial(Members& members, const std::string& key);
   void setMesh(Members& members, const std::string& key, const ClientMemory& memory);

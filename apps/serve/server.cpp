@@ -269,7 +269,7 @@ json Server::answer(Members& request, int64_t id, const Requests& requests, Answ
   const std::string verb = request.requireText("do");
   if (verb == "share") {
     const std::string name = request.requireText("memory"), file = request.requireText("file");
-    const uint64_t bytes = request.requireWhole("bytes", uint64_t(1) << 50);
+    const uint64_t bytes = request.requireWhole("bytes", ClientMemory::kMostBytes);
     request.end();
     memory_.share(name, file, bytes);
     return json::object();
@@ -304,11 +304,9 @@ json Server::answer(Members& request, int64_t id, const Requests& requests, Answ
       return !requests.isCancelled(id);
     });
   }
-  const std::vector<std::string> verbs = {"share", "forget",   "edit",   "clear", "look",
-                                          "set",   "remember", "render", "cancel"};
-  std::string all;
-  for (const std::string& word : verbs) all += (all.empty() ? "" : ", ") + word;
-  refuse("do", "'" + verb + "' cannot be done", "there is " + all);
+  refuse("do", "'" + verb + "' cannot be done",
+         "there is " +
+             listed({"share", "forget", "edit", "clear", "look", "set", "remember", "render", "cancel"}));
 }
 
 Status Server::run(int in, int out) {

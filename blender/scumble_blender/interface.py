@@ -35,51 +35,42 @@ class SCUMBLE_OT_plain_colors(bpy.types.Operator):
         return {"FINISHED"}
 
 
-def _add_empty(context, name, display, **flags):
-    empty = bpy.data.objects.new(name, None)
-    empty.empty_display_type = display
-    empty.location = context.scene.cursor.location
-    for flag, value in flags.items():
-        setattr(empty.scumble, flag, value)
-    context.collection.objects.link(empty)
-    for each in context.selected_objects:
-        each.select_set(False)
-    empty.select_set(True)
-    context.view_layer.objects.active = empty
-    return empty
+class _AddEmpty:
+    """Puts an empty at the cursor: `named`, `shown_as`, with one of its settings on, `flag`."""
+    bl_options = {"REGISTER", "UNDO"}
+
+    def execute(self, context):
+        empty = bpy.data.objects.new(self.named, None)
+        empty.empty_display_type = self.shown_as
+        empty.location = context.scene.cursor.location
+        setattr(empty.scumble, self.flag, True)
+        context.collection.objects.link(empty)
+        for each in context.selected_objects:
+            each.select_set(False)
+        empty.select_set(True)
+        context.view_layer.objects.active = empty
+        return {"FINISHED"}
 
 
-class SCUMBLE_OT_add_ocean(bpy.types.Operator):
+class SCUMBLE_OT_add_ocean(_AddEmpty, bpy.types.Operator):
     bl_idname = "scumble.add_ocean"
     bl_label = "Ocean"
     bl_description = "A painted sea at the cursor's height"
-    bl_options = {"REGISTER", "UNDO"}
-
-    def execute(self, context):
-        _add_empty(context, "Ocean", "PLAIN_AXES", is_ocean=True)
-        return {"FINISHED"}
+    named, shown_as, flag = "Ocean", "PLAIN_AXES", "is_ocean"
 
 
-class SCUMBLE_OT_add_colorizer(bpy.types.Operator):
+class SCUMBLE_OT_add_colorizer(_AddEmpty, bpy.types.Operator):
     bl_idname = "scumble.add_colorizer"
     bl_label = "Colorizer"
     bl_description = "A region that grades the colours of what is in it, or is seen through it"
-    bl_options = {"REGISTER", "UNDO"}
-
-    def execute(self, context):
-        _add_empty(context, "Colorizer", "SPHERE", is_colorizer=True)
-        return {"FINISHED"}
+    named, shown_as, flag = "Colorizer", "SPHERE", "is_colorizer"
 
 
-class SCUMBLE_OT_add_decoration(bpy.types.Operator):
+class SCUMBLE_OT_add_decoration(_AddEmpty, bpy.types.Operator):
     bl_idname = "scumble.add_decoration"
     bl_label = "Wake, ripples or splash"
     bl_description = "What decorates the water here"
-    bl_options = {"REGISTER", "UNDO"}
-
-    def execute(self, context):
-        _add_empty(context, "Splash", "CIRCLE", is_decoration=True)
-        return {"FINISHED"}
+    named, shown_as, flag = "Splash", "CIRCLE", "is_decoration"
 
 
 def _add_menu(self, context):
@@ -146,7 +137,7 @@ class SCUMBLE_PT_passes(_Panel, bpy.types.Panel):
     def draw(self, context):
         self.layout.use_property_split = True
         for aov in settings.PASSES:
-            self.layout.prop(context.view_layer.scumble, "pass_" + aov.replace("-", "_"))
+            self.layout.prop(context.view_layer.scumble, settings.pass_property(aov))
 
 
 class SCUMBLE_PT_material(_Panel, bpy.types.Panel):

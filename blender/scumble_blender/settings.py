@@ -168,9 +168,14 @@ def _place_of_volume(empty, world):
             "volume.radius": max(half)}
 
 
+def pass_property(aov):
+    """Of a layer's settings."""
+    return "pass_" + aov.replace("-", "_")
+
+
 def passes_of(view_layer):
     """AOVs that a layer has."""
-    return [aov for aov in PASSES if getattr(view_layer.scumble, "pass_" + aov.replace("-", "_"))]
+    return [aov for aov in PASSES if getattr(view_layer.scumble, pass_property(aov))]
 
 
 class ScumbleAddonPreferences(bpy.types.AddonPreferences):
@@ -224,7 +229,7 @@ def register():
         seed=IntProperty(update=_changed, name="Seed", min=0, description="Moves every pattern"),
         knobs=PointerProperty(type=scene_knobs))
     of_layer = settings("ScumbleLayerSettings", **{
-        "pass_" + aov.replace("-", "_"): BoolProperty(name=name if name == aov else f"{name} ({aov})")
+        pass_property(aov): BoolProperty(name=name if name == aov else f"{name} ({aov})")
         for aov, (name, *_) in PASSES.items()})
     of_material = settings("ScumbleMaterialSettings", knobs=PointerProperty(type=material_knobs))
     of_object = settings(
