@@ -172,25 +172,23 @@ int run(const BenchArguments& args) {
                                 {"yardstickMilliseconds", spread(plainFrame)},
                                 {"ratio", spread(ratios)}}}};
   if (!args.json.isPrinted()) {
-    std::printf("%s, %s\n", (*painter)->gpu().name.c_str(), (*painter)->gpu().driver.c_str());
-    std::printf("%u x %u, %u samples, %zu views, %llu triangles, medians of %d\n", options->width,
-                options->height, options->samples, still->size(), static_cast<unsigned long long>(triangles),
-                args.runs);
-    if (args.moving)
-      std::printf("moving: from %g s to %g s\n", counted.front(), counted.back());
-    else
-      std::printf("still: at %g s\n", args.time);
+    const auto print = [](const std::string& line) { std::puts(line.c_str()); };
+    print(fmt::format("{}, {}", (*painter)->gpu().name, (*painter)->gpu().driver));
+    print(fmt::format("{} x {}, {} samples, {} views, {} triangles, medians of {}", options->width,
+                      options->height, options->samples, still->size(), triangles, args.runs));
+    print(args.moving ? fmt::format("moving: from {:g} s to {:g} s", counted.front(), counted.back())
+                      : fmt::format("still: at {:g} s", args.time));
     for (const std::string& name : order)
-      std::printf("  %-14s %9.2f ms %8.1f bytes a pixel read %8.1f written %8.1f fetches\n", name.c_str(),
-                  median(passes[name]), double(traffic[name].bytesRead) / pixels,
-                  double(traffic[name].bytesWritten) / pixels, double(traffic[name].fetches) / pixels);
-    std::printf("  %-14s %9.2f ms\n  %-14s %9.2f ms\n  %-14s %9.2f\n", "frame", median(frame), "yardstick",
-                median(plainFrame), "ratio", median(ratios));
-    std::printf("  %-14s %9.2f ms beside it; %llu draws\n", "CPU", median(cpu),
-                static_cast<unsigned long long>(drawCalls));
-    std::printf(
-        "  %-14s %9.1f bytes a pixel: %.3f ms at %g GB/s, without vertices and textures; %.1f fetches\n",
-        "images", double(bytes) / pixels, planned, args.bandwidth, double(fetches) / pixels);
+      print(fmt::format("  {:<14} {:9.2f} ms {:8.1f} bytes a pixel read {:8.1f} written {:8.1f} fetches", name,
+                        median(passes[name]), double(traffic[name].bytesRead) / pixels,
+                        double(traffic[name].bytesWritten) / pixels, double(traffic[name].fetches) / pixels));
+    print(fmt::format("  {:<14} {:9.2f} ms", "frame", median(frame)));
+    print(fmt::format("  {:<14} {:9.2f} ms", "yardstick", median(plainFrame)));
+    print(fmt::format("  {:<14} {:9.2f}", "ratio", median(ratios)));
+    print(fmt::format("  {:<14} {:9.2f} ms beside it; {} draws", "CPU", median(cpu), drawCalls));
+    print(fmt::format(
+        "  {:<14} {:9.1f} bytes a pixel: {:.3f} ms at {:g} GB/s, without vertices and textures; {:.1f} fetches",
+        "images", double(bytes) / pixels, planned, args.bandwidth, double(fetches) / pixels));
   }
   if (const Status status = args.json.give(report); !status) return fail(status.error());
   return kDone;

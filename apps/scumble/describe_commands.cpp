@@ -33,6 +33,16 @@ std::string shortened(std::vector<std::string> names) {
   return joined(names) + (more > 0 ? fmt::format(" and {} more (--json has them all)", more) : "");
 }
 
+// How many there are, whether or not they have names, and the names of those that do.
+std::string counted(std::vector<std::string> names) {
+  const size_t all = names.size();
+  std::erase(names, "");
+  if (all == 0) return "0";
+  const std::string unnamed = names.size() < all ? fmt::format("{} unnamed", all - names.size()) : "";
+  if (names.empty()) return fmt::format("{}: {}", all, unnamed);
+  return fmt::format("{}: {}{}{}", all, shortened(names), unnamed.empty() ? "" : ", ", unnamed);
+}
+
 nlohmann::json reportOf(const Scene& scene) {
   const SceneSummary s = scene.summary();
   nlohmann::json clips = nlohmann::json::array();
@@ -72,17 +82,15 @@ int info(const SceneArguments& args, const JsonOption& json) {
   const SceneSummary s = scene->summary();
   print(fmt::format("meshes      {} ({} primitives, {} triangles, {} vertices)\n", s.meshes, s.primitives,
                     s.triangles, s.vertices));
-  print(
-      fmt::format("nodes       {}: {}\nmaterials   {}: {}\nimages      {}\nskins       {}\nmorphs      {}\n",
-                  s.nodes, shortened(s.nodeNames), s.materialNames.size(), joined(s.materialNames), s.images,
-                  s.skins, s.morphTargets));
+  print(fmt::format("nodes       {}: {}\nmaterials   {}\nimages      {}\nskins       {}\nmorphs      {}\n", s.nodes,
+                    shortened(s.nodeNames), counted(s.materialNames), s.images, s.skins, s.morphTargets));
   if (s.strokes > 0)
     print(
         fmt::format("strokes     {} ({} points; brushes: {})\n", s.strokes, s.points, shortened(s.brushes)));
   std::vector<std::string> clips;
   for (const auto& clip : s.clips) clips.push_back(fmt::format("{} ({:.2f} s)", clip.name, clip.duration));
-  print(fmt::format("clips       {}\ncameras     {}\nlights      {}\n", joined(clips), joined(s.cameras),
-                    joined(s.lights)));
+  print(fmt::format("clips       {}\ncameras     {}\nlights      {}\n", counted(clips), counted(s.cameras),
+                    counted(s.lights)));
   print(fmt::format("extensions  {}\n", joined(s.extensionsUsed)));
   if (!s.extensionsNotSupported.empty())
     print(fmt::format("not supported: {}\n", joined(s.extensionsNotSupported)));

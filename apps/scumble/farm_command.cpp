@@ -109,8 +109,9 @@ Result<int> chunkFor(const FarmArguments& args, const RenderPlan& plan, const Cl
     const Result<FrameTime> time = timeFrames(plan);
     if (time) {
       chunk = usualChunk(*time, frames, cluster);
-      std::printf("a frame takes %.3f s here (%s), and starting %.1f s\n", time->frame, time->device.c_str(),
-                  time->start);
+      std::puts(fmt::format("a frame takes {:.3f} s here ({}), and starting {:.1f} s", time->frame, time->device,
+                            time->start)
+                    .c_str());
     } else if (time.error().kind == ErrorKind::noUsableGpu) {
       std::printf("no frame can be timed here (%s): --chunk says how many a task draws\n",
                   time.error().message().c_str());
@@ -272,9 +273,10 @@ int run(const FarmArguments& args) {
   if (!chunk) return fail(chunk.error());
   job.chunk = *chunk;
 
-  std::printf("frames: %d (%d..%d), %d a task; tasks: %d; files that are read: %zu, %.1f MB\n", job.frames(),
-              job.first, job.last, job.chunk, job.tasks(), inputs->files().size(),
-              double(inputs->bytes()) / 1e6);
+  std::puts(fmt::format("frames: {} ({}..{}), {} a task; tasks: {}; files that are read: {}, {:.1f} MB",
+                        job.frames(), job.first, job.last, job.chunk, job.tasks(), inputs->files().size(),
+                        double(inputs->bytes()) / 1e6)
+                .c_str());
   if (args.dryRun) {
     for (const std::string& file : inputs->files()) std::printf("  %s\n", file.c_str());
     std::printf("\n== %s/render.sbatch\n%s\n== %s/finish.sbatch\n%s\n== %s/submit\n%s", job.folder.c_str(),

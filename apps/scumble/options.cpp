@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -44,13 +45,15 @@ std::string endingOf(const std::string& path) {
 
 std::optional<std::vector<float>> parseNumbers(const std::string& text) {
   std::vector<float> numbers;
-  const char* at = text.c_str();
+  const char *at = text.data(), *const last = text.data() + text.size();
   while (true) {
-    char* end = nullptr;
-    const float number = std::strtof(at, &end);
-    if (end == at || !std::isfinite(number)) return std::nullopt;
+    // One sign and no more: from_chars knows no plus.
+    if (last - at > 1 && at[0] == '+' && at[1] != '-') ++at;
+    float number = 0;
+    const auto [end, error] = std::from_chars(at, last, number);
+    if (error != std::errc() || !std::isfinite(number)) return std::nullopt;
     numbers.push_back(number);
-    if (*end == '\0') return numbers;
+    if (end == last) return numbers;
     if (*end != ',') return std::nullopt;
     at = end + 1;
   }

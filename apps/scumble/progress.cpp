@@ -1,5 +1,6 @@
 #include "progress.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -32,20 +33,20 @@ void Progress::show(double done, const std::string& what) {
   if (quiet_) return;
   const Clock::time_point now = Clock::now();
   const double elapsed = std::chrono::duration<double>(now - start_).count();
-  const double left = elapsed / done * (steps_ - done);
+  const std::optional<double> seconds = timeLeft_.after(done, elapsed);
+  const std::string left = seconds ? fmt::format(", {:.0f} s left", *seconds) : "";
   // Of a single step its parts count.
   const std::string count =
       steps_ > 1 ? std::to_string(int(done)) + (terminal_ ? "/" : " of ") + std::to_string(steps_)
                  : std::to_string(int(100 * done)) + " %";
   if (terminal_) {
     const std::string full(size_t(kBarWidth * done / steps_), '#');
-    std::fprintf(stderr, "\rscumble: [%-*s] %s, %.0f s left \033[K", kBarWidth, full.c_str(), count.c_str(),
-                 left);
+    std::fprintf(stderr, "\rscumble: [%-*s] %s%s \033[K", kBarWidth, full.c_str(), count.c_str(), left.c_str());
     std::fflush(stderr);
     isOpen_ = true;
   } else if ((done == steps_ && steps_ > 1) ||
              std::chrono::duration<double>(now - lastLine_).count() >= kSecondsBetweenLines) {
-    std::fprintf(stderr, "scumble: %s, %s, %.0f s left\n", what.c_str(), count.c_str(), left);
+    std::fprintf(stderr, "scumble: %s, %s%s\n", what.c_str(), count.c_str(), left.c_str());
     lastLine_ = now;
   }
 }

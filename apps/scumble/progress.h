@@ -1,9 +1,12 @@
-// Progress of long work on stderr: a bar with the time left on a terminal, else a plain line now and then.
+// Progress of long work on stderr: a bar on a terminal, else a plain line now and then; with the time left, as soon
+// as it can be told.
 #pragma once
 
 #include <chrono>
 #include <mutex>
 #include <string>
+
+#include "time_left.h"
 
 namespace scumble::app {
 
@@ -24,6 +27,7 @@ class Progress {
   int steps_, done_ = 0;
   bool quiet_, terminal_, isOpen_ = false;  // a bar stands on the line
   Clock::time_point start_ = Clock::now(), lastLine_ = start_;
+  TimeLeft timeLeft_{double(steps_)};
 };
 
 }  // namespace scumble::app

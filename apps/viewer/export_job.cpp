@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -36,8 +37,12 @@ double partOf(const std::string& line) {
   if (of == std::string::npos || of == 0) return -1;
   size_t begin = of;
   while (begin > 0 && std::strchr("0123456789", line[begin - 1])) --begin;
-  const double done = std::strtod(line.c_str() + begin, nullptr),
-               all = std::strtod(line.c_str() + of + 4, nullptr);
+  const auto numberAt = [&](size_t place) {
+    double number = 0;
+    std::from_chars(line.data() + place, line.data() + line.size(), number);
+    return number;
+  };
+  const double done = numberAt(begin), all = numberAt(of + 4);
   return begin < of && all > 0 && done <= all ? done / all : -1;
 }
 

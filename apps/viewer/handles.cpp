@@ -1,11 +1,11 @@
 #include "handles.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "knob_text.h"
@@ -398,8 +398,7 @@ class Handles::Maker {
     }
     for (size_t i = 0; i < keys.size(); ++i) {
       const glm::vec3 place = std::get<glm::vec3>(keys[i].value);
-      char label[32];
-      std::snprintf(label, sizeof label, "%.2f s", keys[i].time);
+      const std::string label = fmt::format("{:.2f} s", keys[i].time);
       add("camera.eye" + std::to_string(i), place, kCamera, 0.38f, label, std::nullopt,
           [=, this](const glm::vec2& pixel) {
             // Of as many keys as there are, each would have a copy of all.

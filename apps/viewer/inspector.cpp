@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -18,7 +19,12 @@ constexpr float kWideRange = 400;
 
 // Over ranges that a slider would cross in a hand's breadth one drags by parts of what is there.
 std::optional<std::string> slider(const Knob& knob, const KnobValue& value) {
-  const float low = std::strtof(knob.min.c_str(), nullptr), high = std::strtof(knob.max.c_str(), nullptr);
+  const auto numberIn = [](const std::string& text) {
+    float number = 0;
+    std::from_chars(text.data(), text.data() + text.size(), number);
+    return number;
+  };
+  const float low = numberIn(knob.min), high = numberIn(knob.max);
   const bool isWide = high - low > kWideRange;
   constexpr ImGuiSliderFlags kFlags = ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_NoRoundToFormat;
   if (const int* whole = std::get_if<int>(&value)) {

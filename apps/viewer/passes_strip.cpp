@@ -1,9 +1,9 @@
 #include "passes_strip.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
-#include <cstdio>
 
 #include "interface.h"
 
@@ -17,9 +17,8 @@ void layOutTimes(const Picture& picture) {
   double longest = 1e-9;
   for (const PassTime& step : picture.steps) longest = std::max(longest, step.milliseconds);
   for (const PassTime& step : picture.steps) {
-    char text[96];
-    std::snprintf(text, sizeof text, "%s %.2f ms", step.name.c_str(), step.milliseconds);
-    ImGui::ProgressBar(float(step.milliseconds / longest), {-1, 0}, text);
+    const std::string text = fmt::format("{} {:.2f} ms", step.name, step.milliseconds);
+    ImGui::ProgressBar(float(step.milliseconds / longest), {-1, 0}, text.c_str());
   }
 }
 

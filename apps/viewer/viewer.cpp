@@ -1,5 +1,6 @@
 #include "viewer.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -560,9 +561,7 @@ class Viewer : Hands::Doer {
         // It stands where it stood, and goes where its keys take it.
         camera_.set(Viewpoint());
         timeline_.choose("camera.eye");
-        char text[96];
-        std::snprintf(text, sizeof text, "the camera is kept at %.2f s", time);
-        notice_ = text;
+        notice_ = fmt::format("the camera is kept at {:.2f} s", time);
       }
     }
     document_.closeStep();

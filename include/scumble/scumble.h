@@ -72,8 +72,9 @@ SCUMBLE_API scumble_scene* scumble_editor_scene(scumble_editor* editor);
 SCUMBLE_API int32_t scumble_editor_texture(scumble_editor* editor, int32_t id, const char* name,
                                            uint32_t width, uint32_t height, const uint8_t* rgba);
 
-/* Start from scumble_material_default; the C++ header has more. */
+/* Set `size`, then start from scumble_material_default; the C++ header has more. */
 typedef struct scumble_material {
+  size_t size; /* sizeof of this struct, set by who calls */
   const char* name;                                /* by which looks know it */
   float base_color[4];                             /* linear; a factor on the texture */
   int32_t base_color_texture;                      /* -1: none */
@@ -84,7 +85,7 @@ typedef struct scumble_material {
   int32_t double_sided, unlit, has_shadowed_color; /* 0 or 1 */
   float shadowed_color[3];                         /* linear */
 } scumble_material;
-SCUMBLE_API void scumble_material_default(scumble_material* material);
+SCUMBLE_API scumble_status scumble_material_default(scumble_material* material);
 SCUMBLE_API int32_t scumble_editor_material(scumble_editor* editor, int32_t id,
                                             const scumble_material* material);
 /* The first of this name; -1: there is none. */
@@ -163,8 +164,9 @@ typedef struct scumble_view {
   int32_t is_level;       /* 1: it does not tilt with its node */
 } scumble_view;
 
-/* Where the camera stands. Start from scumble_viewpoint_default. */
+/* Where the camera stands. Set `size`, then start from scumble_viewpoint_default. */
 typedef struct scumble_viewpoint {
+  size_t size; /* sizeof of this struct, set by who calls */
   const char* camera;       /* of the scene, by name or number; null: as look and scene say */
   int32_t has_orbit;        /* else azimuth and elevation mean nothing */
   float azimuth, elevation; /* degrees */
@@ -173,7 +175,7 @@ typedef struct scumble_viewpoint {
   float eye[3], target[3];  /* metres */
   float vertical_fov;       /* degrees; 0: as look and scene say */
 } scumble_viewpoint;
-SCUMBLE_API void scumble_viewpoint_default(scumble_viewpoint* viewpoint);
+SCUMBLE_API scumble_status scumble_viewpoint_default(scumble_viewpoint* viewpoint);
 
 /* One view (stereo 0), or the left and the right one (stereo 1), `ipd` metres apart, at a time in seconds.
    `views` has room for two; `count` gets how many there are. */
@@ -190,15 +192,16 @@ typedef struct scumble_frame scumble_frame;
 /* `level`: 0 information, 1 warning, 2 error (log.h). From any thread; several may call at once. */
 typedef void (*scumble_log)(void* user, int32_t level, const char* text);
 
-/* Start from scumble_renderer_options_default. */
+/* Set `size`, then start from scumble_renderer_options_default. */
 typedef struct scumble_renderer_options {
+  size_t size; /* sizeof of this struct, set by who calls */
   const char* device;       /* part of a name, a number, "cpu", "gpu" (any other), or null: the best */
   const char* cache_folder; /* where compiled pipelines are kept; null: nowhere */
   int32_t validation;       /* Vulkan's validation layers watch */
   scumble_log log;          /* null: their messages go to stderr, and others nowhere */
   void* log_user;           /* given to `log` as long as the renderer is */
 } scumble_renderer_options;
-SCUMBLE_API void scumble_renderer_options_default(scumble_renderer_options* options);
+SCUMBLE_API scumble_status scumble_renderer_options_default(scumble_renderer_options* options);
 /* `options` null: the defaults. */
 SCUMBLE_API scumble_renderer* scumble_renderer_create(const scumble_renderer_options* options);
 SCUMBLE_API void scumble_renderer_free(scumble_renderer* renderer);
@@ -210,8 +213,9 @@ SCUMBLE_API int32_t scumble_renderer_messages(const scumble_renderer* renderer);
 /* As PixelFormat of image.h. */
 typedef enum scumble_format { SCUMBLE_FLOAT32 = 0, SCUMBLE_HALF = 1, SCUMBLE_SRGB8 = 2 } scumble_format;
 
-/* Start from scumble_options_default. */
+/* Set `size`, then start from scumble_options_default. */
 typedef struct scumble_options {
+  size_t size; /* sizeof of this struct, set by who calls */
   uint32_t width, height; /* pixels, 1 to 16384 */
   uint32_t samples;       /* 1 or 4 */
   uint32_t seed;
@@ -222,7 +226,7 @@ typedef struct scumble_options {
   scumble_progress progress; /* may be null */
   void* progress_user;
 } scumble_options;
-SCUMBLE_API void scumble_options_default(scumble_options* options);
+SCUMBLE_API scumble_status scumble_options_default(scumble_options* options);
 
 /* Renders one frame of up to six views at a time in seconds. The same call gives the same bytes. */
 SCUMBLE_API scumble_frame* scumble_render(scumble_renderer* renderer, const scumble_scene* scene,
@@ -239,14 +243,15 @@ typedef enum scumble_panorama_kind {
   SCUMBLE_ODS = 1,
   SCUMBLE_MONO360 = 2
 } scumble_panorama_kind;
-/* Start from scumble_panorama_default. */
+/* Set `size`, then start from scumble_panorama_default. */
 typedef struct scumble_panorama {
+  size_t size; /* sizeof of this struct, set by who calls */
   scumble_panorama_kind kind;
   float ipd;         /* metres between the eyes */
   float knob_height; /* degrees that stand for a picture's height where knobs count by that */
   float strip;       /* degrees for which an eye keeps its place */
 } scumble_panorama;
-SCUMBLE_API void scumble_panorama_default(scumble_panorama* panorama);
+SCUMBLE_API scumble_status scumble_panorama_default(scumble_panorama* panorama);
 /* One panorama from where a camera is, level: a view for each eye, of the options' size each, which is square
    for SCUMBLE_VR180 and else twice as wide as high. */
 SCUMBLE_API scumble_frame* scumble_render_panorama(scumble_renderer* renderer, const scumble_scene* scene,

@@ -7,6 +7,7 @@
 #include "scene/import_warnings.h"
 #include "scene/nearest_place.h"
 #include "scene/posed_bounds.h"
+#include "scene/seen.h"
 
 namespace scumble::bake {
 

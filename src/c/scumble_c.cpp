@@ -115,6 +115,50 @@ glm::mat4 toMatrix(const float* numbers) {
   return glm::make_mat4(numbers);
 }
 
+// Option structs begin with their size as the caller was compiled with it, which may be another one than ours: no
+// more of them is read or filled than both know.
+constexpr size_t kLargestOptions = 4096;
+template <class Options>
+bool hasSize(const Options* options) {
+  return options && options->size >= 2 * sizeof(size_t) && options->size <= kLargestOptions;
+}
+constexpr const char* kNoSize = "options are null, or their size is not set";
+
+template <class Options>
+scumble_status fill(Options* options, Options defaults) {
+  if (!hasSize(options)) return misuse(kNoSize);
+  const size_t size = options->size;
+  defaults.size = size;
+  std::memset(static_cast<void*>(options), 0, size);
+  std::memcpy(static_cast<void*>(options), &defaults, std::min(size, sizeof(Options)));
+  return SCUMBLE_OK;
+}
+// What is not there is as in `defaults`. Of a size that hasSize().
+template <class Options>
+Options taken(const Options* options, Options defaults) {
+  std::memcpy(static_cast<void*>(&defaults), options, std::min(options->size, sizeof(Options)));
+  return defaults;
+}
+
+scumble_material defaultMaterial() {
+  scumble_material material{};
+  for (float& channel : material.base_color) channel = 1;
+  material.base_color_texture = material.emissive_texture = -1;
+  material.alpha_cutoff = MaterialDesc().alphaCutoff;
+  return material;
+}
+scumble_options defaultOptions() {
+  const RenderOptions usual;
+  scumble_options options{};
+  options.width = usual.width, options.height = usual.height;
+  options.samples = usual.samples;
+  return options;
+}
+scumble_panorama defaultPanorama() {
+  const Panorama usual;
+  return {sizeof(scumble_panorama), scumble_panorama_kind(usual.kind), usual.ipd, usual.knobHeight, usual.strip};
+}
+
 View toView(const scumble_view& view) {
   View result;
   std::memcpy(&result.worldToEye, view.world_to_eye, sizeof(view.world_to_eye));
@@ -143,11 +187,13 @@ struct Call {
   RenderOptions options;
 };
 Result<Call> callOf(const scumble_renderer* renderer, const scumble_scene* scene, const scumble_look* look,
-                    const scumble_view* views, size_t count, const scumble_options* options) {
-  const Error null{ErrorKind::usage, "", 0, "", "renderer, scene, look, views or options are null",
+                    const scumble_view* views, size_t count, const scumble_options* given) {
+  const Error null{ErrorKind::usage, "", 0, "",
+                   "renderer, scene, look, views or options are null, or the options' size is not set",
                    "see scumble.h"};
-  if (!renderer || !scene || !look || !views || !options || (options->aov_count > 0 && !options->aovs))
-    return null;
+  if (!renderer || !scene || !look || !views || !hasSize(given)) return null;
+  const scumble_options all = taken(given, defaultOptions()), *const options = &all;
+  if (options->aov_count > 0 && !options->aovs) return null;
   Call call;
   for (size_t i = 0; i < std::min(count, size_t(Renderer::kMaxViews) + 1); ++i)
     call.views.push_back(toView(views[i]));
@@ -246,17 +292,14 @@ int32_t scumble_editor_texture(scumble_editor* editor, int32_t id, const char* n
   });
 }
 
-void scumble_material_default(scumble_material* material) {
-  if (!material) return;
-  *material = {};
-  for (float& channel : material->base_color) channel = 1;
-  material->base_color_texture = material->emissive_texture = -1;
-  material->alpha_cutoff = MaterialDesc().alphaCutoff;
+scumble_status scumble_material_default(scumble_material* material) {
+  return fill(material, defaultMaterial());
 }
 
-int32_t scumble_editor_material(scumble_editor* editor, int32_t id, const scumble_material* material) {
+int32_t scumble_editor_material(scumble_editor* editor, int32_t id, const scumble_material* given) {
   return guardedId([&]() -> int32_t {
-    if (!editor || !material) return misuse("editor or material are null"), -1;
+    if (!editor || !hasSize(given)) return misuse("editor or material are null, or its size is not set"), -1;
+    const scumble_material all = taken(given, defaultMaterial()), *const material = &all;
     if (material->alpha < 0 || material->alpha > 2) return misuse("the alpha mode is none of 0, 1 and 2"), -1;
     const auto three = [](const float* numbers) { return glm::vec3(numbers[0], numbers[1], numbers[2]); };
     MaterialDesc desc;
@@ -431,16 +474,17 @@ void scumble_look_free(scumble_look* look) {
   delete look;
 }
 
-void scumble_viewpoint_default(scumble_viewpoint* viewpoint) {
-  if (viewpoint) *viewpoint = {};
+scumble_status scumble_viewpoint_default(scumble_viewpoint* viewpoint) {
+  return fill(viewpoint, scumble_viewpoint{});
 }
 
 scumble_status scumble_make_views(const scumble_scene* scene, const scumble_look* look,
-                                  const scumble_viewpoint* viewpoint, float aspect, int32_t stereo, float ipd,
+                                  const scumble_viewpoint* given, float aspect, int32_t stereo, float ipd,
                                   double time, scumble_view* views, size_t* count) {
   return guarded([&] {
-    if (!scene || !look || !viewpoint || !views || !count)
-      return misuse("scene, look, viewpoint, views or count are null");
+    if (!scene || !look || !hasSize(given) || !views || !count)
+      return misuse("scene, look, viewpoint, views or count are null, or the viewpoint's size is not set");
+    const scumble_viewpoint all = taken(given, scumble_viewpoint{}), *const viewpoint = &all;
     Viewpoint from;
     from.camera = textOf(viewpoint->camera);
     from.orbit = viewpoint->has_orbit != 0;
@@ -461,14 +505,16 @@ scumble_status scumble_make_views(const scumble_scene* scene, const scumble_look
   });
 }
 
-void scumble_renderer_options_default(scumble_renderer_options* options) {
-  if (options) *options = {};
+scumble_status scumble_renderer_options_default(scumble_renderer_options* options) {
+  return fill(options, scumble_renderer_options{});
 }
 
-scumble_renderer* scumble_renderer_create(const scumble_renderer_options* given) {
+scumble_renderer* scumble_renderer_create(const scumble_renderer_options* caller) {
   return guarded([&]() -> scumble_renderer* {
     RendererOptions options;
-    if (given) {
+    if (caller) {
+      if (!hasSize(caller)) return misuse(kNoSize), nullptr;
+      const scumble_renderer_options all = taken(caller, scumble_renderer_options{}), *const given = &all;
       options.device = textOf(given->device);
       options.cacheFolder = textOf(given->cache_folder);
       options.validation = given->validation != 0;
@@ -498,12 +544,8 @@ int32_t scumble_renderer_messages(const scumble_renderer* renderer) {
   return renderer ? renderer->renderer->validationMessages() : 0;
 }
 
-void scumble_options_default(scumble_options* options) {
-  if (!options) return;
-  const RenderOptions defaults;
-  *options = {};
-  options->width = defaults.width, options->height = defaults.height;
-  options->samples = defaults.samples;
+scumble_status scumble_options_default(scumble_options* options) {
+  return fill(options, defaultOptions());
 }
 
 scumble_frame* scumble_render(scumble_renderer* renderer, const scumble_scene* scene,
@@ -529,19 +571,20 @@ scumble_status scumble_prepare(scumble_renderer* renderer, const scumble_scene* 
   });
 }
 
-void scumble_panorama_default(scumble_panorama* panorama) {
-  const Panorama usual;
-  if (panorama) *panorama = {scumble_panorama_kind(usual.kind), usual.ipd, usual.knobHeight, usual.strip};
+scumble_status scumble_panorama_default(scumble_panorama* panorama) {
+  return fill(panorama, defaultPanorama());
 }
 
 scumble_frame* scumble_render_panorama(scumble_renderer* renderer, const scumble_scene* scene,
                                        const scumble_look* look, double time, const scumble_view* from,
-                                       const scumble_panorama* panorama, const scumble_options* options) {
+                                       const scumble_panorama* given, const scumble_options* options) {
   return guarded([&]() -> scumble_frame* {
     const Result<Call> call = callOf(renderer, scene, look, from, 1, options);
     if (!call) return nothing(call.error());
-    if (!panorama || panorama->kind < SCUMBLE_VR180 || panorama->kind > SCUMBLE_MONO360)
-      return misuse("the panorama is null or of no kind"), nullptr;
+    if (!hasSize(given)) return misuse("the panorama is null, or its size is not set"), nullptr;
+    const scumble_panorama all = taken(given, defaultPanorama()), *const panorama = &all;
+    if (panorama->kind < SCUMBLE_VR180 || panorama->kind > SCUMBLE_MONO360)
+      return misuse("the panorama is of no kind"), nullptr;
     const Panorama wanted{PanoramaKind(panorama->kind), panorama->ipd, panorama->knob_height,
                           panorama->strip};
     Result<Frame> frame = renderPanorama(*renderer->renderer, scene->scene, look->look, time,

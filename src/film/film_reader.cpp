@@ -5,13 +5,13 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <future>
 #include <optional>
 #include <string_view>
 #include <system_error>
 
 #include "base/file_bytes.h"
+#include "base/numbers.h"
 #include "base/pixels.h"
 #include "base/srgb.h"
 #include "film/child_process.h"
@@ -40,9 +40,8 @@ std::string field(std::string_view line, std::string_view key) {
 }
 
 std::optional<double> number(const std::string& text) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  return end != text.c_str() ? std::optional(value) : std::nullopt;
+  const std::optional<NumberAtStart> found = numberAtStart(text);
+  return found ? std::optional(found->value) : std::nullopt;
 }
 
 // "24000/1001"; 0 where it is none.

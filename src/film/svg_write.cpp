@@ -1,7 +1,8 @@
 // Strokes as SVG 1.1.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <glm/glm.hpp>
 
 #include "base/srgb.h"
@@ -16,21 +17,17 @@ namespace {
 constexpr float kCosJoint = 0.94f;
 
 std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2f", value);
-  std::string result = text;
+  std::string result = fmt::format("{:.2f}", value);
   while (result.back() == '0') result.pop_back();
   if (result.back() == '.') result.pop_back();
   return result == "-0" ? "0" : result;
 }
 
 std::string colorOf(const glm::vec3& linear) {
-  char text[8];
   const auto code = [](float value) {
     return unsigned(std::lround(255 * srgbFromLinear(std::clamp(double(value), 0.0, 1.0))));
   };
-  std::snprintf(text, sizeof text, "#%02x%02x%02x", code(linear.r), code(linear.g), code(linear.b));
-  return text;
+  return fmt::format("#{:02x}{:02x}{:02x}", code(linear.r), code(linear.g), code(linear.b));
 }
 
 // Of the points of a stroke, without those that lie on one another.

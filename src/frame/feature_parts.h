@@ -17,9 +17,10 @@ namespace scumble::frame {
 // A feature's lines as strokes (RenderOptions::drawing).
 struct LineDrawing {
   // What they are made from; nothing where the look, at its time, draws no lines.
-  std::vector<const char*> (*aovs)(const look::LookData& look) = nullptr;
-  // Adds those of a view, lines that lie above others after those. `aov`: of the view, floats, one of aovs().
-  using AovOfView = std::function<const Image&(const char* name)>;
+  std::vector<const char*> (*aovs)(const scene::SceneData& scene, const look::LookData& look) = nullptr;
+  // Adds those of a view, lines that lie above others after those. `aov`: of the view, floats; null where it was
+  // none of aovs().
+  using AovOfView = std::function<const Image*(const char* name)>;
   void (*add)(const AovOfView& aov, const look::LookData& look, Drawing& drawing) = nullptr;
 };
 

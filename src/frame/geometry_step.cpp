@@ -27,8 +27,10 @@ void GeometryStep::specialise(uint32_t constant, std::vector<MaterialVariant> ma
 
 bool GeometryStep::includes(const DrawState& state) const {
   if (desc_.leavesBlended && state.alpha == AlphaMode::blend) return false;
+  const bool isOfCasters = desc_.what == GeometryStepDesc::What::casters;
+  if (state.castsAlone && !isOfCasters) return false;
   if (desc_.onlyMaterial && state.material != *desc_.onlyMaterial) return false;
-  return desc_.what != GeometryStepDesc::What::casters || state.casts;
+  return !isOfCasters || state.casts;
 }
 
 const gpu::Pipeline& GeometryStep::pipelineFor(const Variant& variant) {
@@ -125,9 +127,11 @@ void GeometryStep::draw(VkCommandBuffer commands, const gpu::DescriptorSets* pas
                          offsetsOfMaterial);
       boundMaterial = state.material;
     }
-    if (cull != int(state.cullsBack))
-      vkCmdSetCullMode(commands, state.cullsBack ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE),
-          cull = state.cullsBack;
+    // What is seen casts a shadow, whichever of its sides the light meets.
+    const bool cullsBack =
+        state.cullsBack && (desc_.what != GeometryStepDesc::What::casters || state.castsFronts);
+    if (cull != int(cullsBack))
+      vkCmdSetCullMode(commands, cullsBack ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE), cull = cullsBack;
     if (front != int(state.mirrored))
       vkCmdSetFrontFace(commands, state.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE),
           front = state.mirrored;

@@ -10,6 +10,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "frame/aov.h"
@@ -85,6 +86,16 @@ struct FrameInput {
 
 using Record = std::function<void(VkCommandBuffer)>;
 
+// What casts shadows and is no surface: it is drawn into the shadow map after those.
+struct Caster {
+  // Into the map's depth buffer, nearest to the light first to count.
+  Record draw;
+  // Another number whenever it would draw another thing: as long as it is the same, the map may be kept.
+  std::function<uint64_t()> version;
+  // Buffers that it reads.
+  std::vector<std::pair<gpu::Handle, gpu::Use>> reads;
+};
+
 class Pass;
 
 // What passes build a frame from.
@@ -129,6 +140,9 @@ class FrameBuilder {
   // Lets users save images, of one size and format, as one of the pass's aovs().
   void offer(const Aov& aov, std::vector<gpu::Handle> images);
   const gpu::ImageShape& shape(gpu::Handle image) const { return graph_.shape(image); }
+  // For passes before the shadow map's, which draws them.
+  void addCaster(Caster caster) { casters_.push_back(std::move(caster)); }
+  const std::vector<Caster>& casters() const { return casters_; }
 
   // -- While it creates.
   UniformSlice uniform(uint64_t bytes) { return uniforms_.slice(bytes); }
@@ -177,6 +191,7 @@ class FrameBuilder {
   const Pass* declaring_ = nullptr;
   std::vector<Given> given_;
   std::vector<Offer> offers_;
+  std::vector<Caster> casters_;
 };
 
 class Pass {

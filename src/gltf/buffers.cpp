@@ -155,6 +155,8 @@ std::vector<std::string> Buffers::files() const {
       if (!json.has("uri") || !json.json()["uri"].is_string()) continue;
       const std::string& uri = json.json()["uri"].get_ref<const std::string&>();
       if (uri.empty() || isDataUri(uri)) continue;
+      // A picture on the network has a stand-in, where it is used at all; without its vertices a scene is none.
+      if (std::string_view(name) == "images" && isRemoteUri(uri)) continue;
       std::string file =
           resolveFileUri(uri, folder_.empty() ? "." : folder_, allowOutside_, json.pathOf("uri"));
       if (!folder_.empty()) files.push_back(std::move(file));
@@ -170,6 +172,10 @@ bool Buffers::imageFile(const std::string& uri, const std::string& jsonPath, Hol
       holder.data = decodeDataUri(uri, jsonPath);
       bytes = holder.data;
       return true;
+    }
+    if (isRemoteUri(uri)) {
+      problem = "it lies on the network, which scumble never uses; put it beside the scene";
+      return false;
     }
     const std::string file = resolveFileUri(uri, folder_, allowOutside_, jsonPath);
     if (!holder.file.open(file, problem, access_)) {

@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <string_view>
 
 #include "gltf/import.h"
 #include "scene/prepare_mesh.h"
@@ -83,38 +86,142 @@ void trimWeights(Channel& channel, size_t have, size_t keep) {
   channel.values = std::move(values);
 }
 
-bool propertyOf(const std::string& path, AnimatedProperty& property) {
-  constexpr std::pair<const char*, AnimatedProperty> kPaths[] = {
+constexpr const char* kPointer = "KHR_animation_pointer";
+
+// A file that requires KHR_animation_pointer animates what we do not: without that it is not itself.
+struct Refusal {
+  ImportFailure failure;
+};
+
+// What a channel moves.
+struct Target {
+  std::vector<int> nodes;  // ours; none where this scene has none of them
+  AnimatedProperty property = AnimatedProperty::translation;
+  int weight = -1;  // as Channel has it
+};
+
+std::optional<AnimatedProperty> propertyOf(std::string_view path) {
+  constexpr std::pair<std::string_view, AnimatedProperty> kPaths[] = {
       {"translation", AnimatedProperty::translation},
       {"rotation", AnimatedProperty::rotation},
       {"scale", AnimatedProperty::scale},
       {"weights", AnimatedProperty::weights}};
-  for (const auto& [name, value] : kPaths)
-    if (path == name) {
-      property = value;
-      return true;
-    }
-  return false;
+  for (const auto& [name, property] : kPaths)
+    if (path == name) return property;
+  return std::nullopt;
 }
 
-// False when the channel moves nothing in this scene.
-bool readChannel(const Import& import, const Maps& maps, const SceneData& scene, const JsonView& json,
-                 const JsonView& samplers, Channel& channel) {
-  // What it moves.
+// The steps of a JSON pointer; none where it is none.
+std::vector<std::string_view> stepsOf(std::string_view pointer) {
+  std::vector<std::string_view> steps;
+  if (!pointer.starts_with('/')) return steps;
+  while (!pointer.empty()) {
+    pointer.remove_prefix(1);
+    const size_t end = std::min(pointer.find('/'), pointer.size());
+    steps.push_back(pointer.substr(0, end));
+    pointer.remove_prefix(end);
+  }
+  return steps;
+}
+
+// An index of a list, as JSON pointers write it.
+std::optional<size_t> indexIn(std::string_view step, size_t limit) {
+  size_t index = 0;
+  const auto [end, error] = std::from_chars(step.data(), step.data() + step.size(), index);
+  if (error != std::errc() || end != step.data() + step.size() || index >= limit) return std::nullopt;
+  return index;
+}
+
+// What a pointer of KHR_animation_pointer names; nothing where that is none of what we animate.
+std::optional<Target> namedBy(std::string_view pointer, const Import& import, const Maps& maps,
+                              const SceneData& scene) {
+  const std::vector<std::string_view> steps = stepsOf(pointer);
+  if (steps.size() < 3) return std::nullopt;
+  const bool isNode = steps[0] == "nodes", isMesh = steps[0] == "meshes";
+  const std::vector<int>& map = isNode ? maps.nodes : maps.meshes;
+  const std::optional<size_t> index = isNode || isMesh ? indexIn(steps[1], map.size()) : std::nullopt;
+  if (!index) return std::nullopt;
+  Target target;
+  const int ours = map[*index];
+  if (isNode && ours >= 0) target.nodes.push_back(ours);
+  // A mesh's own weights are those of nodes that have none.
+  if (isMesh)
+    for (size_t file = 0; file < maps.nodes.size(); ++file)
+      if (const int n = maps.nodes[file]; n >= 0 && ours >= 0 && scene.nodes[size_t(n)].mesh == ours &&
+                                          !import.document.list("nodes").at(file).has("weights"))
+        target.nodes.push_back(n);
+
+  if (isNode && steps.size() == 5 && steps[2] == "extensions" && steps[3] == "KHR_node_visibility" &&
+      steps[4] == "visible") {
+    target.property = AnimatedProperty::visible;
+    return target;
+  }
+  const std::optional<AnimatedProperty> property = propertyOf(steps[2]);
+  if (!property || (isMesh && *property != AnimatedProperty::weights)) return std::nullopt;
+  target.property = *property;
+  if (steps.size() == 3) return target;
+  // One of the weights.
+  const std::optional<size_t> weight = indexIn(steps[3], kMaxMorphTargets);
+  if (steps.size() != 4 || *property != AnimatedProperty::weights || !weight) return std::nullopt;
+  target.weight = int(*weight);
+  std::erase_if(target.nodes,
+                [&](int n) { return *weight >= morphTargetsOf(scene, scene.nodes[size_t(n)]); });
+  return target;
+}
+
+Target targetOf(const Import& import, const Maps& maps, const SceneData& scene, const JsonView& json) {
   const JsonView target = json.object("target");
   if (!target) json.failAt("target", "is missing");
-  const int64_t node = target.index("node", maps.nodes.size(), "node");
-  if (node < 0 || maps.nodes[node] < 0) return false;
-  channel.node = maps.nodes[node];
-  if (scene.nodes[channel.node].localMatrix)
-    target.failAt("node", "names a node whose matrix is no composition of translation, rotation and scale");
-  if (!propertyOf(target.text("path"), channel.property)) target.failAt("path", "is not a known property");
+  Target found;
+  if (target.text("path") == "pointer") {
+    const JsonView extension = target.extension(kPointer);
+    const std::string pointer = extension ? extension.text("pointer") : "";
+    const std::optional<Target> named = namedBy(pointer, import, maps, scene);
+    if (!named) {
+      const ImportFailure failure{Error{ErrorKind::unusableFile, "", 0,
+                                        (extension ? extension : target).pathOf("pointer"),
+                                        "animates \"" + pointer.substr(0, 80) + "\", which scumble does not",
+                                        "export the scene without that animation"}};
+      if (import.document.isRequired(kPointer)) throw Refusal{failure};
+      throw failure;
+    }
+    found = *named;
+  } else {
+    const std::optional<AnimatedProperty> property = propertyOf(target.text("path"));
+    const int64_t node = target.index("node", maps.nodes.size(), "node");
+    if (node >= 0 && maps.nodes[size_t(node)] >= 0) found.nodes.push_back(maps.nodes[size_t(node)]);
+    if (!property && !found.nodes.empty()) target.failAt("path", "is not a known property");
+    found.property = property.value_or(AnimatedProperty::translation);
+  }
+  const bool moves =
+      found.property != AnimatedProperty::weights && found.property != AnimatedProperty::visible;
+  for (const int node : found.nodes)
+    if (moves && scene.nodes[size_t(node)].localMatrix)
+      target.failAt("node", "names a node whose matrix is no composition of translation, rotation and scale");
+  return found;
+}
 
+// Numbers of one key of a property; of weights, one of them.
+int shapeOf(AnimatedProperty property) {
+  switch (property) {
+    case AnimatedProperty::weights:
+    case AnimatedProperty::visible:
+      return 1;
+    case AnimatedProperty::rotation:
+      return 4;
+    default:
+      return 3;
+  }
+}
+
+// For the node, property and weight that `channel` has already.
+Channel readChannel(const Import& import, const SceneData& scene, const JsonView& json,
+                    const JsonView& samplers, Channel channel) {
   // When, and how it goes from key to key.
   const JsonView sampler =
       samplers.at(static_cast<size_t>(json.requiredIndex("sampler", samplers.size(), "sampler")));
   const std::string interpolation = sampler.text("interpolation", "LINEAR");
-  if (interpolation == "STEP")
+  if (interpolation == "STEP" || channel.property == AnimatedProperty::visible)
     channel.interpolation = Interpolation::step;
   else if (interpolation == "CUBICSPLINE")
     channel.interpolation = Interpolation::cubicSpline;
@@ -129,14 +236,14 @@ bool readChannel(const Import& import, const Maps& maps, const SceneData& scene,
 
   // As many values as the keys ask for.
   const size_t tangents = channel.interpolation == Interpolation::cubicSpline ? 3 : 1;
-  const bool weights = channel.property == AnimatedProperty::weights;
-  const int shape = weights ? 1 : channel.property == AnimatedProperty::rotation ? 4 : 3;
+  const bool weights = channel.property == AnimatedProperty::weights && channel.weight < 0;
+  const int shape = shapeOf(channel.property);
   if (output.columns != 1 || output.rows != shape)
     sampler.failAt("output", "has the wrong type for what it animates");
   size_t perKey = static_cast<size_t>(shape);
+  const size_t targets = morphTargetsOf(scene, scene.nodes[channel.node]);
   if (weights) {
     perKey = output.count / (channel.times.size() * tangents);
-    const size_t targets = morphTargetsOf(scene, scene.nodes[channel.node]);
     if (perKey == 0 || targets == 0 || perKey < targets)
       sampler.failAt("output", "does not fit the mesh's morph targets");
   }
@@ -149,7 +256,6 @@ bool readChannel(const Import& import, const Maps& maps, const SceneData& scene,
   channel.values.resize(elements * shape);
   readFloats(output, {}, shape, channel.values.data());
   if (weights) {
-    const size_t targets = morphTargetsOf(scene, scene.nodes[channel.node]);
     trimWeights(channel, perKey, targets);
     perKey = targets;
   }
@@ -157,12 +263,27 @@ bool readChannel(const Import& import, const Maps& maps, const SceneData& scene,
   cleanKeys(channel, perKey * tangents, json.path(), import.warnings);
   if (channel.times.empty()) json.failAt("sampler", "holds no usable key");
   if (channel.property == AnimatedProperty::rotation) normalizeRotations(channel);
-  return true;
+  return channel;
+}
+
+// All that a channel of the file moves.
+void readChannels(const Import& import, const Maps& maps, const SceneData& scene, const JsonView& json,
+                  const JsonView& samplers, Clip& clip) {
+  const Target target = targetOf(import, maps, scene, json);
+  for (const int node : target.nodes) {
+    Channel channel;
+    channel.node = node;
+    channel.property = target.property;
+    channel.weight = target.weight;
+    channel = readChannel(import, scene, json, samplers, std::move(channel));
+    clip.duration = std::max(clip.duration, channel.times.back());
+    clip.channels.push_back(std::move(channel));
+  }
 }
 
 }  // namespace
 
-void readClips(const Import& import, const Maps& maps, SceneData& scene) {
+void readClips(const Import& import, const Maps& maps, SceneData& scene) try {
   JsonView list;
   try {
     list = import.document.list("animations");
@@ -177,11 +298,7 @@ void readClips(const Import& import, const Maps& maps, SceneData& scene) {
       if (clip.name.empty()) clip.name = "clip " + std::to_string(i);
       for (size_t k = 0; k < channels.size(); ++k) {
         try {
-          Channel channel;
-          if (readChannel(import, maps, scene, channels.at(k), samplers, channel)) {
-            clip.duration = std::max(clip.duration, channel.times.back());
-            clip.channels.push_back(std::move(channel));
-          }
+          readChannels(import, maps, scene, channels.at(k), samplers, clip);
         } catch (const ImportFailure& failure) {
           warnIgnored(import.warnings, failure, "an animation channel is");
         }
@@ -191,6 +308,8 @@ void readClips(const Import& import, const Maps& maps, SceneData& scene) {
     }
     if (!clip.channels.empty()) scene.clips.push_back(std::move(clip));
   }
+} catch (const Refusal& refusal) {
+  throw refusal.failure;
 }
 
 }  // namespace scumble::gltf

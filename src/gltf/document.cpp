@@ -17,12 +17,14 @@ constexpr std::string_view kSupported[] = {"EXT_mesh_gpu_instancing",
                                            "EXT_meshopt_compression",
                                            "EXT_texture_webp",
                                            "FB_ngon_encoding",
+                                           "KHR_animation_pointer",
                                            "KHR_draco_mesh_compression",
                                            "KHR_lights_punctual",
                                            "KHR_materials_emissive_strength",
                                            "KHR_materials_pbrSpecularGlossiness",
                                            "KHR_materials_unlit",
                                            "KHR_mesh_quantization",
+                                           "KHR_node_visibility",
                                            "KHR_texture_transform",
                                            "VRM",
                                            "VRMC_materials_mtoon"};
@@ -30,7 +32,7 @@ constexpr std::string_view kSupported[] = {"EXT_mesh_gpu_instancing",
 // Extensions without which the scene is still itself, only plainer: required or not, they end in a warning.
 constexpr std::string_view kOnlyLooks[] = {"KHR_materials_", "EXT_materials_", "MSFT_texture_",
                                            "KHR_texture_",   "EXT_texture_",   "ADOBE_materials_",
-                                           "EXT_lights_",    "KHR_xmp",        "KHR_animation_pointer"};
+                                           "EXT_lights_",    "KHR_xmp"};
 
 bool isSupported(std::string_view name) {
   return std::find(std::begin(kSupported), std::end(kSupported), name) != std::end(kSupported);
@@ -143,6 +145,7 @@ void Document::checkVersion() const {
 void Document::checkExtensions(ImportWarnings& warnings) {
   const std::vector<std::string> used = namesIn(root(), "extensionsUsed");
   const std::vector<std::string> required = namesIn(root(), "extensionsRequired");
+  extensionsRequired_.insert(required.begin(), required.end());
   for (size_t i = 0; i < required.size(); ++i)
     if (!isSupported(required[i]) && !changesOnlyLooks(required[i]))
       fail("extensionsRequired[" + std::to_string(i) + "]",

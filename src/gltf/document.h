@@ -1,6 +1,7 @@
 // A glTF as parsed JSON, with the binary chunk of a .glb; version and extensions checked.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ class Document {
 
   const std::vector<std::string>& extensionsUsed() const { return extensionsUsed_; }
   const std::vector<std::string>& extensionsNotSupported() const { return extensionsNotSupported_; }
+  bool isRequired(const std::string& extension) const { return extensionsRequired_.contains(extension); }
 
  private:
   std::string_view splitGlb(Bytes bytes, ImportWarnings& warnings);
@@ -35,6 +37,7 @@ class Document {
   bool hasBinaryChunk_ = false;
   Bytes binaryChunk_;
   std::vector<std::string> extensionsUsed_, extensionsNotSupported_;
+  std::set<std::string> extensionsRequired_;
 };
 
 }  // namespace scumble::gltf

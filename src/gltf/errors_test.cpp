@@ -157,13 +157,55 @@ TEST(GltfErrors, uris) {
     EXPECT_EQ(failingPath(whole.dump()), "buffers[0].uri") << uri;
   }
   whole = Json::parse(quad().gltf());
-  whole["images"] = {{{"uri", "http://example.org/unused.png"}}};
+  whole["images"] = {{{"uri", "file:///unused.png"}}};
   EXPECT_EQ(failingPath(whole.dump()), "images[0].uri");
   EXPECT_EQ(gltf::resolveFileUri("a%20b/./c.bin", "folder", false, ""), "folder/a b/c.bin");
   EXPECT_EQ(gltf::resolveFileUri("x/../c.bin", "folder", false, ""), "folder/c.bin");
   EXPECT_EQ(gltf::resolveFileUri("../c.bin", "folder", true, ""), "folder/../c.bin");
   EXPECT_EQ(gltf::resolveFileUri("100%.bin", "folder", false, ""), "folder/100%.bin");
   EXPECT_THROW(gltf::resolveFileUri("", "folder", false, ""), ImportFailure);
+  EXPECT_THROW(gltf::resolveFileUri("?v=2", "folder", false, ""), ImportFailure);
+  EXPECT_THROW(gltf::resolveFileUri("..\\a.bin", "folder", false, ""), ImportFailure);
+  EXPECT_THROW(gltf::resolveFileUri("a\\..\\..\\b.bin?x", "folder", false, ""), ImportFailure);
+}
+
+// As exporters and servers write them; but a file of just that name is meant before all.
+TEST(GltfErrors, urisOfOtherWriters) {
+  const TestFolder made;
+  const std::string folder = made.path();
+  for (const char* uri : {"textures\\back.png", "textures/back.png?v=2", "textures/back.png#part", "textures%5Cback.png",
+                          ".\\textures\\back.png?a=b?c", "textures//back.png"})
+    EXPECT_EQ(gltf::resolveFileUri(uri, folder, false, ""), folder + "/textures/back.png") << uri;
+  for (const char* name : {"q.png?v=2", "tex#1.png", "back\\slash.png"}) {
+    std::ofstream(made.file(name)) << "x";
+    EXPECT_EQ(gltf::resolveFileUri(name, folder, false, ""), folder + "/" + name);
+  }
+  const std::vector<uint8_t> bytes{1, 2, 3, 250};
+  for (const char* uri :
+       {"data:application/octet-stream;base64,AQID+g==", "DATA:application/octet-stream;BASE64,AQID+g==",
+        "data:;base64,AQ\r\nID\n+g==\n", "data:;base64,AQID%2Bg%3D%3D", "data:;base64,AQID-g", "data:;base64 ,AQID+g",
+        "data:,%01%02%03%FA", "data:a/b;charset=x;base64,AQID+g=="}) {
+    EXPECT_TRUE(gltf::isDataUri(uri)) << uri;
+    EXPECT_EQ(gltf::decodeDataUri(uri, ""), bytes) << uri;
+  }
+  for (const char* uri : {"data:;base64", "data:;base64,A*ID", "data:;base64,AQ==ID"})
+    EXPECT_THROW(gltf::decodeDataUri(uri, ""), ImportFailure) << uri;
+}
+
+// Pictures may lie on the network, where nobody asks for them: a stand-in, and a word for all of them.
+TEST(GltfErrors, imagesOnTheNetwork) {
+  TestGltf g = quad();
+  g.json["images"] = {{{"uri", "https://vr.example/a.png"}}, {{"uri", "HTTP://vr.example/b.png"}}};
+  g.json["textures"] = {{{"source", 0}}, {{"source", 1}}};
+  g.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}},
+                          {"emissiveTexture", {{"index", 1}}}}};
+  g.json["meshes"][0]["primitives"][0]["material"] = 0;
+  const Result<Scene> scene = load(g.glb());
+  ASSERT_TRUE(scene.ok()) << scene.error().message();
+  ASSERT_EQ(scene->data().images.size(), 2u);
+  for (const Image& image : scene->data().images) EXPECT_TRUE(image.standIn);
+  ASSERT_EQ(scene->warnings().size(), 1u);
+  EXPECT_NE(scene->warnings()[0].find("network"), std::string::npos);
 }
 
 TEST(GltfErrors, filesBesideTheScene) {

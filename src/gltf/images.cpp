@@ -3,6 +3,7 @@
 
 #include "base/image_decode.h"
 #include "gltf/import.h"
+#include "gltf/uri.h"
 #include "scene/parallel.h"
 
 namespace scumble::gltf {
@@ -38,7 +39,7 @@ void findBytes(const Import& import, Task& task) {
     const Json& uri = json.json()["uri"];
     if (!uri.is_string()) fail(task.path, "is not a string");
     const std::string& text = uri.get_ref<const std::string&>();
-    if (task.image->name.empty() && text.size() < 300)
+    if (task.image->name.empty() && text.size() < 300 && !isDataUri(text))
       task.image->name = std::filesystem::path(text).filename().string();
     if (!import.buffers.imageFile(text, task.path, task.holder, task.bytes, task.problem)) return;
   }

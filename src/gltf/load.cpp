@@ -66,6 +66,8 @@ std::shared_ptr<SceneData> import(Bytes bytes, const FileBytes* file, const std:
   progress.step();
   data->extensionsUsed = document.extensionsUsed();
   data->extensionsNotSupported = document.extensionsNotSupported();
+  data->facesBack =
+      std::find(data->extensionsUsed.begin(), data->extensionsUsed.end(), "VRM") != data->extensionsUsed.end();
   timings.parse = watch.lap();
 
   Maps maps;
@@ -74,15 +76,19 @@ std::shared_ptr<SceneData> import(Bytes bytes, const FileBytes* file, const std:
   readCamerasAndLights(import, *data, maps);
   readSkins(import, *data, maps);
   readClips(import, maps, *data);
-  placeScene(*data, warnings);
-  requireMeshes(*data);
-  keepLevelsApart(*data);
   timings.geometry = watch.lap();
 
   const OutlineTextures outlines = readMaterials(import, *data);
   readImages(import, *data);
   readOutlineWidths(outlines, *data);
   timings.images = watch.lap();
+
+  placeScene(*data, warnings);
+  requireMeshes(*data);
+  if (data->bounds.empty)
+    warnings.add("nodes", "nothing is to be seen: all that it draws is hidden, of scale 0 or transparent");
+  keepLevelsApart(*data);
+  timings.geometry += watch.lap();
   data->warnings = warnings.lines(name);
   progress.expect(1, 1);
   progress.step();

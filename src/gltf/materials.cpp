@@ -60,7 +60,7 @@ class MaterialReader {
     m.metallic = 1.0f;  // the specification's default, where a material is given
     m.name = json.text("name");
     m.doubleSided = json.flag("doubleSided", false);
-    m.alphaCutoff = std::clamp(json.number("alphaCutoff", 0.5f), 0.0f, 1.0f);
+    m.alphaCutoff = std::max(json.number("alphaCutoff", 0.5f), 0.0f);  // above 1 all is cut away
     const std::string alphaMode = json.text("alphaMode", "OPAQUE");
     if (alphaMode == "MASK")
       m.alphaMode = AlphaMode::mask;

@@ -248,6 +248,8 @@ void readNodes(const Import& import, int wantedScene, SceneData& scene, Maps& ma
       if (extensions.has("KHR_lights_punctual"))
         node.light = optionalIndex(import, extensions.object("KHR_lights_punctual"), "light",
                                    maps.lights.size(), "light");
+      if (const JsonView visibility = extensions.object("KHR_node_visibility"))
+        node.visible = visibility.flag("visible", true);
       const JsonView instancing = extensions.object("EXT_mesh_gpu_instancing");
       if (instancing && node.mesh >= 0) node.instances = readInstances(import, instancing);
     }

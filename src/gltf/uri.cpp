@@ -1,5 +1,6 @@
 #include "gltf/uri.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <filesystem>
@@ -63,26 +64,69 @@ constexpr std::array<int8_t, 256> makeBase64Table() {
 }
 constexpr std::array<int8_t, 256> kBase64 = makeBase64Table();
 
+// What is before `?` and `#`, where those are no part of a name: a query says how to fetch, not what.
+std::string_view withoutQuery(std::string_view uri) {
+  return uri.substr(0, std::min(uri.find('?'), uri.find('#')));
+}
+
+// Whether a path does not lead out of a folder.
+bool isInside(const std::string& path) {
+  const std::filesystem::path relative = std::filesystem::path(path).lexically_normal();
+  return !relative.is_absolute() && (relative.empty() || *relative.begin() != "..");
+}
+
+bool isSpace(char c) {
+  return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\f';
+}
+
+bool equalsInSmall(std::string_view text, std::string_view small) {
+  return text.size() == small.size() && std::equal(text.begin(), text.end(), small.begin(), [](char a, char b) {
+           return std::tolower(static_cast<unsigned char>(a)) == b;
+         });
+}
+
+// Bytes as text has them: %20 and the like undone.
+std::vector<uint8_t> bytesOf(std::string_view text) {
+  const std::string decoded = percentDecoded(text);
+  return {decoded.begin(), decoded.end()};
+}
+
 }  // namespace
 
 bool isDataUri(std::string_view uri) {
-  const std::string_view scheme = schemeOf(uri);
-  return scheme.size() == 4 && (scheme[0] | 32) == 'd' && (scheme[1] | 32) == 'a' &&
-         (scheme[2] | 32) == 't' && (scheme[3] | 32) == 'a';
+  return equalsInSmall(schemeOf(uri), "data");
+}
+
+bool isRemoteUri(std::string_view uri) {
+  return equalsInSmall(schemeOf(uri), "http") || equalsInSmall(schemeOf(uri), "https");
 }
 
 std::vector<uint8_t> decodeDataUri(std::string_view uri, const std::string& jsonPath) {
   const size_t comma = uri.find(',');
-  if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(";base64"))
-    fail(jsonPath, "is a data URI that is not base64", "export the scene with base64 data or a .bin file");
+  if (comma == std::string_view::npos)
+    fail(jsonPath, "is a data URI without data", "export the scene with base64 data or a .bin file");
+  // RFC 2397: the last of the words between semicolons says how bytes are written.
+  std::string_view type = uri.substr(0, comma);
+  while (!type.empty() && isSpace(type.back())) type.remove_suffix(1);
   std::string_view text = uri.substr(comma + 1);
-  while (text.ends_with('=')) text.remove_suffix(1);
+  const size_t semicolon = type.rfind(';');
+  std::string_view last = semicolon == type.npos ? std::string_view() : type.substr(semicolon + 1);
+  while (!last.empty() && isSpace(last.front())) last.remove_prefix(1);
+  if (!equalsInSmall(last, "base64")) return bytesOf(text);
+  // Some writers percent-encode what base64 has of signs.
+  std::string decoded;
+  if (text.find('%') != text.npos) text = decoded = percentDecoded(text);
 
   std::vector<uint8_t> bytes;
   bytes.reserve(text.size() / 4 * 3 + 3);
   uint32_t bits = 0;
   int bitCount = 0;
+  bool hasEnded = false;
   for (const char c : text) {
+    if (isSpace(c)) continue;  // lines are broken
+    hasEnded |= c == '=';
+    if (c == '=') continue;
+    if (hasEnded) fail(jsonPath, "holds base64 that goes on after its end", "export the scene again");
     const int8_t digit = kBase64[static_cast<unsigned char>(c)];
     if (digit < 0) fail(jsonPath, "holds base64 with a letter that is none", "export the scene again");
     bits = (bits << 6 | static_cast<uint32_t>(digit)) & 0xffffff;
@@ -101,19 +145,26 @@ std::string resolveFileUri(std::string_view uri, const std::string& folder, bool
     fail(jsonPath,
          "points to \"" + shortened(uri) + "\", and scumble never uses the network or other schemes",
          "put the file beside the scene and name it by a relative path");
-  const std::string path = percentDecoded(uri);
+  // Programs on Windows write its separators, and servers' addresses go on with a query. But where there is a file
+  // that is called just so, that is meant.
+  std::string path = percentDecoded(withoutQuery(uri));
+  std::replace(path.begin(), path.end(), '\\', '/');
+  if (const std::string literal = percentDecoded(uri); literal != path && isInside(literal)) {
+    std::error_code failed;
+    if (!folder.empty() && literal.find('\0') == std::string::npos &&
+        std::filesystem::is_regular_file(std::filesystem::path(folder) / literal, failed))
+      path = literal;
+  }
   if (path.empty() || path.find('\0') != std::string::npos)
     fail(jsonPath, "is not a usable path: \"" + shortened(uri) + "\"");
   if (folder.empty())
     fail(jsonPath,
          "names the file \"" + shortened(path) + "\", but this scene comes from memory and has no folder",
          "use a .glb that holds everything");
-  const std::filesystem::path relative = std::filesystem::path(path).lexically_normal();
-  const bool outside = relative.is_absolute() || (!relative.empty() && *relative.begin() == "..");
-  if (outside && !allowOutside)
+  if (!isInside(path) && !allowOutside)
     fail(jsonPath, "leads out of the scene's folder: \"" + shortened(path) + "\"",
          "move the file into the folder, or give --allow-outside");
-  return (std::filesystem::path(folder) / relative).string();
+  return (std::filesystem::path(folder) / std::filesystem::path(path).lexically_normal()).string();
 }
 
 }  // namespace scumble::gltf

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <optional>
 
 #include "base/color_text.h"
+#include "base/numbers.h"
 #include "base/usage.h"
 #include "look/absent_groups.h"
 #include "scumble/nearest.h"
@@ -220,11 +220,10 @@ Status checkNumber(const ParamRow& row, double number, const std::string& text) 
 namespace {
 
 Result<double> parseNumber(const ParamRow& row, const std::string& text) {
-  char* end = nullptr;
-  const double number = text.empty() ? 0 : std::strtod(text.c_str(), &end);
-  if (!end || *end || !std::isfinite(number)) return usage("'" + text + "' is no number", "write a number");
-  if (const Status status = checkNumber(row, number, text); !status) return status.error();
-  return number;
+  const std::optional<double> number = numberOf(text);
+  if (!number) return usage("'" + text + "' is no number", "write a number");
+  if (const Status status = checkNumber(row, *number, text); !status) return status.error();
+  return *number;
 }
 
 Result<Value> parseTriple(const ParamRow& row, const std::string& text) {

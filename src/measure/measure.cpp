@@ -3,6 +3,8 @@
 // them.
 #include "scumble/measure.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -132,7 +134,7 @@ class Measurer {
         double copies = ofVectors;
         if (of == "breakup.metatexture.")
           copies *= sizeOf(materials + "warp.metatexture.") / sizeOf(materials + of);
-        return std::to_string(std::clamp(copies, 0.01, 10000.0));  // the knob's range
+        return fmt::format("{:f}", std::clamp(copies, 0.01, 10000.0));  // the knob's range
       };
       everywhere(of + "tiles", tiles("", result_.tiles));
       for (const auto& [material, ofVectors] : tilesOf_)

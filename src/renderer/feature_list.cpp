@@ -47,11 +47,11 @@ std::vector<world::PlannedFeature> plannedFeatures(const scene::SceneData& scene
   return planned;
 }
 
-std::vector<std::string> aovsOfDrawings(const look::LookData& look) {
+std::vector<std::string> aovsOfDrawings(const scene::SceneData& scene, const look::LookData& look) {
   std::vector<std::string> names;
   for (const frame::FeatureParts& parts : features())
     if (parts.drawing.aovs)
-      for (const char* const name : parts.drawing.aovs(look))
+      for (const char* const name : parts.drawing.aovs(scene, look))
         if (std::find(names.begin(), names.end(), name) == names.end()) names.emplace_back(name);
   return names;
 }

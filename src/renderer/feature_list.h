@@ -14,7 +14,7 @@ const std::vector<frame::FeatureParts>& features();
 std::vector<world::PlannedFeature> plannedFeatures(const scene::SceneData& scene, const look::LookData& look);
 
 // Names of AOVs that drawings under a look, at its time, are made from; none where it draws no lines.
-std::vector<std::string> aovsOfDrawings(const look::LookData& look);
+std::vector<std::string> aovsOfDrawings(const scene::SceneData& scene, const look::LookData& look);
 // What to do where a look draws none.
 std::string adviceForDrawings();
 

@@ -6,6 +6,7 @@
 
 #include "passes/shadow_map/shadow_map_knobs.h"
 #include "renderer/feature_list.h"
+#include "scene/seen.h"
 #include "scumble/nearest.h"
 #include "stage/framing.h"
 #include "stage/light.h"
@@ -27,13 +28,16 @@ double millisecondsSince(Clock::time_point start) {
 
 static_assert(Renderer::kMaxBegun <= int(gpu::kFramesInFlight), "each frame begun has copies of its own");
 
-// Frame::objects.
+// Frame::objects: of what is seen at some time.
 std::vector<std::string> objectNames(const scene::SceneData& scene, const GeometryOptions& options) {
   std::vector<std::string> names;
-  for (const scene::Node& node : scene.nodes)
-    names.push_back(node.mesh < 0       ? ""
-                    : node.name.empty() ? "node " + std::to_string(names.size() + 1)
+  const std::vector<bool> seen = scene::seenNodes(scene, options.clips);
+  for (size_t n = 0; n < scene.nodes.size(); ++n) {
+    const scene::Node& node = scene.nodes[n];
+    names.push_back(!seen[n]            ? ""
+                    : node.name.empty() ? "node " + std::to_string(n + 1)
                                         : node.name);
+  }
   names.push_back(options.ground ? "Ground" : "");
   for (const PlannedFeature& planned : options.features)
     if (!planned.feature->material().empty())
@@ -140,7 +144,7 @@ Status Renderer::Impl::begin(const Request& request) {
     next.formats = options.formats;
     if (options.drawing) {
       next.drawnLook = now;
-      for (const std::string& name : aovsOfDrawings(now)) {
+      for (const std::string& name : aovsOfDrawings(scene.data(), now)) {
         next.formats.erase(name);  // of floats
         if (std::find(options.aovs.begin(), options.aovs.end(), name) == options.aovs.end())
           next.drawnFrom.push_back(name);
@@ -243,7 +247,8 @@ Status Renderer::Impl::begin(const Request& request) {
           frameUniforms(sceneOnGpu, knobs, viewsOf(part.group, seenFrom), viewsOf(part.group, seenBefore),
                         rigOf(part.group.rig, seenFrom), time, part.group.size, sphere);
       const std::vector<shared::PunctualLight> lights = punctualLights(
-          scene.data(), knobs.scene<LightParams>(), sceneOnGpu.motion().world(), uniforms.sceneRadius);
+          scene.data(), knobs.scene<LightParams>(), sceneOnGpu.motion().world(), sceneOnGpu.motion().shown(),
+          uniforms.sceneRadius);
       uniforms.lightCount = uint32_t(lights.size());
       std::optional<BackdropInput> behind;
       if (background)
@@ -365,12 +370,13 @@ void Renderer::Impl::draw(Begun& frame) {
   for (size_t view = 0; view < frame.viewCount; ++view) {
     const Image& picture = layers.front().views[view];
     Drawing& drawing = frame.frame.drawings.emplace_back(Drawing{picture.width, picture.height, {}});
-    const auto aov = [&](const char* name) -> const Image& {
-      return std::find_if(layers.begin(), layers.end(), [&](const auto& layer) { return layer.name == name; })
-          ->views[view];
+    const auto aov = [&](const char* name) -> const Image* {
+      const auto found = std::find_if(layers.begin(), layers.end(),
+                                      [&](const Frame::Layer& layer) { return layer.name == name; });
+      return found == layers.end() ? nullptr : &found->views[view];
     };
     for (const FeatureParts& parts : features())
-      if (parts.drawing.aovs && !parts.drawing.aovs(*frame.drawnLook).empty())
+      if (parts.drawing.add)
         parts.drawing.add(aov, *frame.drawnLook, drawing);
   }
   std::erase_if(layers, [&](const Frame::Layer& layer) {

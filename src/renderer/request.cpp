@@ -92,7 +92,7 @@ Status Renderer::Impl::check(const Request& request) const {
 
   if (options.drawing && (delivery || request.isYardstick))
     return usage("only frames that come back have drawings", "render the picture by itself");
-  if (options.drawing && aovsOfDrawings(request.look.at(time)).empty())
+  if (options.drawing && aovsOfDrawings(request.scene.data(), request.look.at(time)).empty())
     return usage("a drawing is made of lines", adviceForDrawings());
   // Only what a pass offers can be saved.
   const std::vector<const Aov*> offered = request.isYardstick ? std::vector<const Aov*>() : aovs;
@@ -136,7 +136,7 @@ SetupKey Renderer::Impl::keyOf(const Request& request, const look::LookData& now
   key.readsBack = !request.delivery;
   key.aovs = request.options.aovs;
   if (request.options.drawing)
-    for (const std::string& name : aovsOfDrawings(now))
+    for (const std::string& name : aovsOfDrawings(request.scene.data(), now))
       if (std::find(key.aovs.begin(), key.aovs.end(), name) == key.aovs.end()) key.aovs.push_back(name);
   for (const auto& pass : key.plain ? askedPlain : asked)
     key.variants.push_back(pass->variant(request.scene.data(), now));

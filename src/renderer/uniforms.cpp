@@ -82,7 +82,7 @@ shared::FrameUniforms frameUniforms(const SceneOnGpu& scene, const KnobTable& kn
   u.cyclopeanNdcToEyeRay = cyclopean.ndcToEyeRay;
 
   const LightParams light = knobs.scene<LightParams>();
-  u.toLight = keyLightDirection(scene.data(), light, scene.motion().world());
+  u.toLight = keyLightDirection(scene.data(), light, scene.motion().world(), scene.motion().shown());
   u.viewer = viewer;
   setLightSpace(u, scene.casters(), light, viewer);
   return u;

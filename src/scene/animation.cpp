@@ -62,6 +62,7 @@ glm::quat unit(const glm::quat& q, const glm::quat& instead) {
 struct NodeMix {
   Mix<glm::vec3> translation, scale;
   Mix<glm::quat> rotation{glm::quat(0, 0, 0, 0)};
+  Mix<float> visible;
 
   void add(const Node& node, AnimatedProperty property, const float* v, float share) {
     switch (property) {
@@ -69,11 +70,14 @@ struct NodeMix {
         return translation.add({v[0], v[1], v[2]}, share);
       case AnimatedProperty::scale:
         return scale.add({v[0], v[1], v[2]}, share);
+      case AnimatedProperty::visible:
+        return visible.add(v[0] > 0.5f ? 1.0f : 0.0f, share);
       default:
         return rotation.add(sameSide(quaternion(v), rotation.weight > 0 ? rotation.sum : node.local.rotation),
                             share);
     }
   }
+  bool isVisible(const Node& node) const { return visible.over(node.visible ? 1.0f : 0.0f) >= 0.5f; }
   glm::mat4 matrix(const Node& node) const {
     if (node.localMatrix) return *node.localMatrix;
     Transform transform;
@@ -142,7 +146,7 @@ Pose poseAt(const SceneData& scene, std::span<const PlayedClip> clips, const Nod
   std::vector<NodeMix> mixes(clips.empty() ? 0 : count);
   Pose pose;
   pose.morphWeights.resize(count);
-  std::vector<float> morphShares(clips.empty() ? 0 : count, 0.0f);
+  std::vector<std::vector<float>> morphShares(clips.empty() ? 0 : count);  // by node and weight
   std::vector<float> sampled;
   for (const PlayedClip& played : clips) {
     const Clip& clip = scene.clips[size_t(played.clip)];
@@ -158,24 +162,32 @@ Pose poseAt(const SceneData& scene, std::span<const PlayedClip> clips, const Nod
         mixes[node].add(scene.nodes[node], channel.property, sampled.data(), played.weight);
         continue;
       }
-      std::vector<float>& weights = pose.morphWeights[node];
-      weights.resize(sampled.size(), 0.0f);
-      for (size_t i = 0; i < sampled.size(); ++i) weights[i] += played.weight * sampled[i];
-      morphShares[node] += played.weight;
+      std::vector<float>&weights = pose.morphWeights[node], &shares = morphShares[node];
+      const size_t first = channel.weight < 0 ? 0 : size_t(channel.weight);
+      weights.resize(std::max(weights.size(), first + sampled.size()), 0.0f);
+      shares.resize(weights.size(), 0.0f);
+      for (size_t i = 0; i < sampled.size(); ++i) {
+        weights[first + i] += played.weight * sampled[i];
+        shares[first + i] += played.weight;
+      }
     }
   }
 
   pose.world.resize(count);
+  pose.shown.resize(count);
   for (size_t n = 0; n < count; ++n) {
     const Node& node = scene.nodes[n];
     if (node.mesh >= 0) {
       const std::vector<float>& rest = restMorphWeights(scene, node);
       std::vector<float>& weights = pose.morphWeights[n];
-      const float share = clips.empty() ? 0.0f : morphShares[n];
       weights.resize(rest.size(), 0.0f);
-      for (size_t i = 0; i < rest.size(); ++i)
+      for (size_t i = 0; i < rest.size(); ++i) {
+        const float share = !clips.empty() && i < morphShares[n].size() ? morphShares[n][i] : 0.0f;
         weights[i] = share > 1 ? weights[i] / share : weights[i] + (1 - share) * rest[i];
+      }
     }
+    const bool isVisible = clips.empty() ? node.visible : mixes[n].isVisible(node);
+    pose.shown[n] = isVisible && (node.parent < 0 || pose.shown[size_t(node.parent)]);
     const glm::mat4 local = clips.empty() ? node.restTransform() : mixes[n].matrix(node);
     pose.world[n] = drawable(node.parent >= 0 ? pose.world[size_t(node.parent)] * local : local);
   }

@@ -34,10 +34,12 @@ struct NodeTimes {
 struct Pose {
   std::vector<glm::mat4> world;                  // by node
   std::vector<std::vector<float>> morphWeights;  // by node: as many as its mesh has targets
+  std::vector<bool> shown;                       // by node: whether it and all nodes above it are visible
 };
 
 // What several clips do to one property is averaged by their weights, rotations on the shorter arc; where the
-// weights sum to less than one, the rest pose has what is missing. Matrices that lead out of what numbers can
+// weights sum to less than one, the rest pose has what is missing. A node is visible where that average is a
+// half or more. Matrices that lead out of what numbers can
 // hold become zero: nothing is drawn there.
 Pose poseAt(const SceneData& scene, std::span<const PlayedClip> clips, const NodeTimes& times);
 

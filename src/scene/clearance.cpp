@@ -8,6 +8,7 @@
 #include "scene/landing.h"
 #include "scene/parallel.h"
 #include "scene/posed_bounds.h"
+#include "scene/seen.h"
 #include "scene/surface_points.h"
 
 namespace scumble::scene {
@@ -157,7 +158,7 @@ double clearance(Placed& a, Placed& b) {
 void keepLevelsApart(SceneData& scene) {
   // Each mesh where it stands first.
   const Pose rest = poseAt(scene, {}, 0);
-  const std::vector<bool> shown = shownNodes(scene);
+  const std::vector<bool> shown = everShownNodes(scene);
   std::vector<Part> parts;
   std::vector<bool> seen(scene.meshes.size());
   bool anyLevels = false;

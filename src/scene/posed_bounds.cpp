@@ -6,13 +6,14 @@
 
 #include "scene/painting.h"
 #include "scene/prepare_mesh.h"
+#include "scene/seen.h"
 
 namespace scumble::scene {
 
 namespace {
 
 void addBox(Bounds& bounds, const Bounds& box, const glm::mat4& matrix) {
-  if (box.empty) return;
+  if (box.empty || !keepsArea(matrix)) return;
   // The box of a box: each axis by the matrix's absolute entries.
   const glm::vec3 center(matrix * glm::vec4(box.center(), 1.0f)), half = 0.5f * (box.max - box.min);
   const glm::vec3 reach = glm::abs(glm::vec3(matrix[0])) * half.x + glm::abs(glm::vec3(matrix[1])) * half.y +
@@ -56,12 +57,23 @@ glm::vec3 morphedPosition(const Primitive& primitive, size_t v, const std::vecto
 // Of so many vertices, spread over the primitive: boxes of more differ by little.
 constexpr size_t kSampledVertices = 1024;
 
+// A primitive as it is seen.
+struct Seen {
+  const Primitive& primitive;
+  const PrimitiveExtent& extent;
+  std::span<const uint32_t> vertices;  // empty: all
+};
+
 // `joints`: empty for what is not skinned, which `model` places.
-void addPrimitive(Bounds& bounds, const Primitive& primitive, const glm::mat4& model,
-                  std::span<const glm::mat4> joints, const std::vector<float>& weights) {
-  if (joints.empty() && primitive.morphTargets.empty()) return addBox(bounds, primitive.extent.box, model);
-  const size_t step = std::max<size_t>(1, primitive.vertexCount() / kSampledVertices);
-  for (size_t v = 0; v < primitive.vertexCount(); v += step) {
+void addPrimitive(Bounds& bounds, const Seen& seen, const glm::mat4& model, std::span<const glm::mat4> joints,
+                  const std::vector<float>& weights) {
+  const Primitive& primitive = seen.primitive;
+  if (joints.empty() && primitive.morphTargets.empty()) return addBox(bounds, seen.extent.box, model);
+  if (joints.empty() ? !keepsArea(model) : std::none_of(joints.begin(), joints.end(), keepsArea)) return;
+  const size_t count = seen.vertices.empty() ? primitive.vertexCount() : seen.vertices.size();
+  const size_t step = std::max<size_t>(1, count / kSampledVertices);
+  for (size_t i = 0; i < count; i += step) {
+    const size_t v = seen.vertices.empty() ? i : seen.vertices[i];
     const glm::vec3 own = morphedPosition(primitive, v, weights);
     const glm::vec3 placed =
         joints.empty() ? glm::vec3(model * glm::vec4(own, 1.0f)) : skinnedPosition(primitive, v, own, joints);
@@ -69,8 +81,8 @@ void addPrimitive(Bounds& bounds, const Primitive& primitive, const glm::mat4& m
   }
 }
 
-// The primitives of these nodes, at any time of these clips: visit(primitive, model, joints, morph weights),
-// once for each instance.
+// What is seen of these nodes, at any time of these clips: visit(seen, model, joints, morph weights), once for
+// each primitive and instance.
 template <class Visit>
 void forEachPlayed(const SceneData& scene, const std::vector<bool>& nodes, std::span<const int> clips,
                    Visit&& visit) {
@@ -78,23 +90,27 @@ void forEachPlayed(const SceneData& scene, const std::vector<bool>& nodes, std::
   forEachPose(scene, clips, [&](const Pose& pose, std::span<const std::vector<glm::mat4>> joints) {
     for (size_t n = 0; n < scene.nodes.size(); ++n) {
       const Node& node = scene.nodes[n];
-      if (node.mesh < 0 || !nodes[n]) continue;
+      if (node.mesh < 0 || !nodes[n] || !pose.shown[n]) continue;
       const Mesh& mesh = scene.meshes[size_t(node.mesh)];
-      for (const Primitive& primitive : mesh.primitives) {
+      for (size_t p = 0; p < mesh.primitives.size(); ++p) {
+        const SeenPart& part = seenOf(scene, node.mesh, p);
+        if (!part.isSeen) continue;
+        const Seen seen{mesh.primitives[p], seenExtent(scene, node.mesh, p), part.vertices};
         const std::vector<float>& weights = pose.morphWeights[n];
-        if (node.skin >= 0 && primitive.influences > 0)
-          visit(primitive, pose.world[n], std::span(joints[size_t(node.skin)]), weights);
+        if (node.skin >= 0 && seen.primitive.influences > 0)
+          visit(seen, pose.world[n], std::span(joints[size_t(node.skin)]), weights);
         else if (node.instances.empty())
-          visit(primitive, pose.world[n], none, weights);
+          visit(seen, pose.world[n], none, weights);
         else
           for (const glm::mat4& instance : node.instances)
-            visit(primitive, pose.world[n] * instance, none, weights);
+            visit(seen, pose.world[n] * instance, none, weights);
       }
       // What bends carries its strokes along, and tells where they are.
       if (!mesh.painting || node.skin >= 0) continue;
-      if (node.instances.empty()) visit(mesh.painting->hull, pose.world[n], none, {});
+      const Seen strokes{mesh.painting->hull, mesh.painting->hull.extent, {}};
+      if (node.instances.empty()) visit(strokes, pose.world[n], none, {});
       for (const glm::mat4& instance : node.instances)
-        visit(mesh.painting->hull, pose.world[n] * instance, none, {});
+        visit(strokes, pose.world[n] * instance, none, {});
     }
   });
 }
@@ -145,15 +161,17 @@ std::vector<glm::vec3> playedOutline(const SceneData& scene, const std::vector<b
     if (isDrawable(p)) points.push_back(p);
   };
   forEachPlayed(scene, nodes, clips,
-                [&](const Primitive& primitive, const glm::mat4& model, std::span<const glm::mat4> joints,
+                [&](const Seen& seen, const glm::mat4& model, std::span<const glm::mat4> joints,
                     const std::vector<float>& weights) {
-                  const PrimitiveExtent& extent = primitive.extent;
-                  if (joints.empty() && primitive.morphTargets.empty()) {
+                  const PrimitiveExtent& extent = seen.extent;
+                  if (joints.empty() && seen.primitive.morphTargets.empty()) {
+                    if (!keepsArea(model)) return;
                     for (size_t i = 0; i < extent.outermostCount; ++i)
                       add(glm::vec3(model * glm::vec4(extent.outermost[i], 1.0f)));
                     return;
                   }
                   forEachBox(extent, model, joints, weights, [&](const Bounds& box, const glm::mat4& matrix) {
+                    if (!keepsArea(matrix)) return;
                     for (int corner = 0; !box.empty && corner < 8; ++corner)
                       add(glm::vec3(matrix * glm::vec4(box.corner(corner), 1.0f)));
                   });
@@ -185,6 +203,25 @@ glm::vec3 skinnedPosition(const Primitive& primitive, size_t v, const glm::vec3&
     if (const float weight = primitive.weights[v * n + k]; weight > 0.0f)
       placed += weight * glm::vec3(joints[primitive.joints[v * n + k]] * glm::vec4(position, 1.0f));
   return placed;
+}
+
+PrimitiveExtent extentOf(const Primitive& primitive, std::span<const uint32_t> vertices) {
+  Primitive part;
+  const size_t n = size_t(primitive.influences);
+  const auto gather = [&](const auto& from, auto& to, size_t each) {
+    if (from.empty()) return;
+    for (const uint32_t v : vertices)
+      to.insert(to.end(), from.begin() + ptrdiff_t(v * each), from.begin() + ptrdiff_t((v + 1) * each));
+  };
+  gather(primitive.positions, part.positions, 1);
+  gather(primitive.joints, part.joints, n);
+  gather(primitive.weights, part.weights, n);
+  part.influences = primitive.influences;
+  for (const MorphTarget& target : primitive.morphTargets)
+    gather(target.positions, part.morphTargets.emplace_back().positions, 1);
+  PrimitiveExtent extent = extentOf(part);
+  extent.longestEdge2 = primitive.extent.longestEdge2;
+  return extent;
 }
 
 PrimitiveExtent extentOf(const Primitive& primitive) {
@@ -245,10 +282,9 @@ void forEachPose(
 Bounds playedBounds(const SceneData& scene, std::span<const int> clips) {
   if (clips.empty()) return scene.bounds;
   Bounds bounds;
-  forEachPlayed(
-      scene, shownNodes(scene), clips,
-      [&](const Primitive& primitive, const glm::mat4& model, std::span<const glm::mat4> joints,
-          const std::vector<float>& weights) { addPrimitive(bounds, primitive, model, joints, weights); });
+  forEachPlayed(scene, std::vector<bool>(scene.nodes.size(), true), clips,
+                [&](const Seen& seen, const glm::mat4& model, std::span<const glm::mat4> joints,
+                    const std::vector<float>& weights) { addPrimitive(bounds, seen, model, joints, weights); });
   return bounds.empty ? scene.bounds : bounds;
 }
 

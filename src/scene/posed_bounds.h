@@ -20,9 +20,11 @@ glm::vec3 skinnedPosition(const Primitive& primitive, size_t v, const glm::vec3&
                           std::span<const glm::mat4> joints);
 
 PrimitiveExtent extentOf(const Primitive& primitive);
+// Of some of its vertices alone, and the triangles between them.
+PrimitiveExtent extentOf(const Primitive& primitive, std::span<const uint32_t> vertices);
 
 // A box around a primitive in the world, never too small: a skinned vertex lies between the places where its
-// joints alone would put it. `joints`: empty for what is not skinned, which `model` places.
+// joints alone would put it. Empty where matrices leave it no area. `joints`: empty for what is not skinned, which `model` places.
 Bounds posedBounds(const PrimitiveExtent& extent, const glm::mat4& model, std::span<const glm::mat4> joints,
                    std::span<const float> morphWeights);
 

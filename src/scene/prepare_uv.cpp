@@ -199,6 +199,36 @@ void makeTangents(Primitive& p, float scale, std::vector<uint32_t>& first) {
 
 }  // namespace
 
+namespace {
+
+// Whether every edge is gone along both ways equally often. What is summed is another random number for each edge
+// and its opposite for the way back: the sum is 0 where all of them cancel out, and nowhere else but by chance (one
+// in 2^64).
+bool closes(const Primitive& p) {
+  const auto mixed = [](uint64_t x) {
+    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u, x = (x ^ x >> 27) * 0x94d049bb133111ebu;
+    return x ^ x >> 31;
+  };
+  // By place and not by vertex: seams open nothing. Adding 0 makes both zeros one.
+  const auto placeOf = [&](uint32_t v) {
+    uint64_t hash = 0;
+    for (int c = 0; c < 3; ++c)
+      hash = mixed(hash + 0x9e3779b97f4a7c15u + std::bit_cast<uint32_t>(p.positions[v][c] + 0.0f));
+    return hash;
+  };
+  std::vector<uint64_t> places(p.positions.size());
+  for (uint32_t v = 0; v < places.size(); ++v) places[v] = placeOf(v);
+  uint64_t sum = 0;
+  for (size_t i = 0; i + 2 < p.indices.size(); i += 3)
+    for (int k = 0; k < 3; ++k) {
+      const uint64_t a = places[p.indices[i + size_t(k)]], b = places[p.indices[i + size_t((k + 1) % 3)]];
+      sum += mixed(a + 3 * b) - mixed(b + 3 * a);
+    }
+  return sum == 0 && !p.indices.empty();
+}
+
+}  // namespace
+
 void finishPrimitive(Primitive& p, float radius, PatternCoordinates which, const Primitive* before) {
   for (size_t i = 0; i < p.vertexCount(); ++i) {
     glm::vec3& normal = p.smoothNormals[i];
@@ -217,6 +247,7 @@ void finishPrimitive(Primitive& p, float radius, PatternCoordinates which, const
   makeTangents(p, scale, places);
   finishMorphTargets(p, [&](Primitive& morphed) { makeTangents(morphed, scale, places); });
   p.extent = extentOf(p);
+  p.isClosed = closes(p);
 }
 
 }  // namespace scumble::scene

@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
+#include <optional>
 
 #include "scene/import_failure.h"
 #include "scene/painting.h"
 #include "scene/posed_bounds.h"
 #include "scene/prepare_mesh.h"
+#include "scene/seen.h"
 
 namespace scumble::scene {
 
@@ -16,19 +19,22 @@ namespace {
 // Instances and repeated meshes included.
 constexpr uint64_t kMaxDrawnTriangles = 1ull << 28, kMaxDrawnStrokePoints = 1ull << 22;
 
-// A mesh's box, and how far each of its morph targets can move it.
+// The box of what is seen of a mesh, and how far each of its morph targets can move it.
 struct MeshBox {
   Bounds box;
   std::vector<Bounds> offsets;
 };
 
-MeshBox measure(const Mesh& mesh) {
+MeshBox measure(const SceneData& scene, size_t number) {
+  const Mesh& mesh = scene.meshes[number];
   MeshBox result;
   result.offsets.resize(mesh.morphWeights.size());
-  for (const Primitive& p : mesh.primitives) {
-    result.box.add(p.extent.box);
-    for (size_t t = 0; t < p.extent.targets.size() && t < result.offsets.size(); ++t)
-      result.offsets[t].add(p.extent.targets[t]);
+  for (size_t p = 0; p < mesh.primitives.size(); ++p) {
+    if (!seenOf(scene, int(number), p).isSeen) continue;
+    const PrimitiveExtent& extent = seenExtent(scene, int(number), p);
+    result.box.add(extent.box);
+    for (size_t t = 0; t < extent.targets.size() && t < result.offsets.size(); ++t)
+      result.offsets[t].add(extent.targets[t]);
   }
   if (mesh.painting) result.box.add(mesh.painting->hull.extent.box);
   return result;
@@ -46,7 +52,9 @@ Bounds morphed(const MeshBox& mesh, const std::vector<float>& weights) {
   return bounds;
 }
 
+// False where it is not drawable.
 bool addBox(const Bounds& box, const glm::mat4& matrix, Bounds& bounds) {
+  if (box.empty || !keepsArea(matrix)) return true;
   glm::vec3 corners[8];
   for (int i = 0; i < 8; ++i) {
     corners[i] = glm::vec3(matrix * glm::vec4(box.corner(i), 1.0f));
@@ -56,20 +64,27 @@ bool addBox(const Bounds& box, const glm::mat4& matrix, Bounds& bounds) {
   return true;
 }
 
-// The box of the vertices where their joints put them (the node's own place does not count then); empty when
-// it is not drawable. `morphedOwn` is the mesh's own box with its morph targets.
-Bounds skinnedBox(const Mesh& mesh, const Skin& skin, const std::vector<glm::mat4>& world, const Bounds& own,
-                  const Bounds& morphedOwn) {
-  const std::vector<glm::mat4> joints = jointMatrices(skin, world);
+// The box of the vertices that are seen where their joints put them (the node's own place does not count
+// then); nothing when it is not drawable. `morphedOwn` is the mesh's own box with its morph targets.
+std::optional<Bounds> skinnedBox(const SceneData& scene, const Node& node, const std::vector<glm::mat4>& world,
+                                 const Bounds& own, const Bounds& morphedOwn) {
+  const Mesh& mesh = scene.meshes[size_t(node.mesh)];
+  const std::vector<glm::mat4> joints = jointMatrices(scene.skins[size_t(node.skin)], world);
   Bounds bounds;
-  for (const Primitive& p : mesh.primitives) {
+  if (own.empty || std::none_of(joints.begin(), joints.end(), keepsArea)) return bounds;
+  for (size_t k = 0; k < mesh.primitives.size(); ++k) {
+    const Primitive& p = mesh.primitives[k];
+    const SeenPart& seen = seenOf(scene, node.mesh, k);
+    if (!seen.isSeen) continue;
     if (p.influences == 0) {
-      bounds.add(p.extent.box);
+      bounds.add(seenExtent(scene, node.mesh, k).box);
       continue;
     }
-    for (size_t i = 0; i < p.vertexCount(); ++i) {
-      const glm::vec3 position = skinnedPosition(p, i, p.positions[i], joints);
-      if (!isDrawable(position)) return Bounds();
+    const size_t count = seen.vertices.empty() ? p.vertexCount() : seen.vertices.size();
+    for (size_t i = 0; i < count; ++i) {
+      const size_t v = seen.vertices.empty() ? i : seen.vertices[i];
+      const glm::vec3 position = skinnedPosition(p, v, p.positions[v], joints);
+      if (!isDrawable(position)) return std::nullopt;
       bounds.add(position);
     }
   }
@@ -78,7 +93,7 @@ Bounds skinnedBox(const Mesh& mesh, const Skin& skin, const std::vector<glm::mat
   const glm::vec3 growth(glm::length(glm::max(low, high)));
   bounds.min -= growth;
   bounds.max += growth;
-  return isDrawable(bounds.min) && isDrawable(bounds.max) ? bounds : Bounds();
+  return isDrawable(bounds.min) && isDrawable(bounds.max) ? std::optional(bounds) : std::nullopt;
 }
 
 size_t trianglesOf(const Mesh& mesh) {
@@ -101,12 +116,13 @@ void placeScene(SceneData& scene, ImportWarnings& warnings) {
 
   // Boxes of meshes.
   scene.bounds = {};
+  findSeen(scene);
   const std::vector<bool> shown = shownNodes(scene);
   std::vector<MeshBox> boxes;
-  for (const Mesh& mesh : scene.meshes) boxes.push_back(measure(mesh));
+  for (size_t m = 0; m < scene.meshes.size(); ++m) boxes.push_back(measure(scene, m));
 
   // Boxes of nodes, in the world.
-  std::map<std::pair<int, int>, Bounds> skinned;  // by mesh and skin: the node's place does not matter
+  std::map<std::pair<int, int>, std::optional<Bounds>> skinned;  // by mesh and skin: the node's place does not matter
   uint64_t drawn = 0, strokePoints = 0;
   for (Node& node : scene.nodes) {
     if (node.mesh < 0) continue;
@@ -132,12 +148,9 @@ void placeScene(SceneData& scene, ImportWarnings& warnings) {
       if (node.skin >= 0) {
         node.instances.clear();  // joints place the vertices; the extension has no say then
         const auto [entry, isNew] = skinned.try_emplace({node.mesh, node.skin});
-        if (isNew) entry->second = skinnedBox(mesh, scene.skins[node.skin], world, own.box, box);
-        good = !entry->second.empty;
-        if (good) {
-          bounds.add(entry->second.min);
-          bounds.add(entry->second.max);
-        }
+        if (isNew) entry->second = skinnedBox(scene, node, world, own.box, box);
+        good = entry->second.has_value();
+        if (good) bounds.add(*entry->second);
       } else if (node.instances.empty()) {
         good = addBox(box, world[index], bounds);
       } else {
@@ -154,10 +167,20 @@ void placeScene(SceneData& scene, ImportWarnings& warnings) {
       node.morphWeights.clear();
     }
   }
+  // What appears in the course of a clip, or grows from nothing, is all that there is to frame then.
+  if (!scene.bounds.empty || scene.clips.empty()) return;
+  std::vector<int> all(scene.clips.size());
+  std::iota(all.begin(), all.end(), 0);
+  scene.bounds = playedBounds(scene, all);
 }
 
 void requireMeshes(const SceneData& scene) {
-  if (scene.bounds.empty)
+  const auto draws = [&](const Node& node) {
+    if (node.mesh < 0) return false;
+    const Mesh& mesh = scene.meshes[size_t(node.mesh)];
+    return !mesh.primitives.empty() || mesh.painting;
+  };
+  if (std::none_of(scene.nodes.begin(), scene.nodes.end(), draws))
     fail({}, "holds nothing to draw", "a scene needs at least one node with a mesh of triangles, or strokes");
 }
 

@@ -35,15 +35,6 @@ std::vector<glm::mat4> worldMatrices(const SceneData& scene) {
   return world;
 }
 
-std::vector<bool> shownNodes(const SceneData& scene) {
-  std::vector<bool> shown(scene.nodes.size());
-  for (size_t i = 0; i < scene.nodes.size(); ++i) {
-    const Node& node = scene.nodes[i];
-    shown[i] = node.visible && (node.parent < 0 || shown[size_t(node.parent)]);
-  }
-  return shown;
-}
-
 const std::vector<float>& restMorphWeights(const SceneData& scene, const Node& node) {
   return node.morphWeights.empty() ? scene.meshes[size_t(node.mesh)]->morphWeights : node.morphWeights;
 }

@@ -54,8 +54,8 @@ struct Outline {
   float lightingMix = 1.0f;  // 0: the colour as it is; 1: times the surface's
 };
 
-// Paint that lies over other surfaces (docs/fins.md): it is seen, and is nothing else. It casts no shadow,
-// has no edges, and is in no facts.
+// Paint that lies over other surfaces (docs/fins.md): it is seen and casts shadows, and is nothing else. It has no
+// edges, and is in no facts.
 struct PaintLayer {
   bool fades = false;  // a fin, which fades as it turns away from the viewer
   // As BakePart has them.
@@ -165,6 +165,8 @@ struct Primitive {
   std::vector<uint32_t> indices;  // three a triangle, each < vertexCount()
   int material = 0;               // index into SceneData::materials (index 0 exists always)
   bool isPaint = false;           // that is a PaintLayer
+  // Whether its triangles close around what is within, as they are wound: from outside nobody sees a back.
+  bool isClosed = false;
   // From the finest to the coarsest (makeLevels); none for what was made to be changed.
   std::vector<DetailLevel> levels;
   std::vector<uint32_t> levelIndices;
@@ -217,7 +219,7 @@ struct Node {
   // multiplied by, since the scene has been placed in another size.
   std::map<std::string, std::shared_ptr<const nlohmann::json>> extras;
   float extrasScale = 1;
-  // Whether its mesh is drawn, and those of all nodes below it. What is not takes up no space either.
+  // At rest: whether it and all nodes below it are seen, and their lights shine (KHR_node_visibility).
   bool visible = true;
 };
 
@@ -252,7 +254,8 @@ struct Skin {
 };
 
 enum class Interpolation : uint8_t { linear, step, cubicSpline };
-enum class AnimatedProperty : uint8_t { translation, rotation, scale, weights };
+// `visible` has one number a key, which is above a half where the node is visible.
+enum class AnimatedProperty : uint8_t { translation, rotation, scale, weights, visible };
 
 struct Channel {
   int node = -1;
@@ -262,6 +265,7 @@ struct Channel {
   std::vector<float>
       values;  // componentsPerKey floats a key (three times as many for cubicSpline: in, value, out)
   int componentsPerKey = 3;
+  int weight = -1;  // of `weights`: the one that it animates; -1: all
 };
 
 struct Clip {
@@ -271,6 +275,15 @@ struct Clip {
   std::vector<Channel> channels;
 };
 
+// What of a primitive its material lets be seen (scene/seen.h).
+struct SeenPart {
+  bool isSeen = true;  // any of it
+  // Where some of its triangles are not seen: the extent of the others, and the vertices of those. Else null
+  // and empty.
+  std::shared_ptr<const PrimitiveExtent> extent;
+  std::vector<uint32_t> vertices;
+};
+
 struct SceneData {
   std::string name;  // the file's name without folder and extension
   std::string path;  // of the file; empty: in memory, or several
@@ -278,9 +291,11 @@ struct SceneData {
   // the others too, as far as both have them. 0: nobody's.
   uint64_t family = 0;
   bool keepsVertices = true;  // SceneOptions::keepsVertices
+  bool facesBack = false;     // its front is towards -Z (VRM 0), and not +Z
   std::vector<Shared<Image>> images;
   std::vector<Material> materials;  // index 0 is glTF's default material
   std::vector<Shared<Mesh>> meshes;
+  std::vector<std::vector<SeenPart>> seen;  // by mesh and primitive; findSeen() fills it
   std::vector<Node> nodes;  // those reachable from the chosen scene, parents first
   std::vector<Camera> cameras;
   std::vector<Light> lights;
@@ -289,14 +304,12 @@ struct SceneData {
   std::vector<std::string> extensionsUsed, extensionsNotSupported;
   std::vector<std::string> files;     // that its URIs name
   std::vector<std::string> warnings;  // what was ignored or replaced, each once, one line each
-  Bounds bounds;                      // world space, rest pose
+  // World space, of what is seen in the rest pose; where that is nothing, while clips play.
+  Bounds bounds;
 };
 
 // World matrix of every node in the rest pose.
 std::vector<glm::mat4> worldMatrices(const SceneData& scene);
-
-// By node: whether it and all nodes above it are visible.
-std::vector<bool> shownNodes(const SceneData& scene);
 
 // Morph weights in the rest pose of a node that has a mesh.
 const std::vector<float>& restMorphWeights(const SceneData& scene, const Node& node);

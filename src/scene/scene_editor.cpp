@@ -234,7 +234,8 @@ Status SceneEditor::setTransform(NodeId id, const glm::mat4& transform) {
   if (!isAffine(transform)) return notAffine("the transform");
   for (const Clip& clip : data.clips)
     for (const Channel& channel : clip.channels)
-      if (channel.node == int(id) && channel.property != AnimatedProperty::weights)
+      if (channel.node == int(id) && channel.property != AnimatedProperty::weights &&
+          channel.property != AnimatedProperty::visible)
         return usage("the clip \"" + clip.name + "\" moves node " + std::to_string(int(id)),
                      "move a node above it; Scene::place puts one over a whole scene");
   return edited_->edit([&]() -> Status {

@@ -4,6 +4,7 @@
 
 #include "scene/painting.h"
 #include "scene/posed_bounds.h"
+#include "scene/seen.h"
 
 namespace scumble::scene {
 
@@ -16,12 +17,14 @@ Bounds boundsOf(const SceneData& scene, const Node& node, const Pose& pose,
   const size_t n = size_t(&node - scene.nodes.data());
   Bounds bounds;
   const Mesh& mesh = scene.meshes[size_t(node.mesh)];
-  for (const Primitive& primitive : mesh.primitives) {
+  for (size_t p = 0; p < mesh.primitives.size(); ++p) {
+    const Primitive& primitive = mesh.primitives[p];
+    if (!seenOf(scene, node.mesh, p).isSeen) continue;
     const bool bends = node.skin >= 0 && primitive.influences > 0;
     const std::span<const glm::mat4> own =
         bends ? std::span<const glm::mat4>(joints[size_t(node.skin)]) : std::span<const glm::mat4>();
     const auto place = [&](const glm::mat4& model) {
-      bounds.add(posedBounds(primitive.extent, model, own, pose.morphWeights[n]));
+      bounds.add(posedBounds(seenExtent(scene, node.mesh, p), model, own, pose.morphWeights[n]));
     };
     if (bends || node.instances.empty())
       place(pose.world[n]);
@@ -46,10 +49,9 @@ std::vector<bool> surroundings(const SceneData& scene) {
   };
   std::vector<Low> low;
   Bounds subjects;
-  const std::vector<bool> shown = shownNodes(scene);
   forEachPose(scene, {}, [&](const Pose& pose, std::span<const std::vector<glm::mat4>> joints) {
     for (size_t n = 0; n < scene.nodes.size(); ++n) {
-      if (scene.nodes[n].mesh < 0 || !shown[n]) continue;
+      if (scene.nodes[n].mesh < 0 || !pose.shown[n]) continue;
       const Bounds bounds = boundsOf(scene, scene.nodes[n], pose, joints);
       if (bounds.empty) continue;
       if (bounds.isLow())

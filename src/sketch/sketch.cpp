@@ -6,9 +6,9 @@ namespace scumble::sketch {
 
 namespace {
 
-constexpr std::string_view kTiltBegins = "tilT", kApainterBegins =
-                                                     "\x08"
-                                                     "apainter";
+constexpr std::string_view kApainterBegins =
+    "\x08"
+    "apainter";
 
 bool begins(Bytes bytes, std::string_view with) {
   return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with(with);
@@ -28,11 +28,11 @@ bool isApainterJson(Bytes bytes) {
 }  // namespace
 
 bool isSketch(Bytes bytes) {
-  return begins(bytes, kTiltBegins) || begins(bytes, kApainterBegins) || isApainterJson(bytes);
+  return isTiltFile(bytes) || begins(bytes, kApainterBegins) || isApainterJson(bytes);
 }
 
 scene::Painting readSketch(Bytes bytes, scene::ImportWarnings& warnings) {
-  if (begins(bytes, kTiltBegins)) return readTiltFile(bytes, warnings);
+  if (isTiltFile(bytes)) return readTiltFile(bytes, warnings);
   if (begins(bytes, kApainterBegins)) return readApainter(bytes, warnings);
   return readApainterJson(bytes, warnings);
 }

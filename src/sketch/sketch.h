@@ -22,7 +22,8 @@ scene::Painting readSketchFolder(const std::string& path, scene::ImportWarnings&
 
 // The parts of a .tilt: metadata.json, and data.sketch.
 scene::Painting readTilt(Bytes metadata, Bytes sketch, scene::ImportWarnings& warnings);
-// A .tilt as a file.
+// A .tilt as a file: a zip, behind a header of its own or (unzipped and zipped again) without.
+bool isTiltFile(Bytes file);
 scene::Painting readTiltFile(Bytes file, scene::ImportWarnings& warnings);
 // A-Painter's two forms.
 scene::Painting readApainter(Bytes file, scene::ImportWarnings& warnings);

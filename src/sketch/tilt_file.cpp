@@ -5,6 +5,8 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <string>
+#include <string_view>
 
 #include "base/file_bytes.h"
 #include "scene/import_failure.h"
@@ -19,6 +21,7 @@ namespace {
 
 constexpr const char* kMetadata = "metadata.json";
 constexpr const char* kSketch = "data.sketch";
+constexpr std::string_view kHeader = "tilT", kZip = "PK\x03\x04";
 // Sketches are not packed, and those of other zips by a tenth or so: more than that is no sketch.
 constexpr uint64_t kFreeBytes = 64ull << 20, kBytesPerByte = 64;
 
@@ -27,10 +30,20 @@ struct CloseZip {
   void operator()(zip_file_t* file) const { zip_fclose(file); }
 };
 
+// Of a file of that name, or of the first one in a folder: who zips a folder again has that, too.
+zip_int64_t placeOf(zip_t* zip, std::string_view name) {
+  if (const zip_int64_t place = zip_name_locate(zip, std::string(name).c_str(), 0); place >= 0) return place;
+  for (zip_int64_t i = 0; i < zip_get_num_entries(zip, 0); ++i)
+    if (const char* const entry = zip_get_name(zip, zip_uint64_t(i), 0))
+      if (std::string_view(entry).ends_with("/" + std::string(name))) return i;
+  return -1;
+}
+
 std::vector<uint8_t> unpacked(zip_t* zip, const char* name, size_t fileSize) {
   zip_stat_t stat;
   zip_stat_init(&stat);
-  if (zip_stat(zip, name, 0, &stat) != 0 || !(stat.valid & ZIP_STAT_SIZE) || !(stat.valid & ZIP_STAT_INDEX))
+  const zip_int64_t place = placeOf(zip, name);
+  if (place < 0 || zip_stat_index(zip, zip_uint64_t(place), 0, &stat) != 0 || !(stat.valid & ZIP_STAT_SIZE) || !(stat.valid & ZIP_STAT_INDEX))
     fail(name, "is not in the file", "a .tilt holds metadata.json and data.sketch");
   if (stat.size > kFreeBytes + kBytesPerByte * fileSize)
     fail(name, fmt::format("would unpack to {} bytes, far more than such a file can hold", stat.size),
@@ -58,13 +71,21 @@ FileBytes opened(const std::filesystem::path& path) {
 
 }  // namespace
 
+bool isTiltFile(Bytes file) {
+  const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+  return text.starts_with(kHeader) || (text.starts_with(kZip) && text.find(kSketch) != text.npos);
+}
+
 Painting readTiltFile(Bytes file, ImportWarnings& warnings) {
-  ByteReader header(file, "header");
-  header.take(4);  // "tilT", which brought it here
-  const auto headerSize = header.read<uint16_t>();
-  if (headerSize < 8 || headerSize > file.size())
-    header.failHere(fmt::format("says that it has {} bytes", headerSize));
-  const Bytes packed = file.subspan(headerSize);
+  Bytes packed = file;
+  if (std::string_view(reinterpret_cast<const char*>(file.data()), file.size()).starts_with(kHeader)) {
+    ByteReader header(file, "header");
+    header.take(kHeader.size());
+    const auto headerSize = header.read<uint16_t>();
+    if (headerSize < 8 || headerSize > file.size())
+      header.failHere(fmt::format("says that it has {} bytes", headerSize));
+    packed = file.subspan(headerSize);
+  }
   zip_error_t error;
   zip_error_init(&error);
   const auto why = [&] {

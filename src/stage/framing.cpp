@@ -43,13 +43,17 @@ glm::vec3 orbitDirection(float azimuth, float elevation) {
   return {std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e)};
 }
 
+glm::vec3 frontDirection(const SceneData& scene) {
+  return orbitDirection(CameraParams().azimuth + (scene.facesBack ? 180 : 0), CameraParams().elevation);
+}
+
 glm::vec3 defaultEyeDirection(const SceneData& scene) {
   if (const int node = scene.cameras.empty() ? -1 : cameraNode(scene, 0); node >= 0) {
     const glm::vec3 backward(scene::worldMatrices(scene)[size_t(node)][2]);
     if (glm::length(glm::vec2(backward.x, backward.z)) > 1e-3f * glm::length(backward))
       return glm::normalize(backward);
   }
-  return orbitDirection(CameraParams().azimuth, CameraParams().elevation);
+  return frontDirection(scene);
 }
 
 Framing framingOf(std::span<const glm::vec3> points, const glm::vec3& direction, float verticalFov,

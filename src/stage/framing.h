@@ -10,8 +10,10 @@ namespace scumble::stage {
 // The first node that carries this camera; -1: none does.
 int cameraNode(const scene::SceneData& scene, size_t camera);
 
-// Direction from the scene's centre to the default viewpoint: its first camera at rest, else three-quarter
-// view from the front.
+// Three-quarter view from the front: direction from the scene's centre.
+glm::vec3 frontDirection(const scene::SceneData& scene);
+
+// Direction from the scene's centre to the default viewpoint: its first camera at rest, else the same.
 glm::vec3 defaultEyeDirection(const scene::SceneData& scene);
 
 // Direction for an azimuth and elevation in degrees (see Viewpoint).

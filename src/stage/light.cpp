@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string_view>
 
+#include "scene/seen.h"
 #include "stage/framing.h"
 
 namespace scumble::stage {
@@ -18,15 +20,38 @@ float zeroAzimuth(const scene::SceneData& scene) {
 
 }  // namespace
 
+namespace {
+
+bool isPunctual(const scene::SceneData& scene, const scene::Node& node) {
+  return node.light >= 0 && scene.lights[size_t(node.light)].kind != scene::LightKind::directional;
+}
+
+// The direction to a lamp that stands outside of what it lights, where a scene has no other one: its key light.
+std::optional<glm::vec3> towardsOnlyLamp(const scene::SceneData& scene, const std::vector<glm::mat4>& world,
+                                         const std::vector<bool>& shown) {
+  std::optional<glm::vec3> only;
+  for (size_t n = 0; n < scene.nodes.size(); ++n) {
+    if (!shown[n] || scene.nodes[n].light < 0) continue;
+    if (only || !isPunctual(scene, scene.nodes[n]) || !(scene.lights[size_t(scene.nodes[n].light)].intensity > 0))
+      return std::nullopt;
+    only = glm::vec3(world[n][3]) - scene.bounds.center();
+  }
+  if (!only || scene.bounds.empty || !(glm::length(*only) > scene.bounds.radius())) return std::nullopt;
+  return glm::normalize(*only);
+}
+
+}  // namespace
+
 glm::vec3 keyLightDirection(const scene::SceneData& scene, const LightParams& params,
-                            const std::vector<glm::mat4>& world) {
+                            const std::vector<glm::mat4>& world, const std::vector<bool>& shown) {
   if (params.source == 0) {
     for (size_t n = 0; n < scene.nodes.size(); ++n) {
       const int light = scene.nodes[n].light;
-      if (light < 0 || scene.lights[size_t(light)].kind != scene::LightKind::directional) continue;
+      if (light < 0 || !shown[n] || scene.lights[size_t(light)].kind != scene::LightKind::directional) continue;
       const glm::vec3 towards(world[n] * glm::vec4(0, 0, 1, 0));  // lights shine along -Z
       if (glm::length(towards) > 1e-12f) return glm::normalize(towards);
     }
+    if (const std::optional<glm::vec3> towards = towardsOnlyLamp(scene, world, shown)) return *towards;
   }
   const float azimuth = zeroAzimuth(scene) + glm::radians(params.azimuth);
   const float elevation = glm::radians(params.elevation);
@@ -45,14 +70,6 @@ glm::vec2 keyLightAngles(const scene::SceneData& scene, const glm::vec3& towards
           std::clamp(height, float(elevation->min), float(elevation->max))};
 }
 
-namespace {
-
-bool isPunctual(const scene::SceneData& scene, const scene::Node& node) {
-  return node.light >= 0 && scene.lights[size_t(node.light)].kind != scene::LightKind::directional;
-}
-
-}  // namespace
-
 size_t punctualLightCount(const scene::SceneData& scene) {
   const auto count = std::count_if(scene.nodes.begin(), scene.nodes.end(),
                                    [&](const scene::Node& node) { return isPunctual(scene, node); });
@@ -60,14 +77,21 @@ size_t punctualLightCount(const scene::SceneData& scene) {
 }
 
 std::vector<shared::PunctualLight> punctualLights(const scene::SceneData& scene, const LightParams& params,
-                                                  const std::vector<glm::mat4>& world, float sceneRadius) {
+                                                  const std::vector<glm::mat4>& world,
+                                                  const std::vector<bool>& shown, float sceneRadius) {
   std::vector<shared::PunctualLight> lights;
   if (params.punctual <= 0) return lights;
   std::vector<double> strengths;
   double sum = 0;
-  for (size_t n = 0; n < scene.nodes.size() && lights.size() < scene::kMaxPunctualLights; ++n) {
+  const std::vector<bool> everShown = scene::everShownNodes(scene);
+  size_t used = 0;
+  for (size_t n = 0; n < scene.nodes.size() && used < scene::kMaxPunctualLights; ++n) {
     if (!isPunctual(scene, scene.nodes[n])) continue;
+    ++used;
     const scene::Light& light = scene.lights[size_t(scene.nodes[n].light)];
+    // One that goes out for a while leaves the others as they are.
+    if (everShown[n]) sum += light.intensity;
+    if (!shown[n]) continue;
     const glm::mat4& m = world[n];
     shared::PunctualLight out{};
     out.position = m[3];
@@ -81,7 +105,6 @@ std::vector<shared::PunctualLight> punctualLights(const scene::SceneData& scene,
       out.coneScale = 1 / std::max(0.001f, std::cos(light.innerCone) - std::cos(light.outerCone));
       out.coneOffset = -std::cos(light.outerCone) * out.coneScale;
     }
-    sum += light.intensity;
     lights.push_back(out);
   }
   // Files give anything from one candela to thousands. All lights in one place would turn what is nearer than

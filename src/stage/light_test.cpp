@@ -20,6 +20,10 @@ scene::SceneData lampScene(const std::vector<scene::Light>& lights) {
   return scene;
 }
 
+std::vector<bool> allShown(const scene::SceneData& scene) {
+  return std::vector<bool>(scene.nodes.size(), true);
+}
+
 scene::Light lamp(scene::LightKind kind, float intensity) {
   scene::Light light;
   light.kind = kind, light.intensity = intensity;
@@ -34,7 +38,7 @@ TEST(PunctualLights, onlyPointsAndSpotsInTheOrderOfNodes) {
   params.punctualUnit = 1.0, params.punctual = 0.5f;
   const std::vector<glm::mat4> world{glm::mat4(1), glm::translate(glm::mat4(1), {1, 2, 3}),
                                      glm::rotate(glm::mat4(7.0f), 1.5707963f, {0, 1, 0})};
-  const auto lights = punctualLights(scene, params, world, 10);
+  const auto lights = punctualLights(scene, params, world, allShown(scene), 10);
   ASSERT_EQ(lights.size(), 2u);
   EXPECT_EQ(lights[0].position, glm::vec3(1, 2, 3));
   EXPECT_EQ(lights[0].strength, 1);
@@ -42,7 +46,7 @@ TEST(PunctualLights, onlyPointsAndSpotsInTheOrderOfNodes) {
   // Along -Z, turned by a quarter around Y; scales do not count.
   EXPECT_NEAR(glm::length(lights[1].direction - glm::vec3(-1, 0, 0)), 0, 1e-6);
   params.punctual = 0;
-  EXPECT_TRUE(punctualLights(scene, params, world, 10).empty());
+  EXPECT_TRUE(punctualLights(scene, params, world, allShown(scene), 10).empty());
 }
 
 // Shaders multiply strengths by what may be 0.
@@ -52,7 +56,7 @@ TEST(PunctualLights, areFinite) {
       LightParams params;
       params.punctual = 100, params.punctualUnit = unit;
       const auto lights =
-          punctualLights(lampScene({lamp(scene::LightKind::point, intensity)}), params, {glm::mat4(1)}, 3);
+          punctualLights(lampScene({lamp(scene::LightKind::point, intensity)}), params, {glm::mat4(1)}, {true}, 3);
       EXPECT_TRUE(std::isfinite(lights[0].strength * 1e10f)) << unit << ", " << intensity;
       if (unit == 0) {
         EXPECT_NEAR(lights[0].strength, 100 * 0.5 * 1.2 * 1.2, 1e-3);
@@ -66,7 +70,7 @@ TEST(PunctualLights, autoFollowsTheScenesSize) {
     for (const float radius : {0.1f, 3.0f, 200.0f}) {
       const auto scene =
           lampScene({lamp(scene::LightKind::point, intensity), lamp(scene::LightKind::point, 3 * intensity)});
-      const auto lights = punctualLights(scene, {}, {glm::mat4(1), glm::mat4(1)}, radius);
+      const auto lights = punctualLights(scene, {}, {glm::mat4(1), glm::mat4(1)}, allShown(scene), radius);
       const double d = 0.4 * double(radius);
       EXPECT_NEAR((lights[0].strength + lights[1].strength) / (d * d), 0.5, 1e-5);
       EXPECT_NEAR(lights[1].strength / lights[0].strength, 3, 1e-5);
@@ -75,10 +79,10 @@ TEST(PunctualLights, autoFollowsTheScenesSize) {
 
 TEST(PunctualLights, lightsWithoutStrengthAndTooManyLights) {
   const auto dark = lampScene({lamp(scene::LightKind::point, 0)});
-  EXPECT_EQ(punctualLights(dark, {}, {glm::mat4(1)}, 1)[0].strength, 0);
+  EXPECT_EQ(punctualLights(dark, {}, {glm::mat4(1)}, {true}, 1)[0].strength, 0);
   const std::vector<scene::Light> many(300, lamp(scene::LightKind::point, 1));
   EXPECT_EQ(punctualLightCount(lampScene(many)), scene::kMaxPunctualLights);
-  EXPECT_EQ(punctualLights(lampScene(many), {}, std::vector<glm::mat4>(300, glm::mat4(1)), 1).size(),
+  EXPECT_EQ(punctualLights(lampScene(many), {}, std::vector<glm::mat4>(300, glm::mat4(1)), std::vector<bool>(300, true), 1).size(),
             scene::kMaxPunctualLights);
 }
 
@@ -86,7 +90,7 @@ TEST(PunctualLights, lightsWithoutStrengthAndTooManyLights) {
 TEST(PunctualLights, rangeAndCone) {
   scene::Light light = lamp(scene::LightKind::spot, 1);
   light.range = 4, light.innerCone = 0.3f, light.outerCone = 0.8f;
-  const auto lights = punctualLights(lampScene({light}), {}, {glm::mat4(1)}, 1);
+  const auto lights = punctualLights(lampScene({light}), {}, {glm::mat4(1)}, {true}, 1);
   EXPECT_NEAR(lights[0].inverseRangeSquared, 1.0 / 16, 1e-7);
   for (double angle = 0; angle < 1.5; angle += 0.05) {
     const double inner = std::cos(double(light.innerCone)), outer = std::cos(double(light.outerCone));
@@ -102,13 +106,13 @@ TEST(PunctualLights, rangeAndCone) {
 TEST(KeyLight, ofTheSceneComesFromItsNodesZ) {
   auto scene = lampScene({lamp(scene::LightKind::point, 1), lamp(scene::LightKind::directional, 1)});
   const glm::mat4 turned = glm::rotate(glm::scale(glm::mat4(1), glm::vec3(3)), 0.6f, {1, 0, 0});
-  const glm::vec3 got = keyLightDirection(scene, {}, {glm::mat4(1), turned});
+  const glm::vec3 got = keyLightDirection(scene, {}, {glm::mat4(1), turned}, allShown(scene));
   // Z turned about X by 0.6: towards -y.
   EXPECT_LT(glm::length(got - glm::vec3(0, -std::sin(0.6f), std::cos(0.6f))), 1e-6f);
   // The look's where the look says so.
   LightParams look;
   look.source = 1.0;
-  EXPECT_GT(glm::length(keyLightDirection(scene, look, {glm::mat4(1), turned}) - got), 0.1f);
+  EXPECT_GT(glm::length(keyLightDirection(scene, look, {glm::mat4(1), turned}, allShown(scene)) - got), 0.1f);
 }
 
 // Azimuth from the scene's default view, positive to its right, and elevation, in degrees.
@@ -127,7 +131,7 @@ TEST(KeyLight, ofTheLookIsMeasuredFromTheDefaultView) {
     const double azimuth = glm::radians(camera + 40);
     const glm::dvec3 expected(std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
                               std::cos(azimuth) * std::cos(elevation));
-    const glm::dvec3 got(keyLightDirection(scene, look, {node.local.matrix()}));
+    const glm::dvec3 got(keyLightDirection(scene, look, {node.local.matrix()}, {true}));
     EXPECT_LT(glm::length(got - expected), 1e-5) << "camera turned by " << camera;
   }
 }

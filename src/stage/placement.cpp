@@ -51,7 +51,7 @@ Result<glm::vec3> towardsKeyLight(const Scene& scene, const Look& look, double t
   if (scene.empty()) return emptyScene();
   const look::LookData now = look.data().at(time);
   const scene::Pose pose = scene::poseAt(scene.data(), playedClips(scene.data(), now), time);
-  return keyLightDirection(scene.data(), now.get<LightParams>(), pose.world);
+  return keyLightDirection(scene.data(), now.get<LightParams>(), pose.world, pose.shown);
 }
 
 Result<glm::vec2> keyLightAngles(const Scene& scene, const glm::vec3& towardsLight) {

@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <numeric>
 
 #include "base/usage.h"
 #include "scene/find_node.h"
 #include "scene/posed_bounds.h"
 #include "scene/prepare_mesh.h"
+#include "scene/seen.h"
 #include "scene/surroundings.h"
 #include "scumble/view.h"
 #include "stage/camera.h"
@@ -148,11 +150,14 @@ scene::Bounds boundsOf(const Shot& shot) {
   return bounds;
 }
 
-// Nodes that are shown; where the caller names some, those of them that they are or hang below.
+// Nodes that are shown at any time; where the caller names some, those of them that they are or hang below.
 Result<std::vector<bool>> framedNodes(const SceneData& scene, const std::string& name) {
-  std::vector<bool> shown = scene::shownNodes(scene);
+  std::vector<bool> shown = scene::everShownNodes(scene);
   if (name.empty()) return shown;
   const int found = scene::findNode(scene, name);
+  std::vector<int> clips(scene.clips.size());
+  std::iota(clips.begin(), clips.end(), 0);
+  const std::vector<bool> seen = scene::seenNodes(scene, clips);
   std::vector<bool> isNamed(scene.nodes.size());
   bool isThere = false, isSeen = false;
   for (size_t n = 0; n < scene.nodes.size(); ++n) {
@@ -161,7 +166,7 @@ Result<std::vector<bool>> framedNodes(const SceneData& scene, const std::string&
                  (node.parent >= 0 && isNamed[size_t(node.parent)]);
     isThere |= isNamed[n];
     shown[n] = shown[n] && isNamed[n];
-    isSeen |= shown[n] && node.mesh >= 0;
+    isSeen |= shown[n] && seen[n];
   }
   if (!isThere) return usage("the scene has no node '" + name + "'", "`scumble info` lists its nodes");
   if (!isSeen)
@@ -186,6 +191,8 @@ Result<View> fromLookOrbit(const Shot& shot, const scene::Bounds& bounds, float 
   if (by.turntable) {
     // The look's own way around would not close.
     if (!by.orbit) azimuth = shot.look.at(0).get<CameraParams>().azimuth;
+    if (!by.orbit && shot.scene.facesBack && !shot.look.settingOf(CameraParams::block(), "azimuth"))
+      azimuth += 180;
     azimuth += 360 * std::fmod(shot.time / *by.turntable, 1.0);
   }
   const std::optional<float> radii = by.distance                ? by.distance
@@ -219,7 +226,7 @@ Result<View> fromOrbit(const Shot& shot, const scene::Bounds& bounds, float radi
 
 // Where nobody says anything.
 Result<View> fromFraming(const Shot& shot, float radius) {
-  const glm::vec3 direction = orbitDirection(CameraParams().azimuth, CameraParams().elevation);
+  const glm::vec3 direction = frontDirection(shot.scene);
   const Framing framing = framingOf(outlineOf(shot), direction, shot.fov, shot.aspect);
   const float distance = shot.viewpoint.distance ? *shot.viewpoint.distance * radius : framing.distance;
   return lookAt(shot, framing.target + distance * direction, framing.target, 1e-3f * radius,
@@ -236,6 +243,8 @@ Result<View> fromSceneCamera(const Shot& shot, size_t index) {
   // Scale in a camera's matrix means nothing.
   for (int axis = 0; axis < 3; ++axis)
     if (const float length = glm::length(glm::vec3(world[axis])); length > 1e-12f) world[axis] /= length;
+  // Nor does a mirror above it: it stands where that puts it, and looks along that, and its picture is no mirror's.
+  if (glm::determinant(glm::mat3(world)) < 0) world[0] = -world[0];
   view.worldToEye =
       glm::rotate(glm::mat4(1.0f), glm::radians(shot.roll), glm::vec3(0, 0, 1)) * glm::inverse(world);
   const float radius = std::max(shot.scene.bounds.radius(), 1e-6f);

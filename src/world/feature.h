@@ -64,6 +64,8 @@ class FeatureMoment {
     return posed;
   }
   virtual void addUploads(std::vector<gpu::PerFrameBuffer*>&) {}
+  // Boxes of what casts shadows beside objects, world: what each reaches at any time.
+  virtual void addCasters(std::vector<scene::Bounds>& /*boxes*/) const {}
 };
 
 // What a feature builds for a scene and a look. Does not change; another scene or look has another plan, and

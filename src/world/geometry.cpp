@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "scene/seen.h"
 #include "scene/surroundings.h"
 #include "stage/light.h"
 #include "world/ground.h"
@@ -94,7 +95,7 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
   const std::vector<glm::mat4> world = scene::worldMatrices(scene);
 
   // One item for each primitive of each node, and for each of its instances.
-  const std::vector<bool> shown = scene::shownNodes(scene);
+  const std::vector<bool> shown = scene::everShownNodes(scene);
   const std::vector<glm::mat4> one{glm::mat4(1.0f)};
   std::vector<bool> isReplaced(scene.nodes.size(), false);
   for (const PlannedFeature& planned : options.features)
@@ -103,16 +104,18 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
   for (size_t n = 0; n < scene.nodes.size(); ++n) {
     const scene::Node& node = scene.nodes[n];
     if (node.mesh < 0 || isReplaced[n]) continue;
-    for (const scene::Primitive& primitive : scene.meshes[size_t(node.mesh)]->primitives) {
+    const std::vector<scene::Primitive>& primitives = scene.meshes[size_t(node.mesh)]->primitives;
+    for (size_t p = 0; p < primitives.size(); ++p) {
+      const scene::Primitive& primitive = primitives[p];
       if (primitive.indices.empty()) continue;
       GeometryItem item;
       item.primitive = &primitive;
       item.node = n;
       item.material = uint32_t(primitive.material);
       item.id = uint32_t(n + 1);
-      item.casts = options.casts[item.material] && !primitive.isPaint;
-      item.extent = &primitive.extent;
-      item.shown = shown[n];
+      item.casts = options.casts[item.material];
+      item.extent = &scene::seenExtent(scene, node.mesh, p);
+      item.shown = shown[n] && scene::seenOf(scene, node.mesh, p).isSeen;
       if (node.skin >= 0 && primitive.influences > 0) item.skin = node.skin;
       for (const glm::mat4& instance : node.instances.empty() || item.skin >= 0 ? one : node.instances) {
         item.instance = instance;
@@ -127,7 +130,8 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
   const std::span<const glm::mat4> none;
   scene::forEachPose(scene, options.clips, [&](const scene::Pose& pose, auto joints) {
     for (GeometryItem& item : geometry.items)
-      item.reach.add(scene::posedBounds(*item.extent, pose.world[item.node] * item.instance,
+      if (pose.shown[item.node])
+        item.reach.add(scene::posedBounds(*item.extent, pose.world[item.node] * item.instance,
                                         item.skin >= 0 ? std::span(joints[size_t(item.skin)]) : none,
                                         pose.morphWeights[item.node]));
   });
@@ -147,6 +151,7 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
   for (const GeometryItem& item : geometry.items) {
     if (!item.casts) continue;
     if (item.shown) casters.add(item.reach);
+    if (item.primitive->isPaint) continue;  // short, and drawn elsewhere as it is
     float& scale = scales[item.primitive];
     scale = std::max(scale, largestScale(glm::mat3(item.model)));
   }

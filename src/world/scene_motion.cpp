@@ -6,6 +6,7 @@
 #include <map>
 
 #include "scene/parallel.h"
+#include "scene/seen.h"
 #include "stage/playing.h"
 
 namespace scumble::world {
@@ -41,6 +42,15 @@ glm::mat3 normalMatrix(const glm::mat3& linear, bool mirrored) {
   return normal * ((mirrored ? -1.0f : 1.0f) / (most > 0 && std::isfinite(most) ? most : 1.0f));
 }
 
+// Whether matrices of joints turn what they bend inside out: most of those that move any vertex do. A skinned
+// mesh's own node has no say, since it does not place the vertices either.
+bool areMirrored(const scene::PrimitiveExtent& extent, std::span<const glm::mat4> joints) {
+  size_t mirrored = 0;
+  for (const scene::PrimitiveExtent::Joint& joint : extent.joints)
+    mirrored += glm::determinant(glm::mat3(joints[joint.joint])) < 0;
+  return 2 * mirrored > extent.joints.size();
+}
+
 // As the scene has it, which may be another one than that the object was made for.
 const glm::mat4& instanceOf(const scene::SceneData& scene, const MovingObject& object) {
   if (object.node == MovingObject::kNoNode || object.node >= scene.nodes.size()) return object.instance;
@@ -63,6 +73,7 @@ SceneMotion::SceneMotion(gpu::Device& device, const scene::SceneData& scene,
       followed_(&scene) {
   std::vector<shared::ObjectData> placed = objects;
   layout_ = layOut(scene, placed);
+  for (const shared::ObjectData& object : placed) influences_.push_back(object.influences);
   objects_ = bufferOf<shared::ObjectData>(device, placed.size());
   joints_ = bufferOf<glm::mat4>(device, layout_.joints);
   morphWeights_ = bufferOf<float>(device, layout_.weights);
@@ -110,10 +121,14 @@ bool SceneMotion::follow(const scene::SceneData& scene, const std::vector<shared
     shared::ObjectData& object = placed[i];
     // Who reads joints or weights from elsewhere now, or is something else to its feature, moves.
     if (object.firstJoint != now[i].firstJoint || object.firstMorphWeight != now[i].firstMorphWeight ||
-        object.influences != now[i].influences || object.kind != now[i].kind ||
+        object.influences != influences_[i] || object.kind != now[i].kind ||
         object.detail != now[i].detail || writerOf(moving_[i]) != writerOf_[i])
       touched_[i] = 1;
     writerOf_[i] = writerOf(moving_[i]);
+    influences_[i] = object.influences;
+    // As the last pose has left it.
+    object.influences = now[i].influences;
+    object.mirrored = now[i].mirrored;
     object.model = now[i].model;
     object.normal = now[i].normal;
     if (moving_[i].feature >= 0) object.patternShift = now[i].patternShift;
@@ -125,7 +140,7 @@ bool SceneMotion::follow(const scene::SceneData& scene, const std::vector<shared
 }
 
 bool SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, double time,
-                       const FeatureMoments& features) {
+                       const FeatureMoments& features, bool hides) {
   writers_ = 1 + features.size();
   moved_.assign(geometry_.pages().size() * writers_, {});
   const std::vector<scene::PlayedClip> clips = playedClips(scene, knobs.look());
@@ -157,8 +172,10 @@ bool SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, do
   }
   const int usual = knobs.scene<AnimationParams>().hold;
   const auto usualPose = poses.find(usual);
-  worldAsDrawn_ = usualPose != poses.end() ? usualPose->second.world : poseHeldFor(usual).world;
-  world_ = scene::poseAt(scene, clips, time).world;
+  scene::Pose asDrawn = usualPose != poses.end() ? usualPose->second : poseHeldFor(usual);
+  worldAsDrawn_ = std::move(asDrawn.world), shownAsDrawn_ = std::move(asDrawn.shown);
+  scene::Pose present = scene::poseAt(scene, clips, time);
+  world_ = std::move(present.world), shown_ = std::move(present.shown);
 
   // What features move is where they have it now, however long poses are held; and what hangs on it goes
   // along.
@@ -207,13 +224,25 @@ bool SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, do
           model[3] += glm::vec4(place.offset, 0.0f);
           data.patternShift = place.patternShift;
         }
+        std::span<const glm::mat4> ownJoints;
+        if (object.skin >= 0)
+          ownJoints = {joints + data.firstJoint, scene.skins[size_t(object.skin)].joints.size()};
+        // What is not seen is a point, which nothing draws.
+        const bool isShown = object.node == MovingObject::kNoNode || pose.shown[object.node];
+        const bool isSeen = isShown && (object.skin >= 0 ? std::any_of(ownJoints.begin(), ownJoints.end(),
+                                                                       scene::keepsArea)
+                                                         : scene::keepsArea(model));
+        const bool isPoint = hides && !isSeen;
+        if (isPoint) model = glm::mat4(0.0f);
+        const uint32_t influences = isPoint ? 0 : influences_[i];
         bool changes = object.isWrittenByFeature || !written_ || touched_[i] ||
                        (object.skin >= 0 && bends[layout_.skinUseOf[i]]);
+        changes |= replace(&data.influences, &influences, 1);
         if (replace(&data.model, &model, 1) || !written_) {
           const glm::mat3 linear(model);
-          mirrored_[i] = object.skin < 0 && glm::determinant(linear) < 0;
+          if (object.skin < 0) mirrored_[i] = glm::determinant(linear) < 0;
           scales_[i] = largestScale(linear);
-          data.normal = normalMatrix(linear, mirrored_[i]);
+          data.normal = normalMatrix(linear, object.skin < 0 && mirrored_[i]);
           changes |= object.skin < 0;
         }
         std::span<const float> weights;
@@ -223,19 +252,20 @@ bool SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, do
         }
         moves[i] = changes;
         if (!changes && !feature) return;
-        std::span<const glm::mat4> ownJoints;
         if (object.skin >= 0) {
-          ownJoints = {joints + data.firstJoint, scene.skins[size_t(object.skin)].joints.size()};
           scales_[i] = 0;
           for (const glm::mat4& joint : ownJoints)
             scales_[i] = std::max(scales_[i], largestScale(glm::mat3(joint)));
+          mirrored_[i] = areMirrored(*object.extent, ownJoints);
         }
-        bounds_[i] = scene::posedBounds(*object.extent, model, ownJoints, weights);
+        data.mirrored = mirrored_[i];
+        bounds_[i] = isSeen ? scene::posedBounds(*object.extent, model, ownJoints, weights) : scene::Bounds();
         if (feature) bounds_[i] = feature->boundsOf(object.kind, object.detail, bounds_[i]);
       });
   written_ = true;
   std::fill(touched_.begin(), touched_.end(), uint8_t(0));
 
+  version_ += std::any_of(moves.begin(), moves.end(), [](uint8_t moves) { return moves != 0; });
   for (size_t i = 0; i < moving_.size(); ++i)
     if (moves[i] && moving_[i].casts) {
       ++castersVersion_;

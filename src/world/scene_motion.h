@@ -46,8 +46,10 @@ class SceneMotion {
 
   // The pose at a time, in seconds; the knobs are those of that time, and so are the features. `scene`: the
   // one that it follows, or as it was at that time, with the same nodes. False where all is as it was.
-  bool pose(const scene::SceneData& scene, const KnobTable& knobs, double time,
-            const FeatureMoments& features);
+  // `hides`: what is not seen shrinks to a point; else it is where it would be, for who follows back what has
+  // just appeared.
+  bool pose(const scene::SceneData& scene, const KnobTable& knobs, double time, const FeatureMoments& features,
+            bool hides = true);
 
   // World bounds of each object in the pose.
   const std::vector<scene::Bounds>& bounds() const { return bounds_; }
@@ -61,11 +63,14 @@ class SceneMotion {
   const glm::mat4* joints(size_t object) const {
     return joints_.as<glm::mat4>() + objects_.as<shared::ObjectData>()[object].firstJoint;
   }
-  // World matrices of nodes at the time itself: what holds poses does not hold lights and cameras.
+  // World matrices of nodes at the time itself, and which of them are shown: what holds poses does not hold
+  // lights and cameras.
   const std::vector<glm::mat4>& world() const { return world_; }
+  const std::vector<bool>& shown() const { return shown_; }
   // The same as they are drawn where no material says how long poses stand: what hangs on a held node is held
   // with it.
   const std::vector<glm::mat4>& worldAsDrawn() const { return worldAsDrawn_; }
+  const std::vector<bool>& shownAsDrawn() const { return shownAsDrawn_; }
 
   // What features move a node by, from where it is without them.
   glm::mat4 movedBy(size_t node) const {
@@ -79,8 +84,9 @@ class SceneMotion {
     uint32_t first = 0, count = 0;
   };
   Moved moved(size_t page, int writer) const { return moved_[page * writers_ + size_t(writer + 1)]; }
-  // Counts up whenever what casts shadows has moved.
+  // Counts up whenever what casts shadows has moved; or anything.
   uint32_t castersVersion() const { return castersVersion_; }
+  uint32_t version() const { return version_; }
   // Forgets what was written before: everything has moved.
   void touchAll() { written_ = isAtRest_ = false; }
 
@@ -118,12 +124,14 @@ class SceneMotion {
   std::vector<float> scales_;
   std::vector<uint8_t> touched_;
   std::vector<int> writerOf_;  // by object: who writes its vertices
+  std::vector<uint32_t> influences_;  // by object, where it is seen
   std::vector<glm::mat4> world_, worldAsDrawn_;
+  std::vector<bool> shown_, shownAsDrawn_;
   std::vector<std::optional<glm::mat4>> movedBy_;  // by node; empty: features move nothing
   size_t writers_ = 1;
   std::vector<Moved> moved_;  // by page, then by writer
   const scene::SceneData* followed_;
-  uint32_t castersVersion_ = 0;
+  uint32_t castersVersion_ = 0, version_ = 0;
   bool written_ = false, isAtRest_ = false;
 };
 

@@ -173,6 +173,9 @@ bool SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>
   std::map<const scene::Primitive*, uint32_t> levelsOf;  // the first one
   warpScaleOf_.assign(materialCount(), 1.0f);
   isVaried_.assign(materialCount(), false);
+  // Strokes have colours of their own, which the default material's maps take into light and shadow.
+  for (const scene::Mesh& mesh : data_->meshes)
+    if (mesh.painting) isVaried_[0] = true;
   for (size_t i = 0; i < geometry.items.size(); ++i) {
     const GeometryItem& item = geometry.items[i];
     const GeometryOnGpu::Place& place = geometry_.places()[i];
@@ -227,6 +230,8 @@ bool SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>
     draw.state.textured = material.baseColorTexture.image >= 0 || material.emissiveTexture.image >= 0;
     draw.state.varied = draw.state.textured || !primitive.colors.empty();
     draw.state.casts = item.casts;
+    draw.state.castsFronts = primitive.isClosed && draw.state.alpha == AlphaMode::opaque;
+    draw.state.castsAlone = material.paint.has_value();
     if (draw.state.textured) draw.textures |= shared::kTexturesColor;
     if (draw.state.textured && draw.state.alpha != AlphaMode::opaque) draw.textures |= shared::kTexturesCut;
     wraps_ |= primitive.wrapsU || primitive.wrapsV;
@@ -236,7 +241,8 @@ bool SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>
                          material.isFin() ? material.paint->fadeStart : 0.0f,
                          material.paint && !material.doubleSided});
     triangleCount_ += draw.indexCount / 3;
-    if (material.paint) continue;  // no pass draws it but those that blend
+    // Paint is drawn by the passes that blend, and here for its shadow.
+    if (material.paint && !item.casts) continue;
     draws.push_back(draw);
     reach_.push_back(item.reach);
   }
@@ -304,6 +310,8 @@ void SceneOnGpu::pose(const look::LookData& look, const KnobTable& now, double t
   for (size_t d = 0; d < draws_.count(); ++d)
     if (const Draw& draw = draws_.draws()[d]; draw.state.casts)
       casters_.emplace_back(reach_[d]).add(motion_->bounds()[draw.object]);
+  for (const auto& feature : features_)
+    if (feature) feature->addCasters(casters_);
 }
 
 void SceneOnGpu::look(const Viewers& viewers) {
@@ -314,7 +322,7 @@ void SceneOnGpu::posePrevious(const scene::SceneData& scene, const look::LookDat
                               const KnobTable& then, double time) {
   for (size_t f = 0; f < previousFeatures_.size(); ++f)
     if (previousFeatures_[f]) previousFeatures_[f]->pose(look, then, time, features_[f].get());
-  previousMotion_->pose(scene, then, time, previousFeatures_);
+  previousMotion_->pose(scene, then, time, previousFeatures_, false);
 }
 
 void SceneOnGpu::forgetPoses() {

@@ -1,8 +1,9 @@
 #include "xr/grasp.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <glm/gtc/quaternion.hpp>
 #include <utility>
 
@@ -111,17 +112,14 @@ std::string Grasp::told(const SceneEditor& editor, const std::vector<glm::mat4>&
   const glm::mat4 world = aboveOf(editor, node(), moved) * editor.transformOf(node());
   const std::string name = editor.nameOf(node());
   std::string text = name.empty() ? "node " + std::to_string(int(node()) + 1) : "'" + name + "'";
-  char numbers[120];
-  std::snprintf(numbers, sizeof numbers, " at %.2f, %.2f, %.2f", world[3].x, world[3].y, world[3].z);
-  text += numbers;
+  text += fmt::format(" at {:.2f}, {:.2f}, {:.2f}", world[3].x, world[3].y, world[3].z);
   // What is flat has no turn.
   const glm::vec3 x(world[0]), y(world[1]), z(world[2]);
   if (!(std::abs(glm::dot(glm::cross(x, y), z)) > kFlatSpace)) return text;
   const glm::vec3 degrees = glm::degrees(
       glm::eulerAngles(glm::quat_cast(glm::mat3(glm::normalize(x), glm::normalize(y), glm::normalize(z)))));
-  std::snprintf(numbers, sizeof numbers, ", turned by %.0f, %.0f, %.0f degrees", rounded(degrees.x),
-                rounded(degrees.y), rounded(degrees.z));
-  return text + numbers;
+  return text + fmt::format(", turned by {:.0f}, {:.0f}, {:.0f} degrees", rounded(degrees.x),
+                            rounded(degrees.y), rounded(degrees.z));
 }
 
 }  // namespace scumble::xr

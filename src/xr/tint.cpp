@@ -1,8 +1,9 @@
 #include "xr/tint.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <glm/gtc/constants.hpp>
 
 namespace scumble::xr {
@@ -52,8 +53,7 @@ std::string Tint::told() const {
   for (const std::vector<Knob>* knobs : {&hues_, &brightnesses_})
     for (const Knob& knob : *knobs) {
       if (knob.now == knob.before) continue;
-      char number[32];
-      std::snprintf(number, sizeof number, "%.3g", knob.now);
+      const std::string number = fmt::format("{:.3g}", knob.now);
       // As shells take words.
       std::string word;
       for (const char letter : knob.path) word += letter == '\'' ? "'\\''" : std::string(1, letter);

@@ -25,6 +25,50 @@ static void count_message(void* user, int32_t level, const char* text) {
   *(int*)user += level == 0 && strlen(text) > 0;
 }
 
+/* As callers have them that were compiled against a header with fewer members, or with more. */
+typedef struct old_options {
+  size_t size;
+  uint32_t width, height, samples, seed;
+} old_options;
+typedef struct new_options {
+  scumble_options known;
+  uint64_t later[4];
+} new_options;
+static int old_callers(scumble_renderer* renderer, const scumble_scene* scene, const scumble_look* look,
+                       const scumble_view* views) {
+  struct {
+    old_options options;
+    unsigned char beyond[256];
+  } old;
+  memset(&old, 0xAB, sizeof old);
+  old.options.size = sizeof old.options;
+  if (scumble_options_default((scumble_options*)&old.options) != SCUMBLE_OK) return 0;
+  for (size_t i = 0; i < sizeof old.beyond; ++i)
+    if (old.beyond[i] != 0xAB) return 0;
+  if (old.options.size != sizeof old.options || old.options.width != 1280 || old.options.samples != 4) return 0;
+  old.options.width = 32, old.options.height = 18, old.options.samples = 1;
+  /* What lies beyond would be a progress callback and names of AOVs. */
+  scumble_frame* frame = scumble_render(renderer, scene, look, 0, views, 1, (const scumble_options*)&old.options);
+  scumble_image picture;
+  if (!frame || scumble_frame_layers(frame) != 1 ||
+      scumble_frame_image(frame, 0, 0, &picture) != SCUMBLE_OK || picture.width != 32)
+    return 0;
+  scumble_frame_free(frame);
+  new_options newer;
+  memset(&newer, 0xAB, sizeof newer);
+  newer.known.size = sizeof newer;
+  if (scumble_options_default(&newer.known) != SCUMBLE_OK || newer.known.size != sizeof newer ||
+      newer.known.width != 1280 || newer.later[0] != 0 || newer.later[3] != 0)
+    return 0;
+  scumble_options unset;
+  memset(&unset, 0, sizeof unset);
+  scumble_viewpoint huge;
+  huge.size = (size_t)-1;
+  return scumble_options_default(&unset) == SCUMBLE_USAGE && scumble_viewpoint_default(&huge) == SCUMBLE_USAGE &&
+         scumble_panorama_default(NULL) == SCUMBLE_USAGE &&
+         scumble_render(renderer, scene, look, 0, views, 1, &unset) == NULL;
+}
+
 /* A tower of two boxes, made by hand; its upper one is moved, and hidden. */
 static int edit(void) {
   const float corners[] = {-1, 0, 0, 1, 0, 0, 0, 2, 0};
@@ -33,8 +77,8 @@ static int edit(void) {
   float matrix[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
   scumble_editor* editor = scumble_editor_create(NULL);
   CHECK(editor != NULL);
-  scumble_material material;
-  scumble_material_default(&material);
+  scumble_material material = {sizeof material};
+  CHECK(scumble_material_default(&material) == SCUMBLE_OK);
   material.name = "Red";
   material.base_color_texture = scumble_editor_texture(editor, -1, "red", 1, 1, pixel);
   CHECK(material.base_color_texture == 0);
@@ -120,8 +164,8 @@ int main(int argc, char** argv) {
   CHECK(scumble_look_unset(look, "materials.Nobody.warp.amount") == SCUMBLE_OK);
   CHECK(scumble_look_set(look, "shadow.threshold", "0.45") == SCUMBLE_OK);
 
-  scumble_viewpoint viewpoint;
-  scumble_viewpoint_default(&viewpoint);
+  scumble_viewpoint viewpoint = {sizeof viewpoint};
+  CHECK(scumble_viewpoint_default(&viewpoint) == SCUMBLE_OK);
   viewpoint.camera = "Hero";
   scumble_view views[2];
   size_t count = 0;
@@ -132,15 +176,16 @@ int main(int argc, char** argv) {
   CHECK(scumble_make_views(scene, look, &viewpoint, 1, 0, 0, 0, views, &count) == SCUMBLE_USAGE);
 
   int messages = 0;
-  scumble_renderer_options how;
-  scumble_renderer_options_default(&how);
+  scumble_renderer_options how = {sizeof how};
+  CHECK(scumble_renderer_options_default(&how) == SCUMBLE_OK);
   how.validation = 1, how.log = count_message, how.log_user = &messages;
   scumble_renderer* renderer = scumble_renderer_create(&how);
   CHECK(renderer != NULL && messages == 1);
   CHECK(strlen(scumble_renderer_device(renderer)) > 0);
-  scumble_options options;
-  scumble_options_default(&options);
+  scumble_options options = {sizeof options};
+  CHECK(scumble_options_default(&options) == SCUMBLE_OK);
   CHECK(options.width == 1280 && options.samples == 4);
+  CHECK(old_callers(renderer, scene, look, views));
   options.width = 96, options.height = 54, options.format = SCUMBLE_SRGB8;
   const char* aovs[] = {"depth", "shadow-map"};
   options.aovs = aovs, options.aov_count = 2;
@@ -187,8 +232,8 @@ int main(int argc, char** argv) {
   CHECK(scumble_render(renderer, scene, look, 0, views, 7, &options) == NULL);
   CHECK(scumble_render(renderer, NULL, look, 0, views, 2, &options) == NULL);
 
-  scumble_panorama around;
-  scumble_panorama_default(&around);
+  scumble_panorama around = {sizeof around};
+  CHECK(scumble_panorama_default(&around) == SCUMBLE_OK);
   CHECK(around.kind == SCUMBLE_VR180 && around.ipd > 0.06f && around.ipd < 0.07f);
   around.kind = SCUMBLE_MONO360;
   options.width = 64, options.height = 32, options.samples = 1;

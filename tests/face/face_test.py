@@ -24,13 +24,13 @@ class View(ctypes.Structure):
 
 
 class Viewpoint(ctypes.Structure):
-    _fields_ = [("camera", ctypes.c_char_p), ("has_orbit", ctypes.c_int32), ("azimuth", ctypes.c_float),
+    _fields_ = [("size", ctypes.c_size_t), ("camera", ctypes.c_char_p), ("has_orbit", ctypes.c_int32), ("azimuth", ctypes.c_float),
                 ("elevation", ctypes.c_float), ("distance", ctypes.c_float), ("has_eye", ctypes.c_int32),
                 ("eye", ctypes.c_float * 3), ("target", ctypes.c_float * 3), ("vertical_fov", ctypes.c_float)]
 
 
 class Options(ctypes.Structure):
-    _fields_ = [("width", ctypes.c_uint32), ("height", ctypes.c_uint32), ("samples", ctypes.c_uint32),
+    _fields_ = [("size", ctypes.c_size_t), ("width", ctypes.c_uint32), ("height", ctypes.c_uint32), ("samples", ctypes.c_uint32),
                 ("seed", ctypes.c_uint32), ("transparent", ctypes.c_int32), ("format", ctypes.c_int),
                 ("aovs", ctypes.POINTER(ctypes.c_char_p)), ("aov_count", ctypes.c_size_t), ("progress", ctypes.c_void_p),
                 ("progress_user", ctypes.c_void_p)]
@@ -76,11 +76,11 @@ class FaceTest(unittest.TestCase):
         look = ctypes.c_void_p(face.scumble_look_load(b"storm"))
         renderer = ctypes.c_void_p(face.scumble_renderer_create(None))
         self.assertTrue(scene and look and renderer, face.scumble_error())
-        viewpoint, views, count = Viewpoint(camera=b"Hero"), (View * 2)(), ctypes.c_size_t()
+        viewpoint, views, count = Viewpoint(size=ctypes.sizeof(Viewpoint), camera=b"Hero"), (View * 2)(), ctypes.c_size_t()
         status = face.scumble_make_views(scene, look, ctypes.byref(viewpoint), ctypes.c_float(WIDTH / HEIGHT), 0, ctypes.c_float(0),
                                          ctypes.c_double(1), views, ctypes.byref(count))
         self.assertEqual((status, count.value), (0, 1), face.scumble_error())
-        options = Options()
+        options = Options(size=ctypes.sizeof(Options))
         face.scumble_options_default(ctypes.byref(options))
         options.width, options.height = WIDTH, HEIGHT
         frame = ctypes.c_void_p(face.scumble_render(renderer, scene, look, ctypes.c_double(1), views, ctypes.c_size_t(1),

@@ -19,6 +19,7 @@ struct EdgeRing {
   uint beyondLeft[2];
   uint beyondRight[2];
   uint widths;  // factors on the width of the material's own outline at a and b, as unorm2x16
+  uint seen;    // by part of the edge, of 32 from a on: 1 where a surface beside it is not cut away
 };
 const uint kNoEdgeSide = 0xFFFFFFFFu;
 const uint kEdgeVertexMask = 0x0FFFFFFFu;

@@ -13,9 +13,9 @@ class InkFeature : public world::Feature {
  public:
   const char* name() const override { return kName; }
   std::string_view material() const override { return ""; }
-  std::shared_ptr<const world::FeaturePlan> plan(const scene::SceneData&,
+  std::shared_ptr<const world::FeaturePlan> plan(const scene::SceneData& scene,
                                                  const look::LookData& look) const override {
-    return mayShow(look) ? std::make_shared<InkPlan>(mayShowPieces(look)) : nullptr;
+    return mayShow(look) ? std::make_shared<InkPlan>(mayShowPieces(scene, look)) : nullptr;
   }
   Switch onOff() const override {
     return {&InkParams::block(), "shown", "no lines are drawn; --set ink.shown=on draws them"};
@@ -25,8 +25,8 @@ class InkFeature : public world::Feature {
 }  // namespace
 
 std::unique_ptr<world::FeatureMoment> InkPlan::makeMoment(gpu::Device& device,
-                                                          const scene::SceneData&) const {
-  return std::make_unique<InkMoment>(device, needsParts);
+                                                          const scene::SceneData& scene) const {
+  return std::make_unique<InkMoment>(device, scene, needsParts);
 }
 
 frame::FeatureParts makeFeature() {

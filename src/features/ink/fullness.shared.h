@@ -6,6 +6,7 @@
 
 #ifdef __cplusplus
 namespace scumble::shared {
+using glm::floor;
 using glm::max;
 using glm::min;
 using glm::mix;
@@ -47,6 +48,13 @@ SHARED_FUNCTION float inkReach(float along, vec2 reach, float size) {
   along = min(max(along, 0.0f), 1.0f);  // beyond its ends the line goes on as it is there
   float from = reach.x * (1.0f + soft) - soft, to = reach.y * (1.0f + soft);
   return smoothstep(from, from + soft, along) * (1.0f - smoothstep(to - soft, to, along));
+}
+
+// Whether a surface is beside a place along an edge, from 0 to 1. `seen`: as EdgeRing has it.
+SHARED_FUNCTION float inkSeen(float along, uint seen) {
+  float at = min(max(along, 0.0f), 1.0f) * 32.0f - 0.5f;
+  float before = min(max(floor(at), 0.0f), 31.0f), after = min(before + 1.0f, 31.0f);
+  return mix(float(seen >> uint(before) & 1u), float(seen >> uint(after) & 1u), min(max(at - before, 0.0f), 1.0f));
 }
 
 // A depth at a place along an edge, or a little beyond its ends, which may be close on the screen and not in

@@ -87,14 +87,15 @@ struct LineRecord {
   vec2 reach;  // from where to where along it, 0 to 1, an outline is drawn
   vec2 caps;   // how far it goes on beyond both ends, for each pixel of its width
   int kind;    // kInkNone: it is not drawn
+  uint seen;   // parts of it beside a surface, as EdgeRing has them
 };
 const int kInkRoom = 65536;  // for records of a view
 
 // Lines of a view for the CPU, as an image of 32-bit floats: line n takes kLineTexels texels, one below the
 // other, in column n % kLineTableWidth. Below all of them is a row that says what they are drawn with.
 //   0, 1: spine, shift, as LineRecord has them    2: radii, metres along the view axis at both ends
-//   3: color    4: outward; 1 + kind, so that 0 is no line    5: turn, reach
-const int kLineTexels = 6, kLineTableWidth = 4096, kLineTableRows = 64;
+//   3: color    4: outward; 1 + kind, so that 0 is no line    5: turn, reach    6: lower and upper half of seen
+const int kLineTexels = 7, kLineTableWidth = 4096, kLineTableRows = 64;
 const int kLineTableRoom = kLineTableWidth * kLineTableRows;
 // Of that row: how many lines there are, also beyond the room; pixels of one knob pixel, scene's radius,
 // whether the view is a parallel projection.

@@ -36,9 +36,10 @@ PlacedEdge placed(DrawnEdge edge, uint first) {
   result.a = positionOf(first + (edge.a & kEdgeVertexMask));
   result.b = positionOf(first + edge.b);
   result.known = edge.a & ~kEdgeVertexMask;
-  result.isNone = (edge.a & kEdgeVertexMask) == edge.b;
   result.isOpen = edge.right == kNoEdgeSide;
   vec3 along = result.b - result.a;
+  // What is not seen has shrunk to a point.
+  result.isNone = (edge.a & kEdgeVertexMask) == edge.b || dot(along, along) == 0.0;
   result.left = cross(along, positionOf(first + edge.left) - result.a);
   result.right = vec3(0.0);
   if (!result.isOpen) result.right = cross(positionOf(first + edge.right) - result.a, along);

@@ -1,7 +1,10 @@
 // Knobs of lines.
 #pragma once
 
+#include <algorithm>
+
 #include "look/look_data.h"
+#include "scene/scene_data.h"
 
 namespace scumble::ink {
 
@@ -86,7 +89,11 @@ namespace scumble::ink {
 #define PARAMS_PATH "ink.intersections"
 #define PARAMS_TARGETS kScene
 #include "look/define_params.h"
+#undef INK_KIND_SHOWN
+#undef INK_KIND_WIDTH
 
+#define INK_KIND_SHOWN 1
+#define INK_KIND_WIDTH 0.8
 #define PARAMS_STRUCT CutOutParams
 #define PARAMS_FILE "features/ink/ink_kind.params"
 #define PARAMS_PATH "ink.cutouts"
@@ -103,9 +110,14 @@ inline bool mayShow(const look::LookData& look) {
 inline bool mayShowShadows(const look::LookData& look) {
   return mayShow(look) && (look.get<ShadowShapeParams>().shown || look.get<LightStepParams>().shown);
 }
-inline bool mayShowPieces(const look::LookData& look) {
-  return mayShow(look) && (look.get<ObjectBorderParams>().shown || look.get<IntersectionParams>().shown ||
-                           look.get<CutOutParams>().shown);
+inline bool mayShowPieces(const scene::SceneData& scene, const look::LookData& look) {
+  if (!mayShow(look)) return false;
+  if (look.get<ObjectBorderParams>().shown || look.get<IntersectionParams>().shown) return true;
+  // What has no holes is not cut out.
+  return look.get<CutOutParams>().shown &&
+         std::any_of(scene.materials.begin(), scene.materials.end(), [](const scene::Material& material) {
+           return material.alphaMode != scene::AlphaMode::opaque && !material.paint;
+         });
 }
 
 }  // namespace scumble::ink

@@ -6,6 +6,7 @@
 
 #include "features/ocean/extras.h"
 #include "scene/animation.h"
+#include "scene/seen.h"
 #include "stage/playing.h"
 
 namespace scumble::ocean {

@@ -1,9 +1,10 @@
 // What the program knows of paintings in space.
 #include <algorithm>
+#include <bit>
 
 #include "features/painting/painting.h"
 #include "features/painting/painting_knobs.h"
-#include "features/painting/splats/strokes_on_gpu.h"
+#include "features/painting/strokes_on_gpu.h"
 #include "frame/feature_parts.h"
 
 namespace scumble::painting {
@@ -16,7 +17,7 @@ class PaintingFeature : public world::Feature {
   std::string_view material() const override { return ""; }
   std::shared_ptr<const world::FeaturePlan> plan(const scene::SceneData& scene,
                                                  const look::LookData& look) const override {
-    return shownPaintings(scene, look) ? std::make_shared<PaintingPlan>(paintingsOf(scene)) : nullptr;
+    return drawnPaintings(scene, look) ? std::make_shared<PaintingPlan>(paintingsOf(scene)) : nullptr;
   }
   Switch onOff() const override {
     return {&PaintingParams::block(), "shown",
@@ -26,11 +27,12 @@ class PaintingFeature : public world::Feature {
 
 }  // namespace
 
-uint32_t shownPaintings(const scene::SceneData& scene, const look::LookData& look) {
+uint32_t drawnPaintings(const scene::SceneData& scene, const look::LookData& look) {
   if (!look.get<PaintingParams>().shown) return 0;
   const bool any = std::any_of(scene.meshes.begin(), scene.meshes.end(),
                                [](const scene::Mesh& mesh) { return bool(mesh.painting); });
-  return any ? uint32_t(paintingsOf(scene).size()) : 0;
+  const uint32_t paintings = any ? uint32_t(paintingsOf(scene).size()) : 0;
+  return paintings ? std::bit_ceil(paintings) : 0;
 }
 
 bool showsLayers(const scene::SceneData& scene, const look::LookData& look) {
@@ -41,7 +43,7 @@ bool showsLayers(const scene::SceneData& scene, const look::LookData& look) {
 
 frame::FeatureParts makeFeature() {
   return {std::make_unique<PaintingFeature>(),
-          {{"surface", makeSplats}, {"final-color", makeOver}},
+          {{"order", makePoints}, {"surface", makeSplats}, {"final-color", makeOver}},
           {&PaintingParams::block()},
           {}};
 }

@@ -13,11 +13,17 @@ inline constexpr const char* kName = "painting";
 // Strokes and layers of paint alone. R, G, B: square roots of colours, times coverage; A: coverage.
 inline constexpr frame::Role kPaint{"paint"};
 
+// Where the points of strokes are in the frame: shared::PlacedPoint.
+inline constexpr frame::Role kPlacedPoints{"placed points"};
+
+// Places points, and casts the shadows of strokes.
+std::unique_ptr<frame::Pass> makePoints();
 std::unique_ptr<frame::Pass> makeSplats();
 std::unique_ptr<frame::Pass> makeOver();
 
-// How many places of paintings a scene has that are drawn under a look.
-uint32_t shownPaintings(const scene::SceneData& scene, const look::LookData& look);
+// For how many places of paintings there has to be room that a scene has and a look draws: in powers of two, so that
+// few that come and go make nothing anew. 0: for none.
+uint32_t drawnPaintings(const scene::SceneData& scene, const look::LookData& look);
 // Whether it has layers of paint that are.
 bool showsLayers(const scene::SceneData& scene, const look::LookData& look);
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "features/painting/painting.shared.h"
-#include "features/painting/splats/bindings.h"
+#include "features/painting/bindings.h"
 #include "scene/import_warnings.h"
 #include "scene/splat_places.h"
 #include "tests/support/aov.h"

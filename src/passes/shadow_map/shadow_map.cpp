@@ -23,6 +23,9 @@ class ShadowMap : public Pass {
   void declare(FrameBuilder& frame, uint32_t) override {
     frame.step("shadow-map", [this](VkCommandBuffer commands) { record(commands); });
     GeometryStep::use(frame);
+    casters_ = frame.casters();
+    for (const Caster& caster : casters_)
+      for (const auto& [handle, use] : caster.reads) frame.use(handle, use);
     map_ = frame.use(
         frame.keptImage(
             "shadow-map",
@@ -49,7 +52,10 @@ class ShadowMap : public Pass {
   void update(const FrameInput& input) override {
     step_.refresh();
     const shared::FrameUniforms& u = input.uniforms;
+    std::vector<uint64_t> others;
+    for (const Caster& caster : casters_) others.push_back(caster.version());
     wanted_ = {input.scene.castersVersion(),
+               std::move(others),
                input.knobs.scene<LevelsParams>().error,
                u.worldToLight,
                u.shadowCenter,
@@ -62,7 +68,8 @@ class ShadowMap : public Pass {
  private:
   // All that the map is made from.
   struct Content {
-    uint64_t casters;
+    uint64_t surfaces;
+    std::vector<uint64_t> others;
     float levels;
     glm::mat4 worldToLight;
     glm::vec2 center, scale;
@@ -78,12 +85,16 @@ class ShadowMap : public Pass {
     drawn_ = wanted_;
     gpu::Target depth{&resources_->image(map_), nullptr, {}};
     depth.clear.depthStencil = {1.0f, 0};
-    gpu::drawOnce(commands, depth, [&] { step_.draw(commands, nullptr, 0); });
+    gpu::drawOnce(commands, depth, [&] {
+      step_.draw(commands, nullptr, 0);
+      for (const Caster& caster : casters_) caster.draw(commands);
+    });
   }
 
   static constexpr Aov kAovs[] = {
       {.name = "shadow-map", .channels = {"R"}, .needsFloat = true, .isOnce = true, .hasOwnSize = true}};
 
+  std::vector<Caster> casters_;
   std::optional<Content> drawn_;
   Content wanted_{};
   gpu::Handle map_;

@@ -6,6 +6,9 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/type_precision.hpp>
 #include <map>
+#include <set>
+#include <span>
+#include <tuple>
 #include <unordered_map>
 
 #include "features/ink/drawing/chains.h"
@@ -84,9 +87,9 @@ std::vector<Drawing::Point> simplified(const std::vector<Drawing::Point>& points
   return kept;
 }
 
-float lengthOf(const std::vector<Place>& places, size_t from, size_t to) {
+float lengthOf(std::span<const Place> places) {
   float length = 0;
-  for (size_t i = from + 1; i < to; ++i)
+  for (size_t i = 1; i < places.size(); ++i)
     length += glm::distance(glm::vec2(places[i - 1].point.x, places[i - 1].point.y),
                             glm::vec2(places[i].point.x, places[i].point.y));
   return length;
@@ -113,7 +116,7 @@ void addStrokes(std::vector<Place> places, bool isClosed, const Drawing::Stroke&
   // What is short is as what comes before it, where something comes after it.
   for (size_t from = endOfRun(0); from < places.size();) {
     const size_t to = endOfRun(from);
-    const bool isShort = (isClosed || to < places.size()) && lengthOf(places, from, to) < kShortest;
+    const bool isShort = (isClosed || to < places.size()) && lengthOf(std::span(places).subspan(from, to - from)) < kShortest;
     for (size_t i = from; isShort && i < to; ++i) places[i].isSeen = !places[i].isSeen;
     from = to;
   }
@@ -156,6 +159,7 @@ struct TableLine {
   glm::vec2 outward, turn, reach;
   bool isOutline, isValley, isTurned;  // away, which nobody sees
   int kind;
+  uint32_t seen;  // as LineRecord has it
 };
 
 struct Table {
@@ -179,7 +183,7 @@ Table tableOf(const Image& image) {
       return texel(image, n % uint32_t(shared::kLineTableWidth),
                    n / uint32_t(shared::kLineTableWidth) * uint32_t(shared::kLineTexels) + down);
     };
-    const glm::vec4 spine = part(0), shift = part(1), radii = part(2), outward = part(4), turn = part(5);
+    const glm::vec4 spine = part(0), shift = part(1), radii = part(2), outward = part(4), turn = part(5), seen = part(6);
     if (outward.w <= 0) continue;
     table.lines.push_back({{{spine.x, spine.y}, {spine.z, spine.w}},
                            {{shift.x, shift.y}, {shift.z, shift.w}},
@@ -192,7 +196,8 @@ Table tableOf(const Image& image) {
                            outward.z > 0,
                            outward.z < 0,
                            ((int(outward.w) - 1) & shared::kInkTurned) != 0,
-                           (int(outward.w) - 1) & ~shared::kInkTurned});
+                           (int(outward.w) - 1) & ~shared::kInkTurned,
+                           uint32_t(seen.x) | uint32_t(seen.y) << 16});
   }
   return table;
 }
@@ -226,8 +231,14 @@ class PlacedNodes {
   uint32_t count_ = 0;
 };
 
-std::vector<Link> linksOf(const std::vector<TableLine>& lines, uint32_t& nodeCount) {
+// Drops lines that lie on others of their kind, as those of objects in one place do: pens would draw them twice.
+std::vector<Link> linksOf(std::vector<TableLine>& lines, uint32_t& nodeCount) {
   PlacedNodes nodes;
+  std::set<std::tuple<uint32_t, uint32_t, int, bool>> known;
+  std::erase_if(lines, [&](const TableLine& line) {
+    const uint32_t a = nodes.at(line.ends[0], line.metres[0]), b = nodes.at(line.ends[1], line.metres[1]);
+    return a != b && !known.emplace(std::min(a, b), std::max(a, b), line.kind, line.isTurned).second;
+  });
   std::map<std::array<float, 5>, uint32_t> families;
   std::vector<Link> links;
   for (const TableLine& line : lines) {
@@ -343,7 +354,8 @@ class EdgeStrokes {
                              shared::inkReach(t, line.reach, size),
                              uint32_t(line.isOutline),
                              uint32_t(line.isValley)};
-    return shared::inkFullness(p, table_.sceneRadius, table_.parallel, table_.fade, table_.outer);
+    return shared::inkSeen(t, line.seen) *
+           shared::inkFullness(p, table_.sceneRadius, table_.parallel, table_.fade, table_.outer);
   }
   // Square root; as ink_line.frag has it.
   glm::vec3 colorAt(const TableLine& line, glm::vec2 spine) const {
@@ -377,7 +389,7 @@ void addContours(const Contours& contours, float precision, const Drawing::Strok
       places.push_back(places.front());
     else
       add(endOf(chain.parts.back(), true));
-    if (lengthOf(places, 0, places.size()) >= kShortest)
+    if (lengthOf(places) >= kShortest)
       addStrokes(std::move(places), chain.isClosed, style, precision, strokes);
   }
 }
@@ -385,7 +397,7 @@ void addContours(const Contours& contours, float precision, const Drawing::Strok
 void addPictureLines(const AovOfView& aov, const look::LookData& look, const Table& table,
                      std::vector<Drawing::Stroke>& strokes) {
   const std::array<OverLine, shared::kInkOverKinds> lines = overLines(look);
-  const Image& depth = aov("depth");
+  const Image& depth = *aov("depth");
   const bool inMetres = look.get<InkParams>().unit == shared::kInkMetres;
   const float scale = pixelsOfUnit(look, 1 / table.metresOfPixel, table.pixelScale);
   const auto styleOf = [&](int kind) {
@@ -406,7 +418,7 @@ void addPictureLines(const AovOfView& aov, const look::LookData& look, const Tab
   const int steps = look.get<passes::FinalShadowParams>().steps;
   for (const int kind : {shared::kInkOverShadows, shared::kInkOverSteps}) {
     if (!lines[size_t(kind)].isShown) continue;
-    const Image& light = aov("final-shadow");
+    const Image& light = *aov("final-shadow");
     const auto lit = [&](uint32_t x, uint32_t y) -> std::optional<float> {
       const glm::vec4 there = texel(light, x, y);
       if (there.a < 0.999f) return std::nullopt;
@@ -419,9 +431,10 @@ void addPictureLines(const AovOfView& aov, const look::LookData& look, const Tab
                   styleOf(kind), radiusOf(kind), strokes);
   }
   // Between pieces.
-  for (int kind = shared::kInkOverObjects; kind < shared::kInkOverKinds; ++kind) {
+  const Image* const seenPieces = aov(kPiecesAov);
+  for (int kind = shared::kInkOverObjects; seenPieces && kind < shared::kInkOverKinds; ++kind) {
     if (!lines[size_t(kind)].isShown) continue;
-    const Image& pieces = aov(kPiecesAov);
+    const Image& pieces = *seenPieces;
     const auto pieceAt = [&](uint32_t x, uint32_t y) {
       const glm::vec4 piece = texel(pieces, x, y);
       return piece.r > 0 ? piece : glm::vec4(0, 0, 0, 1e9f);
@@ -440,16 +453,18 @@ void addPictureLines(const AovOfView& aov, const look::LookData& look, const Tab
   }
 }
 
-std::vector<const char*> aovs(const look::LookData& look) {
+std::vector<const char*> aovs(const scene::SceneData& scene, const look::LookData& look) {
   if (!mayShow(look)) return {};
   std::vector<const char*> names{kLineTableAov, "depth", "shadowed"};
   if (mayShowShadows(look)) names.push_back("final-shadow");
-  if (mayShowPieces(look)) names.push_back(kPiecesAov);
+  if (mayShowPieces(scene, look)) names.push_back(kPiecesAov);
   return names;
 }
 
 void add(const AovOfView& aov, const look::LookData& look, Drawing& drawing) {
-  const Table table = tableOf(aov(kLineTableAov));
+  const Image* const lines = aov(kLineTableAov);
+  if (!lines) return;  // the look, at its time, draws none
+  Table table = tableOf(*lines);
   if (table.metresOfPixel <= 0) return;  // nothing has edges
   drawing.leftOut += table.leftOut;
   addPictureLines(aov, look, table, drawing.strokes);
@@ -457,7 +472,7 @@ void add(const AovOfView& aov, const look::LookData& look, Drawing& drawing) {
   uint32_t nodeCount = 0;
   const std::vector<Link> links = linksOf(table.lines, nodeCount);
   const std::vector<Chain> chains = chainsOf(links, nodeCount);
-  const EdgeStrokes strokes(table, aov("depth"), aov("shadowed"));
+  const EdgeStrokes strokes(table, *aov("depth"), *aov("shadowed"));
   for (int kind = shared::kInkKinds - 1; kind >= 0; --kind)
     for (const Chain& chain : chains)
       if (table.lines[chain.parts.front().link].kind == kind) strokes.add(chain, drawing.strokes);

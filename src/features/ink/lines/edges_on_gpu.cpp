@@ -9,6 +9,7 @@
 #include "features/ink/lines/edge_bounds.h"
 #include "features/ink/mesh_groups.h"
 #include "scene/parallel.h"
+#include "scene/seen.h"
 #include "shading/frame.shared.h"
 
 namespace scumble::ink {
@@ -28,13 +29,58 @@ shared::DrawnEdge drawn(const scene::MeshEdge& edge, uint32_t vertices) {
           moved(edge.right, vertices)};
 }
 
-// `widths`: of each edge, or of none.
+// `widths`, `seen`: of each edge, or of none.
 shared::EdgeRing ringOf(const std::vector<scene::MeshEdge>& edges, const std::vector<uint32_t>& widths,
-                        size_t e, uint32_t vertices) {
+                        const std::vector<uint32_t>& seen, size_t e, uint32_t vertices) {
   const auto& beyond = edges[e].beyond;
   return {{moved(beyond[0], vertices), moved(beyond[1], vertices)},
           {moved(beyond[2], vertices), moved(beyond[3], vertices)},
-          widths.empty() ? ~0u : widths[e]};
+          widths.empty() ? ~0u : widths[e],
+          seen.empty() ? ~0u : seen[e]};
+}
+
+constexpr int kSeenParts = 32;
+// How far from an edge its surface is looked at, texels.
+constexpr float kSeenTexels = 1.5f;
+
+// As shared::EdgeRing has it. Of what is blended, seen is what has at least half of the alpha that the primitive has
+// anywhere: panes of glass have their lines, and smoke none around the card that it is painted on.
+std::vector<uint32_t> seenOf(const scene::Primitive& primitive, const std::vector<scene::MeshEdge>& edges,
+                             const scene::SurfaceAlpha& alpha, bool isBlended) {
+  // The alpha beside a part of an edge, on the side of a third vertex.
+  const auto beside = [&](const scene::MeshEdge& edge, uint32_t third, float part) {
+    const float texels = std::min(alpha.texelsBetween(edge.a, third), alpha.texelsBetween(edge.b, third));
+    const float inward = texels > 0 ? std::clamp(kSeenTexels / texels, 1e-3f, 0.25f) : 1e-3f;
+    return alpha.at({edge.a, edge.b, third}, {(1 - inward) * (1 - part), (1 - inward) * part, inward});
+  };
+  float least = alpha.least();
+  if (isBlended) {
+    float most = 0;
+    for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3)
+      for (int part = 0; part < 4; ++part) {
+        glm::vec3 weights(part == 3 ? 1.0f / 3 : 0.0f);
+        if (part < 3) weights[part] = 1;
+        const uint32_t* const corners = &primitive.indices[i];
+        most = std::max(most, alpha.at({corners[0], corners[1], corners[2]}, weights));
+      }
+    least = std::max(least, 0.5f * most);
+  }
+  std::vector<uint32_t> seen(edges.size(), 0);
+  for (size_t e = 0; e < edges.size(); ++e)
+    for (int i = 0; i < kSeenParts; ++i) {
+      const float part = (float(i) + 0.5f) / kSeenParts;
+      if (beside(edges[e], edges[e].left, part) >= least ||
+          (edges[e].right != scene::MeshEdge::kNone && beside(edges[e], edges[e].right, part) >= least))
+        seen[e] |= 1u << i;
+    }
+  return seen;
+}
+
+// As an edge has it that goes the other way.
+uint32_t reversed(uint32_t seen) {
+  uint32_t result = 0;
+  for (int i = 0; i < kSeenParts; ++i) result |= (seen >> i & 1) << (kSeenParts - 1 - i);
+  return result;
 }
 
 std::vector<uint32_t> widthsOf(const scene::Primitive& primitive, const std::vector<scene::MeshEdge>& edges) {
@@ -47,7 +93,32 @@ std::vector<uint32_t> widthsOf(const scene::Primitive& primitive, const std::vec
 
 }  // namespace
 
-void EdgesOnGpu::find(const std::vector<GeometryItem>& items) {
+bool EdgesOnGpu::Found::isSeenOf(const scene::Material& other,
+                                 const std::shared_ptr<const scene::Image>& otherImage) const {
+  return image == otherImage && material.alphaMode == other.alphaMode &&
+         material.alphaCutoff == other.alphaCutoff && material.baseColor.a == other.baseColor.a &&
+         material.baseColorTexture.uvSet == other.baseColorTexture.uvSet &&
+         material.baseColorTexture.transform == other.baseColorTexture.transform &&
+         material.baseColorTexture.sampler.wrapU == other.baseColorTexture.sampler.wrapU &&
+         material.baseColorTexture.sampler.wrapV == other.baseColorTexture.sampler.wrapV;
+}
+
+void EdgesOnGpu::findSeen(const scene::SceneData& scene, const scene::Primitive& primitive, Found& found) {
+  const scene::Material& material = scene.materials[size_t(primitive.material)];
+  const int image = material.baseColorTexture.image;
+  std::shared_ptr<const scene::Image> shown;
+  if (image >= 0) shown = scene.images[size_t(image)].keep();
+  if (found.isSeenOf(material, shown)) return;
+  std::vector<uint32_t> seen;
+  const scene::SurfaceAlpha alpha(scene, primitive);
+  if (!alpha.isWhole())
+    seen = seenOf(primitive, found.edges, alpha, material.alphaMode == scene::AlphaMode::blend);
+  isSeenOtherwise_ |= seen != found.seen;
+  found.seen = std::move(seen);
+  found.material = material, found.image = std::move(shown);
+}
+
+void EdgesOnGpu::find(const scene::SceneData& scene, const std::vector<GeometryItem>& items) {
   const std::vector<MeshGroup> groups = meshGroups(items);
   std::set<const scene::Primitive*> used;
   std::vector<const scene::Primitive*> missing;
@@ -62,6 +133,7 @@ void EdgesOnGpu::find(const std::vector<GeometryItem>& items) {
     found[i].bounds = boundsOf(*missing[i], found[i].edges);
   });
   for (size_t i = 0; i < missing.size(); ++i) edgesOf_[missing[i]] = std::move(found[i]);
+  for (auto& [primitive, of] : edgesOf_) findSeen(scene, *primitive, of);
 
   std::set<std::vector<const scene::Primitive*>> meshes;
   for (const MeshGroup& group : groups)
@@ -82,7 +154,8 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
   std::vector<Known> known;
   for (size_t i = 0; i < items.size(); ++i)
     known.push_back({items[i].primitive, places[i].firstVertex, places[i].firstRest, items[i].shown});
-  if (edges_.handle() && known == known_) return false;
+  if (edges_.handle() && known == known_ && !isSeenOtherwise_) return false;
+  isSeenOtherwise_ = false;
 
   std::vector<shared::DrawnEdge> edges;
   std::vector<shared::EdgeRing> rings;
@@ -126,7 +199,7 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
         if (!found.bounds.empty()) run->second.firstBounds = uint32_t(bounds.size());
         bounds.insert(bounds.end(), found.bounds.begin(), found.bounds.end());
         for (size_t e = 0; e < own.size(); ++e) {
-          edges.push_back(drawn(own[e], 0)), rings.push_back(ringOf(own, found.widths, e, 0));
+          edges.push_back(drawn(own[e], 0)), rings.push_back(ringOf(own, found.widths, found.seen, e, 0));
           // Words of bounds stay as they are.
           if (isShared[e]) edges.back() = {};
         }
@@ -143,8 +216,8 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
         if (between.primitive != p) continue;
         const GeometryItem &item = items[group[p]], &other = items[group[between.otherPrimitive]];
         const Found& found = edgesOf_.at(item.primitive);
-        const scene::MeshEdge &left = found.edges[between.edge],
-                              &right = edgesOf_.at(other.primitive).edges[between.otherEdge];
+        const Found& beyond = edgesOf_.at(other.primitive);
+        const scene::MeshEdge &left = found.edges[between.edge], &right = beyond.edges[between.otherEdge];
         const uint32_t firstLeft = places[group[p]].firstVertex,
                        firstRight = places[group[between.otherPrimitive]].firstVertex;
         shared::DrawnEdge edge = drawn(left, firstLeft);
@@ -152,7 +225,8 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
         if (item.material != other.material) edge.a |= shared::kEdgeMaterialBorder;
         edges.push_back(edge);
         // To the right one, this edge goes the other way.
-        shared::EdgeRing ring = ringOf(found.edges, found.widths, between.edge, firstLeft);
+        shared::EdgeRing ring = ringOf(found.edges, found.widths, found.seen, between.edge, firstLeft);
+        ring.seen |= beyond.seen.empty() ? ~0u : reversed(beyond.seen[between.otherEdge]);
         for (int i = 0; i < 2; ++i) ring.beyondRight[i] = moved(right.beyond[i], firstRight);
         rings.push_back(ring);
       }

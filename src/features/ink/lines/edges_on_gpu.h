@@ -19,8 +19,8 @@ using namespace world;
 class EdgesOnGpu {
  public:
   // Finds the edges of primitives that are new, while their vertices are there. Primitives that are the same
-  // objects as before have the same edges.
-  void find(const std::vector<GeometryItem>& items);
+  // objects as before have the same edges; which parts of them are seen follows from the scene's materials.
+  void find(const scene::SceneData& scene, const std::vector<GeometryItem>& items);
   // Brings the buffers up to date with what was found, and with where vertices are. True where they are
   // others; `settle` is called before the old ones go. Throws gpu::VulkanError where there are more than the
   // device binds at once.
@@ -41,7 +41,14 @@ class EdgesOnGpu {
     std::vector<scene::MeshEdge> edges;
     std::vector<uint32_t> widths;  // as shared::EdgeRing has them; empty or one an edge
     std::vector<shared::EdgeBounds> bounds;
+    std::vector<uint32_t> seen;  // as shared::EdgeRing has it; empty: all is
+    // What that follows from.
+    scene::Material material;
+    std::shared_ptr<const scene::Image> image;
+    bool isSeenOf(const scene::Material& other, const std::shared_ptr<const scene::Image>& otherImage) const;
   };
+  void findSeen(const scene::SceneData& scene, const scene::Primitive& primitive, Found& found);
+
   std::map<const scene::Primitive*, Found> edgesOf_;
   std::map<std::vector<const scene::Primitive*>, std::vector<scene::SharedEdge>> sharedBy_;
   struct Known {
@@ -51,6 +58,7 @@ class EdgesOnGpu {
     bool operator==(const Known&) const = default;
   };
   std::vector<Known> known_;  // what the buffers were written for
+  bool isSeenOtherwise_ = false;
   uint32_t chunkCount_ = 0;
   uint64_t edgeCount_ = 0;
   gpu::Buffer edges_, rings_, chunks_, bounds_;

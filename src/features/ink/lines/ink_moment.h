@@ -20,12 +20,14 @@ struct InkPlan : world::FeaturePlan {
 
 class InkMoment : public world::FeatureMoment {
  public:
-  InkMoment(gpu::Device& device, bool hasParts) : device_(device), hasParts_(hasParts) {}
-  bool follow(const scene::SceneData&, const world::FeaturePlan& plan) override {
+  InkMoment(gpu::Device& device, const scene::SceneData& scene, bool hasParts)
+      : device_(device), scene_(&scene), hasParts_(hasParts) {}
+  bool follow(const scene::SceneData& scene, const world::FeaturePlan& plan) override {
+    scene_ = &scene;
     return static_cast<const InkPlan&>(plan).needsParts == hasParts_;
   }
   void find(const std::vector<GeometryItem>& items) override {
-    edges_.find(items);
+    edges_.find(*scene_, items);
     if (hasParts_) parts_.find(items);
   }
   bool place(gpu::Uploader& uploader, const std::vector<GeometryItem>& items,
@@ -41,6 +43,7 @@ class InkMoment : public world::FeatureMoment {
 
  private:
   gpu::Device& device_;
+  const scene::SceneData* scene_;
   bool hasParts_;
   EdgesOnGpu edges_;
   PartsOnGpu parts_;

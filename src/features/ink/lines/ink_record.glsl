@@ -76,7 +76,7 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
   InkLine line = lines[object.material];
   vec3 middle = 0.5 * (edge.a + edge.b), toEye = eye.xyz - eye.w * middle;
   // What is seen from behind alone is hidden by the rest of it, but for open sheets.
-  float wound = object.influences == 0u && determinant(mat3(object.model)) < 0.0 ? -1.0 : 1.0;  // skins ignore it
+  float wound = object.mirrored != 0u ? -1.0 : 1.0;
   bool isTurned = wound * dot(edge.left, toEye) <= 0.0 && (edge.isOpen || wound * dot(edge.right, toEye) <= 0.0);
   isTurned = isTurned && line.isSingle != 0u;
   if (isTurned && !keepsTurned) kind = kInkNone;
@@ -87,6 +87,10 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
   record.turn = vec2(0.0);
   record.reach = vec2(0.0, 1.0);
   record.kind = kInkNone;
+  // Beside what is cut away there is nothing to draw.
+  EdgeRing ring = Rings(ink.addresses.rings).at[chunk.firstEdge + number % uint(kEdgeChunk)];
+  record.seen = ring.seen;
+  if (ring.seen == 0u) kind = kInkNone;
   if (kind == kInkNone) return record;
   mat4 worldToClip = VIEW_FIELD(worldToClip, view);
   End ends[2];
@@ -134,7 +138,6 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
   vec2 ownWidths = vec2(1.0);
   if (kind == kInkSilhouette) {
     bool isRight = wound * dot(edge.left, toEye) > 0.0;
-    EdgeRing ring = Rings(ink.addresses.rings).at[chunk.firstEdge + number % uint(kEdgeChunk)];
     Turn turn = turnOf(edge, ring, first, isRight, first + (isRight ? drawn.right : drawn.left), wound, toEye, at,
                        thirdAt[isRight ? 1 : 0]);
     ownWidths = line.outlineWidth * unpackUnorm2x16(ring.widths);

@@ -17,6 +17,7 @@ struct InkSpine {
   vec2 outward;  // away from the form
   vec2 turn, reach;  // as LineRecord has them
   bool isOutline, isValley;
+  uint seen;  // as LineRecord has it
 };
 
 float fullnessAt(InkSpine s, float t, float size, float radius, int view) {
@@ -31,7 +32,7 @@ float fullnessAt(InkSpine s, float t, float size, float radius, int view) {
   p.reach = inkReach(t, s.reach, size);
   p.isOutline = s.isOutline ? 1u : 0u;
   p.isValley = s.isValley ? 1u : 0u;
-  return inkFullness(p, frame.sceneRadius, VIEW_FIELD(orthographic, view), ink.fade, ink.outer);
+  return inkSeen(t, s.seen) * inkFullness(p, frame.sceneRadius, VIEW_FIELD(orthographic, view), ink.fade, ink.outer);
 }
 
 // `t`: along it, 0 to 1; `radius`: of the line, pixels.

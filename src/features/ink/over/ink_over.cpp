@@ -21,9 +21,9 @@ namespace {
 class Over : public Pass {
  public:
   const char* name() const override { return "ink-over"; }
-  uint32_t variant(const scene::SceneData&, const look::LookData& look) const override {
-    return mayShow(look) ? 1 + 2 * passes::mayTear(look) + 4 * mayShowShadows(look) + 8 * mayShowPieces(look)
-                         : 0;
+  uint32_t variant(const scene::SceneData& scene, const look::LookData& look) const override {
+    if (!mayShow(look)) return 0;
+    return 1 + 2 * passes::mayTear(look) + 4 * mayShowShadows(look) + 8 * mayShowPieces(scene, look);
   }
 
   void declare(FrameBuilder& frame, uint32_t variant) override {

@@ -16,8 +16,8 @@ namespace {
 class Parts : public Pass {
  public:
   const char* name() const override { return "ink-parts"; }
-  uint32_t variant(const scene::SceneData&, const look::LookData& look) const override {
-    return mayShowPieces(look);
+  uint32_t variant(const scene::SceneData& scene, const look::LookData& look) const override {
+    return mayShowPieces(scene, look);
   }
 
   void declare(FrameBuilder& frame, uint32_t isShown) override {

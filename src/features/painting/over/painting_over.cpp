@@ -18,7 +18,7 @@ class Over : public Pass {
   const char* name() const override { return "painting-over"; }
   uint32_t variant(const scene::SceneData& scene, const look::LookData& look) const override {
     const bool tears = passes::mayTear(look) && look.get<PaintingParams>().warp > 0;
-    return shownPaintings(scene, look) || showsLayers(scene, look) ? 1 + uint32_t(tears) : 0;
+    return drawnPaintings(scene, look) || showsLayers(scene, look) ? 1 + uint32_t(tears) : 0;
   }
   void declare(FrameBuilder& frame, uint32_t variant) override {
     if (!variant) return;

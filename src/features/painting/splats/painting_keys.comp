@@ -1,7 +1,7 @@
 #version 460
 // How far each splat is from between the eyes: the farthest are the least. Those that are not there come last.
 #extension GL_GOOGLE_include_directive : require
-#include "strokes.glsl"
+#include "../strokes.glsl"
 
 layout(local_size_x = kPaintingThreads) in;
 layout(set = 1, binding = kPaintingPlaced, scalar) readonly buffer Placed { PlacedPoint placed[]; };

@@ -1,7 +1,7 @@
 #version 460
 // A square around a splat that faces the viewer and lies along its stroke.
 #extension GL_GOOGLE_include_directive : require
-#include "strokes.glsl"
+#include "../strokes.glsl"
 #include "../../../shading/color_map.glsl"
 #include "../../../shading/light_space.glsl"
 #include "../../../shading/view_index.glsl"

@@ -1,19 +1,16 @@
-// Places splats, sorts them, and draws them over each other; and layers of paint over those.
-#include <bit>
-
+// Sorts splats, and draws them over each other; and layers of paint over those.
 #include "features/painting/fins/fins.h"
 #include "features/painting/painting.h"
 #include "features/painting/painting_knobs.h"
-#include "features/painting/splats/strokes_on_gpu.h"
+#include "features/painting/strokes_on_gpu.h"
+#include "features/painting/uniforms.h"
 #include "frame/drawn_image.h"
 #include "gpu/dispatch.h"
 #include "gpu/prefix_sum.h"
 #include "shaders/painting_keys_comp.h"
-#include "shaders/painting_points_comp.h"
 #include "shaders/painting_splat_frag.h"
 #include "shaders/painting_splat_vert.h"
 #include "shading/geometry_constants.shared.h"
-#include "stage/light.h"
 
 namespace scumble::painting {
 
@@ -26,27 +23,25 @@ class Splats : public Pass {
   const char* name() const override { return "painting"; }
   std::span<const Aov> aovs() const override { return kAovs; }
   uint32_t variant(const scene::SceneData& scene, const look::LookData& look) const override {
-    // In powers of two, so that few that come and go make nothing anew.
-    const uint32_t paintings = shownPaintings(scene, look);
-    const bool takesLight = paintings > 0 && look.get<PaintingParams>().light > 0;
-    return 4 * (paintings ? std::bit_ceil(paintings) : 0) + 2 * uint32_t(showsLayers(scene, look)) +
-           uint32_t(takesLight);
+    const bool isShown = drawnPaintings(scene, look) > 0;
+    const bool takesLight = isShown && look.get<PaintingParams>().light > 0;
+    return 4 * uint32_t(isShown) + 2 * uint32_t(showsLayers(scene, look)) + uint32_t(takesLight);
   }
 
   void declare(FrameBuilder& frame, uint32_t variant) override {
-    paintings_ = variant / 4, hasLayers_ = variant & 2, takesLight_ = variant & 1;
-    isShown_ = paintings_ > 0;
+    isShown_ = variant & 4, hasLayers_ = variant & 2, takesLight_ = variant & 1;
     configuration_ = frame.configuration();
     if (isShown_) {
       frame.step("painting-order", [this](VkCommandBuffer commands) { order(commands); });
-      frame.use(frame.get(kVertices), gpu::Use::storageBufferRead);
-      placedBuffer_ = frame.use(frame.graph().importBuffer("painting points"), gpu::Use::storageBufferWrite);
+      frame.use(frame.get(kPlacedPoints), gpu::Use::storageBufferRead);
+      order_ = frame.use(frame.graph().importBuffer("painting order"), gpu::Use::storageBufferWrite);
     }
     // Splats sink into what is there, so they read its depth; layers are tested against it, as attachment.
     if (hasSplatStep()) {
       frame.step(name(), [this](VkCommandBuffer commands) { recordSplats(commands); });
       if (isShown_) {
-        frame.use(placedBuffer_, gpu::Use::storageBufferReadByVertex);
+        frame.use(frame.get(kPlacedPoints), gpu::Use::storageBufferReadByVertex);
+        frame.use(order_, gpu::Use::storageBufferReadByVertex);
         depth_ = frame.use(frame.get(kDepth), gpu::Use::sampledByFragment);
         shadowMap_ = frame.use(frame.get(kShadowMap), gpu::Use::sampledByVertex);
       }
@@ -69,7 +64,6 @@ class Splats : public Pass {
     if (hasLayers_) fins_.create(frame, format());
     if (!isShown_) return;
     uniforms_ = frame.uniform(sizeof(shared::PaintingUniforms));
-    matrices_ = frame.uniform(paintings_ * sizeof(glm::mat4));
     constexpr VkShaderStageFlags kPlaces = VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_VERTEX_BIT;
     std::vector<gpu::Binding> bindings(shared::kPaintingBindings,
                                        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kPlaces});
@@ -78,7 +72,6 @@ class Splats : public Pass {
     layout_ = gpu::SetLayout(frame.device(), std::move(bindings));
     set_ = gpu::DescriptorSets(frame.device(), layout_);
     set_.writeBuffer(0, shared::kPaintingBlock, uniforms_.buffer, uniforms_.offset, uniforms_.size);
-    set_.writeBuffer(0, shared::kPaintingMatrices, matrices_.buffer, matrices_.offset, matrices_.size);
     textureLayout_ = gpu::SetLayout(
         frame.device(), {{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT},
                          {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT},
@@ -90,8 +83,6 @@ class Splats : public Pass {
     compute.pushConstantBytes = 4;
     compute.constants.resize(size_t(shared::kViewCountId) + 1);
     compute.constants.back() = configuration_.viewCount;
-    compute.shader = {shaders::painting_points_comp};
-    pointsPipeline_ = gpu::Pipeline(frame.device(), compute);
     compute.shader = {shaders::painting_keys_comp};
     keysPipeline_ = gpu::Pipeline(frame.device(), compute);
 
@@ -120,39 +111,18 @@ class Splats : public Pass {
     const StrokesOnGpu* const strokes = this->strokes();
     if (!strokes || strokes->splatCount() == 0) return;
     if (sort_.most() < strokes->splatCount()) sort_ = gpu::RadixSort(frame_->device(), strokes->splatCount());
-    const uint64_t placedBytes = strokes->pointCount() * sizeof(shared::PlacedPoint);
-    if (placed_.size() < placedBytes)
-      placed_ = gpu::Buffer(frame_->device(), placedBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                            gpu::MemoryKind::device);
     set_.writeBuffer(0, shared::kPaintingPoints, strokes->points());
-    set_.writeBuffer(0, shared::kPaintingPlaced, placed_.handle());
+    set_.writeBuffer(0, shared::kPaintingPlaced, strokes->placed());
     set_.writeBuffer(0, shared::kPaintingSplats, strokes->splats());
     set_.writeBuffer(0, shared::kPaintingOrder, sort_.values().handle());
     set_.writeBuffer(0, shared::kPaintingKeys, sort_.keys().handle());
-    set_.writeBuffer(0, shared::kPaintingVertices, frame_->scene().geometry().finalCore().handle());
   }
 
   void update(const FrameInput& input) override {
     if (hasLayers_) fins_.update(input);
     if (!isShown_) return;
-    const PaintingParams params = input.knobs.scene<PaintingParams>();
-    const LightParams light = input.knobs.scene<LightParams>();
-    const shared::MaterialData& material = input.scene.materialData(0);
-    shared::PaintingUniforms u{};
-    u.width = params.width, u.opacity = params.opacity, u.spacing = params.spacing;
-    u.streaks = params.streaks, u.dryEnds = params.dryEnds, u.variation = params.variation;
-    u.order = params.order, u.sunken = params.sunken, u.light = params.light;
-    u.until = params.plays ? float(std::min(input.time * double(params.speed), 3e38)) : 3.4e38f;
-    u.terminator = light.terminator, u.terminatorSharpness = light.terminatorSharpness;
-    u.lit = material.lit, u.shadowed = material.shadowed;
-    u.tintDown = material.tintDown, u.tintUp = material.tintUp;
-    uniforms_.write(u);
-    auto* const matrices = reinterpret_cast<glm::mat4*>(matrices_.mapped);
-    const std::vector<glm::mat4>& world = input.scene.motion().worldAsDrawn();
-    const std::vector<DrawnPainting>& paintings = strokes()->paintings();
-    for (size_t p = 0; p < paintings.size(); ++p)
-      matrices[p] = world[paintings[p].node] * paintings[p].toNode;
-    const ExampleTexture& bristles = frame_->examples().get(input.look, params.bristles);
+    uniforms_.write(uniformsOf(input));
+    const ExampleTexture& bristles = frame_->examples().get(input.look, input.knobs.scene<PaintingParams>().bristles);
     textures_.writeTexture(0, shared::kPaintingBristles, bristles.image.view(),
                            frame_->samplers().get(ExampleTextures::kSampler));
   }
@@ -160,11 +130,7 @@ class Splats : public Pass {
  private:
   static constexpr Aov kAovs[] = {{.name = "painting"}};
 
-  // Null where the scene, as it is now, has none: these passes are about to go then.
-  const StrokesOnGpu* strokes() const {
-    const auto here = frame_->scene().feature(kName);
-    return here ? &static_cast<const PaintingMoment*>(here->moment)->strokes() : nullptr;
-  }
+  const StrokesOnGpu* strokes() const { return strokesOf(*frame_); }
 
   void order(VkCommandBuffer commands) const {
     const auto run = [&](const gpu::Pipeline& pipeline, uint32_t count) {
@@ -176,7 +142,6 @@ class Splats : public Pass {
       constexpr uint32_t kThreads = shared::kPaintingThreads;
       gpu::dispatch(commands, (count + kThreads - 1) / kThreads);
     };
-    run(pointsPipeline_, strokes()->pointCount());
     run(keysPipeline_, strokes()->splatCount());
     sort_.record(commands, strokes()->splatCount());
   }
@@ -210,18 +175,16 @@ class Splats : public Pass {
 
   FrameBuilder* frame_ = nullptr;
   Configuration configuration_;
-  uint32_t paintings_ = 0;
   bool isShown_ = false, hasLayers_ = false, takesLight_ = false;
   Fins fins_;
-  UniformSlice uniforms_, matrices_;
-  gpu::Handle placedBuffer_, depth_, shadowMap_;
+  UniformSlice uniforms_;
+  gpu::Handle order_, depth_, shadowMap_;
   DrawnImage paint_;
   const gpu::GraphResources* resources_ = nullptr;
   gpu::SetLayout layout_, textureLayout_;
   gpu::DescriptorSets set_, textures_;
-  gpu::Pipeline pointsPipeline_, keysPipeline_, drawPipeline_;
+  gpu::Pipeline keysPipeline_, drawPipeline_;
   gpu::RadixSort sort_;
-  gpu::Buffer placed_;
 };
 
 }  // namespace

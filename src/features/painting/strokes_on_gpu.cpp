@@ -1,10 +1,14 @@
-#include "features/painting/splats/strokes_on_gpu.h"
+#include "features/painting/strokes_on_gpu.h"
 
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/packing.hpp>
+#include <numeric>
 
 #include "base/tileable_noise.h"
+#include "features/painting/painting.h"
+#include "scene/posed_bounds.h"
+#include "scene/seen.h"
 #include "scene/splat_places.h"
 #include "world/geometry.h"
 #include "world/vertex_codes.h"
@@ -24,11 +28,17 @@ std::vector<const scene::Primitive*> primitivesOf(const std::vector<GeometryItem
   return primitives;
 }
 
+scene::Bounds meshBox(const std::vector<GeometryItem>& items, const std::vector<size_t>& which) {
+  scene::Bounds box;
+  for (const size_t item : which) box.add(items[item].extent->box);
+  return box;
+}
+
 }  // namespace
 
 std::vector<DrawnPainting> paintingsOf(const scene::SceneData& scene) {
   std::vector<DrawnPainting> drawn;
-  const std::vector<bool> shown = scene::shownNodes(scene);
+  const std::vector<bool> shown = scene::everShownNodes(scene);
   for (size_t n = 0; n < scene.nodes.size(); ++n) {
     const scene::Node& node = scene.nodes[n];
     if (node.mesh < 0 || !shown[n]) continue;
@@ -39,6 +49,23 @@ std::vector<DrawnPainting> paintingsOf(const scene::SceneData& scene) {
       drawn.push_back({n, i, node.instances[i], mesh.painting});
   }
   return drawn;
+}
+
+StrokesOnGpu::StrokesOnGpu(const scene::SceneData& scene, std::vector<DrawnPainting> paintings)
+    : paintings_(std::move(paintings)), reachAlone_(paintings_.size()) {
+  std::vector<int> clips(scene.clips.size());
+  std::iota(clips.begin(), clips.end(), 0);
+  scene::forEachPose(scene, clips, [&](const scene::Pose& pose, auto) {
+    for (size_t p = 0; p < paintings_.size(); ++p)
+      if (pose.shown[paintings_[p].node])
+        reachAlone_[p].add(scene::posedBounds(paintings_[p].painting->hull.extent,
+                                              pose.world[paintings_[p].node] * paintings_[p].toNode, {}, {}));
+  });
+}
+
+const StrokesOnGpu* strokesOf(const frame::FrameBuilder& frame) {
+  const auto here = frame.scene().feature(kName);
+  return here ? &static_cast<const PaintingMoment*>(here->moment)->strokes() : nullptr;
 }
 
 std::vector<std::vector<size_t>> StrokesOnGpu::carriers(const std::vector<GeometryItem>& items) const {
@@ -56,8 +83,20 @@ std::vector<std::vector<size_t>> StrokesOnGpu::carriers(const std::vector<Geomet
 void StrokesOnGpu::find(const std::vector<GeometryItem>& items) {
   std::map<std::pair<const scene::Painting*, Carrier>, std::vector<PointBinding>> found;
   const std::vector<std::vector<size_t>> all = carriers(items);
+  reach_ = reachAlone_;
   for (size_t p = 0; p < paintings_.size(); ++p) {
     if (all[p].empty()) continue;
+    // As far from what carries them as they are at rest.
+    scene::Bounds& reach = reach_[p] = {};
+    float scale = 0;
+    for (const size_t item : all[p]) {
+      reach.add(items[item].reach);
+      scale = std::max(scale, largestScale(glm::mat3(items[item].model)));
+    }
+    const scene::Bounds &strokes = paintings_[p].painting->hull.extent.box, &mesh = meshBox(items, all[p]);
+    const glm::vec3 beyond = glm::max(glm::max(mesh.min - strokes.min, strokes.max - mesh.max), glm::vec3(0.0f));
+    if (!reach.empty && !mesh.empty)
+      reach.min -= scale * glm::length(beyond), reach.max += scale * glm::length(beyond);
     const Carrier carrier = primitivesOf(items, all[p]);
     const std::pair key{paintings_[p].painting.get(), carrier};
     if (found.contains(key)) continue;
@@ -141,10 +180,12 @@ bool StrokesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader,
   }
   settle();
   // What was there goes first.
-  points_ = {}, splats_ = {};
+  points_ = {}, splats_ = {}, placed_ = {};
   points_ = uploader.storage<shared::StrokePoint>(points);
   splats_ = uploader.storage<shared::Splat>(splats);
   device.requireBindable(std::max(points_.size(), splats_.size()), "so large a painting");
+  placed_ = gpu::Buffer(device, std::max<size_t>(1, points.size()) * sizeof(shared::PlacedPoint),
+                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryKind::device);
   pointCount_ = uint32_t(points.size());
   splatCount_ = uint32_t(splats.size());
   return true;

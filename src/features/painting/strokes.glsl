@@ -1,7 +1,7 @@
 // What all that places splats reads (set 1).
-#include "../../../shading/distance_key.glsl"
-#include "../../../shading/frame.glsl"
-#include "../painting.shared.h"
+#include "../../shading/distance_key.glsl"
+#include "../../shading/frame.glsl"
+#include "painting.shared.h"
 
 layout(set = 1, binding = kPaintingBlock, scalar) uniform Block { PaintingUniforms u; };
 layout(set = 1, binding = kPaintingPoints, scalar) readonly buffer Points { StrokePoint points[]; };
@@ -9,7 +9,8 @@ layout(set = 1, binding = kPaintingSplats, scalar) readonly buffer Splats { Spla
 
 // How much a splat counts, from the middle between the eyes, so that both have the same.
 float fadeOf(Splat splat, float radius, float metresOfOnePixel, float sine) {
-  return splatFade(splatsApart(u.spacing, metresOfOnePixel, radius), sine, splat.spacing);
+  // What carries it is not seen where it has shrunk to a point.
+  return radius <= 0.0 ? 0.0 : splatFade(splatsApart(u.spacing, metresOfOnePixel, radius), sine, splat.spacing);
 }
 
 // How a place on a stroke is seen from the middle between the eyes: the way there, unit length; how far it is, metres; and

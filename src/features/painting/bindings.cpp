@@ -1,4 +1,4 @@
-#include "features/painting/splats/bindings.h"
+#include "features/painting/bindings.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #version 460
 // Points of strokes, at rest or carried by a surface, become places in the world.
 #extension GL_GOOGLE_include_directive : require
-#include "strokes.glsl"
+#include "../strokes.glsl"
 
 layout(local_size_x = kPaintingThreads) in;
 layout(set = 1, binding = kPaintingMatrices, scalar) readonly buffer Matrices { mat4 matrices[]; };
@@ -21,7 +21,8 @@ mat3 frameOf(StrokePoint point, out vec3 foot, out float scale) {
   vec3 edge = b.position - a.position;
   edge -= normal * dot(normal, edge);
   edge *= inversesqrt(max(dot(edge, edge), 1e-30));
-  scale = clamp(sqrt(length(face)) / max(point.size, 1e-20), 1e-3, 1e3);
+  float size = sqrt(length(face));
+  scale = size > 0.0 ? clamp(size / max(point.size, 1e-20), 1e-3, 1e3) : 0.0;
   float hand = dot(face, normal) < 0.0 ? -1.0 : 1.0;  // mirrored triangles mirror what they carry
   return mat3(edge, hand * cross(normal, edge), normal);
 }

@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "features/painting/painting.shared.h"
-#include "features/painting/splats/bindings.h"
+#include "frame/pass.h"
+#include "features/painting/bindings.h"
 #include "gpu/resources.h"
 #include "scene/painting.h"
 #include "world/feature.h"
@@ -30,7 +31,7 @@ std::vector<DrawnPainting> paintingsOf(const scene::SceneData& scene);
 
 class StrokesOnGpu {
  public:
-  explicit StrokesOnGpu(std::vector<DrawnPainting> paintings) : paintings_(std::move(paintings)) {}
+  StrokesOnGpu(const scene::SceneData& scene, std::vector<DrawnPainting> paintings);
   const std::vector<DrawnPainting>& paintings() const { return paintings_; }
 
   // Hangs strokes on the meshes of their own nodes, while their vertices are there.
@@ -44,6 +45,10 @@ class StrokesOnGpu {
   // shared::StrokePoint, and shared::Splat.
   VkBuffer points() const { return points_.handle(); }
   VkBuffer splats() const { return splats_.handle(); }
+  // Room for a shared::PlacedPoint of each point.
+  VkBuffer placed() const { return placed_.handle(); }
+  // What the strokes reach at any time, world, as far as is known before.
+  const std::vector<scene::Bounds>& reach() const { return reach_; }
 
  private:
   // What carries a painting's points: by painting, the items of its node and instance that have triangles.
@@ -54,13 +59,18 @@ class StrokesOnGpu {
   std::map<std::pair<const scene::Painting*, Carrier>, std::vector<PointBinding>> bindings_;
   std::vector<std::pair<const scene::Primitive*, uint32_t>> known_;  // by item: where its vertices are
   uint32_t pointCount_ = 0, splatCount_ = 0;
-  gpu::Buffer points_, splats_;
+  gpu::Buffer points_, splats_, placed_;
+  std::vector<scene::Bounds> reach_, reachAlone_;  // by painting; of those that no mesh carries, else empty
 };
+
+// Those of the frame's scene; null where it has none any more: passes that draw them are about to go then.
+const StrokesOnGpu* strokesOf(const frame::FrameBuilder& frame);
+
 
 class PaintingMoment : public FeatureMoment {
  public:
-  PaintingMoment(gpu::Device& device, std::vector<DrawnPainting> paintings)
-      : device_(device), strokes_(std::move(paintings)) {}
+  PaintingMoment(gpu::Device& device, const scene::SceneData& scene, std::vector<DrawnPainting> paintings)
+      : device_(device), strokes_(scene, std::move(paintings)) {}
   bool follow(const scene::SceneData&, const FeaturePlan& plan) override;
   void find(const std::vector<GeometryItem>& items) override { strokes_.find(items); }
   bool place(gpu::Uploader& uploader, const std::vector<GeometryItem>& items,
@@ -69,6 +79,10 @@ class PaintingMoment : public FeatureMoment {
   }
   // Strokes follow from final vertices, and from where nodes are.
   void pose(const look::LookData&, const stage::KnobTable&, double, const FeatureMoment*) override {}
+
+  void addCasters(std::vector<scene::Bounds>& boxes) const override {
+    boxes.insert(boxes.end(), strokes_.reach().begin(), strokes_.reach().end());
+  }
 
   const StrokesOnGpu& strokes() const { return strokes_; }
 
@@ -82,8 +96,8 @@ struct PaintingPlan : public FeaturePlan {
   bool equals(const FeaturePlan& other) const override {
     return paintings == static_cast<const PaintingPlan&>(other).paintings;
   }
-  std::unique_ptr<FeatureMoment> makeMoment(gpu::Device& device, const scene::SceneData&) const override {
-    return std::make_unique<PaintingMoment>(device, paintings);
+  std::unique_ptr<FeatureMoment> makeMoment(gpu::Device& device, const scene::SceneData& scene) const override {
+    return std::make_unique<PaintingMoment>(device, scene, paintings);
   }
   std::vector<DrawnPainting> paintings;
 };
