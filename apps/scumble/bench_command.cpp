@@ -179,16 +179,17 @@ int run(const BenchArguments& args) {
     print(args.moving ? fmt::format("moving: from {:g} s to {:g} s", counted.front(), counted.back())
                       : fmt::format("still: at {:g} s", args.time));
     for (const std::string& name : order)
-      print(fmt::format("  {:<14} {:9.2f} ms {:8.1f} bytes a pixel read {:8.1f} written {:8.1f} fetches", name,
-                        median(passes[name]), double(traffic[name].bytesRead) / pixels,
+      print(fmt::format("  {:<14} {:9.2f} ms {:8.1f} bytes a pixel read {:8.1f} written {:8.1f} fetches",
+                        name, median(passes[name]), double(traffic[name].bytesRead) / pixels,
                         double(traffic[name].bytesWritten) / pixels, double(traffic[name].fetches) / pixels));
     print(fmt::format("  {:<14} {:9.2f} ms", "frame", median(frame)));
     print(fmt::format("  {:<14} {:9.2f} ms", "yardstick", median(plainFrame)));
     print(fmt::format("  {:<14} {:9.2f}", "ratio", median(ratios)));
     print(fmt::format("  {:<14} {:9.2f} ms beside it; {} draws", "CPU", median(cpu), drawCalls));
-    print(fmt::format(
-        "  {:<14} {:9.1f} bytes a pixel: {:.3f} ms at {:g} GB/s, without vertices and textures; {:.1f} fetches",
-        "images", double(bytes) / pixels, planned, args.bandwidth, double(fetches) / pixels));
+    print(
+        fmt::format("  {:<14} {:9.1f} bytes a pixel: {:.3f} ms at {:g} GB/s, without vertices and textures; "
+                    "{:.1f} fetches",
+                    "images", double(bytes) / pixels, planned, args.bandwidth, double(fetches) / pixels));
   }
   if (const Status status = args.json.give(report); !status) return fail(status.error());
   return kDone;

@@ -82,8 +82,9 @@ int info(const SceneArguments& args, const JsonOption& json) {
   const SceneSummary s = scene->summary();
   print(fmt::format("meshes      {} ({} primitives, {} triangles, {} vertices)\n", s.meshes, s.primitives,
                     s.triangles, s.vertices));
-  print(fmt::format("nodes       {}: {}\nmaterials   {}\nimages      {}\nskins       {}\nmorphs      {}\n", s.nodes,
-                    shortened(s.nodeNames), counted(s.materialNames), s.images, s.skins, s.morphTargets));
+  print(fmt::format("nodes       {}: {}\nmaterials   {}\nimages      {}\nskins       {}\nmorphs      {}\n",
+                    s.nodes, shortened(s.nodeNames), counted(s.materialNames), s.images, s.skins,
+                    s.morphTargets));
   if (s.strokes > 0)
     print(
         fmt::format("strokes     {} ({} points; brushes: {})\n", s.strokes, s.points, shortened(s.brushes)));

@@ -109,8 +109,8 @@ Result<int> chunkFor(const FarmArguments& args, const RenderPlan& plan, const Cl
     const Result<FrameTime> time = timeFrames(plan);
     if (time) {
       chunk = usualChunk(*time, frames, cluster);
-      std::puts(fmt::format("a frame takes {:.3f} s here ({}), and starting {:.1f} s", time->frame, time->device,
-                            time->start)
+      std::puts(fmt::format("a frame takes {:.3f} s here ({}), and starting {:.1f} s", time->frame,
+                            time->device, time->start)
                     .c_str());
     } else if (time.error().kind == ErrorKind::noUsableGpu) {
       std::printf("no frame can be timed here (%s): --chunk says how many a task draws\n",

@@ -12,7 +12,8 @@ Result<std::unique_ptr<Renderer>> rendererFor(RenderPlan& plan) {
 }
 
 Status drawFrames(const RenderPlan& plan, Renderer& renderer, const std::vector<double>& times,
-                  Progress& progress, const std::function<Status(size_t, Frame)>& take) {
+                  Progress& progress, const std::function<Status(size_t, Frame)>& take,
+                  const std::function<bool()>& ends) {
   const bool moves = viewsMove(plan.scene, plan.args.picture.viewpoint().value(), plan.look);
   const PictureArguments camera = plan.args.camera();
   const auto viewsAt = [&](double time) {
@@ -23,8 +24,12 @@ Status drawFrames(const RenderPlan& plan, Renderer& renderer, const std::vector<
   static_assert(kUnderWay <= size_t(Renderer::kMaxBegun));
   const size_t underWay = plan.args.kind ? 1 : kUnderWay;
   std::optional<Result<Frame>> panorama;
-  for (size_t next = 0, done = 0; done < times.size();) {
-    if (next < times.size() && next - done < underWay) {
+  size_t last = times.size();
+  for (size_t next = 0, done = 0; done < last;) {
+    // What is under way is drawn still.
+    if (ends && ends()) last = next;
+    if (done == last) break;
+    if (next < last && next - done < underWay) {
       const Result<std::vector<View>> views = viewsAt(times[next]);
       if (!views) return views.error();
       RenderOptions options = plan.options;
@@ -42,11 +47,14 @@ Status drawFrames(const RenderPlan& plan, Renderer& renderer, const std::vector<
         // Many frames in itself: it keeps the device at work alone.
         options.progress = [&](double part) {
           progress.part(part);
-          return true;
+          return !(ends && ends());
         };
         panorama = renderPanorama(renderer, plan.scene, plan.look, times[next], views->front(),
                                   plan.args.wanted(), options);
-        if (!*panorama) return panorama->error();
+        if (!*panorama) {
+          const bool isWanted = panorama->error().kind == ErrorKind::cancelled && ends && ends();
+          return isWanted ? Status(Done{}) : panorama->error();
+        }
       } else if (const Status status = renderer.begin(plan.scene, plan.look, times[next], *views, options);
                  !status) {
         return status.error();

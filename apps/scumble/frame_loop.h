@@ -13,8 +13,10 @@ namespace scumble::app {
 // What `plan.args.picture` and its output ask of a renderer.
 Result<std::unique_ptr<Renderer>> rendererFor(RenderPlan& plan);
 
-// One frame for each of `times` (seconds); `take` gets them in this order.
+// One frame for each of `times` (seconds); `take` gets them in this order. Once `ends` says so no further one
+// is begun; it may be empty.
 Status drawFrames(const RenderPlan& plan, Renderer& renderer, const std::vector<double>& times,
-                  Progress& progress, const std::function<Status(size_t, Frame)>& take);
+                  Progress& progress, const std::function<Status(size_t, Frame)>& take,
+                  const std::function<bool()>& ends = {});
 
 }  // namespace scumble::app

@@ -41,7 +41,8 @@ void Progress::show(double done, const std::string& what) {
                  : std::to_string(int(100 * done)) + " %";
   if (terminal_) {
     const std::string full(size_t(kBarWidth * done / steps_), '#');
-    std::fprintf(stderr, "\rscumble: [%-*s] %s%s \033[K", kBarWidth, full.c_str(), count.c_str(), left.c_str());
+    std::fprintf(stderr, "\rscumble: [%-*s] %s%s \033[K", kBarWidth, full.c_str(), count.c_str(),
+                 left.c_str());
     std::fflush(stderr);
     isOpen_ = true;
   } else if ((done == steps_ && steps_ > 1) ||

@@ -1,5 +1,5 @@
-// Progress of long work on stderr: a bar on a terminal, else a plain line now and then; with the time left, as soon
-// as it can be told.
+// Progress of long work on stderr: a bar on a terminal, else a plain line now and then; with the time left,
+// as soon as it can be told.
 #pragma once
 
 #include <chrono>

@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "frame_loop.h"
 #include "frame_writer.h"
+#include "interruption.h"
 #include "json_option.h"
 #include "progress.h"
 #include "render_arguments.h"
@@ -118,17 +120,32 @@ int run(const RenderArguments& args) {
       },
       [&](int number) { progress.done("frame " + std::to_string(number)); });
   nlohmann::json frames = nlohmann::json::array();
-  Status status = drawFrames(*plan, *renderer, times, progress, [&](size_t i, Frame frame) {
-    for (const Drawing& drawing : frame.drawings)
-      if (drawing.leftOut > 0)
-        warn({std::to_string(drawing.leftOut) + " lines are left out of the drawing: there are too many"});
-    frames.push_back(statsJson(frame.stats));
-    return writer.add(plan->isPicture ? 0 : plan->numbers[i], std::move(frame));
-  });
+  // Pictures are whole as they are; a film is one file, which is to be played as far as it goes.
+  std::optional<Interruption> interruption;
+  if (film) interruption.emplace();
+  Status status = drawFrames(
+      *plan, *renderer, times, progress,
+      [&](size_t i, Frame frame) {
+        for (const Drawing& drawing : frame.drawings)
+          if (drawing.leftOut > 0)
+            warn(
+                {std::to_string(drawing.leftOut) + " lines are left out of the drawing: there are too many"});
+        frames.push_back(statsJson(frame.stats));
+        return writer.add(plan->isPicture ? 0 : plan->numbers[i], std::move(frame));
+      },
+      [&] { return film && Interruption::came(); });
   // What has been drawn is kept, whatever came after it.
   if (const Status written = writer.finish(); status && !written) status = written;
+  const bool isCut = film && Interruption::came() && frames.size() < times.size();
+  if (isCut && frames.empty()) {
+    std::fprintf(stderr, "scumble: ended by %s before the first frame\n", Interruption::name());
+    return Interruption::exitCode();
+  }
   if (status && film) status = film->finish();
   if (!status) return fail(status.error());
+  if (isCut)
+    std::fprintf(stderr, "scumble: ended by %s: %s holds %zu of %zu frames\n", Interruption::name(),
+                 output.path.c_str(), frames.size(), times.size());
   const double rendering = millisecondsSince(lapStart);
 
   if (!args.stats.empty())
@@ -143,7 +160,7 @@ int run(const RenderArguments& args) {
   if (!args.graph.empty() && renderer)
     if (const Status written = writeText(args.graph, renderer->graph()); !written)
       return fail(written.error());
-  return kDone;
+  return isCut ? Interruption::exitCode() : kDone;
 }
 
 }  // namespace

@@ -10,9 +10,9 @@ class TimeLeft {
   // Of this many steps.
   explicit TimeLeft(double steps) : steps_(steps) {}
 
-  // `done`: steps so far, in parts too; `elapsed`: seconds since the beginning. Seconds; nothing until there is a
-  // pace to go by and three percent are done, or five seconds over. What came before the first call does not count
-  // for the pace: pipelines are compiled then.
+  // `done`: steps so far, in parts too; `elapsed`: seconds since the beginning. Seconds; nothing until there
+  // is a pace to go by and three percent are done, or five seconds over. What came before the first call does
+  // not count for the pace: pipelines are compiled then.
   std::optional<double> after(double done, double elapsed) {
     if (done >= steps_) return 0.0;
     if (!begun_) {

@@ -1,6 +1,5 @@
 // `scumble xr`: a scene in a headset.
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -10,6 +9,7 @@
 
 #include "../viewer/picture_window.h"
 #include "commands.h"
+#include "interruption.h"
 #include "options.h"
 #include "output_files.h"
 #include "output_format.h"
@@ -34,9 +34,6 @@ struct XrArguments {
   double fps = 30, steady = 0.3, ready = 3;  // steady, ready: seconds
   std::optional<uint64_t> frames;
 };
-
-// Somebody at the keyboard wants it to end.
-volatile std::sig_atomic_t interrupted = 0;
 
 // What those who do not wear the headset see, and where it goes: a window, a film, or both.
 struct Onlookers {
@@ -190,7 +187,7 @@ int run(const XrArguments& args) {
   show.samples = quality->samples, show.seed = quality->seed;
   show.renderer = args.picture.rendererOptions();
   show.frames = args.frames;
-  show.isEnding = [] { return interrupted != 0; };
+  show.isEnding = [] { return Interruption::came(); };
   if (!args.quiet)
     show.tell = [](const std::string& line) { std::fprintf(stderr, "scumble: %s\n", line.c_str()); };
   // What hands have changed is what this leaves behind: for scripts, too.
@@ -198,13 +195,9 @@ int run(const XrArguments& args) {
     std::printf("%s\n", line.c_str());
     std::fflush(stdout);
   };
-  std::signal(SIGINT, [](int) {
-    interrupted = 1;
-    // A runtime that does not answer cannot be asked to end; who asks twice means it.
-    std::signal(SIGINT, SIG_DFL);
-  });
+  std::optional<Interruption> interruption(std::in_place);
   const Result<xr::ShowReport> report = showTo(**headset, show, onlookers.window.get());
-  std::signal(SIGINT, SIG_DFL);
+  interruption.reset();
   // What was seen until something went wrong is kept as well.
   std::optional<Result<Recorder::Report>> film;
   const bool wasSeen = !report || report->frames > 0;
@@ -220,7 +213,11 @@ int run(const XrArguments& args) {
   if (report->validationMessages > 0)
     return fail(
         Error{ErrorKind::internal, "", 0, "", "the validation layers found mistakes", "please report them"});
-  return kDone;
+  // Who takes the headset off ends it; a film that somebody has ended otherwise may lack what was to come.
+  if (!film || !Interruption::came()) return kDone;
+  std::fprintf(stderr, "scumble: ended by %s: %s holds what was seen until then\n", Interruption::name(),
+               args.output.c_str());
+  return Interruption::exitCode();
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ SCUMBLE_API int32_t scumble_editor_texture(scumble_editor* editor, int32_t id, c
 
 /* Set `size`, then start from scumble_material_default; the C++ header has more. */
 typedef struct scumble_material {
-  size_t size; /* sizeof of this struct, set by who calls */
+  size_t size;                                     /* sizeof of this struct, set by who calls */
   const char* name;                                /* by which looks know it */
   float base_color[4];                             /* linear; a factor on the texture */
   int32_t base_color_texture;                      /* -1: none */
@@ -166,7 +166,7 @@ typedef struct scumble_view {
 
 /* Where the camera stands. Set `size`, then start from scumble_viewpoint_default. */
 typedef struct scumble_viewpoint {
-  size_t size; /* sizeof of this struct, set by who calls */
+  size_t size;              /* sizeof of this struct, set by who calls */
   const char* camera;       /* of the scene, by name or number; null: as look and scene say */
   int32_t has_orbit;        /* else azimuth and elevation mean nothing */
   float azimuth, elevation; /* degrees */
@@ -194,7 +194,7 @@ typedef void (*scumble_log)(void* user, int32_t level, const char* text);
 
 /* Set `size`, then start from scumble_renderer_options_default. */
 typedef struct scumble_renderer_options {
-  size_t size; /* sizeof of this struct, set by who calls */
+  size_t size;              /* sizeof of this struct, set by who calls */
   const char* device;       /* part of a name, a number, "cpu", "gpu" (any other), or null: the best */
   const char* cache_folder; /* where compiled pipelines are kept; null: nowhere */
   int32_t validation;       /* Vulkan's validation layers watch */
@@ -215,7 +215,7 @@ typedef enum scumble_format { SCUMBLE_FLOAT32 = 0, SCUMBLE_HALF = 1, SCUMBLE_SRG
 
 /* Set `size`, then start from scumble_options_default. */
 typedef struct scumble_options {
-  size_t size; /* sizeof of this struct, set by who calls */
+  size_t size;            /* sizeof of this struct, set by who calls */
   uint32_t width, height; /* pixels, 1 to 16384 */
   uint32_t samples;       /* 1 or 4 */
   uint32_t seed;

@@ -32,14 +32,24 @@ struct VulkanDevice {
   std::mutex* queueLock = nullptr;
 };
 
-// The features that scumble needs, chained, in the structures of Vulkan's own versions, so that a program can
-// set more of its own in them, and chain others behind `v13`: `core` goes into VkDeviceCreateInfo::pNext. It
-// is not copied: the structures point at each other.
+// The features that scumble needs, chained, with timeline semaphores, which runtimes of headsets want: `core`
+// goes into VkDeviceCreateInfo::pNext, and a program's own are chained behind `maintenance4`. Each is a
+// structure by itself: who adds to the chain looks for those, and the structures of Vulkan's versions exclude
+// them. It is not copied: the structures point at each other.
 struct SCUMBLE_API VulkanFeatures {
   VkPhysicalDeviceFeatures2 core{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-  VkPhysicalDeviceVulkan11Features v11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES};
-  VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-  VkPhysicalDeviceVulkan13Features v13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+  VkPhysicalDeviceMultiviewFeatures multiview{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MULTIVIEW_FEATURES};
+  VkPhysicalDeviceScalarBlockLayoutFeatures scalarBlockLayout{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SCALAR_BLOCK_LAYOUT_FEATURES};
+  VkPhysicalDeviceBufferDeviceAddressFeatures bufferDeviceAddress{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES};
+  VkPhysicalDeviceTimelineSemaphoreFeatures timelineSemaphore{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES};
+  VkPhysicalDeviceDynamicRenderingFeatures dynamicRendering{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES};
+  VkPhysicalDeviceSynchronization2Features synchronization2{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES};
+  VkPhysicalDeviceMaintenance4Features maintenance4{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_FEATURES};
   VulkanFeatures();  // chained, all off
   VulkanFeatures(const VulkanFeatures&) = delete;
   VulkanFeatures& operator=(const VulkanFeatures&) = delete;

@@ -200,7 +200,8 @@ Result<BakeReport> bakeFins(const std::string& path, const std::string& out, con
             : gltf::withPaint(subjects.path, sceneOptions, subjects.scene->data(), meshes, warnings);
     gltf::addNew(report.warnings, warnings, subjects.path);
     Status status = gltf::putWhole(out, file);
-    if (status) checkpoint.finish();
+    // Also where it cannot be put where it is wanted: on a full disk, what is kept is part of what fills it.
+    if (status || status.error().kind == ErrorKind::outputNotWritten) checkpoint.finish();
     return status;
   });
   if (!made) return made.error();

@@ -107,9 +107,11 @@ void Checkpoint::write(uint64_t number, const Piece& piece) {
   if (!piece.tile.rgba.empty())
     isWritten &=
         std::fwrite(piece.tile.rgba.data(), 1, piece.tile.rgba.size(), file_) == piece.tile.rgba.size();
-  if (isWritten) return;
+  if (isWritten && std::fflush(file_) == 0) return;
+  // A full disk: what is kept takes the room that the result will need.
   std::fclose(file_);
   file_ = nullptr;
+  std::remove(path_.c_str());
 }
 
 void Checkpoint::finish() {

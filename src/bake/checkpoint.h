@@ -20,7 +20,8 @@ struct Piece {
 class Checkpoint {
  public:
   // Nothing is written before the first piece. `key`: of all that pieces follow from. What the file holds of
-  // another key, or that ends in the middle, counts for nothing. Where it cannot be written nothing is kept.
+  // another key, or that ends in the middle, counts for nothing. Where it cannot be written, or the disk is
+  // full, nothing is kept.
   Checkpoint(std::string path, uint64_t key);
   ~Checkpoint();
   Checkpoint(const Checkpoint&) = delete;
@@ -31,7 +32,7 @@ class Checkpoint {
   const Piece* find(uint64_t number) const;
   // From any thread.
   void add(uint64_t number, const Piece& piece);
-  // All is done, or never can be: the file goes.
+  // All is done, or never can be, or there is no room for it: the file goes.
   void finish();
 
  private:

@@ -115,8 +115,8 @@ glm::mat4 toMatrix(const float* numbers) {
   return glm::make_mat4(numbers);
 }
 
-// Option structs begin with their size as the caller was compiled with it, which may be another one than ours: no
-// more of them is read or filled than both know.
+// Option structs begin with their size as the caller was compiled with it, which may be another one than
+// ours: no more of them is read or filled than both know.
 constexpr size_t kLargestOptions = 4096;
 template <class Options>
 bool hasSize(const Options* options) {
@@ -156,7 +156,8 @@ scumble_options defaultOptions() {
 }
 scumble_panorama defaultPanorama() {
   const Panorama usual;
-  return {sizeof(scumble_panorama), scumble_panorama_kind(usual.kind), usual.ipd, usual.knobHeight, usual.strip};
+  return {sizeof(scumble_panorama), scumble_panorama_kind(usual.kind), usual.ipd, usual.knobHeight,
+          usual.strip};
 }
 
 View toView(const scumble_view& view) {
@@ -188,7 +189,10 @@ struct Call {
 };
 Result<Call> callOf(const scumble_renderer* renderer, const scumble_scene* scene, const scumble_look* look,
                     const scumble_view* views, size_t count, const scumble_options* given) {
-  const Error null{ErrorKind::usage, "", 0, "",
+  const Error null{ErrorKind::usage,
+                   "",
+                   0,
+                   "",
                    "renderer, scene, look, views or options are null, or the options' size is not set",
                    "see scumble.h"};
   if (!renderer || !scene || !look || !views || !hasSize(given)) return null;

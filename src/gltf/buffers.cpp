@@ -155,7 +155,8 @@ std::vector<std::string> Buffers::files() const {
       if (!json.has("uri") || !json.json()["uri"].is_string()) continue;
       const std::string& uri = json.json()["uri"].get_ref<const std::string&>();
       if (uri.empty() || isDataUri(uri)) continue;
-      // A picture on the network has a stand-in, where it is used at all; without its vertices a scene is none.
+      // A picture on the network has a stand-in, where it is used at all; without its vertices a scene is
+      // none.
       if (std::string_view(name) == "images" && isRemoteUri(uri)) continue;
       std::string file =
           resolveFileUri(uri, folder_.empty() ? "." : folder_, allowOutside_, json.pathOf("uri"));

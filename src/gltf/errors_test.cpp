@@ -173,8 +173,8 @@ TEST(GltfErrors, uris) {
 TEST(GltfErrors, urisOfOtherWriters) {
   const TestFolder made;
   const std::string folder = made.path();
-  for (const char* uri : {"textures\\back.png", "textures/back.png?v=2", "textures/back.png#part", "textures%5Cback.png",
-                          ".\\textures\\back.png?a=b?c", "textures//back.png"})
+  for (const char* uri : {"textures\\back.png", "textures/back.png?v=2", "textures/back.png#part",
+                          "textures%5Cback.png", ".\\textures\\back.png?a=b?c", "textures//back.png"})
     EXPECT_EQ(gltf::resolveFileUri(uri, folder, false, ""), folder + "/textures/back.png") << uri;
   for (const char* name : {"q.png?v=2", "tex#1.png", "back\\slash.png"}) {
     std::ofstream(made.file(name)) << "x";
@@ -183,8 +183,8 @@ TEST(GltfErrors, urisOfOtherWriters) {
   const std::vector<uint8_t> bytes{1, 2, 3, 250};
   for (const char* uri :
        {"data:application/octet-stream;base64,AQID+g==", "DATA:application/octet-stream;BASE64,AQID+g==",
-        "data:;base64,AQ\r\nID\n+g==\n", "data:;base64,AQID%2Bg%3D%3D", "data:;base64,AQID-g", "data:;base64 ,AQID+g",
-        "data:,%01%02%03%FA", "data:a/b;charset=x;base64,AQID+g=="}) {
+        "data:;base64,AQ\r\nID\n+g==\n", "data:;base64,AQID%2Bg%3D%3D", "data:;base64,AQID-g",
+        "data:;base64 ,AQID+g", "data:,%01%02%03%FA", "data:a/b;charset=x;base64,AQID+g=="}) {
     EXPECT_TRUE(gltf::isDataUri(uri)) << uri;
     EXPECT_EQ(gltf::decodeDataUri(uri, ""), bytes) << uri;
   }

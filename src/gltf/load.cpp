@@ -66,8 +66,8 @@ std::shared_ptr<SceneData> import(Bytes bytes, const FileBytes* file, const std:
   progress.step();
   data->extensionsUsed = document.extensionsUsed();
   data->extensionsNotSupported = document.extensionsNotSupported();
-  data->facesBack =
-      std::find(data->extensionsUsed.begin(), data->extensionsUsed.end(), "VRM") != data->extensionsUsed.end();
+  data->facesBack = std::find(data->extensionsUsed.begin(), data->extensionsUsed.end(), "VRM") !=
+                    data->extensionsUsed.end();
   timings.parse = watch.lap();
 
   Maps maps;

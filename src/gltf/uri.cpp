@@ -80,9 +80,9 @@ bool isSpace(char c) {
 }
 
 bool equalsInSmall(std::string_view text, std::string_view small) {
-  return text.size() == small.size() && std::equal(text.begin(), text.end(), small.begin(), [](char a, char b) {
-           return std::tolower(static_cast<unsigned char>(a)) == b;
-         });
+  return text.size() == small.size() &&
+         std::equal(text.begin(), text.end(), small.begin(),
+                    [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
 }
 
 // Bytes as text has them: %20 and the like undone.
@@ -145,8 +145,8 @@ std::string resolveFileUri(std::string_view uri, const std::string& folder, bool
     fail(jsonPath,
          "points to \"" + shortened(uri) + "\", and scumble never uses the network or other schemes",
          "put the file beside the scene and name it by a relative path");
-  // Programs on Windows write its separators, and servers' addresses go on with a query. But where there is a file
-  // that is called just so, that is meant.
+  // Programs on Windows write its separators, and servers' addresses go on with a query. But where there is a
+  // file that is called just so, that is meant.
   std::string path = percentDecoded(withoutQuery(uri));
   std::replace(path.begin(), path.end(), '\\', '/');
   if (const std::string literal = percentDecoded(uri); literal != path && isInside(literal)) {

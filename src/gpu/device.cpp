@@ -21,12 +21,12 @@ constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 // Calls visit(feature, name) for every feature that scumble requires.
 template <class Visit>
 void forEachRequired(VulkanFeatures& f, Visit visit) {
-  visit(f.v13.dynamicRendering, "dynamicRendering");
-  visit(f.v13.synchronization2, "synchronization2");
-  visit(f.v13.maintenance4, "maintenance4");
-  visit(f.v12.scalarBlockLayout, "scalarBlockLayout");
-  visit(f.v12.bufferDeviceAddress, "bufferDeviceAddress");
-  visit(f.v11.multiview, "multiview");
+  visit(f.dynamicRendering.dynamicRendering, "dynamicRendering");
+  visit(f.synchronization2.synchronization2, "synchronization2");
+  visit(f.maintenance4.maintenance4, "maintenance4");
+  visit(f.scalarBlockLayout.scalarBlockLayout, "scalarBlockLayout");
+  visit(f.bufferDeviceAddress.bufferDeviceAddress, "bufferDeviceAddress");
+  visit(f.multiview.multiview, "multiview");
   visit(f.core.features.fragmentStoresAndAtomics, "fragmentStoresAndAtomics");
   visit(f.core.features.independentBlend, "independentBlend");
   visit(f.core.features.multiDrawIndirect, "multiDrawIndirect");
@@ -544,9 +544,13 @@ void Device::runOnce(const std::function<void(VkCommandBuffer)>& record) {
 namespace scumble {
 
 VulkanFeatures::VulkanFeatures() {
-  core.pNext = &v11;
-  v11.pNext = &v12;
-  v12.pNext = &v13;
+  core.pNext = &multiview;
+  multiview.pNext = &scalarBlockLayout;
+  scalarBlockLayout.pNext = &bufferDeviceAddress;
+  bufferDeviceAddress.pNext = &timelineSemaphore;
+  timelineSemaphore.pNext = &dynamicRendering;
+  dynamicRendering.pNext = &synchronization2;
+  synchronization2.pNext = &maintenance4;
 }
 
 void requireVulkanFeatures(VulkanFeatures& features) {

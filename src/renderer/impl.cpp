@@ -34,9 +34,7 @@ std::vector<std::string> objectNames(const scene::SceneData& scene, const Geomet
   const std::vector<bool> seen = scene::seenNodes(scene, options.clips);
   for (size_t n = 0; n < scene.nodes.size(); ++n) {
     const scene::Node& node = scene.nodes[n];
-    names.push_back(!seen[n]            ? ""
-                    : node.name.empty() ? "node " + std::to_string(n + 1)
-                                        : node.name);
+    names.push_back(!seen[n] ? "" : node.name.empty() ? "node " + std::to_string(n + 1) : node.name);
   }
   names.push_back(options.ground ? "Ground" : "");
   for (const PlannedFeature& planned : options.features)
@@ -246,9 +244,9 @@ Status Renderer::Impl::begin(const Request& request) {
       shared::FrameUniforms uniforms =
           frameUniforms(sceneOnGpu, knobs, viewsOf(part.group, seenFrom), viewsOf(part.group, seenBefore),
                         rigOf(part.group.rig, seenFrom), time, part.group.size, sphere);
-      const std::vector<shared::PunctualLight> lights = punctualLights(
-          scene.data(), knobs.scene<LightParams>(), sceneOnGpu.motion().world(), sceneOnGpu.motion().shown(),
-          uniforms.sceneRadius);
+      const std::vector<shared::PunctualLight> lights =
+          punctualLights(scene.data(), knobs.scene<LightParams>(), sceneOnGpu.motion().world(),
+                         sceneOnGpu.motion().shown(), uniforms.sceneRadius);
       uniforms.lightCount = uint32_t(lights.size());
       std::optional<BackdropInput> behind;
       if (background)
@@ -376,8 +374,7 @@ void Renderer::Impl::draw(Begun& frame) {
       return found == layers.end() ? nullptr : &found->views[view];
     };
     for (const FeatureParts& parts : features())
-      if (parts.drawing.add)
-        parts.drawing.add(aov, *frame.drawnLook, drawing);
+      if (parts.drawing.add) parts.drawing.add(aov, *frame.drawnLook, drawing);
   }
   std::erase_if(layers, [&](const Frame::Layer& layer) {
     return std::find(frame.drawnFrom.begin(), frame.drawnFrom.end(), layer.name) != frame.drawnFrom.end();

@@ -1,6 +1,8 @@
 #include "renderer/pass_list.h"
 
 #include <algorithm>
+#include <map>
+#include <stdexcept>
 #include <string_view>
 
 #include "frame/metatexture.h"
@@ -83,23 +85,72 @@ bool PassList::insertAfter(const std::string& name, Make make) {
   return true;
 }
 
+bool PassList::has(const std::string& name) const {
+  return std::any_of(makes_.begin(), makes_.end(), [&](const Make& make) { return name == make()->name(); });
+}
+
 std::vector<std::unique_ptr<Pass>> PassList::makeAll() const {
   std::vector<std::unique_ptr<Pass>> passes;
   for (const Make& make : makes_) passes.push_back(make());
   return passes;
 }
 
-namespace {
-
-// Their passes, where what they come after is there.
-void addFeatures(PassList& list) {
-  for (const FeatureParts& parts : features())
-    for (const FeatureParts::PlacedPass& pass : parts.passes) list.insertAfter(pass.after, pass.make);
+std::vector<FeaturePass> inOrder(std::vector<FeaturePass> passes,
+                                 const std::vector<std::string>& knownFeatures) {
+  const auto isKnown = [&](std::string_view name) {
+    return std::find(knownFeatures.begin(), knownFeatures.end(), name) != knownFeatures.end();
+  };
+  std::stable_sort(passes.begin(), passes.end(),
+                   [](const FeaturePass& a, const FeaturePass& b) { return a.feature < b.feature; });
+  std::vector<FeaturePass> ordered;
+  while (!passes.empty()) {
+    // The first one that none of the others has to come before.
+    const auto isFree = [&](const FeaturePass& one) {
+      return std::none_of(one.pass.above.begin(), one.pass.above.end(), [&](std::string_view below) {
+        if (!isKnown(below))
+          throw std::logic_error("a pass of the feature " + one.feature + " is to be above '" +
+                                 std::string(below) + "', which is no feature");
+        return std::any_of(passes.begin(), passes.end(),
+                           [&](const FeaturePass& other) { return other.feature == below; });
+      });
+    };
+    const auto next = std::find_if(passes.begin(), passes.end(), isFree);
+    if (next == passes.end())
+      throw std::logic_error("passes of " + passes.front().feature +
+                             " and other features want to be above each other");
+    ordered.push_back(*next);
+    passes.erase(next);
+  }
+  return ordered;
 }
 
-}  // namespace
+namespace {
 
-PassList standardPasses() {
+// Folders of all features, also of those that are not built.
+const std::vector<std::string>& knownFeatures() {
+  static const std::vector<std::string> names{
+#define FEATURE(name) #name,
+#include "all_feature_names.inc"
+#undef FEATURE
+  };
+  return names;
+}
+
+// Passes of features, where what they come after is in the list.
+void addFeatures(PassList& list) {
+  std::map<std::string, std::vector<FeaturePass>> byPlace;
+  for (const FeatureParts& parts : features())
+    for (const FeatureParts::PlacedPass& pass : parts.passes)
+      byPlace[pass.after].push_back({parts.feature->name(), pass});
+  for (const auto& [place, passes] : byPlace) {
+    const std::vector<FeaturePass> ordered = inOrder(passes, knownFeatures());
+    // Each directly behind that place: the last one first.
+    for (auto pass = ordered.rbegin(); pass != ordered.rend(); ++pass)
+      list.insertAfter(place, pass->pass.make);
+  }
+}
+
+PassList standardPassesAlone() {
   PassList list;
   list.append(passes::makeDeform);
   list.append(passes::makeCull);
@@ -116,6 +167,19 @@ PassList standardPasses() {
   list.append(passes::makeFinalColor);
   list.append(passes::makeFacts);
   list.append(passes::makeMatte);
+  return list;
+}
+
+}  // namespace
+
+PassList standardPasses() {
+  PassList list = standardPassesAlone();
+  // A place that nobody knows is a mistake; the yardstick's list lacks some that are known.
+  for (const FeatureParts& parts : features())
+    for (const FeatureParts::PlacedPass& pass : parts.passes)
+      if (!list.has(pass.after))
+        throw std::logic_error(std::string("a pass of the feature ") + parts.feature->name() +
+                               " is to come after '" + pass.after + "', which is no pass");
   addFeatures(list);
   return list;
 }

@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <fstream>
 #include <set>
+#include <stdexcept>
 #include <string>
 
 #include "frame/metatexture.h"
@@ -24,6 +27,7 @@
 #include "stage/camera.h"
 #include "stage/light.h"
 #include "stage/palette.h"
+#include "tests/support/asset_files.h"
 #include "tests/support/row_defaults.h"
 
 namespace scumble::renderer {
@@ -63,6 +67,66 @@ TEST(PassList, structsStartWithTheirRowsDefaults) {
     EXPECT_TRUE(seen.count(block)) << block->path << ": a new block of knobs; add its struct to this test";
   EXPECT_EQ(look::allBlocks().size(), seen.size())
       << "a block of knobs that the list leaves out, or one twice";
+}
+
+// Passes of features that come after one pass: by name, but above those that they name, however they are
+// given.
+TEST(PassList, featuresAtOnePlaceHaveAnOrder) {
+  const std::vector<std::string> known{"ash", "birch", "cedar", "not-built"};
+  using Above = std::vector<std::string_view>;
+  const auto ordered = [&](const std::vector<std::pair<std::string, Above>>& passes) {
+    std::vector<FeaturePass> list;
+    for (const auto& [feature, above] : passes) list.push_back({feature, {"final-color", nullptr, above}});
+    std::string names;
+    for (const FeaturePass& pass : inOrder(list, known)) names += pass.feature + " ";
+    return names;
+  };
+  EXPECT_EQ(ordered({{"cedar", {}}, {"ash", {}}, {"birch", {}}}), "ash birch cedar ");
+  EXPECT_EQ(ordered({{"ash", {"cedar"}}, {"birch", {}}, {"cedar", {}}}), "birch cedar ash ");
+  EXPECT_EQ(ordered({{"ash", {"birch", "cedar"}}, {"birch", {"cedar"}}, {"cedar", {}}}), "cedar birch ash ");
+  EXPECT_EQ(ordered({{"ash", {"not-built"}}, {"birch", {}}}), "ash birch ");
+  EXPECT_EQ(ordered({{"birch", {}}, {"ash", {}}, {"ash", {}}}), "ash ash birch ");
+  EXPECT_THROW(ordered({{"ash", {"elm"}}, {"birch", {}}}), std::logic_error) << "there is no such feature";
+  EXPECT_THROW(ordered({{"ash", {"birch"}}, {"birch", {"ash"}}}), std::logic_error) << "a circle";
+}
+
+// As docs/passes.md has them: what lies on the picture, from below.
+TEST(PassList, featuresPassesStandAsThePagesSay) {
+  std::vector<std::string> names;
+  for (const auto& pass : standardPasses().makeAll()) names.emplace_back(pass->name());
+  std::ifstream page(test::kSource / "docs/passes.md");
+  std::vector<std::string> told;
+  for (std::string line; std::getline(page, line);) {
+    if (!line.starts_with("| `")) continue;
+    // Every name of the first cell.
+    const std::string cell = line.substr(0, line.find('|', 1));
+    for (size_t at = cell.find('`'); at != cell.npos; at = cell.find('`', cell.find('`', at + 1) + 1))
+      told.push_back(cell.substr(at + 1, cell.find('`', at + 1) - at - 1));
+    if (told.back() == "plain") break;  // the tables behind have other things
+  }
+  const auto placeOf = [](const std::vector<std::string>& in, std::string name) {
+    std::replace(name.begin(), name.end(), '_', '-');
+    const auto found = std::find_if(in.begin(), in.end(), [&](std::string other) {
+      std::replace(other.begin(), other.end(), '_', '-');
+      return other == name;
+    });
+    return found == in.end() ? -1 : int(found - in.begin());
+  };
+  const auto follow = [&](const char* from, const char* to) {
+    int last = -1;
+    for (size_t i = size_t(placeOf(names, from)); i < size_t(placeOf(names, to)); ++i) {
+      const int at = placeOf(told, names[i]);
+      ASSERT_GE(at, 0) << names[i] << " is not on the page";
+      EXPECT_GT(at, last) << names[i] << " stands on the page before a pass that it comes after";
+      last = at;
+    }
+  };
+  follow("order", "surface");
+  follow("final-color", "facts");
+  // Passes of the first surfaces' features, and then what else there is.
+  const int surface = placeOf(names, "surface");
+  for (const char* feature : {"ink-parts", "ink", "painting", "pigment"})
+    EXPECT_GE(placeOf(names, feature), surface);
 }
 
 // Shaders pad nothing, and neither does the program's face: names of AOVs are different words of small

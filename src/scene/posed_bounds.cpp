@@ -46,6 +46,12 @@ void forEachBox(const PrimitiveExtent& extent, const glm::mat4& model, std::span
   for (const PrimitiveExtent::Joint& joint : extent.joints) visit(grown(joint.box), joints[joint.joint]);
 }
 
+glm::mat4 meanOf(std::span<const glm::mat4> joints) {
+  glm::mat4 sum(0.0f);
+  for (const glm::mat4& joint : joints) sum += joint / float(joints.size());
+  return joints.empty() ? glm::mat4(1.0f) : sum;
+}
+
 glm::vec3 morphedPosition(const Primitive& primitive, size_t v, const std::vector<float>& weights) {
   glm::vec3 position = primitive.positions[v];
   for (size_t t = 0; t < primitive.morphTargets.size() && t < weights.size(); ++t)
@@ -81,8 +87,8 @@ void addPrimitive(Bounds& bounds, const Seen& seen, const glm::mat4& model, std:
   }
 }
 
-// What is seen of these nodes, at any time of these clips: visit(seen, model, joints, morph weights), once for
-// each primitive and instance.
+// What is seen of these nodes, at any time of these clips: visit(seen, model, joints, morph weights), once
+// for each primitive and instance.
 template <class Visit>
 void forEachPlayed(const SceneData& scene, const std::vector<bool>& nodes, std::span<const int> clips,
                    Visit&& visit) {
@@ -105,12 +111,12 @@ void forEachPlayed(const SceneData& scene, const std::vector<bool>& nodes, std::
           for (const glm::mat4& instance : node.instances)
             visit(seen, pose.world[n] * instance, none, weights);
       }
-      // What bends carries its strokes along, and tells where they are.
-      if (!mesh.painting || node.skin >= 0) continue;
+      // Where strokes are; what bends carries them along, about as its joints go on the average.
+      if (!mesh.painting) continue;
       const Seen strokes{mesh.painting->hull, mesh.painting->hull.extent, {}};
-      if (node.instances.empty()) visit(strokes, pose.world[n], none, {});
-      for (const glm::mat4& instance : node.instances)
-        visit(strokes, pose.world[n] * instance, none, {});
+      if (node.instances.empty())
+        visit(strokes, node.skin < 0 ? pose.world[n] : meanOf(joints[size_t(node.skin)]), none, {});
+      for (const glm::mat4& instance : node.instances) visit(strokes, pose.world[n] * instance, none, {});
     }
   });
 }
@@ -188,11 +194,8 @@ std::vector<glm::mat4> jointMatrices(const Skin& skin, const std::vector<glm::ma
 }
 
 glm::mat4 restPlaceOf(const SceneData& scene, const std::vector<glm::mat4>& world, size_t node) {
-  if (scene.nodes[node].skin < 0) return world[node];
-  glm::mat4 sum(0.0f);
-  const std::vector<glm::mat4> joints = jointMatrices(scene.skins[size_t(scene.nodes[node].skin)], world);
-  for (const glm::mat4& joint : joints) sum += joint / float(joints.size());
-  return joints.empty() ? glm::mat4(1.0f) : sum;
+  const int skin = scene.nodes[node].skin;
+  return skin < 0 ? world[node] : meanOf(jointMatrices(scene.skins[size_t(skin)], world));
 }
 
 glm::vec3 skinnedPosition(const Primitive& primitive, size_t v, const glm::vec3& position,
@@ -282,9 +285,10 @@ void forEachPose(
 Bounds playedBounds(const SceneData& scene, std::span<const int> clips) {
   if (clips.empty()) return scene.bounds;
   Bounds bounds;
-  forEachPlayed(scene, std::vector<bool>(scene.nodes.size(), true), clips,
-                [&](const Seen& seen, const glm::mat4& model, std::span<const glm::mat4> joints,
-                    const std::vector<float>& weights) { addPrimitive(bounds, seen, model, joints, weights); });
+  forEachPlayed(
+      scene, std::vector<bool>(scene.nodes.size(), true), clips,
+      [&](const Seen& seen, const glm::mat4& model, std::span<const glm::mat4> joints,
+          const std::vector<float>& weights) { addPrimitive(bounds, seen, model, joints, weights); });
   return bounds.empty ? scene.bounds : bounds;
 }
 

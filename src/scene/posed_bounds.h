@@ -24,7 +24,8 @@ PrimitiveExtent extentOf(const Primitive& primitive);
 PrimitiveExtent extentOf(const Primitive& primitive, std::span<const uint32_t> vertices);
 
 // A box around a primitive in the world, never too small: a skinned vertex lies between the places where its
-// joints alone would put it. Empty where matrices leave it no area. `joints`: empty for what is not skinned, which `model` places.
+// joints alone would put it. Empty where matrices leave it no area. `joints`: empty for what is not skinned,
+// which `model` places.
 Bounds posedBounds(const PrimitiveExtent& extent, const glm::mat4& model, std::span<const glm::mat4> joints,
                    std::span<const float> morphWeights);
 

@@ -201,9 +201,9 @@ void makeTangents(Primitive& p, float scale, std::vector<uint32_t>& first) {
 
 namespace {
 
-// Whether every edge is gone along both ways equally often. What is summed is another random number for each edge
-// and its opposite for the way back: the sum is 0 where all of them cancel out, and nowhere else but by chance (one
-// in 2^64).
+// Whether every edge is gone along both ways equally often. What is summed is another random number for each
+// edge and its opposite for the way back: the sum is 0 where all of them cancel out, and nowhere else but by
+// chance (one in 2^64).
 bool closes(const Primitive& p) {
   const auto mixed = [](uint64_t x) {
     x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u, x = (x ^ x >> 27) * 0x94d049bb133111ebu;

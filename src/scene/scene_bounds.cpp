@@ -66,8 +66,9 @@ bool addBox(const Bounds& box, const glm::mat4& matrix, Bounds& bounds) {
 
 // The box of the vertices that are seen where their joints put them (the node's own place does not count
 // then); nothing when it is not drawable. `morphedOwn` is the mesh's own box with its morph targets.
-std::optional<Bounds> skinnedBox(const SceneData& scene, const Node& node, const std::vector<glm::mat4>& world,
-                                 const Bounds& own, const Bounds& morphedOwn) {
+std::optional<Bounds> skinnedBox(const SceneData& scene, const Node& node,
+                                 const std::vector<glm::mat4>& world, const Bounds& own,
+                                 const Bounds& morphedOwn) {
   const Mesh& mesh = scene.meshes[size_t(node.mesh)];
   const std::vector<glm::mat4> joints = jointMatrices(scene.skins[size_t(node.skin)], world);
   Bounds bounds;
@@ -122,7 +123,8 @@ void placeScene(SceneData& scene, ImportWarnings& warnings) {
   for (size_t m = 0; m < scene.meshes.size(); ++m) boxes.push_back(measure(scene, m));
 
   // Boxes of nodes, in the world.
-  std::map<std::pair<int, int>, std::optional<Bounds>> skinned;  // by mesh and skin: the node's place does not matter
+  std::map<std::pair<int, int>, std::optional<Bounds>>
+      skinned;  // by mesh and skin: the node's place does not matter
   uint64_t drawn = 0, strokePoints = 0;
   for (Node& node : scene.nodes) {
     if (node.mesh < 0) continue;
@@ -151,6 +153,8 @@ void placeScene(SceneData& scene, ImportWarnings& warnings) {
         if (isNew) entry->second = skinnedBox(scene, node, world, own.box, box);
         good = entry->second.has_value();
         if (good) bounds.add(*entry->second);
+        if (mesh.painting)
+          good = good && addBox(mesh.painting->hull.extent.box, restPlaceOf(scene, world, index), bounds);
       } else if (node.instances.empty()) {
         good = addBox(box, world[index], bounds);
       } else {

@@ -6,9 +6,9 @@
 
 namespace scumble::scene {
 
-// Fills SceneData::seen, and SceneData::bounds from it. What lies so far out that it could not be drawn is taken off
-// its node with a warning; fails when a transformation is not finite, or more is drawn than any machine
-// could.
+// Fills SceneData::seen, and SceneData::bounds from it. What lies so far out that it could not be drawn is
+// taken off its node with a warning; fails when a transformation is not finite, or more is drawn than any
+// machine could.
 void placeScene(SceneData& scene, ImportWarnings& warnings);
 
 // Fails where there is nothing to draw.

@@ -43,6 +43,7 @@ void appendScene(SceneData& all, const SceneData& one, size_t firstNode, const A
     append(all.images, one.images);
     append(all.materials, one.materials);
     append(all.meshes, one.meshes);
+    all.seen.resize(at.meshes);
     append(all.seen, one.seen);
     for (Material& material : Tail<Material>{all.materials, at.materials})
       for (TextureUse* use : {&material.baseColorTexture, &material.emissiveTexture, &material.litTexture,

@@ -54,8 +54,8 @@ struct Outline {
   float lightingMix = 1.0f;  // 0: the colour as it is; 1: times the surface's
 };
 
-// Paint that lies over other surfaces (docs/fins.md): it is seen and casts shadows, and is nothing else. It has no
-// edges, and is in no facts.
+// Paint that lies over other surfaces (docs/fins.md): it is seen and casts shadows, and is nothing else. It
+// has no edges, and is in no facts.
 struct PaintLayer {
   bool fades = false;  // a fin, which fades as it turns away from the viewer
   // As BakePart has them.
@@ -296,7 +296,7 @@ struct SceneData {
   std::vector<Material> materials;  // index 0 is glTF's default material
   std::vector<Shared<Mesh>> meshes;
   std::vector<std::vector<SeenPart>> seen;  // by mesh and primitive; findSeen() fills it
-  std::vector<Node> nodes;  // those reachable from the chosen scene, parents first
+  std::vector<Node> nodes;                  // those reachable from the chosen scene, parents first
   std::vector<Camera> cameras;
   std::vector<Light> lights;
   std::vector<Skin> skins;

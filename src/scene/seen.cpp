@@ -31,7 +31,8 @@ class AlphaMaxima {
     if (!(low.x >= 0 && low.y >= 0 && high.x <= whole.width - 1 && high.y <= whole.height - 1))
       return greatest();
     const double size = std::max(high.x - low.x, high.y - low.y);
-    const size_t l = std::min(size_t(std::max(0.0, std::ceil(std::log2(std::max(size, 1.0))))), levels_.size() - 1);
+    const size_t l =
+        std::min(size_t(std::max(0.0, std::ceil(std::log2(std::max(size, 1.0))))), levels_.size() - 1);
     const Level& level = levels_[l];
     uint8_t most = 0;
     const auto cell = [&](double t, uint32_t cells) { return std::min(uint32_t(t) >> l, cells - 1); };
@@ -108,7 +109,8 @@ class Finder {
     };
     std::vector<uint32_t> seen;
     for (size_t i = 0; i + 2 < primitive.indices.size(); i += 3)
-      if (isSeen(&primitive.indices[i])) seen.insert(seen.end(), &primitive.indices[i], &primitive.indices[i] + 3);
+      if (isSeen(&primitive.indices[i]))
+        seen.insert(seen.end(), &primitive.indices[i], &primitive.indices[i] + 3);
     if (seen.size() == primitive.indices.size()) return part;
     part.isSeen = !seen.empty();
     if (!part.isSeen) return part;
@@ -211,7 +213,8 @@ void findSeen(SceneData& scene) {
 
 const SeenPart& seenOf(const SceneData& scene, int mesh, size_t p) {
   static const SeenPart kAll;
-  return size_t(mesh) < scene.seen.size() ? scene.seen[size_t(mesh)][p] : kAll;
+  if (size_t(mesh) >= scene.seen.size() || p >= scene.seen[size_t(mesh)].size()) return kAll;
+  return scene.seen[size_t(mesh)][p];
 }
 
 const PrimitiveExtent& seenExtent(const SceneData& scene, int mesh, size_t p) {
@@ -230,8 +233,8 @@ std::vector<bool> seenNodes(const SceneData& scene, std::span<const int> clips) 
       for (size_t p = 0; p < mesh.primitives.size(); ++p) hasSeenParts |= seenOf(scene, node.mesh, p).isSeen;
       if (!hasSeenParts) continue;
       const auto placed = [&](const glm::mat4& instance) { return keepsArea(pose.world[n] * instance); };
-      seen[n] = node.skin >= 0 ? std::any_of(joints[size_t(node.skin)].begin(), joints[size_t(node.skin)].end(),
-                                             keepsArea)
+      seen[n] = node.skin >= 0           ? std::any_of(joints[size_t(node.skin)].begin(),
+                                                       joints[size_t(node.skin)].end(), keepsArea)
                 : node.instances.empty() ? placed(glm::mat4(1.0f))
                                          : std::any_of(node.instances.begin(), node.instances.end(), placed);
     }

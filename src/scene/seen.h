@@ -1,8 +1,8 @@
-// What of a scene can be seen. Framing, bounds, ground, shadows, lines, mattes and drawings all ask here: what is
-// not seen is not there for any of them.
+// What of a scene can be seen. Framing, bounds, ground, shadows, lines, mattes and drawings all ask here:
+// what is not seen is not there for any of them.
 //
-// A surface is not seen where its node, or one above it, is hidden; where a matrix leaves it no area (scale 0);
-// and where its material is transparent or cut away (alpha of material, vertices and texture together).
+// A surface is not seen where its node, or one above it, is hidden; where a matrix leaves it no area (scale
+// 0); and where its material is transparent or cut away (alpha of material, vertices and texture together).
 #pragma once
 
 #include <span>

@@ -31,7 +31,7 @@ Bounds boundsOf(const SceneData& scene, const Node& node, const Pose& pose,
     else
       for (const glm::mat4& instance : node.instances) place(pose.world[n] * instance);
   }
-  // What bends carries its strokes along, and tells where they are.
+  // What bends carries its strokes along, and tells about where they are.
   if (!mesh.painting || node.skin >= 0) return bounds;
   const PrimitiveExtent& strokes = mesh.painting->hull.extent;
   if (node.instances.empty()) bounds.add(posedBounds(strokes, pose.world[n], {}, {}));

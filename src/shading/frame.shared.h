@@ -68,7 +68,7 @@ struct ObjectData {
   uint firstMorphWeight;  // in the morph weights
   uint kind, detail;      // what it is to the feature that it belongs to; 0 where it belongs to none
   vec2 patternShift;      // added to pattern coordinates
-  uint mirrored;  // 1 where matrices turn triangles inside out
+  uint mirrored;          // 1 where matrices turn triangles inside out
   uint wraps;  // whether pattern coordinates close on themselves after one unit: 1 along u, 2 along v
 };
 

@@ -72,23 +72,26 @@ std::vector<TiltLayer> readLayers(const Json& root, ImportWarnings& warnings) {
     const auto translation = isWhole ? numbersOf((*transform)[0], 3) : std::nullopt,
                rotation = isWhole ? numbersOf((*transform)[1], 4) : std::nullopt;
     if (!translation || !rotation) {
-      warnings.add("metadata.json (Layers)", "a layer's transform is ignored: it is no three parts of numbers");
+      warnings.add("metadata.json (Layers)",
+                   "a layer's transform is ignored: it is no three parts of numbers");
       continue;
     }
     const glm::quat turn((*rotation)[3], (*rotation)[0], (*rotation)[1], (*rotation)[2]);
     layer.translation = {(*translation)[0], (*translation)[1], (*translation)[2]};
     if (glm::length(turn) > 1e-6f) layer.rotation = glm::normalize(turn);
-    if (const float scale = (*transform)[2].get<float>(); scale > 0 && std::isfinite(scale)) layer.scale = scale;
+    if (const float scale = (*transform)[2].get<float>(); scale > 0 && std::isfinite(scale))
+      layer.scale = scale;
   }
   return layers;
 }
 
-// What a sketch holds beside strokes, each kind once. Guides are for the hand that paints, and are in no picture.
+// What a sketch holds beside strokes, each kind once. Guides are for the hand that paints, and are in no
+// picture.
 void tellOthers(const Json& root, ImportWarnings& warnings) {
   constexpr std::pair<const char*, const char*> kOthers[] = {
-      {"ModelIndex", "models"},  {"ImageIndex", "images"},       {"Videos", "videos"},
-      {"TextWidgets", "texts"},  {"LightWidgets", "lamps"},      {"SoundClips", "sounds"},
-      {"Lights", "own lights"},  {"Environment", "own environment"}};
+      {"ModelIndex", "models"}, {"ImageIndex", "images"},          {"Videos", "videos"},
+      {"TextWidgets", "texts"}, {"LightWidgets", "lamps"},         {"SoundClips", "sounds"},
+      {"Lights", "own lights"}, {"Environment", "own environment"}};
   for (const auto& [member, what] : kOthers)
     if (const auto found = root.find(member);
         found != root.end() && (found->is_array() || found->is_object()) && !found->empty())

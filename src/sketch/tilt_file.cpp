@@ -43,7 +43,8 @@ std::vector<uint8_t> unpacked(zip_t* zip, const char* name, size_t fileSize) {
   zip_stat_t stat;
   zip_stat_init(&stat);
   const zip_int64_t place = placeOf(zip, name);
-  if (place < 0 || zip_stat_index(zip, zip_uint64_t(place), 0, &stat) != 0 || !(stat.valid & ZIP_STAT_SIZE) || !(stat.valid & ZIP_STAT_INDEX))
+  if (place < 0 || zip_stat_index(zip, zip_uint64_t(place), 0, &stat) != 0 || !(stat.valid & ZIP_STAT_SIZE) ||
+      !(stat.valid & ZIP_STAT_INDEX))
     fail(name, "is not in the file", "a .tilt holds metadata.json and data.sketch");
   if (stat.size > kFreeBytes + kBytesPerByte * fileSize)
     fail(name, fmt::format("would unpack to {} bytes, far more than such a file can hold", stat.size),

@@ -26,13 +26,15 @@ bool isPunctual(const scene::SceneData& scene, const scene::Node& node) {
   return node.light >= 0 && scene.lights[size_t(node.light)].kind != scene::LightKind::directional;
 }
 
-// The direction to a lamp that stands outside of what it lights, where a scene has no other one: its key light.
+// The direction to a lamp that stands outside of what it lights, where a scene has no other one: its key
+// light.
 std::optional<glm::vec3> towardsOnlyLamp(const scene::SceneData& scene, const std::vector<glm::mat4>& world,
                                          const std::vector<bool>& shown) {
   std::optional<glm::vec3> only;
   for (size_t n = 0; n < scene.nodes.size(); ++n) {
     if (!shown[n] || scene.nodes[n].light < 0) continue;
-    if (only || !isPunctual(scene, scene.nodes[n]) || !(scene.lights[size_t(scene.nodes[n].light)].intensity > 0))
+    if (only || !isPunctual(scene, scene.nodes[n]) ||
+        !(scene.lights[size_t(scene.nodes[n].light)].intensity > 0))
       return std::nullopt;
     only = glm::vec3(world[n][3]) - scene.bounds.center();
   }
@@ -47,7 +49,8 @@ glm::vec3 keyLightDirection(const scene::SceneData& scene, const LightParams& pa
   if (params.source == 0) {
     for (size_t n = 0; n < scene.nodes.size(); ++n) {
       const int light = scene.nodes[n].light;
-      if (light < 0 || !shown[n] || scene.lights[size_t(light)].kind != scene::LightKind::directional) continue;
+      if (light < 0 || !shown[n] || scene.lights[size_t(light)].kind != scene::LightKind::directional)
+        continue;
       const glm::vec3 towards(world[n] * glm::vec4(0, 0, 1, 0));  // lights shine along -Z
       if (glm::length(towards) > 1e-12f) return glm::normalize(towards);
     }

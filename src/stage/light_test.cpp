@@ -55,8 +55,8 @@ TEST(PunctualLights, areFinite) {
     for (const float intensity : {1e30f, 3e38f}) {
       LightParams params;
       params.punctual = 100, params.punctualUnit = unit;
-      const auto lights =
-          punctualLights(lampScene({lamp(scene::LightKind::point, intensity)}), params, {glm::mat4(1)}, {true}, 3);
+      const auto lights = punctualLights(lampScene({lamp(scene::LightKind::point, intensity)}), params,
+                                         {glm::mat4(1)}, {true}, 3);
       EXPECT_TRUE(std::isfinite(lights[0].strength * 1e10f)) << unit << ", " << intensity;
       if (unit == 0) {
         EXPECT_NEAR(lights[0].strength, 100 * 0.5 * 1.2 * 1.2, 1e-3);
@@ -82,7 +82,9 @@ TEST(PunctualLights, lightsWithoutStrengthAndTooManyLights) {
   EXPECT_EQ(punctualLights(dark, {}, {glm::mat4(1)}, {true}, 1)[0].strength, 0);
   const std::vector<scene::Light> many(300, lamp(scene::LightKind::point, 1));
   EXPECT_EQ(punctualLightCount(lampScene(many)), scene::kMaxPunctualLights);
-  EXPECT_EQ(punctualLights(lampScene(many), {}, std::vector<glm::mat4>(300, glm::mat4(1)), std::vector<bool>(300, true), 1).size(),
+  EXPECT_EQ(punctualLights(lampScene(many), {}, std::vector<glm::mat4>(300, glm::mat4(1)),
+                           std::vector<bool>(300, true), 1)
+                .size(),
             scene::kMaxPunctualLights);
 }
 

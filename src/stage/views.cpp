@@ -243,7 +243,8 @@ Result<View> fromSceneCamera(const Shot& shot, size_t index) {
   // Scale in a camera's matrix means nothing.
   for (int axis = 0; axis < 3; ++axis)
     if (const float length = glm::length(glm::vec3(world[axis])); length > 1e-12f) world[axis] /= length;
-  // Nor does a mirror above it: it stands where that puts it, and looks along that, and its picture is no mirror's.
+  // Nor does a mirror above it: it stands where that puts it, and looks along that, and its picture is no
+  // mirror's.
   if (glm::determinant(glm::mat3(world)) < 0) world[0] = -world[0];
   view.worldToEye =
       glm::rotate(glm::mat4(1.0f), glm::radians(shot.roll), glm::vec3(0, 0, 1)) * glm::inverse(world);

@@ -24,7 +24,8 @@ struct DrawState {
   bool varied = false;    // vertex colours or textures vary the material's colour
   bool textured = false;
   bool casts = true;  // shadows
-  // Only with the sides that face the light: of what is closed that is enough, and the others are turned away.
+  // Only with the sides that face the light: of what is closed that is enough, and the others are turned
+  // away.
   bool castsFronts = false;
   bool castsAlone = false;  // shadows, and is drawn by nobody else here: paint
   auto operator<=>(const DrawState&) const = default;

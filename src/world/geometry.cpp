@@ -132,8 +132,8 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
     for (GeometryItem& item : geometry.items)
       if (pose.shown[item.node])
         item.reach.add(scene::posedBounds(*item.extent, pose.world[item.node] * item.instance,
-                                        item.skin >= 0 ? std::span(joints[size_t(item.skin)]) : none,
-                                        pose.morphWeights[item.node]));
+                                          item.skin >= 0 ? std::span(joints[size_t(item.skin)]) : none,
+                                          pose.morphWeights[item.node]));
   });
 
   // Flat grounds far larger than what stands on them would have the whole shadow map to themselves.

@@ -121,8 +121,8 @@ bool SceneMotion::follow(const scene::SceneData& scene, const std::vector<shared
     shared::ObjectData& object = placed[i];
     // Who reads joints or weights from elsewhere now, or is something else to its feature, moves.
     if (object.firstJoint != now[i].firstJoint || object.firstMorphWeight != now[i].firstMorphWeight ||
-        object.influences != influences_[i] || object.kind != now[i].kind ||
-        object.detail != now[i].detail || writerOf(moving_[i]) != writerOf_[i])
+        object.influences != influences_[i] || object.kind != now[i].kind || object.detail != now[i].detail ||
+        writerOf(moving_[i]) != writerOf_[i])
       touched_[i] = 1;
     writerOf_[i] = writerOf(moving_[i]);
     influences_[i] = object.influences;
@@ -229,9 +229,9 @@ bool SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, do
           ownJoints = {joints + data.firstJoint, scene.skins[size_t(object.skin)].joints.size()};
         // What is not seen is a point, which nothing draws.
         const bool isShown = object.node == MovingObject::kNoNode || pose.shown[object.node];
-        const bool isSeen = isShown && (object.skin >= 0 ? std::any_of(ownJoints.begin(), ownJoints.end(),
-                                                                       scene::keepsArea)
-                                                         : scene::keepsArea(model));
+        const bool isSeen =
+            isShown && (object.skin >= 0 ? std::any_of(ownJoints.begin(), ownJoints.end(), scene::keepsArea)
+                                         : scene::keepsArea(model));
         const bool isPoint = hides && !isSeen;
         if (isPoint) model = glm::mat4(0.0f);
         const uint32_t influences = isPoint ? 0 : influences_[i];

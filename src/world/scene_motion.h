@@ -48,8 +48,8 @@ class SceneMotion {
   // one that it follows, or as it was at that time, with the same nodes. False where all is as it was.
   // `hides`: what is not seen shrinks to a point; else it is where it would be, for who follows back what has
   // just appeared.
-  bool pose(const scene::SceneData& scene, const KnobTable& knobs, double time, const FeatureMoments& features,
-            bool hides = true);
+  bool pose(const scene::SceneData& scene, const KnobTable& knobs, double time,
+            const FeatureMoments& features, bool hides = true);
 
   // World bounds of each object in the pose.
   const std::vector<scene::Bounds>& bounds() const { return bounds_; }
@@ -123,7 +123,7 @@ class SceneMotion {
   std::vector<uint8_t> mirrored_;
   std::vector<float> scales_;
   std::vector<uint8_t> touched_;
-  std::vector<int> writerOf_;  // by object: who writes its vertices
+  std::vector<int> writerOf_;         // by object: who writes its vertices
   std::vector<uint32_t> influences_;  // by object, where it is seen
   std::vector<glm::mat4> world_, worldAsDrawn_;
   std::vector<bool> shown_, shownAsDrawn_;

@@ -151,7 +151,7 @@ VulkanWishes Instance::vulkan() const {
     });
   };
   // Runtimes may wait and signal on timelines of the program's device.
-  wishes.features = [](VulkanFeatures& features) { features.v12.timelineSemaphore = VK_TRUE; };
+  wishes.features = [](VulkanFeatures& features) { features.timelineSemaphore.timelineSemaphore = VK_TRUE; };
   return wishes;
 }
 

@@ -7,6 +7,7 @@ import base64
 import json
 import os
 import random
+import re
 import shutil
 import signal
 import struct
@@ -211,6 +212,27 @@ class Sequences(Film):
         for name, content in wanted.items():
             self.same(self.bytes(name), content, name)
         self.assertEqual((self.folder / "x.4.png").stat().st_mtime_ns, before, "a whole frame is left as it is")
+
+    def test_a_film_that_is_ended_keeps_its_frames(self):
+        if not (shutil.which("ffmpeg") and shutil.which("ffprobe")):
+            self.skipTest("ffmpeg is not installed")
+        environment = dict(os.environ, XDG_CACHE_HOME=str(program_test.shared / "cache"))
+        for sent, code, name in ((signal.SIGINT, 130, "Ctrl-C"), (signal.SIGTERM, 143, "SIGTERM")):
+            film = self.folder / f"{name}.mp4"
+            process = subprocess.Popen([program_test.scumble, "render", "move.gltf", "-o", film.name, "--frames", "0..99999",
+                                        "--stats", "never.json", *TINY], cwd=self.folder, env=environment, text=True,
+                                       stderr=subprocess.PIPE, stdin=subprocess.DEVNULL)
+            # A line comes every five seconds: frames have been drawn then.
+            first = process.stderr.readline()
+            self.assertRegex(first, r"scumble: frame \d+, \d+ of 100000")
+            process.send_signal(sent)
+            said = process.stderr.read()
+            self.assertEqual(process.wait(), code, said)
+            told = re.search(rf"ended by {name}: {re.escape(film.name)} holds (\d+) of 100000 frames", said)
+            self.assertTrue(told, said)
+            count = int(probe(film, "stream=nb_read_frames")["streams"][0]["nb_read_frames"])
+            self.assertEqual(count, int(told[1]))
+            self.assertGreater(count, 0)
 
     def test_killed_at_any_moment_nothing_is_half_written(self):
         args = ["-o", "x.##.png", "--frames", "0..11", "--aov", "normal", "--size", "640x360", "--samples", "1", "--quiet"]

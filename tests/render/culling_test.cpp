@@ -67,5 +67,42 @@ TEST_P(Culling, inflatedSurfacesReachIn) {
   }
 }
 
+// A sheet above a floor casts its shadow whichever way it faces, and a body whose near side is open, too.
+TEST_P(Culling, shadowsAreOfBothSides) {
+  const auto drawnWith = [&](bool facesDown, bool doubleSided, float mirror) {
+    TestScene s;
+    s.add(gridMesh({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}, 1),
+          s.material(TestScene::colored("Floor", {0.5f, 0.5f, 0.5f, 1})));
+    Json sheet = TestScene::colored("Sheet", {0.7f, 0.2f, 0.2f, 1});
+    sheet["doubleSided"] = doubleSided;
+    const glm::vec3 along = facesDown ? glm::vec3(0, 0, 1) : glm::vec3(0, 0, -1);
+    glm::mat4 matrix(1.0f);
+    matrix[0][0] = mirror;
+    s.add(gridMesh({-0.5f, 1.5f, facesDown ? -0.5f : 0.5f}, {1, 0, 0}, along, 1), s.material(sheet), matrix);
+    s.light({0.5f, 1, 0.3f});
+    const Scene scene = s.load();
+    const auto views = viewsFrom(scene, {{0, 0.9f, 6}, {0, 0, 0}}, kCullWidth, kCullHeight, GetParam());
+    return draw(scene, quietLook(), views, sized(kCullWidth, kCullHeight, {"shadow", "id"}));
+  };
+  const Frame expected = drawnWith(false, true, 1);
+  for (const bool facesDown : {false, true})
+    for (const float mirror : {1.0f, -1.0f}) {
+      const Frame frame = drawnWith(facesDown, false, mirror);
+      for (size_t v = 0; v < viewCount(); ++v) {
+        int dark = 0, others = 0;
+        for (int y = 0; y < kCullHeight; ++y)
+          for (int x = 0; x < kCullWidth; ++x) {
+            if (texel(aov(frame, "id", v), x, y).x != 1 || texel(aov(expected, "id", v), x, y).x != 1)
+              continue;
+            const double light = texel(aov(frame, "shadow", v), x, y).x;
+            dark += light < 0.3;
+            others += std::abs(light - texel(aov(expected, "shadow", v), x, y).x) > 0.3;
+          }
+        EXPECT_GE(dark, 8) << "faces down: " << facesDown << ", mirror " << mirror;
+        EXPECT_LE(others, 2) << "faces down: " << facesDown << ", mirror " << mirror;
+      }
+    }
+}
+
 }  // namespace
 }  // namespace scumble

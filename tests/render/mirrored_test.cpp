@@ -60,7 +60,8 @@ class Mirrored : public BothEyes {
       EXPECT_TRUE(look.set(path, value));
     std::vector<std::string> aovs{"depth", "normal"};
     if (hasKnob("ink.shown")) aovs.push_back("ink");
-    Result<Frame> frame = renderer().render(scene, look, time, views, sized(kMirrorWidth, kMirrorHeight, aovs));
+    Result<Frame> frame =
+        renderer().render(scene, look, time, views, sized(kMirrorWidth, kMirrorHeight, aovs));
     EXPECT_TRUE(frame) << frame.error().message();
     return std::move(frame).value();
   }
@@ -89,7 +90,8 @@ TEST_P(Mirrored, bodiesAreSeenFromOutside) {
     for (int axis = 0; axis < 3; ++axis)
       for (const int where : {0, 1, 2}) {  // above, at, both: which is no mirror
         const glm::mat4 mirror = mirrorAlong(axis);
-        expectAlike(drawn(boxUnder(body, where == 0 ? one : mirror, where == 1 ? one : mirror).load()), expected,
+        expectAlike(drawn(boxUnder(body, where == 0 ? one : mirror, where == 1 ? one : mirror).load()),
+                    expected,
                     std::string(kBodyNames[size_t(body)]) + ", axis " + std::to_string(axis) + ", where " +
                         std::to_string(where));
       }
@@ -136,7 +138,8 @@ TEST_P(Mirrored, camerasShowNoMirrorsPicture) {
     const Scene scene = withCamera(mirror, own);
     const std::vector<View> views = makeViews(scene, Viewpoint{}, 4.0f / 3, GetParam()).value();
     for (const View& view : views) EXPECT_GT(glm::determinant(glm::mat3(view.worldToEye)), 0.99f);
-    const Scene plain = withCamera(glm::mat4(1), glm::inverse(glm::lookAt(glm::vec3(2, 1.5f, 4), glm::vec3(0), {0, 1, 0})));
+    const Scene plain =
+        withCamera(glm::mat4(1), glm::inverse(glm::lookAt(glm::vec3(2, 1.5f, 4), glm::vec3(0), {0, 1, 0})));
     const std::vector<View> expected = makeViews(plain, Viewpoint{}, 4.0f / 3, GetParam()).value();
     for (size_t v = 0; v < views.size(); ++v)
       for (int i = 0; i < 16; ++i)

@@ -1,4 +1,5 @@
-// What cannot be seen is not there: neither in the picture nor in framing, ground, shadows, lines, drawings and mattes.
+// What cannot be seen is not there: neither in the picture nor in framing, ground, shadows, lines, drawings
+// and mattes.
 #include "scene/seen.h"
 
 #include "tests/support/aov.h"
@@ -35,7 +36,8 @@ Json materialOf(TestScene& s, Way way) {
   Json& pbr = m["pbrMetallicRoughness"];
   if (way == Way::material) m["alphaMode"] = "BLEND", pbr["baseColorFactor"][3] = 0;
   if (way == Way::vertices) m["alphaMode"] = "BLEND";
-  if (way == Way::texture) m["alphaMode"] = "BLEND", pbr["baseColorTexture"] = {{"index", s.texture(clearImage())}};
+  if (way == Way::texture)
+    m["alphaMode"] = "BLEND", pbr["baseColorTexture"] = {{"index", s.texture(clearImage())}};
   if (way == Way::mask) m["alphaMode"] = "MASK", pbr["baseColorFactor"][3] = 0.4;
   if (way == Way::cutoff) m["alphaMode"] = "MASK", m["alphaCutoff"] = 1.5;
   return m;
@@ -146,7 +148,8 @@ TEST_P(Seen, whatIsNotIsAsIfItWereNotThere) {
     }
 }
 
-// By a clip, from one second to the next: gone, there, gone; and in the motion of the frame in which it appears.
+// By a clip, from one second to the next: gone, there, gone; and in the motion of the frame in which it
+// appears.
 TEST_P(Seen, clipsShowAndHide) {
   TestScene s = cubeAlone();
   s.add(sphereMesh({2.5f, 1, 0}, 0.9f, 12), s.material(TestScene::colored("Red", {0.9f, 0.2f, 0.1f, 1})));
@@ -181,7 +184,8 @@ TEST_P(Seen, clipsShowAndHide) {
           {"target",
            {{"path", "pointer"},
             {"extensions",
-             {{"KHR_animation_pointer", {{"pointer", "/nodes/1/extensions/KHR_node_visibility/visible"}}}}}}}}}}}};
+             {{"KHR_animation_pointer",
+               {{"pointer", "/nodes/1/extensions/KHR_node_visibility/visible"}}}}}}}}}}}};
   json = whole;
   text = whole.dump();
   const Result<Scene> scene = Scene::loadFromMemory(text.data(), text.size(), "clip.gltf", "");
@@ -198,7 +202,8 @@ TEST_P(Seen, clipsShowAndHide) {
     EXPECT_TRUE(frame) << frame.error().message();
     return std::move(frame).value();
   };
-  for (const double time : {0.5, 2.5}) expectSame(at(*scene, time), at(alone, time), "at " + std::to_string(time));
+  for (const double time : {0.5, 2.5})
+    expectSame(at(*scene, time), at(alone, time), "at " + std::to_string(time));
   // It stands still, whether or not it was there a frame ago.
   const Frame there = at(*scene, 1.0);
   size_t shown = 0;
@@ -247,7 +252,8 @@ TEST(SeenParts, matricesThatLeaveAnArea) {
   for (const glm::mat4& m : {scaled(1, 1, 1), scaled(-1, 2, 3), scaled(1, 1, 0), scaled(0, 1e-6f, 1e-6f),
                              scaled(1e-9f, 1e-9f, 1e-9f), scaled(1e9f, 1e9f, 1)})
     EXPECT_TRUE(scene::keepsArea(m));
-  for (const glm::mat4& m : {scaled(0, 0, 0), scaled(1, 0, 0), scaled(0, 0, -2)}) EXPECT_FALSE(scene::keepsArea(m));
+  for (const glm::mat4& m : {scaled(0, 0, 0), scaled(1, 0, 0), scaled(0, 0, -2)})
+    EXPECT_FALSE(scene::keepsArea(m));
 }
 
 }  // namespace

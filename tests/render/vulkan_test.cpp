@@ -72,7 +72,7 @@ class Program {
 
     VulkanFeatures features;
     requireVulkanFeatures(features);
-    features.v12.timelineSemaphore = VK_TRUE;  // the program's own wish
+    features.timelineSemaphore.timelineSemaphore = VK_TRUE;  // the program's own wish
     const float priority = 1;
     const VkDeviceQueueCreateInfo queue{
         VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO, nullptr, 0, 0, 1, &priority};
@@ -700,7 +700,7 @@ TEST_F(Vulkan, wishesOfADevice) {
   options.device = testDevice();
   VulkanWishes wishes;
   wishes.deviceExtensions = {VK_KHR_TIMELINE_SEMAPHORE_EXTENSION_NAME};
-  wishes.features = [](VulkanFeatures& features) { features.v12.timelineSemaphore = VK_TRUE; };
+  wishes.features = [](VulkanFeatures& features) { features.timelineSemaphore.timelineSemaphore = VK_TRUE; };
   const auto made = createRenderer(wishes, options);
   ASSERT_TRUE(made.ok()) << made.error().message();
   // The device can do what was asked for.

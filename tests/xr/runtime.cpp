@@ -215,16 +215,22 @@ XrResult XRAPI_CALL createVulkanDevice(XrInstance, const XrVulkanDeviceCreateInf
                                        VkResult* result) {
   BEGIN("xrCreateVulkanDeviceKHR");
   NEED(info->vulkanPhysicalDevice == r.physical, "not the runtime's device", XR_ERROR_VALIDATION_FAILURE);
-  // A runtime that synchronises by timelines needs the program to switch them on.
+  // A runtime that synchronises by timelines needs the program to switch them on, looks for the feature's own
+  // structure, and puts structures of its own before the others, as public ones do.
   bool hasTimelines = false;
   for (auto* next = static_cast<const VkBaseInStructure*>(info->vulkanCreateInfo->pNext); next;
        next = next->pNext)
-    if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES)
-      hasTimelines = reinterpret_cast<const VkPhysicalDeviceVulkan12Features*>(next)->timelineSemaphore;
+    if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES)
+      hasTimelines =
+          reinterpret_cast<const VkPhysicalDeviceTimelineSemaphoreFeatures*>(next)->timelineSemaphore;
   NEED(hasTimelines, "timeline semaphores are not switched on", XR_ERROR_VALIDATION_FAILURE);
   const auto create =
       reinterpret_cast<PFN_vkCreateDevice>(info->pfnGetInstanceProcAddr(r.vulkan, "vkCreateDevice"));
-  *result = create(info->vulkanPhysicalDevice, info->vulkanCreateInfo, info->vulkanAllocator, device);
+  VkPhysicalDeviceHostQueryResetFeatures own{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_HOST_QUERY_RESET_FEATURES,
+                                             const_cast<void*>(info->vulkanCreateInfo->pNext), VK_TRUE};
+  VkDeviceCreateInfo createInfo = *info->vulkanCreateInfo;
+  createInfo.pNext = &own;
+  *result = create(info->vulkanPhysicalDevice, &createInfo, info->vulkanAllocator, device);
   r.device = *device;
   return XR_SUCCESS;
 }

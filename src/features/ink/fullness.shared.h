@@ -54,7 +54,8 @@ SHARED_FUNCTION float inkReach(float along, vec2 reach, float size) {
 SHARED_FUNCTION float inkSeen(float along, uint seen) {
   float at = min(max(along, 0.0f), 1.0f) * 32.0f - 0.5f;
   float before = min(max(floor(at), 0.0f), 31.0f), after = min(before + 1.0f, 31.0f);
-  return mix(float(seen >> uint(before) & 1u), float(seen >> uint(after) & 1u), min(max(at - before, 0.0f), 1.0f));
+  return mix(float(seen >> uint(before) & 1u), float(seen >> uint(after) & 1u),
+             min(max(at - before, 0.0f), 1.0f));
 }
 
 // A depth at a place along an edge, or a little beyond its ends, which may be close on the screen and not in

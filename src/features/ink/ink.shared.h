@@ -94,7 +94,8 @@ const int kInkRoom = 65536;  // for records of a view
 // Lines of a view for the CPU, as an image of 32-bit floats: line n takes kLineTexels texels, one below the
 // other, in column n % kLineTableWidth. Below all of them is a row that says what they are drawn with.
 //   0, 1: spine, shift, as LineRecord has them    2: radii, metres along the view axis at both ends
-//   3: color    4: outward; 1 + kind, so that 0 is no line    5: turn, reach    6: lower and upper half of seen
+//   3: color    4: outward; 1 + kind, so that 0 is no line    5: turn, reach    6: lower and upper half of
+//   seen
 const int kLineTexels = 7, kLineTableWidth = 4096, kLineTableRows = 64;
 const int kLineTableRoom = kLineTableWidth * kLineTableRows;
 // Of that row: how many lines there are, also beyond the room; pixels of one knob pixel, scene's radius,

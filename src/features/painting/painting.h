@@ -21,8 +21,8 @@ std::unique_ptr<frame::Pass> makePoints();
 std::unique_ptr<frame::Pass> makeSplats();
 std::unique_ptr<frame::Pass> makeOver();
 
-// For how many places of paintings there has to be room that a scene has and a look draws: in powers of two, so that
-// few that come and go make nothing anew. 0: for none.
+// For how many places of paintings there has to be room that a scene has and a look draws: in powers of two,
+// so that few that come and go make nothing anew. 0: for none.
 uint32_t drawnPaintings(const scene::SceneData& scene, const look::LookData& look);
 // Whether it has layers of paint that are.
 bool showsLayers(const scene::SceneData& scene, const look::LookData& look);

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "features/painting/painting.shared.h"
 #include "features/painting/bindings.h"
+#include "features/painting/painting.shared.h"
 #include "scene/import_warnings.h"
 #include "scene/splat_places.h"
 #include "tests/support/aov.h"
@@ -499,6 +499,98 @@ TEST_P(Paintings, takeLight) {
 }
 
 // Going away from a painting, what it covers shrinks as the square of the distance, and never at once.
+// On a floor, below strokes in the air: dark where the light meets paint on its way, and lit elsewhere; of
+// strokes alone, of such that a mesh carries, and of a node that moves.
+TEST_P(Paintings, castShadows) {
+  const glm::vec3 light = glm::normalize(glm::vec3(0.3f, 1, 0.2f));
+  const glm::vec3 from(-0.8f, 0.7f, 0), to(0.6f, 0.9f, 0.3f);
+  constexpr float kRadius = 0.15f;
+  enum class Kind { alone, carried, thin, light, moves };
+  for (const Kind kind : {Kind::alone, Kind::carried, Kind::thin, Kind::light, Kind::moves}) {
+    TestScene s;
+    s.add(gridMesh({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, 2),
+          s.material(TestScene::colored("Floor", {0.5f, 0.5f, 0.5f, 1})));
+    s.light(light);
+    const TestStroke stroke{{from, 0.5f * (from + to), to},
+                            kRadius,
+                            {0.8f, 0.2f, 0.1f, kind == Kind::thin ? 0.2f : 1.0f},
+                            kind == Kind::light ? "light" : ""};
+    if (kind == Kind::carried) {
+      // A sliver in the air, which casts next to nothing by itself.
+      s.add(gridMesh({-0.1f, 0.8f, 0}, {0.02f, 0, 0}, {0, 0, -0.02f}, 1),
+            s.material(TestScene::colored("Sliver", {0.5f, 0.5f, 0.5f, 1})));
+      s.paint({stroke});
+    } else {
+      s.addStrokes({stroke});
+    }
+    if (kind == Kind::moves) s.clip("moves", {0, 1}, {{0, 0, 0}, {0.4f, 0, -0.3f}});
+    const Scene scene = s.load();
+    const auto views = viewsFrom(scene, {{0, 4, 3}}, kWidth, kHeight, GetParam());
+    for (const double time : {0.0, 0.999}) {
+      Result<Frame> frame =
+          renderer().render(scene, paintLook(), time, views, sized(kWidth, kHeight, {"shadow", "position"}));
+      ASSERT_TRUE(frame) << frame.error().message();
+      const glm::dvec3 moved = kind == Kind::moves ? time * glm::dvec3(0.4, 0, -0.3) : glm::dvec3(0);
+      const bool casts = kind != Kind::thin && kind != Kind::light;
+      for (size_t v = 0; v < viewCount(); ++v) {
+        int dark = 0, lit = 0;
+        for (int y = 0; y < kHeight; ++y)
+          for (int x = 0; x < kWidth; ++x) {
+            const glm::dvec3 place(texel(aov(*frame, "position", v), x, y));
+            const glm::dvec4 shadow = texel(aov(*frame, "shadow", v), x, y);
+            if (shadow.w < 1 || std::abs(place.y) > 1e-3) continue;
+            // How far the way to the light passes the stroke, both seen along the light.
+            const auto flat = [&](const glm::dvec3& p) {
+              return p - glm::dvec3(light) * glm::dot(p, glm::dvec3(light));
+            };
+            const glm::dvec3 a = flat(glm::dvec3(from) + moved), b = flat(glm::dvec3(to) + moved),
+                             p = flat(place);
+            const double t = glm::clamp(glm::dot(p - a, b - a) / glm::dot(b - a, b - a), 0.0, 1.0);
+            const double away = glm::distance(p, glm::mix(a, b, t));
+            if (casts && away < 0.7 * kRadius) {
+              EXPECT_LT(shadow.x, 0.3) << x << ", " << y << ", kind " << int(kind);
+              ++dark;
+            } else if (!casts || away > 1.4 * kRadius) {
+              EXPECT_GT(shadow.x, 0.7) << x << ", " << y << ", kind " << int(kind);
+              ++lit;
+            }
+          }
+        EXPECT_GT(lit, 300);
+        EXPECT_EQ(dark > 20, casts) << "kind " << int(kind);
+      }
+    }
+  }
+}
+
+// What is not painted yet casts none, and what was there before leaves none behind.
+TEST_P(Paintings, shadowsComeWithTheirStrokes) {
+  TestScene s;
+  s.add(gridMesh({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, 2),
+        s.material(TestScene::colored("Floor", {0.5f, 0.5f, 0.5f, 1})));
+  TestStroke stroke{{{-0.6f, 0.6f, 0}, {0, 0.6f, 0}, {0.6f, 0.6f, 0}}, 0.2f, {0.8f, 0.2f, 0.1f, 1}};
+  stroke.times = {5, 6, 7};
+  TestStroke early{{{-1.5f, 0.3f, -1.5f}, {-1.4f, 0.3f, -1.5f}}, 0.05f, {0.8f, 0.2f, 0.1f, 1}};
+  early.times = {0, 0};
+  s.addStrokes({early, stroke});
+  const Scene scene = s.load();
+  const auto views = viewsFrom(scene, {{0, 4, 3}}, kWidth, kHeight, GetParam());
+  const auto darkAt = [&](double time) {
+    Result<Frame> frame = renderer().render(scene, paintLook({{"painting.plays", "on"}}), time, views,
+                                            sized(kWidth, kHeight, {"shadow"}));
+    EXPECT_TRUE(frame) << frame.error().message();
+    int dark = 0;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        const glm::dvec4 shadow = texel(aov(*frame, "shadow"), x, y);
+        dark += shadow.w == 1 && shadow.x < 0.3;
+      }
+    return dark;
+  };
+  const int none = darkAt(1), all = darkAt(9);
+  EXPECT_GT(all, none + 50);
+  EXPECT_EQ(darkAt(1), none);
+}
+
 TEST_P(Paintings, nothingPops) {
   TestScene s;
   s.addStrokes({swung({-1.2f, 0, 0}, {1.2f, 0.3f, 0.4f}, 0.2f, {0.8f, 0.1f, 0.1f, 1}),

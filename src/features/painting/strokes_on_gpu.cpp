@@ -94,7 +94,8 @@ void StrokesOnGpu::find(const std::vector<GeometryItem>& items) {
       scale = std::max(scale, largestScale(glm::mat3(items[item].model)));
     }
     const scene::Bounds &strokes = paintings_[p].painting->hull.extent.box, &mesh = meshBox(items, all[p]);
-    const glm::vec3 beyond = glm::max(glm::max(mesh.min - strokes.min, strokes.max - mesh.max), glm::vec3(0.0f));
+    const glm::vec3 beyond =
+        glm::max(glm::max(mesh.min - strokes.min, strokes.max - mesh.max), glm::vec3(0.0f));
     if (!reach.empty && !mesh.empty)
       reach.min -= scale * glm::length(beyond), reach.max += scale * glm::length(beyond);
     const Carrier carrier = primitivesOf(items, all[p]);

@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
+#include "features/painting/bindings.h"
 #include "features/painting/painting.shared.h"
 #include "frame/pass.h"
-#include "features/painting/bindings.h"
 #include "gpu/resources.h"
 #include "scene/painting.h"
 #include "world/feature.h"
@@ -66,7 +66,6 @@ class StrokesOnGpu {
 // Those of the frame's scene; null where it has none any more: passes that draw them are about to go then.
 const StrokesOnGpu* strokesOf(const frame::FrameBuilder& frame);
 
-
 class PaintingMoment : public FeatureMoment {
  public:
   PaintingMoment(gpu::Device& device, const scene::SceneData& scene, std::vector<DrawnPainting> paintings)
@@ -96,7 +95,8 @@ struct PaintingPlan : public FeaturePlan {
   bool equals(const FeaturePlan& other) const override {
     return paintings == static_cast<const PaintingPlan&>(other).paintings;
   }
-  std::unique_ptr<FeatureMoment> makeMoment(gpu::Device& device, const scene::SceneData& scene) const override {
+  std::unique_ptr<FeatureMoment> makeMoment(gpu::Device& device,
+                                            const scene::SceneData& scene) const override {
     return std::make_unique<PaintingMoment>(device, scene, paintings);
   }
   std::vector<DrawnPainting> paintings;

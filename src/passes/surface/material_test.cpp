@@ -205,6 +205,8 @@ TEST_P(MaterialTest, alphaAtItsCutoffAndWithoutOne) {
     TestMesh mesh = wall();
     mesh.colors.assign(4, {1, 1, 1, float(c.vertex)});
     s.add(mesh, s.material(json));
+    // A scene of which nothing is seen is warned of.
+    s.add(gridMesh({50, 0, 0}, {1, 0, 0}, {0, 1, 0}), s.material(TestScene::colored("Aside", {1, 1, 1, 1})));
     const Shown seen = shown(s);
     for (size_t v = 0; v < viewCount(); ++v) {
       EXPECT_EQ(seen.at("lit", v, place(0.3, 0.3)).w, c.isThere) << c.mode << ", cutoff " << c.cutoff;

@@ -116,7 +116,8 @@ void addStrokes(std::vector<Place> places, bool isClosed, const Drawing::Stroke&
   // What is short is as what comes before it, where something comes after it.
   for (size_t from = endOfRun(0); from < places.size();) {
     const size_t to = endOfRun(from);
-    const bool isShort = (isClosed || to < places.size()) && lengthOf(std::span(places).subspan(from, to - from)) < kShortest;
+    const bool isShort =
+        (isClosed || to < places.size()) && lengthOf(std::span(places).subspan(from, to - from)) < kShortest;
     for (size_t i = from; isShort && i < to; ++i) places[i].isSeen = !places[i].isSeen;
     from = to;
   }
@@ -183,7 +184,8 @@ Table tableOf(const Image& image) {
       return texel(image, n % uint32_t(shared::kLineTableWidth),
                    n / uint32_t(shared::kLineTableWidth) * uint32_t(shared::kLineTexels) + down);
     };
-    const glm::vec4 spine = part(0), shift = part(1), radii = part(2), outward = part(4), turn = part(5), seen = part(6);
+    const glm::vec4 spine = part(0), shift = part(1), radii = part(2), outward = part(4), turn = part(5),
+                    seen = part(6);
     if (outward.w <= 0) continue;
     table.lines.push_back({{{spine.x, spine.y}, {spine.z, spine.w}},
                            {{shift.x, shift.y}, {shift.z, shift.w}},
@@ -231,7 +233,8 @@ class PlacedNodes {
   uint32_t count_ = 0;
 };
 
-// Drops lines that lie on others of their kind, as those of objects in one place do: pens would draw them twice.
+// Drops lines that lie on others of their kind, as those of objects in one place do: pens would draw them
+// twice.
 std::vector<Link> linksOf(std::vector<TableLine>& lines, uint32_t& nodeCount) {
   PlacedNodes nodes;
   std::set<std::tuple<uint32_t, uint32_t, int, bool>> known;

@@ -43,8 +43,9 @@ constexpr int kSeenParts = 32;
 // How far from an edge its surface is looked at, texels.
 constexpr float kSeenTexels = 1.5f;
 
-// As shared::EdgeRing has it. Of what is blended, seen is what has at least half of the alpha that the primitive has
-// anywhere: panes of glass have their lines, and smoke none around the card that it is painted on.
+// As shared::EdgeRing has it. Of what is blended, seen is what has at least half of the alpha that the
+// primitive has anywhere: panes of glass have their lines, and smoke none around the card that it is painted
+// on.
 std::vector<uint32_t> seenOf(const scene::Primitive& primitive, const std::vector<scene::MeshEdge>& edges,
                              const scene::SurfaceAlpha& alpha, bool isBlended) {
   // The alpha beside a part of an edge, on the side of a third vertex.

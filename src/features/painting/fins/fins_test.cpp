@@ -116,8 +116,9 @@ TEST_P(PaintedFins, allObjectsAreInOneOrder) {
   }
 }
 
-// Paint over a ball: hidden behind it, seen before it; what else there is of the ball stays to the bit.
-TEST_P(PaintedFins, areSeenAndNothingElse) {
+// Paint over a ball: hidden behind it, seen before it; it casts shadows, and what else there is of the ball
+// stays to the bit.
+TEST_P(PaintedFins, areSeenAndCastShadowsAndNothingElse) {
   const auto scene = [&](bool hasPaint) {
     TestScene s;
     s.add(sphereMesh({0, 0, 0}, 1, 24), s.material(TestScene::colored("Ball", {0.5f, 0.6f, 0.2f, 1})));
@@ -136,7 +137,16 @@ TEST_P(PaintedFins, areSeenAndNothingElse) {
   const std::vector<std::string> facts{"painting", "shadow", "depth", "normal", "id"};
   const Frame painted = drawn(with, views, facts), plain = drawn(without, views, facts);
   for (size_t v = 0; v < viewCount(); ++v) {
-    for (const char* fact : {"shadow", "depth", "normal", "id"})
+    int darker = 0;
+    for (int y = 0; y < kDown; ++y)
+      for (int x = 0; x < kAcross; ++x) {
+        const double with = texel(aov(painted, "shadow", v), x, y).x,
+                     without = texel(aov(plain, "shadow", v), x, y).x;
+        EXPECT_LE(with, without + 0.02) << x << ", " << y;
+        darker += with < without - 0.2;
+      }
+    EXPECT_GT(darker, 20) << "the shadows of sheets of paint on ball and floor";
+    for (const char* fact : {"depth", "normal", "id"})
       EXPECT_EQ(aov(painted, fact, v).pixels, aov(plain, fact, v).pixels) << fact;
     EXPECT_NEAR(texel(aov(painted, "painting", v), kAcross / 2, kDown / 2).w, 1, 0.01);
     double blue = 0;

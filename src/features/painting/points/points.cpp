@@ -34,7 +34,8 @@ class Points : public Pass {
     const gpu::Handle placed =
         frame.use(frame.graph().importBuffer("painting points"), gpu::Use::storageBufferWrite);
     frame.give(kPlacedPoints, placed);
-    frame.addCaster({[this](VkCommandBuffer commands) { drawShadows(commands); }, [this] { return version_; },
+    frame.addCaster({[this](VkCommandBuffer commands) { drawShadows(commands); },
+                     [this] { return version_; },
                      {{placed, gpu::Use::storageBufferReadByVertex}}});
   }
 

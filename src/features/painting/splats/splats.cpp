@@ -122,7 +122,8 @@ class Splats : public Pass {
     if (hasLayers_) fins_.update(input);
     if (!isShown_) return;
     uniforms_.write(uniformsOf(input));
-    const ExampleTexture& bristles = frame_->examples().get(input.look, input.knobs.scene<PaintingParams>().bristles);
+    const ExampleTexture& bristles =
+        frame_->examples().get(input.look, input.knobs.scene<PaintingParams>().bristles);
     textures_.writeTexture(0, shared::kPaintingBristles, bristles.image.view(),
                            frame_->samplers().get(ExampleTextures::kSampler));
   }
