@@ -63,8 +63,8 @@ TEST_ALSO = ["tests/support", "src/base/test_folder.h", "src/base/passing_file.h
 # Libraries by the first part of an angle include; a room that is not listed may use any.
 LIBRARIES = {
     PUBLIC: ["std", "glm"],
-    "src/xr": ["std", "system", "glm", "vulkan", "openxr"],
-    "apps/viewer": ["std", "system", "glm", "nlohmann", "vulkan", "GLFW", "imgui", "fontconfig"],
+    "src/xr": ["std", "system", "fmt", "glm", "vulkan", "openxr"],
+    "apps/viewer": ["std", "system", "fmt", "glm", "nlohmann", "vulkan", "GLFW", "imgui", "fontconfig"],
     "apps/serve": ["std", "system", "glm", "nlohmann"],
     "apps/scumble": ["std", "system", "CLI", "fmt", "nlohmann", "cairo"],
     "examples": ["std", "glm", "nlohmann"],

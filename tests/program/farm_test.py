@@ -273,8 +273,9 @@ class Farm(Program):
             for task in tasks:
                 said = task.communicate(timeout=60)[0]
                 self.assertEqual(task.returncode, 0, said)
-            self.assertEqual(sorted(path.name for path in stage.iterdir()),
-                             sorted(["cache", "lock", *(path.stem for path in (self.folder / "f.farm").glob("inputs.*.tar"))]))
+            # Whether a driver keeps something in 'cache' is the driver's matter, and its environment's.
+            self.assertEqual({path.name for path in stage.iterdir()} - {"cache"},
+                             {"lock", *(path.stem for path in (self.folder / "f.farm").glob("inputs.*.tar"))})
 
     def test_a_device_that_is_lost_is_tried_again(self):
         program = self.folder / "program"

@@ -114,9 +114,10 @@ TEST_P(Seen, whatIsNotIsAsIfItWereNotThere) {
   std::vector<Look> looks{Look()};
   for (const char* name : {"ink", "watercolour"})
     if (Result<Look> look = Look::load(name)) looks.push_back(std::move(look).value());
-  if (hasKnob("ink.shown"))
+  if (hasKnob("ink.shown")) {
     for (const char* kind : {"objects", "cutouts", "intersections"})
       ASSERT_TRUE(looks[1].set("ink." + std::string(kind) + ".shown", "on"));
+  }
   std::vector<Frame> expected;
   RenderOptions options = sized(96, 54, {"depth", "cryptomatte"});
   std::vector<View> views;
@@ -193,7 +194,9 @@ TEST_P(Seen, clipsShowAndHide) {
   ASSERT_TRUE(scene->warnings().empty()) << scene->warnings()[0];
   const Scene alone = without.load();
   Look look = quietLook();
-  if (hasKnob("ink.shown")) ASSERT_TRUE(look.set("ink.shown", "on"));
+  if (hasKnob("ink.shown")) {
+    ASSERT_TRUE(look.set("ink.shown", "on"));
+  }
   const auto views = viewsFrom(*scene, {{3, 3, 9}, {1, 1, 0}, 40, 0, 0.1f}, 96, 54, GetParam());
   RenderOptions options = sized(96, 54, {"depth", "motion"});
   const auto at = [&](const Scene& of, double time) {

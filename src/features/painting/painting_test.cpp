@@ -498,23 +498,26 @@ TEST_P(Paintings, takeLight) {
   }
 }
 
-// Going away from a painting, what it covers shrinks as the square of the distance, and never at once.
 // On a floor, below strokes in the air: dark where the light meets paint on its way, and lit elsewhere; of
 // strokes alone, of such that a mesh carries, and of a node that moves.
 TEST_P(Paintings, castShadows) {
-  const glm::vec3 light = glm::normalize(glm::vec3(0.3f, 1, 0.2f));
+  const glm::vec3 toLight = glm::normalize(glm::vec3(0.3f, 1, 0.2f));
   const glm::vec3 from(-0.8f, 0.7f, 0), to(0.6f, 0.9f, 0.3f);
   constexpr float kRadius = 0.15f;
-  enum class Kind { alone, carried, thin, light, moves };
-  for (const Kind kind : {Kind::alone, Kind::carried, Kind::thin, Kind::light, Kind::moves}) {
+  enum class Kind { alone, bristles, carried, thin, wash, spatter, light, moves };
+  for (const Kind kind : {Kind::alone, Kind::bristles, Kind::carried, Kind::thin, Kind::wash, Kind::spatter,
+                          Kind::light, Kind::moves}) {
+    const char* brush = kind == Kind::bristles  ? "bristles"
+                        : kind == Kind::wash    ? "wash"
+                        : kind == Kind::spatter ? "spatter"
+                        : kind == Kind::light   ? "light"
+                                                : "";
     TestScene s;
     s.add(gridMesh({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, 2),
           s.material(TestScene::colored("Floor", {0.5f, 0.5f, 0.5f, 1})));
-    s.light(light);
-    const TestStroke stroke{{from, 0.5f * (from + to), to},
-                            kRadius,
-                            {0.8f, 0.2f, 0.1f, kind == Kind::thin ? 0.2f : 1.0f},
-                            kind == Kind::light ? "light" : ""};
+    s.light(toLight);
+    const TestStroke stroke{
+        {from, 0.5f * (from + to), to}, kRadius, {0.8f, 0.2f, 0.1f, kind == Kind::thin ? 0.2f : 1.0f}, brush};
     if (kind == Kind::carried) {
       // A sliver in the air, which casts next to nothing by itself.
       s.add(gridMesh({-0.1f, 0.8f, 0}, {0.02f, 0, 0}, {0, 0, -0.02f}, 1),
@@ -531,7 +534,8 @@ TEST_P(Paintings, castShadows) {
           renderer().render(scene, paintLook(), time, views, sized(kWidth, kHeight, {"shadow", "position"}));
       ASSERT_TRUE(frame) << frame.error().message();
       const glm::dvec3 moved = kind == Kind::moves ? time * glm::dvec3(0.4, 0, -0.3) : glm::dvec3(0);
-      const bool casts = kind != Kind::thin && kind != Kind::light;
+      const bool casts =
+          kind != Kind::thin && kind != Kind::wash && kind != Kind::spatter && kind != Kind::light;
       for (size_t v = 0; v < viewCount(); ++v) {
         int dark = 0, lit = 0;
         for (int y = 0; y < kHeight; ++y)
@@ -541,7 +545,7 @@ TEST_P(Paintings, castShadows) {
             if (shadow.w < 1 || std::abs(place.y) > 1e-3) continue;
             // How far the way to the light passes the stroke, both seen along the light.
             const auto flat = [&](const glm::dvec3& p) {
-              return p - glm::dvec3(light) * glm::dot(p, glm::dvec3(light));
+              return p - glm::dvec3(toLight) * glm::dot(p, glm::dvec3(toLight));
             };
             const glm::dvec3 a = flat(glm::dvec3(from) + moved), b = flat(glm::dvec3(to) + moved),
                              p = flat(place);
@@ -591,6 +595,7 @@ TEST_P(Paintings, shadowsComeWithTheirStrokes) {
   EXPECT_EQ(darkAt(1), none);
 }
 
+// Going away from a painting, what it covers shrinks as the square of the distance, and never at once.
 TEST_P(Paintings, nothingPops) {
   TestScene s;
   s.addStrokes({swung({-1.2f, 0, 0}, {1.2f, 0.3f, 0.4f}, 0.2f, {0.8f, 0.1f, 0.1f, 1}),

@@ -140,10 +140,10 @@ TEST_P(PaintedFins, areSeenAndCastShadowsAndNothingElse) {
     int darker = 0;
     for (int y = 0; y < kDown; ++y)
       for (int x = 0; x < kAcross; ++x) {
-        const double with = texel(aov(painted, "shadow", v), x, y).x,
-                     without = texel(aov(plain, "shadow", v), x, y).x;
-        EXPECT_LE(with, without + 0.02) << x << ", " << y;
-        darker += with < without - 0.2;
+        const double below = texel(aov(painted, "shadow", v), x, y).x,
+                     bare = texel(aov(plain, "shadow", v), x, y).x;
+        EXPECT_LE(below, bare + 0.02) << x << ", " << y;
+        darker += below < bare - 0.2;
       }
     EXPECT_GT(darker, 20) << "the shadows of sheets of paint on ball and floor";
     for (const char* fact : {"depth", "normal", "id"})

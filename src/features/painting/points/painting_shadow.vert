@@ -9,7 +9,7 @@ layout(set = 1, binding = kPaintingPlaced, scalar) readonly buffer Placed { Plac
 layout(location = 0) out vec2 outPlace;      // along the stroke from its first point, and across it; metres
 layout(location = 1) flat out vec3 outForm;  // its length, and the radii at both ends; metres
 
-// What is thinner than this lets light through.
+// What is thinner than this lets light through, as does what brushes leave that do not cover.
 const float kLeastOpacity = 0.5;
 
 void main() {
@@ -24,8 +24,9 @@ void main() {
   bool isSingle = isLast && (point.flags & kFirstOfStroke) != 0u;
   PlacedPoint a = placed[i], b = placed[isLast ? i : i + 1u];
   float opacity = unpackUnorm4x8(point.color).a * u.opacity;
+  int brush = int(point.flags >> 8 & 255u);
   bool isThere = (!isLast || isSingle) && point.time <= u.until && opacity >= kLeastOpacity &&
-                 int(point.flags >> 8 & 255u) != kLight && max(a.radius, b.radius) > 0.0;
+                 (brush == kPlain || brush == kBristles) && max(a.radius, b.radius) > 0.0;
   if (!isThere) return;
   vec3 toLight = frame.toLight;
   vec3 right = normalize(cross(abs(toLight.y) > 0.99 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0), toLight));
