@@ -6,7 +6,8 @@
 
 docs/knobs.md is what the program prints; relative links and pictures in README.md and docs/*.md lead somewhere; every
 long option of `scumble` that README.md mentions is one that --help shows; the program that README.md shows is
-examples/embed/main.cpp.
+examples/embed/main.cpp; every point of docs/limits.md ends with the names of what holds it, and where the sources are,
+there are such tests, messages, constants and functions.
 """
 import re
 import subprocess
@@ -23,6 +24,14 @@ HEADING = re.compile(r"^#+ +(.*?) *#* *$")
 OPTION = re.compile(r"(?<![\w-])--[a-z][a-z-]*")
 # Commands of other programs: their options are not ours.
 OTHER_PROGRAM = re.compile(r"\b(cmake|ctest|ninja|git|python3|apt-get|\S+\.py)\b")
+
+# [`name`, `name`] at the end of a point, or of a row of a table.
+HELD = re.compile(r" \[(`[^`]+`(?:, `[^`]+`)*)\](?: \|)?$")
+SPAN = re.compile(r"`([^`]+)`")
+GTEST = re.compile(r"^TEST(?:_[FP])?\((\w+),\s*(\w+)\)", re.MULTILINE)
+PYTHON_TEST = re.compile(r"^ *def (test_\w+)", re.MULTILINE)
+CONSTANT = re.compile(r"\bk[A-Z]\w*")
+CPP = (".cpp", ".h", ".glsl", ".vert", ".frag", ".comp")
 
 
 def output_of(program, *arguments):
@@ -100,6 +109,52 @@ def check_embed(root):
             yield "README.md does not show examples/embed/main.cpp as it is"
 
 
+def sources(root, folders, endings):
+    for folder in folders:
+        for path in sorted((root / folder).rglob("*")):
+            if path.suffix in endings and path.is_file():
+                yield path.name, path.read_text(encoding="utf-8")
+
+
+class Holders:
+    """What docs/limits.md may name: tests, messages, constants and functions."""
+
+    def __init__(self, root):
+        self.tests, self.words, self.functions, self.strings = set(), set(), set(), []
+        for name, text in sources(root, ("src", "apps", "include", "python", "tests"), (*CPP, ".py")):
+            if name.endswith("_test.cpp"):
+                self.tests |= {f"{suite}.{test}" for suite, test in GTEST.findall(text)}
+            if name.endswith("_test.py"):
+                self.tests |= {f"{name}: {test}" for test in PYTHON_TEST.findall(text)}
+        for name, text in sources(root, ("src", "apps", "include"), CPP):
+            if not name.endswith("_test.cpp"):
+                text = re.sub(r"(?m)//.*$", "", text)
+                self.words |= set(CONSTANT.findall(text))
+                self.functions |= set(re.findall(r"\b\w+(?=\()", text))
+        for name, text in sources(root, ("src", "apps", "python", "tools"), (*CPP, ".py", "")):
+            if not re.search(r"_test\.\w+$", name):
+                self.strings += re.findall(r'"((?:[^"\\\n]|\\.)*)"', text)
+
+    def has(self, name):
+        if name.startswith('"'):
+            return len(name) > 2 and name.endswith('"') and any(name[1:-1] in string for string in self.strings)
+        if name.endswith("()"):
+            return name[:-2] in self.functions
+        return name in self.words or name in self.tests
+
+
+def check_limits(root):
+    page = root / "docs" / "limits.md"
+    holders = Holders(root) if (root / "src").is_dir() else None
+    for number, line in enumerate(page.read_text(encoding="utf-8").splitlines(), 1):
+        held = HELD.search(line)
+        if line.startswith("- ") and not held:
+            yield f"docs/limits.md:{number}: names nothing that holds it; end it like [`Suite.test`]"
+        for name in SPAN.findall(held.group(1)) if held and holders else ():
+            if not holders.has(name):
+                yield f"docs/limits.md:{number}: there is no test, message, constant or function {name}"
+
+
 def main():
     if len(sys.argv) not in (2, 3):
         print(__doc__, file=sys.stderr)
@@ -110,7 +165,8 @@ def main():
         return 0
     root = Path(sys.argv[2]).resolve() if len(sys.argv) > 2 else ROOT
     pages = [root / "README.md", *sorted((root / "docs").glob("*.md"))]
-    problems = [*check_knobs(root, program), *check_links(root, pages), *check_options(root, program), *check_embed(root)]
+    problems = [*check_knobs(root, program), *check_links(root, pages), *check_options(root, program), *check_embed(root),
+                *check_limits(root)]
     for problem in problems:
         print(problem, file=sys.stderr)
     if not problems:
