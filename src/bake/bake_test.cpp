@@ -115,8 +115,9 @@ TEST(BakeProxy, whatLiesAcrossAnEdgeIsLaidFlatBesideIt) {
       const ProxyTriangle& other = proxy.triangles[size_t(triangle.across[i])];
       for (const size_t end : {i, k})
         for (int c = 0; c < 3; ++c)
-          if (other.places[c] == triangle.places[int(end)])
+          if (other.places[c] == triangle.places[int(end)]) {
             EXPECT_LT(glm::distance(triangle.into[i](triangle.flat[end]), other.flat[size_t(c)]), 1e-5f);
+          }
       // The rest of it lies on the other side of the edge.
       const auto side = [&](const glm::vec2& p, const glm::vec2& a, const glm::vec2& b) {
         return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
@@ -124,8 +125,9 @@ TEST(BakeProxy, whatLiesAcrossAnEdgeIsLaidFlatBesideIt) {
       const glm::vec2 a = triangle.into[i](triangle.flat[i]), b = triangle.into[i](triangle.flat[k]);
       EXPECT_GT(side(triangle.into[i](triangle.flat[(i + 2) % 3]), a, b), 0);
       for (int c = 0; c < 3; ++c)
-        if (other.places[c] != triangle.places[int(i)] && other.places[c] != triangle.places[int(k)])
+        if (other.places[c] != triangle.places[int(i)] && other.places[c] != triangle.places[int(k)]) {
           EXPECT_LT(side(other.flat[size_t(c)], a, b), 0);
+        }
     }
     const glm::vec2 u = triangle.flat[1] - triangle.flat[0], v = triangle.flat[2] - triangle.flat[0];
     EXPECT_GT(u.x * v.y - u.y * v.x, 0);

@@ -9,8 +9,9 @@ UniformSlice UniformMemory::slice(uint64_t bytes) {
   constexpr uint64_t kBlock = 64 << 10;
   bytes = std::max<uint64_t>(bytes, 1);
   if (blocks_.empty() || used_ + bytes > blocks_.back().size()) {
-    blocks_.emplace_back(device_, std::max(bytes, kBlock),
-                         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    blocks_.push_back(
+        gpu::PerFrameBuffer(device_, std::max(bytes, kBlock),
+                            VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT));
     used_ = 0;
   }
   gpu::PerFrameBuffer& block = blocks_.back();

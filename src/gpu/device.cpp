@@ -128,6 +128,16 @@ DeviceInfo describe(VkPhysicalDevice physical) {
   return info;
 }
 
+bool hasInstanceExtension(const char* layer, const char* name) {
+  uint32_t count = 0;
+  vkEnumerateInstanceExtensionProperties(layer, &count, nullptr);
+  std::vector<VkExtensionProperties> available(count);
+  vkEnumerateInstanceExtensionProperties(layer, &count, available.data());
+  return std::any_of(available.begin(), available.end(), [&](const VkExtensionProperties& extension) {
+    return !strcmp(extension.extensionName, name);
+  });
+}
+
 Result<VkInstance> createInstance(bool validation, const VulkanWishes& wishes = {}) {
   std::vector<const char*> layers, extensions;
   for (const std::string& name : wishes.instanceExtensions) extensions.push_back(name.c_str());
@@ -149,10 +159,15 @@ Result<VkInstance> createInstance(bool validation, const VulkanWishes& wishes = 
                    "the Vulkan validation layer is not installed",
                    "install the package vulkan-validationlayers"};
     layers.push_back(kValidationLayer);
-    extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     features.enabledValidationFeatureCount = 1;
     features.pEnabledValidationFeatures = enabled;
   }
+  // Captures and messages call things by our names.
+  if (hasInstanceExtension(validation ? kValidationLayer : nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) ||
+      hasInstanceExtension(nullptr, VK_EXT_DEBUG_UTILS_EXTENSION_NAME))
+    if (std::none_of(extensions.begin(), extensions.end(),
+                     [](const char* name) { return !strcmp(name, VK_EXT_DEBUG_UTILS_EXTENSION_NAME); }))
+      extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
   VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
   application.pApplicationName = "scumble";
   application.apiVersion = VK_API_VERSION_1_3;
@@ -294,6 +309,7 @@ void Device::createParts(const std::string& cacheFolder) {
   const VkCommandPoolCreateInfo info{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr,
                                      VK_COMMAND_POOL_CREATE_TRANSIENT_BIT, queueFamily_};
   SCUMBLE_VK(vkCreateCommandPool(device_, &info, nullptr, &pool_));
+  debugUtils_ = debugUtilsOf(instance_, device_);
   memory_ = std::make_unique<MemoryPool>(physical_, device_);
   pipelines_ = std::make_unique<PipelineStore>(device_);
   openPipelineCache(cacheFolder);
@@ -498,6 +514,19 @@ std::optional<ViewDrawing> Device::viewDrawing(uint32_t samples) {
   return samples == 1 ? viewDrawings_->of1Sample : viewDrawings_->of4Samples;
 }
 
+std::string Device::nameOfShader(const uint32_t* words) const {
+  const auto found = shaderNames_.find(words);
+  return found == shaderNames_.end() ? "shader" : found->second;
+}
+
+void Device::setName(VkObjectType type, uint64_t handle, const std::string& text) const {
+  VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
+  info.objectType = type;
+  info.objectHandle = handle;
+  info.pObjectName = text.c_str();
+  debugUtils_.setName(device_, &info);
+}
+
 void Device::waitForSubmissions() {
   if (underWay_ == 0) return;
   const std::lock_guard lock(*queueLock_);
@@ -514,6 +543,8 @@ void Device::submit(VkCommandBuffer commands, const std::function<void(VkCommand
   if (around.last) around.last();
   const VkCommandBufferSubmitInfo submitted{VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, nullptr, commands,
                                             0};
+  VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
+  label.pLabelName = around.label.empty() ? "scumble: frame" : around.label.c_str();
   VkSubmitInfo2 info{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
   info.commandBufferInfoCount = 1;
   info.pCommandBufferInfos = &submitted;
@@ -522,7 +553,10 @@ void Device::submit(VkCommandBuffer commands, const std::function<void(VkCommand
   info.signalSemaphoreInfoCount = uint32_t(around.signals.size());
   info.pSignalSemaphoreInfos = around.signals.data();
   const std::lock_guard lock(*queueLock_);
-  SCUMBLE_VK(vkQueueSubmit2(queue_, 1, &info, done));
+  if (debugUtils_.beginQueueLabel) debugUtils_.beginQueueLabel(queue_, &label);
+  const VkResult result = vkQueueSubmit2(queue_, 1, &info, done);
+  if (debugUtils_.endQueueLabel) debugUtils_.endQueueLabel(queue_);
+  SCUMBLE_VK(result);
 }
 
 void Device::runOnce(const std::function<void(VkCommandBuffer)>& record) {
@@ -533,7 +567,9 @@ void Device::runOnce(const std::function<void(VkCommandBuffer)>& record) {
   const VkFenceCreateInfo fenceInfo{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
   VkFence done;
   SCUMBLE_VK(vkCreateFence(device_, &fenceInfo, nullptr, &done));
-  submit(commands, record, done);
+  Around around;
+  around.label = "scumble: upload";
+  submit(commands, record, done, around);
   SCUMBLE_VK(vkWaitForFences(device_, 1, &done, VK_TRUE, UINT64_MAX));
   vkDestroyFence(device_, done, nullptr);
   vkFreeCommandBuffers(device_, pool_, 1, &commands);

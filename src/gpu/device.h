@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "gpu/debug_names.h"
 #include "gpu/memory.h"
 #include "gpu/vulkan.h"
 #include "scumble/log.h"
@@ -91,6 +92,16 @@ class Device {
   // Before anything is made of them.
   void replaceShaders(ShaderReplacements replacements) { replacements_ = std::move(replacements); }
   const ShaderReplacements& replacedShaders() const { return replacements_; }
+  // Names of shaders, by where their words stand: pipelines are called by them. Before anything is made of
+  // them.
+  void nameShaders(std::map<const uint32_t*, std::string> names) { shaderNames_ = std::move(names); }
+  std::string nameOfShader(const uint32_t* words) const;
+  // For captures and validation messages; nothing where the extension is not there.
+  const DebugUtils& debugUtils() const { return debugUtils_; }
+  template <class Handle>
+  void name(VkObjectType type, Handle handle, const DebugName& as) const {
+    if (debugUtils_.setName) setName(type, uint64_t(handle), as.text());
+  }
   MemoryPool& memory() { return *memory_; }
   const DeviceInfo& info() const { return info_; }
   const VkPhysicalDeviceLimits& limits() const { return limits_; }
@@ -111,6 +122,7 @@ class Device {
   struct Around {
     std::span<const VkSemaphoreSubmitInfo> waits, signals;
     std::function<void()> last;
+    std::string label;  // of the submission, for captures; a frame's where it is empty
   };
   // Records with `record` into a command buffer that was reset, and submits it; `done`, where it is not null,
   // is signalled at its end.
@@ -136,6 +148,7 @@ class Device {
 
  private:
   Device();
+  void setName(VkObjectType type, uint64_t handle, const std::string& text) const;
   void describePhysical();
   Status checkUsable() const;
   void createParts(const std::string& cacheFolder);
@@ -156,6 +169,8 @@ class Device {
   size_t cachedBytes_ = 0;
   std::unique_ptr<PipelineStore> pipelines_;
   ShaderReplacements replacements_;
+  std::map<const uint32_t*, std::string> shaderNames_;
+  DebugUtils debugUtils_;
   std::unique_ptr<MemoryPool> memory_;
   DeviceInfo info_;
   VkPhysicalDeviceLimits limits_{};

@@ -42,17 +42,18 @@ void Submission::wait() {
   SCUMBLE_VK(vkResetFences(device_.handle(), 1, &done_));
 }
 
-PerFrameBuffer::PerFrameBuffer(Device& device, uint64_t size, VkBufferUsageFlags usage)
+PerFrameBuffer::PerFrameBuffer(Device& device, uint64_t size, VkBufferUsageFlags usage, const DebugName& name)
     : device_(&device),
-      onDevice_(device, size, usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::device),
-      contents_(size) {}
+      onDevice_(device, size, usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::device, name),
+      contents_(size),
+      name_(name) {}
 
 void PerFrameBuffer::upload(VkCommandBuffer commands, uint32_t frame) {
   if (!isWritten_) return;
   isWritten_ = false;
   if (!staging_[frame].handle())
     staging_[frame] =
-        Buffer(*device_, contents_.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::upload);
+        Buffer(*device_, contents_.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::upload, name_);
   std::memcpy(staging_[frame].mapped(), contents_.data(), contents_.size());
   const VkBufferCopy copy{0, 0, contents_.size()};
   vkCmdCopyBuffer(commands, staging_[frame].handle(), onDevice_.handle(), 1, &copy);

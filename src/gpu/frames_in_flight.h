@@ -36,7 +36,8 @@ class Submission {
 class PerFrameBuffer {
  public:
   PerFrameBuffer() = default;
-  PerFrameBuffer(Device& device, uint64_t size, VkBufferUsageFlags usage);
+  PerFrameBuffer(Device& device, uint64_t size, VkBufferUsageFlags usage,
+                 const DebugName& name = SCUMBLE_CALLER);
   VkBuffer handle() const { return onDevice_.handle(); }
   uint64_t size() const { return onDevice_.size(); }
   // The CPU's own copy, which stays as it is from frame to frame; null for a buffer that was not made. To ask
@@ -67,6 +68,7 @@ class PerFrameBuffer {
   std::array<Buffer, kFramesInFlight> staging_;  // made when they are first needed
   std::vector<std::byte> contents_;
   bool isWritten_ = true;
+  DebugName name_;
 };
 
 // Sends buffers with a frame's own commands: after all that an earlier frame does with them, before all that

@@ -61,11 +61,11 @@ void GraphResources::resize(const ImageShape::Frame& frame) {
     const FrameGraph::Needs::Life& life = needs_.lives[r];
     if (!resources[r].isImage || resources[r].isImported || !life.isUsed) continue;
     if (resources[r].isKept) {
-      images_[r] = Image(device_, resources[r].shape.at(frame), life.imageUsage);
+      images_[r] = Image(device_, resources[r].shape.at(frame), life.imageUsage, resources[r].name);
       bytes_ += images_[r].needs().size, bytesUnshared_ += images_[r].needs().size;
       continue;
     }
-    images_[r] = Image::unplaced(device_, resources[r].shape.at(frame), life.imageUsage);
+    images_[r] = Image::unplaced(device_, resources[r].shape.at(frame), life.imageUsage, resources[r].name);
     const VkMemoryRequirements needs = images_[r].needs();
     needed[r] = {needs.size, needs.alignment, life.first, life.last};
     byMemoryType[needs.memoryTypeBits].push_back(r);
@@ -97,7 +97,8 @@ void GraphResources::resize(const ImageShape::Frame& frame) {
     buffers_.resize(resources.size());
     for (uint32_t r = 0; r < resources.size(); ++r)
       if (!resources[r].isImage && !resources[r].isImported && needs_.lives[r].isUsed)
-        buffers_[r] = Buffer(device_, resources[r].bytes, needs_.lives[r].bufferUsage, MemoryKind::device);
+        buffers_[r] = Buffer(device_, resources[r].bytes, needs_.lives[r].bufferUsage, MemoryKind::device,
+                             resources[r].name);
   }
   barriers_ = graph_.planBarriers(needs_, sharing);
   beginKept();

@@ -180,6 +180,7 @@ void make(Device& device, const ComputePipelineDesc& desc, PipelineStore::Made& 
   info.layout = made.layout;
   SCUMBLE_VK(
       vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr, &made.pipeline));
+  device.name(VK_OBJECT_TYPE_PIPELINE, made.pipeline, device.nameOfShader(desc.shader.words.data()));
 }
 
 void make(Device& device, const GraphicsPipelineDesc& desc, PipelineStore::Made& made) {
@@ -272,6 +273,8 @@ void make(Device& device, const GraphicsPipelineDesc& desc, PipelineStore::Made&
   info.layout = made.layout;
   SCUMBLE_VK(
       vkCreateGraphicsPipelines(device.handle(), device.pipelineCache(), 1, &info, nullptr, &made.pipeline));
+  const Shader& last = desc.fragment.words.empty() ? desc.vertex : desc.fragment;
+  device.name(VK_OBJECT_TYPE_PIPELINE, made.pipeline, device.nameOfShader(last.words.data()));
 }
 
 }  // namespace

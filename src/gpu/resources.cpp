@@ -51,7 +51,8 @@ void recordTextureUpload(VkCommandBuffer commands, VkBuffer source, VkImage imag
 }
 }  // namespace
 
-Buffer::Buffer(Device& device, uint64_t size, VkBufferUsageFlags usage, MemoryKind kind)
+Buffer::Buffer(Device& device, uint64_t size, VkBufferUsageFlags usage, MemoryKind kind,
+               const DebugName& name)
     : device_(&device), size_(size) {
   assert(size > 0);
   VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
@@ -59,6 +60,7 @@ Buffer::Buffer(Device& device, uint64_t size, VkBufferUsageFlags usage, MemoryKi
   info.usage = usage;
   if (usage & VK_BUFFER_USAGE_STORAGE_BUFFER_BIT) info.usage |= VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT;
   SCUMBLE_VK(vkCreateBuffer(device.handle(), &info, nullptr, &buffer_));
+  device.name(VK_OBJECT_TYPE_BUFFER, buffer_, name);
   VkMemoryRequirements needs;
   vkGetBufferMemoryRequirements(device.handle(), buffer_, &needs);
   try {
@@ -89,7 +91,7 @@ void Buffer::swap(Buffer& other) {
   std::swap(size_, other.size_);
 }
 
-Image Image::unplaced(Device& device, const ImageDesc& desc, VkImageUsageFlags usage) {
+Image Image::unplaced(Device& device, const ImageDesc& desc, VkImageUsageFlags usage, const DebugName& name) {
   Image made;
   made.device_ = &device;
   made.desc_ = desc;
@@ -102,6 +104,7 @@ Image Image::unplaced(Device& device, const ImageDesc& desc, VkImageUsageFlags u
   info.samples = VkSampleCountFlagBits(desc.samples);
   info.usage = usage;
   SCUMBLE_VK(vkCreateImage(device.handle(), &info, nullptr, &made.image_));
+  device.name(VK_OBJECT_TYPE_IMAGE, made.image_, name);
   return made;
 }
 
@@ -116,8 +119,8 @@ void Image::place(VkDeviceMemory memory, uint64_t offset) {
   view_ = makeView(0);
 }
 
-Image::Image(Device& device, const ImageDesc& desc, VkImageUsageFlags usage)
-    : Image(unplaced(device, desc, usage)) {
+Image::Image(Device& device, const ImageDesc& desc, VkImageUsageFlags usage, const DebugName& name)
+    : Image(unplaced(device, desc, usage, name)) {
   allocation_ = device.memory().allocate(needs(), MemoryKind::device, false);
   place(allocation_.memory, allocation_.offset);
 }
@@ -231,13 +234,13 @@ Uploader::~Uploader() {
 }
 
 size_t Uploader::stage(uint64_t size) {
-  staging_.emplace_back(device_, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::upload);
+  staging_.push_back(Buffer(device_, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::upload));
   stagedBytes_ += size;
   return staging_.size() - 1;
 }
 
-Buffer Uploader::reserve(uint64_t size, VkBufferUsageFlags usage, std::byte** target) {
-  Buffer buffer(device_, size, usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::device);
+Buffer Uploader::reserve(uint64_t size, VkBufferUsageFlags usage, std::byte** target, const DebugName& name) {
+  Buffer buffer(device_, size, usage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::device, name);
   *target = rewrite(buffer, 0, size);
   return buffer;
 }
@@ -250,11 +253,11 @@ std::byte* Uploader::rewrite(Buffer& buffer, uint64_t offset, uint64_t size) {
 }
 
 Image Uploader::texture(std::span<const std::span<const std::byte>> levels, VkFormat format, uint32_t width,
-                        uint32_t height) {
+                        uint32_t height, const DebugName& name) {
   ImageDesc desc{format, width, height};
   desc.arrayView = false;
   desc.mipLevels = uint32_t(levels.size());
-  Image image(device_, desc, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+  Image image(device_, desc, VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, name);
   uint64_t size = 0;
   for (const auto& level : levels) size += level.size();
   const size_t staged = stage(size);

@@ -22,7 +22,8 @@ constexpr uint64_t uniformStride(uint64_t bytes) {
 class Buffer {
  public:
   Buffer() = default;
-  Buffer(Device& device, uint64_t size, VkBufferUsageFlags usage, MemoryKind kind);
+  Buffer(Device& device, uint64_t size, VkBufferUsageFlags usage, MemoryKind kind,
+         const DebugName& name = SCUMBLE_CALLER);
   ~Buffer();
   Buffer(Buffer&& other) noexcept { swap(other); }
   Buffer& operator=(Buffer&& other) noexcept {
@@ -57,9 +58,11 @@ class Image {
  public:
   Image() = default;
   // With memory of its own.
-  Image(Device& device, const ImageDesc& desc, VkImageUsageFlags usage);
+  Image(Device& device, const ImageDesc& desc, VkImageUsageFlags usage,
+        const DebugName& name = SCUMBLE_CALLER);
   // Without memory: needs() some, and place() before anything else.
-  static Image unplaced(Device& device, const ImageDesc& desc, VkImageUsageFlags usage);
+  static Image unplaced(Device& device, const ImageDesc& desc, VkImageUsageFlags usage,
+                        const DebugName& name);
   VkMemoryRequirements needs() const;
   void place(VkDeviceMemory memory, uint64_t offset);
   // Somebody else's, who keeps it alive; views of it are made here.
@@ -107,13 +110,14 @@ class Uploader {
   explicit Uploader(Device& device) : device_(device) {}
   ~Uploader();
   // A new buffer on the device; the caller writes its contents to *target before the next flush().
-  Buffer reserve(uint64_t size, VkBufferUsageFlags usage, std::byte** target);
+  Buffer reserve(uint64_t size, VkBufferUsageFlags usage, std::byte** target,
+                 const DebugName& name = SCUMBLE_CALLER);
   // A new storage buffer that holds an array; of one element's size where that is empty.
   template <class T>
-  Buffer storage(std::span<const T> array) {
+  Buffer storage(std::span<const T> array, const DebugName& name = SCUMBLE_CALLER) {
     std::byte* target = nullptr;
     Buffer buffer = reserve(std::max<uint64_t>(sizeof(T), array.size_bytes()),
-                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &target);
+                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &target, name);
     std::copy(array.begin(), array.end(), reinterpret_cast<T*>(target));
     return buffer;
   }
@@ -123,7 +127,7 @@ class Uploader {
   // A sampled image; `levels` are its mip levels from the largest to the smallest, tightly packed, each half
   // the size of the one before (at least 1). Flushes by itself when much is staged.
   Image texture(std::span<const std::span<const std::byte>> levels, VkFormat format, uint32_t width,
-                uint32_t height);
+                uint32_t height, const DebugName& name = SCUMBLE_CALLER);
   // Ends when all data is on the device.
   void flush();
 

@@ -1,6 +1,7 @@
 #include "scumble/renderer.h"
 
 #include <cmath>
+#include <map>
 
 #include "renderer/gpu_list.h"
 #include "renderer/impl.h"
@@ -20,6 +21,10 @@ Result<std::unique_ptr<Renderer>> RendererAccess::create(Result<std::unique_ptr<
                                                          const RendererOptions& options) {
   if (!made) return made.error();
   std::unique_ptr<gpu::Device> device = std::move(made).value();
+  std::map<const uint32_t*, std::string> names;
+  for (const renderer::NamedShader& shader : renderer::shaderTable())
+    names[shader.words.data()] = shader.name;
+  device->nameShaders(std::move(names));
   if (!options.shaderFolder.empty()) {
     Result<gpu::ShaderReplacements> shaders = renderer::readShaders(options.shaderFolder);
     if (!shaders) return shaders.error();

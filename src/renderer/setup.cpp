@@ -173,6 +173,7 @@ void Setup::record(VkCommandBuffer commands, uint32_t slot) {
   };
   stamp(commands, slot, 0);
   for (size_t i = 0; i < steps_.size(); ++i) {
+    const gpu::DebugLabel label(device_.debugUtils(), commands, builder_->graph().steps()[steps_[i]].name);
     barriers(steps_[i]);
     builder_->records()[steps_[i]](commands);
     stamp(commands, slot, uint32_t(i + 1));

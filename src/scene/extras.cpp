@@ -1,5 +1,7 @@
 #include "scene/extras.h"
 
+#include <fmt/format.h>
+
 #include "scene/scene_data.h"
 
 namespace scumble::scene {
@@ -10,7 +12,8 @@ void readExtras(const nlohmann::json& object, Node& node,
   for (const ExtraRule& rule : extraRules())
     if (const auto found = object.find(rule.key); found != object.end()) {
       node.extras[rule.key] = std::make_shared<const nlohmann::json>(*found);
-      for (const auto& [path, text] : rule.problemsOf(*found)) tell("." + std::string(rule.key) + path, text);
+      for (const auto& [path, text] : rule.problemsOf(*found))
+        tell(fmt::format(".{}{}", rule.key, path), text);
     }
 }
 

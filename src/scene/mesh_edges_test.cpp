@@ -39,7 +39,7 @@ size_t openOnes(const std::vector<MeshEdge>& edges) {
 
 class MeshEdgesOf : public testing::TestWithParam<bool> {};
 INSTANTIATE_TEST_SUITE_P(Vertices, MeshEdgesOf, testing::Bool(),
-                         [](const auto& info) { return info.param ? "splitAtEachCorner" : "shared"; });
+                         [](const auto& test) { return test.param ? "splitAtEachCorner" : "shared"; });
 
 TEST_P(MeshEdgesOf, aCubeHasEighteenAndNoEnds) {
   const Primitive cube = meshOf(kCube, kCubeSides, GetParam());

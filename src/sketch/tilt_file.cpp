@@ -33,9 +33,11 @@ struct CloseZip {
 // Of a file of that name, or of the first one in a folder: who zips a folder again has that, too.
 zip_int64_t placeOf(zip_t* zip, std::string_view name) {
   if (const zip_int64_t place = zip_name_locate(zip, std::string(name).c_str(), 0); place >= 0) return place;
-  for (zip_int64_t i = 0; i < zip_get_num_entries(zip, 0); ++i)
-    if (const char* const entry = zip_get_name(zip, zip_uint64_t(i), 0))
-      if (std::string_view(entry).ends_with("/" + std::string(name))) return i;
+  for (zip_int64_t i = 0; i < zip_get_num_entries(zip, 0); ++i) {
+    const char* const found = zip_get_name(zip, zip_uint64_t(i), 0);
+    const std::string_view entry = found ? found : "";
+    if (entry.ends_with(name) && entry.substr(0, entry.size() - name.size()).ends_with('/')) return i;
+  }
   return -1;
 }
 

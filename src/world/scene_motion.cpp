@@ -265,7 +265,7 @@ bool SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, do
   written_ = true;
   std::fill(touched_.begin(), touched_.end(), uint8_t(0));
 
-  version_ += std::any_of(moves.begin(), moves.end(), [](uint8_t moves) { return moves != 0; });
+  version_ += std::any_of(moves.begin(), moves.end(), [](uint8_t does) { return does != 0; });
   for (size_t i = 0; i < moving_.size(); ++i)
     if (moves[i] && moving_[i].casts) {
       ++castersVersion_;

@@ -37,13 +37,12 @@ install(FILES ${CMAKE_SOURCE_DIR}/packaging/scumble-mime.xml DESTINATION ${CMAKE
         COMPONENT program RENAME scumble.xml)
 install(FILES ${CMAKE_SOURCE_DIR}/packaging/scumble.metainfo.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/metainfo
         COMPONENT program RENAME org.scumble.scumble.metainfo.xml)
-find_program(PYTHON3 python3)
-if(PYTHON3 AND NOT SCUMBLE_SANITIZE)
+if(SCUMBLE_PYTHON AND NOT SCUMBLE_SANITIZE)
   # Manual pages and completion, from what the program says of itself.
   set(described ${CMAKE_BINARY_DIR}/described)
   set(describe ${CMAKE_SOURCE_DIR}/packaging/describe.py)
   add_custom_command(OUTPUT ${described}/scumble DEPENDS scumble_program ${describe}
-                     COMMAND ${PYTHON3} ${describe} $<TARGET_FILE:scumble_program> ${described})
+                     COMMAND ${SCUMBLE_PYTHON} ${describe} $<TARGET_FILE:scumble_program> ${described})
   add_custom_target(describe_program ALL DEPENDS ${described}/scumble)
   install(DIRECTORY ${described}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT program)
   install(FILES ${described}/scumble DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)

@@ -90,7 +90,9 @@ TEST_F(FactsTest, materialsByNumber) {
         all.emplace(n + 1, data.materials[size_t(primitive.material)].name);
   for (const auto& [node, material] : seen) {
     nodes.insert(node);
-    if (node <= data.nodes.size()) EXPECT_TRUE(all.contains({node, material})) << node << " " << material;
+    if (node <= data.nodes.size()) {
+      EXPECT_TRUE(all.contains({node, material})) << node << " " << material;
+    }
   }
   EXPECT_GT(nodes.size(), 2u);
 }

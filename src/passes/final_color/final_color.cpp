@@ -148,7 +148,7 @@ class FinalColor : public Pass {
                           .outputs = {frame.image(name(), {.format = kHalves})},
                           // Of a pixel: the inflated surface and depths around it, the warp; of each place:
                           // depths and colours around it.
-                          .fetches = 8 + (samples_ > 1 ? 9 : 1) + 17 + 4 * 8,
+                          .fetches = 8 + (samples_ > 1 ? 9u : 1u) + 17 + 4 * 8,
                           .uniformBytes = sizeof(shared::FinalColorUniforms),
                           .maxJobs = 2})[0];
   }

@@ -48,8 +48,8 @@ TEST_P(FinalColorTest, equalsItsReference) {
             for (size_t i = 0; i < 4 && aware && surface > 0; ++i) {
               glm::dvec2& at = places[i];
               // By inverse distances, which planes have linear on the screen.
-              const auto inverse = [](const Image& image, int i, int j, int channel) {
-                return 1 / texel(image, i, j)[channel];
+              const auto inverse = [](const Image& image, int column, int row, int channel) {
+                return 1 / texel(image, column, row)[channel];
               };
               const Image &depth = aov(frame, "depth", v), &inflated = aov(frame, "warp", v);
               const double own = inverse(depth, x, y, 0);

@@ -72,7 +72,9 @@ TEST(EdgeBounds, whatIsLeftOutHasNoSilhouette) {
       EXPECT_GT(leftOut(rough, eye), 0.5) << distance;
       leftOut(wild, eye);
       // Within it, all faces are seen from behind.
-      if (distance > 40) EXPECT_GT(leftOut(smooth, glm::vec4(direction, 0)), 0.75);
+      if (distance > 40) {
+        EXPECT_GT(leftOut(smooth, glm::vec4(direction, 0)), 0.75);
+      }
     }
   EXPECT_GT(leftOut(smooth, {2, -1, 3, 1}), 0.9);
 }
