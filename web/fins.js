@@ -4,9 +4,9 @@
 //     loader.register((parser) => new FinsPlugin(parser));
 //     const gltf = await loader.loadAsync('fins.glb');
 //
-// Engines sort blended objects, and not their triangles. The file has orders of all triangles of each painted mesh for viewers
-// in some directions; what is drawn is one mesh instead of its coats and fins, with the order that is nearest. docs/fins.md says
-// what is in the file.
+// Engines sort blended objects, and not their triangles. What is drawn is one mesh instead of its coats and fins, with an order of
+// all its triangles for the viewer's direction. The file has such orders; where a tool has lost or spoiled them, they are sorted
+// here. docs/fins.md says what is in the file.
 import { BufferAttribute, DoubleSide, Matrix4, MeshBasicMaterial, Vector3 } from 'three';
 import { mergeGeometries } from 'three/addons/utils/BufferGeometryUtils.js';
 
@@ -31,26 +31,84 @@ export class FinsPlugin {
       });
     const made = new Map(); // by number of the mesh
     for (const { mesh, layers } of groups.values()) {
-      const paint = json.meshes[mesh].extras?.scumble_orders;
-      if (!paint || !paint.primitives.every((number) => layers.has(number))) continue;
-      const objects = paint.primitives.map((number) => layers.get(number));
-      if (!made.has(mesh)) made.set(mesh, this.merged(paint, objects));
+      const numbers = [...layers.keys()].sort((a, b) => a - b);
+      const objects = numbers.map((number) => layers.get(number));
+      if (!made.has(mesh)) made.set(mesh, this.merged(json.meshes[mesh].extras?.scumble_orders, numbers, objects));
       const whole = await made.get(mesh);
       if (whole) replace(objects, whole);
     }
   }
 
   // One geometry of all layers, its orders, and its material; null where there is none.
-  async merged(paint, objects) {
+  async merged(told, numbers, objects) {
     const geometry = mergeGeometries(objects.map((object) => withFade(object)));
     if (!geometry) return null; // their vertices have unlike attributes: they stay as they are
+    if (!geometry.index) geometry.setIndex(Array.from({ length: geometry.attributes.position.count }, (_, i) => i));
     geometry.computeBoundingSphere();
-    const orders = await Promise.all(paint.orders.map(async (order) => ({
-      toViewer: new Vector3(...order.toViewer),
-      index: await this.parser.getDependency('accessor', order.indices),
-    })));
+    const orders = (await this.toldOrders(told, numbers, geometry)) ?? DIRECTIONS.map((toViewer) => ({ toViewer, index: null }));
     return { geometry, orders, material: finsMaterial(objects[0].material) };
   }
+
+  // Those of the file; null where one of them is not there any more, or is of other triangles than these.
+  async toldOrders(told, numbers, geometry) {
+    if (!Array.isArray(told?.orders) || told.orders.length === 0 || String(told.primitives) !== String(numbers)) return null;
+    const accessors = this.parser.json.accessors ?? [];
+    const expected = triangleSums(geometry.index, geometry);
+    const orders = [];
+    for (const { toViewer, indices } of told.orders) {
+      const number = accessors.findIndex((accessor) => typeof indices === 'string' && accessor.name === indices);
+      if (number < 0 || !Array.isArray(toViewer)) return null;
+      const index = await this.parser.getDependency('accessor', number);
+      if (index.count !== geometry.index.count || triangleSums(index, geometry) !== expected) return null;
+      orders.push({ toViewer: new Vector3(...toViewer), index });
+    }
+    return orders;
+  }
+}
+
+// To the sides and the corners of a cube, as `scumble bake` has them.
+const DIRECTIONS = [];
+for (const x of [-1, 0, 1])
+  for (const y of [-1, 0, 1])
+    for (const z of [-1, 0, 1]) {
+      const sides = Math.abs(x) + Math.abs(y) + Math.abs(z);
+      if (sides === 1 || sides === 3) DIRECTIONS.push(new Vector3(x, y, z).normalize());
+    }
+
+// The same for all orders of the same triangles, and for next to nothing else; '' for what is no order of a geometry's vertices.
+function triangleSums(index, geometry) {
+  const vertices = geometry.attributes.position.count;
+  let sum = 0, mixed = 0;
+  for (let i = 0; i + 2 < index.count; i += 3) {
+    let triangle = 0;
+    for (let c = 0; c < 3; ++c) {
+      const vertex = index.getX(i + c);
+      if (!(vertex < vertices)) return '';
+      triangle = (Math.imul(triangle, 31) + vertex + 1) | 0;
+    }
+    triangle = Math.imul(triangle ^ (triangle >>> 15), 0x2c1b3c6d);
+    sum = (sum + triangle) | 0;
+    mixed ^= Math.imul(triangle ^ (triangle >>> 13), 0x297a2d39);
+  }
+  return `${sum} ${mixed}`;
+}
+
+// All triangles, from far to near for a viewer in that direction; equals as they come.
+function sortedTowards(toViewer, geometry) {
+  const { index, attributes: { position } } = geometry;
+  const triangles = index.count / 3;
+  const nearness = new Float32Array(triangles);
+  for (let i = 0; i < index.count; ++i) {
+    const vertex = index.getX(i);
+    nearness[Math.floor(i / 3)] +=
+      position.getX(vertex) * toViewer.x + position.getY(vertex) * toViewer.y + position.getZ(vertex) * toViewer.z;
+  }
+  const order = Uint32Array.from({ length: triangles }, (_, i) => i).sort((a, b) => nearness[a] - nearness[b] || a - b);
+  const sorted = new Uint32Array(index.count);
+  order.forEach((triangle, i) => {
+    for (let c = 0; c < 3; ++c) sorted[3 * i + c] = index.getX(3 * triangle + c);
+  });
+  return new BufferAttribute(sorted, 1);
 }
 
 function isPaint(object) {
@@ -81,6 +139,7 @@ function replace(objects, { geometry, orders, material }) {
     const number = nearestOrder(orders, directionTo(viewer, mesh));
     if (number === mesh.userData.scumbleOrder) return;
     mesh.userData.scumbleOrder = number;
+    orders[number].index ??= sortedTowards(orders[number].toViewer, geometry);
     mesh.geometry.setIndex(orders[number].index);
   };
 }

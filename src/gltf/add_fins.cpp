@@ -49,7 +49,8 @@ class PaintWriter {
     mesh_["primitives"].push_back(std::move(primitive));
   }
 
-  // Accessors that only extras name, as index lists.
+  // Accessors that only extras name, as index lists; by their names, since tools count accessors anew and leave
+  // extras as they are.
   void addOrders(const PaintedMesh& painted) {
     if (painted.orders.empty()) return;
     size_t vertices = 0;
@@ -58,10 +59,13 @@ class PaintWriter {
     for (const PaintOrder& order : painted.orders) {
       const std::vector<uint16_t> shorts(order.indices.begin(), order.indices.end());
       const bool fits = vertices <= 0xFFFF;
-      orders.push_back({{"toViewer", {order.toViewer.x, order.toViewer.y, order.toViewer.z}},
-                        {"indices", addAccessor(fits ? bytesOf(shorts) : bytesOf(order.indices),
-                                                fits ? kShortType : kIntType, "SCALAR", order.indices.size(),
-                                                0, kIndexData)}});
+      const size_t number =
+          addAccessor(fits ? bytesOf(shorts) : bytesOf(order.indices), fits ? kShortType : kIntType, "SCALAR",
+                      order.indices.size(), 0, kIndexData);
+      const std::string name = "scumble order " + std::to_string(number);
+      file_.root()["accessors"][number]["name"] = name;
+      orders.push_back(
+          {{"toViewer", {order.toViewer.x, order.toViewer.y, order.toViewer.z}}, {"indices", name}});
     }
     Json& extras = mesh_["extras"];
     if (!extras.is_object()) extras = Json::object();

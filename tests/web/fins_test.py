@@ -4,7 +4,8 @@
     tests/web/fins_test.py BUILD
 
 A ball with fur on a skin, and strokes in the air, are baked; web/index.html draws it from several sides in a browser, with the orders of triangles and
-without, and so does `scumble render`. They must look alike, in every tile; and without the orders they must not. three is fetched
+without, and so does `scumble render`. They must look alike, in every tile; and without the orders they must not. So must the ball
+whose orders another program has lost ("pruned"), and one whose orders are of other triangles ("spoiled"). three is fetched
 from npm's registry, as a user would have it; where that cannot be reached, the test says that it skips.
 """
 import hashlib
@@ -12,6 +13,7 @@ import http.server
 import json
 import math
 import shutil
+import struct
 import subprocess
 import sys
 import tarfile
@@ -159,6 +161,44 @@ def strokes_in_air(program, folder):
     run([program, "bake", "rings.gltf", "-o", "rings.glb", "--texture", "1024", "--hull-cells", "16", "--quiet"], folder)
 
 
+def rewritten(glb, change):
+    """A .glb whose JSON and bytes something has changed."""
+    length = int.from_bytes(glb[12:16], "little")
+    root, binary = json.loads(glb[20:20 + length]), bytearray(glb[28 + length:])
+    change(root, binary)
+    text = json.dumps(root).encode()
+    text += b" " * (-len(text) % 4)
+    chunks = struct.pack("<I4s", len(text), b"JSON") + text + struct.pack("<I4s", len(binary), b"BIN\0") + binary
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+
+
+def prune(root, _):
+    """As tools do that know nothing of what extras name: accessors that nothing else uses go, and others are counted anew."""
+    kept = [number for number, accessor in enumerate(root["accessors"]) if not accessor.get("name", "").startswith("scumble order")]
+    assert len(kept) < len(root["accessors"])
+    new = {old: number for number, old in enumerate(kept)}
+    root["accessors"] = [root["accessors"][old] for old in kept]
+    for primitive in (primitive for mesh in root["meshes"] for primitive in mesh["primitives"]):
+        primitive["attributes"] = {name: new[old] for name, old in primitive["attributes"].items()}
+        primitive["targets"] = [{name: new[old] for name, old in target.items()} for target in primitive.get("targets", [])]
+        if not primitive["targets"]:
+            del primitive["targets"]
+        if "indices" in primitive:
+            primitive["indices"] = new[primitive["indices"]]
+    for skin in root.get("skins", []):
+        if "inverseBindMatrices" in skin:
+            skin["inverseBindMatrices"] = new[skin["inverseBindMatrices"]]
+
+
+def spoil(root, binary):
+    """Orders of other triangles: each has the first one as often as there are triangles."""
+    for accessor in root["accessors"]:
+        if accessor.get("name", "").startswith("scumble order"):
+            view, size = root["bufferViews"][accessor["bufferView"]], {5123: 6, 5125: 12}[accessor["componentType"]]
+            at = view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+            binary[at:at + size * (accessor["count"] // 3)] = binary[at:at + size] * (accessor["count"] // 3)
+
+
 def run(command, folder):
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
     if done.returncode:
@@ -181,7 +221,9 @@ def main():
     program = build / "scumble"
     furry_ball(program, site)
     strokes_in_air(program, site)
-    cases = [(scene, ",".join(map(str, eye))) for scene in ("ball", "rings") for eye in VIEWS]
+    for name, change in (("pruned", prune), ("spoiled", spoil)):
+        (site / f"{name}.glb").write_bytes(rewritten((site / "ball.glb").read_bytes(), change))
+    cases = [(scene, ",".join(map(str, eye))) for scene in ("ball", "rings", "pruned", "spoiled") for eye in VIEWS]
     queries = [f"scene={scene}.glb&target=0,0,0&fov=34&background={BACKGROUND}&eye={eye}{orders}"
                for scene, eye in cases for orders in ("", "&orders=off")]
     pictures = drawn_in_browser(site, queries)
