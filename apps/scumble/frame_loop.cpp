@@ -26,7 +26,7 @@ Status drawFrames(const RenderPlan& plan, Renderer& renderer, const std::vector<
   std::optional<Result<Frame>> panorama;
   size_t last = times.size();
   for (size_t next = 0, done = 0; done < last;) {
-    // What is under way is drawn still.
+    // Frames under way are still finished.
     if (ends && ends()) last = next;
     if (done == last) break;
     if (next < last && next - done < underWay) {

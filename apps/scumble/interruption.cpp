@@ -11,7 +11,7 @@ volatile std::sig_atomic_t signalThatCame = 0;
 
 void note(int signal) {
   signalThatCame = signal;
-  // Who asks twice means it.
+  // A second signal ends the program.
   std::signal(signal, SIG_DFL);
 }
 

@@ -11,9 +11,9 @@ class Interruption {
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 
-  // Whether one has come.
+  // True once a signal has come; false where none lives.
   static bool came();
-  // What shells take for a program that it has ended: 130 or 143; 0 where none has come.
+  // Exit code that shells expect of a program that the signal has ended: 130 or 143; 0 without a signal.
   static int exitCode();
   // "Ctrl-C" or "SIGTERM".
   static const char* name();

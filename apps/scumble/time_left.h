@@ -7,7 +7,7 @@ namespace scumble::app {
 
 class TimeLeft {
  public:
-  // Of this many steps.
+  // Number of steps of the whole work.
   explicit TimeLeft(double steps) : steps_(steps) {}
 
   // `done`: steps so far, in parts too; `elapsed`: seconds since the beginning. Seconds; nothing until there

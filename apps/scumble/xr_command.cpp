@@ -213,7 +213,7 @@ int run(const XrArguments& args) {
   if (report->validationMessages > 0)
     return fail(
         Error{ErrorKind::internal, "", 0, "", "the validation layers found mistakes", "please report them"});
-  // Who takes the headset off ends it; a film that somebody has ended otherwise may lack what was to come.
+  // Taking the headset off is the usual end; a signal may cut a film short.
   if (!film || !Interruption::came()) return kDone;
   std::fprintf(stderr, "scumble: ended by %s: %s holds what was seen until then\n", Interruption::name(),
                args.output.c_str());

@@ -1,4 +1,4 @@
-// What captures and validation messages call things (VK_EXT_debug_utils), wherever that extension is there.
+// Names in captures and validation messages (VK_EXT_debug_utils), wherever that extension is there.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ class DebugName {
   const char* file_ = "";
   int line_ = 0;
 };
-// Where a call stands, as the default of its last argument. (Clang 14 has no std::source_location.)
+// Place of a call, as the default of its last argument. (Clang 14 has no std::source_location.)
 #define SCUMBLE_CALLER ::scumble::gpu::DebugName(__builtin_FILE(), __builtin_LINE())
 
 // The extension's functions; all null where it is not there.
@@ -32,7 +32,7 @@ struct DebugUtils {
   PFN_vkQueueBeginDebugUtilsLabelEXT beginQueueLabel = nullptr;
   PFN_vkQueueEndDebugUtilsLabelEXT endQueueLabel = nullptr;
 };
-// Of a device whose instance has the extension; of others nothing.
+// Functions of a device whose instance has the extension; null for others.
 DebugUtils debugUtilsOf(VkInstance instance, VkDevice device);
 
 // Around what is recorded while it lives.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "scene/painting.h"
 #include "scene/prepare_mesh.h"
@@ -260,6 +261,12 @@ Bounds posedBounds(const PrimitiveExtent& extent, const glm::mat4& model, std::s
   forEachBox(extent, model, joints, morphWeights,
              [&](const Bounds& box, const glm::mat4& matrix) { addBox(bounds, box, matrix); });
   return bounds;
+}
+
+std::vector<int> allClips(const SceneData& scene) {
+  std::vector<int> clips(scene.clips.size());
+  std::iota(clips.begin(), clips.end(), 0);
+  return clips;
 }
 
 void forEachPose(

@@ -20,7 +20,7 @@ glm::vec3 skinnedPosition(const Primitive& primitive, size_t v, const glm::vec3&
                           std::span<const glm::mat4> joints);
 
 PrimitiveExtent extentOf(const Primitive& primitive);
-// Of some of its vertices alone, and the triangles between them.
+// The same of some vertices alone, and of the triangles between them.
 PrimitiveExtent extentOf(const Primitive& primitive, std::span<const uint32_t> vertices);
 
 // A box around a primitive in the world, never too small: a skinned vertex lies between the places where its
@@ -28,6 +28,9 @@ PrimitiveExtent extentOf(const Primitive& primitive, std::span<const uint32_t> v
 // which `model` places.
 Bounds posedBounds(const PrimitiveExtent& extent, const glm::mat4& model, std::span<const glm::mat4> joints,
                    std::span<const float> morphWeights);
+
+// Numbers of all clips of a scene.
+std::vector<int> allClips(const SceneData& scene);
 
 // Poses from all over each of the clips, one clip at a time; without clips, the rest pose. `joints`: the
 // jointMatrices() of each skin.

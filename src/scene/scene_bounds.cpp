@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <optional>
 
 #include "scene/import_failure.h"
@@ -173,9 +172,7 @@ void placeScene(SceneData& scene, ImportWarnings& warnings) {
   }
   // What appears in the course of a clip, or grows from nothing, is all that there is to frame then.
   if (!scene.bounds.empty || scene.clips.empty()) return;
-  std::vector<int> all(scene.clips.size());
-  std::iota(all.begin(), all.end(), 0);
-  scene.bounds = playedBounds(scene, all);
+  scene.bounds = playedBounds(scene, allClips(scene));
 }
 
 void requireMeshes(const SceneData& scene) {

@@ -1,5 +1,5 @@
-// What of a scene can be seen. Framing, bounds, ground, shadows, lines, mattes and drawings all ask here:
-// what is not seen is not there for any of them.
+// Parts of a scene that can be seen. Framing, bounds, ground, shadows, lines, mattes and drawings all ask
+// here: what is not seen is not there for any of them.
 //
 // A surface is not seen where its node, or one above it, is hidden; where a matrix leaves it no area (scale
 // 0); and where its material is transparent or cut away (alpha of material, vertices and texture together).
@@ -11,7 +11,7 @@
 
 namespace scumble::scene {
 
-// Whether a matrix leaves surfaces any area. False for scales of 0 along two or three axes.
+// True where a matrix leaves surfaces any area; false for scales of 0 along two or three axes.
 bool keepsArea(const glm::mat4& matrix);
 
 // By node: whether it and all nodes above it are visible at rest.
@@ -24,7 +24,7 @@ std::vector<bool> everShownNodes(const SceneData& scene);
 class SurfaceAlpha {
  public:
   SurfaceAlpha(const SceneData& scene, const Primitive& primitive);
-  // Whether it is 1, or does not count, everywhere.
+  // True where it is 1, or does not count, everywhere.
   bool isWhole() const { return isWhole_; }
   // At a place of a triangle: weights of its corners.
   float at(const glm::uvec3& corners, const glm::vec3& weights) const;
@@ -44,7 +44,7 @@ class SurfaceAlpha {
 // Fills SceneData::seen from materials, vertex colours and textures.
 void findSeen(SceneData& scene);
 
-// What of primitive `p` of a mesh is seen. All of it in scenes for which findSeen() was not called.
+// Part of a mesh's primitive `p` that is seen: all of it in scenes for which findSeen() was not called.
 const SeenPart& seenOf(const SceneData& scene, int mesh, size_t p);
 
 // The extent of what is seen of it.

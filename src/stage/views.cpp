@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
-#include <numeric>
 
 #include "base/usage.h"
 #include "scene/find_node.h"
@@ -155,9 +154,7 @@ Result<std::vector<bool>> framedNodes(const SceneData& scene, const std::string&
   std::vector<bool> shown = scene::everShownNodes(scene);
   if (name.empty()) return shown;
   const int found = scene::findNode(scene, name);
-  std::vector<int> clips(scene.clips.size());
-  std::iota(clips.begin(), clips.end(), 0);
-  const std::vector<bool> seen = scene::seenNodes(scene, clips);
+  const std::vector<bool> seen = scene::seenNodes(scene, scene::allClips(scene));
   std::vector<bool> isNamed(scene.nodes.size());
   bool isThere = false, isSeen = false;
   for (size_t n = 0; n < scene.nodes.size(); ++n) {

@@ -26,40 +26,44 @@ void made(VkObjectType kind, Handle handle) {
   write("made %d %" PRIx64 "\n", int(kind), uint64_t(handle));
 }
 
+// vkCreateBuffer and its like.
+template <VkObjectType kKind, class Function, class Info, class Handle>
+VkResult create(const char* name, VkDevice device, const Info* info, const VkAllocationCallbacks* allocator,
+                Handle* handle) {
+  const VkResult result = layer::next<Function>(device, name)(device, info, allocator, handle);
+  if (result == VK_SUCCESS) made(kKind, *handle);
+  return result;
+}
 VKAPI_ATTR VkResult VKAPI_CALL createBuffer(VkDevice device, const VkBufferCreateInfo* info,
                                             const VkAllocationCallbacks* allocator, VkBuffer* buffer) {
-  const VkResult result =
-      layer::next<PFN_vkCreateBuffer>(device, "vkCreateBuffer")(device, info, allocator, buffer);
-  if (result == VK_SUCCESS) made(VK_OBJECT_TYPE_BUFFER, *buffer);
-  return result;
+  return create<VK_OBJECT_TYPE_BUFFER, PFN_vkCreateBuffer>("vkCreateBuffer", device, info, allocator, buffer);
 }
-
 VKAPI_ATTR VkResult VKAPI_CALL createImage(VkDevice device, const VkImageCreateInfo* info,
                                            const VkAllocationCallbacks* allocator, VkImage* image) {
-  const VkResult result =
-      layer::next<PFN_vkCreateImage>(device, "vkCreateImage")(device, info, allocator, image);
-  if (result == VK_SUCCESS) made(VK_OBJECT_TYPE_IMAGE, *image);
-  return result;
+  return create<VK_OBJECT_TYPE_IMAGE, PFN_vkCreateImage>("vkCreateImage", device, info, allocator, image);
 }
 
+template <class Function, class Info>
+VkResult createPipelines(const char* name, VkDevice device, VkPipelineCache cache, uint32_t count,
+                         const Info* infos, const VkAllocationCallbacks* allocator, VkPipeline* pipelines) {
+  const VkResult result =
+      layer::next<Function>(device, name)(device, cache, count, infos, allocator, pipelines);
+  for (uint32_t i = 0; i < count && result == VK_SUCCESS; ++i) made(VK_OBJECT_TYPE_PIPELINE, pipelines[i]);
+  return result;
+}
 VKAPI_ATTR VkResult VKAPI_CALL createGraphicsPipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
                                                        const VkGraphicsPipelineCreateInfo* infos,
                                                        const VkAllocationCallbacks* allocator,
                                                        VkPipeline* pipelines) {
-  const VkResult result = layer::next<PFN_vkCreateGraphicsPipelines>(device, "vkCreateGraphicsPipelines")(
-      device, cache, count, infos, allocator, pipelines);
-  for (uint32_t i = 0; i < count && result == VK_SUCCESS; ++i) made(VK_OBJECT_TYPE_PIPELINE, pipelines[i]);
-  return result;
+  return createPipelines<PFN_vkCreateGraphicsPipelines>("vkCreateGraphicsPipelines", device, cache, count,
+                                                        infos, allocator, pipelines);
 }
-
 VKAPI_ATTR VkResult VKAPI_CALL createComputePipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
                                                       const VkComputePipelineCreateInfo* infos,
                                                       const VkAllocationCallbacks* allocator,
                                                       VkPipeline* pipelines) {
-  const VkResult result = layer::next<PFN_vkCreateComputePipelines>(device, "vkCreateComputePipelines")(
-      device, cache, count, infos, allocator, pipelines);
-  for (uint32_t i = 0; i < count && result == VK_SUCCESS; ++i) made(VK_OBJECT_TYPE_PIPELINE, pipelines[i]);
-  return result;
+  return createPipelines<PFN_vkCreateComputePipelines>("vkCreateComputePipelines", device, cache, count,
+                                                       infos, allocator, pipelines);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL setName(VkDevice, const VkDebugUtilsObjectNameInfoEXT* info) {
@@ -90,19 +94,15 @@ VKAPI_ATTR VkResult VKAPI_CALL queueSubmit2(VkQueue queue, uint32_t count, const
 
 void layer::deviceMade(VkDevice) {}
 
-PFN_vkVoidFunction layer::intercepted(const char* name) {
-  const std::pair<const char*, PFN_vkVoidFunction> functions[] = {
-      {"vkCreateBuffer", reinterpret_cast<PFN_vkVoidFunction>(createBuffer)},
-      {"vkCreateImage", reinterpret_cast<PFN_vkVoidFunction>(createImage)},
-      {"vkCreateGraphicsPipelines", reinterpret_cast<PFN_vkVoidFunction>(createGraphicsPipelines)},
-      {"vkCreateComputePipelines", reinterpret_cast<PFN_vkVoidFunction>(createComputePipelines)},
-      {"vkSetDebugUtilsObjectNameEXT", reinterpret_cast<PFN_vkVoidFunction>(setName)},
-      {"vkCmdBeginDebugUtilsLabelEXT", reinterpret_cast<PFN_vkVoidFunction>(beginLabel)},
-      {"vkCmdEndDebugUtilsLabelEXT", reinterpret_cast<PFN_vkVoidFunction>(endLabel)},
-      {"vkQueueBeginDebugUtilsLabelEXT", reinterpret_cast<PFN_vkVoidFunction>(beginQueueLabel)},
-      {"vkQueueEndDebugUtilsLabelEXT", reinterpret_cast<PFN_vkVoidFunction>(endQueueLabel)},
-      {"vkQueueSubmit2", reinterpret_cast<PFN_vkVoidFunction>(queueSubmit2)}};
-  for (const auto& [known, function] : functions)
-    if (std::strcmp(name, known) == 0) return function;
-  return nullptr;
+std::vector<layer::Function> layer::intercepted() {
+  return {{"vkCreateBuffer", createBuffer},
+          {"vkCreateImage", createImage},
+          {"vkCreateGraphicsPipelines", createGraphicsPipelines},
+          {"vkCreateComputePipelines", createComputePipelines},
+          {"vkSetDebugUtilsObjectNameEXT", setName},
+          {"vkCmdBeginDebugUtilsLabelEXT", beginLabel},
+          {"vkCmdEndDebugUtilsLabelEXT", endLabel},
+          {"vkQueueBeginDebugUtilsLabelEXT", beginQueueLabel},
+          {"vkQueueEndDebugUtilsLabelEXT", endQueueLabel},
+          {"vkQueueSubmit2", queueSubmit2}};
 }

@@ -1,4 +1,4 @@
-// What Vulkan layers for tests share: the way to what comes next. A layer includes this in its one file and
+// Base of Vulkan layers for tests: the way to the next layer. A layer includes this in its one file and
 // defines intercepted() and deviceMade().
 #pragma once
 
@@ -8,12 +8,20 @@
 #include <cstring>
 #include <map>
 #include <mutex>
+#include <vector>
 
 namespace layer {
 
-// The layer's own function of that name, or null.
-PFN_vkVoidFunction intercepted(const char* name);
-// With `mutex` held.
+struct Function {
+  template <class Pointer>
+  Function(const char* called, Pointer own)
+      : name(called), pointer(reinterpret_cast<PFN_vkVoidFunction>(own)) {}
+  const char* name;
+  PFN_vkVoidFunction pointer;
+};
+// The layer's own functions, by the names of those that they take the place of.
+std::vector<Function> intercepted();
+// Called with `mutex` held.
 void deviceMade(VkDevice device);
 
 inline std::mutex mutex;
@@ -27,7 +35,7 @@ void* keyOf(Handle handle) {
   return *reinterpret_cast<void**>(handle);
 }
 
-// Of a device, or of what belongs to one.
+// The next layer's function for a device, or for an object of one.
 template <class Function, class Handle>
 Function next(Handle handle, const char* name) {
   const std::lock_guard lock(mutex);
@@ -65,9 +73,11 @@ inline VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, co
 }
 
 inline PFN_vkVoidFunction ours(const char* name) {
-  if (std::strcmp(name, "vkCreateInstance") == 0) return reinterpret_cast<PFN_vkVoidFunction>(createInstance);
-  if (std::strcmp(name, "vkCreateDevice") == 0) return reinterpret_cast<PFN_vkVoidFunction>(createDevice);
-  return intercepted(name);
+  std::vector<Function> functions = intercepted();
+  functions.insert(functions.end(), {{"vkCreateInstance", createInstance}, {"vkCreateDevice", createDevice}});
+  for (const Function& each : functions)
+    if (std::strcmp(name, each.name) == 0) return each.pointer;
+  return nullptr;
 }
 
 }  // namespace layer

@@ -40,12 +40,8 @@ void layer::deviceMade(VkDevice device) {
   lost.erase(keyOf(device));
 }
 
-PFN_vkVoidFunction layer::intercepted(const char* name) {
-  const std::pair<const char*, PFN_vkVoidFunction> functions[] = {
-      {"vkQueueSubmit2", reinterpret_cast<PFN_vkVoidFunction>(queueSubmit2)},
-      {"vkQueuePresentKHR", reinterpret_cast<PFN_vkVoidFunction>(queuePresent)},
-      {"vkWaitForFences", reinterpret_cast<PFN_vkVoidFunction>(waitForFences)}};
-  for (const auto& [known, function] : functions)
-    if (std::strcmp(name, known) == 0) return function;
-  return nullptr;
+std::vector<layer::Function> layer::intercepted() {
+  return {{"vkQueueSubmit2", queueSubmit2},
+          {"vkQueuePresentKHR", queuePresent},
+          {"vkWaitForFences", waitForFences}};
 }

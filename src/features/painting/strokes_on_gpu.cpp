@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/packing.hpp>
-#include <numeric>
 
 #include "base/tileable_noise.h"
 #include "features/painting/painting.h"
@@ -53,9 +52,7 @@ std::vector<DrawnPainting> paintingsOf(const scene::SceneData& scene) {
 
 StrokesOnGpu::StrokesOnGpu(const scene::SceneData& scene, std::vector<DrawnPainting> paintings)
     : paintings_(std::move(paintings)), reachAlone_(paintings_.size()) {
-  std::vector<int> clips(scene.clips.size());
-  std::iota(clips.begin(), clips.end(), 0);
-  scene::forEachPose(scene, clips, [&](const scene::Pose& pose, auto) {
+  scene::forEachPose(scene, scene::allClips(scene), [&](const scene::Pose& pose, auto) {
     for (size_t p = 0; p < paintings_.size(); ++p)
       if (pose.shown[paintings_[p].node])
         reachAlone_[p].add(scene::posedBounds(paintings_[p].painting->hull.extent,

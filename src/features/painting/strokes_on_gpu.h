@@ -47,7 +47,7 @@ class StrokesOnGpu {
   VkBuffer splats() const { return splats_.handle(); }
   // Room for a shared::PlacedPoint of each point.
   VkBuffer placed() const { return placed_.handle(); }
-  // What the strokes reach at any time, world, as far as is known before.
+  // Boxes that the strokes stay within at any time, world, as far as is known before.
   const std::vector<scene::Bounds>& reach() const { return reach_; }
 
  private:
@@ -63,7 +63,7 @@ class StrokesOnGpu {
   std::vector<scene::Bounds> reach_, reachAlone_;  // by painting; of those that no mesh carries, else empty
 };
 
-// Those of the frame's scene; null where it has none any more: passes that draw them are about to go then.
+// Strokes of the frame's scene; null where it has none any more: passes that draw them are about to go then.
 const StrokesOnGpu* strokesOf(const frame::FrameBuilder& frame);
 
 class PaintingMoment : public FeatureMoment {

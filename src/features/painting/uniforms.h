@@ -1,4 +1,4 @@
-// What shaders of paintings know of a look.
+// Uniforms of paintings' shaders, from a look.
 #pragma once
 
 #include "features/painting/painting.shared.h"

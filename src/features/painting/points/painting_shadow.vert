@@ -9,7 +9,7 @@ layout(set = 1, binding = kPaintingPlaced, scalar) readonly buffer Placed { Plac
 layout(location = 0) out vec2 outPlace;      // along the stroke from its first point, and across it; metres
 layout(location = 1) flat out vec3 outForm;  // its length, and the radii at both ends; metres
 
-// What is thinner than this lets light through, as does what brushes leave that do not cover.
+// Thinner paint lets light through, as brushes do that do not cover.
 const float kLeastOpacity = 0.5;
 
 void main() {
@@ -40,7 +40,7 @@ void main() {
   outForm = vec3(size, a.radius, b.radius);
   outPlace = vec2(isEnd ? size + radius : -radius, isUp ? radius : -radius);
   vec2 beside = (outPlace.x - (isEnd ? size : 0.0)) * along + outPlace.y * vec2(-along.y, along.x);
-  // As deep as the paint: what it lies on is not in its own shadow.
+  // Moved back by the depth of the paint, so that the surface below is not in its shadow.
   vec3 p = (isEnd ? b.position : a.position) + beside.x * right + beside.y * above - radius * toLight;
   vec3 light = (frame.worldToLight * vec4(p, 1.0)).xyz;
   gl_Position = vec4(shadowMapUv(sigmoidArgument(light.xy)) * 2.0 - 1.0, clamp(light.z, 0.0, 1.0), 1.0);

@@ -91,7 +91,7 @@ class Points : public Pass {
       matrices.push_back(motion.shownAsDrawn()[painting.node]
                              ? motion.worldAsDrawn()[painting.node] * painting.toNode
                              : glm::mat4(0.0f));
-    // Where points are, and which of them are there.
+    // Only these move points or remove them.
     const bool isSame = motion.version() == motionVersion_ && matrices == placedBy_ &&
                         uniforms.width == placedAs_.width && uniforms.opacity == placedAs_.opacity &&
                         uniforms.until == placedAs_.until;
@@ -126,7 +126,7 @@ class Points : public Pass {
   gpu::SetLayout layout_;
   gpu::DescriptorSets set_;
   gpu::Pipeline placePipeline_, shadowPipeline_;
-  // What shadows were drawn of last.
+  // State of the shadows drawn last.
   uint64_t version_ = 0;
   uint32_t motionVersion_ = 0;
   std::vector<glm::mat4> placedBy_;
