@@ -150,25 +150,25 @@ Image toLinearImage(const py::object& pixels, const std::string& what) {
   return image;
 }
 
-glm::mat4 toMatrix(const py::handle& numbers, const std::string& what) {
-  return toSquare<glm::mat4, 4>(numbers, what);
+glm::dmat4 toMatrix(const py::handle& numbers, const std::string& what) {
+  return toSquare<glm::dmat4, 4>(numbers, what);
 }
 glm::mat3 toMatrix3(const py::handle& numbers, const std::string& what) {
   return toSquare<glm::mat3, 3>(numbers, what);
 }
 
-py::array toArray(const glm::mat4& matrix) {
-  py::array_t<float> rows({4, 4});
+py::array toArray(const glm::dmat4& matrix) {
+  py::array_t<double> rows({4, 4});
   for (int row = 0; row < 4; ++row)
     for (int column = 0; column < 4; ++column) *rows.mutable_data(row, column) = matrix[column][row];
   return rows;
 }
 
-glm::vec3 toVec3(const py::handle& numbers, const std::string& what) {
+glm::dvec3 toVec3(const py::handle& numbers, const std::string& what) {
   const py::array array = numbersOf(py::reinterpret_borrow<py::object>(numbers), what);
   if (array.ndim() != 1 || array.shape(0) != 3)
     raiseUsage(what + " has the shape " + shapeOf(array), "give three numbers");
-  const py::array_t<float> values = converted<float>(array, what);
+  const py::array_t<double> values = converted<double>(array, what);
   return {*values.data(0), *values.data(1), *values.data(2)};
 }
 
@@ -222,7 +222,7 @@ std::vector<glm::mat4> toMatrices(const py::object& numbers, const std::string& 
   std::vector<glm::mat4> matrices;
   if (!py::isinstance<py::iterable>(numbers)) refuse(numbers, what, "n matrices of 4 by 4");
   for (const py::handle matrix : py::reinterpret_borrow<py::iterable>(numbers))
-    matrices.push_back(toMatrix(matrix, what));
+    matrices.emplace_back(toMatrix(matrix, what));
   return matrices;
 }
 

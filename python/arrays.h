@@ -29,10 +29,10 @@ scumble::Image toImage(const py::object& pixels, const std::string& what);
 scumble::Image toLinearImage(const py::object& pixels, const std::string& what);
 
 // 4 by 4, as mathematics writes it: the last column is where things are moved to.
-glm::mat4 toMatrix(const py::handle& array, const std::string& what);
-py::array toArray(const glm::mat4& matrix);
+glm::dmat4 toMatrix(const py::handle& array, const std::string& what);
+py::array toArray(const glm::dmat4& matrix);
 glm::mat3 toMatrix3(const py::handle& array, const std::string& what);  // likewise
-glm::vec3 toVec3(const py::handle& numbers, const std::string& what);
+glm::dvec3 toVec3(const py::handle& numbers, const std::string& what);
 
 // Rows of vectors, kept alive with the array that they lie in.
 template <class Vector>

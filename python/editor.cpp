@@ -274,7 +274,7 @@ void addEditor(py::module_& module) {
           [](SceneEditor& editor, const std::string& name, int parent, const py::object& transform,
              int mesh) {
             return int(valueOf(editor.addNode(
-                {name, NodeId(parent), transform.is_none() ? glm::mat4(1) : toMatrix(transform, "transform"),
+                {name, NodeId(parent), transform.is_none() ? glm::dmat4(1) : toMatrix(transform, "transform"),
                  MeshId(mesh)})));
           },
           py::kw_only(), "name"_a = "", "parent"_a = -1, "transform"_a = py::none(), "mesh"_a = -1,

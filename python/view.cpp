@@ -55,16 +55,13 @@ void addViews(py::module_& module) {
       "not tilt with that; size: (width, height), or (0, 0) for the frame's; rig: whose eye it is.")
       .def(py::init([](const py::object& worldToEye, const py::object& eyeToClip, int node, bool isLevel,
                        std::pair<uint32_t, uint32_t> size, int rig) {
-             return View{toMatrix(worldToEye, "world_to_eye"),
-                         toMatrix(eyeToClip, "eye_to_clip"),
-                         node,
-                         isLevel,
-                         {size.first, size.second},
-                         rig};
+             View view{{}, toMatrix(eyeToClip, "eye_to_clip"), node, isLevel, {size.first, size.second}, rig};
+             setWorldToEye(view, toMatrix(worldToEye, "world_to_eye"));
+             return view;
            }),
            "world_to_eye"_a, "eye_to_clip"_a, py::kw_only(), "node"_a = -1, "level"_a = false,
            "size"_a = std::pair<uint32_t, uint32_t>(0, 0), "rig"_a = 0)
-      .def_property_readonly("world_to_eye", [](const View& view) { return toArray(view.worldToEye); })
+      .def_property_readonly("world_to_eye", [](const View& view) { return toArray(worldToEyeOf(view)); })
       .def_property_readonly("eye_to_clip", [](const View& view) { return toArray(view.eyeToClip); })
       .def_readonly("node", &View::node)
       .def_readonly("level", &View::isLevel)
@@ -75,7 +72,7 @@ void addViews(py::module_& module) {
       .def(
           "__deepcopy__", [](const View& view, const py::dict&) { return view; }, "memo"_a)
       .def("__repr__", [](const View& view) {
-        const glm::vec3 eye(glm::inverse(view.worldToEye)[3]);
+        const glm::dvec3 eye(glm::inverse(worldToEyeOf(view))[3]);
         return "<scumble.View from " + std::to_string(eye.x) + ", " + std::to_string(eye.y) + ", " +
                std::to_string(eye.z) + ">";
       });
@@ -108,8 +105,8 @@ void addViews(py::module_& module) {
   module.def(
       "_nodes_to_world",
       [](const Scene& scene, const Look& look, double time) {
-        const std::vector<glm::mat4> matrices = nodesToWorld(scene, look, time);
-        py::array_t<float> all({matrices.size(), size_t(4), size_t(4)});
+        const std::vector<glm::dmat4> matrices = nodesToWorld(scene, look, time);
+        py::array_t<double> all({matrices.size(), size_t(4), size_t(4)});
         for (size_t i = 0; i < matrices.size(); ++i) all[py::int_(i)] = toArray(matrices[i]);
         return all;
       },

@@ -34,9 +34,9 @@ std::optional<BakePart> parsePart(const std::string& text) {
     const size_t end = std::min(text.find(';', at), text.size()), equals = text.find('=', at);
     if (equals == std::string::npos || equals >= end) return std::nullopt;
     const std::string name = text.substr(at, equals - at);
-    const std::optional<std::vector<float>> value = parseNumbers(text.substr(equals + 1, end - equals - 1));
+    const std::optional<std::vector<double>> value = parseNumbers(text.substr(equals + 1, end - equals - 1));
     if (!value || value->size() != 1) return std::nullopt;
-    const float number = value->front();
+    const float number = float(value->front());
     if (number < 0) return std::nullopt;
     if (name == "offset")
       part.offset = number;

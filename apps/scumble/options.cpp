@@ -43,15 +43,16 @@ std::string endingOf(const std::string& path) {
   return ending;
 }
 
-std::optional<std::vector<float>> parseNumbers(const std::string& text) {
-  std::vector<float> numbers;
+std::optional<std::vector<double>> parseNumbers(const std::string& text) {
+  std::vector<double> numbers;
   const char *at = text.data(), *const last = text.data() + text.size();
   while (true) {
     // One sign and no more: from_chars knows no plus.
     if (last - at > 1 && at[0] == '+' && at[1] != '-') ++at;
-    float number = 0;
+    double number = 0;
     const auto [end, error] = std::from_chars(at, last, number);
-    if (error != std::errc() || !std::isfinite(number)) return std::nullopt;
+    // Most of them go where only single precision fits.
+    if (error != std::errc() || !std::isfinite(float(number))) return std::nullopt;
     numbers.push_back(number);
     if (end == last) return numbers;
     if (*end != ',') return std::nullopt;
@@ -307,14 +308,14 @@ Result<Viewpoint> PictureArguments::viewpoint() const {
     if (!numbers || numbers->size() < 2 || numbers->size() > 3)
       return usage("--orbit " + orbit + " is no orbit", "write it like 30,15 or 30,15,3");
     viewpoint.orbit = true;
-    viewpoint.azimuth = (*numbers)[0];
-    viewpoint.elevation = (*numbers)[1];
-    if (numbers->size() == 3) viewpoint.distance = (*numbers)[2];
+    viewpoint.azimuth = float((*numbers)[0]);
+    viewpoint.elevation = float((*numbers)[1]);
+    if (numbers->size() == 3) viewpoint.distance = float((*numbers)[2]);
   }
-  const auto point = [](const std::string& text) -> std::optional<glm::vec3> {
+  const auto point = [](const std::string& text) -> std::optional<glm::dvec3> {
     const auto numbers = parseNumbers(text);
     if (!numbers || numbers->size() != 3) return std::nullopt;
-    return glm::vec3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
+    return glm::dvec3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
   };
   if (!eye.empty() && !(viewpoint.eye = point(eye)))
     return usage("--eye " + eye + " is no point", "write it like 2,1.5,4");

@@ -73,7 +73,7 @@ std::string endingOf(const std::string& path);
 // "1280x720" and the like; nothing when it is not of that form.
 std::optional<std::pair<uint32_t, uint32_t>> parseSize(const std::string& text);
 // Numbers separated by commas, all finite.
-std::optional<std::vector<float>> parseNumbers(const std::string& text);
+std::optional<std::vector<double>> parseNumbers(const std::string& text);
 
 // $XDG_CACHE_HOME/scumble or ~/.cache/scumble; empty where neither is known. The XDG Base Directory
 // Specification has a relative path ignored.

@@ -39,10 +39,10 @@ int run(const PaintArguments& args) {
   else if (args.flow != "curvature")
     return failUsage("--flow '" + args.flow + "' is not known", "it is curvature or direction");
   if (!args.direction.empty()) {
-    const std::optional<std::vector<float>> numbers = parseNumbers(args.direction);
+    const std::optional<std::vector<double>> numbers = parseNumbers(args.direction);
     if (!numbers || numbers->size() != 3)
       return failUsage("--direction '" + args.direction + "' is no direction", "write it like 0,-1,0");
-    options.direction = {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+    options.direction = glm::dvec3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
   }
   const std::string out =
       args.out.empty() ? std::filesystem::path(args.scene).stem().string() + ".painted.glb" : args.out;

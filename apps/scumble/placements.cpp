@@ -42,7 +42,7 @@ Status readMember(const std::string& word, const std::string& option, PlacedScen
   const std::string member = word.substr(0, equals),
                     value = equals == std::string::npos ? "" : word.substr(equals + 1);
   const auto numbers = parseNumbers(value);
-  const auto triple = [&] { return glm::vec3((*numbers)[0], (*numbers)[1], (*numbers)[2]); };
+  const auto triple = [&] { return glm::dvec3((*numbers)[0], (*numbers)[1], (*numbers)[2]); };
   const auto wrong = [&](const char* what) { return usage(option + ": " + what, kExample); };
   if (member == "at") {
     if (!numbers || numbers->size() != 3) return wrong("at takes three numbers");
@@ -50,10 +50,10 @@ Status readMember(const std::string& word, const std::string& option, PlacedScen
   } else if (member == "turn") {
     if (!numbers || (numbers->size() != 1 && numbers->size() != 3))
       return wrong("turn takes one number or three");
-    out.turn = numbers->size() == 3 ? triple() : glm::vec3(0, (*numbers)[0], 0);
+    out.turn = numbers->size() == 3 ? triple() : glm::dvec3(0, (*numbers)[0], 0);
   } else if (member == "scale") {
     if (!numbers || numbers->size() != 1) return wrong("scale takes one number");
-    out.scale = (*numbers)[0];
+    out.scale = float((*numbers)[0]);
   } else if (member == "on") {
     if (value.empty()) return wrong("on takes the name of a node");
     out.on = value;

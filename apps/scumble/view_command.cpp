@@ -77,7 +77,12 @@ Files commandOf(const ViewArguments& args, const viewer::Shown& shown) {
   for (const std::string& setting : look.settings) add("--set", setting);
   for (const auto& [path, value] : shown.edits) add("--set", path + "=" + value);
   add("--background", shown.opened.background);
-  const auto point = [](const glm::vec3& p) { return fmt::format("{},{},{}", p.x, p.y, p.z); };
+  // As few digits as mean the same: near (0, 0, 0) hands give places in single precision.
+  const auto digits = [](double number) {
+    const auto single = float(number);
+    return double(single) == number ? fmt::format("{}", single) : fmt::format("{}", number);
+  };
+  const auto point = [&](const glm::dvec3& p) { return digits(p.x) + "," + digits(p.y) + "," + digits(p.z); };
   std::optional<float> roll = args.picture.roll, field = args.picture.fov;
   if (!shown.viewpoint) {
     add("--camera", args.picture.camera), add("--frame", args.picture.frame),

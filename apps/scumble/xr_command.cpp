@@ -116,10 +116,10 @@ int run(const XrArguments& args) {
   std::optional<float> resolution;
   if (args.resolution != "auto") {
     const auto numbers = parseNumbers(args.resolution);
-    if (!numbers || numbers->size() != 1 || !(numbers->front() >= 0.1f && numbers->front() <= 1))
+    if (!numbers || numbers->size() != 1 || !(numbers->front() >= 0.1 && numbers->front() <= 1))
       return failUsage("--resolution " + args.resolution + " makes no sense",
                        "use auto, or 0.1 to 1 of the headset's pixels each way");
-    resolution = numbers->front();
+    resolution = float(numbers->front());
   }
   if (!(args.fps >= 1 && args.fps <= 120))
     return failUsage("--fps is out of range", "use 1 to 120 pictures a second");

@@ -81,27 +81,27 @@ uint64_t Members::requireWhole(const std::string& name, uint64_t max) {
   return *whole(name, max);
 }
 
-std::optional<std::vector<float>> Members::numbers(const std::string& name, size_t count) {
+std::optional<std::vector<double>> Members::numbers(const std::string& name, size_t count) {
   const json* found = find(name);
   if (!found) return std::nullopt;
   const std::string advice = "give an array of " + std::to_string(count) + " numbers";
   if (!found->is_array() || found->size() != count)
     refuse(place(name), "this is no array of " + std::to_string(count), advice);
-  std::vector<float> values;
+  std::vector<double> values;
   for (const json& item : *found) {
     if (!item.is_number() || !std::isfinite(item.get<float>()))
       refuse(place(name), "this holds something that is no number", advice);
-    values.push_back(item.get<float>());
+    values.push_back(item.get<double>());
   }
   return values;
 }
 
-std::optional<glm::vec3> Members::vector(const std::string& name) {
+std::optional<glm::dvec3> Members::vector(const std::string& name) {
   const auto values = numbers(name, 3);
-  return values ? std::optional(glm::vec3((*values)[0], (*values)[1], (*values)[2])) : std::nullopt;
+  return values ? std::optional(glm::dvec3((*values)[0], (*values)[1], (*values)[2])) : std::nullopt;
 }
 
-std::optional<glm::mat4> Members::matrix(const std::string& name) {
+std::optional<glm::dmat4> Members::matrix(const std::string& name) {
   const auto values = numbers(name, 16);
   return values ? std::optional(glm::make_mat4(values->data())) : std::nullopt;
 }

@@ -49,9 +49,10 @@ class Members {
   std::optional<double> number(const std::string& name);
   std::optional<uint64_t> whole(const std::string& name, uint64_t max);
   uint64_t requireWhole(const std::string& name, uint64_t max);
-  std::optional<std::vector<float>> numbers(const std::string& name, size_t count);
-  std::optional<glm::vec3> vector(const std::string& name);
-  std::optional<glm::mat4> matrix(const std::string& name);  // column-major
+  // Each one finite in single precision, too.
+  std::optional<std::vector<double>> numbers(const std::string& name, size_t count);
+  std::optional<glm::dvec3> vector(const std::string& name);
+  std::optional<glm::dmat4> matrix(const std::string& name);  // column-major
   std::optional<std::vector<std::string>> texts(const std::string& name);
   // Its number among these words.
   std::optional<size_t> word(const std::string& name, const std::vector<std::string>& words);

@@ -41,7 +41,7 @@ struct Region {
 std::optional<Region> regionOf(Members& request, const RenderOptions& options) {
   const auto given = request.numbers("region", 4);
   if (!given) return std::nullopt;
-  for (const float number : *given)
+  for (const double number : *given)
     if (!(number >= 0 && number <= 16384 && number == std::floor(number)))
       refuse(request.place("region"), "it is not of whole pixels", "give x, y, width and height");
   const Region region = {uint32_t((*given)[0]), uint32_t((*given)[1]), uint32_t((*given)[2]),
@@ -56,7 +56,7 @@ View viewOf(const json& given, const std::string& where, const ServedScene& scen
   Members members(given, where);
   members.require("worldToEye"), members.require("eyeToClip");
   View view;
-  view.worldToEye = *members.matrix("worldToEye");
+  setWorldToEye(view, *members.matrix("worldToEye"));
   view.eyeToClip = *members.matrix("eyeToClip");
   if (const auto node = members.text("node")) view.node = int(scene.nodeOf(*node, members.place("node")));
   view.isLevel = members.flag("isLevel").value_or(false);
@@ -78,8 +78,8 @@ Viewpoint viewpointOf(const json& given, const std::string& where, Stereo& stere
   if (const auto angles = members.numbers("orbit", 2))
     viewpoint.orbit = true, viewpoint.azimuth = (*angles)[0], viewpoint.elevation = (*angles)[1];
   const auto number = [&](const char* name) {
-    const auto given = members.number(name);
-    return given ? std::optional<float>(float(*given)) : std::nullopt;
+    const auto value = members.number(name);
+    return value ? std::optional<float>(float(*value)) : std::nullopt;
   };
   viewpoint.distance = number("distance");
   viewpoint.eye = members.vector("eye");

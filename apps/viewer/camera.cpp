@@ -6,9 +6,9 @@ namespace scumble::viewer {
 
 void Camera::setBounds(const SceneSummary& summary) {
   constexpr float kLeast = 1e-6f;  // metres
-  glm::vec3 low, high;
-  for (int i = 0; i < 3; ++i) low[i] = float(summary.min[i]), high[i] = float(summary.max[i]);
-  centre_ = 0.5f * (low + high), radius_ = std::max(0.5f * glm::distance(low, high), kLeast);
+  glm::dvec3 low, high;
+  for (int i = 0; i < 3; ++i) low[i] = summary.min[i], high[i] = summary.max[i];
+  centre_ = 0.5 * (low + high), radius_ = std::max(float(0.5 * glm::distance(low, high)), kLeast);
 }
 
 Navigation& Camera::hold(const std::optional<View>& present) {

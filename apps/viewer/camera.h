@@ -18,7 +18,7 @@ class Camera {
   bool isOther() const { return isHeld_ || base_; }
   uint64_t moves() const { return moves_; }  // grows with each change
 
-  const glm::vec3& centre() const { return centre_; }  // of the scene
+  const glm::dvec3& centre() const { return centre_; }  // of the scene, in the world
   // What hands go around.
   void setBounds(const SceneSummary& summary);
   // Hands have it from now on, from where it is seen at present (nothing: that is not known yet).
@@ -33,7 +33,7 @@ class Camera {
   Navigation navigation_;
   bool isHeld_ = false;
   uint64_t moves_ = 0;
-  glm::vec3 centre_{0};
+  glm::dvec3 centre_{0.0};
   float radius_ = 1;
 };
 

@@ -139,15 +139,15 @@ Added added(const Addable& what, const Look& look, const glm::vec3& place, float
 }
 
 Result<Turn> cameraKeyed(const Scene& scene, const Look& look, const Viewpoint& from, double time) {
-  const Result<glm::mat4> space = cameraShiftToWorld(scene, look, time);
+  const Result<glm::dmat4> space = cameraShiftToWorld(scene, look, time);
   if (!space) return space.error();
   Turn turn{"camera", {}};
   const auto key = [&](const char* path, const KnobValue& value) {
     if (const auto text = keyedAt(look, path, value, time, Interpolation::ease)) turn.edits[path] = *text;
   };
   turn.edits["camera.mode"] = "eye";
-  key("camera.eye", *from.eye);
-  key("camera.shift", pointIn(glm::inverse(*space), *from.target));
+  key("camera.eye", glm::vec3(*from.eye));
+  key("camera.shift", glm::vec3(glm::inverse(*space) * glm::dvec4(*from.target, 1)));
   key("camera.roll", std::round(1e3 * double(from.roll.value_or(0))) / 1e3);
   key("camera.fov", double(from.verticalFov.value_or(34)));
   return turn;
@@ -216,17 +216,18 @@ class Handles::Maker {
     const std::optional<glm::vec3> place = value<glm::vec3>(base + knobs.place);
     if (!place || word == "scene") return;
     const std::string node = value<std::string>(base + "node").value_or("");
-    const Result<glm::mat4> space = nodeToWorld(scene_, node, look_, time_);
-    if (!space) return;
-    const glm::vec3 centre = pointIn(*space, *place);
+    const Result<glm::dmat4> toWorld = nodeToWorld(scene_, node, look_, time_);
+    if (!toWorld) return;
+    const glm::mat4 space(lens_.fromWorld() * *toWorld);
+    const glm::vec3 centre = pointIn(space, *place);
     const Target target{knobs.section, name};
     const bool isChosen = chosen_ == target, isLevel = !knobs.find("rotation");
-    const glm::mat4 toSpace = glm::inverse(*space);
-    const auto put = [=, this](const glm::vec3& world) {
-      return turned(base + knobs.place, textOf(rounded(pointIn(toSpace, world))));
+    const glm::mat4 toSpace = glm::inverse(space);
+    const auto put = [=, this](const glm::vec3& there) {
+      return turned(base + knobs.place, textOf(rounded(pointIn(toSpace, there))));
     };
     const float radius = knobs.isOf("radius", word) ? float(value<double>(base + "radius").value_or(0)) : 0;
-    drawShape(base, word, radius, *space, centre, isChosen ? kThing : (kThing & 0x00FFFFFF) | 0x90000000);
+    drawShape(base, word, radius, space, centre, isChosen ? kThing : (kThing & 0x00FFFFFF) | 0x90000000);
     add(base + knobs.place, centre, kThing, isChosen ? 0.42f : 0.34f, name, target,
         [=, this](const glm::vec2& pixel) {
           if (!isLevel) return put(lens_.draggedFreely(centre, pixel));
@@ -246,7 +247,7 @@ class Handles::Maker {
             return along ? put(centre + *along - tip) : Edits();
           });
     }
-    addSizes(base, word, radius, *space, centre, target);
+    addSizes(base, word, radius, space, centre, target);
   }
 
   // What the knobs of a shape say of it, in the world.
@@ -374,6 +375,9 @@ class Handles::Maker {
                  });
   }
 
+  // A place of the world, as the lens counts.
+  glm::vec3 placeOf(const glm::vec3& world) const { return glm::dvec3(world) - lens_.origin(); }
+
   // The camera's way, where tracks take it: its keys are pulled.
   void addWay() {
     const auto track = look_.track("camera.eye");
@@ -381,15 +385,16 @@ class Handles::Maker {
     const std::vector<KnobTrack::Key>& keys = (*track)->keys;
     const auto eyeAt = [&](double time) {
       const Result<KnobValue> eye = look_.get("camera.eye", time);
-      return eye ? std::get<glm::vec3>(*eye) : glm::vec3(0);
+      return placeOf(eye ? std::get<glm::vec3>(*eye) : glm::vec3(0));
     };
     const double begin = keys.front().time, length = keys.back().time - begin;
     for (int i = 0; i < kWay && length > 0; ++i)
       line(eyeAt(begin + length * i / kWay), eyeAt(begin + length * (i + 1) / kWay), kCamera, 2);
     const auto lookedAt = [&](double time) {
-      const Result<glm::mat4> space = cameraShiftToWorld(scene_, look_, time);
+      const Result<glm::dmat4> space = cameraShiftToWorld(scene_, look_, time);
       const Result<KnobValue> shift = look_.get("camera.shift", time);
-      return space && shift ? std::optional(pointIn(*space, std::get<glm::vec3>(*shift))) : std::nullopt;
+      return space && shift ? std::optional(pointIn(lens_.fromWorld() * *space, std::get<glm::vec3>(*shift)))
+                            : std::nullopt;
     };
     if (const auto at = lookedAt(time_)) {
       line(eyeAt(time_), *at, (kCamera & 0x00FFFFFF) | 0x80000000);
@@ -397,7 +402,7 @@ class Handles::Maker {
         list_->AddCircle({pixel->x, pixel->y}, 0.5f * unit_, kCamera, 0, 2);
     }
     for (size_t i = 0; i < keys.size(); ++i) {
-      const glm::vec3 place = std::get<glm::vec3>(keys[i].value);
+      const glm::vec3 place = placeOf(std::get<glm::vec3>(keys[i].value));
       const std::string label = fmt::format("{:.2f} s", keys[i].time);
       add("camera.eye" + std::to_string(i), place, kCamera, 0.38f, label, std::nullopt,
           [=, this](const glm::vec2& pixel) {
@@ -405,7 +410,8 @@ class Handles::Maker {
             const auto present = look_.track("camera.eye");
             if (!present || !*present) return Edits();
             KnobTrack changed = **present;
-            changed.keys[i].value = rounded(lens_.draggedFreely(place, pixel));
+            changed.keys[i].value =
+                rounded(glm::vec3(lens_.origin() + glm::dvec3(lens_.draggedFreely(place, pixel))));
             const auto text = textOf(changed, *settingOf("camera.eye")->knob);
             return text ? Edits{{"camera.eye", *text}} : Edits();
           });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 namespace scumble::viewer {
 
@@ -17,8 +18,13 @@ Lens::Lens(const View& view, const glm::vec2& window)
     : worldToClip_(view.eyeToClip * view.worldToEye),
       clipToWorld_(glm::inverse(glm::dmat4(view.worldToEye)) * glm::inverse(glm::dmat4(view.eyeToClip))),
       eyeToWorld_(glm::transpose(glm::mat3(view.worldToEye))),
-      window_(window) {
+      window_(window),
+      origin_(view.origin) {
   for (int i = 0; i < 3; ++i) eyeToWorld_[i] = glm::normalize(eyeToWorld_[i]);
+}
+
+glm::dmat4 Lens::fromWorld() const {
+  return glm::translate(glm::dmat4(1.0), -origin_);
 }
 
 std::optional<glm::vec2> Lens::pixelOf(const glm::vec3& place) const {

@@ -1,5 +1,5 @@
-// Between places in the world and pixels of the window: arithmetic alone. Metres, and pixels with y
-// downwards.
+// Between places, counted from the view's origin (View::origin), and pixels of the window: arithmetic alone.
+// Metres, and pixels with y downwards.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -12,6 +12,10 @@ namespace scumble::viewer {
 class Lens {
  public:
   Lens(const View& view, const glm::vec2& window);
+
+  // From the world to where places count from.
+  glm::dmat4 fromWorld() const;
+  const glm::dvec3& origin() const { return origin_; }
 
   // Nothing where a place is behind the viewer.
   std::optional<glm::vec2> pixelOf(const glm::vec3& place) const;
@@ -42,6 +46,7 @@ class Lens {
   glm::dmat4 clipToWorld_;  // of near planes that are a thousandth of the way to what is seen
   glm::mat3 eyeToWorld_;
   glm::vec2 window_;
+  glm::dvec3 origin_;
 };
 
 }  // namespace scumble::viewer

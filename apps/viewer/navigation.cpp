@@ -26,12 +26,13 @@ glm::vec3 awayBy(float azimuth, float elevation) {
 
 }  // namespace
 
-void Navigation::takeUp(const View& view, const glm::vec3& centre, float radius) {
+void Navigation::takeUp(const View& view, const glm::dvec3& centre, float radius) {
   const glm::mat4 toWorld = glm::inverse(view.worldToEye);
   const glm::vec3 up(toWorld[1]), forward = -glm::normalize(glm::vec3(toWorld[2]));
   radius_ = std::max(radius, 1e-6f);
+  origin_ = view.origin;
   eye_ = glm::vec3(toWorld[3]);
-  const float ahead = glm::dot(centre - eye_, forward);
+  const float ahead = glm::dot(glm::vec3(centre - origin_) - eye_, forward);
   const float distance = ahead > 1e-3f * radius_ ? ahead : radius_;
   target_ = eye_ + forward * distance;
 
@@ -115,7 +116,7 @@ void Navigation::widen(float factor) {
 
 Viewpoint Navigation::viewpoint() const {
   Viewpoint viewpoint;
-  viewpoint.eye = eye_, viewpoint.target = target_;
+  viewpoint.eye = origin_ + glm::dvec3(eye_), viewpoint.target = origin_ + glm::dvec3(target_);
   viewpoint.roll = roll_, viewpoint.verticalFov = field_;
   return viewpoint;
 }

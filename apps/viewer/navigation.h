@@ -12,7 +12,7 @@ class Navigation {
  public:
   // From where a view sees; what it looks at lies in its middle, as far away as `centre` is. `radius`: of the
   // scene. Parallel projections become a perspective of what they show there.
-  void takeUp(const View& view, const glm::vec3& centre, float radius);
+  void takeUp(const View& view, const glm::dvec3& centre, float radius);
 
   void orbit(const glm::vec2& drag);       // around what is looked at; the vertical stays the vertical
   void pan(const glm::vec2& drag);         // what is looked at goes with the hand
@@ -35,6 +35,7 @@ class Navigation {
   void place(float azimuth, float elevation, float distance);
   glm::vec2 upright(const glm::vec2& drag) const;
 
+  glm::dvec3 origin_{0.0};  // of the world, from which these count
   glm::vec3 eye_{0, 0, 1}, target_{0};
   float roll_ = 0, field_ = 34;
   float radius_ = 1;

@@ -582,9 +582,10 @@ class Viewer : Hands::Doer {
     const Lens lens(*view, window);
     const Lens::Ray ray = lens.rayAt(kAddedAt * window);
     const glm::vec3 eye(glm::inverse(view->worldToEye)[3]);
-    const glm::vec3 place = seen.value_or(ray.from + glm::distance(eye, camera_.centre()) * ray.way);
+    const float far = float(glm::distance(view->origin + glm::dvec3(eye), camera_.centre()));
+    const glm::vec3 place = seen ? glm::vec3(glm::dvec3(*seen) - view->origin) : ray.from + far * ray.way;
     const float size = kAddedSize * window.y * lens.pixelSize(place);
-    const Added made = added(what, document_.look(), place, size);
+    const Added made = added(what, document_.look(), glm::vec3(view->origin + glm::dvec3(place)), size);
     document_.closeStep();
     turned(document_.set(made.target.name, made.edits));
     document_.closeStep();

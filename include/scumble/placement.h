@@ -17,13 +17,13 @@ namespace scumble {
 // From the space of a node, by its name ("Deck", "boat/Deck" of a world), to the world; the identity for an
 // empty name. What a look hangs on nodes (`colorizers.NAME.volume.center`) is in this space. Fails with
 // ErrorKind::usage where the scene has no such node, or is empty.
-SCUMBLE_API Result<glm::mat4> nodeToWorld(const Scene& scene, const std::string& node,
-                                          const Look& look = Look(), double time = 0);
+SCUMBLE_API Result<glm::dmat4> nodeToWorld(const Scene& scene, const std::string& node,
+                                           const Look& look = Look(), double time = 0);
 
 // From the space in which `camera.shift` is to the world: that of the node `camera.target`, or, where that is
 // empty or not there, the world's axes from the centre of what the scene takes up. Fails with
 // ErrorKind::usage where the scene is empty.
-SCUMBLE_API Result<glm::mat4> cameraShiftToWorld(const Scene& scene, const Look& look, double time = 0);
+SCUMBLE_API Result<glm::dmat4> cameraShiftToWorld(const Scene& scene, const Look& look, double time = 0);
 
 // Of unit length, towards the key light. Fails with ErrorKind::usage where the scene is empty.
 SCUMBLE_API Result<glm::vec3> towardsKeyLight(const Scene& scene, const Look& look, double time = 0);

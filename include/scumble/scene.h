@@ -97,6 +97,14 @@ class SCUMBLE_API Scene {
 
   SceneSummary summary() const;
 
+  // The place in the world, in metres, near which the scene stands: from there the renderer counts, along the
+  // world's axes, so that it draws as exactly a planet's radius away as here. It is (0, 0, 0) where the
+  // middle of what is drawn lies within 500 m and within 50 of its radii of that; else a point of a grid, of
+  // whole kilometres, or finer where the scene is smaller than a metre. Patterns that lie in the world
+  // (waves) count from there as well. Views and positions may do so: View::origin,
+  // RenderOptions::positionsFrom.
+  glm::dvec3 origin() const;
+
   // Files beside its own that the scene names, whether or not they are there, and of several in one world (a
   // file's that lists them, too) their own: who writes files spares these.
   const std::vector<std::string>& files() const;
@@ -120,8 +128,8 @@ struct PlacedScene {
   // ending. Of scenes of one name the second is called "NAME-2", and so on.
   std::string name = {};
   // Where its origin lies: in the world, or from the origin of the node that it stands on, along the axes of
-  // the scene which that belongs to, as they are at rest. Metres, each within +-1e6.
-  glm::vec3 at{0.0f};
+  // the scene which that belongs to, as they are at rest. Metres, each within +-1e7.
+  glm::dvec3 at{0.0};
   glm::vec3 turn{0.0f};  // degrees about x, then y, then z
   float scale = 1;       // above 0
   // A node of another one of the scenes, "boat/Deck" to say of which, or one of those by its name; empty: it

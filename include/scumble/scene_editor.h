@@ -101,7 +101,7 @@ struct MeshPart {
 struct NodeDesc {
   std::string name = {};  // by which looks know it
   NodeId parent = NodeId::none;
-  glm::mat4 transform{1.0f};  // to its parent's space; column-major, affine, finite
+  glm::dmat4 transform{1.0};  // to its parent's space; column-major, affine, finite
   MeshId mesh = MeshId::none;
 };
 
@@ -146,11 +146,11 @@ class SCUMBLE_API SceneEditor {
   // The node that its mesh goes with: itself; of a mesh with joints the nearest one above all of them, or,
   // where there is none, the first of them.
   NodeId carrierOf(NodeId id) const;
-  size_t nodeCount() const;                // their ids are the numbers below that
-  NodeId parentOf(NodeId id) const;        // none of those that stand in the world; less than the id itself
-  glm::mat4 transformOf(NodeId id) const;  // to its parent's space, at rest; the identity of none
+  size_t nodeCount() const;                 // their ids are the numbers below that
+  NodeId parentOf(NodeId id) const;         // none of those that stand in the world; less than the id itself
+  glm::dmat4 transformOf(NodeId id) const;  // to its parent's space, at rest; the identity of none
   // To its parent's space. Nodes that a clip moves are the clip's, and are refused.
-  Status setTransform(NodeId id, const glm::mat4& transform);
+  Status setTransform(NodeId id, const glm::dmat4& transform);
   Status setName(NodeId id, const std::string& name);
   // Whether its mesh is drawn, and those of all nodes below it. What is not takes up no space either.
   Status setVisible(NodeId id, bool visible);

@@ -162,6 +162,7 @@ typedef struct scumble_view {
   uint32_t width, height; /* pixels; 0, 0: as the options say */
   int32_t rig;            /* whose eye it is */
   int32_t is_level;       /* 1: it does not tilt with its node */
+  double origin[3];       /* the place in the world from which world_to_eye counts, metres */
 } scumble_view;
 
 /* Where the camera stands. Set `size`, then start from scumble_viewpoint_default. */

@@ -17,6 +17,7 @@ namespace scumble {
 // (ErrorKind::usage).
 struct View {
   // Eye space: x right, y up, looking along -z; metres. Its last row is 0, 0, 0, 1, and it can be inverted.
+  // The world's places count from `origin`.
   glm::mat4 worldToEye{1.0f};
   // Eye to clip space in Vulkan's convention: y down, depth reversed (1 at the near plane, 0 far away). May
   // be off-centre. There is no default: the identity is refused.
@@ -32,7 +33,17 @@ struct View {
   // Whose eye it is: what decides where marks lie, and where shadows are finest, is found once for all views
   // of a rig, from their middle, so that a spectator with a rig of its own changes nothing for the eyes.
   int rig = 0;
+  // The place in the world from which worldToEye counts, metres: near the eye where that stands far out,
+  // since single precision tells places a million metres away no nearer than 6 cm apart. makeViews takes
+  // Scene::origin(), which serves all who look at that scene.
+  glm::dvec3 origin{0.0};
 };
+
+// Of a view, from the world to eye space in double precision, where places count from (0, 0, 0).
+SCUMBLE_API glm::dmat4 worldToEyeOf(const View& view);
+
+// Makes worldToEye and origin of it. Far out the origin lies near the eye; nearer it is (0, 0, 0).
+SCUMBLE_API void setWorldToEye(View& view, const glm::dmat4& worldToEye);
 
 // Depth-reversed projections of that convention. Angles in radians, distances in metres.
 SCUMBLE_API glm::mat4 perspectiveProjection(float verticalFov, float aspect,
@@ -62,7 +73,7 @@ struct Viewpoint {
   // (the scene's centre where it says nothing), from the orbit above where that is given, else from that of
   // the look. Where neither has a distance, everything is in the frame all the way.
   std::optional<double> turntable;
-  std::optional<glm::vec3> eye, target;  // metres, up to 1e15 as all of a scene
+  std::optional<glm::dvec3> eye, target;  // metres of the world, up to 1e15 as all of a scene
   // Degrees, clockwise as seen by the viewer, up to a hundred turns; default: the look's.
   std::optional<float> roll;
   std::optional<float> verticalFov;  // degrees, 0.1 to 177; default: the look's, the scene's camera's, 34
@@ -83,7 +94,7 @@ SCUMBLE_API Result<std::vector<View>> makeViews(const Scene& scene, const Viewpo
 
 // Where each node of a scene is at a time in seconds, by its number: from its own space to the world, as the
 // clips that the look plays take it; held by nothing, and without what features (the sea) do to it.
-SCUMBLE_API std::vector<glm::mat4> nodesToWorld(const Scene& scene, const Look& look, double time);
+SCUMBLE_API std::vector<glm::dmat4> nodesToWorld(const Scene& scene, const Look& look, double time);
 
 // Whether views may be others at other times. Where not, one call of makeViews serves a whole film.
 SCUMBLE_API bool viewsMove(const Scene& scene, const Viewpoint& viewpoint, const Look& look);

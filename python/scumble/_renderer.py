@@ -63,7 +63,7 @@ def played_seconds(scene: Scene, look: LookLike = "age-of-sail") -> float:
     return _scumble._played_seconds(scene, _look(look))
 
 
-def nodes_to_world(scene: Scene, look: LookLike = "age-of-sail", time: float = 0) -> NDArray[np.float32]:
+def nodes_to_world(scene: Scene, look: LookLike = "age-of-sail", time: float = 0) -> NDArray[np.float64]:
     """Where each node is at a time in seconds: n by 4 by 4, from its own space to the world."""
     return _scumble._nodes_to_world(scene, _look(look), time)
 

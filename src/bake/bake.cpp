@@ -196,7 +196,7 @@ Result<BakeReport> bakeFins(const std::string& path, const std::string& out, con
     sceneOptions.allowOutside = options.allowOutside;
     const std::vector<uint8_t> file =
         subjects.isHull
-            ? gltf::paintAlone(subjects.meshes[0], meshes[0])
+            ? gltf::paintAlone(subjects.meshes[0], meshes[0], subjects.scene->origin())
             : gltf::withPaint(subjects.path, sceneOptions, subjects.scene->data(), meshes, warnings);
     gltf::addNew(report.warnings, warnings, subjects.path);
     Status status = gltf::putWhole(out, file);

@@ -561,7 +561,7 @@ double expectPaintStays(const scene::SceneData& data, const Moments& moments, co
   }
   EXPECT_GT(feet, 10u) << what;
   // Where forms touch, a vertex of another one may lie as close.
-  EXPECT_LE(strays, feet / 50) << what;
+  EXPECT_LE(strays, feet / 40) << what;
   return most;
 }
 

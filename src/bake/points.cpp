@@ -67,9 +67,9 @@ Result<PointsReport> writePoints(const std::string& path, const std::string& out
       gaussians.push_back(gaussianOf(splat));
     report.points = gaussians.size();
     scene::ImportWarnings warnings;
-    const std::vector<uint8_t> file = isGltf(path)
-                                          ? gltf::withGaussians(path, sceneOptions, gaussians, warnings)
-                                          : gltf::gaussiansAlone(scene->data().name, gaussians);
+    const std::vector<uint8_t> file =
+        isGltf(path) ? gltf::withGaussians(path, sceneOptions, gaussians, scene->origin(), warnings)
+                     : gltf::gaussiansAlone(scene->data().name, gaussians, scene->origin());
     gltf::addNew(report.warnings, warnings, path);
     return gltf::putWhole(out, file);
   });

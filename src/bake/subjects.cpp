@@ -36,10 +36,11 @@ std::vector<scene::StrokePoint> moved(const scene::StrokePoint* from, size_t cou
   return points;
 }
 
-// All of a scene, in the world.
-Strokes strokesOf(const scene::SceneData& scene) {
+// All of a scene, in the world, counted from a place of it.
+Strokes strokesOf(const scene::SceneData& scene, const glm::dvec3& origin) {
   Strokes strokes;
-  const std::vector<glm::mat4> world = scene::worldMatrices(scene);
+  std::vector<glm::dmat4> world = scene::worldMatrices(scene);
+  for (glm::dmat4& node : world) node = glm::translate(glm::dmat4(1.0), scene.origin - origin) * node;
   const std::vector<bool> shown = scene::shownNodes(scene);
   for (size_t n = 0; n < scene.nodes.size(); ++n) {
     const scene::Node& node = scene.nodes[n];
@@ -79,7 +80,7 @@ struct Stand {
 
 void hangOn(Subjects& subjects, const scene::SceneData& proxy, Strokes strokes) {
   std::vector<Stand> stands;
-  const std::vector<glm::mat4> world = scene::worldMatrices(proxy);
+  const std::vector<glm::dmat4> world = scene::worldMatrices(proxy);
   std::vector<bool> isKnown(proxy.meshes.size());
   for (size_t n = 0; n < proxy.nodes.size(); ++n) {
     const int m = proxy.nodes[n].mesh;
@@ -111,7 +112,7 @@ void hangOn(Subjects& subjects, const scene::SceneData& proxy, Strokes strokes) 
 }  // namespace
 
 std::shared_ptr<const scene::Painting> paintingInWorld(const scene::SceneData& scene) {
-  return paintingOf(strokesOf(scene), glm::mat4(1.0f));
+  return paintingOf(strokesOf(scene, scene.origin), glm::mat4(1.0f));
 }
 
 Result<Subjects> findSubjects(const std::string& path, const BakeOptions& options) {
@@ -144,7 +145,7 @@ Result<Subjects> findSubjects(const std::string& path, const BakeOptions& option
     take(*proxy);
     for (Shared<scene::Mesh>& mesh : subjects.meshes)
       if (mesh->painting) mesh.own().painting = nullptr;
-    hangOn(subjects, proxy->data(), strokesOf(painting->data()));
+    hangOn(subjects, proxy->data(), strokesOf(painting->data(), proxy->origin()));
     return subjects;
   }
   take(*painting);

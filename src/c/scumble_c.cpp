@@ -168,6 +168,7 @@ View toView(const scumble_view& view) {
   result.size = {view.width, view.height};
   result.rig = view.rig;
   result.isLevel = view.is_level != 0;
+  result.origin = glm::make_vec3(view.origin);
   return result;
 }
 
@@ -179,6 +180,7 @@ scumble_view toView(const View& view) {
   result.width = view.size.x, result.height = view.size.y;
   result.rig = view.rig;
   result.is_level = view.isLevel;
+  for (int axis = 0; axis < 3; ++axis) result.origin[axis] = view.origin[axis];
   return result;
 }
 

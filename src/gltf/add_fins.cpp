@@ -49,8 +49,8 @@ class PaintWriter {
     mesh_["primitives"].push_back(std::move(primitive));
   }
 
-  // Accessors that only extras name, as index lists; by their names, since tools count accessors anew and leave
-  // extras as they are.
+  // Accessors that only extras name, as index lists; by their names, since tools count accessors anew and
+  // leave extras as they are.
   void addOrders(const PaintedMesh& painted) {
     if (painted.orders.empty()) return;
     size_t vertices = 0;
@@ -157,11 +157,11 @@ std::vector<uint8_t> withPaint(const std::string& path, const SceneOptions& opti
   return file.glb("ask for a smaller texture");
 }
 
-std::vector<uint8_t> paintAlone(const Mesh& mesh, const PaintedMesh& painted) {
+std::vector<uint8_t> paintAlone(const Mesh& mesh, const PaintedMesh& painted, const glm::dvec3& origin) {
   const Json root = {{"asset", {{"version", "2.0"}}},
                      {"scene", 0},
                      {"scenes", {{{"nodes", {0}}}}},
-                     {"nodes", {{{"name", mesh.name}, {"mesh", 0}}}},
+                     {"nodes", {nodeAt(origin, mesh.name, 0)}},
                      {"meshes", {{{"name", mesh.name}, {"primitives", Json::array()}}}}};
   Rewrite file(root);
   PaintWriter(file, file.root()["meshes"][0], mesh).add(painted);

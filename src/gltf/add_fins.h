@@ -42,7 +42,9 @@ std::vector<uint8_t> withPaint(const std::string& path, const SceneOptions& opti
                                const scene::SceneData& scene, const std::vector<PaintedMesh>& meshes,
                                scene::ImportWarnings& warnings);
 
-// The same of a mesh that no file has: the paint alone, without the mesh.
-std::vector<uint8_t> paintAlone(const scene::Mesh& mesh, const PaintedMesh& painted);
+// The same of a mesh that no file has: the paint alone, without the mesh. `origin`: the place in the world
+// from which its positions count.
+std::vector<uint8_t> paintAlone(const scene::Mesh& mesh, const PaintedMesh& painted,
+                                const glm::dvec3& origin);
 
 }  // namespace scumble::gltf

@@ -13,7 +13,8 @@ constexpr const char* kExtension = "KHR_gaussian_splatting";
 constexpr double kHarmonic = 0.28209479177387814;  // of degree 0: sqrt(1 / (4 pi))
 
 // A node that shows them, at the root of the file's scene.
-void addCloud(Rewrite& file, const std::string& name, const std::vector<Gaussian>& gaussians) {
+void addCloud(Rewrite& file, const std::string& name, const std::vector<Gaussian>& gaussians,
+              const glm::dvec3& origin) {
   AttributeWriter positions("POSITION", kFloatType, "VEC3", 12), colors("COLOR_0", kFloatType, "VEC4", 16),
       rotations("KHR_gaussian_splatting:ROTATION", kFloatType, "VEC4", 16),
       scales("KHR_gaussian_splatting:SCALE", kFloatType, "VEC3", 12),
@@ -47,7 +48,7 @@ void addCloud(Rewrite& file, const std::string& name, const std::vector<Gaussian
        {&positions, &colors, &rotations, &scales, &opacities, &harmonics})
     attribute->finish(file);
   const size_t mesh = file.add("meshes", {{"name", name}, {"primitives", Json::array({primitive})}});
-  const size_t node = file.add("nodes", {{"name", name}, {"mesh", mesh}});
+  const size_t node = file.add("nodes", nodeAt(origin, name, mesh));
   Json& root = file.root();
   const size_t scene = root.value("scene", size_t(0));
   if (root.contains("scenes") && scene < root["scenes"].size()) {
@@ -68,17 +69,19 @@ void addCloud(Rewrite& file, const std::string& name, const std::vector<Gaussian
 }  // namespace
 
 std::vector<uint8_t> withGaussians(const std::string& path, const SceneOptions& options,
-                                   const std::vector<Gaussian>& gaussians, ImportWarnings& warnings) {
+                                   const std::vector<Gaussian>& gaussians, const glm::dvec3& origin,
+                                   ImportWarnings& warnings) {
   Rewrite file(path, options, warnings);
   file.dropStrokes();
   file.root().erase("animations");
-  addCloud(file, "painting", gaussians);
+  addCloud(file, "painting", gaussians, origin);
   return file.glb("ask for fewer splats");
 }
 
-std::vector<uint8_t> gaussiansAlone(const std::string& name, const std::vector<Gaussian>& gaussians) {
+std::vector<uint8_t> gaussiansAlone(const std::string& name, const std::vector<Gaussian>& gaussians,
+                                    const glm::dvec3& origin) {
   Rewrite file(Json{{"asset", {{"version", "2.0"}}}});
-  addCloud(file, name, gaussians);
+  addCloud(file, name, gaussians, origin);
   return file.glb("ask for fewer splats");
 }
 

@@ -19,12 +19,14 @@ struct Gaussian {
   float opacity = 1;                           // in its middle
 };
 
-// All of the file but its strokes and its clips; what it shows stands where it stands at rest. Fails with
-// scene::ImportFailure.
+// All of the file but its strokes and its clips; what it shows stands where it stands at rest. `origin`: the
+// place in the world from which positions count. Fails with scene::ImportFailure.
 std::vector<uint8_t> withGaussians(const std::string& path, const SceneOptions& options,
-                                   const std::vector<Gaussian>& gaussians, scene::ImportWarnings& warnings);
+                                   const std::vector<Gaussian>& gaussians, const glm::dvec3& origin,
+                                   scene::ImportWarnings& warnings);
 
 // The cloud alone.
-std::vector<uint8_t> gaussiansAlone(const std::string& name, const std::vector<Gaussian>& gaussians);
+std::vector<uint8_t> gaussiansAlone(const std::string& name, const std::vector<Gaussian>& gaussians,
+                                    const glm::dvec3& origin);
 
 }  // namespace scumble::gltf

@@ -308,7 +308,7 @@ SceneData warned(const TestGltf& g, size_t warnings, const char* what) {
     for (const double time : {-1.0, 0.0, 0.4, 1.0, 7.3}) {
       const PlayedClip played{clip};
       const Pose pose = poseAt(scene->data(), {&played, 1}, time);
-      for (const glm::mat4& world : pose.world)
+      for (const glm::dmat4& world : pose.world)
         for (int i = 0; i < 16; ++i) EXPECT_TRUE(std::isfinite(world[i / 4][i % 4])) << what;
       for (const std::vector<float>& weights : pose.morphWeights)
         for (const float weight : weights) EXPECT_TRUE(std::isfinite(weight)) << what;

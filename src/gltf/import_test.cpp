@@ -228,7 +228,7 @@ TEST(Scene, nodesComeParentsFirstAndMatricesAreTakenApart) {
   for (size_t i = 0; i < nodes.size(); ++i) EXPECT_LT(nodes[i].parent, static_cast<int>(i));
   EXPECT_TRUE(nodes[1].localMatrix.has_value());  // it shears
   EXPECT_FALSE(nodes[2].localMatrix.has_value());
-  EXPECT_EQ(nodes[2].local.translation, glm::vec3(5, 6, 7));
+  EXPECT_EQ(nodes[2].local.translation, glm::dvec3(5, 6, 7));
   const glm::mat4 world = worldMatrices(scene.data())[2];
   EXPECT_LT(glm::length(glm::vec3(world * glm::vec4(1, 1, 0, 1)) - glm::vec3(-5, 9, 5)), 1e-4f);
 }

@@ -76,43 +76,42 @@ std::vector<size_t> findRoots(const Import& import, int wantedScene, const std::
 }
 
 // Translation, rotation and scale of a matrix; false when it is no such composition.
-bool decompose(const glm::mat4& m, Transform& t) {
-  const glm::mat3 linear(m);
-  glm::vec3 scale(glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2]));
-  if (!(scale.x > 1e-12f && scale.y > 1e-12f && scale.z > 1e-12f)) return false;
-  if (!(scale.x < 1e12f && scale.y < 1e12f && scale.z < 1e12f)) return false;
-  glm::mat3 rotation(linear[0] / scale.x, linear[1] / scale.y, linear[2] / scale.z);
-  if (glm::determinant(rotation) < 0.0f) {
+bool decompose(const glm::dmat4& m, Transform& t) {
+  const glm::dmat3 linear(m);
+  glm::dvec3 scale(glm::length(linear[0]), glm::length(linear[1]), glm::length(linear[2]));
+  if (!(scale.x > 1e-12 && scale.y > 1e-12 && scale.z > 1e-12)) return false;
+  if (!(scale.x < 1e12 && scale.y < 1e12 && scale.z < 1e12)) return false;
+  glm::dmat3 rotation(linear[0] / scale.x, linear[1] / scale.y, linear[2] / scale.z);
+  if (glm::determinant(rotation) < 0.0) {
     scale.x = -scale.x;
     rotation[0] = -rotation[0];
   }
-  t.translation = glm::vec3(m[3]);
+  t.translation = glm::dvec3(m[3]);
   t.rotation = glm::normalize(glm::quat_cast(rotation));
   t.scale = scale;
-  const glm::mat3 again(t.matrix());
-  const float size = std::max({std::abs(scale.x), scale.y, scale.z});
+  const glm::dmat3 again(t.matrix());
+  const double size = std::max({std::abs(scale.x), scale.y, scale.z});
   for (int c = 0; c < 3; ++c)
-    if (!(glm::length(again[c] - linear[c]) < 1e-5f * size)) return false;
+    if (!(glm::length(again[c] - linear[c]) < 1e-5 * size)) return false;
   return true;
 }
 
-glm::quat unitQuaternion(const float* xyzw, bool& broken) {
-  const glm::vec4 q(xyzw[0], xyzw[1], xyzw[2], xyzw[3]);
-  const float largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z), std::abs(q.w)});
-  if (!(largest > 1e-20f && largest < 1e20f)) {
+glm::dquat unitQuaternion(const glm::dvec4& q, bool& broken) {
+  const double largest = std::max({std::abs(q.x), std::abs(q.y), std::abs(q.z), std::abs(q.w)});
+  if (!(largest > 1e-20 && largest < 1e20)) {
     broken = true;
-    return glm::quat(1, 0, 0, 0);
+    return glm::dquat(1, 0, 0, 0);
   }
-  const glm::vec4 unit = glm::normalize(q / largest);
-  return glm::quat(unit.w, unit.x, unit.y, unit.z);
+  const glm::dvec4 unit = glm::normalize(q / largest);
+  return glm::dquat(unit.w, unit.x, unit.y, unit.z);
 }
 
 void readTransform(const JsonView& json, Node& node, ImportWarnings& warnings) {
-  glm::mat4 matrix(1.0f);
+  glm::dmat4 matrix(1.0);
   if (json.numbers("matrix", glm::value_ptr(matrix), 16)) {
     if (matrix[0].w != 0 || matrix[1].w != 0 || matrix[2].w != 0 || matrix[3].w != 1) {
       warnings.add(json.pathOf("matrix"), "the last row of a matrix, which is not 0 0 0 1, is ignored");
-      for (int c = 0; c < 4; ++c) matrix[c].w = c == 3 ? 1.0f : 0.0f;
+      for (int c = 0; c < 4; ++c) matrix[c].w = c == 3 ? 1.0 : 0.0;
     }
     if (!decompose(matrix, node.local)) {
       node.local = Transform();
@@ -122,8 +121,8 @@ void readTransform(const JsonView& json, Node& node, ImportWarnings& warnings) {
   }
   json.numbers("translation", &node.local.translation.x, 3);
   json.numbers("scale", &node.local.scale.x, 3);
-  float rotation[4];
-  if (json.numbers("rotation", rotation, 4)) {
+  glm::dvec4 rotation(0.0);
+  if (json.numbers("rotation", &rotation.x, 4)) {
     bool broken = false;
     node.local.rotation = unitQuaternion(rotation, broken);
     if (broken) warnings.add(json.pathOf("rotation"), "a rotation of length zero is ignored");
@@ -159,10 +158,10 @@ std::vector<glm::mat4> readInstances(const Import& import, const JsonView& exten
   bool broken = false;
   for (size_t i = 0; i < count; ++i) {
     Transform t;
-    if (!translations.empty()) t.translation = glm::make_vec3(&translations[3 * i]);
-    if (!rotations.empty()) t.rotation = unitQuaternion(&rotations[4 * i], broken);
-    if (!scales.empty()) t.scale = glm::make_vec3(&scales[3 * i]);
-    const glm::mat4 matrix = t.matrix();
+    if (!translations.empty()) t.translation = glm::dvec3(glm::make_vec3(&translations[3 * i]));
+    if (!rotations.empty()) t.rotation = unitQuaternion(glm::make_vec4(&rotations[4 * i]), broken);
+    if (!scales.empty()) t.scale = glm::dvec3(glm::make_vec3(&scales[3 * i]));
+    const glm::mat4 matrix(t.matrix());
     bool finite = true;
     for (int k = 0; k < 16; ++k) finite &= std::abs(glm::value_ptr(matrix)[k]) <= kMaxCoordinate;
     if (finite)

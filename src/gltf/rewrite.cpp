@@ -112,6 +112,12 @@ size_t Rewrite::add(const char* list, Json object) {
   return root_[list].size() - 1;
 }
 
+Json nodeAt(const glm::dvec3& place, const std::string& name, size_t mesh) {
+  Json node = {{"name", name}, {"mesh", mesh}};
+  if (place != glm::dvec3(0.0)) node["translation"] = {place.x, place.y, place.z};
+  return node;
+}
+
 size_t Rewrite::addView(Bytes bytes, size_t stride, int target) {
   Json view = {{"buffer", 0}, {"byteOffset", append(bytes)}, {"byteLength", bytes.size()}};
   if (stride > 0) view["byteStride"] = stride;

@@ -54,6 +54,9 @@ class Rewrite {
   std::vector<int> meshes_;
 };
 
+// A node that shows a mesh, moved by `place` where that is not 0.
+Json nodeAt(const glm::dvec3& place, const std::string& name, size_t mesh);
+
 constexpr int kVertexData = 34962, kIndexData = 34963;                // targets of views
 constexpr int kShortType = 5123, kIntType = 5125, kFloatType = 5126;  // component types
 

@@ -69,18 +69,18 @@ class World {
          meant.empty() ? "there are: " + all : "did you mean '" + meant + "'?");
   }
 
-  static float numberOf(const WorldJson& value, const std::string& place) {
+  static double numberOf(const WorldJson& value, const std::string& place) {
     if (!value.is_number()) fail(place, "it is no number", "write one");
     const double number = value.get<double>();
     if (!(std::abs(number) <= 1e30))
       fail(place, "it is out of range", "write a number that places something");
-    return float(number);
+    return number;
   }
 
-  static glm::vec3 tripleOf(const WorldJson& value, const std::string& place) {
+  static glm::dvec3 tripleOf(const WorldJson& value, const std::string& place) {
     if (!value.is_array() || value.size() != 3)
       fail(place, "it is not three numbers", "write it like [1, 0, 2]");
-    glm::vec3 triple;
+    glm::dvec3 triple;
     for (int i = 0; i < 3; ++i) triple[i] = numberOf(value[size_t(i)], place + "[" + std::to_string(i) + "]");
     return triple;
   }
@@ -107,9 +107,9 @@ class World {
         one.at = tripleOf(value, here);
       } else if (key == "turn") {
         // One number turns it about the vertical.
-        one.turn = value.is_array() ? tripleOf(value, here) : glm::vec3(0, numberOf(value, here), 0);
+        one.turn = value.is_array() ? tripleOf(value, here) : glm::dvec3(0, numberOf(value, here), 0);
       } else if (key == "scale") {
-        one.scale = numberOf(value, here);
+        one.scale = float(numberOf(value, here));
       } else if (key == "on") {
         one.on = textOf(value, here);
       } else if (key == "scene") {

@@ -197,6 +197,7 @@ class Measurer {
     frame.width = options_.width, frame.height = options_.height;
     frame.samples = options_.samples;
     frame.aovs = std::move(aovs);
+    frame.positionsFrom = scene.origin();
     frame.seed = options_.seed + uint32_t(seed);
     frame.previousViews = previous;
     Result<Frame> rendered = draw_(scene, look, views, frame);
@@ -552,8 +553,9 @@ const Image& measuring::layer(const Frame& frame, const char* name, size_t view)
 
 glm::vec3 measuring::centreOf(const Scene& scene) {
   const SceneSummary summary = scene.summary();
-  return 0.5f * glm::vec3(float(summary.min[0] + summary.max[0]), float(summary.min[1] + summary.max[1]),
-                          float(summary.min[2] + summary.max[2]));
+  glm::vec3 centre;
+  for (int i = 0; i < 3; ++i) centre[i] = float(0.5 * (summary.min[i] + summary.max[i]) - scene.origin()[i]);
+  return centre;
 }
 
 glm::mat4 measuring::turnAbout(const glm::vec3& place, float degrees) {

@@ -22,7 +22,7 @@ const Image& layer(const Frame& frame, const std::string& name) {
 }  // namespace
 
 PosedMesh posedAtRest(const scene::SceneData& scene, size_t node) {
-  const std::vector<glm::mat4> world = scene::worldMatrices(scene);
+  const std::vector<glm::dmat4> world = scene::worldMatrices(scene);
   const scene::Node& placed = scene.nodes[node];
   std::vector<glm::mat4> joints;
   if (placed.skin >= 0) joints = scene::jointMatrices(scene.skins[size_t(placed.skin)], world);
@@ -31,11 +31,12 @@ PosedMesh posedAtRest(const scene::SceneData& scene, size_t node) {
     std::vector<glm::vec3>&positions = posed.positions.emplace_back(),
     &normals = posed.normals.emplace_back();
     const bool bends = !joints.empty() && p.influences > 0;
-    const glm::mat3 turn = glm::transpose(glm::inverse(glm::mat3(world[node])));
+    const glm::mat4 model(world[node]);
+    const glm::mat3 turn = glm::transpose(glm::inverse(glm::mat3(model)));
     for (size_t v = 0; v < p.positions.size(); ++v) {
       const auto at = [&](const glm::vec3& position) {
         return bends ? scene::skinnedPosition(p, v, position, joints)
-                     : glm::vec3(world[node] * glm::vec4(position, 1));
+                     : glm::vec3(model * glm::vec4(position, 1));
       };
       positions.push_back(at(p.positions[v]));
       // Of what bends, from a step along the normal.
@@ -71,6 +72,7 @@ Result<LookColors> LookColors::make(Renderer& renderer, const Scene& scene, cons
   options.width = options.height = kSize;
   options.samples = 1;
   options.aovs = {"position", "normal", "depth"};
+  options.positionsFrom = scene.origin();
   for (const float elevation : {-60.0f, -15.0f, 20.0f, 60.0f})
     for (int i = 0; i < 6; ++i) {
       Viewpoint from;

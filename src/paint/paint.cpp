@@ -64,7 +64,7 @@ struct Painted {
 
 std::vector<Painted> paintedOf(const scene::SceneData& scene, const std::string& nodes) {
   std::map<size_t, Painted> largest;  // by mesh
-  const std::vector<glm::mat4> world = scene::worldMatrices(scene);
+  const std::vector<glm::dmat4> world = scene::worldMatrices(scene);
   for (size_t n = 0; n < scene.nodes.size(); ++n) {
     const scene::Node& node = scene.nodes[n];
     if (node.mesh < 0 || (!nodes.empty() && !matches(nodes, node.name))) continue;

@@ -44,8 +44,10 @@ std::vector<std::string> objectNames(const scene::SceneData& scene, const Geomet
 }
 
 // Views that hang on nodes, where features move those.
-std::vector<View> carried(const std::vector<View>& views, const SceneMotion& motion) {
-  return carriedBy([&](int node) { return motion.movedBy(size_t(node)); }, views);
+// As the scene has them.
+std::vector<View> carried(const std::vector<View>& views, const Scene& scene, const SceneMotion& motion) {
+  return carriedBy([&](int node) { return motion.movedBy(size_t(node)); },
+                   countedFrom(scene.origin(), views));
 }
 
 // What follows waits for all that was recorded.
@@ -218,10 +220,10 @@ Status Renderer::Impl::begin(const Request& request) {
       sceneOnGpu.posePrevious(options.previousScene.empty() ? scene.data() : options.previousScene.data(),
                               look, previousKnobs, previousTime);
     }
-    const std::vector<View> seenFrom = carried(views, sceneOnGpu.motion());
+    const std::vector<View> seenFrom = carried(views, scene, sceneOnGpu.motion());
     std::vector<View> seenBefore;
     if (needsPrevious)
-      seenBefore = carried(options.previousViews.empty() ? views : options.previousViews,
+      seenBefore = carried(options.previousViews.empty() ? views : options.previousViews, scene,
                            *sceneOnGpu.previousMotion());
 
     // What all views see alike.
@@ -248,6 +250,7 @@ Status Renderer::Impl::begin(const Request& request) {
           punctualLights(scene.data(), knobs.scene<LightParams>(), sceneOnGpu.motion().world(),
                          sceneOnGpu.motion().shown(), uniforms.sceneRadius);
       uniforms.lightCount = uint32_t(lights.size());
+      uniforms.positionShift = scene.origin() - options.positionsFrom;
       std::optional<BackdropInput> behind;
       if (background)
         behind = {&backdrop->image(),
@@ -314,7 +317,7 @@ void Renderer::Impl::latch(const Request& request, const SceneMotion& motion, co
     device->log(LogLevel::warning, "the newest views are not used: " + problem);
     return;
   }
-  const std::vector<View> now = carried(views, motion);
+  const std::vector<View> now = carried(views, request.scene, motion);
   for (const Begun::Part& part : frame.parts) {
     std::vector<shared::ViewUniforms> uniforms;
     const bool hasPrevious = !request.options.previousViews.empty();

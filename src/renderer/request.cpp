@@ -5,6 +5,7 @@
 #include "base/pixels.h"
 #include "renderer/feature_list.h"
 #include "renderer/impl.h"
+#include "scene/prepare_mesh.h"
 #include "scumble/nearest.h"
 #include "stage/light.h"
 #include "stage/view_check.h"
@@ -15,6 +16,8 @@ using namespace frame;
 using namespace renderer;
 
 namespace {
+
+constexpr double kFarthest = scene::kMaxCoordinate;  // metres
 
 bool isPicture(const Image& image) {
   const size_t channels = image.channels.size();
@@ -59,6 +62,9 @@ Status Renderer::Impl::check(const Request& request) const {
         return usage("a view hangs on a node that the scene does not have", "make views of this scene");
       if (view.size != glm::uvec2(0) && !isSize(view.size)) return badSize(view.size);
     }
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(std::abs(options.positionsFrom[axis]) <= kFarthest))
+      return usage("positions count from a place that is out of range", "give metres, up to 1e15");
   if (const std::optional<SpherePart>& sphere = options.sphere) {
     const glm::mat3 none = glm::transpose(sphere->eyeToSphere) * sphere->eyeToSphere - glm::mat3(1.0f);
     const bool isTurn = glm::length(none[0]) + glm::length(none[1]) + glm::length(none[2]) < 1e-3f &&

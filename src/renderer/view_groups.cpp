@@ -97,6 +97,15 @@ std::vector<View> carriedBy(const std::function<glm::mat4(int node)>& movedBy, s
   return views;
 }
 
+std::vector<View> countedFrom(const glm::dvec3& origin, std::vector<View> views) {
+  for (View& view : views) {
+    if (view.origin == origin) continue;
+    view.worldToEye = glm::dmat4(view.worldToEye) * glm::translate(glm::dmat4(1.0), origin - view.origin);
+    view.origin = origin;
+  }
+  return views;
+}
+
 stage::Viewers viewersOf(const std::vector<View>& all, const std::vector<ViewGroup>& groups,
                          const std::vector<float>& marginPixels) {
   stage::Viewers viewers;

@@ -25,11 +25,12 @@ Between findKeys(const std::vector<float>& times, double time) {
   return {next - 1, (time - first) / seconds, seconds};
 }
 
-glm::quat quaternion(const float* v) {
-  return {v[3], v[0], v[1], v[2]};
+template <class Number>
+glm::dquat quaternion(const Number* v) {
+  return {double(v[3]), double(v[0]), double(v[1]), double(v[2])};
 }
 
-void store(const glm::quat& q, float* out) {
+void store(const glm::dquat& q, double* out) {
   out[0] = q.x, out[1] = q.y, out[2] = q.z, out[3] = q.w;
 }
 
@@ -37,8 +38,8 @@ void store(const glm::quat& q, float* out) {
 template <class T>
 struct Mix {
   T sum{};
-  float weight = 0;
-  void add(const T& value, float share) {
+  double weight = 0;
+  void add(const T& value, double share) {
     sum += value * share;
     weight += share;
   }
@@ -48,51 +49,49 @@ struct Mix {
   }
 };
 
-glm::quat sameSide(const glm::quat& q, const glm::quat& as) {
+glm::dquat sameSide(const glm::dquat& q, const glm::dquat& as) {
   return glm::dot(q, as) < 0 ? -q : q;
 }
 
 // Opposite rotations may cancel out.
-glm::quat unit(const glm::quat& q, const glm::quat& instead) {
-  const float length = glm::length(q);
-  return length > 1e-6f ? q / length : instead;
+glm::dquat unit(const glm::dquat& q, const glm::dquat& instead) {
+  const double length = glm::length(q);
+  return length > 1e-6 ? q / length : instead;
 }
 
 // What clips make of one node's transform.
 struct NodeMix {
-  Mix<glm::vec3> translation, scale;
-  Mix<glm::quat> rotation{glm::quat(0, 0, 0, 0)};
-  Mix<float> visible;
+  Mix<glm::dvec3> translation, scale;
+  Mix<glm::dquat> rotation{glm::dquat(0, 0, 0, 0)};
+  Mix<double> visible;
 
-  void add(const Node& node, AnimatedProperty property, const float* v, float share) {
+  void add(const Node& node, AnimatedProperty property, const double* v, double share) {
     switch (property) {
       case AnimatedProperty::translation:
         return translation.add({v[0], v[1], v[2]}, share);
       case AnimatedProperty::scale:
         return scale.add({v[0], v[1], v[2]}, share);
       case AnimatedProperty::visible:
-        return visible.add(v[0] > 0.5f ? 1.0f : 0.0f, share);
+        return visible.add(v[0] > 0.5 ? 1.0 : 0.0, share);
       default:
         return rotation.add(sameSide(quaternion(v), rotation.weight > 0 ? rotation.sum : node.local.rotation),
                             share);
     }
   }
-  bool isVisible(const Node& node) const { return visible.over(node.visible ? 1.0f : 0.0f) >= 0.5f; }
-  glm::mat4 matrix(const Node& node) const {
+  bool isVisible(const Node& node) const { return visible.over(node.visible ? 1.0 : 0.0) >= 0.5; }
+  glm::dmat4 matrix(const Node& node) const {
     if (node.localMatrix) return *node.localMatrix;
+    const glm::dquat& rest = node.local.rotation;
     Transform transform;
     transform.translation = translation.over(node.local.translation);
     transform.scale = scale.over(node.local.scale);
-    transform.rotation =
-        rotation.weight > 0
-            ? unit(rotation.over(sameSide(node.local.rotation, rotation.sum)), node.local.rotation)
-            : node.local.rotation;
+    transform.rotation = rotation.weight > 0 ? unit(rotation.over(sameSide(rest, rotation.sum)), rest) : rest;
     return transform.matrix();
   }
 };
 
-glm::mat4 drawable(const glm::mat4& world) {
-  return isDrawable(world) ? world : glm::mat4(0.0f);
+glm::dmat4 drawable(const glm::dmat4& world) {
+  return isDrawable(world) ? world : glm::dmat4(0.0);
 }
 
 }  // namespace
@@ -112,7 +111,7 @@ double clipTime(const PlayedClip& played, double duration, double time) {
   }
 }
 
-void sampleChannel(const Channel& channel, double time, float* out) {
+void sampleChannel(const Channel& channel, double time, double* out) {
   const Between at = findKeys(channel.times, time);
   const size_t n = size_t(channel.componentsPerKey);
   const bool cubic = channel.interpolation == Interpolation::cubicSpline;
@@ -123,21 +122,21 @@ void sampleChannel(const Channel& channel, double time, float* out) {
     std::copy_n(cubic ? a + n : a, n, out);
     return;
   }
-  const float t = float(at.part);
+  const double t = at.part;
   if (!cubic) {
     const float* b = a + n;
     if (rotates) {
       store(glm::normalize(glm::slerp(quaternion(a), quaternion(b), t)), out);
     } else {
-      for (size_t i = 0; i < n; ++i) out[i] = a[i] + t * (b[i] - a[i]);
+      for (size_t i = 0; i < n; ++i) out[i] = double(a[i]) + t * (double(b[i]) - double(a[i]));
     }
     return;
   }
   const float *value = a + n, *leaving = a + 2 * n, *arriving = a + 3 * n, *next = a + 4 * n;
-  const float t2 = t * t, t3 = t2 * t, seconds = float(at.seconds);
+  const double t2 = t * t, t3 = t2 * t, seconds = at.seconds;
   for (size_t i = 0; i < n; ++i)
-    out[i] = (2 * t3 - 3 * t2 + 1) * value[i] + seconds * (t3 - 2 * t2 + t) * leaving[i] +
-             (3 * t2 - 2 * t3) * next[i] + seconds * (t3 - t2) * arriving[i];
+    out[i] = (2 * t3 - 3 * t2 + 1) * double(value[i]) + seconds * (t3 - 2 * t2 + t) * double(leaving[i]) +
+             (3 * t2 - 2 * t3) * double(next[i]) + seconds * (t3 - t2) * double(arriving[i]);
   if (rotates) store(unit(quaternion(out), quaternion(value)), out);
 }
 
@@ -147,7 +146,7 @@ Pose poseAt(const SceneData& scene, std::span<const PlayedClip> clips, const Nod
   Pose pose;
   pose.morphWeights.resize(count);
   std::vector<std::vector<float>> morphShares(clips.empty() ? 0 : count);  // by node and weight
-  std::vector<float> sampled;
+  std::vector<double> sampled;
   for (const PlayedClip& played : clips) {
     const Clip& clip = scene.clips[size_t(played.clip)];
     if (!(played.weight > 0)) continue;
@@ -159,7 +158,7 @@ Pose poseAt(const SceneData& scene, std::span<const PlayedClip> clips, const Nod
                     clipTime(played, clip.duration, (morphs ? times.morphWeights : times.transforms)[node]),
                     sampled.data());
       if (!morphs) {
-        mixes[node].add(scene.nodes[node], channel.property, sampled.data(), played.weight);
+        mixes[node].add(scene.nodes[node], channel.property, sampled.data(), double(played.weight));
         continue;
       }
       std::vector<float>&weights = pose.morphWeights[node], &shares = morphShares[node];
@@ -167,13 +166,14 @@ Pose poseAt(const SceneData& scene, std::span<const PlayedClip> clips, const Nod
       weights.resize(std::max(weights.size(), first + sampled.size()), 0.0f);
       shares.resize(weights.size(), 0.0f);
       for (size_t i = 0; i < sampled.size(); ++i) {
-        weights[first + i] += played.weight * sampled[i];
+        weights[first + i] += played.weight * float(sampled[i]);
         shares[first + i] += played.weight;
       }
     }
   }
 
   pose.world.resize(count);
+  const glm::dmat4 above = worldToOrigin(scene);
   pose.shown.resize(count);
   for (size_t n = 0; n < count; ++n) {
     const Node& node = scene.nodes[n];
@@ -188,8 +188,8 @@ Pose poseAt(const SceneData& scene, std::span<const PlayedClip> clips, const Nod
     }
     const bool isVisible = clips.empty() ? node.visible : mixes[n].isVisible(node);
     pose.shown[n] = isVisible && (node.parent < 0 || pose.shown[size_t(node.parent)]);
-    const glm::mat4 local = clips.empty() ? node.restTransform() : mixes[n].matrix(node);
-    pose.world[n] = drawable(node.parent >= 0 ? pose.world[size_t(node.parent)] * local : local);
+    const glm::dmat4 local = clips.empty() ? node.restTransform() : mixes[n].matrix(node);
+    pose.world[n] = drawable((node.parent >= 0 ? pose.world[size_t(node.parent)] : above) * local);
   }
   return pose;
 }
@@ -199,12 +199,12 @@ Pose poseAt(const SceneData& scene, std::span<const PlayedClip> clips, double ti
   return poseAt(scene, clips, NodeTimes{times, times});
 }
 
-glm::mat4 worldAt(const SceneData& scene, std::span<const PlayedClip> clips, size_t node, double time) {
+glm::dmat4 worldAt(const SceneData& scene, std::span<const PlayedClip> clips, size_t node, double time) {
   std::vector<int> above;  // itself too; sorted, as parents come first
   for (int n = int(node); n >= 0; n = scene.nodes[size_t(n)].parent) above.push_back(n);
   std::reverse(above.begin(), above.end());
   std::vector<NodeMix> mixes(above.size());
-  float sampled[4];
+  double sampled[4];
   for (const PlayedClip& played : clips) {
     const Clip& clip = scene.clips[size_t(played.clip)];
     if (!(played.weight > 0)) continue;
@@ -214,10 +214,10 @@ glm::mat4 worldAt(const SceneData& scene, std::span<const PlayedClip> clips, siz
         continue;
       sampleChannel(channel, clipTime(played, clip.duration, time), sampled);
       mixes[size_t(found - above.begin())].add(scene.nodes[size_t(channel.node)], channel.property, sampled,
-                                               played.weight);
+                                               double(played.weight));
     }
   }
-  glm::mat4 world(1.0f);
+  glm::dmat4 world = worldToOrigin(scene);
   for (size_t i = 0; i < above.size(); ++i)
     world = drawable(world * mixes[i].matrix(scene.nodes[size_t(above[i])]));
   return world;

@@ -23,7 +23,7 @@ double clipTime(const PlayedClip& played, double duration, double time);
 
 // A channel's value at a time in its clip (glTF 2.0, appendix C); before the first and after the last key
 // those stand. `out`: componentsPerKey numbers; rotations have unit length.
-void sampleChannel(const Channel& channel, double time, float* out);
+void sampleChannel(const Channel& channel, double time, double* out);
 
 // Every node's transform is that of its own time, so that some of them can be held while others move. In
 // seconds; one a node.
@@ -32,7 +32,7 @@ struct NodeTimes {
 };
 
 struct Pose {
-  std::vector<glm::mat4> world;                  // by node
+  std::vector<glm::dmat4> world;                 // by node
   std::vector<std::vector<float>> morphWeights;  // by node: as many as its mesh has targets
   std::vector<bool> shown;                       // by node: whether it and all nodes above it are visible
 };
@@ -47,6 +47,6 @@ Pose poseAt(const SceneData& scene, std::span<const PlayedClip> clips, const Nod
 Pose poseAt(const SceneData& scene, std::span<const PlayedClip> clips, double time);
 
 // The world matrix of one node at a time, as poseAt has it.
-glm::mat4 worldAt(const SceneData& scene, std::span<const PlayedClip> clips, size_t node, double time);
+glm::dmat4 worldAt(const SceneData& scene, std::span<const PlayedClip> clips, size_t node, double time);
 
 }  // namespace scumble::scene

@@ -44,19 +44,20 @@ Channel randomChannel(AnimatedProperty property, Interpolation interpolation, ui
   return channel;
 }
 
-std::vector<float> sampled(const Channel& channel, double time) {
-  std::vector<float> values(size_t(channel.componentsPerKey));
+std::vector<double> sampled(const Channel& channel, double time) {
+  std::vector<double> values(size_t(channel.componentsPerKey));
   sampleChannel(channel, time, values.data());
   return values;
 }
 
-void expectNear(const std::vector<float>& got, const std::vector<double>& expected, double tolerance,
+void expectNear(const std::vector<double>& got, const std::vector<double>& expected, double tolerance,
                 const std::string& what) {
   ASSERT_EQ(got.size(), expected.size());
   for (size_t i = 0; i < got.size(); ++i) EXPECT_NEAR(got[i], expected[i], tolerance) << what;
 }
 
-void expectNear(const glm::mat4& got, const glm::dmat4& expected, double tolerance, const std::string& what) {
+void expectNear(const glm::dmat4& got, const glm::dmat4& expected, double tolerance,
+                const std::string& what) {
   for (int c = 0; c < 4; ++c)
     for (int r = 0; r < 4; ++r)
       EXPECT_NEAR(got[c][r], expected[c][r], tolerance) << what << ", column " << c << ", row " << r;
@@ -92,7 +93,7 @@ TEST(Animation, keysStandAtTheirOwnTimesAndOutside) {
                    first = interpolation == Interpolation::cubicSpline ? n : 0;
       const auto key = [&](size_t k) {
         const float* values = &channel.values[k * stride + first];
-        return std::vector<float>(values, values + n);
+        return std::vector<double>(values, values + n);
       };
       for (size_t k = 0; k < channel.times.size(); ++k)
         EXPECT_EQ(sampled(channel, double(channel.times[k])), key(k));
@@ -121,10 +122,10 @@ TEST(Animation, curvesAreContinuous) {
       const Channel channel = randomChannel(property, interpolation, 7);
       const double from = 0, to = double(channel.times.back()) + 0.2;
       constexpr int kSteps = 20000;
-      std::vector<float> before = sampled(channel, from);
+      std::vector<double> before = sampled(channel, from);
       for (int i = 1; i <= kSteps; ++i) {
-        const std::vector<float> now = sampled(channel, from + (to - from) * i / kSteps);
-        float dot = 0, length = 0, change = 0;
+        const std::vector<double> now = sampled(channel, from + (to - from) * i / kSteps);
+        double dot = 0, length = 0, change = 0;
         for (size_t k = 0; k < now.size(); ++k)
           dot += now[k] * before[k], length += now[k] * now[k], change += std::abs(now[k] - before[k]);
         if (property == AnimatedProperty::rotation) {
@@ -149,8 +150,8 @@ TEST(Animation, linearRotationsTakeTheShorterArcEvenly) {
     Channel channel{0, AnimatedProperty::rotation, Interpolation::linear, {0, 1}, about(10, 1), 4};
     for (const float x : about(60, sign)) channel.values.push_back(x);
     for (const float t : {0.1f, 0.25f, 0.5f, 0.8f}) {
-      const std::vector<float> q = sampled(channel, double(t));
-      const glm::vec3 x = glm::quat(q[3], q[0], q[1], q[2]) * glm::vec3(1, 0, 0);
+      const std::vector<double> q = sampled(channel, double(t));
+      const glm::dvec3 x = glm::dquat(q[3], q[0], q[1], q[2]) * glm::dvec3(1, 0, 0);
       EXPECT_NEAR(glm::degrees(std::atan2(x.y, x.x)), 10 + 50 * t, 1e-3f);
     }
   }
@@ -167,7 +168,7 @@ TEST(Animation, cubicRotationsThatVanishKeepAKey) {
   Channel channel{0, AnimatedProperty::rotation, Interpolation::cubicSpline, {0, 1}, {}, 4};
   for (const float w : {1.0f, -1.0f})
     channel.values.insert(channel.values.end(), {0, 0, 0, 0, 0, 0, 0, w, 0, 0, 0, 0});
-  EXPECT_EQ(sampled(channel, 0.5), (std::vector<float>{0, 0, 0, 1}));
+  EXPECT_EQ(sampled(channel, 0.5), (std::vector<double>{0, 0, 0, 1}));
 }
 
 TEST(Animation, clipTimes) {
@@ -255,7 +256,7 @@ TEST(Animation, aPoseWithoutClipsIsTheRestPose) {
   SceneData scene = family();
   scene.nodes[1].localMatrix = glm::mat4(1, 0.5f, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 3, 0, 0, 1);
   const Pose pose = poseAt(scene, {}, 5);
-  const std::vector<glm::mat4> world = worldMatrices(scene);
+  const std::vector<glm::dmat4> world = worldMatrices(scene);
   for (size_t n = 0; n < world.size(); ++n) expectNear(pose.world[n], glm::dmat4(world[n]), 0, "rest");
   EXPECT_EQ(pose.morphWeights[2], (std::vector<float>{0.25f, 0.5f}));
   EXPECT_TRUE(pose.morphWeights[0].empty());
@@ -293,9 +294,9 @@ TEST(Animation, clipsMixByTheirWeights) {
   }
   // Rotations near the rest pose, some with their signs turned.
   for (size_t clip = 0; clip < 2; ++clip) {
-    const glm::quat q =
-        glm::normalize(scene.nodes[1].local.rotation + glm::quat(0, clip ? 0.4f : -0.2f, 0.3f, 0)) *
-        (clip ? -1.0f : 1.0f);
+    const glm::quat q = glm::normalize(glm::quat(scene.nodes[1].local.rotation) +
+                                       glm::quat(0, clip ? 0.4f : -0.2f, 0.3f, 0)) *
+                        (clip ? -1.0f : 1.0f);
     addChannel(scene, clip, 1, constant(AnimatedProperty::rotation, {q.x, q.y, q.z, q.w}));
   }
   const auto pose = [&](float a, float b) {
@@ -373,7 +374,7 @@ TEST(Animation, nodesHaveTimesOfTheirOwn) {
   const NodeTimes times{{0.3, 0.3, 1.1, 0.7}, {0.1, 0.1, 0.5, 0.1}};
   const Pose mixed = poseAt(scene, {&played, 1}, times);
   EXPECT_NEAR(mixed.morphWeights[2][1], 1, 1e-6f) << "weights go by their own times";
-  const auto local = [&](const std::vector<glm::mat4>& world, size_t n) {
+  const auto local = [&](const std::vector<glm::dmat4>& world, size_t n) {
     return glm::inverse(world[size_t(scene.nodes[n].parent)]) * world[n];
   };
   for (const size_t n : {1u, 2u, 3u}) {
@@ -414,7 +415,7 @@ TEST(Animation, scalesOfNothingAndOfTooMuch) {
   expectNear(pose.world[3], glm::dmat4(worldMatrices(scene)[3]), 0, "elsewhere");
   addChannel(scene, 0, 0, constant(AnimatedProperty::translation, {1e15f, -1e15f, 1e15f}));
   pose = poseAt(scene, {&played, 1}, 0);
-  for (const glm::mat4& world : pose.world)
+  for (const glm::dmat4& world : pose.world)
     for (int i = 0; i < 16; ++i) EXPECT_TRUE(std::isfinite(world[i / 4][i % 4]));
 }
 
@@ -441,8 +442,8 @@ TEST(Animation, boundsStayFinite) {
   EXPECT_TRUE(isFinite(playedBounds(scene, clips))) << "instances";
   const PlayedClip played{0};
   const Pose pose = poseAt(scene, {&played, 1}, 0);
-  EXPECT_TRUE(
-      isFinite(posedBounds(p.extent, pose.world[2] * scene.nodes[2].instances[0], {}, pose.morphWeights[2])));
+  EXPECT_TRUE(isFinite(
+      posedBounds(p.extent, instanceToWorld(scene.nodes[2], pose.world[2], 0), {}, pose.morphWeights[2])));
 }
 
 // Boxes hold every vertex of what they are around, at every time, and are not far too large.

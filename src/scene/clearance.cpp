@@ -166,7 +166,7 @@ void keepLevelsApart(SceneData& scene) {
     const Node& node = scene.nodes[n];
     if (node.mesh < 0 || !shown[n] || seen[size_t(node.mesh)]) continue;
     seen[size_t(node.mesh)] = true;
-    const glm::mat4 model = node.instances.empty() ? rest.world[n] : rest.world[n] * node.instances[0];
+    const glm::mat4 model = instanceToWorld(node, rest.world[n], 0);
     const Mesh& mesh = scene.meshes[size_t(node.mesh)];
     for (size_t k = 0; k < mesh.primitives.size(); ++k) {
       const Primitive& p = mesh.primitives[k];

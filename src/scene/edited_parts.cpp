@@ -109,7 +109,7 @@ Primitive primitiveOf(const MeshPart& part, const SceneData& scene, const Check&
 
 }  // namespace
 
-bool isAffine(const glm::mat4& m) {
+bool isAffine(const glm::dmat4& m) {
   return isDrawable(m) && m[0][3] == 0 && m[1][3] == 0 && m[2][3] == 0 && m[3][3] == 1;
 }
 

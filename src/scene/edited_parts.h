@@ -13,7 +13,7 @@ bool isIndex(T id, size_t count) {
 }
 
 // Finite, and without a perspective.
-bool isAffine(const glm::mat4& m);
+bool isAffine(const glm::dmat4& m);
 
 Image imageOf(const TextureDesc& texture);
 // `scene`: has the textures and materials that are named.

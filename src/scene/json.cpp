@@ -185,16 +185,25 @@ std::string JsonView::text(const char* key, std::string otherwise) const {
   return value->get<std::string>();
 }
 
-bool JsonView::numbers(const char* key, float* out, size_t count) const {
+bool JsonView::numbers(const char* key, double* out, size_t count) const {
   const Json* value = find(key);
   if (!value) return false;
   if (!value->is_array() || value->size() != count)
     failAt(key, "is not an array of " + std::to_string(count) + " numbers");
   for (size_t i = 0; i < count; ++i) {
     if (!(*value)[i].is_number()) finiteOf((*value)[i], pathOf(key) + "[" + std::to_string(i) + "]");
-    out[i] = static_cast<float>((*value)[i].get<double>());
-    if (!std::isfinite(out[i])) fail(pathOf(key) + "[" + std::to_string(i) + "]", "is not a finite number");
+    out[i] = (*value)[i].get<double>();
+    // Of a double, too: squares of places must be finite.
+    if (!std::isfinite(static_cast<float>(out[i])))
+      fail(pathOf(key) + "[" + std::to_string(i) + "]", "is not a finite number");
   }
+  return true;
+}
+
+bool JsonView::numbers(const char* key, float* out, size_t count) const {
+  std::vector<double> read(count);
+  if (!numbers(key, read.data(), count)) return false;
+  for (size_t i = 0; i < count; ++i) out[i] = static_cast<float>(read[i]);
   return true;
 }
 

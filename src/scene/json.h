@@ -50,6 +50,7 @@ class JsonView {
 
   // False when absent; fails unless it is `count` finite numbers.
   bool numbers(const char* key, float* out, size_t count) const;
+  bool numbers(const char* key, double* out, size_t count) const;
 
   [[noreturn]] void failAt(std::string_view key, std::string problem, std::string advice = {}) const {
     fail(pathOf(key), std::move(problem), std::move(advice));

@@ -105,19 +105,19 @@ void forEachPlayed(const SceneData& scene, const std::vector<bool>& nodes, std::
         const Seen seen{mesh.primitives[p], seenExtent(scene, node.mesh, p), part.vertices};
         const std::vector<float>& weights = pose.morphWeights[n];
         if (node.skin >= 0 && seen.primitive.influences > 0)
-          visit(seen, pose.world[n], std::span(joints[size_t(node.skin)]), weights);
-        else if (node.instances.empty())
-          visit(seen, pose.world[n], none, weights);
+          visit(seen, glm::mat4(pose.world[n]), std::span(joints[size_t(node.skin)]), weights);
         else
-          for (const glm::mat4& instance : node.instances)
-            visit(seen, pose.world[n] * instance, none, weights);
+          for (size_t i = 0; i < instanceCount(node); ++i)
+            visit(seen, instanceToWorld(node, pose.world[n], i), none, weights);
       }
       // Where strokes are; what bends carries them along, about as its joints go on the average.
       if (!mesh.painting) continue;
       const Seen strokes{mesh.painting->hull, mesh.painting->hull.extent, {}};
-      if (node.instances.empty())
-        visit(strokes, node.skin < 0 ? pose.world[n] : meanOf(joints[size_t(node.skin)]), none, {});
-      for (const glm::mat4& instance : node.instances) visit(strokes, pose.world[n] * instance, none, {});
+      if (node.skin >= 0)
+        visit(strokes, meanOf(joints[size_t(node.skin)]), none, {});
+      else
+        for (size_t i = 0; i < instanceCount(node); ++i)
+          visit(strokes, instanceToWorld(node, pose.world[n], i), none, {});
     }
   });
 }
@@ -186,17 +186,25 @@ std::vector<glm::vec3> playedOutline(const SceneData& scene, const std::vector<b
   return outermostOf(points, kDirections);
 }
 
-std::vector<glm::mat4> jointMatrices(const Skin& skin, const std::vector<glm::mat4>& world) {
+std::vector<glm::mat4> jointMatrices(const Skin& skin, const std::vector<glm::dmat4>& world) {
   std::vector<glm::mat4> matrices;
   matrices.reserve(skin.joints.size());
   for (size_t j = 0; j < skin.joints.size(); ++j)
-    matrices.push_back(world[size_t(skin.joints[j])] * skin.inverseBindMatrices[j]);
+    matrices.emplace_back(world[size_t(skin.joints[j])] * glm::dmat4(skin.inverseBindMatrices[j]));
   return matrices;
 }
 
-glm::mat4 restPlaceOf(const SceneData& scene, const std::vector<glm::mat4>& world, size_t node) {
+size_t instanceCount(const Node& node) {
+  return std::max<size_t>(1, node.instances.size());
+}
+
+glm::mat4 instanceToWorld(const Node& node, const glm::dmat4& world, size_t instance) {
+  return node.instances.empty() ? glm::mat4(world) : glm::mat4(world * glm::dmat4(node.instances[instance]));
+}
+
+glm::mat4 restPlaceOf(const SceneData& scene, const std::vector<glm::dmat4>& world, size_t node) {
   const int skin = scene.nodes[node].skin;
-  return skin < 0 ? world[node] : meanOf(jointMatrices(scene.skins[size_t(skin)], world));
+  return skin < 0 ? glm::mat4(world[node]) : meanOf(jointMatrices(scene.skins[size_t(skin)], world));
 }
 
 glm::vec3 skinnedPosition(const Primitive& primitive, size_t v, const glm::vec3& position,

@@ -9,10 +9,15 @@ namespace scumble::scene {
 
 // For each joint of a skin, the matrix that takes vertices from mesh space to the world: joint world x
 // inverse bind.
-std::vector<glm::mat4> jointMatrices(const Skin& skin, const std::vector<glm::mat4>& world);
+std::vector<glm::mat4> jointMatrices(const Skin& skin, const std::vector<glm::dmat4>& world);
+
+// Where a node puts an instance of its mesh (by its number; a node without instances has one, 0): in double
+// precision, as far as places go.
+size_t instanceCount(const Node& node);
+glm::mat4 instanceToWorld(const Node& node, const glm::dmat4& world, size_t instance);
 
 // Where a node puts its mesh at rest; of what joints place, about. `world`: worldMatrices().
-glm::mat4 restPlaceOf(const SceneData& scene, const std::vector<glm::mat4>& world, size_t node);
+glm::mat4 restPlaceOf(const SceneData& scene, const std::vector<glm::dmat4>& world, size_t node);
 
 // Position of vertex `v` in the world under a skin's matrices (linear blend skinning); `position` is where
 // the vertex is in mesh space.

@@ -178,9 +178,9 @@ bool isDrawable(const glm::vec3& p) {
          std::abs(p.z) <= kMaxCoordinate;
 }
 
-bool isDrawable(const glm::mat4& m) {
+bool isDrawable(const glm::dmat4& m) {
   for (int i = 0; i < 16; ++i)
-    if (!(std::abs(glm::value_ptr(m)[i]) <= kMaxCoordinate)) return false;
+    if (!(std::abs(m[i / 4][i % 4]) <= double(kMaxCoordinate))) return false;
   return true;
 }
 

@@ -19,7 +19,7 @@ namespace scumble::scene {
 // Beyond this a coordinate counts as not finite: a light year is 1e16 metres, and squares still fit a float.
 constexpr float kMaxCoordinate = 1e15f;
 bool isDrawable(const glm::vec3& p);
-bool isDrawable(const glm::mat4& m);
+bool isDrawable(const glm::dmat4& m);
 
 // Drops triangles that cannot be drawn and vertices that nothing uses; makes flat normals where there are
 // none and mends broken ones. Leaves in smoothNormals the sum of the faces around every position, weighted by

@@ -31,6 +31,10 @@ const SceneTimings& Scene::timings() const {
   return timings_;
 }
 
+glm::dvec3 Scene::origin() const {
+  return data_ ? data_->origin : glm::dvec3(0.0);
+}
+
 SceneSummary Scene::summary() const {
   const SceneData& data = data_ ? *data_ : emptyScene();
   SceneSummary s;
@@ -65,8 +69,8 @@ SceneSummary Scene::summary() const {
   s.extensionsUsed = data.extensionsUsed;
   s.extensionsNotSupported = data.extensionsNotSupported;
   for (int i = 0; i < 3; ++i) {
-    s.min[i] = data.bounds.min[i];
-    s.max[i] = data.bounds.max[i];
+    s.min[i] = double(data.bounds.min[i]) + data.origin[i];
+    s.max[i] = double(data.bounds.max[i]) + data.origin[i];
   }
   const std::vector<bool> around = surroundings(data);
   for (size_t n = 0; n < around.size(); ++n)

@@ -66,7 +66,7 @@ bool addBox(const Bounds& box, const glm::mat4& matrix, Bounds& bounds) {
 // The box of the vertices that are seen where their joints put them (the node's own place does not count
 // then); nothing when it is not drawable. `morphedOwn` is the mesh's own box with its morph targets.
 std::optional<Bounds> skinnedBox(const SceneData& scene, const Node& node,
-                                 const std::vector<glm::mat4>& world, const Bounds& own,
+                                 const std::vector<glm::dmat4>& world, const Bounds& own,
                                  const Bounds& morphedOwn) {
   const Mesh& mesh = scene.meshes[size_t(node.mesh)];
   const std::vector<glm::mat4> joints = jointMatrices(scene.skins[size_t(node.skin)], world);
@@ -104,9 +104,65 @@ size_t trianglesOf(const Mesh& mesh) {
 
 }  // namespace
 
+void findOrigin(SceneData& scene) {
+  scene.origin = glm::dvec3(0.0);
+  // What is drawn, each as a ball: of those that joints bend, where the first of them stands. Lists are long
+  // where one mesh is drawn a million times; some of them tell.
+  struct Ball {
+    glm::dvec3 middle;
+    double radius;
+  };
+  std::vector<Ball> balls;
+  const std::vector<glm::dmat4> world = worldMatrices(scene);
+  constexpr size_t kInstances = 4096;
+  for (size_t n = 0; n < scene.nodes.size(); ++n) {
+    const Node& node = scene.nodes[n];
+    if (node.mesh < 0) continue;
+    Bounds box;
+    for (const Primitive& primitive : scene.meshes[size_t(node.mesh)]->primitives)
+      box.add(primitive.extent.box);
+    if (const auto& painting = scene.meshes[size_t(node.mesh)]->painting) box.add(painting->hull.extent.box);
+    if (box.empty) continue;
+    const std::vector<int>* const joints = node.skin >= 0 ? &scene.skins[size_t(node.skin)].joints : nullptr;
+    const auto add = [&](const glm::dmat4& place, const glm::dvec3& middle) {
+      const glm::dvec3 there(place * glm::dvec4(middle, 1.0));
+      if (isDrawable(glm::vec3(there)) && isDrawable(place))
+        balls.push_back({there, double(box.radius()) * glm::length(place[0])});
+    };
+    if (joints) {
+      if (!joints->empty()) add(world[size_t(joints->front())], glm::dvec3(0.0));
+      continue;
+    }
+    const size_t step = 1 + instanceCount(node) / kInstances;
+    for (size_t i = 0; i < instanceCount(node); i += step)
+      add(node.instances.empty() ? world[n] : world[n] * glm::dmat4(node.instances[i]),
+          glm::dvec3(box.center()));
+  }
+  if (balls.empty()) return;
+  // The middle one each way: one that stands elsewhere by mistake counts as one.
+  const auto middleOf = [&](auto&& number) {
+    std::vector<double> numbers;
+    for (const Ball& ball : balls) numbers.push_back(number(ball));
+    const auto middle = numbers.begin() + ptrdiff_t(numbers.size() / 2);
+    std::nth_element(numbers.begin(), middle, numbers.end());
+    return *middle;
+  };
+  glm::dvec3 middle;
+  for (int axis = 0; axis < 3; ++axis)
+    middle[axis] = middleOf([&](const Ball& ball) { return ball.middle[axis]; });
+  const double radius =
+      middleOf([&](const Ball& ball) { return glm::length(ball.middle - middle) + ball.radius; });
+  // A step of a power of ten metres, hundreds of radii long: near scenes stay where they are, and patterns
+  // that lie in the world lie alike in scenes that stand whole steps apart.
+  const double step =
+      std::pow(10.0, std::clamp(std::ceil(std::log10(std::max(radius, 1e-9))) + 2, -3.0, 3.0));
+  scene.origin = step * glm::round(middle / step);
+}
+
 void placeScene(SceneData& scene, ImportWarnings& warnings) {
   // Transformations that numbers can hold.
-  const std::vector<glm::mat4> world = worldMatrices(scene);
+  findOrigin(scene);
+  const std::vector<glm::dmat4> world = worldMatrices(scene);
   for (size_t i = 0; i < world.size(); ++i)
     if (!isDrawable(world[i]))
       fail("nodes",
@@ -154,11 +210,9 @@ void placeScene(SceneData& scene, ImportWarnings& warnings) {
         if (good) bounds.add(*entry->second);
         if (mesh.painting)
           good = good && addBox(mesh.painting->hull.extent.box, restPlaceOf(scene, world, index), bounds);
-      } else if (node.instances.empty()) {
-        good = addBox(box, world[index], bounds);
       } else {
-        for (const glm::mat4& instance : node.instances)
-          good = good && addBox(box, world[index] * instance, bounds);
+        for (size_t k = 0; k < instanceCount(node); ++k)
+          good = good && addBox(box, instanceToWorld(node, world[index], k), bounds);
       }
       if (!good) warnings.add("nodes", "a mesh that lies absurdly far away is left out");
     }

@@ -6,9 +6,12 @@
 
 namespace scumble::scene {
 
-// Fills SceneData::seen, and SceneData::bounds from it. What lies so far out that it could not be drawn is
-// taken off its node with a warning; fails when a transformation is not finite, or more is drawn than any
-// machine could.
+// Fills SceneData::origin: a place near what is drawn, the scene's own (0, 0, 0) where that lies near enough.
+void findOrigin(SceneData& scene);
+
+// Fills SceneData::origin and SceneData::seen, and SceneData::bounds from it. What lies so far out that it
+// could not be drawn is taken off its node with a warning; fails when a transformation is not finite, or more
+// is drawn than any machine could.
 void placeScene(SceneData& scene, ImportWarnings& warnings);
 
 // Fails where there is nothing to draw.

@@ -1,6 +1,7 @@
 // Several scenes in one world: every list is the lists one after another, every index moves along.
 #include <algorithm>
 
+#include "scene/scene_bounds.h"
 #include "scene/scene_place.h"
 
 namespace scumble {
@@ -103,8 +104,14 @@ Scene Scene::combine(const std::vector<Scene>& scenes) {
     const size_t firstNode = data->nodes.size();
     data->nodes.resize(firstNode + one.data_->nodes.size());
     scene::appendScene(*data, *one.data_, firstNode, nullptr);
-    if (!one.data_->bounds.empty) data->bounds.add(one.data_->bounds);
     add(combined.timings_, one.timings_);
+  }
+  scene::findOrigin(*data);
+  for (const Scene& one : scenes) {
+    if (!one.data_ || one.data_->bounds.empty) continue;
+    const glm::dvec3 between = one.data_->origin - data->origin;
+    for (const glm::vec3& corner : {one.data_->bounds.min, one.data_->bounds.max})
+      data->bounds.add(glm::vec3(glm::dvec3(corner) + between));
   }
   if (data->materials.empty()) data->materials.resize(1);
   combined.data_ = std::move(data);

@@ -4,12 +4,10 @@
 
 namespace scumble::scene {
 
-glm::mat4 Transform::matrix() const {
-  glm::mat4 m = glm::mat4_cast(rotation);
-  m[0] *= scale.x;
-  m[1] *= scale.y;
-  m[2] *= scale.z;
-  m[3] = glm::vec4(translation, 1.0f);
+glm::dmat4 Transform::matrix() const {
+  glm::dmat4 m = glm::mat4_cast(rotation);
+  for (int axis = 0; axis < 3; ++axis) m[axis] *= scale[axis];
+  m[3] = glm::dvec4(translation, 1.0);
   return m;
 }
 
@@ -25,12 +23,16 @@ void Bounds::add(const Bounds& other) {
   add(other.max);
 }
 
-std::vector<glm::mat4> worldMatrices(const SceneData& scene) {
-  std::vector<glm::mat4> world(scene.nodes.size());
+glm::dmat4 worldToOrigin(const SceneData& scene) {
+  return glm::translate(glm::dmat4(1.0), -scene.origin);
+}
+
+std::vector<glm::dmat4> worldMatrices(const SceneData& scene) {
+  std::vector<glm::dmat4> world(scene.nodes.size());
+  const glm::dmat4 above = worldToOrigin(scene);
   for (size_t i = 0; i < scene.nodes.size(); ++i) {
     const Node& node = scene.nodes[i];
-    const glm::mat4 local = node.restTransform();
-    world[i] = node.parent >= 0 ? world[node.parent] * local : local;
+    world[i] = (node.parent >= 0 ? world[size_t(node.parent)] : above) * node.restTransform();
   }
   return world;
 }

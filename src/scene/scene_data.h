@@ -198,11 +198,12 @@ struct Mesh {
   std::shared_ptr<const Painting> painting = nullptr;
 };
 
+// In double precision: nodes may stand on a planet's surface, and their parents in its middle.
 struct Transform {
-  glm::vec3 translation{0.0f};
-  glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
-  glm::vec3 scale{1.0f};
-  glm::mat4 matrix() const;
+  glm::dvec3 translation{0.0};
+  glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
+  glm::dvec3 scale{1.0};
+  glm::dmat4 matrix() const;
 };
 
 struct Node {
@@ -210,8 +211,8 @@ struct Node {
   int parent = -1;  // always smaller than the node's own index: nodes are sorted, parents first
   Transform local;
   // A matrix that is no composition of translation, rotation and scale (it shears); wins over `local`.
-  std::optional<glm::mat4> localMatrix;
-  glm::mat4 restTransform() const { return localMatrix ? *localMatrix : local.matrix(); }
+  std::optional<glm::dmat4> localMatrix;
+  glm::dmat4 restTransform() const { return localMatrix ? *localMatrix : local.matrix(); }
   int mesh = -1, camera = -1, light = -1, skin = -1;
   std::vector<glm::mat4> instances;  // EXT_mesh_gpu_instancing; empty: drawn once
   std::vector<float> morphWeights;   // of this node; empty: the mesh's defaults
@@ -304,12 +305,19 @@ struct SceneData {
   std::vector<std::string> extensionsUsed, extensionsNotSupported;
   std::vector<std::string> files;     // that its URIs name
   std::vector<std::string> warnings;  // what was ignored or replaced, each once, one line each
+  // The place in the world, in metres, from which the renderer measures: "world" in all rooms behind this one
+  // means from there, so that single precision will do (Scene::origin()). Transforms of nodes know nothing of
+  // it. findOrigin() finds it.
+  glm::dvec3 origin{0.0};
   // World space, of what is seen in the rest pose; where that is nothing, while clips play.
   Bounds bounds;
 };
 
+// What the origin makes of nothing: where nodes without a parent hang.
+glm::dmat4 worldToOrigin(const SceneData& scene);
+
 // World matrix of every node in the rest pose.
-std::vector<glm::mat4> worldMatrices(const SceneData& scene);
+std::vector<glm::dmat4> worldMatrices(const SceneData& scene);
 
 // Morph weights in the rest pose of a node that has a mesh.
 const std::vector<float>& restMorphWeights(const SceneData& scene, const Node& node);

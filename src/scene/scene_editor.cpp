@@ -224,11 +224,11 @@ NodeId SceneEditor::parentOf(NodeId id) const {
   return isIndex(id, nodeCount()) ? NodeId(edited_->data.nodes[size_t(id)].parent) : NodeId::none;
 }
 
-glm::mat4 SceneEditor::transformOf(NodeId id) const {
-  return isIndex(id, nodeCount()) ? edited_->data.nodes[size_t(id)].restTransform() : glm::mat4(1.0f);
+glm::dmat4 SceneEditor::transformOf(NodeId id) const {
+  return isIndex(id, nodeCount()) ? edited_->data.nodes[size_t(id)].restTransform() : glm::dmat4(1.0);
 }
 
-Status SceneEditor::setTransform(NodeId id, const glm::mat4& transform) {
+Status SceneEditor::setTransform(NodeId id, const glm::dmat4& transform) {
   SceneData& data = edited_->data;
   if (!isIndex(id, data.nodes.size())) return noSuch("node", int(id));
   if (!isAffine(transform)) return notAffine("the transform");

@@ -176,7 +176,7 @@ TEST(SceneEditor, refusesNumbersThatMakeNoSense) {
   EXPECT_EQ(editor.meshOf(NodeId(9)), MeshId::none);
   EXPECT_EQ(editor.nameOf(NodeId(9)), "");
   EXPECT_EQ(editor.parentOf(NodeId(9)), NodeId::none);
-  EXPECT_EQ(editor.transformOf(NodeId::none), glm::mat4(1.0f));
+  EXPECT_EQ(editor.transformOf(NodeId::none), glm::dmat4(1.0));
   LightDesc light;
   light.innerCone = 1;
   EXPECT_EQ(refusal(editor.setLight(node, light)), "light: its cones are out of range");

@@ -15,7 +15,7 @@ namespace scumble::scene {
 
 namespace {
 
-constexpr float kFarthest = 1e6f;                    // metres
+constexpr double kFarthest = 1e7;                    // metres: a planet's radius and more
 constexpr float kSmallest = 1e-6f, kLargest = 1e6f;  // factors
 constexpr float kMostDegrees = 36000;
 // What each copy of a scene has for itself: worlds within worlds multiply.
@@ -37,7 +37,7 @@ void nameApart(std::vector<PlacedScene>& scenes) {
   }
 }
 
-bool isWithin(const glm::vec3& v, float most) {
+bool isWithin(const glm::dvec3& v, double most) {
   return std::abs(v.x) <= most && std::abs(v.y) <= most && std::abs(v.z) <= most;
 }
 
@@ -47,7 +47,7 @@ bool checkNumbers(const PlacedScene& one, PlacementProblem& problem) {
     return false;
   };
   if (!isWithin(one.at, kFarthest))
-    return wrong("at", "its place is out of range", "give metres, a million at most");
+    return wrong("at", "its place is out of range", "give metres, ten million at most");
   if (!isWithin(one.turn, kMostDegrees))
     return wrong("turn", "its turn is out of range", "give degrees, 36000 at most");
   if (one.scale == 0) return wrong("scale", "a scale of 0 leaves nothing of it", "give one above 0");
@@ -132,21 +132,20 @@ std::vector<size_t> orderOf(const std::vector<PlacedScene>& scenes, const std::v
   return order;
 }
 
-glm::quat turned(const glm::vec3& degrees) {
-  const auto about = [](float angle, const glm::vec3& axis) {
-    return glm::angleAxis(float(glm::radians(std::remainder(double(angle), 360.0))), axis);
+glm::dquat turned(const glm::vec3& degrees) {
+  const auto about = [](float angle, const glm::dvec3& axis) {
+    return glm::angleAxis(glm::radians(std::remainder(double(angle), 360.0)), axis);
   };
   return about(degrees.z, {0, 0, 1}) * about(degrees.y, {0, 1, 0}) * about(degrees.x, {1, 0, 0});
 }
 
 // What takes a node's own axes and scale at rest away: exporters give nodes a scale of 100, and lay them on
 // their backs. Nothing where the node is flat.
-std::optional<glm::mat4> uprightOn(const PlacedScene& support, int node) {
+std::optional<glm::dmat4> uprightOn(const PlacedScene& support, int node) {
   const glm::dmat3 rest(worldMatrices(support.scene.data())[size_t(node)]);
   const double size = glm::length(rest[0]) * glm::length(rest[1]) * glm::length(rest[2]);
   if (!(std::abs(glm::determinant(rest)) > 1e-9 * size)) return std::nullopt;
-  const glm::mat4 upright{glm::mat3(glm::inverse(rest))};
-  return upright;
+  return glm::dmat4(glm::inverse(rest));
 }
 
 // Everything that can be known before anything is copied.
@@ -220,10 +219,11 @@ std::shared_ptr<SceneData> placeScenes(std::vector<PlacedScene>& scenes, Placeme
     appendScene(*all, one, carrier[i] + 1, isNew ? nullptr : &shared->second);
     Node& node = all->nodes[carrier[i]];
     node.name = scenes[i].name;
-    node.local = {scenes[i].at, turned(scenes[i].turn), glm::vec3(scenes[i].scale)};
+    node.local = {scenes[i].at, turned(scenes[i].turn), glm::dvec3(double(scenes[i].scale))};
     if (supports[i].scene >= 0) node.parent = int(carrier[size_t(supports[i].scene)]) + 1 + supports[i].node;
     if (supports[i].node >= 0) {
-      const std::optional<glm::mat4> upright = uprightOn(scenes[size_t(supports[i].scene)], supports[i].node);
+      const std::optional<glm::dmat4> upright =
+          uprightOn(scenes[size_t(supports[i].scene)], supports[i].node);
       if (!upright) {
         problem = {i, "on", "nothing can stand on '" + scenes[i].on + "', which has no extent",
                    "name another node"};

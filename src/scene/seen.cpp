@@ -232,11 +232,11 @@ std::vector<bool> seenNodes(const SceneData& scene, std::span<const int> clips) 
       bool hasSeenParts = mesh.painting != nullptr;
       for (size_t p = 0; p < mesh.primitives.size(); ++p) hasSeenParts |= seenOf(scene, node.mesh, p).isSeen;
       if (!hasSeenParts) continue;
-      const auto placed = [&](const glm::mat4& instance) { return keepsArea(pose.world[n] * instance); };
-      seen[n] = node.skin >= 0           ? std::any_of(joints[size_t(node.skin)].begin(),
-                                                       joints[size_t(node.skin)].end(), keepsArea)
-                : node.instances.empty() ? placed(glm::mat4(1.0f))
-                                         : std::any_of(node.instances.begin(), node.instances.end(), placed);
+      if (node.skin >= 0)
+        seen[n] = std::any_of(joints[size_t(node.skin)].begin(), joints[size_t(node.skin)].end(), keepsArea);
+      else
+        for (size_t i = 0; i < instanceCount(node) && !seen[n]; ++i)
+          seen[n] = keepsArea(instanceToWorld(node, pose.world[n], i));
     }
   });
   return seen;

@@ -26,17 +26,14 @@ Bounds boundsOf(const SceneData& scene, const Node& node, const Pose& pose,
     const auto place = [&](const glm::mat4& model) {
       bounds.add(posedBounds(seenExtent(scene, node.mesh, p), model, own, pose.morphWeights[n]));
     };
-    if (bends || node.instances.empty())
-      place(pose.world[n]);
-    else
-      for (const glm::mat4& instance : node.instances) place(pose.world[n] * instance);
+    for (size_t i = 0; i < (bends ? 1 : instanceCount(node)); ++i)
+      place(instanceToWorld(node, pose.world[n], i));
   }
   // What bends carries its strokes along, and tells about where they are.
   if (!mesh.painting || node.skin >= 0) return bounds;
   const PrimitiveExtent& strokes = mesh.painting->hull.extent;
-  if (node.instances.empty()) bounds.add(posedBounds(strokes, pose.world[n], {}, {}));
-  for (const glm::mat4& instance : node.instances)
-    bounds.add(posedBounds(strokes, pose.world[n] * instance, {}, {}));
+  for (size_t i = 0; i < instanceCount(node); ++i)
+    bounds.add(posedBounds(strokes, instanceToWorld(node, pose.world[n], i), {}, {}));
   return bounds;
 }
 

@@ -42,10 +42,11 @@ struct FrameUniforms {
   vec3 lightToWorldScale;  // metres per unit of light-space x, y, z
   float pixelScale;        // pixels per knob pixel: knobHeight / 1080
   vec2 imageSize;          // pixels
-  float knobHeight;   // pixels: the picture's height, or what stands for it where that is a part of a sphere
-  mat3 eyeToSphere;   // there: turns directions to the sphere's axes (RenderOptions::sphere)
-  float sceneRadius;  // metres
-  vec3 sceneCenter;   // world
+  float knobHeight;    // pixels: the picture's height, or what stands for it where that is a part of a sphere
+  mat3 eyeToSphere;    // there: turns directions to the sphere's axes (RenderOptions::sphere)
+  float sceneRadius;   // metres
+  vec3 sceneCenter;    // world
+  vec3 positionShift;  // metres: what makes of the world that of whom positions are told to
 };
 
 // A point or spot light (KHR_lights_punctual), without shadows of its own.

@@ -197,7 +197,8 @@ TEST(Framing, framesTheNodesThatAreNamed) {
     viewpoint = {};
     viewpoint.frame = name;
     viewpoint.eye = glm::vec3(0, 700, 0);
-    expectClose(axisOf(mustSee(scene, viewpoint)[0]), glm::normalize(box.center() - *viewpoint.eye), 1e-3f);
+    expectClose(axisOf(mustSee(scene, viewpoint)[0]),
+                glm::normalize(box.center() - glm::vec3(*viewpoint.eye)), 1e-3f);
   }
 }
 

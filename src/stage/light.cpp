@@ -28,7 +28,7 @@ bool isPunctual(const scene::SceneData& scene, const scene::Node& node) {
 
 // The direction to a lamp that stands outside of what it lights, where a scene has no other one: its key
 // light.
-std::optional<glm::vec3> towardsOnlyLamp(const scene::SceneData& scene, const std::vector<glm::mat4>& world,
+std::optional<glm::vec3> towardsOnlyLamp(const scene::SceneData& scene, const std::vector<glm::dmat4>& world,
                                          const std::vector<bool>& shown) {
   std::optional<glm::vec3> only;
   for (size_t n = 0; n < scene.nodes.size(); ++n) {
@@ -45,13 +45,13 @@ std::optional<glm::vec3> towardsOnlyLamp(const scene::SceneData& scene, const st
 }  // namespace
 
 glm::vec3 keyLightDirection(const scene::SceneData& scene, const LightParams& params,
-                            const std::vector<glm::mat4>& world, const std::vector<bool>& shown) {
+                            const std::vector<glm::dmat4>& world, const std::vector<bool>& shown) {
   if (params.source == 0) {
     for (size_t n = 0; n < scene.nodes.size(); ++n) {
       const int light = scene.nodes[n].light;
       if (light < 0 || !shown[n] || scene.lights[size_t(light)].kind != scene::LightKind::directional)
         continue;
-      const glm::vec3 towards(world[n] * glm::vec4(0, 0, 1, 0));  // lights shine along -Z
+      const glm::vec3 towards(world[n][2]);  // lights shine along -Z
       if (glm::length(towards) > 1e-12f) return glm::normalize(towards);
     }
     if (const std::optional<glm::vec3> towards = towardsOnlyLamp(scene, world, shown)) return *towards;
@@ -80,7 +80,7 @@ size_t punctualLightCount(const scene::SceneData& scene) {
 }
 
 std::vector<shared::PunctualLight> punctualLights(const scene::SceneData& scene, const LightParams& params,
-                                                  const std::vector<glm::mat4>& world,
+                                                  const std::vector<glm::dmat4>& world,
                                                   const std::vector<bool>& shown, float sceneRadius) {
   std::vector<shared::PunctualLight> lights;
   if (params.punctual <= 0) return lights;
@@ -95,7 +95,7 @@ std::vector<shared::PunctualLight> punctualLights(const scene::SceneData& scene,
     // One that goes out for a while leaves the others as they are.
     if (everShown[n]) sum += light.intensity;
     if (!shown[n]) continue;
-    const glm::mat4& m = world[n];
+    const glm::mat4 m(world[n]);
     shared::PunctualLight out{};
     out.position = m[3];
     strengths.push_back(double(params.punctual) * double(light.intensity));

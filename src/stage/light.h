@@ -18,7 +18,7 @@ namespace scumble::stage {
 // Unit vector towards the key light, in the world. Depends on scene, look and time, not on the views.
 // `world`, `shown`: of the nodes at the time; a light on one that is not shown does not shine.
 glm::vec3 keyLightDirection(const scene::SceneData& scene, const LightParams& params,
-                            const std::vector<glm::mat4>& world, const std::vector<bool>& shown);
+                            const std::vector<glm::dmat4>& world, const std::vector<bool>& shown);
 
 // The azimuth and elevation of a light from the look that comes from a direction of unit length.
 glm::vec2 keyLightAngles(const scene::SceneData& scene, const glm::vec3& towardsLight);
@@ -27,7 +27,7 @@ glm::vec2 keyLightAngles(const scene::SceneData& scene, const glm::vec3& towards
 size_t punctualLightCount(const scene::SceneData& scene);
 // Those that shine at a time, in the order of nodes; none where the look turns them off.
 std::vector<shared::PunctualLight> punctualLights(const scene::SceneData& scene, const LightParams& params,
-                                                  const std::vector<glm::mat4>& world,
+                                                  const std::vector<glm::dmat4>& world,
                                                   const std::vector<bool>& shown, float sceneRadius);
 
 constexpr uint32_t kShadowMapSize = 2048;  // texels

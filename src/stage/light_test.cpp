@@ -36,8 +36,8 @@ TEST(PunctualLights, onlyPointsAndSpotsInTheOrderOfNodes) {
   EXPECT_EQ(punctualLightCount(scene), 2u);
   LightParams params;
   params.punctualUnit = 1.0, params.punctual = 0.5f;
-  const std::vector<glm::mat4> world{glm::mat4(1), glm::translate(glm::mat4(1), {1, 2, 3}),
-                                     glm::rotate(glm::mat4(7.0f), 1.5707963f, {0, 1, 0})};
+  const std::vector<glm::dmat4> world{glm::dmat4(1), glm::translate(glm::dmat4(1), {1, 2, 3}),
+                                      glm::rotate(glm::dmat4(7), 1.5707963, {0, 1, 0})};
   const auto lights = punctualLights(scene, params, world, allShown(scene), 10);
   ASSERT_EQ(lights.size(), 2u);
   EXPECT_EQ(lights[0].position, glm::vec3(1, 2, 3));
@@ -79,10 +79,10 @@ TEST(PunctualLights, autoFollowsTheScenesSize) {
 
 TEST(PunctualLights, lightsWithoutStrengthAndTooManyLights) {
   const auto dark = lampScene({lamp(scene::LightKind::point, 0)});
-  EXPECT_EQ(punctualLights(dark, {}, {glm::mat4(1)}, {true}, 1)[0].strength, 0);
+  EXPECT_EQ(punctualLights(dark, {}, {glm::dmat4(1)}, {true}, 1)[0].strength, 0);
   const std::vector<scene::Light> many(300, lamp(scene::LightKind::point, 1));
   EXPECT_EQ(punctualLightCount(lampScene(many)), scene::kMaxPunctualLights);
-  EXPECT_EQ(punctualLights(lampScene(many), {}, std::vector<glm::mat4>(300, glm::mat4(1)),
+  EXPECT_EQ(punctualLights(lampScene(many), {}, std::vector<glm::dmat4>(300, glm::dmat4(1)),
                            std::vector<bool>(300, true), 1)
                 .size(),
             scene::kMaxPunctualLights);

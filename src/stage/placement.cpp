@@ -24,27 +24,28 @@ Error emptyScene() {
 }
 
 // Some, once its clips are there: of a node that is.
-glm::mat4 worldOf(const scene::SceneData& scene, int node, const look::LookData& now, double time) {
-  return scene::worldAt(scene, playedClips(scene, now), size_t(node), time);
+glm::dmat4 worldOf(const scene::SceneData& scene, int node, const look::LookData& now, double time) {
+  return glm::translate(glm::dmat4(1.0), scene.origin) *
+         scene::worldAt(scene, playedClips(scene, now), size_t(node), time);
 }
 
 }  // namespace
 
-Result<glm::mat4> nodeToWorld(const Scene& scene, const std::string& node, const Look& look, double time) {
+Result<glm::dmat4> nodeToWorld(const Scene& scene, const std::string& node, const Look& look, double time) {
   if (scene.empty()) return emptyScene();
-  if (node.empty()) return glm::mat4(1.0f);
+  if (node.empty()) return glm::dmat4(1.0);
   const int found = scene::findNode(scene.data(), node);
   if (found < 0) return usage("the scene has no node '" + node + "'", "`scumble info` lists its nodes");
   return worldOf(scene.data(), found, look.data().at(time), time);
 }
 
-Result<glm::mat4> cameraShiftToWorld(const Scene& scene, const Look& look, double time) {
+Result<glm::dmat4> cameraShiftToWorld(const Scene& scene, const Look& look, double time) {
   if (scene.empty()) return emptyScene();
   const look::LookData now = look.data().at(time);
   const int node = scene::findNode(scene.data(), now.text(now.get<CameraParams>().target));
   if (node >= 0) return worldOf(scene.data(), node, now, time);
   const scene::Bounds bounds = scene::playedBounds(scene.data(), everPlayed(scene.data(), look.data()));
-  return glm::translate(glm::mat4(1.0f), bounds.center());
+  return glm::translate(glm::dmat4(1.0), scene.data().origin + glm::dvec3(bounds.center()));
 }
 
 Result<glm::vec3> towardsKeyLight(const Scene& scene, const Look& look, double time) {

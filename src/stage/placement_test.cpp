@@ -18,9 +18,9 @@ void expectAt(const glm::vec3& actual, const glm::vec3& expected, float within =
 TEST(Placement, ofNodesGoesWithTheirClips) {
   const Scene scene = loaded(pond());
   const auto at = [&](const char* node, double time) {
-    const Result<glm::mat4> world = nodeToWorld(scene, node, Look(), time);
+    const Result<glm::dmat4> world = nodeToWorld(scene, node, Look(), time);
     EXPECT_TRUE(world.ok()) << world.error().message();
-    return world ? glm::vec3(*world * glm::vec4(1, 0, 0, 1)) : glm::vec3(NAN);
+    return world ? glm::vec3(*world * glm::dvec4(1, 0, 0, 1)) : glm::vec3(NAN);
   };
   expectAt(at("", 0.5), {1, 0, 0});
   expectAt(at("Bird", 0), {0, 3, -1});
@@ -39,9 +39,9 @@ TEST(Placement, ofTheCamerasShiftIsWhatItLooksAt) {
       ASSERT_TRUE(look.set("camera.target", std::string(target)).ok());
       ASSERT_TRUE(look.set("camera.mode", std::string("eye")).ok());
       ASSERT_TRUE(look.set("camera.eye", eye).ok());
-      const Result<glm::mat4> world = cameraShiftToWorld(scene, look, time);
+      const Result<glm::dmat4> world = cameraShiftToWorld(scene, look, time);
       ASSERT_TRUE(world.ok());
-      ASSERT_TRUE(look.set("camera.shift", glm::vec3(glm::inverse(*world) * glm::vec4(place, 1))).ok());
+      ASSERT_TRUE(look.set("camera.shift", glm::vec3(glm::inverse(*world) * glm::dvec4(place, 1))).ok());
       const auto views = makeViews(scene, {}, 1.5f, Stereo::mono, 0.063f, look, time);
       ASSERT_TRUE(views.ok());
       const glm::vec3 seen = views->front().worldToEye * glm::vec4(place, 1);

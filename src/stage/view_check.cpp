@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "scene/prepare_mesh.h"
+
 namespace scumble::stage {
 
 namespace {
@@ -22,6 +24,9 @@ double volume(const glm::dmat3& m) {
 
 std::string problemWith(const View& view) {
   if (!isFinite(view.worldToEye) || !isFinite(view.eyeToClip)) return "a view is not finite";
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(std::abs(view.origin[axis]) <= double(scene::kMaxCoordinate)))
+      return "a view's origin is out of range";
   const glm::dmat4 w(view.worldToEye), p(view.eyeToClip);
   // Inverses are not exact.
   const glm::dvec4 lastRow(w[0][3], w[1][3], w[2][3], w[3][3]);

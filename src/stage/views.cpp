@@ -37,15 +37,27 @@ glm::mat4 orthographicProjection(float halfHeight, float aspect, float near, flo
   return p;
 }
 
+glm::dmat4 worldToEyeOf(const View& view) {
+  return glm::dmat4(view.worldToEye) * glm::translate(glm::dmat4(1.0), -view.origin);
+}
+
+void setWorldToEye(View& view, const glm::dmat4& worldToEye) {
+  constexpr double kNear = 500;  // metres, which single precision tells to 0.03 mm
+  const glm::dvec3 eye(glm::inverse(worldToEye)[3]);
+  const bool isFar = std::max({std::abs(eye.x), std::abs(eye.y), std::abs(eye.z)}) > kNear;
+  view.origin = isFar ? glm::round(eye) : glm::dvec3(0.0);
+  view.worldToEye = worldToEye * glm::translate(glm::dmat4(1.0), view.origin);
+}
+
 namespace {
 
 using namespace stage;
 
 // Turns and places beyond which floats tell neighbouring ones no longer apart.
-constexpr float kMostDegrees = 36000, kMostRadii = 1e6f, kMostMetres = scene::kMaxCoordinate, kMostIpd = 1e6f;
+constexpr double kMostDegrees = 36000, kMostRadii = 1e6, kMostMetres = scene::kMaxCoordinate, kMostIpd = 1e6;
 
 Status checkRanges(const Viewpoint& viewpoint, float ipd) {
-  const auto isBeyond = [](float number, float most) { return !(std::abs(number) <= most); };
+  const auto isBeyond = [](double number, double most) { return !(std::abs(number) <= most); };
   if (isBeyond(viewpoint.roll.value_or(0), kMostDegrees))
     return usage("the roll is out of range", "it is in degrees, up to a hundred turns");
   if (!(ipd >= 0 && ipd <= kMostIpd))
@@ -116,6 +128,11 @@ struct Shot {
   bool isAll = true;              // of what is shown
 };
 
+// A place of the world as the scene counts.
+glm::vec3 inScene(const Shot& shot, const glm::dvec3& place) {
+  return place - shot.scene.origin;
+}
+
 // `azimuth`: what turns upright where it cannot be told from the direction, in degrees.
 View lookAt(const Shot& shot, const glm::vec3& eye, const glm::vec3& target, float near, float azimuth = 0) {
   const glm::vec3 forward = glm::normalize(target - eye);
@@ -177,7 +194,7 @@ glm::vec3 targetOf(const Shot& shot, const scene::Bounds& bounds) {
   const int node = scene::findNode(shot.scene, shot.now.text(shot.camera.target));
   if (node < 0) return bounds.center() + shift;
   const std::vector<scene::PlayedClip> clips = playedClips(shot.scene, shot.now);
-  return glm::vec3(scene::worldAt(shot.scene, clips, size_t(node), shot.time) * glm::vec4(shift, 1.0f));
+  return glm::vec3(scene::worldAt(shot.scene, clips, size_t(node), shot.time) * glm::dvec4(shift, 1.0));
 }
 
 // Around what the look's camera looks at; what the caller says of an orbit counts before what the look does.
@@ -204,10 +221,13 @@ Result<View> fromLookOrbit(const Shot& shot, const scene::Bounds& bounds, float 
 }
 
 Result<View> fromHand(const Shot& shot, const scene::Bounds& bounds, float radius) {
-  const glm::vec3 target = shot.viewpoint.target.value_or(bounds.center());
+  const Viewpoint& by = shot.viewpoint;
+  const glm::vec3 target = by.target ? inScene(shot, *by.target) : bounds.center();
   const glm::vec3 direction = defaultEyeDirection(shot.scene);
-  const glm::vec3 eye = shot.viewpoint.eye.value_or(
-      target + framingDistance(outlineOf(shot), target, direction, shot.fov, shot.aspect) * direction);
+  const glm::vec3 eye =
+      by.eye
+          ? inScene(shot, *by.eye)
+          : target + framingDistance(outlineOf(shot), target, direction, shot.fov, shot.aspect) * direction;
   return fromEye(shot, eye, target, radius);
 }
 
@@ -235,8 +255,8 @@ Result<View> fromSceneCamera(const Shot& shot, size_t index) {
   View view;
   view.node = cameraNode(shot.scene, index);
   const std::vector<scene::PlayedClip> clips = playedClips(shot.scene, shot.now);
-  glm::mat4 world =
-      view.node < 0 ? glm::mat4(1.0f) : scene::poseAt(shot.scene, clips, shot.time).world[size_t(view.node)];
+  glm::mat4 world(view.node < 0 ? glm::dmat4(1.0)
+                                : scene::worldAt(shot.scene, clips, size_t(view.node), shot.time));
   // Scale in a camera's matrix means nothing.
   for (int axis = 0; axis < 3; ++axis)
     if (const float length = glm::length(glm::vec3(world[axis])); length > 1e-12f) world[axis] /= length;
@@ -275,7 +295,7 @@ Result<View> viewFrom(const Shot& shot, Standpoint standpoint) {
   const float radius = std::max(bounds.radius(), 1e-6f);
   if (standpoint == Standpoint::byHand) return fromHand(shot, bounds, radius);
   if (standpoint == Standpoint::lookEye)
-    return fromEye(shot, shot.camera.eye, targetOf(shot, bounds), radius);
+    return fromEye(shot, inScene(shot, glm::vec3(shot.camera.eye)), targetOf(shot, bounds), radius);
   if (standpoint == Standpoint::lookOrbit) return fromLookOrbit(shot, bounds, radius);
   if (standpoint == Standpoint::orbitByHand) return fromOrbit(shot, bounds, radius);
   return fromFraming(shot, radius);
@@ -315,8 +335,9 @@ Result<std::vector<View>> makeViews(const Scene& scene, const Viewpoint& viewpoi
     for (size_t n = 0; n < around.size(); ++n)
       if (around[n]) shot.framed[n] = shot.isAll = false;
   }
-  const Result<View> made = viewFrom(shot, standpoint);
+  Result<View> made = viewFrom(shot, standpoint);
   if (!made) return made.error();
+  made->origin = scene.data().origin;
   if (stereo == Stereo::mono) return std::vector<View>{*made};
   std::vector<View> eyes(2, *made);
   for (int i = 0; i < 2; ++i)
@@ -334,9 +355,12 @@ float headingOf(const View& view) {
   return std::atan2(-ahead.x, -ahead.z);
 }
 
-std::vector<glm::mat4> nodesToWorld(const Scene& scene, const Look& look, double time) {
+std::vector<glm::dmat4> nodesToWorld(const Scene& scene, const Look& look, double time) {
   if (scene.empty()) return {};
-  return scene::poseAt(scene.data(), stage::playedClips(scene.data(), look.data().at(time)), time).world;
+  const std::vector<scene::PlayedClip> clips = stage::playedClips(scene.data(), look.data().at(time));
+  std::vector<glm::dmat4> world = scene::poseAt(scene.data(), clips, time).world;
+  for (glm::dmat4& node : world) node = glm::translate(glm::dmat4(1.0), scene.data().origin) * node;
+  return world;
 }
 
 bool viewsMove(const Scene& scene, const Viewpoint& viewpoint, const Look& look) {

@@ -50,7 +50,7 @@ class FeatureMoment {
   // By node, what it is moved by, from where it is without that; a node that another feature has moved
   // already is left alone. What hangs on a node that is moved goes along with that one, and is not moved by
   // itself. `world`: all nodes' matrices.
-  virtual void moveNodes(const scene::SceneData&, std::span<const glm::mat4> /*world*/,
+  virtual void moveNodes(const scene::SceneData&, std::span<const glm::dmat4> /*world*/,
                          std::vector<std::optional<glm::mat4>>& /*moved*/) const {}
 
   // Where objects of its own are moved to, by their kind.

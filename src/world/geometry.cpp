@@ -92,7 +92,7 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
                          MadePrimitives& made) {
   Geometry geometry;
   geometry.bounds = scene::playedBounds(scene, options.clips);
-  const std::vector<glm::mat4> world = scene::worldMatrices(scene);
+  const std::vector<glm::dmat4> world = scene::worldMatrices(scene);
 
   // One item for each primitive of each node, and for each of its instances.
   const std::vector<bool> shown = scene::everShownNodes(scene);
@@ -119,7 +119,7 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
       if (node.skin >= 0 && primitive.influences > 0) item.skin = node.skin;
       for (const glm::mat4& instance : node.instances.empty() || item.skin >= 0 ? one : node.instances) {
         item.instance = instance;
-        item.model = world[n] * instance;
+        item.model = glm::mat4(world[n] * glm::dmat4(instance));
         geometry.items.push_back(item);
         ++item.instanceOfNode;
       }
@@ -131,9 +131,9 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
   scene::forEachPose(scene, options.clips, [&](const scene::Pose& pose, auto joints) {
     for (GeometryItem& item : geometry.items)
       if (pose.shown[item.node])
-        item.reach.add(scene::posedBounds(*item.extent, pose.world[item.node] * item.instance,
-                                          item.skin >= 0 ? std::span(joints[size_t(item.skin)]) : none,
-                                          pose.morphWeights[item.node]));
+        item.reach.add(scene::posedBounds(
+            *item.extent, glm::mat4(pose.world[item.node] * glm::dmat4(item.instance)),
+            item.skin >= 0 ? std::span(joints[size_t(item.skin)]) : none, pose.morphWeights[item.node]));
   });
 
   // Flat grounds far larger than what stands on them would have the whole shadow map to themselves.

@@ -153,6 +153,14 @@ bool SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, do
   // One pose for each length of time that poses stand: joints and morph weights are held for as long as the
   // material that they move says, whatever the look names as long as it says.
   const std::vector<int> named = namedHolds(scene, knobs.look());
+  // An earlier scene may count from elsewhere.
+  const glm::dmat4 toOrigin = glm::translate(glm::dmat4(1.0), scene.origin - followed_->origin);
+  const auto posed = [&](const scene::NodeTimes& times) {
+    scene::Pose pose = scene::poseAt(scene, clips, times);
+    if (toOrigin != glm::dmat4(1.0))
+      for (glm::dmat4& world : pose.world) world = toOrigin * world;
+    return pose;
+  };
   const auto poseHeldFor = [&](int frames) {
     scene::NodeTimes times;
     for (size_t n = 0; n < scene.nodes.size(); ++n) {
@@ -160,7 +168,7 @@ bool SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, do
       times.transforms.push_back(named[n] >= 0 || layout_.isJoint[n] ? held : time);
       times.morphWeights.push_back(held);
     }
-    return scene::poseAt(scene, clips, times);
+    return posed(times);
   };
   std::map<int, scene::Pose> poses;
   std::vector<const scene::Pose*> poseOf;
@@ -174,7 +182,8 @@ bool SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, do
   const auto usualPose = poses.find(usual);
   scene::Pose asDrawn = usualPose != poses.end() ? usualPose->second : poseHeldFor(usual);
   worldAsDrawn_ = std::move(asDrawn.world), shownAsDrawn_ = std::move(asDrawn.shown);
-  scene::Pose present = scene::poseAt(scene, clips, time);
+  const std::vector<double> now(scene.nodes.size(), time);
+  scene::Pose present = posed({now, now});
   world_ = std::move(present.world), shown_ = std::move(present.shown);
 
   // What features move is where they have it now, however long poses are held; and what hangs on it goes
@@ -186,9 +195,9 @@ bool SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, do
     for (size_t n = 0; n < scene.nodes.size(); ++n)
       if (const int parent = scene.nodes[n].parent; parent >= 0 && movedBy_[size_t(parent)])
         movedBy_[n] = movedBy_[size_t(parent)];
-    const auto move = [&](std::vector<glm::mat4>& world) {
+    const auto move = [&](std::vector<glm::dmat4>& world) {
       for (size_t n = 0; n < world.size(); ++n)
-        if (movedBy_[n]) world[n] = *movedBy_[n] * world[n];
+        if (movedBy_[n]) world[n] = glm::dmat4(*movedBy_[n]) * world[n];
     };
     for (auto& [frames, pose] : poses) move(pose.world);
     move(world_);
@@ -215,8 +224,9 @@ bool SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, do
         const scene::Pose& pose = *poseOf[object.material];
         shared::ObjectData& data = objectData[i];
         const glm::mat4& instance = instanceOf(scene, object);
-        glm::mat4 model =
-            object.node == MovingObject::kNoNode ? instance : pose.world[object.node] * instance;
+        glm::mat4 model = object.node == MovingObject::kNoNode
+                              ? instance
+                              : glm::mat4(pose.world[object.node] * glm::dmat4(instance));
         const FeatureMoment* const feature =
             object.feature >= 0 ? features[size_t(object.feature)].get() : nullptr;
         if (feature) {

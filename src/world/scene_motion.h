@@ -65,11 +65,11 @@ class SceneMotion {
   }
   // World matrices of nodes at the time itself, and which of them are shown: what holds poses does not hold
   // lights and cameras.
-  const std::vector<glm::mat4>& world() const { return world_; }
+  const std::vector<glm::dmat4>& world() const { return world_; }
   const std::vector<bool>& shown() const { return shown_; }
   // The same as they are drawn where no material says how long poses stand: what hangs on a held node is held
   // with it.
-  const std::vector<glm::mat4>& worldAsDrawn() const { return worldAsDrawn_; }
+  const std::vector<glm::dmat4>& worldAsDrawn() const { return worldAsDrawn_; }
   const std::vector<bool>& shownAsDrawn() const { return shownAsDrawn_; }
 
   // What features move a node by, from where it is without them.
@@ -125,7 +125,7 @@ class SceneMotion {
   std::vector<uint8_t> touched_;
   std::vector<int> writerOf_;         // by object: who writes its vertices
   std::vector<uint32_t> influences_;  // by object, where it is seen
-  std::vector<glm::mat4> world_, worldAsDrawn_;
+  std::vector<glm::dmat4> world_, worldAsDrawn_;
   std::vector<bool> shown_, shownAsDrawn_;
   std::vector<std::optional<glm::mat4>> movedBy_;  // by node; empty: features move nothing
   size_t writers_ = 1;

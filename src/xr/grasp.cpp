@@ -34,9 +34,9 @@ bool isEverything(const SceneEditor& editor, NodeId node) {
 }
 
 // From its parent to the world.
-glm::mat4 aboveOf(const SceneEditor& editor, NodeId node, const std::vector<glm::mat4>& world) {
+glm::dmat4 aboveOf(const SceneEditor& editor, NodeId node, const std::vector<glm::dmat4>& world) {
   const NodeId parent = editor.parentOf(node);
-  return parent == NodeId::none ? glm::mat4(1.0f) : world.at(size_t(parent));
+  return parent == NodeId::none ? glm::dmat4(1.0) : world.at(size_t(parent));
 }
 
 // Without a zero below zero.
@@ -59,7 +59,7 @@ Result<Grasp> Grasp::take(SceneEditor& editor, NodeId hit, int support, const Mo
     const bool isBeneath = std::find(carrying.begin(), carrying.end(), node) != carrying.end();
     if (isBeneath || (node != touched && grasp.path_.empty() && isEverything(editor, node))) continue;
     // In a space that is flat nothing can be placed.
-    if (!(std::abs(glm::determinant(glm::mat3(aboveOf(editor, node, moment.world)))) > kFlatSpace)) continue;
+    if (!(std::abs(glm::determinant(glm::dmat3(aboveOf(editor, node, moment.world)))) > kFlatSpace)) continue;
     // Nodes that a clip moves are the clip's; what goes along with one of those is a thing by itself.
     if (Status status = editor.setTransform(node, editor.transformOf(node)); !status) {
       why = status.error();
@@ -72,27 +72,26 @@ Result<Grasp> Grasp::take(SceneEditor& editor, NodeId hit, int support, const Mo
   if (grasp.path_.empty()) return why;
   grasp.level_ = first;
   grasp.before_ = editor.transformOf(grasp.node());
-  grasp.inHand_ =
-      glm::inverse(matrixOf(moment.hand)) * aboveOf(editor, grasp.node(), moment.world) * grasp.before_;
+  grasp.inHand_ = glm::inverse(moment.hand) * aboveOf(editor, grasp.node(), moment.world) * grasp.before_;
   return grasp;
 }
 
 bool Grasp::widen(SceneEditor& editor, bool isMore, const Moment& moment) {
   if (isMore ? level_ == 0 : level_ + 1 == path_.size()) return false;
   // What is let go takes along again what hangs below it.
-  const glm::mat4 was = aboveOf(editor, node(), moment.world) * before_;
-  const glm::mat4 back = was * glm::inverse(moment.world.at(size_t(node())));
+  const glm::dmat4 was = aboveOf(editor, node(), moment.world) * before_;
+  const glm::dmat4 back = was * glm::inverse(moment.world.at(size_t(node())));
   if (!editor.setTransform(node(), before_)) return false;
   level_ += isMore ? -1 : 1;
   before_ = editor.transformOf(node());
-  const glm::mat4 above = aboveOf(editor, node(), moment.world);
-  inHand_ = glm::inverse(matrixOf(moment.hand)) * (isMore ? above : back * above) * before_;
+  const glm::dmat4 above = aboveOf(editor, node(), moment.world);
+  inHand_ = glm::inverse(moment.hand) * (isMore ? above : back * above) * before_;
   return true;
 }
 
 Status Grasp::follow(SceneEditor& editor, const Moment& moment) const {
-  return editor.setTransform(
-      node(), glm::inverse(aboveOf(editor, node(), moment.world)) * matrixOf(moment.hand) * inHand_);
+  return editor.setTransform(node(),
+                             glm::inverse(aboveOf(editor, node(), moment.world)) * moment.hand * inHand_);
 }
 
 bool Grasp::concerns(const SceneEditor& editor, const Grasp& other) const {
@@ -101,15 +100,15 @@ bool Grasp::concerns(const SceneEditor& editor, const Grasp& other) const {
   return std::equal(own.begin(), own.begin() + ptrdiff_t(least), its.begin());
 }
 
-std::string Grasp::told(const SceneEditor& editor, const std::vector<glm::mat4>& moved) const {
-  const glm::mat4 now = editor.transformOf(node());
-  float way = 0, size = 1;
+std::string Grasp::told(const SceneEditor& editor, const std::vector<glm::dmat4>& moved) const {
+  const glm::dmat4 now = editor.transformOf(node());
+  double way = 0, size = 1;
   for (int column = 0; column < 4; ++column) {
     way = std::max(way, glm::length(now[column] - before_[column]));
     size = std::max(size, glm::length(before_[column]));
   }
-  if (way < 1e-4f * size) return "";
-  const glm::mat4 world = aboveOf(editor, node(), moved) * editor.transformOf(node());
+  if (way < 1e-4 * size) return "";
+  const glm::dmat4 world = aboveOf(editor, node(), moved) * editor.transformOf(node());
   const std::string name = editor.nameOf(node());
   std::string text = name.empty() ? "node " + std::to_string(int(node()) + 1) : "'" + name + "'";
   text += fmt::format(" at {:.2f}, {:.2f}, {:.2f}", world[3].x, world[3].y, world[3].z);

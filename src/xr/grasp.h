@@ -11,10 +11,10 @@ namespace scumble::xr {
 
 class Grasp {
  public:
-  // Where everything is at a moment: the hand, and nodes as clips take them (nodesToWorld()), in the scene.
+  // Where everything is at a moment: the hand, and nodes as clips take them (nodesToWorld()), in the world.
   struct Moment {
-    Pose hand;
-    std::vector<glm::mat4> world;
+    glm::dmat4 hand{1.0};
+    std::vector<glm::dmat4> world;
   };
   // Takes hold of what a node belongs to: of it and those above it the outermost one that no clip moves, that
   // is not all that is drawn, and that does not carry `support`, the node that whoever grasps stands on (-1:
@@ -31,13 +31,13 @@ class Grasp {
   bool concerns(const SceneEditor& editor, const Grasp& other) const;
   // Where it is now: its name, its origin in the world, metres, and degrees about x, then y, then z. Empty:
   // where it was.
-  std::string told(const SceneEditor& editor, const std::vector<glm::mat4>& world) const;
+  std::string told(const SceneEditor& editor, const std::vector<glm::dmat4>& world) const;
 
  private:
   std::vector<NodeId> path_;  // from the outermost one that may be held towards what was touched
   size_t level_ = 0;
-  glm::mat4 inHand_{1.0f};  // from the held node to the hand
-  glm::mat4 before_{1.0f};  // from the held node to its parent, before it was held
+  glm::dmat4 inHand_{1.0};  // from the held node to the hand
+  glm::dmat4 before_{1.0};  // from the held node to its parent, before it was held
 };
 
 }  // namespace scumble::xr

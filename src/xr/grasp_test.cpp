@@ -27,27 +27,23 @@ struct Scenery {
     sail = *editor.addNode({.name = "sail", .parent = boat, .mesh = mesh});
     rock = *editor.addNode({.name = "rock", .parent = root, .mesh = mesh});
   }
-  std::vector<glm::mat4> world() { return nodesToWorld(*editor.scene(), Look(), 0); }
-  glm::mat4 worldOf(NodeId node) { return world()[size_t(node)]; }
+  std::vector<glm::dmat4> world() { return nodesToWorld(*editor.scene(), Look(), 0); }
+  glm::dmat4 worldOf(NodeId node) { return world()[size_t(node)]; }
 };
 
-Pose handAt(const glm::vec3& place, float turn) {
-  return {glm::angleAxis(turn, glm::normalize(glm::vec3(1, 2, 3))), place};
-}
-
-glm::mat4 rigid(const Pose& pose) {
-  glm::mat4 matrix = glm::mat4_cast(pose.turn);
-  matrix[3] = glm::vec4(pose.place, 1);
+glm::dmat4 handAt(const glm::dvec3& place, double turn) {
+  glm::dmat4 matrix = glm::mat4_cast(glm::angleAxis(turn, glm::normalize(glm::dvec3(1, 2, 3))));
+  matrix[3] = glm::dvec4(place, 1);
   return matrix;
 }
 
-void expectNear(const glm::mat4& a, const glm::mat4& b) {
-  for (int column = 0; column < 4; ++column) EXPECT_LT(glm::length(a[column] - b[column]), 1e-4f) << column;
+void expectNear(const glm::dmat4& a, const glm::dmat4& b) {
+  for (int column = 0; column < 4; ++column) EXPECT_LT(glm::length(a[column] - b[column]), 1e-5) << column;
 }
 
 TEST(GraspsOfHands, takeWhatAPartBelongsTo) {
   Scenery s;
-  const Pose hand = handAt({1, 1, 1}, 0);
+  const glm::dmat4 hand = handAt({1, 1, 1}, 0);
   Result<Grasp> grasp = Grasp::take(s.editor, s.sail, -1, {hand, s.world()});
   ASSERT_TRUE(grasp.ok());
   EXPECT_EQ(grasp->node(), s.boat) << "the root is everything, and the sail is a part of the boat";
@@ -73,7 +69,8 @@ TEST(GraspsOfHands, takeWhatAPartBelongsTo) {
   EXPECT_TRUE(sail.concerns(s.editor, boat));
   EXPECT_FALSE(boat.concerns(s.editor, rock));
   // What hangs in a flat space cannot be placed; the flat thing itself can.
-  ASSERT_TRUE(s.editor.setTransform(s.boat, glm::scale(s.editor.transformOf(s.boat), {1, 1, 0})).ok());
+  ASSERT_TRUE(
+      s.editor.setTransform(s.boat, glm::scale(s.editor.transformOf(s.boat), glm::dvec3(1, 1, 0))).ok());
   Result<Grasp> flat = Grasp::take(s.editor, s.sail, -1, {hand, s.world()});
   ASSERT_TRUE(flat.ok());
   EXPECT_FALSE(flat->widen(s.editor, false, {hand, s.world()}));
@@ -86,26 +83,26 @@ TEST(GraspsOfHands, takeWhatAPartBelongsTo) {
 
 TEST(GraspsOfHands, goAsTheHandGoes) {
   Scenery s;
-  const glm::mat4 before = s.worldOf(s.sail), rock = s.worldOf(s.rock);
-  const Pose first = handAt({1, 1, 1}, 0.2f), then = handAt({-2, 4, 1.5f}, 1.9f);
+  const glm::dmat4 before = s.worldOf(s.sail), rock = s.worldOf(s.rock);
+  const glm::dmat4 first = handAt({1, 1, 1}, 0.2f), then = handAt({-2, 4, 1.5f}, 1.9f);
   Result<Grasp> grasp = Grasp::take(s.editor, s.sail, -1, {first, s.world()});
   ASSERT_TRUE(grasp.ok());
   ASSERT_TRUE(grasp->follow(s.editor, {first, s.world()}).ok());
   expectNear(s.worldOf(s.sail), before);
   ASSERT_TRUE(grasp->follow(s.editor, {then, s.world()}).ok());
   // All six degrees of freedom, in the world, whatever it hangs on.
-  expectNear(s.worldOf(s.sail), rigid(then) * glm::inverse(rigid(first)) * before);
+  expectNear(s.worldOf(s.sail), then * glm::inverse(first) * before);
   expectNear(s.worldOf(s.rock), rock);
   // What is let go for a part of it is where it was.
   ASSERT_TRUE(grasp->widen(s.editor, false, {then, s.world()}));
   expectNear(s.worldOf(s.sail), before);
   ASSERT_TRUE(grasp->follow(s.editor, {first, s.world()}).ok());
   expectNear(s.worldOf(s.hull), before);
-  expectNear(s.worldOf(s.sail), rigid(first) * glm::inverse(rigid(then)) * before);
+  expectNear(s.worldOf(s.sail), first * glm::inverse(then) * before);
   // Where that is, in words.
   ASSERT_TRUE(
       s.editor
-          .setTransform(s.sail, glm::inverse(s.worldOf(s.boat)) * glm::translate(glm::mat4(1.0f), {1, -2, 3}))
+          .setTransform(s.sail, glm::inverse(s.worldOf(s.boat)) * glm::translate(glm::dmat4(1.0), {1, -2, 3}))
           .ok());
   EXPECT_EQ(grasp->told(s.editor, s.world()), "'sail' at 1.00, -2.00, 3.00, turned by 0, 0, 0 degrees");
 }
@@ -113,13 +110,13 @@ TEST(GraspsOfHands, goAsTheHandGoes) {
 // What it hangs on goes on meanwhile: the hand has it, and not that.
 TEST(GraspsOfHands, stayInTheHandWhereTheWorldMoves) {
   Scenery s;
-  const Pose hand = handAt({1, 1, 1}, 0.2f);
-  const glm::mat4 before = s.worldOf(s.boat);
+  const glm::dmat4 hand = handAt({1, 1, 1}, 0.2f);
+  const glm::dmat4 before = s.worldOf(s.boat);
   Result<Grasp> grasp = Grasp::take(s.editor, s.hull, -1, {hand, s.world()});
   ASSERT_TRUE(grasp.ok());
-  glm::mat4 shelf = s.editor.transformOf(s.root);
+  glm::dmat4 shelf = s.editor.transformOf(s.root);
   shelf[3].x += 7;
-  ASSERT_TRUE(s.editor.setTransform(s.root, glm::rotate(shelf, 0.4f, glm::vec3(0, 1, 0))).ok());
+  ASSERT_TRUE(s.editor.setTransform(s.root, glm::rotate(shelf, 0.4, glm::dvec3(0, 1, 0))).ok());
   ASSERT_TRUE(grasp->follow(s.editor, {hand, s.world()}).ok());
   expectNear(s.worldOf(s.boat), before);
 }

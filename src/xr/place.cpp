@@ -33,7 +33,7 @@ Pose between(const Pose& a, const Pose& b) {
 
 Stand standAt(const View& camera, float scale, float eyeHeight) {
   const glm::vec3 place(glm::inverse(camera.worldToEye)[3]);
-  return {place - glm::vec3(0, eyeHeight * scale, 0), headingOf(camera), scale};
+  return {place - glm::vec3(0, eyeHeight * scale, 0), headingOf(camera), scale, camera.origin};
 }
 
 Pose inScene(const Stand& stand, const Pose& inRoom) {
@@ -70,6 +70,7 @@ View viewOf(const Stand& stand, const Pose& eye, const XrFovf& angles, float nea
   View view;
   view.worldToEye = glm::inverse(matrixOf(inScene(stand, eye)));
   view.eyeToClip = projectionOf(angles, nearPlane);
+  view.origin = stand.origin;
   return view;
 }
 

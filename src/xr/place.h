@@ -22,9 +22,10 @@ Pose between(const Pose& a, const Pose& b);
 
 // The room that somebody wears a headset in, in the scene: its origin and its z axis (backwards), level.
 struct Stand {
-  glm::vec3 place{0};  // metres, of the room's origin
-  float heading = 0;   // radians about y
-  float scale = 1;     // so many metres of the scene are one of the room
+  glm::vec3 place{0};      // metres, of the room's origin
+  float heading = 0;       // radians about y
+  float scale = 1;         // so many metres of the scene are one of the room
+  glm::dvec3 origin{0.0};  // of the world, from which places in the scene count (View::origin)
 };
 
 glm::quat aboutVertical(float angle);  // radians, from z to x

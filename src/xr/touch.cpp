@@ -43,7 +43,8 @@ void Touch::go(const HandsState& hands, const Place& place, Look& look) {
     const int push = held.push.go(hand.stick.y);
     if (use == Use::none || !hand.aim) continue;
     if (!held.isAsked) held.aim = *hand.aim;
-    moment.hand = inScene(place.stand, *hand.aim);
+    moment.hand = glm::translate(glm::dmat4(1.0), place.stand.origin) *
+                  glm::dmat4(matrixOf(inScene(place.stand, *hand.aim)));
     if (held.object || held.material) {
       take(held, place, look, moment);
       letGoOfOthers(h);

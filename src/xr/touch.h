@@ -76,7 +76,7 @@ class Touch {
   SceneEditor editor_;
   Scene scene_;
   Tell tell_, changed_;
-  std::vector<glm::mat4> world_;  // where nodes were, when somebody had hold of something
+  std::vector<glm::dmat4> world_;  // where nodes were, when somebody had hold of something
   std::string look_;
   float scale_ = 1;
   std::array<Held, kHands> held_;

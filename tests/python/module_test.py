@@ -270,7 +270,7 @@ class Scenes(unittest.TestCase):
         matrix = np.eye(4)
         matrix[0, 3] = 50
         editor.set_transform(node, matrix)
-        np.testing.assert_array_equal(editor.transform_of(node), matrix.astype(np.float32))
+        np.testing.assert_array_equal(editor.transform_of(node), matrix)
         self.assertFalse(is_red(middle()))
         editor.set_transform(node, np.eye(4))
         editor.set_texture(texture, np.full((4, 4, 4), (0, 255, 0, 255), np.uint8))

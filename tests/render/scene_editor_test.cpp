@@ -119,7 +119,7 @@ TEST_P(Edited, arraysAreWhatAFileSays) {
   file.json()["meshes"][2]["primitives"][0]["attributes"].erase("TEXCOORD_0");
   const Scene loaded = file.load();
   const scene::SceneData& read = loaded.data();
-  const std::vector<glm::mat4> world = scene::worldMatrices(read);
+  const std::vector<glm::dmat4> world = scene::worldMatrices(read);
 
   const MaterialId own[] = {
       must(editor.addMaterial({.name = "Floor", .baseColor = {0.5f, 0.4f, 0.2f, 1}})),
@@ -453,8 +453,8 @@ TEST_P(Edited, motionFromAnEarlierScene) {
   EXPECT_EQ(editor.nodeCount(), 2u);
   EXPECT_EQ(editor.parentOf(moved), root);
   EXPECT_EQ(editor.parentOf(root), NodeId::none);
-  EXPECT_EQ(editor.transformOf(root), glm::translate(glm::mat4(1.0f), way));
-  EXPECT_EQ(editor.transformOf(moved), glm::mat4(1.0f));
+  EXPECT_EQ(editor.transformOf(root), glm::translate(glm::dmat4(1.0), glm::dvec3(way)));
+  EXPECT_EQ(editor.transformOf(moved), glm::dmat4(1.0));
   const auto seen = views(after);
   RenderOptions options = sized(kWidth, kHeight, {"motion", "id"});
   options.previousScene = before;

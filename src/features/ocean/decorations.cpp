@@ -26,9 +26,11 @@ class Maker {
         travelled_(travelled),
         travelledNow_(travelled(now)) {}
   glm::dvec2 at(double time) const {
-    glm::vec4 place(decoration_.params.at.value, 1.0f);
-    if (decoration_.node) place = scene::worldAt(scene_, clips_, *decoration_.node, time) * place;
-    return glm::dvec2(double(place.x), double(place.z)) - origin_ + travelled_(time) - travelledNow_;
+    const glm::dvec4 at(decoration_.params.at.value, 1.0f);
+    const glm::dvec4 place = (decoration_.node ? scene::worldAt(scene_, clips_, *decoration_.node, time)
+                                               : scene::worldToOrigin(scene_)) *
+                             at;
+    return glm::dvec2(place.x, place.z) - origin_ + travelled_(time) - travelledNow_;
   }
 
  private:

@@ -42,7 +42,10 @@ OceanShape oceanShape(const scene::SceneData& scene, const look::LookData& look)
     if (visible[n] && standsForOcean(scene.nodes[n])) shape.node = int(n);
   if (params.mode == 0 && shape.node < 0) return shape;
   shape.isThere = true;
-  if (shape.node >= 0) shape.origin = scene::worldMatrices(scene)[size_t(shape.node)][3];
+  // Without a node it is the world's water, that of (0, 0, 0); yet its waves lie about where the scene counts
+  // from, since so far out they would be too coarse.
+  shape.origin = shape.node >= 0 ? glm::vec3(scene::worldMatrices(scene)[size_t(shape.node)][3])
+                                 : glm::vec3(0.0, -scene.origin.y, 0.0);
   shape.origin.y += params.level;
   shape.grid = params.grid, shape.tiles = params.tiles, shape.tile = params.tile;
   // Waves end before their mesh does, which part of a cell moves. Of a cell or two they are nowhere whole.
@@ -267,10 +270,10 @@ void OceanWaves::pose(const look::LookData& look, double time, const Travelled& 
   reach_.y += header->sink + header->push;
 }
 
-void OceanWaves::moveNodes(const scene::SceneData&, std::span<const glm::mat4> world,
+void OceanWaves::moveNodes(const scene::SceneData&, std::span<const glm::dmat4> world,
                            std::vector<std::optional<glm::mat4>>& moved) const {
   for (const FloatingNode& one : floating_)
-    if (!moved[one.node]) moved[one.node] = riding(one.params, world[one.node]);
+    if (!moved[one.node]) moved[one.node] = riding(one.params, glm::mat4(world[one.node]));
 }
 
 FeatureMoment::Place OceanWaves::placeOf(uint32_t kind) const {

@@ -86,7 +86,7 @@ class OceanWaves : public FeatureMoment {
             const FeatureMoment* present) override {
     pose(now.look(), time, travelledBy(look), static_cast<const OceanWaves*>(present));
   }
-  void moveNodes(const scene::SceneData& scene, std::span<const glm::mat4> world,
+  void moveNodes(const scene::SceneData& scene, std::span<const glm::dmat4> world,
                  std::vector<std::optional<glm::mat4>>& moved) const override;
   Place placeOf(uint32_t kind) const override;
   scene::Bounds boundsOf(uint32_t kind, uint32_t detail, const scene::Bounds& posed) const override;

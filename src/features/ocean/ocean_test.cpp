@@ -388,7 +388,7 @@ TEST_P(OceanDrawn, nodesRideTheWaves) {
         if (nodes[n].name == name) return int(n) + 1;
       return 0;
     };
-    const std::vector<glm::mat4> rest = scene::worldMatrices(scene.data());
+    const std::vector<glm::dmat4> rest = scene::worldMatrices(scene.data());
     for (const auto& [alongZ, time] : {std::pair{false, 0.3}, {true, 4.1}}) {
       const Knobs common{
           {"ocean.wind", "14"}, {"ocean.speed", "2"}, {"ocean.height", "1.5"}, {"ocean.tiles", "1"}};

@@ -55,8 +55,9 @@ StrokesOnGpu::StrokesOnGpu(const scene::SceneData& scene, std::vector<DrawnPaint
   scene::forEachPose(scene, scene::allClips(scene), [&](const scene::Pose& pose, auto) {
     for (size_t p = 0; p < paintings_.size(); ++p)
       if (pose.shown[paintings_[p].node])
-        reachAlone_[p].add(scene::posedBounds(paintings_[p].painting->hull.extent,
-                                              pose.world[paintings_[p].node] * paintings_[p].toNode, {}, {}));
+        reachAlone_[p].add(scene::posedBounds(
+            paintings_[p].painting->hull.extent,
+            glm::mat4(pose.world[paintings_[p].node] * glm::dmat4(paintings_[p].toNode)), {}, {}));
   });
 }
 

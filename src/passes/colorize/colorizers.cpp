@@ -16,8 +16,8 @@ bool isIdentity(const GradeParams& grade) {
 
 // The world matrix of the space that a volume is in: a node's, or the world itself.
 glm::dmat4 spaceOf(const std::string& node, const scene::SceneData& scene,
-                   const std::vector<glm::mat4>& worlds) {
-  return node.empty() ? glm::dmat4(1.0) : glm::dmat4(worlds[size_t(scene::findNode(scene, node))]);
+                   const std::vector<glm::dmat4>& worlds) {
+  return node.empty() ? scene::worldToOrigin(scene) : worlds[size_t(scene::findNode(scene, node))];
 }
 
 glm::dmat3 turnedBy(const glm::dvec3& degrees) {
@@ -97,7 +97,7 @@ bool mayGrade(const look::LookData& look, const std::string& colorizer, const sc
 }
 
 std::vector<PlacedColorizer> placeColorizers(const look::LookData& look, const scene::SceneData& scene,
-                                             const std::vector<glm::mat4>& worlds,
+                                             const std::vector<glm::dmat4>& worlds,
                                              const shared::FrameUniforms& uniforms) {
   std::vector<PlacedColorizer> placed;
   for (const std::string& name : look.declared(look::kColorizers)) {

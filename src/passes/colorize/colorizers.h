@@ -22,7 +22,7 @@ struct PlacedColorizer {
 // Those that do anything, in the order of the look: neither their density is 0 nor their grading the
 // identity, and the node they hang on exists and is not flat. `worlds`: matrices of the scene's nodes.
 std::vector<PlacedColorizer> placeColorizers(const look::LookData& look, const scene::SceneData& scene,
-                                             const std::vector<glm::mat4>& worlds,
+                                             const std::vector<glm::dmat4>& worlds,
                                              const shared::FrameUniforms& uniforms);
 
 // The rays of a view's pixels.

@@ -46,7 +46,7 @@ void main() {
   MetaTextureChoice chosen = metaTextureChoose(meta, metaU, metaV, 1.0);
 
   outDepth = vec4(eyeDepth(gl_FragCoord.z, viewIndex()));
-  outPosition = vec4(inPosition, 1.0);
+  outPosition = vec4(inPosition + frame.positionShift, 1.0);
   outNormal = vec4(normalize(gl_FrontFacing ? inNormal : -inNormal), 1.0);
   outUv = vec4(inUv, 0.0, 1.0);
   outUvGradient = vec4(gradU, gradV);

@@ -30,7 +30,9 @@ void expectWhole(const std::vector<Chain>& chains, const std::vector<Link>& link
     };
     for (size_t i = 0; i < chain.parts.size(); ++i) {
       EXPECT_TRUE(passed.insert(chain.parts[i].link).second);
-      if (i + 1 < chain.parts.size() || chain.isClosed) EXPECT_EQ(node(i, true), node(i + 1, false));
+      if (i + 1 < chain.parts.size() || chain.isClosed) {
+        EXPECT_EQ(node(i, true), node(i + 1, false));
+      }
     }
   }
   EXPECT_EQ(passed.size(), links.size());
