@@ -17,7 +17,8 @@ constexpr VkDeviceSize kLeastBytes = 1 << 16;
 
 // Large enough, with room for what comes.
 void ensure(const VulkanDevice& device, MappedBuffer& buffer, VkDeviceSize bytes, VkBufferUsageFlags usage) {
-  if (buffer.size() < bytes) buffer = MappedBuffer(device, std::max(kLeastBytes, bytes + bytes / 2), usage);
+  if (buffer.size() < bytes)
+    buffer = MappedBuffer(device, std::max(kLeastBytes, bytes + bytes / 2), usage, "interface");
 }
 
 // Never called: they are told apart by where they are.
@@ -118,6 +119,7 @@ VkPipeline InterfacePass::makePipeline(VkFormat format, VkBlendFactor source,
   for (const VkPipelineShaderStageCreateInfo& each : stages)
     vkDestroyShaderModule(device_.device, each.module, nullptr);
   must(made, "vkCreateGraphicsPipelines");
+  name(device_, VK_OBJECT_TYPE_PIPELINE, pipeline, "interface");
   return pipeline;
 }
 
@@ -125,7 +127,7 @@ void InterfacePass::uploadLetters() {
   unsigned char* pixels = nullptr;
   int width = 0, height = 0;
   ImGui::GetIO().Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
-  letters_ = uploaded(device_, {uint32_t(width), uint32_t(height)}, pixels);
+  letters_ = uploaded(device_, {uint32_t(width), uint32_t(height)}, pixels, "letters");
   ImGui::GetIO().Fonts->SetTexID(ImTextureID(letters_.view()));
 }
 

@@ -1,5 +1,5 @@
-// Between places, counted from the view's origin (View::origin), and pixels of the window: arithmetic alone.
-// Metres, and pixels with y downwards.
+// Conversion between places, relative to the view's origin (View::origin, metres), and pixels of the window
+// (y downwards).
 #pragma once
 
 #include <glm/glm.hpp>
@@ -13,7 +13,7 @@ class Lens {
  public:
   Lens(const View& view, const glm::vec2& window);
 
-  // From the world to where places count from.
+  // Matrix from world coordinates to those of the view's origin.
   glm::dmat4 fromWorld() const;
   const glm::dvec3& origin() const { return origin_; }
 

@@ -38,6 +38,18 @@ TEST(Navigation, takesUpWhereAViewSees) {
   EXPECT_NEAR(*seen.verticalFov, 50, 1e-3f);
 }
 
+// A million metres out, where hands move it as they do here.
+TEST(Navigation, takesUpViewsFarOut) {
+  const glm::dvec3 far(1e6, -2e5, 4e6);
+  View view = viewFrom();
+  view.origin = far;
+  Navigation navigation, near;
+  navigation.takeUp(view, far + glm::dvec3(0.25, 0, 0), 1), near.takeUp(viewFrom(), {0.25, 0, 0}, 1);
+  for (Navigation* const each : {&navigation, &near}) each->orbit({0.1f, 0.05f}), each->pan({0.01f, 0.02f});
+  EXPECT_LT(glm::distance(*navigation.viewpoint().eye - far, *near.viewpoint().eye), 1e-8);
+  EXPECT_LT(glm::distance(*navigation.viewpoint().target - far, *near.viewpoint().target), 1e-8);
+}
+
 TEST(Navigation, takesUpParallelProjectionsAsWhatTheyShow) {
   View view = viewFrom();
   view.eyeToClip = orthographicProjection(1, 1.5f, 0.1f, 100);

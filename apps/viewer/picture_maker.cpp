@@ -101,9 +101,9 @@ std::shared_ptr<Picture> PictureMaker::blank(const glm::uvec2& size, Stereo ster
   constexpr VkImageUsageFlags kUsage =
       VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
   auto made = std::make_shared<Picture>();
-  made->image = DeviceImage(device_, Picture::kFormat, {size.x, size.y}, kUsage);
+  made->image = DeviceImage(device_, Picture::kFormat, {size.x, size.y}, kUsage, "picture");
   if (stereo == Stereo::stereo)
-    made->right = DeviceImage(device_, Picture::kFormat, {size.x, size.y}, kUsage);
+    made->right = DeviceImage(device_, Picture::kFormat, {size.x, size.y}, kUsage, "picture, right eye");
   return pictures_.emplace_back(std::move(made));
 }
 
@@ -155,9 +155,9 @@ Result<std::shared_ptr<Picture>> PictureMaker::draw(const Wish& wish) {
     for (const Frame::Layer& layer : frame->layers)
       if (layer.name == aov) {
         const Image& values = layer.views[std::min(wish.aovView, layer.views.size() - 1)];
-        picture->layers.push_back(
-            {aov, values,
-             uploaded(device_, {values.width, values.height}, visibleBytes(values, aov).data())});
+        picture->layers.push_back({aov, values,
+                                   uploaded(device_, {values.width, values.height},
+                                            visibleBytes(values, aov).data(), "AOV " + aov)});
       }
   return picture;
 }

@@ -72,7 +72,7 @@ Status PictureWindow::draw() {
     }
     if (picture)
       shown = std::make_shared<DeviceImage>(
-          uploaded(device, {picture->width, picture->height}, picture->codes.data()));
+          uploaded(device, {picture->width, picture->height}, picture->codes.data(), "picture"));
     else if (!window_->wasTouched())
       continue;
     const glm::uvec2 size = window_->framebufferSize();

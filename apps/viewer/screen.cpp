@@ -70,6 +70,7 @@ void Screen::begin() {
     const VkCommandBufferAllocateInfo commands{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr,
                                                frame.pool, VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
     must(vkAllocateCommandBuffers(device.device, &commands, &frame.commands), "vkAllocateCommandBuffers");
+    name(device, VK_OBJECT_TYPE_COMMAND_BUFFER, frame.commands, "frame");
     const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, nullptr, VK_FENCE_CREATE_SIGNALED_BIT};
     must(vkCreateFence(device.device, &fence, nullptr, &frame.done), "vkCreateFence");
     frame.acquired = makeSemaphore(device.device);
@@ -149,6 +150,9 @@ bool Screen::remake(const glm::uvec2& size) {
     view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
     Shown shown{.image = image};
     must(vkCreateImageView(device_.device, &view, nullptr, &shown.view), "vkCreateImageView");
+    const std::string number = "screen " + std::to_string(shown_.size());
+    name(device_, VK_OBJECT_TYPE_IMAGE, image, number);
+    name(device_, VK_OBJECT_TYPE_IMAGE_VIEW, shown.view, number);
     shown.drawn = makeSemaphore(device_.device);
     shown_.push_back(shown);
   }

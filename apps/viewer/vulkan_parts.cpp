@@ -26,7 +26,7 @@ VkDeviceMemory allocate(const VulkanDevice& device, const VkMemoryRequirements& 
 }  // namespace
 
 DeviceImage::DeviceImage(const VulkanDevice& device, VkFormat format, VkExtent2D extent,
-                         VkImageUsageFlags usage)
+                         VkImageUsageFlags usage, const std::string& what)
     : DeviceImage() {
   device_ = device.device, extent_ = extent;
   VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
@@ -37,6 +37,7 @@ DeviceImage::DeviceImage(const VulkanDevice& device, VkFormat format, VkExtent2D
   info.samples = VK_SAMPLE_COUNT_1_BIT;
   info.usage = usage;
   must(vkCreateImage(device_, &info, nullptr, &image_), "vkCreateImage");
+  name(device, VK_OBJECT_TYPE_IMAGE, image_, what);
   VkMemoryRequirements needs;
   vkGetImageMemoryRequirements(device_, image_, &needs);
   memory_ = allocate(device, needs, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
@@ -47,6 +48,7 @@ DeviceImage::DeviceImage(const VulkanDevice& device, VkFormat format, VkExtent2D
   view.format = format;
   view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
   must(vkCreateImageView(device_, &view, nullptr, &view_), "vkCreateImageView");
+  name(device, VK_OBJECT_TYPE_IMAGE_VIEW, view_, what);
 }
 
 DeviceImage::~DeviceImage() {
@@ -56,13 +58,15 @@ DeviceImage::~DeviceImage() {
   vkFreeMemory(device_, memory_, nullptr);
 }
 
-MappedBuffer::MappedBuffer(const VulkanDevice& device, VkDeviceSize size, VkBufferUsageFlags usage)
+MappedBuffer::MappedBuffer(const VulkanDevice& device, VkDeviceSize size, VkBufferUsageFlags usage,
+                           const std::string& what)
     : MappedBuffer() {
   device_ = device.device, size_ = size;
   VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
   info.size = size;
   info.usage = usage;
   must(vkCreateBuffer(device_, &info, nullptr, &buffer_), "vkCreateBuffer");
+  name(device, VK_OBJECT_TYPE_BUFFER, buffer_, what);
   VkMemoryRequirements needs;
   vkGetBufferMemoryRequirements(device_, buffer_, &needs);
   memory_ =
@@ -79,11 +83,12 @@ MappedBuffer::~MappedBuffer() {
   vkFreeMemory(device_, memory_, nullptr);
 }
 
-DeviceImage uploaded(const VulkanDevice& device, VkExtent2D extent, const uint8_t* bytes) {
+DeviceImage uploaded(const VulkanDevice& device, VkExtent2D extent, const uint8_t* bytes,
+                     const std::string& what) {
   const VkDeviceSize size = VkDeviceSize(extent.width) * extent.height * 4;
   DeviceImage image(device, VK_FORMAT_R8G8B8A8_UNORM, extent,
-                    VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
-  const MappedBuffer staging(device, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+                    VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, what);
+  const MappedBuffer staging(device, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, what + ", on its way");
   std::memcpy(staging.mapped(), bytes, size);
 
   // Its commands go with it.

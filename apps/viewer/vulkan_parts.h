@@ -23,11 +23,18 @@ inline void must(VkResult result, const char* call) {
   if (result < 0) throw VulkanFailure(call, result);
 }
 
+// A name in captures, of any kind of object.
+template <class Handle>
+void name(const VulkanDevice& device, VkObjectType type, Handle handle, const std::string& text) {
+  nameVulkanObject(device, type, reinterpret_cast<uint64_t>(handle), "window: " + text);
+}
+
 // What is drawn into and sampled, of one layer and one level.
 class DeviceImage {
  public:
   DeviceImage() = default;
-  DeviceImage(const VulkanDevice& device, VkFormat format, VkExtent2D extent, VkImageUsageFlags usage);
+  DeviceImage(const VulkanDevice& device, VkFormat format, VkExtent2D extent, VkImageUsageFlags usage,
+              const std::string& what);
   ~DeviceImage();
   DeviceImage(DeviceImage&& other) noexcept { swap(other); }
   DeviceImage& operator=(DeviceImage&& other) noexcept {
@@ -52,13 +59,15 @@ class DeviceImage {
 
 // An image of 8 bit RGBA with these bytes, row 0 at the top, in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL.
 // Waits for the queue.
-DeviceImage uploaded(const VulkanDevice& device, VkExtent2D extent, const uint8_t* bytes);
+DeviceImage uploaded(const VulkanDevice& device, VkExtent2D extent, const uint8_t* bytes,
+                     const std::string& what);
 
 // Written by the CPU as long as it lives.
 class MappedBuffer {
  public:
   MappedBuffer() = default;
-  MappedBuffer(const VulkanDevice& device, VkDeviceSize size, VkBufferUsageFlags usage);
+  MappedBuffer(const VulkanDevice& device, VkDeviceSize size, VkBufferUsageFlags usage,
+               const std::string& what);
   ~MappedBuffer();
   MappedBuffer(MappedBuffer&& other) noexcept { swap(other); }
   MappedBuffer& operator=(MappedBuffer&& other) noexcept {

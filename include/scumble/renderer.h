@@ -110,8 +110,8 @@ struct RenderOptions {
   // sphere instead. A background goes all around: left to right once around, with its middle ahead, top to
   // bottom from straight up to straight down. What a look does at the edges of its picture is left out.
   std::optional<SpherePart> sphere;
-  // The place in the world, metres, from which the AOV `position` counts. Far out single precision blurs
-  // positions that count from (0, 0, 0); Scene::origin() keeps them sharp.
+  // Origin of the AOV `position` in the world, metres. Far from (0, 0, 0) single precision rounds world
+  // positions to centimetres; with Scene::origin() they stay exact.
   glm::dvec3 positionsFrom{0.0};
   // Late latch: called when the frame is recorded, just before it is sent, with its views, whose poses and
   // projections may be changed there. What decides where marks lie, which transparent surfaces are left out

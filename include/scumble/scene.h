@@ -97,12 +97,11 @@ class SCUMBLE_API Scene {
 
   SceneSummary summary() const;
 
-  // The place in the world, in metres, near which the scene stands: from there the renderer counts, along the
-  // world's axes, so that it draws as exactly a planet's radius away as here. It is (0, 0, 0) where the
-  // middle of what is drawn lies within 500 m and within 50 of its radii of that; else a point of a grid, of
-  // whole kilometres, or finer where the scene is smaller than a metre. Patterns that lie in the world
-  // (waves) count from there as well. Views and positions may do so: View::origin,
-  // RenderOptions::positionsFrom.
+  // Origin of the scene's coordinates in the world, metres. The renderer measures from there, along the
+  // world's axes, so that single precision suffices however far out the scene stands. It is (0, 0, 0) where
+  // the middle of what is drawn lies within 500 m and within 50 of its radii of that; else the nearest point
+  // of a grid of whole kilometres, or of a finer grid for scenes smaller than a metre. Patterns fixed in the
+  // world are anchored there. See View::origin and RenderOptions::positionsFrom.
   glm::dvec3 origin() const;
 
   // Files beside its own that the scene names, whether or not they are there, and of several in one world (a

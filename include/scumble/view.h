@@ -17,7 +17,7 @@ namespace scumble {
 // (ErrorKind::usage).
 struct View {
   // Eye space: x right, y up, looking along -z; metres. Its last row is 0, 0, 0, 1, and it can be inverted.
-  // The world's places count from `origin`.
+  // World coordinates are relative to `origin`.
   glm::mat4 worldToEye{1.0f};
   // Eye to clip space in Vulkan's convention: y down, depth reversed (1 at the near plane, 0 far away). May
   // be off-centre. There is no default: the identity is refused.
@@ -33,16 +33,17 @@ struct View {
   // Whose eye it is: what decides where marks lie, and where shadows are finest, is found once for all views
   // of a rig, from their middle, so that a spectator with a rig of its own changes nothing for the eyes.
   int rig = 0;
-  // The place in the world from which worldToEye counts, metres: near the eye where that stands far out,
-  // since single precision tells places a million metres away no nearer than 6 cm apart. makeViews takes
-  // Scene::origin(), which serves all who look at that scene.
+  // Origin of the coordinates that worldToEye takes, in the world, metres. For an eye far from (0, 0, 0) it
+  // lies near the eye: a million metres out single precision has steps of 6 cm. makeViews takes
+  // Scene::origin(), which suits every view of that scene.
   glm::dvec3 origin{0.0};
 };
 
-// Of a view, from the world to eye space in double precision, where places count from (0, 0, 0).
+// A view's matrix from world to eye space in double precision, without an origin of its own.
 SCUMBLE_API glm::dmat4 worldToEyeOf(const View& view);
 
-// Makes worldToEye and origin of it. Far out the origin lies near the eye; nearer it is (0, 0, 0).
+// Sets worldToEye and origin from such a matrix. The origin lies near the eye where that is more than 500 m
+// from (0, 0, 0), and is (0, 0, 0) elsewhere.
 SCUMBLE_API void setWorldToEye(View& view, const glm::dmat4& worldToEye);
 
 // Depth-reversed projections of that convention. Angles in radians, distances in metres.

@@ -121,6 +121,11 @@ struct VulkanReadback {
   std::string aov;  // one of Renderer::aovNames(); empty: the picture
 };
 
+// Names an object of the device in captures and validation messages, as the renderer's own objects are named.
+// `handle` is the object's handle as a number. Does nothing where the instance lacks VK_EXT_debug_utils.
+SCUMBLE_API void nameVulkanObject(const VulkanDevice& device, VkObjectType type, uint64_t handle,
+                                  const std::string& name);
+
 // Everything that one frame is drawn into. Targets in one image have the same format, extent and layouts.
 struct VulkanTargets {
   std::vector<VulkanTarget> images;

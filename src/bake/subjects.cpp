@@ -36,7 +36,7 @@ std::vector<scene::StrokePoint> moved(const scene::StrokePoint* from, size_t cou
   return points;
 }
 
-// All of a scene, in the world, counted from a place of it.
+// All strokes of a scene, in the world, relative to an origin.
 Strokes strokesOf(const scene::SceneData& scene, const glm::dvec3& origin) {
   Strokes strokes;
   std::vector<glm::dmat4> world = scene::worldMatrices(scene);

@@ -3,14 +3,12 @@
 #include <limits>
 
 #include "base/srgb.h"
+#include "gltf/gaussians.h"
 #include "gltf/rewrite.h"
 
 namespace scumble::gltf {
 
 namespace {
-
-constexpr const char* kExtension = "KHR_gaussian_splatting";
-constexpr double kHarmonic = 0.28209479177387814;  // of degree 0: sqrt(1 / (4 pi))
 
 // A node that shows them, at the root of the file's scene.
 void addCloud(Rewrite& file, const std::string& name, const std::vector<Gaussian>& gaussians,
@@ -35,7 +33,7 @@ void addCloud(Rewrite& file, const std::string& name, const std::vector<Gaussian
   Json primitive = {{"mode", 0},
                     {"attributes", Json::object()},
                     {"extensions",
-                     {{kExtension,
+                     {{kGaussianSplatting,
                        {{"kernel", "ellipse"},
                         {"colorSpace", "srgb_rec709_display"},
                         {"sortingMethod", "cameraDistance"},
@@ -63,7 +61,7 @@ void addCloud(Rewrite& file, const std::string& name, const std::vector<Gaussian
       if (!isChild[n]) roots.push_back(n);
     root["scenes"] = Json::array({{{"nodes", roots}}}), root["scene"] = 0;
   }
-  file.useExtension(kExtension);
+  file.useExtension(kGaussianSplatting);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "gltf/gaussians.h"
 #include "gltf/import.h"
 #include "gltf/primitive.h"
 #include "gltf/strokes.h"
@@ -54,6 +55,7 @@ void readMeshes(const Import& import, const Maps& maps, SceneData& scene) {
     JsonView json;
     ImportWarnings warnings{};
     std::optional<ReadStroke> stroke{};
+    std::vector<StrokePoint> gaussians{};
   };
   std::vector<Task> tasks;
   for (size_t i = 0; i < maps.meshes.size(); ++i) {
@@ -73,6 +75,11 @@ void readMeshes(const Import& import, const Maps& maps, SceneData& scene) {
   import.progress.expect(tasks.size(), 0.4);
   parallelFor(tasks.size(), import.threads, [&](size_t i) {
     Task& task = tasks[i];
+    if (areGaussians(task.json)) {
+      task.gaussians = readGaussians(import, task.json, task.warnings);
+      import.progress.step();
+      return;
+    }
     if (isStroke(task.json)) {
       task.stroke = readStroke(import, task.json, task.warnings);
       import.progress.step();
@@ -89,6 +96,7 @@ void readMeshes(const Import& import, const Maps& maps, SceneData& scene) {
   std::map<size_t, StrokeCollector> strokes;  // by mesh
   for (Task& task : tasks) {
     if (task.stroke) strokes[task.mesh].add(std::move(*task.stroke), task.json.path(), task.warnings);
+    if (!task.gaussians.empty()) strokes[task.mesh].add(task.gaussians, task.json.path(), task.warnings);
     import.warnings.merge(task.warnings);
   }
   for (auto& [mesh, collector] : strokes) scene.meshes[mesh].own().painting = collector.finish();

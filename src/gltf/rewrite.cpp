@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "gltf/gaussians.h"
 #include "gltf/strokes.h"
 #include "gltf/uri.h"
 
@@ -197,7 +198,7 @@ void Rewrite::dropStrokes() {
     const JsonView primitives = meshes.at(m).list("primitives");
     Json kept = Json::array();
     for (size_t p = 0; p < mesh["primitives"].size(); ++p)
-      if (isStroke(primitives.at(p)))
+      if (isStroke(primitives.at(p)) || areGaussians(primitives.at(p)))
         dropped.push_back(mesh["primitives"][p]);
       else
         kept.push_back(mesh["primitives"][p]);

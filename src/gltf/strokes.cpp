@@ -10,8 +10,10 @@ namespace {
 constexpr uint64_t kLineStrip = 3;
 constexpr const char* kBrush = "scumble_brush";
 
-Accessor opened(const Import& import, const JsonView& attributes, const char* semantic, int least, int most,
-                size_t count) {
+}  // namespace
+
+Accessor openPoints(const Import& import, const JsonView& attributes, const char* semantic, int least,
+                    int most, size_t count) {
   Accessor accessor =
       import.accessors.open(size_t(attributes.requiredIndex(semantic, import.accessors.count(), "accessor")));
   accessor.path = attributes.pathOf(semantic);
@@ -22,12 +24,14 @@ Accessor opened(const Import& import, const JsonView& attributes, const char* se
   return accessor;
 }
 
+namespace {
+
 // One number or more a point, where the attribute is there and sound; false where not.
 bool readOptional(const Import& import, const JsonView& attributes, const char* semantic, int least, int most,
                   size_t count, std::vector<float>& numbers, float otherwise, ImportWarnings& warnings) {
   if (!attributes.has(semantic)) return false;
   try {
-    Accessor accessor = opened(import, attributes, semantic, least, most, count);
+    Accessor accessor = openPoints(import, attributes, semantic, least, most, count);
     // Whole numbers are colours of which the largest is 1, whether or not the file says so.
     if (std::string_view(semantic) == "COLOR_0") accessor.normalized |= accessor.type != ComponentType::f32;
     numbers.assign(count * size_t(most), otherwise);
@@ -50,12 +54,12 @@ ReadStroke readStroke(const Import& import, const JsonView& primitive, ImportWar
   ReadStroke stroke;
   const JsonView attributes = primitive.object("attributes");
   if (primitive.has("indices")) warnings.add(primitive.path(), "indices of a stroke are ignored");
-  const Accessor position = opened(import, attributes, "POSITION", 3, 3, 0);
+  const Accessor position = openPoints(import, attributes, "POSITION", 3, 3, 0);
   const size_t count = position.count;
   import.budget.takeBytes(count * (2 * sizeof(StrokePoint)), primitive.path());
   std::vector<float> positions(3 * count), radii(count), colors, turns, times;
   readFloats(position, {}, 3, positions.data());
-  readFloats(opened(import, attributes, "_RADIUS", 1, 1, count), {}, 1, radii.data());
+  readFloats(openPoints(import, attributes, "_RADIUS", 1, 1, count), {}, 1, radii.data());
   readOptional(import, attributes, "COLOR_0", 3, 4, count, colors, 1, warnings);
   readOptional(import, attributes, "_ORIENTATION", 4, 4, count, turns, 0, warnings);
   readOptional(import, attributes, "_TIME", 1, 1, count, times, 0, warnings);
@@ -92,6 +96,12 @@ void StrokeCollector::add(ReadStroke stroke, const std::string& path, ImportWarn
   if (std::find(painting_.brushes.begin(), painting_.brushes.end(), stroke.brushName) ==
       painting_.brushes.end())
     painting_.brushes.push_back(std::move(stroke.brushName));
+}
+
+void StrokeCollector::add(const std::vector<StrokePoint>& gaussians, const std::string& path,
+                          ImportWarnings& warnings) {
+  for (const StrokePoint& one : gaussians) painting_.add(Brush::gaussian, {one}, path, warnings);
+  if (!gaussians.empty()) painting_.brushes.emplace_back(nameOf(Brush::gaussian));
 }
 
 std::shared_ptr<const Painting> StrokeCollector::finish() {

@@ -528,9 +528,8 @@ void Device::setName(VkObjectType type, uint64_t handle, const std::string& text
 }
 
 void Device::waitForSubmissions() {
-  if (underWay_ == 0) return;
-  const std::lock_guard lock(*queueLock_);
-  SCUMBLE_VK(vkQueueWaitIdle(queue_));
+  if (underWay_.empty()) return;
+  SCUMBLE_VK(vkWaitForFences(device_, uint32_t(underWay_.size()), underWay_.data(), VK_TRUE, UINT64_MAX));
 }
 
 void Device::submit(VkCommandBuffer commands, const std::function<void(VkCommandBuffer)>& record,

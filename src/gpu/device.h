@@ -131,10 +131,10 @@ class Device {
   // The same with a command buffer of its own; waits for the end.
   void runOnce(const std::function<void(VkCommandBuffer)>& record);
 
-  // Submissions tell when they are under way (see frames_in_flight.h). Whoever changes what they use waits
-  // first.
-  void submissionBegan() { ++underWay_; }
-  void submissionEnded() { --underWay_; }
+  // Fences of submissions that are under way (frames_in_flight.h). waitForSubmissions() waits for them,
+  // before something that they use changes, and not for a caller's work in the same queue.
+  void submissionBegan(VkFence done) { underWay_.push_back(done); }
+  void submissionEnded(VkFence done) { std::erase(underWay_, done); }
   void waitForSubmissions();
 
   // Writes the compiled pipelines to the cache folder, if there is one and something new was compiled.
@@ -174,7 +174,7 @@ class Device {
   std::unique_ptr<MemoryPool> memory_;
   DeviceInfo info_;
   VkPhysicalDeviceLimits limits_{};
-  int underWay_ = 0;
+  std::vector<VkFence> underWay_;
   bool supports4Samples_ = false;
   std::optional<ViewDrawings> viewDrawings_;
   std::atomic<int> validationMessages_ = 0;

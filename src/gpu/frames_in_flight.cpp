@@ -19,7 +19,7 @@ Submission::~Submission() {
   // A lost device has nothing under way.
   if (underWay_) {
     vkWaitForFences(device_.handle(), 1, &done_, VK_TRUE, UINT64_MAX);
-    device_.submissionEnded();
+    device_.submissionEnded(done_);
   }
   if (done_) vkDestroyFence(device_.handle(), done_, nullptr);
   if (pool_) vkDestroyCommandPool(device_.handle(), pool_, nullptr);
@@ -30,14 +30,14 @@ void Submission::submit(const std::function<void(VkCommandBuffer)>& record, cons
   SCUMBLE_VK(vkResetCommandPool(device_.handle(), pool_, 0));
   device_.submit(commands_, record, done_, around);
   underWay_ = true;
-  device_.submissionBegan();
+  device_.submissionBegan(done_);
 }
 
 void Submission::wait() {
   if (!underWay_) return;
   // Whatever comes of it, there is nothing to wait for any more.
   underWay_ = false;
-  device_.submissionEnded();
+  device_.submissionEnded(done_);
   SCUMBLE_VK(vkWaitForFences(device_.handle(), 1, &done_, VK_TRUE, UINT64_MAX));
   SCUMBLE_VK(vkResetFences(device_.handle(), 1, &done_));
 }

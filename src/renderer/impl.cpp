@@ -44,7 +44,7 @@ std::vector<std::string> objectNames(const scene::SceneData& scene, const Geomet
 }
 
 // Views that hang on nodes, where features move those.
-// As the scene has them.
+// Views in the scene's coordinates, carried by what features move.
 std::vector<View> carried(const std::vector<View>& views, const Scene& scene, const SceneMotion& motion) {
   return carriedBy([&](int node) { return motion.movedBy(size_t(node)); },
                    countedFrom(scene.origin(), views));

@@ -30,7 +30,7 @@ View middleOf(const std::vector<View>& views);
 // rig go the way of its middle.
 std::vector<View> carriedBy(const std::function<glm::mat4(int node)>& movedBy, std::vector<View> views);
 
-// The same views, counted from elsewhere.
+// The same views relative to another origin.
 std::vector<View> countedFrom(const glm::dvec3& origin, std::vector<View> views);
 
 // Whether depth and size do not depend on the distance.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "gpu/debug_names.h"
 #include "renderer/impl.h"
 
 namespace scumble {
@@ -28,6 +29,15 @@ VulkanDevice vulkanDeviceOf(const Renderer& renderer) {
   const gpu::Device& device = RendererAccess::device(renderer);
   return {device.instance(), device.physical(),    device.handle(),
           device.queue(),    device.queueFamily(), &device.queueLock()};
+}
+
+void nameVulkanObject(const VulkanDevice& device, VkObjectType type, uint64_t handle,
+                      const std::string& name) {
+  const gpu::DebugUtils utils = gpu::debugUtilsOf(device.instance, device.device);
+  if (!utils.setName) return;
+  VkDebugUtilsObjectNameInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
+  info.objectType = type, info.objectHandle = handle, info.pObjectName = name.c_str();
+  utils.setName(device.device, &info);
 }
 
 namespace {

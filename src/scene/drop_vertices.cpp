@@ -29,10 +29,8 @@ void giveBack(size_t bytes) {
 
 }  // namespace
 
-void dropVertices(const Primitive& primitive) {
-  if (primitive.influences > 0 || !primitive.morphTargets.empty() || primitive.droppedVertices > 0) return;
-  // Meshes are made to be changed, and shared as what nobody changes (base/shared.h).
-  Primitive& p = const_cast<Primitive&>(primitive);
+void dropVertices(const Primitive& p) {
+  if (p.influences > 0 || !p.morphTargets.empty() || p.droppedVertices > 0) return;
   p.droppedVertices = p.vertexCount(), p.droppedIndices = p.indices.size();
   giveBack(drop(p.positions) + drop(p.normals) + drop(p.smoothNormals) + drop(p.uv0) + drop(p.uv1) +
            drop(p.patternUv) + drop(p.dPdu) + drop(p.dPdv) + drop(p.indices) + drop(p.levelIndices) +

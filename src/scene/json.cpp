@@ -193,7 +193,7 @@ bool JsonView::numbers(const char* key, double* out, size_t count) const {
   for (size_t i = 0; i < count; ++i) {
     if (!(*value)[i].is_number()) finiteOf((*value)[i], pathOf(key) + "[" + std::to_string(i) + "]");
     out[i] = (*value)[i].get<double>();
-    // Of a double, too: squares of places must be finite.
+    // Squares of coordinates must fit a float.
     if (!std::isfinite(static_cast<float>(out[i])))
       fail(pathOf(key) + "[" + std::to_string(i) + "]", "is not a finite number");
   }

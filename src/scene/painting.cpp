@@ -20,7 +20,7 @@ bool isFinite(const glm::vec4& v) {
 }  // namespace
 
 const char* nameOf(Brush brush) {
-  static constexpr const char* kNames[kBrushes] = {"plain", "bristles", "wash", "spatter", "light"};
+  static constexpr const char* kNames[] = {"plain", "bristles", "wash", "spatter", "light", "gaussian"};
   return kNames[size_t(brush)];
 }
 
@@ -29,7 +29,7 @@ void Painting::add(Brush brush, std::vector<StrokePoint> added, const std::strin
   const size_t all = added.size();
   std::erase_if(added, [](const StrokePoint& p) {
     return !isDrawable(p.position) || !(p.radius > 0 && p.radius <= kLargestRadius) || !isFinite(p.color) ||
-           !std::isfinite(p.time);
+           !std::isfinite(p.time) || !isFinite(glm::vec4(p.shape, 1));
   });
   if (added.empty()) {
     warnings.add(path, all == 0 ? "a stroke without points is left out"
@@ -41,6 +41,7 @@ void Painting::add(Brush brush, std::vector<StrokePoint> added, const std::strin
     const float length = glm::length(p.orientation);
     p.orientation = std::isfinite(length) && length > 1e-6f ? p.orientation / length : glm::quat(1, 0, 0, 0);
     p.color = glm::clamp(p.color, 0.0f, 1.0f);
+    p.shape = glm::clamp(p.shape, 0.0f, 1.0f);
   }
   strokes.push_back({uint32_t(points.size()), uint32_t(added.size()), brush});
   points.insert(points.end(), added.begin(), added.end());

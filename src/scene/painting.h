@@ -20,8 +20,9 @@ enum class Brush : uint8_t {
   wash,      // soft and thin
   spatter,   // drops
   light,     // soft, and light is added to what is behind it
+  gaussian,  // an ellipsoid that fades from its middle, by itself: no stroke names it
 };
-constexpr size_t kBrushes = 5;
+constexpr size_t kBrushes = 5;  // that strokes may name
 const char* nameOf(Brush brush);
 
 struct StrokePoint {
@@ -31,6 +32,8 @@ struct StrokePoint {
   glm::quat orientation{1.0f, 0.0f, 0.0f, 0.0f};
   glm::vec4 color{1.0f};  // linear; A: how opaque, in [0, 1]
   float time = 0.0f;      // seconds since the painting was begun
+  // Two standard deviations of a Gaussian along the axes of `orientation`, as parts of the radius.
+  glm::vec3 shape{1.0f};
 };
 
 struct Stroke {

@@ -1,12 +1,14 @@
 #include "scene/parallel.h"
 
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
 #include <limits>
 #include <mutex>
 #include <thread>
-#include <vector>
 
 namespace scumble::scene {
 
@@ -36,15 +38,19 @@ void parallelFor(size_t count, int threads, const std::function<void(size_t)>& b
     }
   };
 
-  std::vector<std::thread> helpers;
-  const size_t wanted = std::min<size_t>(count, static_cast<size_t>(std::max(1, threads)));
-  try {
-    for (size_t i = 1; i < wanted; ++i) helpers.emplace_back(work);
-  } catch (const std::exception&) {
-    // No more threads to be had: those that started, and this one, do the work.
+  const int wanted = static_cast<int>(std::min<size_t>(count, static_cast<size_t>(std::max(1, threads))));
+  if (wanted <= 1) {
+    work();
+  } else {
+    // An arena for this loop alone: its threads take no tasks of other loops.
+    tbb::task_arena arena(wanted);
+    arena.execute([&] {
+      tbb::task_group helpers;
+      for (int i = 1; i < wanted; ++i) helpers.run(work);
+      work();
+      helpers.wait();
+    });
   }
-  work();
-  for (std::thread& helper : helpers) helper.join();
   if (failure) std::rethrow_exception(failure);
 }
 

@@ -11,8 +11,8 @@ namespace scumble::scene {
 // inverse bind.
 std::vector<glm::mat4> jointMatrices(const Skin& skin, const std::vector<glm::dmat4>& world);
 
-// Where a node puts an instance of its mesh (by its number; a node without instances has one, 0): in double
-// precision, as far as places go.
+// Matrix from mesh space to the world of one instance of a node, multiplied in double precision; a node
+// without instances has one, number 0.
 size_t instanceCount(const Node& node);
 glm::mat4 instanceToWorld(const Node& node, const glm::dmat4& world, size_t instance);
 

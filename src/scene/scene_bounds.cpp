@@ -106,8 +106,8 @@ size_t trianglesOf(const Mesh& mesh) {
 
 void findOrigin(SceneData& scene) {
   scene.origin = glm::dvec3(0.0);
-  // What is drawn, each as a ball: of those that joints bend, where the first of them stands. Lists are long
-  // where one mesh is drawn a million times; some of them tell.
+  // Bounding balls of what is drawn; a skinned mesh stands at its first joint. Of a million instances a few
+  // thousand suffice.
   struct Ball {
     glm::dvec3 middle;
     double radius;
@@ -139,7 +139,7 @@ void findOrigin(SceneData& scene) {
           glm::dvec3(box.center()));
   }
   if (balls.empty()) return;
-  // The middle one each way: one that stands elsewhere by mistake counts as one.
+  // The median along each axis, which single things that stand elsewhere do not move.
   const auto middleOf = [&](auto&& number) {
     std::vector<double> numbers;
     for (const Ball& ball : balls) numbers.push_back(number(ball));

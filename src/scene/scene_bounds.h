@@ -6,7 +6,7 @@
 
 namespace scumble::scene {
 
-// Fills SceneData::origin: a place near what is drawn, the scene's own (0, 0, 0) where that lies near enough.
+// Sets SceneData::origin: a place near most of what is drawn, (0, 0, 0) where that lies near enough.
 void findOrigin(SceneData& scene);
 
 // Fills SceneData::origin and SceneData::seen, and SceneData::bounds from it. What lies so far out that it

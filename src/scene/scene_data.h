@@ -135,19 +135,22 @@ struct DetailLevel {
   float longestEdge = 0;  // metres
 };
 
-// Triangles with one material. All non-empty vertex arrays have vertexCount() entries.
+// Triangles with one material. All non-empty vertex arrays have vertexCount() entries. What is mutable may go
+// from one that is shared, and else does not change, once it is on a device (drop_vertices.h,
+// SceneOptions::keepsVertices).
 struct Primitive {
-  std::vector<glm::vec3> positions;
-  std::vector<glm::vec3> normals;  // unit length; always there (made from the faces when the file has none)
+  mutable std::vector<glm::vec3> positions;
+  mutable std::vector<glm::vec3>
+      normals;  // unit length; always there (made from the faces when the file has none)
   // Normal shared by all vertices at the same position: where edge inflation moves the vertex, so that the
   // seams of split vertices do not open. Unit length.
-  std::vector<glm::vec3> smoothNormals;
-  std::vector<glm::vec2> uv0;  // always there: unfold() makes them when the file has none
-  std::vector<glm::vec2> uv1;  // may be empty
+  mutable std::vector<glm::vec3> smoothNormals;
+  mutable std::vector<glm::vec2> uv0;  // always there: unfold() makes them when the file has none
+  mutable std::vector<glm::vec2> uv1;  // may be empty
   // Coordinates for patterns that need the surface's own extent (MetaTexture), from unfold(). Empty: uv0
   // serves. There where uv0 maps a tenth of the surface or more to points and lines, as atlases of plain
   // colours do, and where it is cut or uneven much more than these are (PatternCoordinates).
-  std::vector<glm::vec2> patternUv;
+  mutable std::vector<glm::vec2> patternUv;
   // Whether patternCoordinates() close on themselves after one unit of u or v, as around a cylinder.
   bool wrapsU = false, wrapsV = false;
   std::vector<glm::u8vec4> colors;  // linear, may be empty
@@ -161,27 +164,27 @@ struct Primitive {
   // Tangent vectors dP/du and dP/dv of patternUv (else uv0) in object space (metres per unit of u and v),
   // area-weighted over the triangles at a vertex. Paper 000 eq. 9 and 10 need |grad_w u| = 1/|dP/du|; carried
   // as vectors they follow any deformation by its stretch. Zero where the mapping is degenerate.
-  std::vector<glm::vec3> dPdu, dPdv;
-  std::vector<uint32_t> indices;  // three a triangle, each < vertexCount()
-  int material = 0;               // index into SceneData::materials (index 0 exists always)
-  bool isPaint = false;           // that is a PaintLayer
+  mutable std::vector<glm::vec3> dPdu, dPdv;
+  mutable std::vector<uint32_t> indices;  // three a triangle, each < vertexCount()
+  int material = 0;                       // index into SceneData::materials (index 0 exists always)
+  bool isPaint = false;                   // that is a PaintLayer
   // Whether its triangles close around what is within, as they are wound: from outside nobody sees a back.
   bool isClosed = false;
   // From the finest to the coarsest (makeLevels); none for what was made to be changed.
   std::vector<DetailLevel> levels;
-  std::vector<uint32_t> levelIndices;
+  mutable std::vector<uint32_t> levelIndices;
   // Skinning: `influences` joints and weights a vertex (0, 4 or 8), vertex-major. Weights sum to one.
   int influences = 0;
   std::vector<uint16_t> joints;
   std::vector<float> weights;
   std::vector<MorphTarget> morphTargets;
   // Vertices that unfold() has added, the last ones: which of the others each of them is.
-  std::vector<uint32_t> addedFrom;
+  mutable std::vector<uint32_t> addedFrom;
   bool generatedUvs = false, generatedNormals = false, ownPattern = false;
   PrimitiveExtent extent;  // extentOf() it
 
   // What it had, where its vertices have been dropped (drop_vertices.h); else 0.
-  size_t droppedVertices = 0, droppedIndices = 0;
+  mutable size_t droppedVertices = 0, droppedIndices = 0;
 
   size_t vertexCount() const { return std::max(positions.size(), droppedVertices); }
   size_t indexCount() const { return std::max(indices.size(), droppedIndices); }
@@ -198,7 +201,7 @@ struct Mesh {
   std::shared_ptr<const Painting> painting = nullptr;
 };
 
-// In double precision: nodes may stand on a planet's surface, and their parents in its middle.
+// Double precision: nodes may stand on a planet's surface, and their parents in its middle.
 struct Transform {
   glm::dvec3 translation{0.0};
   glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
@@ -305,15 +308,14 @@ struct SceneData {
   std::vector<std::string> extensionsUsed, extensionsNotSupported;
   std::vector<std::string> files;     // that its URIs name
   std::vector<std::string> warnings;  // what was ignored or replaced, each once, one line each
-  // The place in the world, in metres, from which the renderer measures: "world" in all rooms behind this one
-  // means from there, so that single precision will do (Scene::origin()). Transforms of nodes know nothing of
-  // it. findOrigin() finds it.
+  // Origin of the scene's coordinates in the world, metres (Scene::origin()): "world" in all modules behind
+  // this one is relative to it. Transforms of nodes are not. Set by findOrigin().
   glm::dvec3 origin{0.0};
   // World space, of what is seen in the rest pose; where that is nothing, while clips play.
   Bounds bounds;
 };
 
-// What the origin makes of nothing: where nodes without a parent hang.
+// Matrix from the world to the scene's coordinates: the parent of nodes without a parent.
 glm::dmat4 worldToOrigin(const SceneData& scene);
 
 // World matrix of every node in the rest pose.

@@ -8,6 +8,7 @@
 namespace scumble::shared {
 using glm::abs;
 using glm::clamp;
+using glm::exp;
 using glm::max;
 using glm::mix;
 using glm::pow;
@@ -17,8 +18,9 @@ using glm::smoothstep;
 
 SHARED_BEGIN
 
-const int kPlain = 0, kBristles = 1, kWash = 2, kSpatter = 3, kLight = 4;  // scene::Brush
-const float kLeastPixels = 0.7f;                                           // between splats
+// scene::Brush
+const int kPlain = 0, kBristles = 1, kWash = 2, kSpatter = 3, kLight = 4, kGaussian = 5;
+const float kLeastPixels = 0.7f;  // between splats
 
 // How far apart splats lie that count, radii. `spacing`: as it is wanted, radii; `pixel`: what a pixel
 // measures there, metres.
@@ -34,9 +36,10 @@ SHARED_FUNCTION float splatFade(float apart, float sine, float own) {
 }
 
 // How opaque a splat is, so that as many as lie over a place together are as opaque as the stroke. Light is
-// added: there it is their sum.
+// added: there it is their sum. A Gaussian is as opaque as it says.
 SHARED_FUNCTION float splatOpacity(int brush, float opacity, float apart) {
   float within = clamp(0.5f * apart, 0.0f, 1.0f), most = clamp(opacity, 0.0f, 0.9995f);
+  if (brush == kGaussian) return most;
   return brush == kLight ? 2.0f * most * within : 1.0f - pow(1.0f - most, within);
 }
 
@@ -83,6 +86,8 @@ SHARED_FUNCTION float brushCovers(int brush, BrushPlace p, float mark, float str
     covers *= dropsAt(p);
   } else if (brush == kLight) {
     covers = soft * soft * soft;
+  } else if (brush == kGaussian) {
+    covers = exp(-2.0f * away * away);  // two standard deviations are its radius
   }
   return covers;
 }

@@ -153,7 +153,7 @@ bool SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, do
   // One pose for each length of time that poses stand: joints and morph weights are held for as long as the
   // material that they move says, whatever the look names as long as it says.
   const std::vector<int> named = namedHolds(scene, knobs.look());
-  // An earlier scene may count from elsewhere.
+  // An earlier scene may have another origin.
   const glm::dmat4 toOrigin = glm::translate(glm::dmat4(1.0), scene.origin - followed_->origin);
   const auto posed = [&](const scene::NodeTimes& times) {
     scene::Pose pose = scene::poseAt(scene, clips, times);

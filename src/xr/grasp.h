@@ -11,7 +11,7 @@ namespace scumble::xr {
 
 class Grasp {
  public:
-  // Where everything is at a moment: the hand, and nodes as clips take them (nodesToWorld()), in the world.
+  // Matrices to the world at a moment: of the hand, and of nodes as clips take them (nodesToWorld()).
   struct Moment {
     glm::dmat4 hand{1.0};
     std::vector<glm::dmat4> world;

@@ -47,8 +47,10 @@ TEST(PlaceOfHeads, aHeadAtACameraSeesWhatTheCameraDoes) {
   viewpoint.eye = {3, 1.5f, -2}, viewpoint.target = {-1, 1.5f, 4}, viewpoint.verticalFov = 50;
   const float ipd = 0.064f;
   const auto wanted = makeViews(scene, viewpoint, 1, Stereo::stereo, ipd);
-  const auto camera = makeViews(scene, viewpoint, 1);
+  auto camera = makeViews(scene, viewpoint, 1);
   ASSERT_TRUE(wanted.ok() && camera.ok());
+  // Far out, a room has the camera's origin.
+  camera->front().origin = {4e6, -2e5, 5e6};
   for (const float scale : {1.0f, 20.0f})
     for (const float eyeHeight : {0.0f, 1.6f}) {
       const Stand stand = standAt(camera->front(), scale, eyeHeight);
@@ -57,6 +59,7 @@ TEST(PlaceOfHeads, aHeadAtACameraSeesWhatTheCameraDoes) {
         const View view =
             viewOf(stand, {{1, 0, 0, 0}, {side, eyeHeight, 0}}, {-0.5f, 0.5f, 0.5f, -0.5f}, 0.05f);
         expectAlike(view.worldToEye, (*wanted)[size_t(eye)].worldToEye, 1e-4f);
+        EXPECT_EQ(view.origin, camera->front().origin);
       }
     }
 }

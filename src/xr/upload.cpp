@@ -45,6 +45,7 @@ struct Upload {
     info.size = bytes.size();
     info.usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
     mustBe(vkCreateBuffer(device, &info, nullptr, &buffer));
+    nameVulkanObject(on, VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(buffer), "headset: on its way");
     VkMemoryRequirements needs;
     vkGetBufferMemoryRequirements(device, buffer, &needs);
     VkPhysicalDeviceMemoryProperties types;
@@ -69,6 +70,8 @@ struct Upload {
     const VkCommandBufferAllocateInfo one{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO, nullptr, pool,
                                           VK_COMMAND_BUFFER_LEVEL_PRIMARY, 1};
     mustBe(vkAllocateCommandBuffers(device, &one, &commands));
+    nameVulkanObject(on, VK_OBJECT_TYPE_COMMAND_BUFFER, reinterpret_cast<uint64_t>(commands),
+                     "headset: upload");
   }
 };
 

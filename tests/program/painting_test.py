@@ -213,6 +213,13 @@ class Fins(Case):
         for (_, y, z), (qx, qy, qz, qw) in zip(of["POSITION"], of["ROTATION"]):
             self.assertTrue(abs(y) < 1e-4 and abs(z) < 1e-4, (y, z))
             self.assertAlmostEqual(abs(1 - 2 * (qy * qy + qz * qz)), 1, 4)
+        # It is drawn, about as the strokes are.
+        for name in ("bird.tilt", "points.glb"):
+            self.good("render", name, "-o", f"{name}.png", *TINY)
+        strokes, points = (self.reds(f"{name}.png") for name in ("bird.tilt", "points.glb"))
+        self.assertGreater(strokes, 20)
+        self.assertLess(abs(points - strokes), 0.25 * strokes, (points, strokes))
+        self.assertEqual(json.loads(self.good("info", "points.glb", "--json"))["points"], len(of["POSITION"]))
 
     def test_parts_have_their_own_numbers(self):
         self.paint()

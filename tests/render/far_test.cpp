@@ -1,5 +1,4 @@
-// What stands far from (0, 0, 0), as georeferenced scenes do, looks as it does near it: places are in double
-// precision until they count from where the scene stands.
+// Scenes far from (0, 0, 0), as georeferenced ones are, look as they do near it.
 #include <algorithm>
 #include <cmath>
 

@@ -325,6 +325,30 @@ TEST_F(Vulkan, theQueueIsShared) {
   EXPECT_TRUE(sameBytes(frame->layers[0].views[0], expected->layers[0].views[0]));
 }
 
+// What frames under way use changes when they are done, whatever else the queue still holds.
+TEST_F(Vulkan, whatTheQueueHoldsOfOthersIsNotWaitedFor) {
+  Program program;
+  const std::unique_ptr<Renderer> renderer = on(program);
+  const VkSemaphore others = program.timeline();
+  const RenderOptions options = sized(kWidth, kHeight);
+  Look look;
+  ASSERT_TRUE(renderer->render(scene, look, 0, views(), options).ok());
+  ASSERT_TRUE(renderer->begin(scene, look, 0, views(), options).ok());
+  VkSemaphoreSubmitInfo wait{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
+  wait.semaphore = others, wait.value = 1, wait.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+  VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
+  submit.waitSemaphoreInfoCount = 1, submit.pWaitSemaphoreInfos = &wait;
+  expectDone(vkQueueSubmit2(program.device.queue, 1, &submit, VK_NULL_HANDLE));
+  // Another texture: sets of descriptors are written.
+  ASSERT_TRUE(look.set("warp.metatexture.example", std::string("strokes")));
+  auto begun =
+      std::async(std::launch::async, [&] { return renderer->begin(scene, look, 0, views(), options); });
+  EXPECT_EQ(begun.wait_for(std::chrono::seconds(60)), std::future_status::ready);
+  program.signal(others, 1);
+  ASSERT_TRUE(begun.get().ok());
+  for (int i = 0; i < 2; ++i) ASSERT_TRUE(renderer->finish().ok());
+}
+
 // An AOV of one view needs what the other does without; and a scene that grows between the frames.
 TEST_F(Vulkan, anAovOfTheSecondViewAlone) {
   Program program;

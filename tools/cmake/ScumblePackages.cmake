@@ -56,7 +56,7 @@ set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "ffmpeg, mesa-vulkan-drivers | vulka
 deb(development libscumble-dev libdevel "painterly renderer (headers and static library)
 scumble paints pictures and films of glTF scenes. These are its headers, its
 static library and a CMake package.")
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${library} (= ${PROJECT_VERSION}), libdraco-dev, libembree-dev, libfmt-dev, libglm-dev, libjpeg62-turbo-dev, libkissfft-dev, libmeshoptimizer-dev, libopenexr-dev, libpng-dev, libvulkan-dev, libwebp-dev, libzip-dev, nlohmann-json3-dev, pkg-config, zlib1g-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${library} (= ${PROJECT_VERSION}), libdraco-dev, libembree-dev, libfmt-dev, libglm-dev, libjpeg62-turbo-dev, libkissfft-dev, libmeshoptimizer-dev, libopenexr-dev, libpng-dev, libtbb-dev, libvulkan-dev, libwebp-dev, libzip-dev, nlohmann-json3-dev, pkg-config, zlib1g-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "cmake, scumble-doc")
 
 deb(documentation scumble-doc doc "painterly renderer (documentation)

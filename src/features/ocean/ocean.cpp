@@ -42,8 +42,8 @@ OceanShape oceanShape(const scene::SceneData& scene, const look::LookData& look)
     if (visible[n] && standsForOcean(scene.nodes[n])) shape.node = int(n);
   if (params.mode == 0 && shape.node < 0) return shape;
   shape.isThere = true;
-  // Without a node it is the world's water, that of (0, 0, 0); yet its waves lie about where the scene counts
-  // from, since so far out they would be too coarse.
+  // The sea level is the world's, and waves lie about the scene's origin: world coordinates are too coarse
+  // far out.
   shape.origin = shape.node >= 0 ? glm::vec3(scene::worldMatrices(scene)[size_t(shape.node)][3])
                                  : glm::vec3(0.0, -scene.origin.y, 0.0);
   shape.origin.y += params.level;

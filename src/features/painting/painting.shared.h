@@ -22,13 +22,16 @@ struct StrokePoint {
   uvec3 vertices;
   vec2 at;     // its part of the second and of the third corner
   float size;  // of that triangle at rest: the square root of twice its area
+  // First axis of a Gaussian, octahedral (the normal is its third one), and its extents along the three axes,
+  // parts of the radius, unorm8.
+  uint axis, shape;
 };
 
 // The same where it is in a frame, world.
 struct PlacedPoint {
   vec3 position;
   float radius;
-  vec3 tangent;  // along the stroke, unit length
+  vec3 tangent;  // along the stroke, or a Gaussian's first axis, unit length
   uint normal;
 };
 

@@ -12,6 +12,7 @@
 #include "tests/support/aov.h"
 #include "tests/support/render_test.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/test_gltf.h"
 
 namespace scumble::painting {
 namespace {
@@ -259,6 +260,177 @@ TEST_P(Paintings, hairsCostNoMoreThanTheyMay) {
   const auto views = viewsFrom(scene, {{0, 0, 4}}, kWidth, kHeight, GetParam());
   const Frame frame = drawn(scene, views);
   for (size_t v = 0; v < viewCount(); ++v) EXPECT_GT(covered(frame, v), 50);
+}
+
+// A file with one Gaussian, or more: `deviations` along the axes of its turn.
+struct TestGaussian {
+  glm::vec3 position{0.0f}, deviations{0.3f};
+  glm::quat turn{1, 0, 0, 0};
+  glm::vec3 shown{0.8f, 0.4f, 0.2f};  // sRGB, 0 to 1
+  float opacity = 0.8f;
+};
+scene::TestGltf gaussianFile(const std::vector<TestGaussian>& gaussians) {
+  scene::TestGltf g;
+  std::vector<float> places, turns, scales, opacities, harmonics;
+  for (const TestGaussian& one : gaussians) {
+    for (int i = 0; i < 3; ++i) {
+      places.push_back(one.position[i]), scales.push_back(one.deviations[i]);
+      harmonics.push_back((one.shown[i] - 0.5f) / 0.28209479f);
+    }
+    for (const float part : {one.turn.x, one.turn.y, one.turn.z, one.turn.w}) turns.push_back(part);
+    opacities.push_back(one.opacity);
+  }
+  const std::string prefix = "KHR_gaussian_splatting:";
+  Json& primitive = g.addMesh({{"POSITION", g.addFloats(places, 3)},
+                               {prefix + "ROTATION", g.addFloats(turns, 4)},
+                               {prefix + "SCALE", g.addFloats(scales, 3)},
+                               {prefix + "OPACITY", g.addFloats(opacities, 1)},
+                               {prefix + "SH_DEGREE_0_COEF_0", g.addFloats(harmonics, 3)}});
+  primitive["mode"] = 0;
+  primitive["extensions"]["KHR_gaussian_splatting"] = {{"kernel", "ellipse"},
+                                                       {"colorSpace", "srgb_rec709_display"}};
+  for (const char* list : {"extensionsUsed", "extensionsRequired"})
+    g.json[list].push_back("KHR_gaussian_splatting");
+  return g;
+}
+Result<Scene> loadedGaussians(const scene::TestGltf& file) {
+  const std::string text = file.gltf();
+  return Scene::loadFromMemory(text.data(), text.size(), "cloud.gltf", "");
+}
+
+// How opaque a Gaussian is at a pixel: that of its ellipse on the screen (the covariance of its axes as they
+// go by), with 0.3 pixels more, as much less opaque as it is larger.
+double gaussianAt(const TestGaussian& one, const glm::dmat4& model, const View& view, int x, int y) {
+  const glm::dmat4 toClip = glm::dmat4(view.eyeToClip) * glm::dmat4(view.worldToEye) * model;
+  const glm::dvec4 clip = toClip * glm::dvec4(one.position, 1);
+  const glm::dmat3 axes = glm::mat3_cast(glm::dquat(one.turn));
+  glm::dmat2 covariance(0.0);
+  for (int i = 0; i < 3; ++i) {
+    const glm::dvec4 along = toClip * glm::dvec4(axes[i] * double(one.deviations[i]), 0);
+    const glm::dvec2 step = (glm::dvec2(along) - glm::dvec2(clip) / clip.w * along.w) / clip.w * 0.5 *
+                            glm::dvec2(kWidth, kHeight);
+    covariance += glm::outerProduct(step, step);
+  }
+  const double own = std::max(glm::determinant(covariance), 0.0);
+  covariance[0][0] += 0.09, covariance[1][1] += 0.09;
+  const glm::dvec2 middle = (glm::dvec2(clip) / clip.w * 0.5 + 0.5) * glm::dvec2(kWidth, kHeight);
+  const glm::dvec2 away = glm::dvec2(x + 0.5, y + 0.5) - middle;
+  return double(one.opacity) * std::sqrt(own / glm::determinant(covariance)) *
+         std::exp(-0.5 * glm::dot(away, glm::inverse(covariance) * away));
+}
+
+TEST_P(Paintings, gaussiansAreTheirEllipses) {
+  const glm::quat aslant = glm::normalize(glm::quat(0.8f, 0.3f, -0.4f, 0.2f));
+  const TestGaussian kinds[] = {
+      {{0, 0, 0}, glm::vec3(0.3f)},                                // round
+      {{0.4f, 0.2f, 0.3f}, {0.5f, 0.1f, 0.2f}, aslant},            // each way another size
+      {{-0.3f, 0.1f, 0}, {0.4f, 0.4f, 0.0f}, aslant},              // flat
+      {{0.2f, -0.4f, 0.5f}, {0.1f, 0.02f, 0.6f}, aslant},          // a needle
+      {{0, 0.3f, 0}, glm::vec3(0.01f), aslant, glm::vec3(1), 1}};  // less than a pixel
+  for (const bool isParallel : {false, true})
+    for (const TestGaussian& one : kinds) {
+      const Result<Scene> scene = loadedGaussians(gaussianFile({one}));
+      ASSERT_TRUE(scene) << scene.error().message();
+      ASSERT_TRUE(scene->warnings().empty()) << scene->warnings()[0];
+      const auto views = isParallel
+                             ? std::vector<View>(viewCount(), parallelView(1.5f, float(kWidth) / kHeight))
+                             : viewsFrom(*scene, {{0.5f, 0.4f, 4}}, kWidth, kHeight, GetParam());
+      const Frame frame = drawn(*scene, views);
+      for (size_t v = 0; v < viewCount(); ++v) {
+        Difference alpha(0.012);
+        for (int y = 0; y < kHeight; ++y)
+          for (int x = 0; x < kWidth; ++x)
+            alpha.add(texel(aov(frame, "painting", v), x, y).a,
+                      gaussianAt(one, glm::dmat4(1.0), views[v], x, y));
+        EXPECT_EQ(alpha.beyond, 0u) << alpha.text() << " of " << one.deviations.x << ", " << isParallel;
+      }
+    }
+}
+
+// Below what turns, mirrors and makes larger, and several in the order of depth.
+TEST_P(Paintings, gaussiansGoWithTheirNodes) {
+  const TestGaussian one{
+      {0.4f, 0.2f, 0.3f}, {0.25f, 0.05f, 0.1f}, glm::normalize(glm::quat(0.8f, 0.3f, -0.4f, 0.2f))};
+  const glm::dmat4 turned = glm::scale(
+      glm::rotate(glm::translate(glm::dmat4(1.0), {0.2, -0.1, 0.3}), 0.7, {0.0, 1.0, 0.2}), glm::dvec3(1.5));
+  for (const double side : {1.0, -1.0}) {
+    const glm::dmat4 model = glm::scale(turned, glm::dvec3(side, 1, 1));
+    scene::TestGltf file = gaussianFile({one});
+    file.json["nodes"][0]["matrix"] = std::vector<double>(&model[0][0], &model[0][0] + 16);
+    const Result<Scene> scene = loadedGaussians(file);
+    ASSERT_TRUE(scene) << scene.error().message();
+    const auto views = viewsFrom(*scene, {{0.5f, 0.4f, 4}}, kWidth, kHeight, GetParam());
+    const Frame frame = drawn(*scene, views);
+    for (size_t v = 0; v < viewCount(); ++v) {
+      Difference alpha(0.015);
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x)
+          alpha.add(texel(aov(frame, "painting", v), x, y).a, gaussianAt(one, model, views[v], x, y));
+      EXPECT_EQ(alpha.beyond, 0u) << alpha.text() << " " << side;
+    }
+  }
+  TestGaussian near{{0, 0, 1}, glm::vec3(0.3f), {1, 0, 0, 0}, {1, 0, 0}, 1}, far = near;
+  far.position.z = -1, far.shown = {0, 0, 1};
+  for (const bool isFirst : {false, true}) {
+    const auto file = isFirst ? gaussianFile({near, far}) : gaussianFile({far, near});
+    const Result<Scene> scene = loadedGaussians(file);
+    const auto views = viewsFrom(*scene, {{0, 0, 5}}, kWidth, kHeight, GetParam());
+    const Frame frame = drawn(*scene, views);
+    for (size_t v = 0; v < viewCount(); ++v) {
+      const glm::dvec2 at = pixelOf(views[v], {0, 0, 1});
+      const glm::dvec4 there = texel(aov(frame, "painting", v), int(at.x), int(at.y));
+      EXPECT_GT(there.r, 0.9) << "the nearer one lies above";
+      EXPECT_LT(there.b, 0.05);
+    }
+  }
+}
+
+TEST(Gaussians, areReadAsTheExtensionHasThem) {
+  const TestGaussian one{{1, 2, 3}, {0.1f, 0.4f, 0.2f}, {0, 1, 0, 0}, {0.5f, 1, 0}, 0.25f};
+  const Result<Scene> scene = loadedGaussians(gaussianFile({one, one}));
+  ASSERT_TRUE(scene) << scene.error().message();
+  const scene::Painting& painting = *scene->data().meshes[0]->painting;
+  ASSERT_EQ(painting.strokes.size(), 2u);
+  EXPECT_EQ(painting.strokes[1].brush, scene::Brush::gaussian);
+  const scene::StrokePoint& point = painting.points[1];
+  EXPECT_FLOAT_EQ(point.radius, 0.8f);
+  EXPECT_LT(glm::distance(point.shape, glm::vec3(0.25f, 1, 0.5f)), 1e-6f);
+  EXPECT_NEAR(point.color.r, 0.2140411, 1e-6);
+  EXPECT_FLOAT_EQ(point.color.a, 0.25f);
+  scene::TestGltf linear = gaussianFile({one});
+  linear.json["meshes"][0]["primitives"][0]["extensions"]["KHR_gaussian_splatting"]["colorSpace"] =
+      "lin_rec709_display";
+  EXPECT_FLOAT_EQ(loadedGaussians(linear)->data().meshes[0]->painting->points[0].color.r, 0.5f);
+  // What is missing or of another count is an error that names it; what is unknown is a warning.
+  for (const char* name : {"ROTATION", "SCALE", "OPACITY", "SH_DEGREE_0_COEF_0"}) {
+    scene::TestGltf broken = gaussianFile({one});
+    Json& attributes = broken.json["meshes"][0]["primitives"][0]["attributes"];
+    attributes.erase(std::string("KHR_gaussian_splatting:") + name);
+    const Result<Scene> missing = loadedGaussians(broken);
+    ASSERT_FALSE(missing) << name;
+    EXPECT_NE(missing.error().message().find(name), std::string::npos) << missing.error().message();
+    scene::TestGltf longer = gaussianFile({one});
+    const size_t count = std::string(name) == "ROTATION" ? 4 : std::string(name) == "OPACITY" ? 1 : 3;
+    const int two = longer.addFloats(std::vector<float>(2 * count, 0.5f), int(count));
+    longer.json["meshes"][0]["primitives"][0]["attributes"][std::string("KHR_gaussian_splatting:") + name] =
+        two;
+    EXPECT_FALSE(loadedGaussians(longer)) << name;
+  }
+  scene::TestGltf round = gaussianFile({one});
+  Json& primitive = round.json["meshes"][0]["primitives"][0];
+  primitive["extensions"]["KHR_gaussian_splatting"]["kernel"] = "disc";
+  primitive["attributes"]["KHR_gaussian_splatting:SH_DEGREE_1_COEF_0"] =
+      primitive["attributes"]["KHR_gaussian_splatting:SH_DEGREE_0_COEF_0"];
+  const Result<Scene> plain = loadedGaussians(round);
+  ASSERT_TRUE(plain) << plain.error().message();
+  EXPECT_EQ(plain->warnings().size(), 2u);
+  // Numbers that are none leave their Gaussian out.
+  TestGaussian nowhere = one;
+  nowhere.deviations = glm::vec3(0);
+  const Result<Scene> left = loadedGaussians(gaussianFile({one, nowhere}));
+  ASSERT_TRUE(left) << left.error().message();
+  EXPECT_EQ(left->data().meshes[0]->painting->points.size(), 1u);
+  EXPECT_EQ(left->warnings().size(), 1u);
 }
 
 // What does not count at a distance is every second splat, then all but every fourth, and so on; there is one

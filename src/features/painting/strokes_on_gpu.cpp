@@ -154,6 +154,8 @@ bool StrokesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader,
         point.position = from.position;
         point.radius = from.radius;
         point.normal = encodeNormal(from.orientation * glm::vec3(0, 0, 1));
+        point.axis = encodeNormal(from.orientation * glm::vec3(1, 0, 0));
+        point.shape = glm::packUnorm4x8(glm::vec4(from.shape, 0));
         point.color = packColor(from.color);
         point.time = from.time;
         point.order = float(s + 1) / float(painting.strokes.size());
@@ -163,7 +165,8 @@ bool StrokesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader,
                       (i == last ? shared::kLastOfStroke : 0) | uint32_t(stroke.brush) << 8 | chance << 16;
         point.object = uint32_t(p);
         point.vertices = glm::uvec3(shared::kUnbound);
-        if (bindings) {
+        // Gaussians lie in space: what they show has an extent of its own.
+        if (bindings && stroke.brush != scene::Brush::gaussian) {
           const PointBinding& binding = (*bindings)[i];
           point.position = binding.offset;
           point.normal = encodeNormal({0, 0, 1});  // as the surface faces

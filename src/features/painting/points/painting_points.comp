@@ -28,12 +28,12 @@ mat3 frameOf(StrokePoint point, out vec3 foot, out float scale) {
 }
 
 struct Place {
-  vec3 position, normal;
+  vec3 position, normal, axis;
   float scale;
 };
 Place placeOf(uint i) {
   StrokePoint point = points[i];
-  vec3 normal = decodeNormal(unpackSnorm2x16(point.normal));
+  vec3 normal = decodeNormal(unpackSnorm2x16(point.normal)), axis = decodeNormal(unpackSnorm2x16(point.axis));
   Place place;
   if (point.vertices.x == kUnbound) {
     mat4 matrix = matrices[point.object];
@@ -42,11 +42,13 @@ Place placeOf(uint i) {
     place.scale = pow(abs(determinant(linear)), 1.0 / 3.0);
     // As if it only turned: a brush's own direction does not bend with what it paints.
     place.normal = linear * normal;
+    place.axis = linear * axis;
   } else {
     vec3 foot;
     mat3 axes = frameOf(point, foot, place.scale);
     place.position = foot + place.scale * (axes * point.position);
     place.normal = axes * normal;
+    place.axis = axes * axis;
   }
   return place;
 }
@@ -58,7 +60,7 @@ void main() {
   uint flags = points[i].flags;
   vec3 before = (flags & kFirstOfStroke) != 0u ? here.position : placeOf(i - 1u).position;
   vec3 after = (flags & kLastOfStroke) != 0u ? here.position : placeOf(i + 1u).position;
-  vec3 tangent = after - before;
+  vec3 tangent = int(flags >> 8 & 255u) == kGaussian ? here.axis : after - before;
   float size = dot(tangent, tangent);
   placed[i] = PlacedPoint(here.position, points[i].radius * here.scale * u.width,
                           size > 1e-30 ? tangent * inversesqrt(size) : vec3(1.0, 0.0, 0.0),

@@ -26,7 +26,7 @@ void main() {
   float opacity = unpackUnorm4x8(point.color).a * u.opacity;
   int brush = int(point.flags >> 8 & 255u);
   bool isThere = (!isLast || isSingle) && point.time <= u.until && opacity >= kLeastOpacity &&
-                 (brush == kPlain || brush == kBristles) && max(a.radius, b.radius) > 0.0;
+                 (brush == kPlain || brush == kBristles || brush == kGaussian) && max(a.radius, b.radius) > 0.0;
   if (!isThere) return;
   vec3 toLight = frame.toLight;
   vec3 right = normalize(cross(abs(toLight.y) > 0.99 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0), toLight));
