@@ -202,7 +202,7 @@ Status OutputPlan::writeLayeredExr(const Frame& frame, size_t file, const std::s
   return writeLayers(frame, path_, layers);
 }
 
-Result<FilmOutput> FilmOutput::create(const OutputPlan& plan) {
+Result<FilmOutput> FilmOutput::create(const OutputPlan& plan, bool resume, size_t asked) {
   FilmOptions options;
   options.width = plan.width, options.height = plan.height;
   options.fps = plan.fps;
@@ -216,8 +216,19 @@ Result<FilmOutput> FilmOutput::create(const OutputPlan& plan) {
     options.layout = plan.layout->film;
   }
   for (const std::string& path : plan.picturePaths(plan.path)) {
-    Result<std::unique_ptr<FilmWriter>> film = FilmWriter::create(path, options);
+    Result<std::unique_ptr<FilmWriter>> film =
+        resume ? FilmWriter::resume(path, options) : FilmWriter::create(path, options);
     if (!film) return film.error();
+    const size_t frames = (*film)->frames();
+    if (frames > asked)
+      return Error{ErrorKind::usage,
+                   path,
+                   0,
+                   "",
+                   "this film cannot be resumed: it has " + std::to_string(frames) + " frames, and " +
+                       std::to_string(asked) + " are asked for",
+                   "give the --frames that it was made with, or another name, or delete it"};
+    output.frames_ = output.films_.empty() ? frames : std::min(output.frames_, frames);
     output.films_.push_back(std::move(film).value());
   }
   return output;
@@ -225,11 +236,14 @@ Result<FilmOutput> FilmOutput::create(const OutputPlan& plan) {
 
 Status FilmOutput::add(const Frame& frame, int number) {
   Image made;
-  for (size_t i = 0; i < films_.size(); ++i)
+  for (size_t i = 0; i < films_.size(); ++i) {
+    if (films_[i]->frames() > frames_) continue;
     if (const Status status =
             films_[i]->add(plan_.imageOf(frame.layers[0], plan_.partOf(frame, i, number), made));
         !status)
       return status.error();
+  }
+  ++frames_;
   return Done{};
 }
 

@@ -80,13 +80,18 @@ struct OutputPlan {
 // A film, or two where each eye has its own.
 class FilmOutput {
  public:
-  static Result<FilmOutput> create(const OutputPlan& plan);
+  // `resume`: goes on with what is there. Fails with usage where that is more than `asked` frames.
+  static Result<FilmOutput> create(const OutputPlan& plan, bool resume, size_t asked);
+  // How many frames it has, with those that were there.
+  size_t frames() const { return frames_; }
+  // Takes the next frame.
   Status add(const Frame& frame, int number);
   Status finish();
 
  private:
   OutputPlan plan_;
   std::vector<std::unique_ptr<FilmWriter>> films_;
+  size_t frames_ = 0;  // in all of them: of two that were there, one may have had more
 };
 
 }  // namespace scumble::app

@@ -101,7 +101,7 @@ Result<std::vector<int>> frameNumbers(const RenderArguments& args, const OutputP
   } else {
     numbers = parseFrames(args.frames).value();
   }
-  if (args.resume || args.missing)
+  if ((args.resume || args.missing) && output.kind() != OutputKind::film)
     std::erase_if(numbers, [&](int number) { return output.isThere(output.framePath(number)); });
   return numbers;
 }
@@ -214,8 +214,10 @@ Result<RenderPlan> planRender(RenderArguments args) {
       return usage("several frames cannot go into one '" + output->path + "'",
                    "name it like picture.####.png, or picture.mp4");
   }
-  if (isFilm && (args.resume || args.missing))
-    return usage(args.resume ? "a film cannot be resumed" : "a film is there, whole, or not at all",
+  const bool isGif = isFilm && output->format->film == FilmFormat::gif;
+  if ((isFilm && args.missing) || (isGif && args.resume))
+    return usage(args.missing ? "--missing looks for files of frames, and a film is one file"
+                              : "a GIF cannot be resumed; .mp4 and .webm can",
                  "write name.####.png, then make the film of those with `scumble film`");
   if (const Status status = checkFps(args.fps); !status) return status.error();
   if (!(std::abs(args.time.value_or(0)) < Renderer::kMaxTime))
@@ -341,7 +343,8 @@ void RenderArguments::addTo(CLI::App& command) {
 }
 
 void RenderArguments::addCallTo(CLI::App& command) {
-  command.add_flag("--resume", resume, "Leave out frames whose files are there, whole");
+  command.add_flag("--resume", resume,
+                   "Leave out frames whose files are there, whole, or that a film has (.mp4, .webm)");
   command.add_flag(
       "--missing", missing,
       "Draw nothing: name the frames whose files are not there, whole (exit code 3 where there are any)");

@@ -60,7 +60,7 @@ struct RenderPlan {
   Look look;
   Scene scene;
   std::vector<View> views;   // of all frames, unless they move
-  std::vector<int> numbers;  // of the frames to draw; none for a single picture
+  std::vector<int> numbers;  // of the frames to draw, with those that a film has; none for a single picture
   bool isPicture = false;    // a single one, at `args.time`
 
   bool isFilm() const { return output.kind() == OutputKind::film; }

@@ -92,6 +92,17 @@ int run(const RenderArguments& args) {
   if (!plan) return fail(plan.error());
   if (args.missing) return nameMissing(*plan);
   lap("sceneMilliseconds");
+  const OutputPlan& output = plan->output;
+  const size_t asked = plan->numbers.size();
+  std::optional<FilmOutput> film;
+  if (plan->isFilm()) {
+    Result<FilmOutput> created = FilmOutput::create(output, args.resume, asked);
+    if (!created) return fail(created.error());
+    film = std::move(created).value();
+    plan->numbers.erase(plan->numbers.begin(), plan->numbers.begin() + std::ptrdiff_t(film->frames()));
+    if (plan->numbers.empty() && !args.quiet)
+      std::fprintf(stderr, "scumble: %s has all of its %zu frames\n", output.path.c_str(), asked);
+  }
   const std::vector<double> times = plan->times();
   std::unique_ptr<Renderer> renderer;
   // What is there already needs no device.
@@ -103,13 +114,6 @@ int run(const RenderArguments& args) {
   lap("deviceMilliseconds");
 
   // Draw, and write beside it: pictures on several threads, a film in order.
-  const OutputPlan& output = plan->output;
-  std::optional<FilmOutput> film;
-  if (plan->isFilm()) {
-    Result<FilmOutput> created = FilmOutput::create(output);
-    if (!created) return fail(created.error());
-    film = std::move(created).value();
-  }
   Progress progress(int(times.size()), args.quiet);
   const int writers = film ? 1 : int(std::clamp(std::thread::hardware_concurrency() / 2, 1u, kMostWriters));
   FrameWriter writer(
@@ -137,7 +141,7 @@ int run(const RenderArguments& args) {
   // What has been drawn is kept, whatever came after it.
   if (const Status written = writer.finish(); status && !written) status = written;
   const bool isCut = film && Interruption::came() && frames.size() < times.size();
-  if (isCut && frames.empty()) {
+  if (isCut && film->frames() == 0) {
     std::fprintf(stderr, "scumble: ended by %s before the first frame\n", Interruption::name());
     return Interruption::exitCode();
   }
@@ -145,7 +149,7 @@ int run(const RenderArguments& args) {
   if (!status) return fail(status.error());
   if (isCut)
     std::fprintf(stderr, "scumble: ended by %s: %s holds %zu of %zu frames\n", Interruption::name(),
-                 output.path.c_str(), frames.size(), times.size());
+                 output.path.c_str(), film->frames(), asked);
   const double rendering = millisecondsSince(lapStart);
 
   if (!args.stats.empty())

@@ -63,15 +63,25 @@ struct FilmOptions {
 // The same pictures give the same bytes with one version of ffmpeg, whatever the number of processors.
 //
 // ffmpeg is looked for on the PATH and runs as a child process until finish(), or until the writer is
-// destroyed. No signal state of this process is changed. One writer is used by one thread at a time; several
-// writers are independent.
+// destroyed; resume() also needs ffprobe. No signal state of this process is changed. One writer is used by
+// one thread at a time; several writers are independent.
 class SCUMBLE_API FilmWriter {
  public:
   // Fails with ErrorKind::usage for options that make no sense, and with ErrorKind::outputNotWritten where
   // the file cannot be written or ffmpeg cannot be started.
   static Result<std::unique_ptr<FilmWriter>> create(const std::string& path, const FilmOptions& options);
 
-  // An unfinished film leaves nothing behind.
+  // Goes on with the film that is at `path`, an MP4 or a WebM: what is added follows its pictures, which are
+  // kept as they are encoded. It stays as it was until finish() has succeeded. Where there is none, this is
+  // create(). Fails with ErrorKind::usage, too, where that film is not what these options write: where it has
+  // another codec, size, frame rate, layout or projection, and an MP4 also where it has another quality or
+  // comes from another version of the encoder. An MP4 costs the encoding of one picture.
+  static Result<std::unique_ptr<FilmWriter>> resume(const std::string& path, const FilmOptions& options);
+
+  // How many pictures the film has: those that were there and those that have been added.
+  uint64_t frames() const;
+
+  // An unfinished film leaves nothing behind, and what was there before as it was.
   ~FilmWriter();
   FilmWriter(const FilmWriter&) = delete;
   FilmWriter& operator=(const FilmWriter&) = delete;
@@ -81,12 +91,15 @@ class SCUMBLE_API FilmWriter {
   // the film is lost, and every later call gives the same error.
   Status add(const Image& picture);
 
-  // Ends the film and puts the file in its place. A film needs at least one picture.
+  // Ends the film and puts the file in its place. A film needs at least one picture; one that is gone on with
+  // and gets no more is left as it is.
   Status finish();
 
  private:
   struct State;
   explicit FilmWriter(std::unique_ptr<State> state);
+  static Result<std::unique_ptr<FilmWriter>> make(const std::string& path, const FilmOptions& options,
+                                                  bool goesOn);
 
   std::unique_ptr<State> state_;
 };

@@ -18,16 +18,6 @@ namespace {
 
 constexpr size_t kKept = 8 << 10;  // of what it says
 
-// Out of the way of the numbers that descriptors get in the child.
-int moveUp(int descriptor) {
-  if (descriptor < 0) return descriptor;
-  const int moved = fcntl(descriptor, F_DUPFD_CLOEXEC, ChildProcess::kPassed + 1);
-  const int code = errno;
-  close(descriptor);
-  errno = code;
-  return moved;
-}
-
 void closeIfOpen(int& descriptor) {
   if (descriptor >= 0) close(descriptor);
   descriptor = -1;
@@ -46,7 +36,8 @@ ChildProcess::~ChildProcess() {
   closeIfOpen(errors_);
 }
 
-int ChildProcess::start(const std::vector<std::string>& command, int passed, Output output) {
+int ChildProcess::start(const std::vector<std::string>& command, const std::vector<int>& passed,
+                        Output output) {
   // Descriptors: ours, and the child's ends of them.
   int pair[2] = {-1, -1}, stream[2] = {-1, -1}, result[2] = {-1, -1};
   int code = 0;
@@ -56,14 +47,20 @@ int ChildProcess::start(const std::vector<std::string>& command, int passed, Out
   input_ = pair[0];
   output_ = result[0];
   errors_ = stream[0];
+  // Out of the way of the numbers that descriptors get in the child.
+  const auto copied = [&](int descriptor) {
+    const int up = fcntl(descriptor, F_DUPFD_CLOEXEC, kPassed + int(passed.size()));
+    if (up < 0 && code == 0) code = errno;
+    return up;
+  };
   const auto moved = [&](int descriptor) {
-    const int up = descriptor < 0 ? -1 : moveUp(descriptor);
-    if (descriptor >= 0 && up < 0 && code == 0) code = errno;
+    const int up = descriptor < 0 ? -1 : copied(descriptor);
+    closeIfOpen(descriptor);
     return up;
   };
   int childInput = moved(pair[1]), childErrors = moved(stream[1]), childOutput = moved(result[1]);
-  int childPassed = passed < 0 ? -1 : fcntl(passed, F_DUPFD_CLOEXEC, kPassed + 1);
-  if (passed >= 0 && childPassed < 0 && code == 0) code = errno;
+  std::vector<int> childPassed;
+  for (const int descriptor : passed) childPassed.push_back(copied(descriptor));
 
   // The child.
   if (code == 0) {
@@ -77,7 +74,8 @@ int ChildProcess::start(const std::vector<std::string>& command, int passed, Out
     else
       posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, childErrors, STDERR_FILENO);
-    if (childPassed >= 0) posix_spawn_file_actions_adddup2(&actions, childPassed, kPassed);
+    for (size_t i = 0; i < childPassed.size(); ++i)
+      posix_spawn_file_actions_adddup2(&actions, childPassed[i], kPassed + int(i));
     // A group of its own: Ctrl-C is for us, and what becomes of the child is our decision.
     sigset_t none, pipe;
     sigemptyset(&none);
@@ -99,7 +97,7 @@ int ChildProcess::start(const std::vector<std::string>& command, int passed, Out
   closeIfOpen(childInput);
   closeIfOpen(childErrors);
   closeIfOpen(childOutput);
-  closeIfOpen(childPassed);
+  for (int& descriptor : childPassed) closeIfOpen(descriptor);
   return code;
 }
 
@@ -144,6 +142,15 @@ size_t ChildProcess::receive(void* bytes, size_t size) {
       closeIfOpen(output_);
   }
   return received;
+}
+
+std::string ChildProcess::receiveRest() {
+  std::string all;
+  for (char part[1 << 16];;) {
+    const size_t count = receive(part, sizeof part);
+    all.append(part, count);
+    if (count < sizeof part) return all;
+  }
 }
 
 std::string ChildProcess::finish() {

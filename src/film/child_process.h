@@ -12,7 +12,7 @@ namespace scumble::film {
 
 class ChildProcess {
  public:
-  static constexpr int kPassed = 3;  // the child's number of the descriptor that it is given
+  static constexpr int kPassed = 3;  // the child's number of the first descriptor that it is given
   enum class Output { discarded, received };
 
   ChildProcess() = default;
@@ -21,15 +21,18 @@ class ChildProcess {
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   // command[0] is looked for on the PATH; no shell is involved. Signals from the terminal do not reach the
-  // child. `passed`: a descriptor that it is given, or -1. Returns 0 or the reason why not (ENOENT: there is
-  // no such program).
-  int start(const std::vector<std::string>& command, int passed, Output output = Output::discarded);
+  // child. `passed`: descriptors that it is given, as kPassed and the numbers after that. Returns 0 or the
+  // reason why not (ENOENT: there is no such program).
+  int start(const std::vector<std::string>& command, const std::vector<int>& passed,
+            Output output = Output::discarded);
 
   // Waits until the child has taken all of it; false when it takes no more.
   bool send(const void* bytes, size_t size);
 
   // Waits for so many bytes of its standard output; fewer come only where that ends.
   size_t receive(void* bytes, size_t size);
+  // Waits for all that is left of it.
+  std::string receiveRest();
 
   // Ends the child's input and waits for its end. Empty if it succeeded, otherwise how it ended ("ended with
   // code 1"). A host that ignores SIGCHLD makes every end a success.

@@ -18,7 +18,7 @@ namespace {
 constexpr int kThreads = 8;
 
 constexpr FormatFacts kFacts[] = {
-    {"libx264", 16, 51, 1000}, {"libvpx-vp9", 20, 63, 1000}, {"gif", -1, -1, 50}};
+    {"libx264", "h264", 16, 51, 1000}, {"libvpx-vp9", "vp9", 20, 63, 1000}, {"gif", "gif", -1, -1, 50}};
 
 void append(std::vector<std::string>& to, const std::vector<std::string>& words) {
   to.insert(to.end(), words.begin(), words.end());
@@ -51,7 +51,7 @@ std::vector<std::string> mp4Words(const FilmOptions& options, int quality) {
   return words;
 }
 
-std::vector<std::string> webmWords(const FilmOptions& options, int quality) {
+std::vector<std::string> webmWords(int quality) {
   // Constant quality alone: without a bit rate of 0 it would be a limit.
   std::vector<std::string> words{"-c:v",          "libvpx-vp9",
                                  "-crf",          std::to_string(quality),
@@ -63,10 +63,6 @@ std::vector<std::string> webmWords(const FilmOptions& options, int quality) {
                                  "-pix_fmt",      "yuv420p",
                                  "-threads",      std::to_string(kThreads)};
   append(words, kColors);
-  // The muxer makes its StereoMode of it; the index goes in front, so that films play while they load.
-  if (options.layout == FilmLayout::sideBySide) append(words, {"-metadata:s:v:0", "stereo_mode=left_right"});
-  if (options.layout == FilmLayout::overUnder) append(words, {"-metadata:s:v:0", "stereo_mode=top_bottom"});
-  append(words, {"-cues_to_front", "1"});
   return words;
 }
 
@@ -103,16 +99,20 @@ const FormatFacts& factsOf(FilmFormat format) {
   return kFacts[size_t(format)];
 }
 
-EyeSize eyeSizeOf(const FilmOptions& options) {
+PixelSize eyeSizeOf(const FilmOptions& options) {
   return {options.layout == FilmLayout::sideBySide ? options.width / 2 : options.width,
           options.layout == FilmLayout::overUnder ? options.height / 2 : options.height};
+}
+
+PixelSize storedSizeOf(const FilmOptions& options) {
+  if (options.format == FilmFormat::gif) return {options.width, options.height};
+  return {(options.width + 1) & ~1u, (options.height + 1) & ~1u};
 }
 
 std::vector<std::string> encoderArguments(const FilmOptions& options) {
   const bool isGif = options.format == FilmFormat::gif;
   const FrameRate rate = frameRateOf(options.fps);
-  const uint32_t width = isGif ? options.width : (options.width + 1) & ~1u,
-                 height = isGif ? options.height : (options.height + 1) & ~1u;
+  const auto [width, height] = storedSizeOf(options);
   std::vector<std::string> words{"-f", "rawvideo", "-pixel_format", isGif ? "rgb24" : "yuv420p"};
   if (!isGif) append(words, {"-color_range", "tv"});
   append(words, {"-video_size", fmt::format("{}x{}", width, height), "-framerate",
@@ -121,11 +121,25 @@ std::vector<std::string> encoderArguments(const FilmOptions& options) {
   append(words, {"-map_metadata", "-1"});
   const int quality = options.quality.value_or(factsOf(options.format).defaultQuality);
   append(words, options.format == FilmFormat::mp4    ? mp4Words(options, quality)
-                : options.format == FilmFormat::webm ? webmWords(options, quality)
+                : options.format == FilmFormat::webm ? webmWords(quality)
                                                      : gifWords());
+  append(words, {"-flags:v", "+bitexact"});
+  append(words, containerArguments(options));
+  return words;
+}
+
+std::vector<std::string> containerArguments(const FilmOptions& options) {
+  std::vector<std::string> words;
+  if (options.format == FilmFormat::webm) {
+    // The muxer makes its StereoMode of it; the index goes in front, so that films play while they load.
+    if (options.layout == FilmLayout::sideBySide)
+      append(words, {"-metadata:s:v:0", "stereo_mode=left_right"});
+    if (options.layout == FilmLayout::overUnder) append(words, {"-metadata:s:v:0", "stereo_mode=top_bottom"});
+    append(words, {"-cues_to_front", "1"});
+  }
   // No dates and no version of the container's writer.
   constexpr const char* kContainers[] = {"mp4", "webm", "gif"};
-  append(words, {"-fflags", "+bitexact", "-flags:v", "+bitexact", "-f", kContainers[size_t(options.format)]});
+  append(words, {"-fflags", "+bitexact", "-f", kContainers[size_t(options.format)]});
   return words;
 }
 

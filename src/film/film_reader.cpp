@@ -11,7 +11,6 @@
 #include <system_error>
 
 #include "base/file_bytes.h"
-#include "base/numbers.h"
 #include "base/pixels.h"
 #include "base/srgb.h"
 #include "film/child_process.h"
@@ -26,30 +25,6 @@ using film::ChildProcess;
 constexpr double kRounding = 1e-3;   // seconds that containers are off
 constexpr size_t kReadOn = 200;      // pictures that are read and dropped rather than starting anew
 constexpr double kUnknownRate = 25;  // frames a second, where a film says nothing about time
-
-// The value of "key=..." in a line whose fields are parted by '|'; empty where there is none.
-std::string field(std::string_view line, std::string_view key) {
-  while (!line.empty()) {
-    const size_t end = std::min(line.find('|'), line.size());
-    const std::string_view item = line.substr(0, end);
-    if (item.size() > key.size() && item.starts_with(key) && item[key.size()] == '=')
-      return std::string(item.substr(key.size() + 1));
-    line.remove_prefix(std::min(end + 1, line.size()));
-  }
-  return "";
-}
-
-std::optional<double> number(const std::string& text) {
-  const std::optional<NumberAtStart> found = numberAtStart(text);
-  return found ? std::optional(found->value) : std::nullopt;
-}
-
-// "24000/1001"; 0 where it is none.
-double fraction(const std::string& text) {
-  const size_t slash = text.find('/');
-  const double below = slash == std::string::npos ? 1 : number(text.substr(slash + 1)).value_or(0);
-  return below > 0 ? number(text).value_or(0) / below : 0;
-}
 
 }  // namespace
 
@@ -109,14 +84,9 @@ Status FilmReader::State::probe() {
   const int code = ffprobe.start(
       {"ffprobe", "-v", "error", "-protocol_whitelist", "file", "-select_streams", "v:0", "-show_entries",
        "packet=pts_time,flags:stream=height,color_space,avg_frame_rate", "-of", "compact", fileName()},
-      -1, ChildProcess::Output::received);
+      {}, ChildProcess::Output::received);
   if (code != 0) return notStarted(code);
-  std::string list;
-  for (char part[1 << 16];;) {
-    const size_t count = ffprobe.receive(part, sizeof part);
-    list.append(part, count);
-    if (count < sizeof part) break;
-  }
+  const std::string list = ffprobe.receiveRest();
   if (const std::string how = ffprobe.finish(); !how.empty()) return notRead(ffprobe, how);
 
   // A line for each packet, which is a picture, and one for the film.
@@ -128,17 +98,17 @@ Status FilmReader::State::probe() {
     const std::string_view line(list.data() + at, end - at);
     at = end + 1;
     if (line.starts_with("packet|")) {
-      if (field(line, "flags").find('D') != std::string::npos) continue;  // decoded, and not shown
-      const std::optional<double> time = number(field(line, "pts_time"));
+      if (film::field(line, "flags").find('D') != std::string::npos) continue;  // decoded, and not shown
+      const std::optional<double> time = film::number(film::field(line, "pts_time"));
       areKnown &= time.has_value();
       times.push_back(time.value_or(0));
     } else if (line.starts_with("stream|")) {
       isStream = true;
-      if (const double known = fraction(field(line, "avg_frame_rate")); known > 0) rate = known;
+      if (const double known = film::fraction(film::field(line, "avg_frame_rate")); known > 0) rate = known;
       // As players do where a film does not say: small ones are television's.
-      const std::string space = field(line, "color_space");
+      const std::string space = film::field(line, "color_space");
       if (space.empty() || space == "unknown" || space == "reserved")
-        matrix = number(field(line, "height")).value_or(0) >= 720 ? ":in_color_matrix=bt709" : "";
+        matrix = film::number(film::field(line, "height")).value_or(0) >= 720 ? ":in_color_matrix=bt709" : "";
     }
   }
   if (!isStream || times.empty())
@@ -167,7 +137,7 @@ Status FilmReader::State::start(size_t first) {
        "file,pipe", "-i",           fileName(), "-map",       "0:v:0",     "-vf",   chosen + filter,
        "-fps_mode", "passthrough",  "-f",       "image2pipe", "-c:v",      "ppm",   "-pix_fmt",
        "rgb24",     "pipe:1"},
-      -1, ChildProcess::Output::received);
+      {}, ChildProcess::Output::received);
   return code == 0 ? Status(Done{}) : Status(notStarted(code));
 }
 

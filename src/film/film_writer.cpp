@@ -1,21 +1,14 @@
 // Films. ffmpeg gets raw frames (made here, so that colours are the same with every version of it) on its
-// standard input, and writes into a file without a name, so that no kill of any process leaves one. From that
-// file the film is put together.
+// standard input, and writes into a file without a name. From that file, and from what an earlier call has
+// left, the film is put together.
 #include <fmt/format.h>
-#include <signal.h>
-#include <string.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <filesystem>
 #include <optional>
-#include <system_error>
 
-#include "base/passing_file.h"
 #include "base/whole_file.h"
 #include "film/checks.h"
-#include "film/child_process.h"
-#include "film/ffmpeg.h"
+#include "film/earlier_film.h"
+#include "film/ffmpeg_run.h"
 #include "film/film_format.h"
 #include "scumble/film.h"
 
@@ -42,91 +35,43 @@ std::string problemWith(const FilmOptions& options) {
   if (options.layout == FilmLayout::overUnder && options.height % 2 != 0)
     return "two eyes over each other need an even height";
   // A column or row more would move its middle.
-  const film::EyeSize eye = film::eyeSizeOf(options);
+  const film::PixelSize eye = film::eyeSizeOf(options);
   if (options.projection != FilmProjection::flat && (eye.width % 2 != 0 || eye.height % 2 != 0))
     return "a panorama's film needs an even width and height";
   return "";
-}
-
-std::vector<std::string> ffmpegCommand(const FilmOptions& options) {
-  std::vector<std::string> command{"ffmpeg",    "-hide_banner", "-nostdin", "-nostats",
-                                   "-loglevel", "error",        "-y"};
-  for (std::string& word : film::encoderArguments(options)) command.push_back(std::move(word));
-  command.push_back(fmt::format("/proc/self/fd/{}", film::ChildProcess::kPassed));
-  return command;
 }
 
 }  // namespace
 
 struct FilmWriter::State {
   State(const std::string& path_, const FilmOptions& options_)
-      : path(path_), options(options_), file(path_) {}
-  ~State() {
-    if (scratch >= 0) close(scratch);
-  }
+      : path(path_), options(options_), file(path_), encoder(path_, options_.format) {}
 
   Status start();
   Status add(const Image& picture);
   Status finish();
 
   Error usage(std::string problem) const { return {ErrorKind::usage, path, 0, "", std::move(problem), ""}; }
-  Error lost(std::string problem, std::string advice);
-  Error encoderFailed(const std::string& how);
-  std::string writeSequence() const {
-    return "write " + std::filesystem::path(path).stem().string() + ".####.png";
-  }
-
-  const char* encoder() const { return film::factsOf(options.format).encoder; }
+  Error lost(Error error);
+  uint64_t framesBefore() const { return earlier ? earlier->frames() : 0; }
 
   std::string path;
   FilmOptions options;
   WholeFile file;
-  int scratch = -1;  // where ffmpeg writes to; it has no name
-  film::ChildProcess ffmpeg;
-  uint64_t frames = 0;
+  film::FfmpegRun encoder;
+  std::unique_ptr<film::EarlierFilm> earlier;  // null: none
+  uint64_t added = 0;
   std::optional<Error> failure;  // what every later call gives
 };
 
-Error FilmWriter::State::lost(std::string problem, std::string advice) {
-  failure = Error{ErrorKind::outputNotWritten, path, 0, "", std::move(problem), std::move(advice)};
+Error FilmWriter::State::lost(Error error) {
+  failure = std::move(error);
   return *failure;
-}
-
-// What ffmpeg has said, in our words where we know what it means.
-Error FilmWriter::State::encoderFailed(const std::string& how) {
-  const std::string& said = ffmpeg.said();
-  // The last one is how the signal is called that ends a child beyond a limit.
-  for (const char* reason : {"No space left on device", "Disk quota exceeded", "File too large",
-                             static_cast<const char*>(strsignal(SIGXFSZ))})
-    if ((said + how).find(reason) != std::string::npos)
-      return lost(std::string("cannot be written: ") + reason,
-                  "make room on the disk or choose another place");
-  if (said.find("Unknown encoder") != std::string::npos)
-    return lost(fmt::format("this ffmpeg has no {0}, which films are encoded with", encoder()),
-                fmt::format("install an ffmpeg with {0}, or {1}", encoder(), writeSequence()));
-  const std::string line = film::lastLine(said);
-  return lost("cannot be written: ffmpeg " + how + (line.empty() ? "" : ": " + line),
-              writeSequence() + " instead");
 }
 
 Status FilmWriter::State::start() {
   if (!file.ok()) return file.commit();
-  PassingFile passing = openPassingFile(folderOf(path));
-  const int code = passing.descriptor < 0 ? errno : 0;
-  if (!passing.name.empty()) unlink(passing.name.c_str());
-  scratch = passing.descriptor;
-  if (code != 0)
-    return lost("cannot be written: " + std::generic_category().message(code),
-                "choose another place for the output");
-
-  const int problem = ffmpeg.start(ffmpegCommand(options), scratch);
-  if (problem == ENOENT)
-    return lost("films need the program ffmpeg, which is not installed",
-                "install ffmpeg, or " + writeSequence());
-  if (problem != 0)
-    return lost("ffmpeg cannot be started: " + std::generic_category().message(problem),
-                "repair that, or " + writeSequence());
-  return Done{};
+  return encoder.start(film::encoderArguments(options));
 }
 
 Status FilmWriter::State::add(const Image& picture) {
@@ -136,35 +81,46 @@ Status FilmWriter::State::add(const Image& picture) {
     return usage(fmt::format("a picture of {}x{} does not fit a film of {}x{}", picture.width, picture.height,
                              options.width, options.height));
   const std::vector<uint8_t> planes = film::rawPicture(picture, options.format);
-  if (!ffmpeg.send(planes.data(), planes.size())) {
-    const std::string how = ffmpeg.finish();
-    return encoderFailed(how.empty() ? "ended too early" : how);
-  }
-  ++frames;
+  if (const Status status = encoder.send(planes.data(), planes.size()); !status) return lost(status.error());
+  ++added;
   return Done{};
 }
 
 Status FilmWriter::State::finish() {
   if (failure) return *failure;
+  const uint64_t frames = framesBefore() + added;
   if (frames == 0) return usage("a film needs at least one picture");
-  if (const std::string how = ffmpeg.finish(); !how.empty()) return encoderFailed(how);
-  const std::string problem = film::completeFilm(scratch, options, frames, file);
+  failure = usage("the film is finished already");
+  // What is there is the whole film.
+  if (added == 0) return Done{};
+  if (const Status status = encoder.finish(); !status) return lost(status.error());
+  film::FfmpegRun joined(path, options.format);
+  if (earlier)
+    if (const Status status = earlier->joinTo(encoder.written(), joined); !status)
+      return lost(status.error());
+  const film::FfmpegRun& last = earlier ? joined : encoder;
+  const std::string problem = film::completeFilm(last.written(), options, frames, file);
   if (!problem.empty() && file.ok())
-    return encoderFailed("left something that is no film of ours (" + problem + ")");
-  Status status = file.commit();
-  failure = status ? usage("the film is finished already") : status.error();
-  return status;
+    return lost(last.failed("left something that is no film of ours (" + problem + ")"));
+  const Status status = file.commit();
+  return status ? status : lost(status.error());
 }
 
 FilmWriter::FilmWriter(std::unique_ptr<State> state) : state_(std::move(state)) {}
 
 FilmWriter::~FilmWriter() = default;
 
-Result<std::unique_ptr<FilmWriter>> FilmWriter::create(const std::string& path, const FilmOptions& options) {
+Result<std::unique_ptr<FilmWriter>> FilmWriter::make(const std::string& path, const FilmOptions& options,
+                                                     bool goesOn) {
   try {
     if (std::string problem = problemWith(options); !problem.empty())
       return Error{ErrorKind::usage, path, 0, "", std::move(problem), ""};
     auto state = std::make_unique<State>(path, options);
+    if (goesOn) {
+      Result<std::unique_ptr<film::EarlierFilm>> earlier = film::EarlierFilm::open(path, options);
+      if (!earlier) return earlier.error();
+      state->earlier = std::move(earlier).value();
+    }
     if (const Status status = state->start(); !status) return status.error();
     return std::unique_ptr<FilmWriter>(new FilmWriter(std::move(state)));
   } catch (const std::exception&) {
@@ -172,11 +128,26 @@ Result<std::unique_ptr<FilmWriter>> FilmWriter::create(const std::string& path, 
   }
 }
 
+Result<std::unique_ptr<FilmWriter>> FilmWriter::create(const std::string& path, const FilmOptions& options) {
+  return make(path, options, false);
+}
+
+Result<std::unique_ptr<FilmWriter>> FilmWriter::resume(const std::string& path, const FilmOptions& options) {
+  if (options.format == FilmFormat::gif)
+    return Error{ErrorKind::usage, path, 0, "", "a GIF cannot be resumed", "write an MP4 or a WebM"};
+  return make(path, options, true);
+}
+
+uint64_t FilmWriter::frames() const {
+  return state_->framesBefore() + state_->added;
+}
+
 Status FilmWriter::add(const Image& picture) {
   try {
     return state_->add(picture);
   } catch (const std::exception&) {
-    return state_->lost("cannot be written: not enough memory", "choose a smaller size");
+    return state_->lost(
+        state_->encoder.lost("cannot be written: not enough memory", "choose a smaller size"));
   }
 }
 
@@ -184,7 +155,8 @@ Status FilmWriter::finish() {
   try {
     return state_->finish();
   } catch (const std::exception&) {
-    return state_->lost("cannot be written: not enough memory", "choose a smaller size");
+    return state_->lost(
+        state_->encoder.lost("cannot be written: not enough memory", "choose a smaller size"));
   }
 }
 

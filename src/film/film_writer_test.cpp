@@ -376,5 +376,60 @@ TEST_F(OtherFfmpeg, anErrorStays) {
   EXPECT_EQ((*writer)->finish().error().message(), first);
 }
 
+Status resumeFilm(const std::string& path, const FilmOptions& given, const std::vector<Image>& pictures) {
+  Result<std::unique_ptr<FilmWriter>> writer = FilmWriter::resume(path, given);
+  if (!writer) return writer.error();
+  for (size_t i = size_t((*writer)->frames()); i < pictures.size(); ++i)
+    if (Status status = (*writer)->add(pictures[i]); !status) return status;
+  EXPECT_EQ((*writer)->frames(), pictures.size());
+  return (*writer)->finish();
+}
+
+TEST(FilmWriter, goesOnWithAFilmThatIsThere) {
+  NEEDS_FFMPEG();
+  TestFolder folder;
+  const std::string path = folder.file("a film's name.mp4");
+  FilmOptions given = options(33, 19);
+  given.fps = 12.34;
+  std::vector<Image> pictures;
+  size_t parts = 0;
+  for (const size_t count : {1, 2, 9, 9}) {
+    while (pictures.size() < count) pictures.push_back(stripes(33, 19, int(pictures.size())));
+    const Status status = resumeFilm(path, given, pictures);
+    ASSERT_TRUE(status.ok()) << ++parts << ": " << status.error().message();
+  }
+  EXPECT_EQ(folder.count(), 1u);
+  const std::string plain = folder.file("a.mp4");
+  std::filesystem::rename(path, plain);
+  EXPECT_EQ(facts(plain, "stream=width,height,avg_frame_rate,nb_frames"),
+            "width=34\nheight=20\navg_frame_rate=617/50\nnb_frames=9\n");
+  EXPECT_EQ(decoded(plain).size(), 34u * 20 * 3 * 9);
+}
+
+TEST(FilmWriter, goesOnWithItsOwnOnly) {
+  NEEDS_FFMPEG();
+  TestFolder folder;
+  const std::string path = folder.file("a.mp4");
+  const std::vector<Image> pictures{stripes(32, 16, 0), stripes(32, 16, 1)};
+  ASSERT_TRUE(writeFilm(path, options(32, 16), pictures).ok());
+  const std::string before = contentOf(path);
+  FilmOptions other = options(32, 16);
+  for (const int quality : {0, 15, 17}) {
+    other.quality = quality;
+    const auto writer = FilmWriter::resume(path, other);
+    ASSERT_FALSE(writer);
+    EXPECT_EQ(writer.error().kind, ErrorKind::usage);
+  }
+  other = options(32, 16);
+  other.format = FilmFormat::gif;
+  EXPECT_FALSE(FilmWriter::resume(path, other));
+  // A folder and what may not be read are no films.
+  EXPECT_FALSE(FilmWriter::resume(folder.path(), options(32, 16)));
+  // One that is not gone on with stays.
+  ASSERT_TRUE(FilmWriter::resume(path, options(32, 16)));
+  EXPECT_EQ(contentOf(path), before);
+  EXPECT_EQ(folder.count(), 1u);
+}
+
 }  // namespace
 }  // namespace scumble

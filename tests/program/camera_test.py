@@ -201,7 +201,7 @@ class Formats(Case):
                              (codec, 6, 32, 36))
         self.before = self.files()
         self.bad(USAGE, "render", "box.gltf", "-o", "y.gif", "--frames", "0..5", "--fps", "60", *TINY, says="50")
-        self.bad(USAGE, "render", "box.gltf", "-o", "y.webm", "--frames", "0..5", "--resume", *TINY, says="resumed")
+        self.bad(USAGE, "render", "box.gltf", "-o", "y.gif", "--frames", "0..5", "--resume", *TINY, says="resumed")
 
     def test_quality_is_of_the_format(self):
         for name, quality in (("x.png", "5"), ("x.exr", "5"), ("x.jpg", "0"), ("x.jpg", "101"), ("x.webp", "-1"),

@@ -44,7 +44,6 @@ class Missing(Program):
 
     def test_a_film_has_no_frames_to_look_for(self):
         self.bad(USAGE, "render", "box.gltf", "-o", "x.mp4", "--frames", "0..3", *QUIET, "--missing", says="`scumble film`")
-        self.bad(USAGE, "render", "box.gltf", "-o", "x.mp4", "--frames", "0..3", *QUIET, "--resume", says="`scumble film`")
 
 
 @unittest.skipUnless(shutil.which("ffmpeg"), "there is no ffmpeg")

@@ -408,7 +408,7 @@ class Films(Film):
     def test_what_cannot_be(self):
         self.bad(USAGE, "render", "move.gltf", "-o", "x.mp4", "--aov", "depth", *TINY, says="film")
         self.bad(USAGE, "render", "move.gltf", "-o", "x.##.mp4", "--frames", "0..1", *TINY, says="film")
-        self.bad(USAGE, "render", "move.gltf", "-o", "x.mp4", "--resume", *TINY, says="####")
+        self.bad(USAGE, "render", "move.gltf", "-o", "x.mp4", "--missing", *TINY, says="####")
         self.bad(NOT_WRITTEN, "render", "move.gltf", "-o", "no/x.mp4", *TINY, says="no/x.mp4")
 
     def test_ffmpeg_is_missing_or_fails(self):
@@ -430,6 +430,154 @@ class Films(Film):
         process.wait()
         time.sleep(0.3)
         self.assertEqual(self.new_files(), set())
+
+
+class ResumedFilms(Film):
+    def setUp(self):
+        if not (shutil.which("ffmpeg") and shutil.which("ffprobe")):
+            self.skipTest("ffmpeg is not installed")
+        super().setUp()
+
+    def pictures(self, name):
+        """The decoded frames of a film, as bytes of R, G, B."""
+        stream = probe(self.folder / name, "stream=width,height")["streams"]
+        self.assertEqual(len(stream), 1)
+        size = 3 * stream[0]["width"] * stream[0]["height"]
+        data = subprocess.run(["ffmpeg", "-v", "error", "-xerror", "-i", str(self.folder / name), "-f", "rawvideo", "-pix_fmt", "rgb24",
+                               "-fps_mode", "passthrough", "-"], capture_output=True, check=True).stdout
+        return [data[at:at + size] for at in range(0, len(data), size)]
+
+    def times(self, name):
+        return sorted(float(packet["pts_time"]) for packet in probe(self.folder / name, "packet=pts_time")["packets"])
+
+    def alike(self, name, wanted):
+        """Both films have the same pictures, as far as their encoder keeps them, at the same times."""
+        self.assertEqual(self.times(name), self.times(wanted))
+        entries = "stream=codec_name,profile,width,height,pix_fmt,avg_frame_rate,time_base,color_range,color_space,color_transfer," \
+                  "color_primaries,chroma_location,duration:stream_side_data"
+        self.assertEqual(probe(self.folder / name, entries), probe(self.folder / wanted, entries))
+        one, other = self.pictures(name), self.pictures(wanted)
+        self.assertEqual(len(one), len(other))
+        for frame, (a, b) in enumerate(zip(one, other)):
+            self.assertLess(sum(abs(x - y) for x, y in zip(a, b)) / len(a), 3, frame)
+
+    def test_drawn_in_parts(self):
+        # A part of one frame, one of two, and longer ones; the clip moves enough to tell frames apart.
+        for ending, more in (("mp4", ["--fps", "23.976"]), ("webm", ["--fps", "23.976"]), ("mp4", ["--fps", "12.34", "--quality", "0"]),
+                             ("mp4", ["--stereo", "side-by-side"]), ("webm", ["--stereo", "over-under"]),
+                             ("mp4", ["--turntable", "0.5"])):
+            with self.subTest(ending=ending, more=more):
+                args = ["-o", "part." + ending, *more, "--resume", "--frames"]
+                for last in (0, 2, 7, 11):
+                    self.draw(*args, f"0..{last}")
+                    self.assertEqual(len(self.times("part." + ending)), last + 1)
+                self.draw("-o", "whole." + ending, *more, "--frames", "0..11")
+                self.alike("part." + ending, "whole." + ending)
+                self.assertEqual(self.new_files(), {"part." + ending, "whole." + ending})
+                data = self.bytes("part." + ending)
+                if ending == "mp4":
+                    self.assertLess(data.find(b"moov"), data.find(b"mdat"), "the index lies in front")
+                for name in self.new_files():
+                    (self.folder / name).unlink()
+
+    def test_panoramas_stay_what_they_are(self):
+        for kind, size in (("mono360", "32x16"), ("vr180", "16x16")):
+            args = ["render", "box.gltf", "--samples", "1", "--size", size, "--panorama", kind, "--quiet"]
+            for name, last in (("a.mp4", "1"), ("a.mp4", "3"), ("whole.mp4", "3")):
+                self.good(*args, "-o", name, "--frames", "0.." + last, "--resume")
+            self.alike("a.mp4", "whole.mp4")
+            self.assertIn(b"<GSpherical:Spherical>true</GSpherical:Spherical>", self.bytes("a.mp4"))
+            self.assertEqual(self.bytes("a.mp4").count(b"st3d"), 1)
+            self.before = self.files()
+            self.bad(USAGE, *args[:6], "--quiet", "-o", "a.mp4", "--frames", "0..4", "--resume", says="this film cannot be resumed")
+            self.before = {}
+            for name in ("a.mp4", "whole.mp4"):
+                (self.folder / name).unlink()
+
+    def test_a_film_for_each_eye(self):
+        args = ["--stereo", "separate", "--resume", "--frames"]
+        self.draw("-o", "two.mp4", *args, "0..2")
+        # As a kill between the two leaves it.
+        (self.folder / "two.right.mp4").unlink()
+        self.draw("-o", "two.mp4", *args, "0..5")
+        self.draw("-o", "whole.mp4", *args, "0..5")
+        for eye in ("left", "right"):
+            self.alike(f"two.{eye}.mp4", f"whole.{eye}.mp4")
+        self.assertLess(len(self.bytes("whole.left.mp4")), len(self.bytes("two.left.mp4")), "its first frames are the old ones")
+        self.same(self.bytes("two.right.mp4"), self.bytes("whole.right.mp4"))
+
+    def test_a_whole_film_is_left_as_it_is(self):
+        args = ["render", "move.gltf", "-o", "a.mp4", "--frames", "0..3", "--resume", *TINY]
+        self.good(*args, "--quiet")
+        before = self.bytes("a.mp4"), (self.folder / "a.mp4").stat().st_mtime_ns
+        # A device that does not exist is not looked for.
+        done = self.run_program(*args, "--device", "none like this")
+        self.assertEqual((done.returncode, done.stderr), (0, "scumble: a.mp4 has all of its 4 frames\n"))
+        self.assertEqual((self.bytes("a.mp4"), (self.folder / "a.mp4").stat().st_mtime_ns), before)
+
+    def test_what_does_not_fit_is_refused_and_left_as_it_is(self):
+        for name in ("a.mp4", "a.webm"):
+            self.draw("-o", name, "--frames", "0..3")
+        shutil.copy(self.folder / "a.webm", self.folder / "other.mp4")
+        (self.folder / "text.mp4").write_text("no film")
+        (self.folder / "empty.webm").write_bytes(b"")
+        (self.folder / "cut.mp4").write_bytes(self.bytes("a.mp4")[:-100])
+        subprocess.run(["ffmpeg", "-v", "error", "-i", "a.mp4", "-f", "lavfi", "-i", "sine=duration=0.1", "-c:v", "copy", "sound.mp4"],
+                       cwd=self.folder, check=True)
+        self.before = self.files()
+        content = {name: self.bytes(name) for name in self.before if name.endswith((".mp4", ".webm"))}
+        for name, args, says in (("a.mp4", ["--size", "34x18"], "it has 32 x 18 pixels, not 34 x 18"),
+                                 ("a.webm", ["--size", "34x18"], "it has 32 x 18 pixels, not 34 x 18"),
+                                 ("a.mp4", ["--fps", "25"], "it has 24 frames a second, not 25"),
+                                 ("a.webm", ["--fps", "23.976"], "it has 24 frames a second, not 23.976"),
+                                 ("a.mp4", ["--quality", "20"], "another quality"),
+                                 ("a.mp4", ["--frames", "0..2"], "it has 4 frames, and 3 are asked for"),
+                                 ("a.mp4", ["--stereo", "side-by-side", "--size", "16x18"], "its layout of eyes is none, not side by side"),
+                                 ("a.webm", ["--stereo", "over-under", "--size", "32x9"], "its layout of eyes is none, not top and bottom"),
+                                 ("other.mp4", [], "its codec is vp9, not h264"), ("text.mp4", [], "cannot be read"),
+                                 ("empty.webm", [], "cannot be read"), ("cut.mp4", [], "cannot be read"),
+                                 ("sound.mp4", [], "it holds more than pictures")):
+            with self.subTest(name=name, args=args):
+                usual = [word for pair in (("--frames", "0..9"), ("--size", "32x18")) if pair[0] not in args for word in pair]
+                self.bad(USAGE, "render", "move.gltf", "-o", name, "--samples", "1", "--resume", *usual, *args,
+                         says=[f"{name}: this film cannot be resumed: ", says, "or delete it"])
+        self.bad(NOT_WRITTEN, "render", "move.gltf", "-o", "a.mp4", "--frames", "0..9", "--resume", *TINY, says="ffprobe",
+                 environment={"PATH": "/nonexistent"})
+        for name in content:
+            self.same(self.bytes(name), content[name], name)
+
+    def test_a_gif_is_refused(self):
+        self.bad(USAGE, "render", "move.gltf", "-o", "x.gif", "--frames", "0..3", "--resume", *TINY,
+                 says=["a GIF cannot be resumed", "`scumble film`"])
+
+    def test_a_film_that_is_ended_goes_on(self):
+        environment = dict(os.environ, XDG_CACHE_HOME=str(program_test.shared / "cache"))
+        args = [program_test.scumble, "render", "move.gltf", "-o", "a.mp4", "--frames", "0..99999", "--resume", *TINY]
+        counts = [0]
+        # Ended, and ended again while it goes on.
+        for sent, code in ((signal.SIGTERM, 143), (signal.SIGINT, 130)):
+            process = subprocess.Popen(args, cwd=self.folder, env=environment, text=True, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL)
+            # A line comes every five seconds: frames have been drawn then.
+            process.stderr.readline()
+            process.send_signal(sent)
+            said = process.communicate()[1]
+            self.assertEqual(process.returncode, code, said)
+            self.assertEqual(self.new_files(), {"a.mp4"})
+            counts.append(len(self.times("a.mp4")))
+            self.assertIn(f"a.mp4 holds {counts[-1]} of 100000 frames", said)
+            self.assertGreater(counts[-1], counts[-2])
+        # The kill of a call that goes on leaves what was there.
+        before = self.bytes("a.mp4")
+        process = subprocess.Popen(args, cwd=self.folder, env=environment, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL)
+        process.stderr.readline()
+        process.kill()
+        process.communicate()
+        self.same(self.bytes("a.mp4"), before)
+        last = counts[-1] + 3
+        self.draw("-o", "a.mp4", "--frames", f"0..{last}", "--resume")
+        self.draw("-o", "whole.mp4", "--frames", f"0..{last}")
+        self.alike("a.mp4", "whole.mp4")
+        self.assertEqual(self.new_files(), {"a.mp4", "whole.mp4"})
 
 
 if __name__ == "__main__":
