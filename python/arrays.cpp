@@ -71,10 +71,11 @@ Matrix toSquare(const py::handle& numbers, const std::string& what) {
   if (array.ndim() != 2 || array.shape(0) != kSide || array.shape(1) != kSide)
     raiseUsage(what + " has the shape " + shapeOf(array),
                "give a matrix of " + std::to_string(kSide) + " by " + std::to_string(kSide));
-  const py::array_t<float> rows = converted<float>(array, what);
+  const py::array_t<double> rows = converted<double>(array, what);
   Matrix matrix;
   for (int row = 0; row < kSide; ++row)
-    for (int column = 0; column < kSide; ++column) matrix[column][row] = *rows.data(row, column);
+    for (int column = 0; column < kSide; ++column)
+      matrix[column][row] = typename Matrix::value_type(*rows.data(row, column));
   return matrix;
 }
 

@@ -1,6 +1,7 @@
 // The commands that only tell: info, looks, params, schema, devices.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -95,8 +96,16 @@ int info(const SceneArguments& args, const JsonOption& json) {
   print(fmt::format("extensions  {}\n", joined(s.extensionsUsed)));
   if (!s.extensionsNotSupported.empty())
     print(fmt::format("not supported: {}\n", joined(s.extensionsNotSupported)));
-  print(fmt::format("bounds      {:g} {:g} {:g} to {:g} {:g} {:g} metres\n", s.min[0], s.min[1], s.min[2],
-                    s.max[0], s.max[1], s.max[2]));
+  // Six digits, and millimetres however far out the scene stands.
+  const auto metres = [](const double(&place)[3]) {
+    std::string text;
+    for (const double number : place)
+      text += (text.empty() ? "" : " ") + (std::abs(number) < 1000
+                                               ? fmt::format("{:g}", number)
+                                               : fmt::format("{}", std::round(1000 * number) / 1000));
+    return text;
+  };
+  print(fmt::format("bounds      {} to {} metres\n", metres(s.min), metres(s.max)));
   if (s.ownPatterns > 0)
     print(
         fmt::format("patterns    {} of {} primitives have coordinates of their own (--pattern-coordinates)\n",

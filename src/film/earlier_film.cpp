@@ -43,13 +43,13 @@ struct Probed {
 
 Result<Probed> probe(int descriptor, const FfmpegRun& run) {
   const std::string name = fmt::format("file:/proc/self/fd/{}", ChildProcess::kPassed);
+  const std::string entries =
+      "packet=pts_time:stream=codec_name,width,height,avg_frame_rate,extradata_hash:"
+      "stream_side_data=side_data_type,type,projection:format=nb_streams";
   ChildProcess ffprobe;
   const int code =
       ffprobe.start({"ffprobe", "-v", "error", "-protocol_whitelist", "file", "-select_streams", "v:0",
-                     "-show_data_hash", "md5", "-show_entries",
-                     "packet=pts_time:stream=codec_name,width,height,avg_frame_rate,extradata_hash:"
-                     "stream_side_data=side_data_type,type,projection:format=nb_streams",
-                     "-of", "compact", name},
+                     "-show_data_hash", "md5", "-show_entries", entries, "-of", "compact", name},
                     {descriptor}, ChildProcess::Output::received);
   if (code == ENOENT)
     return run.lost("to go on with a film needs the program ffprobe, which is not installed",
@@ -210,8 +210,8 @@ Status EarlierFilm::joinTo(int rest, FfmpegRun& joined) const {
       "-auto_convert",       "0",         "-i", "pipe:0", "-map",   "0:v:0",
       "-map_metadata",       "-1",        "-c", "copy",   "-bsf:v", timesFilter(options_)};
   for (std::string& word : containerArguments(options_)) words.push_back(std::move(word));
-  if (const Status status = joined.start(words, {descriptor_, rest}); !status) return status;
-  if (const Status status = joined.send(list.data(), list.size()); !status) return status;
+  if (Status status = joined.start(words, {descriptor_, rest}); !status) return status;
+  if (Status status = joined.send(list.data(), list.size()); !status) return status;
   return joined.finish();
 }
 

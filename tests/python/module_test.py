@@ -331,6 +331,11 @@ class Views(unittest.TestCase):
         view, = scumble.make_views(SCENE, eye=(1, 2, 8), target=(1, 2, 0))
         np.testing.assert_allclose(view.world_to_eye @ (1, 2, 8, 1), (0, 0, 0, 1), atol=1e-5)
         np.testing.assert_allclose(view.world_to_eye @ (1, 2, 0, 1), (0, 0, -8, 1), atol=1e-5)
+        # Double precision, a planet's radius away.
+        far, place = view.world_to_eye.copy(), np.array((1e6, 2e5, -6e6))
+        far[:3, 3] -= far[:3, :3] @ place
+        seen = scumble.View(far, view.eye_to_clip).world_to_eye
+        np.testing.assert_allclose(seen @ (*(place + (1, 2, 0)), 1), (0, 0, -8, 1), atol=1e-5)
         own = scumble.View(view.world_to_eye, view.eye_to_clip, node=view.node)
         spoken = RENDERER.render(SCENE, size=SIZE, samples=1, eye=(1, 2, 8), target=(1, 2, 0))
         np.testing.assert_array_equal(spoken["picture"], RENDERER.render(SCENE, size=SIZE, samples=1, views=[own])["picture"])
