@@ -124,8 +124,10 @@ XrResult XRAPI_CALL sync(XrSession, const XrActionsSyncInfo*) {
 
 // What the script calls an action, of one hand where it is of each.
 std::string nameOf(const Action& action, XrPath hand) {
-  const std::string path = hand ? runtime().paths.at(hand - 1) : "";
-  return action.name + (hand ? " " + path.substr(path.rfind('/') + 1) : "");
+  std::string name = action.name;
+  if (hand == 0) return name;
+  const std::string& path = runtime().paths.at(hand - 1);
+  return name.append(" ").append(path, path.rfind('/') + 1);
 }
 
 XrResult XRAPI_CALL getBoolean(XrSession, const XrActionStateGetInfo* info, XrActionStateBoolean* state) {
