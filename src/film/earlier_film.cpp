@@ -1,6 +1,6 @@
 // ffprobe says what the film is, and ffmpeg joins it with the rest by copying packets (its concat demuxer).
-// What an MP4 says about H.264 (its parameter sets) stands once in front of all pictures: both parts must
-// agree in it to the byte. A film of one black picture, encoded as the rest will be, tells that before hours
+// H.264's parameter sets stand once in an MP4, in front of all pictures: both parts must agree in them to the
+// byte. A film of one black picture, encoded as the rest will be, tells that before hours
 // are drawn.
 #include "film/earlier_film.h"
 
@@ -27,7 +27,7 @@ constexpr double kSameRate = 1e-4;  // relative: 24 and 24000/1001 differ by 1e-
 constexpr double kRounding = 1e-3;  // seconds: a WebM counts whole milliseconds
 constexpr int kDecodedAhead = 2;    // frames: x264's preset medium
 
-// What ffprobe says of a film, in its words.
+// Facts of a film, in ffprobe's words.
 struct Facts {
   double streams = 0, width = 0, height = 0, rate = 0;  // frames a second
   std::string codec, eyes, projection;
@@ -58,7 +58,7 @@ Result<Probed> probe(int descriptor, const FfmpegRun& run) {
     return run.lost("ffprobe cannot be started: " + std::generic_category().message(code), "repair that");
   const std::string list = ffprobe.receiveRest();
   const std::string how = ffprobe.finish();
-  // What is damaged is told too where ffprobe reads on.
+  // Damage is told too where ffprobe reads on.
   std::string said = lastLine(ffprobe.said());
   if (said.starts_with(name + ": ")) said.erase(0, name.size() + 2);
   Probed probed;
@@ -110,7 +110,7 @@ double rateIn(const FilmOptions& options) {
   return double(rate.numerator) / rate.denominator;
 }
 
-// What differs from a film that the options write; empty where nothing does.
+// Difference from a film that the options write, in words; empty where there is none.
 std::string difference(const Facts& facts, const FilmOptions& options) {
   const auto orNone = [](const std::string& text) { return text.empty() ? "none" : text; };
   const PixelSize size = storedSizeOf(options);

@@ -33,7 +33,7 @@ class FfmpegRun {
 
   // That `problem` keeps the film from being written.
   Error lost(std::string problem, std::string advice) const;
-  // What ffmpeg has said, in our words where we know what it means; `how` it has ended.
+  // Error for what ffmpeg has said, in our words where we know what it means; `how` it has ended.
   Error failed(const std::string& how) const;
 
  private:

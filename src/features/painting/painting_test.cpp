@@ -298,8 +298,8 @@ Result<Scene> loadedGaussians(const scene::TestGltf& file) {
   return Scene::loadFromMemory(text.data(), text.size(), "cloud.gltf", "");
 }
 
-// How opaque a Gaussian is at a pixel: that of its ellipse on the screen (the covariance of its axes as they
-// go by), with 0.3 pixels more, as much less opaque as it is larger.
+// Opacity of a Gaussian at a pixel: its ellipse on the screen, by the covariance of its projected axes,
+// widened by 0.3 pixels and made as much less opaque as that makes it larger.
 double gaussianAt(const TestGaussian& one, const glm::dmat4& model, const View& view, int x, int y) {
   const glm::dmat4 toClip = glm::dmat4(view.eyeToClip) * glm::dmat4(view.worldToEye) * model;
   const glm::dvec4 clip = toClip * glm::dvec4(one.position, 1);
@@ -347,7 +347,7 @@ TEST_P(Paintings, gaussiansAreTheirEllipses) {
     }
 }
 
-// Below what turns, mirrors and makes larger, and several in the order of depth.
+// Nodes turn, mirror and scale them; several are in the order of depth.
 TEST_P(Paintings, gaussiansGoWithTheirNodes) {
   const TestGaussian one{
       {0.4f, 0.2f, 0.3f}, {0.25f, 0.05f, 0.1f}, glm::normalize(glm::quat(0.8f, 0.3f, -0.4f, 0.2f))};
@@ -401,7 +401,8 @@ TEST(Gaussians, areReadAsTheExtensionHasThem) {
   linear.json["meshes"][0]["primitives"][0]["extensions"]["KHR_gaussian_splatting"]["colorSpace"] =
       "lin_rec709_display";
   EXPECT_FLOAT_EQ(loadedGaussians(linear)->data().meshes[0]->painting->points[0].color.r, 0.5f);
-  // What is missing or of another count is an error that names it; what is unknown is a warning.
+  // An attribute that is missing or of another count is an error that names it; an unknown kernel is a
+  // warning.
   for (const char* name : {"ROTATION", "SCALE", "OPACITY", "SH_DEGREE_0_COEF_0"}) {
     scene::TestGltf broken = gaussianFile({one});
     Json& attributes = broken.json["meshes"][0]["primitives"][0]["attributes"];

@@ -97,8 +97,8 @@ void main() {
     reach = kReach * sizes.x;
   }
   if (any(lessThan(at, vec2(-reach))) || any(greaterThan(at, frame.imageSize + reach))) return;
-  vec4 ahead = VIEW_FIELD(worldToClip, view) * vec4(position + along * radius, 1.0);
   if (!isGaussian) {
+    vec4 ahead = VIEW_FIELD(worldToClip, view) * vec4(position + along * radius, 1.0);
     direction = (ahead.xy / max(ahead.w, 1e-6) + 1.0) * 0.5 * frame.imageSize - at;
     float size = length(direction);
     direction = size > 1e-4 ? direction / size : vec2(1.0, 0.0);
