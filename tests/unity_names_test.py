@@ -2,7 +2,8 @@
 """A constant that a source file keeps to itself has a name of its own.
 
 ./check compiles a dozen sources together (CMake's unity build). There a constant of one file's unnamed namespace is
-seen by the files after it, and where a header has the same name, it silently takes its place.
+seen by the files after it: where a header has the same name, it silently takes its place, and where a later file of the
+same namespace has it, that file does not compile, in some builds and not in others.
 
     unity_names_test.py [ROOT]
 """
@@ -13,7 +14,7 @@ import sys
 
 DECLARATION = re.compile(
     r"^\s*(?:template <[^>]*>\s*)?(?:inline |static |\[\[\w+\]\] )*"
-    r"(?:(?:constexpr |const |using |class |struct |enum class |enum )+[\w:<>,\s*&]*?\b(?P<named>\w+)\s*(?:=|\{|\[|;|:)"
+    r"(?:(?:constexpr |const |using |class |struct |enum class |enum )+[\w:<>,\s*&]*?\b(?P<named>\w+)\s*(?:=|\{|\[|;|:(?!:))"
     r"|(?!return|using|TEST|INSTANTIATE|namespace|else|case|public|private|friend|if|for|while|switch)"
     r"[\w:<>,*&\s]+?[\s*&](?P<function>\w+)\()")
 
@@ -27,29 +28,38 @@ def stripped(text):
 
 
 def names(text):
-    """Pairs of a name and whether it stands in an unnamed namespace; of namespaces' own declarations only."""
+    """Triples of a name, whether it stands in an unnamed namespace, and the named namespaces around it; of namespaces'
+    own declarations only."""
     levels = []  # of open braces: "named", "unnamed" (namespaces), "enum" or "other"
+    spaces = []  # of each level: the named namespace that it opens, or nothing
     statement = ""
     found = []
+
+    def around():
+        return "::".join(space for space in spaces if space)
 
     def take():
         inside = set(levels)
         if inside <= {"named", "unnamed"}:
+            if re.match(r"\s*using\s[^=]*;", statement):
+                return  # another's name
             for extra in re.split(r",\s*(?=k[A-Z]\w*\s*=)", statement):
                 if match := DECLARATION.match(extra) or re.match(r"\s*(?P<named>k[A-Z]\w*)\s*(?:=|\{)", extra):
                     name = match.groupdict().get("named") or match.groupdict().get("function")
                     if name:
-                        found.append((name, "unnamed" in inside))
+                        found.append((name, "unnamed" in inside, around()))
         elif levels[-1] == "enum" and inside <= {"named", "unnamed", "enum"}:
             for name in re.findall(r"(?:^|,)\s*(\w+)", statement):
-                found.append((name, "unnamed" in inside))
+                found.append((name, "unnamed" in inside, around()))
 
     for token in re.split(r"([{};])", re.sub(r"^\s*#[^\n]*(?:\\\n[^\n]*)*", "", stripped(text), flags=re.M)):
         if token == "{":
             head = statement.strip()
+            named = re.search(r"\bnamespace\s+([\w:]+)\s*$", head)
+            spaces.append(named and named.group(1))
             if re.search(r"\bnamespace\s*$", head):
                 levels.append("unnamed")
-            elif re.search(r"\bnamespace\s+[\w:]+\s*$", head):
+            elif named:
                 levels.append("named")
             else:
                 statement += "{"
@@ -62,6 +72,7 @@ def names(text):
                 take()
             if levels:
                 levels.pop()
+                spaces.pop()
             statement = ""
         elif token == ";":
             statement += ";"
@@ -81,13 +92,16 @@ def selfTest():
       constexpr float kTrim = 1, kOther = 2;
       int helper(int x) { return x; }
       struct Own { int inner = 0; };
+      using b::kBorrowed;
+      const std::vector<std::string> kList{"a"};
+      const glm::dvec3 kPlaces[] = {{1, 2, 3}};
       }  // namespace
       void open(int);
       }
     """
-    got = dict(names(text))
+    got = {name: isOwn for name, isOwn, space in names(text) if space == "a"}
     want = {"Kind": False, "kFirst": False, "kSecond": False, "Thing": False, "kTrim": True, "kOther": True, "helper": True,
-            "Own": True, "open": False}
+            "Own": True, "kList": True, "kPlaces": True, "open": False}
     assert got == want, got
 
 
@@ -95,28 +109,38 @@ def main():
     selfTest()
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent)
     failures = 0
-    # What is compiled into one target, and which headers it sees.
-    for sources, headers in ((["src"], ["src", "include"]), (["apps"], ["apps", "include"]), (["python"], ["python", "include"]),
-                             (["examples/demo_scene"], ["examples/demo_scene", "examples/mesh_kit"]),
-                             (["examples/still_life"], ["examples/still_life", "examples/mesh_kit"]),
-                             (["examples/henry_room"], ["examples/henry_room", "examples/mesh_kit"]),
-                             (["examples/mesh_kit"], ["examples/mesh_kit"])):
-        own, others = collections.defaultdict(set), collections.defaultdict(set)
+
+    def report(name, files):
+        nonlocal failures
+        failures += 1
+        print(f"{name}: {', '.join(sorted(files))}")
+
+    # What is compiled into one target, and which headers it sees. The unit tests are one, wherever they lie.
+    for sources, headers, isTests in ((["src"], ["src", "include"], False), (["src", "tests"], [], True),
+                                      (["apps"], ["apps", "include"], False), (["python"], ["python", "include"], False),
+                                      (["examples/demo_scene"], ["examples/demo_scene", "examples/mesh_kit"], False),
+                                      (["examples/still_life"], ["examples/still_life", "examples/mesh_kit"], False),
+                                      (["examples/henry_room"], ["examples/henry_room", "examples/mesh_kit"], False),
+                                      (["examples/mesh_kit"], ["examples/mesh_kit"], False)):
+        # Types and functions that are mistaken for others do not compile, or are ambiguous; constants do.
+        own, others, inSpace = (collections.defaultdict(set) for _ in range(3))
         for folder in sources:
             for file in (root / folder).rglob("*.cpp"):
-                if not file.name.endswith("_test.cpp"):
-                    for name, isOwn in names(file.read_text()):
-                        (own if isOwn else others)[name].add(str(file.relative_to(root)))
+                if file.name.endswith("_test.cpp") == isTests:
+                    for name, isOwn, space in names(file.read_text()):
+                        if re.match(r"k[A-Z]", name):
+                            (own if isOwn else others)[name].add(str(file.relative_to(root)))
+                            inSpace[space, name].add(str(file.relative_to(root)))
         for folder in headers:
             for file in (root / folder).rglob("*.h"):
-                for name, _ in names(file.read_text()):
+                for name, _, _ in names(file.read_text()):
                     others[name].add(str(file.relative_to(root)))
-        for name in sorted(own):
-            same = own[name] | {file for file in others.get(name, ()) if file not in own[name]}
-            # Types and functions that are mistaken for others do not compile, or are ambiguous; constants do.
-            if len(same) > 1 and name in others and re.match(r"k[A-Z]", name):
-                failures += 1
-                print(f"{name}: {', '.join(sorted(same))}")
+        for name in own.keys() & others.keys():
+            if len(own[name] | others[name]) > 1:
+                report(name, own[name] | others[name])
+        for (space, name), files in inSpace.items():
+            if len(files) > 1:
+                report(f"{space}::{name}", files)
     print(f"{failures} names of unnamed namespaces that others have too")
     return failures > 0
 

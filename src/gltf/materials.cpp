@@ -9,7 +9,7 @@ namespace scumble::gltf {
 
 namespace {
 
-constexpr const char* kPaint = "scumble_paint";
+constexpr const char* kPaintExtra = "scumble_paint";
 
 float linearOf(float srgb) {
   return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
@@ -221,9 +221,9 @@ class MaterialReader {
     if (const auto found = extras->find("scumble_shadowed"); found != extras->end())
       m.shadowedColor = colorOf(*found, json.pathOf("extras.scumble_shadowed"));
     m.paint = paintLayerOf(json);
-    if (!m.paint && extras->contains(kPaint))
+    if (!m.paint && extras->contains(kPaintExtra))
       import_.warnings.add(
-          json.pathOf(std::string("extras.") + kPaint),
+          json.pathOf(std::string("extras.") + kPaintExtra),
           "a layer of paint is ignored: it needs alphaMode BLEND, and as far as it fades numbers "
           "with 0 <= fadeEnd < fadeStart <= 1");
     for (const auto& [key, use] : {std::pair("scumble_lit_texture", &m.litTexture),
@@ -293,8 +293,8 @@ class MaterialReader {
 std::optional<PaintLayer> paintLayerOf(const JsonView& material) {
   const Json& json = material.json();
   const auto extras = json.find("extras"), mode = json.find("alphaMode");
-  if (extras == json.end() || !extras->is_object() || !extras->contains(kPaint)) return std::nullopt;
-  const Json& paint = (*extras)[kPaint];
+  if (extras == json.end() || !extras->is_object() || !extras->contains(kPaintExtra)) return std::nullopt;
+  const Json& paint = (*extras)[kPaintExtra];
   if (!paint.is_object() || mode == json.end() || *mode != "BLEND") return std::nullopt;
   PaintLayer layer;
   for (const auto& [key, value] :

@@ -199,7 +199,11 @@ size_t instanceCount(const Node& node) {
 }
 
 glm::mat4 instanceToWorld(const Node& node, const glm::dmat4& world, size_t instance) {
-  return node.instances.empty() ? glm::mat4(world) : glm::mat4(world * glm::dmat4(node.instances[instance]));
+  return node.instances.empty() ? glm::mat4(world) : instanceToWorld(world, node.instances[instance]);
+}
+
+glm::mat4 instanceToWorld(const glm::dmat4& world, const glm::mat4& instance) {
+  return glm::mat4(world * glm::dmat4(instance));
 }
 
 glm::mat4 restPlaceOf(const SceneData& scene, const std::vector<glm::dmat4>& world, size_t node) {

@@ -15,6 +15,7 @@ std::vector<glm::mat4> jointMatrices(const Skin& skin, const std::vector<glm::dm
 // without instances has one, number 0.
 size_t instanceCount(const Node& node);
 glm::mat4 instanceToWorld(const Node& node, const glm::dmat4& world, size_t instance);
+glm::mat4 instanceToWorld(const glm::dmat4& world, const glm::mat4& instance);
 
 // Where a node puts its mesh at rest; of what joints place, about. `world`: worldMatrices().
 glm::mat4 restPlaceOf(const SceneData& scene, const std::vector<glm::dmat4>& world, size_t node);

@@ -119,7 +119,7 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
       if (node.skin >= 0 && primitive.influences > 0) item.skin = node.skin;
       for (const glm::mat4& instance : node.instances.empty() || item.skin >= 0 ? one : node.instances) {
         item.instance = instance;
-        item.model = glm::mat4(world[n] * glm::dmat4(instance));
+        item.model = scene::instanceToWorld(world[n], instance);
         geometry.items.push_back(item);
         ++item.instanceOfNode;
       }
@@ -132,7 +132,7 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
     for (GeometryItem& item : geometry.items)
       if (pose.shown[item.node])
         item.reach.add(scene::posedBounds(
-            *item.extent, glm::mat4(pose.world[item.node] * glm::dmat4(item.instance)),
+            *item.extent, scene::instanceToWorld(pose.world[item.node], item.instance),
             item.skin >= 0 ? std::span(joints[size_t(item.skin)]) : none, pose.morphWeights[item.node]));
   });
 

@@ -226,7 +226,7 @@ bool SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, do
         const glm::mat4& instance = instanceOf(scene, object);
         glm::mat4 model = object.node == MovingObject::kNoNode
                               ? instance
-                              : glm::mat4(pose.world[object.node] * glm::dmat4(instance));
+                              : scene::instanceToWorld(pose.world[object.node], instance);
         const FeatureMoment* const feature =
             object.feature >= 0 ? features[size_t(object.feature)].get() : nullptr;
         if (feature) {

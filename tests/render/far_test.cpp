@@ -15,7 +15,7 @@ using namespace test;
 constexpr uint32_t kFarWidth = 96, kFarHeight = 64;
 constexpr float kFarAspect = float(kFarWidth) / float(kFarHeight);
 // The distances that are asked for, and a place on Earth in ECEF coordinates, to whole metres.
-const glm::dvec3 kPlaces[] = {{1e4, 0, -1e4}, {1e6, 0, -1e6}, {-6.4e6, 0, 6.4e6}, {4e6, 1e6, -4.8e6}};
+const glm::dvec3 kFarPlaces[] = {{1e4, 0, -1e4}, {1e6, 0, -1e6}, {-6.4e6, 0, 6.4e6}, {4e6, 1e6, -4.8e6}};
 
 // Things of all kinds, a lamp and a camera. Places are multiples of a half, which single precision tells
 // apart as far out as the Earth's surface lies from its middle: clips and instances have no other numbers.
@@ -82,14 +82,6 @@ void moveNode(Json& node, const glm::dvec3& way) {
                          rest[2].get<double>() + way.z};
 }
 
-void putAbove(TestScene& s, const Json& node) {
-  Json& json = s.json();
-  Json whole = node;
-  whole["children"] = json["scenes"][0]["nodes"];
-  json["scenes"][0]["nodes"] = {json["nodes"].size()};
-  json["nodes"].push_back(whole);
-}
-
 Json translated(const glm::dvec3& way) {
   return {{"translation", {way.x, way.y, way.z}}};
 }
@@ -113,16 +105,16 @@ Scene movedScene(How how, const glm::dvec3& way) {
       return s.load();
     }
     case How::above:
-      putAbove(s, translated(way));
+      s.putBelow(translated(way));
       return s.load();
     case How::mirroredAbove:
-      putAbove(s, {{"scale", {-1, 1, 1}}});
-      putAbove(s, translated(way));
+      s.putBelow({{"scale", {-1, 1, 1}}});
+      s.putBelow(translated(way));
       return s.load();
     case How::acrossAndBack:
       // It ends where it began.
-      putAbove(s, translated(-way));
-      putAbove(s, translated(way));
+      s.putBelow(translated(-way));
+      s.putBelow(translated(way));
       return s.load();
     case How::placed: {
       const Result<Scene> placed = Scene::place({{s.load(), "there", way}});
@@ -130,7 +122,7 @@ Scene movedScene(How how, const glm::dvec3& way) {
       return *placed;
     }
     case How::edited: {
-      putAbove(s, translated({}));
+      s.putBelow(translated({}));
       SceneEditor editor(s.load());
       const NodeId root = NodeId(int(editor.nodeCount()) - 1);
       // Nodes are sorted, parents first.
@@ -176,7 +168,7 @@ TEST_P(FarAway, scenesLookAsTheyDoHere) {
   const Look look;
   for (const How how : kHows) {
     const Frame expected = drawn(movedScene(how, {}), look, {});
-    for (const glm::dvec3& place : kPlaces) {
+    for (const glm::dvec3& place : kFarPlaces) {
       const glm::dvec3 way = how == How::acrossAndBack ? glm::dvec3(0.0) : place;
       expectSame(drawn(movedScene(how, place), look, way), expected,
                  std::string(kHowNames[size_t(how)]) + " at " + placeText(place));
@@ -220,7 +212,7 @@ TEST_P(FarAway, looksLookAsTheyDoHere) {
   };
   for (const std::string name : {"fog", "sea", "ink", "watercolour", "storm"}) {
     const Frame expected = drawn(movedScene(How::above, {}), lookFor(name, {}), {});
-    for (const glm::dvec3& place : kPlaces) {
+    for (const glm::dvec3& place : kFarPlaces) {
       if (name == "sea" && place.y != 0) continue;  // no knob has its level so high
       expectSame(drawn(movedScene(How::above, place), lookFor(name, place), place), expected,
                  name + " at " + placeText(place));
@@ -234,7 +226,7 @@ TEST_P(FarAway, camerasStandWhereTheyAreSaidTo) {
   named.camera = "0", orbit.orbit = true, orbit.azimuth = 20, orbit.elevation = 30;
   turning.turntable = 3, framing.distance = 4, framing.frame = "*";
   Look look;
-  for (const glm::dvec3& place : kPlaces) {
+  for (const glm::dvec3& place : kFarPlaces) {
     const Scene near = movedScene(How::above, {}), far = movedScene(How::above, place);
     EXPECT_EQ(far.origin() - near.origin(), place);
     std::vector<std::pair<Viewpoint, Viewpoint>> cases{{byHand({}), byHand(place)}};
@@ -274,7 +266,7 @@ TEST_P(FarAway, camerasStandWhereTheyAreSaidTo) {
 // Where the caller counts from somewhere else, all the same.
 TEST_P(FarAway, viewsMayCountFromElsewhere) {
   const Look look;
-  const glm::dvec3 place = kPlaces[1];
+  const glm::dvec3 place = kFarPlaces[1];
   const Scene scene = movedScene(How::above, place);
   const std::vector<View> views = seen(scene, byHand(place), look);
   std::vector<View> others = views;
@@ -305,7 +297,7 @@ TEST_P(FarAway, viewsMayCountFromElsewhere) {
 // In the world, as far as single precision tells; sharp where they count from nearby.
 TEST_P(FarAway, positionsAreOfTheWorld) {
   const Look look;
-  for (const glm::dvec3& place : kPlaces) {
+  for (const glm::dvec3& place : kFarPlaces) {
     const Frame near = drawn(movedScene(How::above, {}), look, {}, {"position"});
     const Scene scene = movedScene(How::above, place);
     const Frame far = drawn(scene, look, place, {"position"});
@@ -343,13 +335,13 @@ TEST_P(FarAway, instancesHoldFarPlaces) {
     s.addInstances(boxMesh({-0.5f, -0.4f, 0}, {0.5f, 0.4f, 1.5f}), grey,
                    {there, there + glm::vec3(-1.5f, 1, 0), there + glm::vec3(1.5f, -0.5f, 0)},
                    std::vector<glm::quat>(3, {1, 0, 0, 0}), std::vector<glm::vec3>(3, glm::vec3(1)));
-    putAbove(s, {{"rotation", {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)}}});
+    s.putBelow({{"rotation", {-std::sqrt(0.5), 0, 0, std::sqrt(0.5)}}});
     return s.load();
   };
   // A turn has sixteen digits, of which seven are left here: enough but for the last bit of a motion.
   const std::vector<std::string> aovs{"depth", "normal", "id"};
   const Frame expected = drawn(made({}), look, {}, aovs);
-  for (const glm::dvec3& place : kPlaces)
+  for (const glm::dvec3& place : kFarPlaces)
     expectSame(drawn(made(place), look, place, aovs), expected, placeText(place));
 }
 

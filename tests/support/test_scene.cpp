@@ -260,14 +260,24 @@ void TestScene::addSkinned(const TestMesh& mesh, int material, const std::vector
 
 void TestScene::light(const glm::vec3& towards) {
   json()["extensionsUsed"].push_back("KHR_lights_punctual");
-  json()["extensions"]["KHR_lights_punctual"]["lights"] = Json::array({{{"type", "directional"}}});
+  Json& lights = json()["extensions"]["KHR_lights_punctual"]["lights"];
+  lights.push_back({{"type", "directional"}});
   // Lights shine along their -Z.
   const glm::vec3 z = glm::normalize(towards),
                   up = std::abs(z.y) > 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
   const glm::vec3 x = glm::normalize(glm::cross(up, z));
   const glm::mat4 matrix(glm::vec4(x, 0), glm::vec4(glm::cross(z, x), 0), glm::vec4(z, 0),
                          glm::vec4(0, 0, 0, 1));
-  addNode({{"matrix", numbers(matrix)}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  addNode({{"matrix", numbers(matrix)},
+           {"extensions", {{"KHR_lights_punctual", {{"light", lights.size() - 1}}}}}});
+}
+
+size_t TestScene::putBelow(Json node) {
+  const size_t index = json()["nodes"].size();
+  node["children"] = json()["scenes"][0]["nodes"];
+  json()["scenes"][0]["nodes"] = {index};
+  json()["nodes"].push_back(std::move(node));
+  return index;
 }
 
 void TestScene::clip(const std::string& name, const std::vector<float>& times,

@@ -76,6 +76,8 @@ class TestScene {
   void paint(const std::vector<TestStroke>& strokes);
   // A directional light that comes from there.
   void light(const glm::vec3& towards);
+  // All that is there so far below one node, whose index it gives.
+  size_t putBelow(Json node);
   // A clip that moves what was added last, which must lie where its mesh has it, along these places. Not in
   // triangles().
   void clip(const std::string& name, const std::vector<float>& times, const std::vector<glm::vec3>& places);

@@ -57,7 +57,7 @@ StrokesOnGpu::StrokesOnGpu(const scene::SceneData& scene, std::vector<DrawnPaint
       if (pose.shown[paintings_[p].node])
         reachAlone_[p].add(scene::posedBounds(
             paintings_[p].painting->hull.extent,
-            glm::mat4(pose.world[paintings_[p].node] * glm::dmat4(paintings_[p].toNode)), {}, {}));
+            scene::instanceToWorld(pose.world[paintings_[p].node], paintings_[p].toNode), {}, {}));
   });
 }
 

@@ -89,7 +89,7 @@ class Points : public Pass {
     const SceneMotion& motion = input.scene.motion();
     for (const DrawnPainting& painting : strokes->paintings())
       matrices.push_back(motion.shownAsDrawn()[painting.node]
-                             ? glm::mat4(motion.worldAsDrawn()[painting.node] * glm::dmat4(painting.toNode))
+                             ? scene::instanceToWorld(motion.worldAsDrawn()[painting.node], painting.toNode)
                              : glm::mat4(0.0f));
     // Only these move points or remove them.
     const bool isSame = motion.version() == motionVersion_ && matrices == placedBy_ &&
