@@ -84,7 +84,7 @@ void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
   float index = 0.42 + 0.14 * clamp(wave.x, -2.0, 2.0) + ocean.knobs.dither * (stroke - 0.5);
   // From the middle of either half of the map on, by how the wave leans.
   float leans = dot(normal, frame.toLight) - frame.toLight.y;
-  float shift = ocean.knobs.lightDither * (stroke - 0.5) + ocean.knobs.lightWaves * leans * faces;
+  float shift = ocean.knobs.lightDither * (stroke - 0.5) + 2.0 * stroke * ocean.knobs.lightWaves * leans * faces * (1.0 - decorated.y);
   lit = bathic(index, 0.8 + shift), shadowed = bathic(index, 0.15 + shift);
 
   vec3 ray = reflect(-toEye, normal);

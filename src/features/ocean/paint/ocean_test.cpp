@@ -315,9 +315,13 @@ TEST_P(OceanPaintTest, liveTextureShiftsThePlaceInTheBathicMap) {
 // ---- Light and shadow ----
 
 // The map holds levels of illumination, too (paper 000, section 6.1): waves that lean towards the light are
-// further down in it, those that lean away further up, in light and in shadow; and all of it is used.
+// further down in it, those that lean away further up, in light and in shadow, by strokes; and all of it is
+// used.
 TEST_P(OceanPaintTest, wavesAreLitByHowTheyLean) {
   const Scene scene = openWater();
+  const TestFolder folder;
+  const std::string grey = folder.file("grey.png");
+  ASSERT_TRUE(writePng(grey, Image{1, 1, {"R", "G", "B"}, {0.5f, 0.5f, 0.5f}}).ok());
   SeaState state;
   state.windDirection = 40;
   const SeaReference::Mesh mesh = SeaReference(state, 2.7).mesh(9, {0, 0});
@@ -325,9 +329,13 @@ TEST_P(OceanPaintTest, wavesAreLitByHowTheyLean) {
   for (const double waves : {0.5, 2.0}) {
     Knobs knobs = knobsOf(state);
     knobs.push_back({"ocean.paint.lightWaves", std::to_string(waves)});
+    const Frame stroked = paint(scene, knobs, 2.7, views);
+    // A pattern of one grey is half of every stroke.
+    knobs.push_back({"ocean.metatexture.example", grey});
     const Frame frame = paint(scene, knobs, 2.7, views);
     for (size_t v = 0; v < viewCount(); ++v) {
       Difference lit(kPaintByte), shadowed(kPaintByte);
+      size_t byStrokes = 0;
       double least = 1, most = 0;
       for (int y = 0; y < kPaintHeight; ++y)
         for (int x = 0; x < kPaintWidth; ++x) {
@@ -339,9 +347,12 @@ TEST_P(OceanPaintTest, wavesAreLitByHowTheyLean) {
                                facing(water->normal, toEye);
           lit.add(std::sqrt(texel(aov(frame, "lit", v), x, y).y), inRamp(0.8 + shift));
           shadowed.add(std::sqrt(texel(aov(frame, "shadowed", v), x, y).y), inRamp(0.15 + shift));
+          byStrokes +=
+              std::abs(texel(aov(stroked, "lit", v), x, y).y - texel(aov(frame, "lit", v), x, y).y) > 0.01;
           least = std::min(least, shift), most = std::max(most, shift);
         }
-      EXPECT_GT(lit.count, 3000u);
+      EXPECT_GT(lit.count, 1500u);
+      EXPECT_GT(byStrokes, lit.count / 5);
       EXPECT_GT(most - least, 0.1 * waves);
       EXPECT_LT(lit.beyondPart(), 0.02) << waves << ": " << lit.text();
       EXPECT_LT(shadowed.beyondPart(), 0.02) << waves << ": " << shadowed.text();
