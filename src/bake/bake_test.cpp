@@ -573,7 +573,7 @@ TEST(Bake, paintMovesWithTheSurface) {
     const Result<PaintReport> report = paintScene(scene, folder.file("painted.glb"), paint);
     if (!report) throw std::runtime_error(report.error().message());
     BakeOptions options;
-    options.textureSize = 1024;
+    options.textureSize = 2048;
     const Result<BakeReport> done = bakeFins(folder.file("painted.glb"), folder.file("fins.glb"), options);
     if (!done) throw std::runtime_error(done.error().message());
     return Scene::load(folder.file("fins.glb")).value();

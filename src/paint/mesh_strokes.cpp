@@ -240,9 +240,9 @@ scene::Painting lay(const Surface& surface, const scene::Mesh& mesh, const MeshP
       const size_t wanted = size_t(std::llround(strokes * scene::areaOf(primitive) / std::max(area, 1e-30)));
       if (wanted == 0) continue;
       const uint32_t own = hash(paint.seed + 977u * uint32_t(l) + 131071u * uint32_t(p));
-      // About a twelfth of the candidates are anchors.
+      // About a twentieth of the candidates are anchors, or half of that.
       std::vector<scene::SurfaceAnchor> anchors;
-      for (uint32_t candidates = uint32_t(std::min<size_t>(wanted * 14 + 64, 1u << 24));; candidates *= 2) {
+      for (uint32_t candidates = uint32_t(std::min<size_t>(wanted * 24 + 64, 1u << 24));; candidates *= 2) {
         anchors = scene::anchorsOf(primitive, candidates, own);
         if (anchors.size() >= wanted || candidates >= 1u << 24) break;
       }

@@ -8,6 +8,9 @@ namespace scumble::scene {
 
 namespace {
 
+// With fewer of them, places stay empty that a finer level fills.
+constexpr double kCandidatesForPlace = 16;
+
 // Mixes all bits (splitmix64).
 uint64_t mixed(uint64_t x) {
   x += 0x9e3779b97f4a7c15ull;
@@ -98,16 +101,17 @@ std::vector<SurfaceAnchor> anchorsOf(const Primitive& primitive, uint32_t candid
   for (size_t t = 0; t < triangles; ++t) upTo[t] = area += 0.5 * glm::length(outwardOf(primitive, t));
   if (!(area > 0) || !std::isfinite(area) || candidates == 0) return {};
 
-  // Candidates, one in each equal share of the area, in an order that chance says.
-  Numbers numbers(mixed(seed));
-  std::vector<Candidate> all(candidates);
-  for (uint32_t i = 0; i < candidates; ++i) {
-    const double at = area * (i + numbers.next()) / candidates;
+  // Candidates go on for ever, and those up to any one are spread evenly by area: steps of the golden ratio.
+  const uint64_t own = mixed(seed);
+  const double begin = Numbers(own).next();
+  const auto candidateOf = [&](uint64_t i) {
+    Numbers numbers(mixed(own ^ i));
+    const double at = area * std::fmod(begin + double(i) * 0.6180339887498949, 1.0);
     const size_t t =
         std::min(size_t(std::upper_bound(upTo.begin(), upTo.end(), at) - upTo.begin()), triangles - 1);
     double u = numbers.next(), v = numbers.next();
     if (u + v > 1) u = 1 - u, v = 1 - v;
-    Candidate& c = all[i];
+    Candidate c;
     const uint32_t* const corners = &primitive.indices[3 * t];
     c.anchor = {corners[0], corners[1], corners[2], float(u), float(v), 0, 0, uint32_t(numbers.bits())};
     const glm::dvec3 a(primitive.positions[corners[0]]), b(primitive.positions[corners[1]]),
@@ -117,30 +121,35 @@ std::vector<SurfaceAnchor> anchorsOf(const Primitive& primitive, uint32_t candid
     const double size = glm::length(outward);
     c.anchor.area = float(0.5 * size);
     c.normal = size > 0 ? outward / size : glm::dvec3(0, 0, 1);
-  }
-  for (uint32_t i = candidates; i > 1; --i) std::swap(all[i - 1], all[numbers.bits() % i]);
+    return c;
+  };
 
-  // Level by level: all that are far enough from those that are there already. The finest still has several
-  // candidates for each place.
-  const double finest = 2 * std::sqrt(area / candidates);
+  // Level by level: of so many candidates for each place all that are far enough from those that are there
+  // already. How many there are of finer levels changes nothing in a coarser one.
+  std::vector<Candidate> all;
+  all.reserve(candidates);
   std::vector<SurfaceAnchor> anchors;
   std::vector<bool> isTaken(candidates, false);
-  std::vector<const Candidate*> taken;
+  std::vector<uint32_t> taken;
   double wider = std::sqrt(area) * 2;
-  for (double spacing = std::sqrt(area); spacing >= finest; wider = spacing, spacing *= 0.70710678) {
+  for (double spacing = std::sqrt(area);; wider = spacing, spacing *= 0.70710678) {
+    const double places = area / (spacing * spacing);
+    const auto count = uint64_t(std::ceil(kCandidatesForPlace * places));
+    if (count > candidates) break;
+    while (all.size() < count) all.push_back(candidateOf(all.size()));
     // About so many fit, and some more.
-    Neighbours neighbours(spacing, std::min<size_t>(candidates, 64 + size_t(2 * area / (spacing * spacing))));
-    for (const Candidate* candidate : taken) neighbours.add(*candidate);
+    Neighbours neighbours(spacing, std::min<size_t>(count, 64 + size_t(2 * places)));
+    for (const uint32_t i : taken) neighbours.add(all[i]);
     const size_t first = taken.size();
-    for (uint32_t i = 0; i < candidates; ++i) {
+    for (uint32_t i = 0; i < count; ++i) {
       if (isTaken[i] || neighbours.near(all[i])) continue;
       isTaken[i] = true;
-      taken.push_back(&all[i]);
+      taken.push_back(i);
       neighbours.add(all[i]);
     }
     // Between two levels spacings go on evenly.
     for (size_t i = first; i < taken.size(); ++i) {
-      SurfaceAnchor anchor = taken[i]->anchor;
+      SurfaceAnchor anchor = all[taken[i]].anchor;
       anchor.spacing =
           float(wider * std::pow(spacing / wider, (i - first + 0.5) / double(taken.size() - first)));
       anchors.push_back(anchor);

@@ -18,8 +18,9 @@ struct SurfaceAnchor {
   bool operator==(const SurfaceAnchor&) const = default;
 };
 
-// By spacing, the widest first; as many as `candidates` points allow, about a twelfth. Follows from the
-// primitive and `seed` alone. A surface without area has none.
+// By spacing, the widest first; as many as so many candidates for their places allow, about a twentieth, and
+// of fewer candidates the first ones of those. Follows from the primitive and `seed` alone. A surface without
+// area has none.
 std::vector<SurfaceAnchor> anchorsOf(const Primitive& primitive, uint32_t candidates, uint32_t seed);
 // Of a primitive, in mesh space, square metres.
 double areaOf(const Primitive& primitive);

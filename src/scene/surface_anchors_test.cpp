@@ -37,7 +37,7 @@ glm::vec3 placeOf(const Primitive& mesh, const SurfaceAnchor& anchor) {
 
 TEST(SurfaceAnchors, lieInTheirTrianglesAndFollowFromTheSeed) {
   const Primitive mesh = unevenSquare();
-  const auto anchors = anchorsOf(mesh, 4000, 1);
+  const auto anchors = anchorsOf(mesh, 16000, 1);
   EXPECT_GT(anchors.size(), 250u);
   for (const SurfaceAnchor& anchor : anchors) {
     EXPECT_GE(anchor.toB, 0);
@@ -48,15 +48,30 @@ TEST(SurfaceAnchors, lieInTheirTrianglesAndFollowFromTheSeed) {
   }
   EXPECT_TRUE(std::is_sorted(anchors.begin(), anchors.end(),
                              [](const auto& a, const auto& b) { return a.spacing > b.spacing; }));
-  EXPECT_EQ(anchors, anchorsOf(mesh, 4000, 1));
-  EXPECT_NE(anchors, anchorsOf(mesh, 4000, 2));
+  EXPECT_EQ(anchors, anchorsOf(mesh, 16000, 1));
+  EXPECT_NE(anchors, anchorsOf(mesh, 16000, 2));
+}
+
+// What is there stays where more come.
+TEST(SurfaceAnchors, ofFewerCandidatesAreTheFirstOnes) {
+  const Primitive mesh = unevenSquare();
+  const auto most = anchorsOf(mesh, 64000, 3);
+  size_t before = 0;
+  for (const uint32_t candidates : {10u, 16u, 100u, 777u, 4000u, 32000u}) {
+    const auto anchors = anchorsOf(mesh, candidates, 3);
+    ASSERT_LE(anchors.size(), most.size()) << candidates;
+    EXPECT_TRUE(std::equal(anchors.begin(), anchors.end(), most.begin())) << candidates;
+    EXPECT_GE(anchors.size(), before) << candidates;
+    before = anchors.size();
+  }
+  EXPECT_GT(most.size(), 1.5 * double(before));
 }
 
 // Of any spacing: nobody is nearer, no place is farther from all than that, and there are as many in each
 // part of the surface as its area says.
 TEST(SurfaceAnchors, areEvenAtEveryScale) {
   const Primitive mesh = unevenSquare();
-  const auto anchors = anchorsOf(mesh, 8000, 5);
+  const auto anchors = anchorsOf(mesh, 32000, 5);
   for (const float spacing : {0.9f, 0.45f, 0.22f, 0.12f}) {
     std::vector<glm::vec3> places;
     for (const SurfaceAnchor& anchor : anchors)
@@ -87,10 +102,10 @@ TEST(SurfaceAnchors, ofNothingAreNone) {
 // Both sides of a thin sheet have their own.
 TEST(SurfaceAnchors, sidesOfASheetDoNotKnowOfEachOther) {
   Primitive sheet = unevenSquare();
-  const size_t one = anchorsOf(sheet, 4000, 1).size(), corners = sheet.indices.size();
+  const size_t one = anchorsOf(sheet, 16000, 1).size(), corners = sheet.indices.size();
   for (size_t i = 0; i < corners; i += 3)
     for (const size_t corner : {0u, 2u, 1u}) sheet.indices.push_back(sheet.indices[i + corner]);
-  const size_t both = anchorsOf(sheet, 8000, 1).size();
+  const size_t both = anchorsOf(sheet, 32000, 1).size();
   EXPECT_NEAR(double(both), 2.0 * double(one), 0.2 * double(one));
 }
 

@@ -33,6 +33,8 @@ ExampleTexture& ExampleTextures::find(const look::LookData& look, look::Picture 
   ExampleTexture texture;
   texture.width = pixels.width, texture.height = pixels.height;
   texture.statistics = measure(pixels);
+  for (size_t i = 3; i < pixels.rgba.size() && !texture.isClear; i += 4)
+    texture.isClear = pixels.rgba[i] < 255;
   gpu::Uploader uploader(device_);
   texture.image = upload(uploader, pixels);
   uploader.flush();

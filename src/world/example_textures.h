@@ -16,6 +16,7 @@ struct ExampleTexture {
   gpu::Image image;
   Statistics statistics;
   uint32_t width = 1, height = 1;
+  bool isClear = false;  // it has transparency anywhere
   // The Gaussian twin and its inverse, where they were asked for; else they are empty.
   gpu::Image gaussian, inverse;
   Statistics gaussianStatistics;

@@ -6,6 +6,7 @@
 
 #ifdef __cplusplus
 namespace scumble::shared {
+using glm::abs;
 using glm::floor;
 using glm::max;
 using glm::min;
@@ -16,14 +17,14 @@ using glm::smoothstep;
 
 SHARED_BEGIN
 
-// By how much something may be before an edge and hide nothing: a part of its distance or (in parallel
-// projections) of the scene's radius, which is what rounding does and what levels of detail leave out; and
-// what some pixels measure there. And what hides all of it. In a valley the surface comes nearer on both
-// sides.
-const float kInkTolerance = 0.0015f, kInkTolerancePixels = 1.0f, kInkValleyTolerancePixels = 3.0f;
-const float kInkHides = 0.0045f, kInkHidesPixels = 4.0f, kInkValleyHidesPixels = 12.0f;
-// Where depth is looked up beside an edge, pixels: beyond it, twice, and before it.
-const float kInkBeyond = 1.5f, kInkFarBeyond = 2.6f, kInkBefore = 1.5f;
+// By how much a surface may lie before an edge and hide nothing: so many pixels, as what they measure there.
+// By how much it may lie elsewhere than where the edge's own surface leads: as much, and a part of how far
+// that is. Twice that hides all of it.
+const float kInkTolerance = 0.5f, kInkSlopeTolerance = 0.06f;
+const float kInkExtends = 1.0f;  // pixels
+const float kInkRisesMost = 1.5f;  // tangent
+// Where depth is looked up beside an edge, pixels: beyond it and before it, twice.
+const float kInkBeyond = 1.5f, kInkFarBeyond = 2.6f, kInkBefore = 1.5f, kInkFarBefore = 3.0f;
 // How full a line is, is the mean of what is found at a place and so many pixels before and behind it.
 const float kInkMeanOver = 2.0f;
 // Over how many pixels an outline ends that is not drawn along its whole edge.
@@ -33,12 +34,12 @@ const float kInkSoftEnd = 8.0f;
 struct InkPlace {
   float distance;  // along the view axis
   float beyond;    // the same of what lies beyond the edge, the farther of the two
-  float before;    // of what lies before it
+  float hidden;    // inkHidden of what lies around it
   float pixel;     // that a pixel covers
   float radius;    // of the line, pixels
   vec2 turn;       // as LineRecord has it
   float reach;     // inkReach there
-  uint isOutline, isValley;
+  uint isOutline;
 };
 
 // How much of an outline is drawn at a place along its edge, from 0 to 1. `reach`: as LineRecord has it; all
@@ -64,19 +65,49 @@ SHARED_FUNCTION float inkDepthAlong(float atA, float atB, float along) {
   return max(mix(atA, atB, min(max(along, -0.5f), 1.5f)), 0.5f * min(atA, atB));
 }
 
-// A factor on the line's width; 0 where it is hidden. `parallel`: 1 for a parallel projection, else 0;
-// `fade`, `outer`: as InkUniforms has them.
+// How far away a place along an edge is, metres, from inkDepthAlong() there (`extended`) and at the nearer of
+// its ends (`end`), if it lies beyond that: an edge that leads towards the eye does not come through what is
+// before it.
+SHARED_FUNCTION float inkNoFurther(float extended, float end, float along, float pixel) {
+  float most = along < 0.0f || along > 1.0f ? kInkExtends * pixel : 1e30f;
+  return min(max(extended, end - most), end + most);
+}
+
+// What is linear on the screen where a surface is flat: one over the distance, but in a parallel projection
+// (`parallel` 1, else 0) the distance itself; and back.
+SHARED_FUNCTION float inkLinear(float distance, float parallel) {
+  return mix(1.0f / max(distance, 1e-30f), distance, parallel);
+}
+
+// By how much of what it may a surface lies before an edge, where it is seen just beside that; above 1 it
+// hides the edge. It is either the edge's own, and then where that leads to, or may not be nearer than the
+// edge. Metres along the view axis: of the edge, of where its own surface is expected, of what is seen, and
+// of a pixel; `away`: from the edge, pixels.
 //
-// What lies just beside the edge on both sides tells whether something is before it: if the farther of the
-// two is nearer than the edge. So there is nothing to fight with about depths, and a line is hidden over its
-// whole width at once.
-SHARED_FUNCTION float inkFullness(InkPlace p, float sceneRadius, float parallel, float fade, float outer) {
+// Where an edge touches what is before it, as a box's does the ground, one of both rises gently towards the
+// eye; a steep surface would lead to whatever is before it.
+SHARED_FUNCTION float inkBefore(float distance, float expected, float seen, float pixel, float away) {
+  float allowed = kInkTolerance * pixel, rises = abs(expected - distance);
+  float own = abs(expected - seen) / (allowed + kInkSlopeTolerance * rises);
+  own += max(rises / (away * pixel) - kInkRisesMost, 0.0f);
+  return min((distance - seen) / allowed, own);
+}
+
+// The same of both sides of an edge, by inkBefore() at two places on either: what is far behind a surface may
+// lead to it at one of them by chance. Beyond an outline there is nothing of its own, and one place is
+// enough.
+SHARED_FUNCTION float inkHidden(vec2 beyond, vec2 before, uint isOutline) {
+  float outside = isOutline != 0u ? min(beyond.x, beyond.y) : max(beyond.x, beyond.y);
+  return min(outside, max(before.x, before.y));
+}
+
+// A factor on the line's width; 0 where it is hidden. `fade`, `outer`: as InkUniforms has them.
+//
+// What lies just beside the edge on both sides tells whether something is before it: if it is on either. So
+// there is nothing to fight with about depths, and a line is hidden over its whole width at once.
+SHARED_FUNCTION float inkFullness(InkPlace p, float sceneRadius, float fade, float outer) {
   // What is hidden comes and goes by how deep it lies, and never at once.
-  float scale = mix(p.distance, sceneRadius, parallel);
-  float tolerance = p.isValley != 0u ? kInkValleyTolerancePixels : kInkTolerancePixels;
-  float hides = p.isValley != 0u ? kInkValleyHidesPixels : kInkHidesPixels;
-  float hidden = smoothstep(kInkTolerance * scale + tolerance * p.pixel, kInkHides * scale + hides * p.pixel,
-                            p.distance - max(p.beyond, p.before));
+  float hidden = smoothstep(1.0f, 2.0f, p.hidden);
   if (p.isOutline == 0u) return 1.0f - hidden;
   // An outline tapers where the form goes on right behind it, so that it neither begins nor ends at once; but
   // the fold of a coarse form has depth until it closes, and tapers by its angle.

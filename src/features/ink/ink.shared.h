@@ -56,6 +56,7 @@ struct InkUniforms {
   float sinFadeAngle;
   float outer;                 // a factor
   float texture, textureSize;  // how much of it; pixels of one period
+  vec2 depthAt;                // where in a pixel its depth is that of what is seen there
   InkKind kinds[kInkKinds];
 };
 
@@ -80,7 +81,10 @@ struct LineRecord {
   vec4 shift;    // where lines move that lie beside it, for each pixel; at both ends
   vec4 radii;    // at both ends, pixels; depth-buffer values there
   vec4 color;    // square root; how much is the surface's own, or, below 0, is multiplied by that
-  vec3 outward;  // unit, on the screen; 1: an outline, -1: in a valley
+  vec3 outward;  // unit, on the screen; 1: an outline
+  // What a pixel to the right, and one down, adds to inkLinear() of the edge's surface before it (against
+  // `outward`; x, y), and beyond it.
+  vec4 slopes;
   // Of outlines: how much the form turns away behind it, from 0 to 1; what part of its width it has in any
   // case, as the inner line that it is besides.
   vec2 turn;
@@ -95,8 +99,8 @@ const int kInkRoom = 65536;  // for records of a view
 // other, in column n % kLineTableWidth. Below all of them is a row that says what they are drawn with.
 //   0, 1: spine, shift, as LineRecord has them    2: radii, metres along the view axis at both ends
 //   3: color    4: outward; 1 + kind, so that 0 is no line    5: turn, reach    6: lower and upper half of
-//   seen
-const int kLineTexels = 7, kLineTableWidth = 4096, kLineTableRows = 64;
+//   seen    7: slopes
+const int kLineTexels = 8, kLineTableWidth = 4096, kLineTableRows = 64;
 const int kLineTableRoom = kLineTableWidth * kLineTableRows;
 // Of that row: how many lines there are, also beyond the room; pixels of one knob pixel, scene's radius,
 // whether the view is a parallel projection.

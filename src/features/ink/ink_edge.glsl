@@ -64,13 +64,22 @@ int innerKindOf(PlacedEdge edge) {
   return kInkNone;
 }
 
+// Which side of a triangle an eye sees: 1 its front, -1 its back, 0 its edge, but for what rounding does to the sine.
+const float kInkEdgeOn = 2e-5;
+int sideOf(vec3 normal, vec3 toEye) {
+  float along = dot(normal, toEye);
+  if (along * along <= kInkEdgeOn * kInkEdgeOn * dot(normal, normal) * dot(toEye, toEye)) return 0;
+  return along > 0.0 ? 1 : -1;
+}
+
 // Of the kinds that are shown, the first one that it is, as a view sees it (paper 004, section 2.2: one of its triangles
-// faces the eye, and the other one does not).
+// faces the eye, and the other one does not). A triangle that is seen from its edge is neither, so that what it joins to the
+// one and what it joins to the other are outlines: seen from there they lie one upon the other.
 int kindOf(PlacedEdge edge, vec4 eye) {
   if (edge.isNone) return kInkNone;
   if (edge.isOpen) return isShown(kInkBoundary) ? kInkBoundary : kInkNone;
   vec3 toEye = eye.xyz - eye.w * edge.a;
-  bool isSilhouette = (dot(edge.left, toEye) < 0.0) != (dot(edge.right, toEye) < 0.0);
+  bool isSilhouette = sideOf(edge.left, toEye) != sideOf(edge.right, toEye);
   return isSilhouette && isShown(kInkSilhouette) ? kInkSilhouette : innerKindOf(edge);
 }
 #endif

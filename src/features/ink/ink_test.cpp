@@ -94,6 +94,101 @@ TEST_P(Ink, silhouettesAreThoseOfTheReference) {
               evenLines(), {{2, 1.5f, 4}}, outline);
 }
 
+// A box of so many cells a side, and a column of as many sides that stands upright, one of them towards +z.
+TestMesh cellBox(int cells) {
+  TestMesh mesh;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int side = 0; side < 2; ++side) {
+      glm::vec3 corner(-0.8f, -0.6f, -0.5f), u(0.0f), v(0.0f);
+      const glm::vec3 size(1.6f, 1.2f, 1);
+      u[(axis + 1) % 3] = size[(axis + 1) % 3], v[(axis + 2) % 3] = size[(axis + 2) % 3];
+      if (side) corner[axis] += size[axis];
+      append(mesh, side ? gridMesh(corner, u, v, cells) : gridMesh(corner, v, u, cells), {1, 1, 1, 1});
+    }
+  return mesh;
+}
+TestMesh column(int sides) {
+  TestMesh mesh;
+  const auto at = [&](int i, float y) {
+    const double turn = (i + 0.5) * 2 * std::numbers::pi / sides;
+    return glm::vec3(std::sin(turn), y, std::cos(turn));
+  };
+  for (int i = 0; i < sides; ++i) {
+    const glm::vec3 a = at(i - 1, -0.7f), b = at(i, -0.7f);
+    append(mesh, gridMesh(a, b - a, {0, 1.4f, 0}), {1, 1, 1, 1});
+    for (const float y : {-0.7f, 0.7f}) {
+      TestMesh cap;
+      cap.positions = {at(i, y), at(i - 1, y), {0, y, 0}};
+      if (y > 0) std::swap(cap.positions[0], cap.positions[1]);
+      cap.normals.assign(3, {0, y > 0 ? 1 : -1, 0});
+      cap.uvs.assign(3, {0, 0});
+      cap.indices = {0, 1, 2};
+      append(mesh, cap, {1, 1, 1, 1});
+    }
+  }
+  return mesh;
+}
+
+// (Paper 004, section 2.2: an edge between a face that is seen from its edge and one that is turned away is
+// an outline.) Zero is a side: there, and as far to either side of it as rounding leads, the outline is as
+// whole as it is when the form is turned a little.
+TEST_P(Ink, facesSeenFromTheirEdgeHaveOutlines) {
+  const std::vector<std::pair<std::string, TestMesh>> forms{{"box", cellBox(1)},
+                                                            {"box of cells", cellBox(3)},
+                                                            {"column of 4", column(4)},
+                                                            {"column of 8", column(8)}};
+  for (const auto& [name, mesh] : forms)
+    for (const bool isMirrored : {false, true})
+      for (const bool isDoubleSided : {false, true}) {
+        const auto turned = [&](float turn) {
+          TestScene s;
+          Json material = TestScene::colored("Thing", {0.6f, 0.5f, 0.4f, 1});
+          material["doubleSided"] = isDoubleSided;
+          glm::mat4 matrix = glm::rotate(glm::mat4(1.0f), turn, {0, 1, 0});
+          if (isMirrored) matrix[0] = -matrix[0];
+          s.add(mesh, s.material(material), matrix);
+          return s.load();
+        };
+        const auto outlines = [&](const Scene& scene, const std::vector<View>& views, const char* placement) {
+          const Frame frame = drawLines(scene, evenLines({{"ink.placement", placement}}), views);
+          std::vector<double> sums;
+          for (size_t v = 0; v < viewCount(); ++v) {
+            sums.push_back(0);
+            for (int y = 0; y < kHeight; ++y)
+              for (int x = 0; x < kWidth; ++x) sums.back() += texel(aov(frame, "ink", v), x, y).w;
+          }
+          return sums;
+        };
+        const Scene turnedALittle = turned(0.002f);
+        const std::vector<View> parallel(viewCount(), parallelView(1.6f, float(kWidth) / kHeight));
+        const std::string what =
+            name + (isMirrored ? ", mirrored" : "") + (isDoubleSided ? ", double-sided" : "");
+        for (const char* placement : {"centred", "exterior"}) {
+          const std::vector<double> expected = outlines(turnedALittle, parallel, placement);
+          for (const float turn : {0.0f, 1e-7f, -1e-6f, 1e-5f, -3e-5f, 1e-4f, -5e-4f}) {
+            const std::vector<double> sums = outlines(turned(turn), parallel, placement);
+            for (size_t v = 0; v < viewCount(); ++v)
+              EXPECT_NEAR(sums[v] / expected[v], 1, 0.03)
+                  << what << ", " << placement << ", turned by " << turn;
+          }
+          // Eyes in the plane of the box's side, and a little beside it.
+          if (!name.starts_with("box")) continue;
+          const auto from = [&](const Scene& scene, float x) {
+            return outlines(
+                scene, viewsFrom(scene, {{x, 0.6f, 6}, {0, 0, 0}, 40, 0, 0.1f}, kWidth, kHeight, GetParam()),
+                placement);
+          };
+          const Scene scene = turned(0);
+          const std::vector<double> inside = from(scene, 0.79f);
+          for (const float x : {0.75f, 0.799f, 0.7999f, 0.8f, 0.8001f, 0.801f, 0.85f}) {
+            const std::vector<double> sums = from(scene, x);
+            for (size_t v = 0; v < viewCount(); ++v)
+              EXPECT_NEAR(sums[v] / inside[v], 1, 0.03) << what << ", " << placement << ", eye at " << x;
+          }
+        }
+      }
+}
+
 TEST_P(Ink, creasesAreEdgesThatAreSharpAndSeen) {
   const Knobs knobs = evenLines({{"ink.silhouettes.shown", "off"},
                                  {"ink.creases.shown", "on"},
@@ -253,7 +348,7 @@ class HalfHidden {
 // What lies before a line hides it more and more the farther it lies before it, and never at once.
 TEST_P(Ink, whatIsHiddenComesByItsDepth) {
   const double pixel = 2 * HalfHidden::kDistance * std::tan(glm::radians(20.0)) / kHeight;
-  const double from = 0.0015 * HalfHidden::kDistance + pixel, to = 0.0045 * HalfHidden::kDistance + 4 * pixel;
+  const double from = 0.5 * pixel, to = pixel;
   for (const double part : {-0.3, 0.0, 0.2, 0.4, 0.5, 0.6, 0.8, 1.0, 1.2}) {
     const HalfHidden s(from + part * (to - from), -0.8);
     const auto views = viewsFrom(s.scene(), HalfHidden::kStand, kWidth, kHeight, GetParam());
@@ -264,6 +359,59 @@ TEST_P(Ink, whatIsHiddenComesByItsDepth) {
       EXPECT_NEAR(inkAcross(frame, v, pixelOf(views[v], {0, 0.3, -1}, kWidth, kHeight)), 1 - hidden, 0.03)
           << part;
   }
+}
+
+// (Paper 004, section 2.4.) Closed doors show no line of what is behind them: not of shelves close behind,
+// from however far, however they are turned to the viewer, in either projection; and all of those of the
+// door.
+TEST_P(Ink, linesDoNotShineThroughWalls) {
+  const auto scene = [](float turn, float gap, bool hasShelf) {
+    TestScene s;
+    const int material = s.material(TestScene::colored("Thing", {0.6f, 0.5f, 0.4f, 1}));
+    const glm::mat4 turned = glm::rotate(glm::mat4(1.0f), turn, {0.3f, 0.9f, 0.1f});
+    s.add(gridMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 3), material, turned);
+    if (hasShelf) {
+      s.add(boxMesh({-0.6f, -0.5f, -gap - 0.4f}, {0.6f, -0.1f, -gap}), material, turned);
+      s.add(sphereMesh({0, 0.4f, -gap - 0.3f}, 0.3f, 12), material, turned);
+    }
+    return s.load();
+  };
+  const Knobs knobs = evenLines({{"ink.creases.shown", "on"},
+                                 {"ink.creases.width", "1"},
+                                 {"ink.boundaries.shown", "on"},
+                                 {"ink.boundaries.width", "1"}});
+  for (const float distance : {3.0f, 10.0f, 100.0f})
+    for (const float turn : {0.0f, 0.25f, -0.3f})
+      for (const bool isParallel : {false, true}) {
+        if (isParallel && distance > 3) continue;
+        // So that it fills the same part of the picture.
+        const float fov = glm::degrees(2 * std::atan(1.4f / distance));
+        const float pixel = 2.8f / float(kHeight);
+        for (const float gap : {3 * pixel / std::cos(turn), 0.1f, 0.5f}) {
+          const Scene with = scene(turn, gap, true), without = scene(turn, gap, false);
+          auto views =
+              viewsFrom(with, {{0, 0, distance}, {0, 0, 0}, fov, 0, 0.02f}, kWidth, kHeight, GetParam());
+          if (isParallel)
+            for (View& view : views) view = parallelView(1.4f, float(kWidth) / kHeight);
+          const Frame open = drawLines(with, knobs, views), closed = drawLines(without, knobs, views);
+          for (size_t v = 0; v < viewCount(); ++v) {
+            Difference ink(0.02);
+            double drawn = 0;
+            for (int y = 0; y < kHeight; ++y)
+              for (int x = 0; x < kWidth; ++x) {
+                const double there = texel(aov(closed, "ink", v), x, y).w;
+                drawn += there;
+                ink.add(texel(aov(open, "ink", v), x, y).w, there);
+              }
+            EXPECT_GT(drawn, 300);
+            // Corners of edges that lead away from the eye are all that may be left, as dots of a pixel.
+            EXPECT_LT(ink.beyond, 12u) << distance << " m, turned by " << turn << ", " << gap << " m behind"
+                                       << (isParallel ? ", parallel: " : ": ") << ink.text();
+            EXPECT_LT(ink.mean() * kWidth * kHeight, 4)
+                << distance << " m, turned by " << turn << ", " << gap << " m behind";
+          }
+        }
+      }
 }
 
 // Where a line goes behind something it ends within some pixels, however that lies on the pixels.

@@ -44,9 +44,10 @@ Look seaLook(const Knobs& knobs) {
 class Decorations : public BothEyes {
  protected:
   static Frame drawAt(const Scene& scene, const Knobs& knobs, double time, const Stand& stand = kAbove,
-                      double before = 0) {
+                      double before = 0, uint32_t seed = 0) {
     RenderOptions options = sized(kWakeWidth, kWakeHeight, {"lit", "position", "id", "motion"});
     options.previousTime = before;
+    options.seed = seed;
     Result<Frame> frame = renderer().render(
         scene, seaLook(knobs), time, viewsFrom(scene, stand, kWakeWidth, kWakeHeight, GetParam()), options);
     if (!frame) throw std::runtime_error(frame.error().message());
@@ -133,6 +134,58 @@ TEST_P(Decorations, holesShowTheWaterAtItsHeight) {
         EXPECT_GT(differ, 20u) << kind << " suppresses strokes";
       }
     }
+}
+
+// (Paper 000, section 6.2: suppressed, so that the texture has effectively zero saliency.) Where a decoration
+// lies, strokes keep a tenth of their contrast at most, and none is put on what is mirrored.
+TEST_P(Decorations, leaveNoStrokesWhereTheyLie) {
+  const Scene scene = boatScene();
+  struct Zone {
+    const char *kind, *radius, *start;
+    double from, to;  // metres from the middle
+  };
+  // Of a wake, all around what makes it: behind it there is one.
+  for (const Zone& zone : {Zone{"ripples", "6", "0", 0, 2.4}, Zone{"ripples", "8", "-2", 0, 4.5},
+                           Zone{"splash", "3", "2", 0, 2.5}, Zone{"wake", "2", "0", 2.6, 4.4}}) {
+    const bool isWake = std::string(zone.kind) == "wake";
+    const Knobs sea{{"ocean.wind", "0"}, {"ocean.speed", isWake ? "2" : "0"}};
+    Knobs knobs = sea;
+    knobs.insert(knobs.end(), {{"decorations.D.water.kind", zone.kind},
+                               {"decorations.D.water.radius", zone.radius},
+                               {"decorations.D.water.start", zone.start},
+                               {"decorations.D.water.height", "0"},
+                               {"decorations.D.water.foam", "0"}});
+    if (isWake) knobs.push_back({"decorations.D.water.node", "Boat"});
+    // What strokes there are is what another seed changes.
+    const Frame bare[] = {drawAt(scene, sea, 4), drawAt(scene, sea, 4, kAbove, 0, 1)},
+                with[] = {drawAt(scene, knobs, 4), drawAt(scene, knobs, 4, kAbove, 0, 1)};
+    for (size_t v = 0; v < viewCount(); ++v) {
+      // By direction: sums of squares of that, before and after.
+      constexpr int kSectors = 36;
+      double sums[kSectors][3] = {};
+      for (int y = 0; y < kWakeHeight; ++y)
+        for (int x = 0; x < kWakeWidth; ++x) {
+          if (!isSea(scene, bare[0], x, y, v) || !isSea(scene, with[0], x, y, v)) continue;
+          const glm::dvec4 place = texel(aov(bare[0], "position", v), x, y);
+          const double away = std::hypot(place.x, place.z);
+          if (away < zone.from || away > zone.to) continue;
+          const double turn = std::atan2(place.z, place.x) / 6.2831854 + 0.5;
+          double* sum = sums[isWake ? int(turn * kSectors) % kSectors : 0];
+          const auto change = [&](const Frame* frames) {
+            return glm::distance(texel(aov(frames[0], "lit", v), x, y),
+                                 texel(aov(frames[1], "lit", v), x, y));
+          };
+          sum[0] += std::pow(change(bare), 2), sum[1] += std::pow(change(with), 2), ++sum[2];
+        }
+      double least = 1e9;
+      for (const double* sum : sums) {
+        if (sum[2] < 25) continue;
+        EXPECT_GT(std::sqrt(sum[0] / sum[2]), 0.005) << zone.kind;
+        least = std::min(least, std::sqrt(sum[1] / sum[0]));
+      }
+      EXPECT_LE(least, 0.1) << zone.kind << " " << zone.radius << " from " << zone.start;
+    }
+  }
 }
 
 TEST_P(Decorations, wakesLieBehindWhatGoesThroughTheWater) {

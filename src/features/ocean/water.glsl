@@ -98,6 +98,12 @@ vec2 ringsAt(float away, float front, float crests, float between) {
   return vec2(cos(6.2831853 * behind), there * smoothstep(0.0, 0.5 * between, away));
 }
 
+// All within the foremost ring: what else there is to be seen of the water would move another way.
+float calmAt(float away, float front, float between, float age) {
+  return smoothstep(0.0, 0.08, age) * (1.0 - smoothstep(0.75, 1.0, age)) *
+         (1.0 - smoothstep(front, front + 0.5 * between, away));
+}
+
 Decorated ripplesAt(int index, vec2 place) {
   Decorated w = Decorated(vec3(0.0), 0.0, 0.0, 0.0, 1e9);
   float between = OF.radius / (2.0 * OF.crests + 1.0);
@@ -109,7 +115,7 @@ Decorated ripplesAt(int index, vec2 place) {
     w.displacement.y += fade * OF.height * 0.09 * between * rings.x;
     w.crest += 2.4 * fade * rings.x;
     w.cover = max(w.cover, 0.85 * OF.foam * fade * pow(max(rings.x, 0.0), 3.0));
-    w.calm = max(w.calm, min(3.0 * fade, 0.8));
+    w.calm = max(w.calm, calmAt(away, front, between, age));
     w.outside = min(w.outside, away - front - 0.5 * between);
   }
   return w;
@@ -143,7 +149,7 @@ Decorated splashAt(int index, vec2 place) {
     w.displacement.y += still * OF.height * 0.08 * between * rings.x;
     w.crest += 2.0 * still * rings.x + up * onCrown;
     w.cover = max(w.cover, 0.6 * OF.foam * still * pow(max(rings.x, 0.0), 4.0));
-    w.calm = max(w.calm, max(min(3.0 * still, 0.8), whitened * fade));
+    w.calm = max(w.calm, calmAt(away, max(front, OF.radius), between, age));
     w.outside = min(w.outside, away - max(front + 0.5 * between, 1.3 * OF.radius));
   }
   return w;

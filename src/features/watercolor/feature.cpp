@@ -12,8 +12,8 @@ class WatercolorPlan : public world::FeaturePlan {
  public:
   bool equals(const world::FeaturePlan&) const override { return true; }
   std::unique_ptr<world::FeatureMoment> makeMoment(gpu::Device& device,
-                                                   const scene::SceneData&) const override {
-    return std::make_unique<WatercolorMoment>(device);
+                                                   const scene::SceneData& scene) const override {
+    return std::make_unique<WatercolorMoment>(device, scene);
   }
 };
 

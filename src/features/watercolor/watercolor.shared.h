@@ -6,27 +6,30 @@ SHARED_BEGIN
 
 // A point on a surface (scene/surface_anchors.h).
 struct DrawnAnchor {
-  uint a, b, c;  // final vertices, counted from where the chunk's begin
+  uint a, b, c;  // final vertices, counted from where the object's begin
   float toB, toC;
   float spacing;  // metres in mesh space
   float area;     // of the triangle there, square metres
   uint seed;
 };
-// A run of anchors of one object; a number of an anchor among all is that of its chunk times kAnchorChunk,
-// and its place in it.
-const int kAnchorChunk = 64;
-struct AnchorChunk {
-  uint firstAnchor, count;
+// Something that is painted; the anchors of one lie one after the other, and are drawn as its instances.
+struct PaintedObject {
+  uint firstAnchor;
   uint firstVertex;
+  uint object;
+  uint seed;     // what is painted alike elsewhere has another one
+  uint isSided;  // 1: its back is never seen, so that what turns away is hidden
 };
 
 struct PigmentUniforms {
   float spacing;   // pixels
   float size;      // of stamps, in spacings
   float backruns;  // part of stamps
+  uint seed;
+  uint isBrushClear;  // 1: the brush's picture has transparency, which says where it paints
 };
-const int kPigmentBlock = 0, kPigmentAnchors = 1, kPigmentChunks = 2, kPigmentVertices = 3, kPigmentDepth = 4,
-          kPigmentBrush = 5;
+const int kPigmentBlock = 0, kPigmentAnchors = 1, kPigmentObjects = 2, kPigmentVertices = 3,
+          kPigmentDepth = 4, kPigmentBrush = 5, kPigmentPlaces = 6;
 
 // Pigment is laid down at a quarter of the size, since stamps are large and soft.
 const int kPigmentScale = 4;

@@ -2,9 +2,11 @@
 // stays with its object, and is as dense on the screen far away as near by.
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "base/test_folder.h"
 #include "scumble/image.h"
+#include "scumble/scene_editor.h"
 #include "tests/support/aov.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
@@ -184,6 +186,179 @@ TEST_P(Watercolor, stampsStayOnTheirObject) {
   }
 }
 
+// (Paper 004, section 3.4: what faces away is not seen.) Thin things wear the marks of their fronts alone,
+// whatever is behind them.
+TEST_P(Watercolor, thinThingsWearNoMarksOfTheirBacks) {
+  const Stand stand{{0.1f, 0.05f, 4}, {0, 0, 0}, 40, 0, 0.05f};
+  // A front and, `behind` it, another sheet, which faces the viewer or away.
+  const auto sheets = [](float behind, bool isTurned, bool isMirrored) {
+    TestScene s;
+    const int material = s.material(TestScene::unlit("Board", {0.3f, 0.5f, 0.7f, 1}));
+    s.add(gridMesh({-0.8f, -0.8f, 0}, {1.6f, 0, 0}, {0, 1.6f, 0}, 4), material);
+    const glm::vec3 along(1.6f, 0, 0), up(0, 1.6f, 0), corner(-0.8f, -0.8f, -behind);
+    const bool swaps = isTurned != isMirrored;
+    glm::mat4 mirror(1.0f);
+    if (isMirrored) mirror[0][0] = -1;
+    s.add(swaps ? gridMesh(corner, up, along, 4) : gridMesh(corner, along, up, 4), material, mirror);
+    return s;
+  };
+  for (const bool isMirrored : {false, true})
+    for (const bool isTurned : {false, true}) {
+      const Frame far = paint(sheets(500, isTurned, isMirrored), plainWash(), stand, {"pigment"});
+      for (const float behind : {0.02f, 0.05f, 0.2f}) {
+        const Frame near = paint(sheets(behind, isTurned, isMirrored), plainWash(), stand, {"pigment"});
+        for (size_t v = 0; v < viewCount(); ++v) {
+          const glm::dvec2 low = at(v, {-0.75, 0.75, 0}), high = at(v, {0.75, -0.75, 0});
+          for (int y = int(low.y) + 1; y < int(high.y); ++y)
+            for (int x = int(low.x) + 1; x < int(high.x); ++x)
+              ASSERT_EQ(texel(aov(near, "pigment", v), x, y), texel(aov(far, "pigment", v), x, y))
+                  << behind << (isTurned ? ", turned" : "") << (isMirrored ? ", mirrored" : "");
+        }
+      }
+    }
+  // A closed slab has backs, too, where its material says that both sides are seen.
+  const auto slab = [](bool isDoubleSided) {
+    TestScene s;
+    Json material = TestScene::unlit("Board", {0.3f, 0.5f, 0.7f, 1});
+    material["doubleSided"] = isDoubleSided;
+    s.add(boxMesh({-0.8f, -0.8f, -0.05f}, {0.8f, 0.8f, 0}), s.material(material));
+    return s;
+  };
+  const Frame one = paint(slab(false), plainWash(), stand, {"pigment"}),
+              both = paint(slab(true), plainWash(), stand, {"pigment"});
+  for (size_t v = 0; v < viewCount(); ++v)
+    EXPECT_EQ(largestDifference(aov(one, "pigment", v), aov(both, "pigment", v)), 0);
+}
+
+// (Paper 004, section 3.5.) And an open sheet that is seen from both sides is painted on both.
+TEST_P(Watercolor, objectsThatTouchKeepTheirStamps) {
+  const Stand stand{{0, 0, 3}, {0, 0, 0}, 34, 0, 0.05f};
+  const auto sheets = [](float awayOfRight, bool isTurned) {
+    TestScene s;
+    Json material = TestScene::unlit("Board", {0.3f, 0.5f, 0.7f, 1});
+    material["doubleSided"] = true;
+    const int board = s.material(material);
+    s.add(isTurned ? gridMesh({-0.9f, -0.7f, 0}, {0, 1.4f, 0}, {0.9f, 0, 0}, 4)
+                   : gridMesh({-0.9f, -0.7f, 0}, {0.9f, 0, 0}, {0, 1.4f, 0}, 4),
+          board);
+    s.add(gridMesh({0, -0.7f, -awayOfRight}, {0.9f, 0, 0}, {0, 1.4f, 0}, 4), board);
+    return s;
+  };
+  for (const bool isTurned : {false, true}) {
+    const Frame both = paint(sheets(0, isTurned), plainWash(), stand, {"pigment"}),
+                alone = paint(sheets(500, isTurned), plainWash(), stand, {"pigment"});
+    for (size_t v = 0; v < viewCount(); ++v) {
+      const glm::dvec2 low = at(v, {-0.9, 0.7, 0}) + 4.0, border = at(v, {0, -0.7, 0}) - 4.0;
+      double painted = 0;
+      for (int y = int(low.y) + 1; y < int(border.y); ++y)
+        for (int x = int(low.x) + 1; x < int(border.x); ++x) {
+          ASSERT_EQ(texel(aov(both, "pigment", v), x, y), texel(aov(alone, "pigment", v), x, y))
+              << x << " " << y;
+          painted += texel(aov(both, "pigment", v), x, y).w;
+        }
+      EXPECT_GT(painted, 20) << isTurned;
+    }
+  }
+}
+
+// (Paper 004, sections 3.1 and 5.2.) What an object is painted with follows from itself, its name and the
+// seed: not from what else there is, and no two are painted alike.
+TEST_P(Watercolor, objectsArePaintedByThemselves) {
+  const Stand stand{{0, 0, 5}, {0, 0, 0}, 34, 0, 0};
+  const auto twins = [&](bool hasMore, bool hasNames) {
+    TestScene s;
+    const int board = s.material(TestScene::unlit("Board", {0.3f, 0.5f, 0.7f, 1}));
+    const TestMesh mesh = gridMesh({-0.7f, -0.8f, 0}, {1.4f, 0, 0}, {0, 1.6f, 0}, 4);
+    if (hasMore) {
+      // A ground of a square kilometre, out of sight, and before all others in the file.
+      s.add(gridMesh({-500, -900, 500}, {1000, 0, 0}, {0, 0, -1000}, 8), board);
+      s.add(sphereMesh({0, 0, 900}, 30, 12), board);
+    }
+    for (const float x : {-0.8f, 0.8f}) {
+      s.add(mesh, board, glm::translate(glm::mat4(1.0f), {x, 0, 0}));
+      Json& nodes = s.json()["nodes"];
+      nodes.back()["name"] = hasNames ? (x < 0 ? "Left" : "Right") : "Twin";
+      if (x > 0) nodes.back()["mesh"] = nodes[nodes.size() - 2]["mesh"];
+    }
+    return s;
+  };
+  const auto pigmentOf = [&](const TestScene& s, uint32_t seed) {
+    const Scene scene = s.load();
+    views_ = viewsFrom(scene, stand, kWidth, kHeight, GetParam());
+    RenderOptions options = sized(kWidth, kHeight, {"pigment"});
+    options.seed = seed;
+    return draw(scene, quietLook(plainWash({{"watercolor.spacing", "100"}})), views_, options);
+  };
+  // Of amounts of pigment, over what one of the boards takes up.
+  const auto correlation = [&](const Frame& a, double atA, const Frame& b, double atB, size_t v) {
+    double sums[5] = {}, count = 0;
+    for (double y = -0.7; y < 0.75; y += 0.05)
+      for (double x = -0.6; x < 0.65; x += 0.05) {
+        const auto amount = [&](const Frame& frame, double middle) {
+          const glm::dvec2 place = at(v, {middle + x, y, 0});
+          return texel(aov(frame, "pigment", v), int(place.x), int(place.y)).x;
+        };
+        const double p = amount(a, atA), q = amount(b, atB);
+        sums[0] += p, sums[1] += q, sums[2] += p * p, sums[3] += q * q, sums[4] += p * q, ++count;
+      }
+    for (double& sum : sums) sum /= count;
+    return (sums[4] - sums[0] * sums[1]) /
+           std::sqrt((sums[2] - sums[0] * sums[0]) * (sums[3] - sums[1] * sums[1]));
+  };
+  for (const bool hasNames : {false, true}) {
+    const Frame few = pigmentOf(twins(false, hasNames), 0), more = pigmentOf(twins(true, hasNames), 0),
+                other = pigmentOf(twins(false, hasNames), 1);
+    for (size_t v = 0; v < viewCount(); ++v) {
+      EXPECT_EQ(largestDifference(aov(few, "pigment", v), aov(more, "pigment", v)), 0) << hasNames;
+      EXPECT_GT(correlation(few, -0.8, few, -0.8, v), 0.999);
+      EXPECT_LT(std::abs(correlation(few, -0.8, few, 0.8, v)), 0.35) << hasNames;
+      EXPECT_LT(std::abs(correlation(few, -0.8, other, -0.8, v)), 0.35) << hasNames;
+    }
+  }
+}
+
+// (Paper 004, section 3.6: visibility is a proportion.) Something that slides before a board hides the stamps
+// of it bit by bit.
+TEST_P(Watercolor, stampsComeAndGoByHowMuchOfThemIsSeen) {
+  constexpr int kLarge = 4;  // the picture's size in those of the others
+  TestScene s;
+  const int board = s.material(TestScene::unlit("Board", {0.3f, 0.5f, 0.7f, 1}));
+  s.add(gridMesh({-3, -3, 0}, {6, 0, 0}, {0, 6, 0}, 4), board);
+  s.add(gridMesh({-0.4f, -3, 0.5f}, {0.8f, 0, 0}, {0, 6, 0}, 1), board);
+  SceneEditor editor(s.load());
+  // So much is a tenth of a pixel for what slides.
+  const float step = float(2 * 4.5 * std::tan(glm::radians(17.0)) / (kLarge * kHeight) / 10);
+  std::optional<Frame> before;
+  double most = 0, all = 0;
+  for (int i = 0; i <= 30; ++i) {
+    EXPECT_TRUE(editor.setTransform(NodeId(1), glm::translate(glm::dmat4(1.0), {step * float(i), 0, 0})));
+    const Scene scene = *editor.scene();
+    views_ =
+        viewsFrom(scene, {{0, 0, 5}, {0, 0, 0}, 34, 0, 0.05f}, kLarge * kWidth, kLarge * kHeight, GetParam());
+    Frame now = draw(scene, quietLook(plainWash()), views_,
+                     sized(kLarge * kWidth, kLarge * kHeight, {"pigment", "id"}));
+    if (before)
+      for (size_t v = 0; v < viewCount(); ++v) {
+        const Image &was = aov(*before, "pigment", v), &is = aov(now, "pigment", v);
+        // Of places that were seen and are.
+        const auto isBoard = [&](const Frame& frame, int x, int y) {
+          for (const int by : {-8, -4, 0, 4, 8})
+            if (texel(aov(frame, "id", v), x + by, y).x != 1) return false;
+          return true;
+        };
+        for (int y = 0; y < int(is.height); y += 3)
+          for (int x = 0; x < int(is.width); ++x)
+            if (isBoard(*before, x, y) && isBoard(now, x, y)) {
+              const glm::dvec4 apart = glm::abs(texel(is, x, y) - texel(was, x, y));
+              most = std::max({most, apart.x, apart.y, apart.z}), all += apart.x;
+            }
+      }
+    before = std::move(now);
+  }
+  EXPECT_GT(all, 0.1);
+  EXPECT_LT(most, 0.02 + 1.01 / 255);
+}
+
 // Cells of a Voronoi diagram: everywhere one, of one value.
 // Where vertices are on the device alone (SceneOptions::keepsVertices), surfaces are painted as elsewhere.
 TEST_P(Watercolor, stampsStayWhereVerticesAreDropped) {
@@ -249,6 +424,40 @@ TEST_P(Watercolor, picturesAreShapesOfStamps) {
   EXPECT_EQ(covered("black.png", 1, [](int, int) { return 0.0f; }), 0);
   EXPECT_GT(bar, 0.2 * whole);
   EXPECT_LT(bar, 0.55 * whole);
+}
+
+// (Paper 004, section 3.3 and figure 11: brushes have transparency.) Brushes as painters save them.
+TEST_P(Watercolor, transparencyOfBrushesCounts) {
+  const TestFolder folder;
+  const auto pigmentOf = [&](const char* name, const std::function<glm::vec4(bool)>& color) {
+    constexpr int kSide = 64;
+    Image image{kSide, kSide, {"R", "G", "B", "A"}, {}};
+    for (int y = 0; y < kSide; ++y)
+      for (int x = 0; x < kSide; ++x) {
+        const glm::vec4 c = color(glm::distance(glm::vec2(x, y), glm::vec2(31.5f)) < 25);
+        image.pixels.insert(image.pixels.end(), {c.r, c.g, c.b, c.a});
+      }
+    EXPECT_TRUE(writePng(folder.file(name), image).ok());
+    return paint(board(8),
+                 plainWash({{"watercolor.generator", "shapes"},
+                            {"watercolor.brush", folder.file(name)},
+                            {"watercolor.spacing", "150"},
+                            {"watercolor.stampSize", "0.6"}}),
+                 {{0.3f, 0.2f, 4}, {0.3f, 0.2f, 0}, 40, 0, 0.05f}, {"pigment"});
+  };
+  const Frame white = pigmentOf("white.png", [](bool isIn) { return glm::vec4(glm::vec3(isIn), 1); });
+  double painted = 0;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) painted += texel(aov(white, "pigment"), x, y).w;
+  EXPECT_GT(painted, 20);
+  for (const auto& [name, color] : std::vector<std::pair<const char*, std::function<glm::vec4(bool)>>>{
+           {"black.png", [](bool isIn) { return glm::vec4(0, 0, 0, isIn); }},
+           {"clear.png", [](bool isIn) { return glm::vec4(1, 1, 1, isIn); }},
+           {"red.png", [](bool isIn) { return glm::vec4(1, 0, 0, isIn); }}}) {
+    const Frame frame = pigmentOf(name, color);
+    for (size_t v = 0; v < viewCount(); ++v)
+      EXPECT_LT(largestDifference(aov(frame, "pigment", v), aov(white, "pigment", v)), 0.02) << name;
+  }
 }
 
 TEST_P(Watercolor, knobsOfTheBrushChangeThePicture) {

@@ -157,8 +157,8 @@ struct TableLine {
   glm::vec2 ends[2], shift[2];
   float radii[2], metres[2];
   glm::vec4 color;
-  glm::vec2 outward, turn, reach;
-  bool isOutline, isValley, isTurned;  // away, which nobody sees
+  glm::vec2 outward, turn, reach, beforeSlope, beyondSlope;
+  bool isOutline, isTurned;  // away, which nobody sees
   int kind;
   uint32_t seen;  // as LineRecord has it
 };
@@ -185,7 +185,7 @@ Table tableOf(const Image& image) {
                    n / uint32_t(shared::kLineTableWidth) * uint32_t(shared::kLineTexels) + down);
     };
     const glm::vec4 spine = part(0), shift = part(1), radii = part(2), outward = part(4), turn = part(5),
-                    seen = part(6);
+                    seen = part(6), slopes = part(7);
     if (outward.w <= 0) continue;
     table.lines.push_back({{{spine.x, spine.y}, {spine.z, spine.w}},
                            {{shift.x, shift.y}, {shift.z, shift.w}},
@@ -195,8 +195,9 @@ Table tableOf(const Image& image) {
                            {outward.x, outward.y},
                            {turn.x, turn.y},
                            {turn.z, turn.w},
+                           {slopes.x, slopes.y},
+                           {slopes.z, slopes.w},
                            outward.z > 0,
-                           outward.z < 0,
                            ((int(outward.w) - 1) & shared::kInkTurned) != 0,
                            (int(outward.w) - 1) & ~shared::kInkTurned,
                            uint32_t(seen.x) | uint32_t(seen.y) << 16});
@@ -345,20 +346,34 @@ class EdgeStrokes {
     if (place.x < -radius || place.y < -radius || place.x > float(depth_.width) + radius ||
         place.y > float(depth_.height) + radius)
       return 0;
-    const float metres = metresAt(line, t);
-    const float pixel = table_.metresOfPixel * glm::mix(metres, 1.0f, table_.parallel);
+    const float end = metresAt(line, glm::clamp(t, 0.0f, 1.0f));
+    const float pixel = table_.metresOfPixel * glm::mix(end, 1.0f, table_.parallel);
+    const float metres = shared::inkNoFurther(metresAt(line, t), end, t, pixel);
+    float farthest = 0;
+    const auto look = [&](float away) {
+      const glm::vec2 slope = away > 0 ? line.beyondSlope : line.beforeSlope,
+                      at = place + away * line.outward;
+      const float seen = depthAt(at);
+      const glm::vec2 middle =
+          glm::floor(glm::clamp(at, glm::vec2(0.0f), glm::vec2(depth_.width, depth_.height) - 1.0f)) + 0.5f;
+      const float linear = shared::inkLinear(metres, table_.parallel) + glm::dot(slope, middle - place);
+      if (away > 0) farthest = std::max(farthest, seen);
+      return shared::inkBefore(metres, shared::inkLinear(linear, table_.parallel), seen, pixel,
+                               std::abs(away));
+    };
+    const glm::vec2 beyond(look(shared::kInkBeyond), look(shared::kInkFarBeyond)),
+        before(look(-shared::kInkBefore), look(-shared::kInkFarBefore));
+    const float hidden = shared::inkHidden(beyond, before, uint32_t(line.isOutline));
     const shared::InkPlace p{metres,
-                             std::max(depthAt(place + shared::kInkBeyond * line.outward),
-                                      depthAt(place + shared::kInkFarBeyond * line.outward)),
-                             depthAt(place - shared::kInkBefore * line.outward),
+                             farthest,
+                             hidden,
                              pixel,
                              radius,
                              line.turn,
                              shared::inkReach(t, line.reach, size),
-                             uint32_t(line.isOutline),
-                             uint32_t(line.isValley)};
+                             uint32_t(line.isOutline)};
     return shared::inkSeen(t, line.seen) *
-           shared::inkFullness(p, table_.sceneRadius, table_.parallel, table_.fade, table_.outer);
+           shared::inkFullness(p, table_.sceneRadius, table_.fade, table_.outer);
   }
   // Square root; as ink_line.frag has it.
   glm::vec3 colorAt(const TableLine& line, glm::vec2 spine) const {

@@ -22,6 +22,7 @@ layout(location = 7) flat in vec3 inRestB;
 layout(location = 8) flat in vec3 inAcross;
 layout(location = 9) flat in vec3 inDown;
 layout(location = 10) flat in uint inSeen;
+layout(location = 11) flat in vec4 inSlopes;
 
 layout(location = 0) out vec4 outInk;
 
@@ -58,7 +59,7 @@ void main() {
 
   vec2 outward = inOutward.xy;
   vec2 spine = mix(inSpine.xy, inSpine.zw, t);
-  radius *= meanFullnessAt(InkSpine(inSpine, inRadii.zw, outward, inTurn.xy, inTurn.zw, inOutward.z > 0.0, inOutward.z < 0.0, inSeen), t, radius, view);
+  radius *= meanFullnessAt(InkSpine(inSpine, inRadii.zw, outward, inSlopes, inTurn.xy, inTurn.zw, inOutward.z > 0.0, inSeen), t, radius, view);
 
   float moved = ink.offset * frame.pixelScale + (kPlacement == kInkExterior ? max(radius - inkOverlap(frame.pixelScale), 0.0) : 0.0);
   vec4 line = inSpine + inShift * moved;

@@ -19,6 +19,7 @@ layout(location = 7) flat out vec3 outRestB;
 layout(location = 8) flat out vec3 outAcross;
 layout(location = 9) flat out vec3 outDown;
 layout(location = 10) flat out uint outSeen;
+layout(location = 11) flat out vec4 outSlopes;
 
 void findRest(uint number, int view, out vec3 a, out vec3 b, out vec3 across, out vec3 down) {
   EdgeChunk chunk = chunks[number / uint(kEdgeChunk)];
@@ -49,7 +50,7 @@ void main() {
     record = recordOf(numbers[line], view, false);
   outSpine = record.spine, outShift = record.shift, outRadii = record.radii, outColor = record.color;
   outOutward = record.outward, outTurn = vec4(record.turn, record.reach);
-  outSeen = record.seen;
+  outSeen = record.seen, outSlopes = record.slopes;
   gl_Position = vec4(2.0, 2.0, 0.0, 1.0);  // outside
   if (record.kind == kInkNone) return;
 

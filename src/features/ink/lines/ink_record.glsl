@@ -1,6 +1,7 @@
 // How a line looks in a view: found once for each, by ink_record.comp as many as there is room for; of others by each of its vertices.
 #ifndef SCUMBLE_INK_RECORD_GLSL
 #define SCUMBLE_INK_RECORD_GLSL
+#include "../fullness.shared.h"
 #include "../ink_edge.glsl"
 
 layout(set = 1, binding = kInkNumbers, scalar) readonly buffer Numbers { uint numbers[]; };
@@ -77,12 +78,13 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
   vec3 middle = 0.5 * (edge.a + edge.b), toEye = eye.xyz - eye.w * middle;
   // What is seen from behind alone is hidden by the rest of it, but for open sheets.
   float wound = object.mirrored != 0u ? -1.0 : 1.0;
-  bool isTurned = wound * dot(edge.left, toEye) <= 0.0 && (edge.isOpen || wound * dot(edge.right, toEye) <= 0.0);
+  int leftSide = sideOf(wound * edge.left, toEye), rightSide = edge.isOpen ? -1 : sideOf(wound * edge.right, toEye);
+  bool isTurned = leftSide <= 0 && rightSide <= 0;
   isTurned = isTurned && line.isSingle != 0u;
   if (isTurned && !keepsTurned) kind = kInkNone;
 
   LineRecord record;
-  record.spine = record.shift = record.radii = record.color = vec4(0.0);
+  record.spine = record.shift = record.radii = record.color = record.slopes = vec4(0.0);
   record.outward = vec3(0.0);
   record.turn = vec2(0.0);
   record.reach = vec2(0.0, 1.0);
@@ -124,6 +126,26 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
   }
   if (within > 0.0) across = -across;
 
+  // How the edge's surface goes on from it on both sides. Where it ends, or is seen from its edge, as the edge itself.
+  float parallel = VIEW_FIELD(orthographic, view);
+  float linear[2];
+  for (int i = 0; i < 2; ++i) linear[i] = inkLinear(eyeDepth(ends[i].clip.z / ends[i].clip.w, view), parallel);
+  vec2 alongSlope = (linear[1] - linear[0]) / max(dot(along, along), 1e-6) * along;
+  record.slopes = alongSlope.xyxy;
+  for (int side = 0; side < (edge.isOpen ? 1 : 2); ++side) {
+    vec2 towards = thirdAt[side] - at[0];
+    float away = dot(towards, vec2(-direction.y, direction.x));
+    if (!isKnown[side] || abs(away) < 0.01 * size || size < 1e-3) continue;
+    // Of a closed form's outline, one of them is turned away.
+    if (kind == kInkSilhouette && (side == 0 ? leftSide : rightSide) < max(leftSide, rightSide)) continue;
+    vec4 third = worldToClip * vec4(positionOf(first + (side == 0 ? drawn.left : drawn.right)), 1.0);
+    float there = inkLinear(eyeDepth(third.z / third.w, view), parallel);
+    vec2 slope = alongSlope + (there - linear[0] - dot(alongSlope, towards)) / away * vec2(-direction.y, direction.x);
+    bool isBefore = dot(towards, across) < 0.0;
+    if (isBefore) record.slopes.xy = slope;
+    else record.slopes.zw = slope;
+  }
+
   // Widths: by normals that the edge itself has, or its ends.
   vec3 edgeNormal = wound * (edge.left * inversesqrt(max(dot(edge.left, edge.left), 1e-37)) +
                              edge.right * inversesqrt(max(dot(edge.right, edge.right), 1e-37)));
@@ -137,7 +159,7 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
   InkKind style = ink.kinds[kind];
   vec2 ownWidths = vec2(1.0);
   if (kind == kInkSilhouette) {
-    bool isRight = wound * dot(edge.left, toEye) > 0.0;
+    bool isRight = leftSide > rightSide;
     Turn turn = turnOf(edge, ring, first, isRight, first + (isRight ? drawn.right : drawn.left), wound, toEye, at,
                        thirdAt[isRight ? 1 : 0]);
     ownWidths = line.outlineWidth * unpackUnorm2x16(ring.widths);
@@ -197,10 +219,7 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
   vec4 color = vec4(line.color, line.ownColor);
   if (hasOwn) color = vec4(line.outlineColor, -line.outlineLight);
   record.color = vec4(mix(color.rgb, style.color, style.colorAmount), color.a * (1.0 - style.colorAmount));
-  // Both of its triangles rise towards the eye beside it.
-  bool isValley = !isOutline && !edge.isOpen &&
-                  dot(edge.left, toEye) * dot(edge.left, positionOf(first + drawn.right) - edge.a) > 0.0;
-  record.outward = vec3(across, isOutline ? 1.0 : isValley ? -1.0 : 0.0);
+  record.outward = vec3(across, isOutline ? 1.0 : 0.0);
 
   record.kind = isTurned ? kind | kInkTurned : kind;
   return record;

@@ -6,33 +6,44 @@
 
 layout(set = 2, binding = kInkDepth) uniform sampler2DArray depth;
 
-float depthAt(vec2 place, int view) {
-  return texelFetch(depth, ivec3(clamp(place, vec2(0.0), frame.imageSize - 1.0), view), 0).r;
-}
-
 // An edge on the screen.
 struct InkSpine {
   vec4 ends;     // pixels
   vec2 depths;   // depth-buffer values at both
   vec2 outward;  // away from the form
-  vec2 turn, reach;  // as LineRecord has them
-  bool isOutline, isValley;
+  vec4 slopes;   // as LineRecord has them
+  vec2 turn, reach;
+  bool isOutline;
   uint seen;  // as LineRecord has it
 };
+
+// What is seen so many pixels beyond an edge, or before it where that is below 0: how far away it is, and inkBefore().
+vec2 besideAt(float away, InkSpine s, vec2 spine, float distance, float pixel, int view) {
+  vec2 slope = away > 0.0 ? s.slopes.zw : s.slopes.xy, place = spine + away * s.outward;
+  float parallel = VIEW_FIELD(orthographic, view);
+  vec2 at = floor(clamp(place, vec2(0.0), frame.imageSize - 1.0));
+  float seen = eyeDepth(texelFetch(depth, ivec3(at, view), 0).r, view);
+  float expected = inkLinear(inkLinear(distance, parallel) + dot(slope, at + ink.depthAt - spine), parallel);
+  return vec2(seen, inkBefore(distance, expected, seen, pixel, abs(away)));
+}
 
 float fullnessAt(InkSpine s, float t, float size, float radius, int view) {
   vec2 place = mix(s.ends.xy, s.ends.zw, t);
   InkPlace p;
-  p.distance = eyeDepth(inkDepthAlong(s.depths.x, s.depths.y, t), view);
-  p.beyond = eyeDepth(min(depthAt(place + kInkBeyond * s.outward, view), depthAt(place + kInkFarBeyond * s.outward, view)), view);
-  p.before = eyeDepth(depthAt(place - kInkBefore * s.outward, view), view);
-  p.pixel = metresOfPixel(p.distance, view);
+  float end = eyeDepth(mix(s.depths.x, s.depths.y, clamp(t, 0.0, 1.0)), view);
+  p.pixel = metresOfPixel(end, view);
+  p.distance = inkNoFurther(eyeDepth(inkDepthAlong(s.depths.x, s.depths.y, t), view), end, t, p.pixel);
+  vec2 beyond = besideAt(kInkBeyond, s, place, p.distance, p.pixel, view),
+       farther = besideAt(kInkFarBeyond, s, place, p.distance, p.pixel, view),
+       before = besideAt(-kInkBefore, s, place, p.distance, p.pixel, view),
+       inside = besideAt(-kInkFarBefore, s, place, p.distance, p.pixel, view);
+  p.beyond = max(beyond.x, farther.x);
   p.radius = radius;
   p.turn = s.turn;
   p.reach = inkReach(t, s.reach, size);
   p.isOutline = s.isOutline ? 1u : 0u;
-  p.isValley = s.isValley ? 1u : 0u;
-  return inkSeen(t, s.seen) * inkFullness(p, frame.sceneRadius, VIEW_FIELD(orthographic, view), ink.fade, ink.outer);
+  p.hidden = inkHidden(vec2(beyond.y, farther.y), vec2(before.y, inside.y), p.isOutline);
+  return inkSeen(t, s.seen) * inkFullness(p, frame.sceneRadius, ink.fade, ink.outer);
 }
 
 // `t`: along it, 0 to 1; `radius`: of the line, pixels.

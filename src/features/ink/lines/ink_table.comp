@@ -30,4 +30,5 @@ void main() {
   imageStore(table, place + 4 * down, vec4(record.outward, float(1 + record.kind)));
   imageStore(table, place + 5 * down, vec4(record.turn, record.reach));
   imageStore(table, place + 6 * down, vec4(float(record.seen & 0xFFFFu), float(record.seen >> 16u), 0.0, 0.0));
+  imageStore(table, place + 7 * down, record.slopes);
 }

@@ -116,7 +116,7 @@ class Ocean : public Pass {
         {{{goesOver ? uint32_t(shared::kOceanNext) : 0u, use.meta.features()},
           {{shared::kOceanExampleBinding, &use.image(), use.sampler()},
            {shared::kOceanInverseBinding, &use.inverse(), ExampleTextures::kInverseSampler},
-           {shared::kOceanFoamBinding, &examples_->get(input.look, look::Picture{kFoamExample}).image,
+           {shared::kOceanFoamBinding, &examples_->get(input.look, p.foamTexture).image,
             use.sampler()},
            {shared::kOceanBathicBinding, &maps_->bathic(input.look, p.colors), clamped},
            {shared::kOceanSkyBinding, &maps_->sky(input.look, p.sky), clamped},
@@ -128,7 +128,6 @@ class Ocean : public Pass {
  private:
   static constexpr VkFormat kPatternFormat = VK_FORMAT_R32G32B32A32_UINT,
                             kWavesFormat = VK_FORMAT_R32G32B32A32_UINT;
-  static constexpr int kFoamExample = 4;  // among the built-in ones
 
   void record(VkCommandBuffer commands) const {
     const gpu::Target colors[] = {pattern_.target(*resources_), waves_.target(*resources_)};

@@ -79,10 +79,12 @@ void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
   // Crests seen edge-on have neither strokes nor foam nor mirror anything: they would be dotted lines.
   vec3 normal = vec3(wave.z, sqrt(max(1.0 - dot(wave.zw, wave.zw), 0.0)), wave.w);
   float faces = smoothstep(0.1, 0.6, abs(dot(normal, toEye) / max(abs(toEye.y), 1e-3)));
-  stroke = mix(0.5, stroke, mix(0.2, 1.0, nearness) * (1.0 - 0.6 * decorated.y) * faces);
+  stroke = mix(0.5, stroke, mix(0.2, 1.0, nearness) * (1.0 - decorated.y) * faces);
 
   float index = 0.42 + 0.14 * clamp(wave.x, -2.0, 2.0) + ocean.knobs.dither * (stroke - 0.5);
-  float shift = ocean.knobs.lightDither * (stroke - 0.5);
+  // From the middle of either half of the map on, by how the wave leans.
+  float leans = dot(normal, frame.toLight) - frame.toLight.y;
+  float shift = ocean.knobs.lightDither * (stroke - 0.5) + 2.0 * stroke * ocean.knobs.lightWaves * leans * faces * (1.0 - decorated.y);
   lit = bathic(index, 0.8 + shift), shadowed = bathic(index, 0.15 + shift);
 
   vec3 ray = reflect(-toEye, normal);
@@ -90,8 +92,9 @@ void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
   vec2 sun = frame.toLight.xz, away = ray.xz;
   float towards = dot(away, sun) * inversesqrt(max(dot(away, away) * dot(sun, sun), 1e-12));
   float azimuth = acos(clamp(towards, -1.0, 1.0)) * 0.31830989;
-  vec4 sky = textureLod(skyMap, vec2(azimuth, elevation), 0.0);
-  if (kNext) sky = mix(sky, textureLod(nextSkyMap, vec2(azimuth, elevation), 0.0), ocean.knobs.next);
+  vec2 inSky = vec2(azimuth, elevation) + ocean.knobs.skyDither * vec2(stroke - 0.5);
+  vec4 sky = textureLod(skyMap, inSky, 0.0);
+  if (kNext) sky = mix(sky, textureLod(nextSkyMap, inSky, 0.0), ocean.knobs.next);
   sky.rgb = graded(sky.rgb, ocean.knobs.skySaturation, ocean.knobs.skyOverlay, ocean.knobs.skyOverlayAmount);
   float reflected = ocean.knobs.reflection * sky.a;
   float shown = clamp((reflected - 0.5 + 0.9 * (stroke - 0.5)) * 14.0 + 0.5, 0.0, 1.0);

@@ -47,7 +47,8 @@ void main() {
   outDecorated = vec2(0.0);
   if (field.decorationCount > 0) {
     Decorated here = decoratedAt(place);
-    outWave.x += here.crest;
+    // Without strokes, colours that go over by the waves' height would be an airbrush's.
+    outWave.x = (1.0 - here.calm) * outWave.x + here.crest;
     outDecorated = vec2(here.cover, here.calm);
   }
 }

@@ -76,6 +76,8 @@ class OceanPaintTest : public BothEyes {
               {"ocean.paint.foam", "0"},
               {"ocean.paint.dither", "0"},
               {"ocean.paint.lightDither", "0"},
+              {"ocean.paint.lightWaves", "0"},
+              {"ocean.paint.skyDither", "0"},
               {"ocean.metatexture.contrast", "gaussian"},
               {"ocean.metatexture.cyclopean", "off"},
               {"ocean.metatexture.size", std::to_string(kStrokesSize)}};
@@ -310,6 +312,79 @@ TEST_P(OceanPaintTest, liveTextureShiftsThePlaceInTheBathicMap) {
   }
 }
 
+// ---- Light and shadow ----
+
+// The map holds levels of illumination, too (paper 000, section 6.1): waves that lean towards the light are
+// further down in it, those that lean away further up, in light and in shadow, by strokes; and all of it is
+// used.
+TEST_P(OceanPaintTest, wavesAreLitByHowTheyLean) {
+  const Scene scene = openWater();
+  const TestFolder folder;
+  const std::string grey = folder.file("grey.png");
+  ASSERT_TRUE(writePng(grey, Image{1, 1, {"R", "G", "B"}, {0.5f, 0.5f, 0.5f}}).ok());
+  SeaState state;
+  state.windDirection = 40;
+  const SeaReference::Mesh mesh = SeaReference(state, 2.7).mesh(9, {0, 0});
+  const auto views = viewsFrom(scene, kOverTheSea, kPaintWidth, kPaintHeight, GetParam());
+  for (const double waves : {0.5, 2.0}) {
+    Knobs knobs = knobsOf(state);
+    knobs.push_back({"ocean.paint.lightWaves", std::to_string(waves)});
+    const Frame stroked = paint(scene, knobs, 2.7, views);
+    // A pattern of one grey is half of every stroke.
+    knobs.push_back({"ocean.metatexture.example", grey});
+    const Frame frame = paint(scene, knobs, 2.7, views);
+    for (size_t v = 0; v < viewCount(); ++v) {
+      Difference lit(kPaintByte), shadowed(kPaintByte);
+      size_t byStrokes = 0;
+      double least = 1, most = 0;
+      for (int y = 0; y < kPaintHeight; ++y)
+        for (int x = 0; x < kPaintWidth; ++x) {
+          const std::optional<Water> water = waterAt(mesh, views[v], x, y);
+          if (!water || !isWater(frame, v, x, y)) continue;
+          const glm::dvec3 toSun = glm::normalize(glm::dvec3(kToSun)),
+                           toEye = glm::normalize(eyeOf(views) - water->at);
+          const double shift = waves * (glm::dot(glm::normalize(water->normal), toSun) - toSun.y) *
+                               facing(water->normal, toEye);
+          lit.add(std::sqrt(texel(aov(frame, "lit", v), x, y).y), inRamp(0.8 + shift));
+          shadowed.add(std::sqrt(texel(aov(frame, "shadowed", v), x, y).y), inRamp(0.15 + shift));
+          byStrokes +=
+              std::abs(texel(aov(stroked, "lit", v), x, y).y - texel(aov(frame, "lit", v), x, y).y) > 0.01;
+          least = std::min(least, shift), most = std::max(most, shift);
+        }
+      EXPECT_GT(lit.count, 1500u);
+      EXPECT_GT(byStrokes, lit.count / 5);
+      EXPECT_GT(most - least, 0.1 * waves);
+      EXPECT_LT(lit.beyondPart(), 0.02) << waves << ": " << lit.text();
+      EXPECT_LT(shadowed.beyondPart(), 0.02) << waves << ": " << shadowed.text();
+    }
+  }
+}
+
+TEST_P(OceanPaintTest, allOfTheBathicMapIsUsed) {
+  const Scene scene = openWater();
+  std::vector<int> rows(20);
+  // As looks have it, but for what else changes colours.
+  for (const char* wind : {"7", "14", "20"}) {
+    const auto views = viewsFrom(scene, {{-6, 3, -2}, {8, 0, 4}, 60}, kPaintWidth, kPaintHeight, GetParam());
+    const OceanPaintParams usual = Look().data().get<OceanPaintParams>();
+    const Frame frame = paint(scene,
+                              {{"ocean.wind", wind},
+                               {"ocean.paint.dither", std::to_string(usual.dither)},
+                               {"ocean.paint.lightDither", std::to_string(usual.lightDither)},
+                               {"ocean.paint.lightWaves", std::to_string(usual.lightWaves)},
+                               {"ocean.metatexture.size", "512"}},
+                              3, views);
+    for (size_t v = 0; v < viewCount(); ++v)
+      for (int y = 0; y < kPaintHeight; ++y)
+        for (int x = 0; x < kPaintWidth; ++x)
+          if (isWater(frame, v, x, y))
+            for (const char* set : {"lit", "shadowed"})
+              ++rows[std::min(size_t(20 * std::sqrt(texel(aov(frame, set, v), x, y).y)), size_t(19))];
+  }
+  for (size_t i = 0; i < rows.size(); ++i)
+    EXPECT_GT(rows[i], 10) << 5 * i << " percent down: " << testing::PrintToString(rows);
+}
+
 // ---- The mirrored sky ----
 
 // Across the sky map from the sun's azimuth to the other side, down from the horizon to the zenith, where the
@@ -353,6 +428,46 @@ TEST_P(OceanPaintTest, mirrorsTheSkyWhereTheReflectedRayGoes) {
       // The map bends at the sun and behind it, where texels are interpolated; crests hide others.
       EXPECT_LT(lit.beyondPart(), 0.02) << lit.text();
       EXPECT_LT(shadowed.beyondPart(), 0.02) << shadowed.text();
+    }
+  }
+}
+
+// (Paper 000, section 6.1: the sky map is distorted by the dithering pattern.)
+TEST_P(OceanPaintTest, strokesDistortTheMirroredSky) {
+  NOT_WITH_SANITIZERS();
+  const Scene scene = openWater();
+  const auto views = viewsFrom(scene, {{2, 5, 3}, {0, 0, 0}, 50}, kPaintWidth, kPaintHeight, GetParam());
+  const Pixels strokes = seaStrokes();
+  for (const double dither : {0.2, 0.6}) {
+    const Frame frame = paint(scene,
+                              {{"ocean.wind", "0"},
+                               {"ocean.paint.live", "0"},
+                               {"ocean.paint.liveSpread", "0"},
+                               {"ocean.paint.reflection", "4"},
+                               {"ocean.paint.skyDither", std::to_string(dither)},
+                               {"ocean.paint.sky", ramp("sky", 0.6, 1)}},
+                              0, views);
+    for (size_t v = 0; v < viewCount(); ++v) {
+      Difference sky(0.03);
+      double least = 1, most = 0;
+      for (int y = 0; y < kPaintHeight; ++y)
+        for (int x = 0; x < kPaintWidth; ++x) {
+          if (!isWater(frame, v, x, y)) continue;
+          const glm::dvec4 t = patternAt(strokes, frame, v, x, y);
+          const double stroke = std::clamp(0.5 + 0.707 * (t.x - t.z), 0.0, 1.0) - 0.5;
+          const glm::dvec3 at(texel(aov(frame, "position", v), x, y)),
+              toEye = glm::normalize(eyeOf(views) - at), ray(-toEye.x, toEye.y, -toEye.z);
+          const double elevation = std::atan2(ray.y, std::hypot(ray.x, ray.z)),
+                       azimuth = std::abs(std::remainder(
+                           std::atan2(ray.z, ray.x) - std::atan2(kToSun.z, kToSun.x), 2 * std::numbers::pi));
+          const glm::dvec4 light = texel(aov(frame, "lit", v), x, y);
+          sky.add(std::sqrt(light.x), inRamp(azimuth / std::numbers::pi + dither * stroke));
+          sky.add(std::sqrt(light.y), inRamp(elevation / (std::numbers::pi / 2) + dither * stroke));
+          least = std::min(least, dither * stroke), most = std::max(most, dither * stroke);
+        }
+      EXPECT_GT(sky.count, 5000u);
+      EXPECT_GT(most - least, 0.5 * dither);
+      EXPECT_LT(sky.beyondPart(), 0.015) << dither << ": " << sky.text();
     }
   }
 }

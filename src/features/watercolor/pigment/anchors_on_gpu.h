@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <vector>
 
 #include "features/watercolor/watercolor.shared.h"
@@ -16,41 +17,54 @@ using namespace world;
 
 class AnchorsOnGpu {
  public:
-  // Spreads anchors over primitives while their vertices are there, so many over all of them, by area; those
-  // that have as many as they should keep them.
-  void find(const std::vector<GeometryItem>& items);
+  // Spreads anchors over primitives while their vertices are there, as densely over each mesh as its own size
+  // asks for; those that have as many as they should keep them.
+  void find(const scene::SceneData& scene, const std::vector<GeometryItem>& items);
   // True where the buffers have other names.
   bool update(gpu::Device& device, gpu::Uploader& uploader, const std::vector<GeometryItem>& items,
               const std::vector<GeometryPlace>& places, const std::function<void()>& settle);
 
-  uint32_t chunkCount() const { return chunkCount_; }
-  // shared::DrawnAnchor, and shared::AnchorChunk.
+  // What is painted, in the order of PaintedObject in their buffer.
+  struct Painted {
+    uint32_t object;
+    std::shared_ptr<const std::vector<float>>
+        spacings;  // of its anchors, metres in mesh space, the widest first
+  };
+  const std::vector<Painted>& painted() const { return painted_; }
+  // shared::DrawnAnchor, and shared::PaintedObject.
   VkBuffer anchors() const { return anchors_.handle(); }
-  VkBuffer chunks() const { return chunks_.handle(); }
+  VkBuffer objects() const { return objects_.handle(); }
 
  private:
   struct Spread {
     double area = 0;          // in mesh space
+    bool isClosed = false;    // known of double-sided ones alone
     uint32_t candidates = 0;  // that the anchors were chosen from
     std::vector<scene::SurfaceAnchor> anchors;
+    std::shared_ptr<const std::vector<float>> spacings;
   };
   std::map<const scene::Primitive*, Spread> spreads_;
+  std::vector<uint32_t> seeds_;  // by item
+  std::vector<bool> isSided_;    // by item
   struct Known {
     const scene::Primitive* primitive;
-    uint32_t firstVertex, anchors;
-    bool shown;
+    uint32_t firstVertex, anchors, seed;
+    bool shown, isSided;
     bool operator==(const Known&) const = default;
   };
   std::vector<Known> known_;
-  uint32_t chunkCount_ = 0;
-  gpu::Buffer anchors_, chunks_;
+  std::vector<Painted> painted_;
+  gpu::Buffer anchors_, objects_;
 };
 
 class WatercolorMoment : public FeatureMoment {
  public:
-  explicit WatercolorMoment(gpu::Device& device) : device_(device) {}
-  bool follow(const scene::SceneData&, const FeaturePlan&) override { return true; }
-  void find(const std::vector<GeometryItem>& items) override { anchors_.find(items); }
+  WatercolorMoment(gpu::Device& device, const scene::SceneData& scene) : device_(device), scene_(&scene) {}
+  bool follow(const scene::SceneData& scene, const FeaturePlan&) override {
+    scene_ = &scene;
+    return true;
+  }
+  void find(const std::vector<GeometryItem>& items) override { anchors_.find(*scene_, items); }
   bool place(gpu::Uploader& uploader, const std::vector<GeometryItem>& items,
              const std::vector<GeometryPlace>& places, const std::function<void()>& settle) override {
     return anchors_.update(device_, uploader, items, places, settle);
@@ -62,6 +76,7 @@ class WatercolorMoment : public FeatureMoment {
 
  private:
   gpu::Device& device_;
+  const scene::SceneData* scene_ = nullptr;
   AnchorsOnGpu anchors_;
 };
 

@@ -1,8 +1,13 @@
-// Lays pigment down around anchors.
+// Lays pigment down around anchors, each object's on that object.
+#include <algorithm>
+
 #include "features/watercolor/pigment/anchors_on_gpu.h"
 #include "features/watercolor/watercolor.h"
 #include "features/watercolor/watercolor_knobs.h"
+#include "frame/geometry_step.h"
 #include "frame/pass.h"
+#include "shaders/pigment_places_frag.h"
+#include "shaders/pigment_places_vert.h"
 #include "shaders/pigment_stamp_cells_frag.h"
 #include "shaders/pigment_stamp_frag.h"
 #include "shaders/pigment_stamp_shapes_frag.h"
@@ -29,12 +34,22 @@ class Pigment : public Pass {
     isShown_ = variant > 0;
     generator_ = isShown_ ? variant - 1 : kStamps;
     configuration_ = frame.configuration();
+    gpu::ImageShape shape{.overX = shared::kPigmentScale, .overY = shared::kPigmentScale};
+    if (isShown_) {
+      frame.step("pigment places", [this](VkCommandBuffer commands) { recordPlaces(commands); });
+      GeometryStep::use(frame);
+      shape.format = kPlaces;
+      places_ = frame.use(frame.image("pigment places", shape), gpu::Use::colorTarget);
+      shape.format = kDepthFormat;
+      placesDepth_ = frame.use(frame.image("pigment places depth", shape), gpu::Use::depthTarget);
+    }
     frame.step(name(), [this](VkCommandBuffer commands) { record(commands); });
     if (isShown_) {
       frame.use(frame.get(kVertices), gpu::Use::storageBufferReadByVertex);
-      depth_ = frame.use(frame.get(kDepth), gpu::Use::sampledByFragment);
+      depth_ = frame.use(frame.get(kDepth), gpu::Use::sampledByVertex);
+      places_ = frame.use(places_, gpu::Use::sampledByFragment);
     }
-    gpu::ImageShape shape{.format = kBytes, .overX = shared::kPigmentScale, .overY = shared::kPigmentScale};
+    shape.format = kBytes;
     image_ = frame.use(frame.image("pigment", shape), gpu::Use::colorTarget);
     shape.format = kDepthFormat;
     if (generator_ == kCells) cells_ = frame.use(frame.image("pigment cells", shape), gpu::Use::depthTarget);
@@ -52,6 +67,7 @@ class Pigment : public Pass {
                                               {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
                                               {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
                                               {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
+                                              {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kVertex},
                                               {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment},
                                               {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment}});
     set_ = gpu::DescriptorSets(frame.device(), layout_);
@@ -76,6 +92,15 @@ class Pigment : public Pass {
     desc.sets = {frame.frameLayout().handle(), layout_.handle()};
     desc.pushConstantBytes = 4;
     pipeline_ = gpu::Pipeline(frame.device(), desc);
+    GeometryStepDesc places;
+    places.vertex = {shaders::pigment_places_vert};
+    places.fragment = {shaders::pigment_places_frag};
+    places.inputs = kPosition | kUv0 | kUv1 | kColor;
+    places.colorFormats = {kPlaces};
+    places.viewMask = configuration_.views().mask();
+    places.viewCount = configuration_.viewCount;
+    places.leavesBlended = true;  // depths are those of what is behind them
+    placesStep_.create(frame, places);
   }
 
   void bind(const gpu::GraphResources& resources) override {
@@ -83,23 +108,29 @@ class Pigment : public Pass {
     if (!isShown_) return;
     set_.rewriteTexture(0, shared::kPigmentDepth, resources.image(depth_).view(),
                         frame_->samplers().get({VK_FILTER_NEAREST}));
-    if (chunkCount() == 0) return;
+    set_.rewriteTexture(0, shared::kPigmentPlaces, resources.image(places_).view(),
+                        frame_->samplers().get({VK_FILTER_NEAREST}));
+    if (!anchors() || anchors()->painted().empty()) return;
     set_.writeBuffer(0, shared::kPigmentAnchors, anchors()->anchors());
-    set_.writeBuffer(0, shared::kPigmentChunks, anchors()->chunks());
+    set_.writeBuffer(0, shared::kPigmentObjects, anchors()->objects());
     set_.writeBuffer(0, shared::kPigmentVertices, frame_->scene().geometry().finalCore().handle());
   }
 
   void update(const FrameInput& input) override {
     if (!isShown_) return;
     const WatercolorParams params = input.knobs.scene<WatercolorParams>();
-    uniforms_.write(shared::PigmentUniforms{params.spacing * input.uniforms.pixelScale, params.stampSize,
-                                            params.backruns});
     const ExampleTexture& brush = frame_->examples().get(input.look, params.brush);
+    const float spacing = params.spacing * input.uniforms.pixelScale;
+    uniforms_.write(shared::PigmentUniforms{spacing, params.stampSize, params.backruns, input.seed,
+                                            uint32_t(brush.isClear)});
     set_.writeTexture(0, shared::kPigmentBrush, brush.image.view(), frame_->samplers().get(kBrushSampler));
+    placesStep_.refresh();
+    countAnchors(input, spacing);
   }
 
  private:
   static constexpr Aov kAovs[] = {{.name = "pigment"}};
+  static constexpr VkFormat kPlaces = VK_FORMAT_R32G32_SFLOAT;
   static constexpr gpu::SamplerDesc kBrushSampler{
       VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_REPEAT, true, false, 1};
 
@@ -108,7 +139,40 @@ class Pigment : public Pass {
     const auto here = frame_->scene().feature(kName);
     return here ? &static_cast<const WatercolorMoment*>(here->moment)->anchors() : nullptr;
   }
-  uint32_t chunkCount() const { return anchors() ? anchors()->chunkCount() : 0; }
+
+  // How many anchors of each object may be sparse enough for any place of it, wherever it is seen from.
+  void countAnchors(const FrameInput& input, float spacing) {
+    counts_.clear();
+    if (!anchors()) return;
+    const SceneMotion& motion = input.scene.motion();
+    for (const AnchorsOnGpu::Painted& painted : anchors()->painted()) {
+      const scene::Bounds& bounds = motion.bounds()[painted.object];
+      counts_.push_back(0);
+      if (bounds.empty || painted.spacings->empty()) continue;
+      const glm::vec3 viewer = input.uniforms.viewer;
+      const float distance = glm::distance(viewer, glm::clamp(viewer, bounds.min, bounds.max));
+      float pixel = INFINITY;  // metres
+      for (uint32_t v = 0; v < configuration_.viewCount; ++v) {
+        const shared::ViewUniforms& view = input.uniforms.views[v];
+        pixel = std::min(pixel, 2 * std::abs(view.ndcToEyeRay.y) / input.uniforms.imageSize.y *
+                                    glm::mix(distance, 1.0f, view.orthographic));
+      }
+      // The vertex shader fades them in from 0.8 of this on; stretched triangles have wider ones.
+      constexpr float kStretched = 3;
+      const float least =
+          0.8f * spacing * pixel / (kStretched * std::max(motion.scales()[painted.object], 1e-20f));
+      counts_.back() = uint32_t(std::partition_point(painted.spacings->begin(), painted.spacings->end(),
+                                                     [&](float own) { return own >= least; }) -
+                                painted.spacings->begin());
+    }
+  }
+
+  void recordPlaces(VkCommandBuffer commands) const {
+    const gpu::Target places{&resources_->image(places_), nullptr, {}},
+        depth{&resources_->image(placesDepth_), nullptr, {}};
+    gpu::drawViews(commands, configuration_.views(), {&places, 1}, &depth,
+                   [&](uint32_t firstView) { placesStep_.draw(commands, nullptr, firstView); });
+  }
 
   void record(VkCommandBuffer commands) const {
     gpu::Target pigment{&resources_->image(image_), nullptr, {}};
@@ -117,12 +181,13 @@ class Pigment : public Pass {
     if (generator_ == kCells) cells = {&resources_->image(cells_), nullptr, {}};
     gpu::drawViews(commands, configuration_.views(), {&pigment, 1}, generator_ == kCells ? &cells : nullptr,
                    [&](uint32_t firstView) {
-                     if (!isShown_ || chunkCount() == 0) return;
+                     if (!isShown_ || counts_.empty()) return;
                      pipeline_.bind(commands);
                      pipeline_.bindSet(commands, 0, frame_->frameSet());
                      pipeline_.bindSet(commands, 1, set_[0]);
                      pipeline_.push(commands, firstView);
-                     vkCmdDraw(commands, 6 * shared::kAnchorChunk * chunkCount(), 1, 0, 0);
+                     for (uint32_t i = 0; i < counts_.size(); ++i)
+                       if (counts_[i] > 0) vkCmdDraw(commands, 6 * counts_[i], 1, 0, i);
                    });
   }
 
@@ -131,7 +196,9 @@ class Pigment : public Pass {
   bool isShown_ = false;
   uint32_t generator_ = kStamps;
   UniformSlice uniforms_;
-  gpu::Handle depth_, image_, cells_;
+  gpu::Handle depth_, image_, cells_, places_, placesDepth_;
+  GeometryStep placesStep_;
+  std::vector<uint32_t> counts_;  // of anchors that are drawn, by painted object
   const gpu::GraphResources* resources_ = nullptr;
   gpu::SetLayout layout_;
   gpu::DescriptorSets set_;

@@ -8,39 +8,30 @@
 #include "../watercolor.shared.h"
 
 layout(set = 1, binding = kPigmentBlock, scalar) uniform Block { PigmentUniforms u; };
-layout(set = 1, binding = kPigmentDepth) uniform sampler2DArray depth;
 layout(set = 1, binding = kPigmentBrush) uniform sampler2D brush;
+layout(set = 1, binding = kPigmentPlaces) uniform sampler2DArray places;
 
 layout(location = 0) in vec2 inPlace;
 layout(location = 1) flat in vec4 inStamp;
 layout(location = 2) flat in vec4 inChance;
-
-layout(location = 3) flat in vec3 inMiddle;
+layout(location = 3) flat in float inObject;
 
 layout(location = 0) out vec4 outPigment;
 
 void main() {
   // Other objects, and parts of the same one that are far before or behind it, keep what they have.
-  ivec2 texel = min(ivec2(gl_FragCoord.xy) * kPigmentScale + kPigmentScale / 2, ivec2(frame.imageSize) - 1);
-  float there = eyeDepth(texelFetch(depth, ivec3(texel, viewIndex()), 0).r, viewIndex());
-  float apart = abs(there - inStamp.x) / max(inStamp.y, 1e-12);
+  vec2 place = texelFetch(places, ivec3(gl_FragCoord.xy, viewIndex()), 0).rg;
+  if (place.x != inObject) discard;
+  float apart = abs(place.y - inStamp.x) / max(inStamp.y, 1e-12);
   float counts = inStamp.z * (1.0 - smoothstep(0.8, 1.6, apart));
   if (counts <= 0.0) discard;
-  // The anchor is hidden by what is nearer, by how many of a few places around it: the whole stamp fades (section 3.6).
-  float seen = 0.0;
-  for (int i = 0; i < 5; ++i) {
-    vec2 beside = i == 0 ? vec2(0.0) : 0.25 * inMiddle.z * vec2((i & 1) * 2 - 1, (i >> 1 & 1) * 2 - 1);
-    ivec2 at = ivec2(clamp(inMiddle.xy + beside, vec2(0.0), frame.imageSize - 1.0));
-    float nearest = eyeDepth(texelFetch(depth, ivec3(at, viewIndex()), 0).r, viewIndex());
-    seen += nearest > inStamp.x - inStamp.y ? 0.2 : 0.0;
-  }
-  counts *= seen;
 
   float turnedBy = inStamp.w, away = length(inPlace);
   vec2 turned = mat2(cos(turnedBy), sin(turnedBy), -sin(turnedBy), cos(turnedBy)) * inPlace;
 #ifdef SHAPES
   // The whole picture, however it is turned.
-  float covers = texture(brush, 0.5 + 0.7071 * turned).r;
+  vec4 painted = texture(brush, 0.5 + 0.7071 * turned);
+  float covers = u.isBrushClear != 0u ? painted.a : dot(painted.rgb, vec3(0.2126, 0.7152, 0.0722));
   covers *= step(max(abs(turned.x), abs(turned.y)), 0.7071);
 #else
   float hair = texture(brush, 0.22 * turned + inChance.xy).r - 0.5;
