@@ -21,7 +21,7 @@ SHARED_BEGIN
 // By how much it may lie elsewhere than where the edge's own surface leads: as much, and a part of how far
 // that is. Twice that hides all of it.
 const float kInkTolerance = 0.5f, kInkSlopeTolerance = 0.06f;
-const float kInkExtends = 1.0f;  // pixels
+const float kInkExtends = 1.0f;    // pixels
 const float kInkRisesMost = 1.5f;  // tangent
 // Where depth is looked up beside an edge, pixels: beyond it and before it, twice.
 const float kInkBeyond = 1.5f, kInkFarBeyond = 2.6f, kInkBefore = 1.5f, kInkFarBefore = 3.0f;
