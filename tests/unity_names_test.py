@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A constant that a source file keeps to itself has a name of its own.
+"""A constant that a source file keeps to itself has a name of its own, and a function its own name or parameters.
 
 ./check compiles a dozen sources together (CMake's unity build). There a constant of one file's unnamed namespace is
 seen by the files after it: where a header has the same name, it silently takes its place, and where a later file of the
@@ -27,9 +27,25 @@ def stripped(text):
     return re.sub(r"//[^\n]*", "", text)
 
 
+def signature(statement, name):
+    """A function's name with the types of its parameters."""
+    depth, parameters = 0, [""]
+    for letter in statement[statement.index(name + "(") + len(name) + 1:]:
+        depth += {"(": 1, "<": 1, ")": -1, ">": -1}.get(letter, 0)
+        if depth < 0:
+            break
+        if letter == "," and depth == 0:
+            parameters.append("")
+        else:
+            parameters[-1] += letter
+    types = [re.sub(r"\s*=.*", "", " ".join(parameter.split())) for parameter in parameters]
+    types = [re.sub(r"(?<=[\w>*&])\s+\w+(\[\w*\])?$|(?<=[*&])\w+$", "", one) for one in types]
+    return f"{name}({', '.join(types)})"
+
+
 def names(text):
-    """Triples of a name, whether it stands in an unnamed namespace, and the named namespaces around it; of namespaces'
-    own declarations only."""
+    """Triples of a name (of a function with the types of its parameters), whether it stands in an unnamed namespace, and
+    the named namespaces around it; of namespaces' own declarations only."""
     levels = []  # of open braces: "named", "unnamed" (namespaces), "enum" or "other"
     spaces = []  # of each level: the named namespace that it opens, or nothing
     statement = ""
@@ -45,7 +61,8 @@ def names(text):
                 return  # another's name
             for extra in re.split(r",\s*(?=k[A-Z]\w*\s*=)", statement):
                 if match := DECLARATION.match(extra) or re.match(r"\s*(?P<named>k[A-Z]\w*)\s*(?:=|\{)", extra):
-                    name = match.groupdict().get("named") or match.groupdict().get("function")
+                    function = match.groupdict().get("function")
+                    name = match.groupdict().get("named") or function and signature(extra, function)
                     if name:
                         found.append((name, "unnamed" in inside, around()))
         elif levels[-1] == "enum" and inside <= {"named", "unnamed", "enum"}:
@@ -91,6 +108,7 @@ def selfTest():
       namespace {
       constexpr float kTrim = 1, kOther = 2;
       int helper(int x) { return x; }
+      Own both(const glm::vec2& at, std::pair<int, int> of = {1, 2}) { return {}; }
       struct Own { int inner = 0; };
       using b::kBorrowed;
       const std::vector<std::string> kList{"a"};
@@ -100,8 +118,8 @@ def selfTest():
       }
     """
     got = {name: isOwn for name, isOwn, space in names(text) if space == "a"}
-    want = {"Kind": False, "kFirst": False, "kSecond": False, "Thing": False, "kTrim": True, "kOther": True, "helper": True,
-            "Own": True, "kList": True, "kPlaces": True, "open": False}
+    want = {"Kind": False, "kFirst": False, "kSecond": False, "Thing": False, "kTrim": True, "kOther": True, "helper(int)": True, "both(const glm::vec2&, std::pair<int, int>)": True,
+            "Own": True, "kList": True, "kPlaces": True, "open(int)": False}
     assert got == want, got
 
 
@@ -130,6 +148,7 @@ def main():
                     for name, isOwn, space in names(file.read_text()):
                         if re.match(r"k[A-Z]", name):
                             (own if isOwn else others)[name].add(str(file.relative_to(root)))
+                        if isOwn and re.match(r"k[A-Z]|(?!TEST|INSTANTIATE)\w+\(", name):
                             inSpace[space, name].add(str(file.relative_to(root)))
         for folder in headers:
             for file in (root / folder).rglob("*.h"):

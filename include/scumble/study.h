@@ -47,7 +47,7 @@ struct StudiedLines {
   double thin = 0, thick = 0;  // widths of which a quarter of the lines is thinner, thicker; px at 1080
   glm::vec3 color{0};          // linear RGB
 };
-constexpr double kDrawnLines = 0.62;
+constexpr double kDrawnLines = 0.67;
 
 // What a brush leaves on areas. Lengths are those of a picture of kStudyLines or more.
 struct StudiedMarks {

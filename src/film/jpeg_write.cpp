@@ -33,7 +33,7 @@ struct JpegEncoder {
   }
 };
 
-[[noreturn]] void onError(j_common_ptr info) {
+[[noreturn]] void onWriteError(j_common_ptr info) {
   std::longjmp(static_cast<JpegEncoder*>(info->client_data)->jump, 1);
 }
 
@@ -41,7 +41,7 @@ struct JpegEncoder {
 bool encode(JpegEncoder& encoder, const uint8_t* codes, uint32_t width, uint32_t height, int quality) {
   jpeg_compress_struct& info = encoder.info;
   info.err = jpeg_std_error(&encoder.errors);
-  encoder.errors.error_exit = onError;
+  encoder.errors.error_exit = onWriteError;
   encoder.errors.output_message = [](j_common_ptr) {};
   info.client_data = &encoder;
   if (setjmp(encoder.jump)) return false;

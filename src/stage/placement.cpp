@@ -19,7 +19,7 @@ using namespace stage;
 
 namespace {
 
-Error emptyScene() {
+Error noScene() {
   return usage("the scene is empty", "load one with Scene::load");
 }
 
@@ -32,7 +32,7 @@ glm::dmat4 worldOf(const scene::SceneData& scene, int node, const look::LookData
 }  // namespace
 
 Result<glm::dmat4> nodeToWorld(const Scene& scene, const std::string& node, const Look& look, double time) {
-  if (scene.empty()) return emptyScene();
+  if (scene.empty()) return noScene();
   if (node.empty()) return glm::dmat4(1.0);
   const int found = scene::findNode(scene.data(), node);
   if (found < 0) return usage("the scene has no node '" + node + "'", "`scumble info` lists its nodes");
@@ -40,7 +40,7 @@ Result<glm::dmat4> nodeToWorld(const Scene& scene, const std::string& node, cons
 }
 
 Result<glm::dmat4> cameraShiftToWorld(const Scene& scene, const Look& look, double time) {
-  if (scene.empty()) return emptyScene();
+  if (scene.empty()) return noScene();
   const look::LookData now = look.data().at(time);
   const int node = scene::findNode(scene.data(), now.text(now.get<CameraParams>().target));
   if (node >= 0) return worldOf(scene.data(), node, now, time);
@@ -49,14 +49,14 @@ Result<glm::dmat4> cameraShiftToWorld(const Scene& scene, const Look& look, doub
 }
 
 Result<glm::vec3> towardsKeyLight(const Scene& scene, const Look& look, double time) {
-  if (scene.empty()) return emptyScene();
+  if (scene.empty()) return noScene();
   const look::LookData now = look.data().at(time);
   const scene::Pose pose = scene::poseAt(scene.data(), playedClips(scene.data(), now), time);
   return keyLightDirection(scene.data(), now.get<LightParams>(), pose.world, pose.shown);
 }
 
 Result<glm::vec2> keyLightAngles(const Scene& scene, const glm::vec3& towardsLight) {
-  if (scene.empty()) return emptyScene();
+  if (scene.empty()) return noScene();
   const float length = glm::length(towardsLight);
   if (!(length > 0 && std::isfinite(length)))
     return usage("this is no direction", "give a vector that has a length");

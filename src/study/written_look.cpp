@@ -18,7 +18,7 @@ std::string quoted(const glm::vec3& linear) {
   return fmt::format("\"#{:02X}{:02X}{:02X}\"", code(linear.r), code(linear.g), code(linear.b));
 }
 
-std::string number(double value) {
+std::string numberText(double value) {
   std::string text = fmt::format("{:.3f}", value);
   text.erase(text.find_last_not_of('0') + 1);
   if (text.back() == '.') text.pop_back();
@@ -51,7 +51,7 @@ class Writer {
     isFirst_ = false;
     return *this;
   }
-  Writer& set(const std::string& knob, double value) { return set(knob, number(value)); }
+  Writer& set(const std::string& knob, double value) { return set(knob, numberText(value)); }
   std::string text() {
     close();
     return text_ + "\n}\n";
@@ -74,16 +74,17 @@ double pull(const ColorFamily& family) {
 
 std::string told(const char* name, const ColorFamily& family) {
   const std::string hue = family.agreement > 0 ? fmt::format(", hue {:.0f} degrees, agreement {}", family.hue,
-                                                             number(family.agreement))
+                                                             numberText(family.agreement))
                                                : "";
   return fmt::format("{}: {} of the picture, lightness {}, chroma {}{}.", name, percent(family.share),
-                     number(family.lightness), number(family.chroma), hue);
+                     numberText(family.lightness), numberText(family.chroma), hue);
 }
 
 void writePalette(Writer& look, const PictureStudy& study) {
   const ColorFamily &light = study.light, &dark = study.dark;
   look.section("palette", {fmt::format("Values from {} to {}, OKLab lightness; they part at {}.",
-                                       number(study.darkest), number(study.lightest), number(study.division)),
+                                       numberText(study.darkest), numberText(study.lightest),
+                                       numberText(study.division)),
                            told("The light", light), told("The dark", dark)});
   look.set("darkest", std::min(study.darkest, study.lightest)).set("lightest", std::min(1.0, study.lightest));
   // Colours in shadow are this palette's too, whatever the scene has for them.
@@ -115,9 +116,9 @@ void writeLimit(Writer& look, const PictureStudy& study, double softness) {
 void writeMarks(Writer& look, const PictureStudy& study) {
   constexpr double kLeastContrast = 0.006;
   const StudiedMarks& marks = study.marks;
-  const std::string told =
-      fmt::format("Grain of {} and strokes of {} in lightness, {} px wide, direction {}.",
-                  number(marks.grain), number(marks.contrast), number(marks.width), number(marks.direction));
+  const std::string told = fmt::format(
+      "Grain of {} and strokes of {} in lightness, {} px wide, direction {}.", numberText(marks.grain),
+      numberText(marks.contrast), numberText(marks.width), numberText(marks.direction));
   if (study.isOnPaper) {
     look.section("watercolor", {told, "Its lightest colour is in the corners: bare paper."})
         .set("shown", "true")
@@ -134,7 +135,7 @@ void writeMarks(Writer& look, const PictureStudy& study) {
   look.section("texture", {told}).set("amount", std::min(0.7, 0.7 * marks.contrast / full));
   look.set("metatexture",
            fmt::format("{{ \"example\": \"{}\", \"size\": {}{} }}", isStroked ? "strokes" : "paper",
-                       number(size), isStroked ? ", \"orient\": \"contour\"" : ""));
+                       numberText(size), isStroked ? ", \"orient\": \"contour\"" : ""));
 }
 
 }  // namespace
@@ -162,7 +163,7 @@ std::string lookTextOf(const PictureStudy& study, const std::string& name) {
         std::min(6.0, 3.7 * std::sqrt(std::max(0.0, ragged * ragged - kStraight * kStraight)));
     const std::string told = fmt::format(
         "{:.0f} pieces of edges: one area turns into the other within {} px, {} px off a smooth curve.",
-        study.borders.counted, number(study.borders.width), number(ragged));
+        study.borders.counted, numberText(study.borders.width), numberText(ragged));
     look.section("shadow", {told}).set("softness", softness);
     look.section("warp", {"The same raggedness, as tearing."}).set("amount", amount).set("inflation", amount);
   }

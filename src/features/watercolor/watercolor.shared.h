@@ -26,7 +26,7 @@ struct PigmentUniforms {
   float size;      // of stamps, in spacings
   float backruns;  // part of stamps
   uint seed;
-  uint isBrushClear;  // 1: the brush's picture has transparency, which says where it paints
+  float byOpacity;  // 1: the brush's picture has transparency, which says where it paints; else 0
 };
 const int kPigmentBlock = 0, kPigmentAnchors = 1, kPigmentObjects = 2, kPigmentVertices = 3,
           kPigmentDepth = 4, kPigmentBrush = 5, kPigmentPlaces = 6;

@@ -122,7 +122,7 @@ class Pigment : public Pass {
     const ExampleTexture& brush = frame_->examples().get(input.look, params.brush);
     const float spacing = params.spacing * input.uniforms.pixelScale;
     uniforms_.write(shared::PigmentUniforms{spacing, params.stampSize, params.backruns, input.seed,
-                                            uint32_t(brush.isClear)});
+                                            float(brush.isClear)});
     set_.writeTexture(0, shared::kPigmentBrush, brush.image.view(), frame_->samplers().get(kBrushSampler));
     placesStep_.refresh();
     countAnchors(input, spacing);

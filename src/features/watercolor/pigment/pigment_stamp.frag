@@ -31,7 +31,7 @@ void main() {
 #ifdef SHAPES
   // The whole picture, however it is turned.
   vec4 painted = texture(brush, 0.5 + 0.7071 * turned);
-  float covers = u.isBrushClear != 0u ? painted.a : dot(painted.rgb, vec3(0.2126, 0.7152, 0.0722));
+  float covers = mix(dot(painted.rgb, vec3(0.2126, 0.7152, 0.0722)), painted.a, u.byOpacity);
   covers *= step(max(abs(turned.x), abs(turned.y)), 0.7071);
 #else
   float hair = texture(brush, 0.22 * turned + inChance.xy).r - 0.5;
