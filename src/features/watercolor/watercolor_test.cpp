@@ -330,7 +330,7 @@ TEST_P(Watercolor, stampsComeAndGoByHowMuchOfThemIsSeen) {
   const float step = float(2 * 4.5 * std::tan(glm::radians(17.0)) / (kLarge * kHeight) / 10);
   std::optional<Frame> before;
   double most = 0, all = 0;
-  for (int i = 0; i <= 30; ++i) {
+  for (int i = 0; i <= 20; ++i) {
     EXPECT_TRUE(editor.setTransform(NodeId(1), glm::translate(glm::dmat4(1.0), {step * float(i), 0, 0})));
     const Scene scene = *editor.scene();
     views_ =
