@@ -137,7 +137,7 @@ TEST_P(Ink, facesSeenFromTheirEdgeHaveOutlines) {
                                                             {"box of cells", cellBox(3)},
                                                             {"column of 4", column(4)},
                                                             {"column of 8", column(8)}};
-  for (const auto& [name, mesh] : forms)
+  for (const auto& form : forms)
     for (const bool isMirrored : {false, true})
       for (const bool isDoubleSided : {false, true}) {
         if (isMirrored && isDoubleSided) continue;
@@ -147,7 +147,7 @@ TEST_P(Ink, facesSeenFromTheirEdgeHaveOutlines) {
           material["doubleSided"] = isDoubleSided;
           glm::mat4 matrix = glm::rotate(glm::mat4(1.0f), turn, {0, 1, 0});
           if (isMirrored) matrix[0] = -matrix[0];
-          s.add(mesh, s.material(material), matrix);
+          s.add(form.second, s.material(material), matrix);
           return s.load();
         };
         const auto outlines = [&](const Scene& scene, const std::vector<View>& views, const char* placement) {
@@ -163,7 +163,7 @@ TEST_P(Ink, facesSeenFromTheirEdgeHaveOutlines) {
         const Scene turnedALittle = turned(0.002f);
         const std::vector<View> parallel(viewCount(), parallelView(1.6f, float(kWidth) / kHeight));
         const std::string what =
-            name + (isMirrored ? ", mirrored" : "") + (isDoubleSided ? ", double-sided" : "");
+            form.first + (isMirrored ? ", mirrored" : "") + (isDoubleSided ? ", double-sided" : "");
         for (const char* placement : {"centred", "exterior"}) {
           if (isMirrored != (std::string(placement) == "exterior")) continue;
           const std::vector<double> expected = outlines(turnedALittle, parallel, placement);
@@ -174,7 +174,7 @@ TEST_P(Ink, facesSeenFromTheirEdgeHaveOutlines) {
                   << what << ", " << placement << ", turned by " << turn;
           }
           // Eyes in the plane of the box's side, and a little beside it.
-          if (!name.starts_with("box")) continue;
+          if (!form.first.starts_with("box")) continue;
           const auto from = [&](const Scene& scene, float x) {
             return outlines(
                 scene, viewsFrom(scene, {{x, 0.6f, 6}, {0, 0, 0}, 40, 0, 0.1f}, kWidth, kHeight, GetParam()),
