@@ -187,7 +187,8 @@ class Mirrored : public BothEyes {
     return std::move(frame).value();
   }
   // But for so many pixels of edges, which the last bit of a place decides.
-  static void expectAlike(const Frame& a, const Frame& b, const std::string& what, int mostOthers = 4) {
+  static void expectAlike(const Frame& a, const Frame& b, const std::string& what) {
+    constexpr int kMostOthers = 4;
     const std::map<std::string, double> most{
         {"depth", 1e-4}, {"normal", 1e-3}, {"shadow", 0.02}, {"ink", 0.02}, {"painting", 0.02}};
     for (const std::string& name : facts())
@@ -198,7 +199,7 @@ class Mirrored : public BothEyes {
             const glm::dvec4 p = texel(aov(a, name, v), x, y), q = texel(aov(b, name, v), x, y);
             others += p != q && !(glm::length(p - q) < most.at(name));
           }
-        EXPECT_LE(others, mostOthers) << what << ", " << name << ", view " << v;
+        EXPECT_LE(others, kMostOthers) << what << ", " << name << ", view " << v;
       }
   }
   static bool isAlike(const Frame& a, const Frame& b) {

@@ -23,7 +23,7 @@ SHARED_BEGIN
 const float kInkTolerance = 0.5f, kInkSlopeTolerance = 0.06f;
 const float kInkExtends = 1.0f;    // pixels
 const float kInkRisesMost = 1.5f;  // tangent
-// Where depth is looked up beside an edge, pixels: beyond it and before it, twice.
+// Places beside an edge at which depth is looked up, pixels: two beyond it and two before it.
 const float kInkBeyond = 1.5f, kInkFarBeyond = 2.6f, kInkBefore = 1.5f, kInkFarBefore = 3.0f;
 // How full a line is, is the mean of what is found at a place and so many pixels before and behind it.
 const float kInkMeanOver = 2.0f;
@@ -73,7 +73,8 @@ SHARED_FUNCTION float inkNoFurther(float extended, float end, float along, float
   return min(max(extended, end - most), end + most);
 }
 
-// What is linear on the screen where a surface is flat: one over the distance, but in a parallel projection
+// Measure that is linear on the screen where a surface is flat: one over the distance, but in a parallel
+// projection
 // (`parallel` 1, else 0) the distance itself; and back.
 SHARED_FUNCTION float inkLinear(float distance, float parallel) {
   return mix(1.0f / max(distance, 1e-30f), distance, parallel);
@@ -84,8 +85,8 @@ SHARED_FUNCTION float inkLinear(float distance, float parallel) {
 // edge. Metres along the view axis: of the edge, of where its own surface is expected, of what is seen, and
 // of a pixel; `away`: from the edge, pixels.
 //
-// Where an edge touches what is before it, as a box's does the ground, one of both rises gently towards the
-// eye; a steep surface would lead to whatever is before it.
+// An edge may touch the surface before it, as a box's does the ground: then one of both rises gently towards
+// the eye. A steep surface would lead to whatever is before it.
 SHARED_FUNCTION float inkBefore(float distance, float expected, float seen, float pixel, float away) {
   float allowed = kInkTolerance * pixel, rises = abs(expected - distance);
   float own = abs(expected - seen) / (allowed + kInkSlopeTolerance * rises);
@@ -103,7 +104,7 @@ SHARED_FUNCTION float inkHidden(vec2 beyond, vec2 before, uint isOutline) {
 
 // A factor on the line's width; 0 where it is hidden. `fade`, `outer`: as InkUniforms has them.
 //
-// What lies just beside the edge on both sides tells whether something is before it: if it is on either. So
+// Surfaces just beside the edge tell whether something is before it: it must be so on both sides. So
 // there is nothing to fight with about depths, and a line is hidden over its whole width at once.
 SHARED_FUNCTION float inkFullness(InkPlace p, float sceneRadius, float fade, float outer) {
   // What is hidden comes and goes by how deep it lies, and never at once.

@@ -82,7 +82,7 @@ struct LineRecord {
   vec4 radii;    // at both ends, pixels; depth-buffer values there
   vec4 color;    // square root; how much is the surface's own, or, below 0, is multiplied by that
   vec3 outward;  // unit, on the screen; 1: an outline
-  // What a pixel to the right, and one down, adds to inkLinear() of the edge's surface before it (against
+  // Change of inkLinear() by a pixel to the right, and by one down, of the edge's surface before it (against
   // `outward`; x, y), and beyond it.
   vec4 slopes;
   // Of outlines: how much the form turns away behind it, from 0 to 1; what part of its width it has in any

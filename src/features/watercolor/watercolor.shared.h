@@ -12,7 +12,8 @@ struct DrawnAnchor {
   float area;     // of the triangle there, square metres
   uint seed;
 };
-// Something that is painted; the anchors of one lie one after the other, and are drawn as its instances.
+// An object that is painted. Its anchors lie one after the other; its number is the instance that they are
+// drawn as.
 struct PaintedObject {
   uint firstAnchor;
   uint firstVertex;

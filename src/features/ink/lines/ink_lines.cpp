@@ -141,7 +141,7 @@ class Lines : public Pass {
     if (!isShown_) return;
     shared::InkUniforms uniforms = inkUniforms(input);
     uniforms.addresses = finder_.addresses();
-    // Of several samples it is the first one's, where Vulkan's standard has it.
+    // The first of several samples gives the depth, from where Vulkan's standard has it.
     uniforms.depthAt = configuration_.samples == 1 ? glm::vec2(0.5f) : glm::vec2(0.375f, 0.125f);
     uniforms_.write(uniforms);
     choices_ = inkChoices(input);

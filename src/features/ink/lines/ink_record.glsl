@@ -117,16 +117,17 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
   vec2 across = vec2(-direction.y, direction.x);
   float within = 0.0;
   vec2 thirdAt[2] = vec2[2](at[0], at[0]);
+  float thirdDepth[2] = float[2](0.0, 0.0);
   bool isKnown[2] = bool[2](false, false);
   for (int side = 0; side < (edge.isOpen ? 1 : 2); ++side) {
     vec4 third = worldToClip * vec4(positionOf(first + (side == 0 ? drawn.left : drawn.right)), 1.0);
     isKnown[side] = third.w > kNear;
-    if (isKnown[side]) thirdAt[side] = (third.xy / third.w + 1.0) * toPixels;
+    if (isKnown[side]) thirdAt[side] = (third.xy / third.w + 1.0) * toPixels, thirdDepth[side] = third.z / third.w;
     within += dot(thirdAt[side] - at[0], across);
   }
   if (within > 0.0) across = -across;
 
-  // How the edge's surface goes on from it on both sides. Where it ends, or is seen from its edge, as the edge itself.
+  // The edge's surface goes on from it on both sides; where it ends, or is seen from its edge, as the edge itself does.
   float parallel = VIEW_FIELD(orthographic, view);
   float linear[2];
   for (int i = 0; i < 2; ++i) linear[i] = inkLinear(eyeDepth(ends[i].clip.z / ends[i].clip.w, view), parallel);
@@ -138,8 +139,7 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
     if (!isKnown[side] || abs(away) < 0.01 * size || size < 1e-3) continue;
     // Of a closed form's outline, one of them is turned away.
     if (kind == kInkSilhouette && (side == 0 ? leftSide : rightSide) < max(leftSide, rightSide)) continue;
-    vec4 third = worldToClip * vec4(positionOf(first + (side == 0 ? drawn.left : drawn.right)), 1.0);
-    float there = inkLinear(eyeDepth(third.z / third.w, view), parallel);
+    float there = inkLinear(eyeDepth(thirdDepth[side], view), parallel);
     vec2 slope = alongSlope + (there - linear[0] - dot(alongSlope, towards)) / away * vec2(-direction.y, direction.x);
     bool isBefore = dot(towards, across) < 0.0;
     if (isBefore) record.slopes.xy = slope;

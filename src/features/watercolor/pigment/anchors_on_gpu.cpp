@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <set>
 
 #include "base/tileable_noise.h"
 #include "scene/mesh_edges.h"
@@ -72,11 +73,9 @@ void AnchorsOnGpu::find(const scene::SceneData& scene, const std::vector<Geometr
                      hash(uint32_t(at - mesh.begin()) + hash(uint32_t(item.instanceOfNode))));
     if (at == mesh.end()) mesh.push_back(item.primitive);
   }
-  std::erase_if(spreads_, [&](const auto& entry) {
-    return std::none_of(meshes.begin(), meshes.end(), [&](const auto& mesh) {
-      return std::find(mesh.second.begin(), mesh.second.end(), entry.first) != mesh.second.end();
-    });
-  });
+  std::set<const scene::Primitive*> painted;
+  for (const auto& [key, primitives] : meshes) painted.insert(primitives.begin(), primitives.end());
+  std::erase_if(spreads_, [&](const auto& entry) { return !painted.contains(entry.first); });
 
   uint32_t most = kMost;
   while (most > kFewest && uint64_t(most) * meshes.size() > kAltogether) most /= 2;
@@ -116,9 +115,6 @@ void AnchorsOnGpu::find(const scene::SceneData& scene, const std::vector<Geometr
     const auto& [primitive, spread] = changed[i];
     // Where they lie is the mesh's own; what each is like follows from PaintedObject::seed.
     spread->anchors = scene::anchorsOf(*primitive, spread->candidates, 0);
-    std::vector<float> spacings;
-    for (const scene::SurfaceAnchor& anchor : spread->anchors) spacings.push_back(anchor.spacing);
-    spread->spacings = std::make_shared<const std::vector<float>>(std::move(spacings));
   });
 }
 
@@ -150,7 +146,7 @@ bool AnchorsOnGpu::update(gpu::Device& device, gpu::Uploader& uploader,
       for (const scene::SurfaceAnchor& a : spread.anchors)
         anchors.push_back({a.a, a.b, a.c, a.toB, a.toC, a.spacing, a.area, a.seed});
     objects.push_back({first->second, item.firstVertex, uint32_t(i), item.seed, uint32_t(item.isSided)});
-    painted_.push_back({uint32_t(i), spread.spacings});
+    painted_.push_back({uint32_t(i), &spread.anchors});
   }
   settle();
   // What was there goes first.

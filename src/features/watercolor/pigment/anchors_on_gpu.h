@@ -2,7 +2,6 @@
 #pragma once
 
 #include <map>
-#include <memory>
 #include <vector>
 
 #include "features/watercolor/watercolor.shared.h"
@@ -27,8 +26,7 @@ class AnchorsOnGpu {
   // What is painted, in the order of PaintedObject in their buffer.
   struct Painted {
     uint32_t object;
-    std::shared_ptr<const std::vector<float>>
-        spacings;  // of its anchors, metres in mesh space, the widest first
+    const std::vector<scene::SurfaceAnchor>* anchors;  // the widest spacing first; until the next update()
   };
   const std::vector<Painted>& painted() const { return painted_; }
   // shared::DrawnAnchor, and shared::PaintedObject.
@@ -41,7 +39,6 @@ class AnchorsOnGpu {
     bool isClosed = false;    // known of double-sided ones alone
     uint32_t candidates = 0;  // that the anchors were chosen from
     std::vector<scene::SurfaceAnchor> anchors;
-    std::shared_ptr<const std::vector<float>> spacings;
   };
   std::map<const scene::Primitive*, Spread> spreads_;
   std::vector<uint32_t> seeds_;  // by item

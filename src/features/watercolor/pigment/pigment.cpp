@@ -148,7 +148,7 @@ class Pigment : public Pass {
     for (const AnchorsOnGpu::Painted& painted : anchors()->painted()) {
       const scene::Bounds& bounds = motion.bounds()[painted.object];
       counts_.push_back(0);
-      if (bounds.empty || painted.spacings->empty()) continue;
+      if (bounds.empty || painted.anchors->empty()) continue;
       const glm::vec3 viewer = input.uniforms.viewer;
       const float distance = glm::distance(viewer, glm::clamp(viewer, bounds.min, bounds.max));
       float pixel = INFINITY;  // metres
@@ -161,9 +161,10 @@ class Pigment : public Pass {
       constexpr float kStretched = 3;
       const float least =
           0.8f * spacing * pixel / (kStretched * std::max(motion.scales()[painted.object], 1e-20f));
-      counts_.back() = uint32_t(std::partition_point(painted.spacings->begin(), painted.spacings->end(),
-                                                     [&](float own) { return own >= least; }) -
-                                painted.spacings->begin());
+      counts_.back() = uint32_t(
+          std::partition_point(painted.anchors->begin(), painted.anchors->end(),
+                               [&](const scene::SurfaceAnchor& anchor) { return anchor.spacing >= least; }) -
+          painted.anchors->begin());
     }
   }
 
