@@ -12,9 +12,10 @@ struct Role {
 };
 
 // Which surfaces of each pixel: the first ones, or the next ones behind them (one sample a pixel), which
-// layered ripple shows. Roles of both have the same meaning.
-enum class Layer : uint8_t { first, behind };
-inline constexpr Layer kLayers[] = {Layer::first, Layer::behind};
+// layered ripple shows; roles of both have the same meaning. Overlays are laid over the picture after its
+// edges were torn: strokes and fins, and lines.
+enum class Layer : uint8_t { first, behind, paint, lines };
+inline constexpr Layer kLayers[] = {Layer::first, Layer::behind}, kOverlays[] = {Layer::paint, Layer::lines};
 
 // Buffers: the final vertices that `deform` writes, and the positions that they had a frame before.
 inline constexpr Role kVertices{"vertices"}, kPreviousVertices{"previous vertices"};
@@ -38,6 +39,9 @@ inline constexpr Role kShadow{"shadow"};
 // Square root of the linear colour in full light, and in shadow; A: coverage. Square roots need no more than
 // 8 bits, and cost drivers less than sRGB.
 inline constexpr Role kLit{"lit"}, kShadowed{"shadowed"};
+// Blended surfaces by themselves, and how far away they are: as kOverlay and kOverlayDistance. Only where there
+// are any, and something changes colours by their distance.
+inline constexpr Role kBlended{"blended"}, kBlendedDistance{"blended distance"};
 // Samples of those and of the depth buffer, where a pixel has several; nothing is premultiplied there.
 inline constexpr Role kShadowSamples{"shadow samples"}, kLitSamples{"lit samples"},
     kShadowedSamples{"shadowed samples"}, kDepthSamples{"depth samples"};
@@ -62,6 +66,12 @@ inline constexpr Role kGradedColors{"graded colors"};
 // The picture, where the colours of its pixels are means of single samples, those of kDepthSamples and
 // others.
 inline constexpr Role kSampledPicture{"sampled picture"};
+// An overlay so far: each pass that changes its colours takes the present one and gives the next. R, G, B:
+// square roots of colours, times coverage; A: coverage.
+inline constexpr Role kOverlay{"overlay"};
+// How far away an overlay's colours are, wherever something changes colours by that. R: along the view axis,
+// in radii of the scene, which halves hold at every scale, times G; G: coverage.
+inline constexpr Role kOverlayDistance{"overlay distance"};
 // The picture so far: each pass that works on it takes the present one and gives the next.
 inline constexpr Role kPicture{"picture"};
 

@@ -98,7 +98,7 @@ const gpu::Pipeline& TransparentStep::pipelineFor(const Group& group, uint32_t i
   desc.fragment = group.painted.isPainted ? desc_.paintedFragment : desc_.fragment;
   addVertexInput(desc, kPart | (group.painted.isPainted ? desc_.paintedInputs : desc_.inputs));
   desc.colorFormats = desc_.colorFormats;
-  desc.blend = what_ == What::paint ? gpu::Blend::premultiplied : gpu::Blend::over;
+  desc.blend = what_ == What::all ? gpu::Blend::over : gpu::Blend::premultiplied;
   desc.depthFormat = kDepthFormat;
   desc.depthWrite = false;
   // The depth of a pixel is that of some place in it, and a coat lies close to what it covers.

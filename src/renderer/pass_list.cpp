@@ -164,6 +164,10 @@ PassList standardPassesAlone() {
   for (const Layer layer : kLayers) list.append([=] { return passes::makeColor(layer); });
   for (const Layer layer : kLayers) list.append([=] { return passes::makeColorize(layer); });
   for (const Layer layer : kLayers) list.append([=] { return passes::makeLimit(layer); });
+  for (const Layer layer : kOverlays) {
+    list.append([=] { return passes::makeColorizeOverlay(layer); });
+    list.append([=] { return passes::makeLimitOverlay(layer); });
+  }
   list.append(passes::makeFinalColor);
   list.append(passes::makeFacts);
   list.append(passes::makeMatte);

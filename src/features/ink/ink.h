@@ -14,6 +14,10 @@ inline constexpr const char* kName = "ink";
 // whatever order they are drawn.
 inline constexpr frame::Role kStrokes{"ink strokes"};
 
+// How near strokes are, wherever something changes colours by that. R: coverage, times the scene's radius in
+// metres, by metres along the view axis; G: coverage. Greatest ones, too, so that nearer lines count.
+inline constexpr frame::Role kStrokesNearness{"nearness of ink strokes"};
+
 // Of each pixel, one sample: R: which piece of a mesh, as PartsOnGpu numbers them, 0 where nothing is; G: the
 // object, as the AOV `id` has it; B: 1 where it may have holes; A: metres along the view axis.
 inline constexpr frame::Role kPieces{"ink pieces"};
@@ -25,6 +29,8 @@ inline constexpr const char *kLineTableAov = "ink-table", *kPiecesAov = "ink-pie
 std::unique_ptr<frame::Pass> makeParts();
 // Draws ink.
 std::unique_ptr<frame::Pass> makeLines();
+// Finds what follows from the picture, and puts it with that, where something changes the colours of overlays.
+std::unique_ptr<frame::Pass> makeOverlay();
 // Lays it over the picture.
 std::unique_ptr<frame::Pass> makeOver();
 

@@ -10,9 +10,6 @@ namespace scumble::painting {
 
 inline constexpr const char* kName = "painting";
 
-// Strokes and layers of paint alone. R, G, B: square roots of colours, times coverage; A: coverage.
-inline constexpr frame::Role kPaint{"paint"};
-
 // Where the points of strokes are in the frame: shared::PlacedPoint.
 inline constexpr frame::Role kPlacedPoints{"placed points"};
 

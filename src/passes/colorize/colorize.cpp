@@ -2,6 +2,8 @@
 
 #include "frame/image_step.h"
 #include "passes/colorize/strips.h"
+#include "shaders/colorize_blended_image_comp.h"
+#include "shaders/colorize_blended_image_frag.h"
 #include "shaders/colorize_image_comp.h"
 #include "shaders/colorize_image_frag.h"
 
@@ -23,15 +25,22 @@ class Colorize : public Pass {
   void declare(FrameBuilder& frame, uint32_t hasColorizers) override {
     viewCount_ = frame.configuration().viewCount;
     gpu::Handle picture = frame.get(kPicture, layer_);
-    if (hasColorizers)
-      picture = step_.declare(
-          frame,
-          {.name = name(),
-           .shader = {{shaders::colorize_image_frag}, {shaders::colorize_image_comp}},
-           .inputs = {{shared::kColorizeColor, picture}, {shared::kColorizeDepth, frame.get(kDepth, layer_)}},
-           .outputs = {frame.image(name(), {.format = kHalves})},
-           .fetches = 2,
-           .uniformBytes = sizeof(shared::ColorizeUniforms)})[0];
+    if (hasColorizers) {
+      ImageStepDesc desc{
+          .name = name(),
+          .shader = {{shaders::colorize_image_frag}, {shaders::colorize_image_comp}},
+          .inputs = {{shared::kColorizeColor, picture}, {shared::kColorizeDepth, frame.get(kDepth, layer_)}},
+          .outputs = {frame.image(name(), {.format = kHalves})},
+          .fetches = 2,
+          .uniformBytes = sizeof(shared::ColorizeUniforms)};
+      if (layer_ == Layer::first && frame.has(kBlended)) {
+        desc.shader = {{shaders::colorize_blended_image_frag}, {shaders::colorize_blended_image_comp}};
+        desc.inputs.push_back({shared::kColorizeBlended, frame.get(kBlended)});
+        desc.inputs.push_back({shared::kColorizeBlendedDistance, frame.get(kBlendedDistance)});
+        desc.fetches += 2;
+      }
+      picture = step_.declare(frame, std::move(desc))[0];
+    }
     frame.give(kPicture, picture, layer_);
     if (layer_ != Layer::first) return;
     frame.give(kGradedColors, picture);
@@ -41,12 +50,8 @@ class Colorize : public Pass {
   void bind(const gpu::GraphResources& resources) override { step_.bind(resources); }
 
   void update(const FrameInput& input) override {
-    const std::vector<PlacedColorizer> colorizers =
-        placeColorizers(input.look, input.scene.data(), input.scene.motion().worldAsDrawn(), input.uniforms);
     shared::ColorizeUniforms uniforms{};
-    const uint32_t features =
-        fillUniforms(colorizers, input.uniforms, viewCount_, uint32_t(input.uniforms.imageSize.x),
-                     uint32_t(input.uniforms.imageSize.y), uniforms);
+    const uint32_t features = fillUniforms(input, viewCount_, uniforms);
     step_.setJobs({{{features}, {}}});
     step_.update(uniforms);
   }

@@ -7,5 +7,7 @@
 namespace scumble::passes {
 
 std::unique_ptr<frame::Pass> makeColorize(frame::Layer layer);
+// The same of an overlay (frame::kOverlays) whose distance is known, and the air before it.
+std::unique_ptr<frame::Pass> makeColorizeOverlay(frame::Layer layer);
 
 }  // namespace scumble::passes

@@ -1,5 +1,7 @@
 #version 460
 // The look's colorizers, one after the other (paper 002): colour and depth are read once, the result is written once.
+// With OVERLAY: of an overlay of the picture (frame/roles.h), behind the air before it. With BLENDED: there are blended
+// surfaces.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_quad : require
@@ -12,6 +14,10 @@ layout(constant_id = 0) const int kFeatures = 0;
 layout(set = 1, binding = 0, scalar) uniform Block { ColorizeUniforms u; };
 layout(set = 1, binding = kColorizeColor) uniform sampler2DArray color;
 layout(set = 1, binding = kColorizeDepth) uniform sampler2DArray depth;
+#ifdef BLENDED
+layout(set = 1, binding = kColorizeBlended) uniform sampler2DArray blended;
+layout(set = 1, binding = kColorizeBlendedDistance) uniform sampler2DArray blendedDistance;
+#endif
 
 bool has(int feature) { return (kFeatures & feature) != 0; }
 
@@ -27,9 +33,9 @@ struct Sight {
 
 #define SIGHT_FIELD(field) (kViewCount == 1 || layer == 0 ? u.sights[0].field : u.sights[1].field)
 
-Sight sightOf(ivec2 pixel, int layer) {
+// `distance`: metres along the view axis.
+Sight sightOf(ivec2 pixel, float distance, int layer) {
   vec2 ndc = (vec2(pixel) + 0.5) / frame.imageSize * 2.0 - 1.0;
-  float distance = min(eyeDepth(texelFetch(depth, ivec3(pixel, layer), 0).r, layer), 1e15);
   vec3 ray = SIGHT_FIELD(ray[0]) + ndc.x * SIGHT_FIELD(ray[1]) + ndc.y * SIGHT_FIELD(ray[2]);
   float stretch = inversesqrt(dot(ray, ray));
   Sight sight;
@@ -124,14 +130,12 @@ vec3 colorized(vec3 from, int index, Sight sight, int layer) {
   return from + amount * (min(graded, 65504.0) - from);
 }
 
-vec4 shade(ivec2 pixel, int layer) {
-  vec4 before = texelFetch(color, ivec3(pixel, layer), 0);
+// A straight colour that far along the pixel's ray, metres along the view axis.
+vec3 colorizedAt(vec3 straight, float distance, ivec2 pixel, int layer) {
   // What any of the pixels that are computed together sees; where one does not see it, it does nothing.
   ivec2 strip = (pixel >> u.stripBits) + layer * kMaxStrips;
   uvec2 left = subgroupOr(u.columns[strip.x] & u.rows[strip.y]);
-  Sight sight = sightOf(pixel, layer);
-  // Colours are premultiplied by their coverage; where all is covered, this changes nothing.
-  vec3 straight = before.rgb / max(before.a, 1e-6);
+  Sight sight = sightOf(pixel, min(distance, 1e15), layer);
   vec3 after = straight;
   while ((left.x | left.y) != 0u) {
     bool low = left.x != 0u;
@@ -140,8 +144,52 @@ vec4 shade(ivec2 pixel, int layer) {
     after = colorized(after, findLSB(word) + (low ? 0 : 32), sight, layer);
     left = low ? uvec2(rest, left.y) : uvec2(0u, rest);
   }
+  return after;
+}
+
+#ifdef OVERLAY
+vec3 inAir(vec3 straight, float distance) {
+  return mix(straight, u.air.horizon, u.air.amount * smoothstep(u.air.start, u.air.end, distance));
+}
+#endif
+
+#ifdef BLENDED
+// A picture of blended surfaces before others, which were mixed as square roots: each part at its own distance.
+vec3 colorizedThrough(vec3 straight, float coverage, float distance, ivec2 pixel, int layer) {
+  vec4 front = texelFetch(blended, ivec3(pixel, layer), 0), there = texelFetch(blendedDistance, ivec3(pixel, layer), 0);
+  float share = clamp(front.a / max(coverage, 1e-6), 0.0, 1.0), opaque = smoothstep(0.5, 1.0, share);
+  vec3 root = sqrt(straight), before = front.rgb / max(front.a, 1e-6);
+  // What is opaque has its colour in the picture alone.
+  before = mix(before, root, opaque);
+  vec3 behind = mix(max(root - share * before, 0.0) / max(1.0 - share, 1e-3), root, opaque);
+  vec3 after = colorizedAt(behind * behind, distance, pixel, layer);
+  vec3 near = colorizedAt(before * before, there.r / max(there.g, 1e-6) * frame.sceneRadius, pixel, layer);
+  vec3 mixed = mix(sqrt(after), sqrt(near), share);
+  bool isSame = after == behind * behind && near == before * before;
+  return isSame ? straight : mixed * mixed;
+}
+#endif
+
+vec4 shade(ivec2 pixel, int layer) {
+  vec4 whole = texelFetch(color, ivec3(pixel, layer), 0), far = texelFetch(depth, ivec3(pixel, layer), 0);
+  // Colours are premultiplied by their coverage; where all is covered, this changes nothing.
+  vec3 straight = whole.rgb / max(whole.a, 1e-6);
+#ifdef OVERLAY
+  float distance = far.r / max(far.g, 1e-6) * frame.sceneRadius;
+  straight *= straight;
+  vec3 after = colorizedAt(inAir(straight, distance), distance, pixel, layer);
   bvec3 same = equal(after, straight);
-  return vec4(mix(after * before.a, before.rgb, same), before.a);
+  after = sqrt(max(after, vec3(0.0)));
+#else
+  float distance = eyeDepth(far.r, layer);
+#ifdef BLENDED
+  vec3 after = colorizedThrough(straight, whole.a, distance, pixel, layer);
+#else
+  vec3 after = colorizedAt(straight, distance, pixel, layer);
+#endif
+  bvec3 same = equal(after, straight);
+#endif
+  return vec4(mix(after * whole.a, whole.rgb, same), whole.a);
 }
 
 #include "../../shading/image_pass.glsl"

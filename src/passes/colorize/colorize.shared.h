@@ -5,7 +5,14 @@
 SHARED_BEGIN
 
 // Bindings of set 1.
-const int kColorizeColor = 1, kColorizeDepth = 2;
+const int kColorizeColor = 1, kColorizeDepth = 2, kColorizeBlended = 3, kColorizeBlendedDistance = 4;
+
+// The air between the viewer and an overlay (background.air): of surfaces `color` has it.
+struct ColorizeAir {
+  vec3 horizon;
+  float amount;      // 0 to 1
+  float start, end;  // metres along the view axis
+};
 
 // As the shader tells volumes apart; a sphere is an ellipsoid whose space is the world's, but for the scale.
 const int kShapeSphere = 0, kShapeEllipsoid = 1, kShapeBox = 2, kShapeCapsule = 3, kShapeHalfSpace = 4,
@@ -45,6 +52,7 @@ struct ColorizeUniforms {
   // have.
   uvec2 columns[kMaxViews * kMaxStrips], rows[kMaxViews * kMaxStrips];
   Colorizer list[kMaxColorizers];
+  ColorizeAir air;
 };
 
 SHARED_END

@@ -28,6 +28,10 @@ enum VolumeShape : int {
   kVolumeScene
 };
 
+// Whether anything changes the colours of overlays by their distance: colorizers, or air that begins within
+// two radii of the scene behind its middle. Farther off nothing of it is drawn.
+bool changesOverlays(const look::LookData& look, const scene::SceneData& scene);
+
 // Whether a colorizer that the look declares may change any colour: not where it grades nothing, or in the
 // space of a node that is not there.
 bool mayGrade(const look::LookData& look, const std::string& colorizer, const scene::SceneData& scene);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "passes/color/color_knobs.h"
 #include "scene/find_node.h"
 
 namespace scumble::passes {
@@ -94,6 +95,15 @@ bool mayGrade(const look::LookData& look, const std::string& colorizer, const sc
   const std::string& node = look.text(volume.node);
   return volume.density != 0 && !isIdentity(look.getFor<GradeParams>(look::kColorizers, colorizer)) &&
          (node.empty() || scene::findNode(scene, node) >= 0);
+}
+
+bool changesOverlays(const look::LookData& look, const scene::SceneData& scene) {
+  constexpr float kFarthest = 2;  // scene radii
+  const BackgroundParams background = look.get<BackgroundParams>();
+  if (background.air > 0 && background.airStart < kFarthest) return true;
+  const std::vector<std::string> colorizers = look.declared(look::kColorizers);
+  return std::any_of(colorizers.begin(), colorizers.end(),
+                     [&](const std::string& name) { return mayGrade(look, name, scene); });
 }
 
 std::vector<PlacedColorizer> placeColorizers(const look::LookData& look, const scene::SceneData& scene,

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "frame/pass.h"
 #include "passes/colorize/colorizers.h"
 
 namespace scumble::passes {
@@ -16,9 +17,8 @@ uint32_t stripBits(uint32_t width, uint32_t height);
 void markStrips(const std::vector<PlacedColorizer>& colorizers, const glm::dmat4& worldToClip, uint32_t width,
                 uint32_t height, uint32_t view, shared::ColorizeUniforms& uniforms);
 
-// Fills all that the shader reads; returns what it has to be specialised to, bits of colorize.shared.h.
-uint32_t fillUniforms(const std::vector<PlacedColorizer>& colorizers, const shared::FrameUniforms& frame,
-                      uint32_t viewCount, uint32_t width, uint32_t height,
-                      shared::ColorizeUniforms& uniforms);
+// Fills all that the shader reads of colorizers and views; returns what it has to be specialised to, bits of
+// colorize.shared.h.
+uint32_t fillUniforms(const frame::FrameInput& input, uint32_t viewCount, shared::ColorizeUniforms& uniforms);
 
 }  // namespace scumble::passes

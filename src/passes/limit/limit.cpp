@@ -32,6 +32,15 @@ std::vector<glm::vec3> paletteColors(const LimitParams& params) {
   return colors;
 }
 
+uint32_t writePalette(const LimitParams& params, std::span<glm::vec3> to) {
+  const std::vector<glm::vec3> colors = paletteColors(params);
+  for (size_t i = 0; i < to.size() && !colors.empty(); ++i)
+    to[i] = glm::vec3(oklabFromLinear(glm::dvec3(colors[std::min(i, colors.size() - 1)]))) *
+            glm::vec3(params.lightness, 1, 1);
+  // A loop of constant length is unrolled, which CPU drivers want.
+  return uint32_t(colors.size() + 3) / 4 * 4;
+}
+
 bool limitsByMarks(const LimitParams& params) {
   return std::max(params.dither, params.skyDither) > 0 && !paletteColors(params).empty();
 }
@@ -90,19 +99,13 @@ class Limit : public Pass {
 
   void update(const FrameInput& input) override {
     const LimitParams params = input.knobs.scene<LimitParams>();
-    const std::vector<glm::vec3> colors = paletteColors(params);
     shared::LimitUniforms uniforms{};
     uniforms.knobs = params;
     // The rest of the way is left to edges, so that marks and edges leave the palette's own colours alone.
     constexpr float kReach = 0.8f;
     uniforms.dither = kReach * params.dither;
     uniforms.driftReach = std::max(int(std::lround(12 * input.uniforms.pixelScale)), 2);
-    uint32_t count = 0;
-    for (size_t i = 0; i < shared::kMaxPaletteColors && !colors.empty(); ++i)
-      uniforms.colors[i] = glm::vec3(oklabFromLinear(glm::dvec3(colors[std::min(i, colors.size() - 1)]))) *
-                           glm::vec3(params.lightness, 1, 1);
-    // A loop of constant length is unrolled, which CPU drivers want.
-    count = uint32_t(colors.size() + 3) / 4 * 4;
+    const uint32_t count = writePalette(params, uniforms.colors);
 
     // The pattern in the sky closes around the horizon, and is as coarse as the picture shows it.
     const ExampleTexture& strokes = examples_->get(input.look, kStrokes);

@@ -15,6 +15,8 @@ layout(set = 1, binding = kLimitWarp) uniform sampler2DArray warp;
 layout(set = 1, binding = kLimitDepth) uniform sampler2DArray depth;
 layout(set = 1, binding = kLimitStrokes) uniform sampler2D strokes;
 
+#include "nearest_color.glsl"
+
 // Half of the most that an edge may be wide, of the way from one colour to another.
 const float kWidest = 0.1;
 // Distances in OKLab's plane of hue and chroma: marks of two colours farther apart would be noise.
@@ -52,15 +54,7 @@ vec4 shade(ivec2 pixel, int layer) {
   vec3 weights = vec3(u.knobs.lightness, 1.0, 1.0), cones = conesAt(pixel, layer), roots = cubeRoot(cones);
   vec3 lab = weights * oklabFromConeRoots(roots);
 
-  // The nearest colour.
-  vec3 nearest = u.colors[0];
-  float least = dot(lab - nearest, lab - nearest);
-  for (int i = 1; i < kColors; ++i) {
-    vec3 away = lab - u.colors[i];
-    float squared = dot(away, away);
-    nearest = squared < least ? u.colors[i] : nearest;
-    least = min(squared, least);
-  }
+  vec3 nearest = nearestColor(lab);
   // Its neighbour: the one towards which the pixel lies farthest on the way.
   vec3 beside = nearest, from = lab - nearest;
   float farthest = 0.0;

@@ -19,6 +19,13 @@ const int kLimitColor = 1, kLimitWarp = 2, kLimitDepth = 3, kLimitStrokes = 4;
 const int kMendColor = 1, kMendLimited = 2;
 
 const int kMaxPaletteColors = 16;
+// Of overlays.
+const int kLimitOverlay = 1;
+struct LimitOverlayUniforms {
+  float amount, lightness;          // the knobs
+  vec3 colors[kMaxPaletteColors];  // as LimitUniforms has them
+};
+
 struct LimitUniforms {
   LimitParams knobs;
   float dither, skyDither;  // how much of the way from one colour to another marks cover

@@ -9,11 +9,14 @@
 #include "frame/material_params.h"
 #include "frame/metatexture.h"
 #include "frame/transparent_step.h"
+#include "passes/colorize/colorize_knobs.h"
 #include "passes/surface/surface.shared.h"
 #include "shaders/surface_frag.h"
 #include "shaders/surface_painted_frag.h"
 #include "shaders/surface_painted_vert.h"
 #include "shaders/surface_prepainted_frag.h"
+#include "shaders/surface_transparent_apart_frag.h"
+#include "shaders/surface_transparent_apart_painted_frag.h"
 #include "shaders/surface_transparent_frag.h"
 #include "shaders/surface_transparent_painted_frag.h"
 #include "shaders/surface_transparent_painted_vert.h"
@@ -38,7 +41,11 @@ class Surface : public Pass {
   const char* name() const override { return isBehind_ ? "behind" : "surface"; }
   std::span<const Aov> aovs() const override { return kAovs; }
 
-  void declare(FrameBuilder& frame, uint32_t) override {
+  uint32_t variant(const scene::SceneData& scene, const look::LookData& look) const override {
+    return !isBehind_ && changesOverlays(look, scene);
+  }
+
+  void declare(FrameBuilder& frame, uint32_t gradesByDistance) override {
     configuration_ = frame.configuration();
     samples_ = isBehind_ ? 1 : configuration_.samples;
     frame.step(name(), [this](VkCommandBuffer commands) { record(commands); });
@@ -69,6 +76,8 @@ class Surface : public Pass {
     // It is thresholded as it is.
     if (isBehind_) frame.give(kLight, colors_[0].image(), layer_);
     for (size_t i = 0; i < colors_.size() && !isBehind_; ++i) frame.offer(kAovs[i], {colors_[i].image()});
+    drawsApart_ = hasBlended_ && gradesByDistance;
+    if (drawsApart_) declareApart(frame);
   }
 
   void create(FrameBuilder& frame) override {
@@ -138,6 +147,7 @@ class Surface : public Pass {
                                     frame_->samplers().get(compare));
     }
     if (hasBlended_) blended_.bind();
+    if (drawsApart_) blendedApart_.bind();
   }
 
   void update(const FrameInput& input) override {
@@ -184,6 +194,7 @@ class Surface : public Pass {
     }
     const uint32_t constantNow = constant(input.uniforms.lightCount > 0);
     if (hasBlended_) blended_.update(constantNow, variants, paintingOf);
+    if (drawsApart_) blendedApart_.update(constantNow, variants, paintingOf);
     step_.specialise(constantNow, std::move(variants));
   }
 
@@ -192,6 +203,19 @@ class Surface : public Pass {
       {.name = "shadow", .premultiplied = 3},
       {.name = "lit", .isColor = true, .premultiplied = 3, .isSquareRoot = true},
       {.name = "shadowed", .isColor = true, .premultiplied = 3, .isSquareRoot = true}};
+
+  // Blended surfaces by themselves, and how far away they are.
+  void declareApart(FrameBuilder& frame) {
+    frame.step("blended", [this](VkCommandBuffer commands) { recordApart(commands); });
+    GeometryStep::use(frame);
+    frame.use(frame.get(kTransparentOrder), gpu::Use::indexBuffer);
+    frame.use(shadowMap_, gpu::Use::sampledByFragment);
+    testedDepth_ = frame.use(depth_.samples(), gpu::Use::depthTest);
+    apart_[0].declare(frame, kBlended.name, kHalves, samples_);
+    apart_[1].declare(frame, kBlendedDistance.name, kHalves, samples_);
+    frame.give(kBlended, apart_[0].image());
+    frame.give(kBlendedDistance, apart_[1].image());
+  }
 
   // Blended surfaces are drawn after the others, as those are but for the materials, which are rows there.
   void createBlended(GeometryStepDesc desc) {
@@ -215,6 +239,11 @@ class Surface : public Pass {
     desc.paintedFragment = {shaders::surface_transparent_painted_frag};
     desc.passLayout = &blendedLayout_;
     blended_.create(frame, desc, TransparentStep::What::surfaces);
+    if (!drawsApart_) return;
+    desc.fragment = {shaders::surface_transparent_apart_frag};
+    desc.paintedFragment = {shaders::surface_transparent_apart_painted_frag};
+    desc.colorFormats.assign(apart_.size(), kHalves);
+    blendedApart_.create(frame, desc, TransparentStep::What::surfaces);
   }
 
   // kOptions in the shaders.
@@ -230,6 +259,13 @@ class Surface : public Pass {
       step_.draw(commands, &sets_, firstView);
       if (hasBlended_) blended_.draw(commands, &blendedSets_, firstView);
     });
+  }
+
+  void recordApart(VkCommandBuffer commands) const {
+    const std::array<gpu::Target, 2> targets{apart_[0].target(*resources_), apart_[1].target(*resources_)};
+    const gpu::Target depth{&resources_->image(testedDepth_), nullptr, {}, gpu::Target::Before::tested};
+    gpu::drawViews(commands, configuration_.views(), targets, &depth,
+                   [&](uint32_t firstView) { blendedApart_.draw(commands, &blendedSets_, firstView); });
   }
 
   Layer layer_;
@@ -252,6 +288,10 @@ class Surface : public Pass {
   gpu::SetLayout blendedLayout_;
   gpu::DescriptorSets blendedSets_;
   TransparentStep blended_;
+  bool drawsApart_ = false;
+  gpu::Handle testedDepth_;
+  std::array<DrawnImage, 2> apart_;
+  TransparentStep blendedApart_;
 };
 
 }  // namespace

@@ -46,9 +46,14 @@ layout(location = 3) in vec4 inUvs;
 layout(location = 9) in vec3 inWorld;
 layout(location = 10) in vec3 inNormal;
 
+#ifdef APART
+layout(location = 0) out vec4 outColor;
+layout(location = 1) out vec4 outDistance;
+#else
 layout(location = 0) out vec4 outShadow;
 layout(location = 1) out vec4 outLit;
 layout(location = 2) out vec4 outShadowed;
+#endif
 
 #ifdef PAINTED
 #ifdef TRANSPARENT
@@ -200,9 +205,25 @@ void main() {
   float oblique = clamp(1.0 - abs(turn) / params.indicationWidth, 0.0, 1.0) * reaches * params.indication;
   oblique *= 1.0 - material.unlit;
 
-  // Nothing blurs and thresholds it later.
-  if (kBehind) light = clamp(0.5 + 8.0 * (light - 0.5), 0.0, 1.0);
-  outShadow = vec4(light, clamp(lens * params.lens + params.glow, 0.0, 1.0), oblique, alpha);
+  lens = clamp(lens * params.lens + params.glow, 0.0, 1.0);
+  float whole = clamp(0.5 + 8.0 * (light - 0.5), 0.0, 1.0);  // where nothing blurs and thresholds it later
+#ifdef TRANSPARENT
+  // Light is one number a pixel. A surface that lets through what is behind it leaves that number to that, and its colours
+  // have its own light and shadow side; the more opaque it is, the more the number is its own.
+  float opaque = smoothstep(0.5, 1.0, alpha);
+  vec3 own = sqrt(mix(shadowed * shadowed, lit * lit, whole));
+#ifdef APART
+  outColor = vec4(own, 1.0) * alpha;
+  outDistance = vec4(eyeDepth(gl_FragCoord.z, viewIndex()) / frame.sceneRadius, 1.0, 0.0, 1.0) * alpha;
+#else
+  outShadow = vec4(vec3(light, 0.0, oblique) * opaque, opaque);
+  outShadow.g = lens * alpha;
+  outLit = vec4(mix(own, lit, opaque), 1.0) * alpha;
+  outShadowed = vec4(mix(own, shadowed, opaque), 1.0) * alpha;
+#endif
+#else
+  outShadow = vec4(kBehind ? whole : light, lens, oblique, alpha);
   outLit = vec4(lit, alpha) * (1.0 - material.matte);
   outShadowed = vec4(shadowed, alpha) * (1.0 - material.matte);
+#endif
 }

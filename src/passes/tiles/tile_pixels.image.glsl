@@ -10,6 +10,7 @@
 #include "tile_steps.shared.h"
 
 layout(constant_id = 0) const int kAir = 1;
+layout(constant_id = 1) const bool kBlended = false;  // there may be surfaces that count in colours alone
 layout(set = 1, binding = 0, scalar) uniform Block { TilePixels u; };
 layout(set = 1, binding = kTileShadow) uniform sampler2DArray shadow;
 layout(set = 1, binding = kTileLitColor) uniform sampler2DArray lit;
@@ -23,6 +24,7 @@ void shadeTwo(ivec2 pixel, int layer, out vec4 least, out vec4 most) {
   for (int i = 0; i < kTileSize; ++i) {
     ivec3 at = ivec3(min(first + ivec2(i, 0), last), layer);
     vec4 s = texelFetch(shadow, at, 0);
+    if (kBlended) s.a = max(s.a, texelFetch(lit, at, 0).a);
     light = max(light, vec4(s.a, 1.0 - s.a, abs(s.a - s.r), s.r));
     indicated = max(indicated, s.b);
     if (kAir != 0) farthest = min(farthest, s.a > 0.0 ? texelFetch(depth, at, 0).r : 1.0);

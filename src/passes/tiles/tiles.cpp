@@ -50,6 +50,7 @@ class Tiles : public Pass {
 
   void declare(FrameBuilder& frame, uint32_t) override {
     hasSamples_ = frame.configuration().samples > 1;
+    hasBlended_ = frame.has(kTransparentOrder);
     constexpr gpu::ImageShape kRow{.format = kBytes, .overX = shared::kTileSize},
         kTile{.format = kBytes, .overX = shared::kTileSize, .overY = shared::kTileSize};
     const std::vector<gpu::Handle> rows = pixels_.declare(
@@ -98,7 +99,7 @@ class Tiles : public Pass {
     const auto tilesOf = [](float pixels) { return int(std::ceil(pixels / float(shared::kTileSize))); };
     const float pixelScale = input.uniforms.pixelScale;
     const BackgroundParams background = input.knobs.scene<BackgroundParams>();
-    pixels_.setJobs({{{background.air > 0}, {}}});
+    pixels_.setJobs({{{background.air > 0, hasBlended_}, {}}});
     pixels_.update(shared::TilePixels{airDistances(background, input.uniforms).x});
 
     const float tear = farthestTear(input);
@@ -116,7 +117,7 @@ class Tiles : public Pass {
 
  private:
   ImageStep pixels_, facts_, flags_, marked_, blocks_;
-  bool hasSamples_ = false;
+  bool hasSamples_ = false, hasBlended_ = false;
   ImageStep* const steps_[5] = {&pixels_, &facts_, &flags_, &marked_, &blocks_};
 };
 

@@ -25,6 +25,9 @@ layout(location = 10) flat in uint inSeen;
 layout(location = 11) flat in vec4 inSlopes;
 
 layout(location = 0) out vec4 outInk;
+#ifdef DISTANCE
+layout(location = 1) out vec4 outNearness;
+#endif
 
 // How far along a line is nearest, from 0 to 1.
 float nearestOn(vec2 from, vec2 to, vec2 point) {
@@ -78,4 +81,7 @@ void main() {
     if (surface.a > 0.0) color = mix(color, (inColor.a > 0.0 ? vec3(0.6) : color) * surface.rgb / surface.a, abs(inColor.a));
   }
   outInk = coverage * vec4(1.0 - color, 1.0);
+#ifdef DISTANCE
+  outNearness = coverage * vec4(frame.sceneRadius / eyeDepth(mix(inRadii.z, inRadii.w, t), view), 1.0, 0.0, 1.0);
+#endif
 }

@@ -9,6 +9,8 @@
 #include "features/ink/lines/line_table.h"
 #include "frame/drawn_image.h"
 #include "frame/material_params.h"
+#include "passes/colorize/colorize_knobs.h"
+#include "shaders/ink_line_distance_frag.h"
 #include "shaders/ink_line_frag.h"
 #include "shaders/ink_line_vert.h"
 
@@ -76,13 +78,13 @@ class Lines : public Pass {
  public:
   const char* name() const override { return "ink"; }
   std::span<const Aov> aovs() const override { return kAovs; }
-  uint32_t variant(const scene::SceneData&, const look::LookData& look) const override {
-    return mayShow(look);
+  uint32_t variant(const scene::SceneData& scene, const look::LookData& look) const override {
+    return uint32_t(mayShow(look)) + 2 * uint32_t(passes::changesOverlays(look, scene));
   }
 
-  void declare(FrameBuilder& frame, uint32_t isShown) override {
+  void declare(FrameBuilder& frame, uint32_t variant) override {
     configuration_ = frame.configuration();
-    isShown_ = isShown;
+    isShown_ = variant & 1, hasNearness_ = isShown_ && variant & 2;
     if (!isShown_) {
       // Whoever asks for it gets none.
       frame.step(name(), [this](VkCommandBuffer commands) { record(commands); });
@@ -111,6 +113,10 @@ class Lines : public Pass {
     shadowed_ = frame.use(frame.get(kShadowed), gpu::Use::sampledByFragment);
     strokes_.declare(frame, "ink", kBytes);
     frame.give(kStrokes, strokes_.image());
+    if (hasNearness_) {
+      nearness_.declare(frame, kStrokesNearness.name, kHalves);
+      frame.give(kStrokesNearness, nearness_.image());
+    }
     frame.offer(kAovs[0], {strokes_.image()});
   }
 
@@ -169,9 +175,14 @@ class Lines : public Pass {
   gpu::Pipeline makePipeline(uint32_t choices) const {
     gpu::GraphicsPipelineDesc desc;
     desc.vertex = {shaders::ink_line_vert};
-    desc.fragment = {shaders::ink_line_frag};
-    desc.constants = finder_.constants(choices);
     desc.colorFormats = {kBytes};
+    if (hasNearness_) {
+      desc.fragment = {shaders::ink_line_distance_frag};
+      desc.colorFormats.push_back(kHalves);
+    } else {
+      desc.fragment = {shaders::ink_line_frag};
+    }
+    desc.constants = finder_.constants(choices);
     desc.blend = gpu::Blend::greatest;
     desc.viewMask = configuration_.views().mask();
     desc.sets = {frame_->frameLayout().handle(), finder_.layout().handle(), layout_.handle()};
@@ -180,8 +191,9 @@ class Lines : public Pass {
   }
 
   void record(VkCommandBuffer commands) const {
-    const gpu::Target ink = strokes_.target(*resources_);
-    gpu::drawViews(commands, configuration_.views(), {&ink, 1}, nullptr, [&](uint32_t firstView) {
+    std::vector<gpu::Target> targets{strokes_.target(*resources_)};
+    if (hasNearness_) targets.push_back(nearness_.target(*resources_));
+    gpu::drawViews(commands, configuration_.views(), targets, nullptr, [&](uint32_t firstView) {
       if (!isShown_ || finder_.isEmpty()) return;
       const gpu::Pipeline& pipeline = pipelines_.at(choices_);
       pipeline.bind(commands);
@@ -197,13 +209,13 @@ class Lines : public Pass {
                                   {.name = kLineTableAov, .hasOwnSize = true, .isInternal = true}};
 
   FrameBuilder* frame_ = nullptr;
-  bool isShown_ = false, hasTable_ = false;
+  bool isShown_ = false, hasTable_ = false, hasNearness_ = false;
   Configuration configuration_;
   UniformSlice uniforms_, lines_;
   LineFinder finder_;
   LineTable table_;
   gpu::Handle depth_, shadowed_;
-  DrawnImage strokes_;
+  DrawnImage strokes_, nearness_;
   const gpu::GraphResources* resources_ = nullptr;
   gpu::SetLayout layout_;
   gpu::DescriptorSets set_;

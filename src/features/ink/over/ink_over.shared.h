@@ -21,7 +21,9 @@ struct InkOverUniforms {
 const int kInkOverReach = 4;
 // Beyond such a slope two places are no longer on one surface, or touch.
 const float kInkSteepest = 8.0f;
+// What it is specialised to: edges are torn; ink is an overlay, with all lines.
+const int kInkOverTears = 1, kInkOverIsOverlay = 2;
 const int kInkOverPicture = 1, kInkOverStrokes = 2, kInkOverWarp = 3, kInkOverTiles = 4, kInkOverLight = 5,
-          kInkOverDepth = 6, kInkOverPieces = 7;
+          kInkOverDepth = 6, kInkOverPieces = 7, kInkOverNearness = 8;
 SHARED_END
 #endif

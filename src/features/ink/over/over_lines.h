@@ -4,6 +4,7 @@
 #include <array>
 
 #include "features/ink/over/ink_over.shared.h"
+#include "frame/pass.h"
 #include "look/look_data.h"
 
 namespace scumble::ink {
@@ -16,6 +17,17 @@ struct OverLine {
 
 // By kind, kInkOverShadows ...
 std::array<OverLine, shared::kInkOverKinds> overLines(const look::LookData& look);
+
+// What shaders find them by.
+struct FoundLines {
+  shared::InkOverUniforms uniforms;
+  bool inMetres = false;
+  uint32_t lines = 0;  // kLines of ink_found.glsl
+};
+// `hasPieces`: borders of pieces are among them.
+FoundLines foundLines(const frame::FrameInput& input, bool hasPieces);
+// Texels that these take for a pixel, at most.
+uint32_t fetchesOfFoundLines(bool hasShadows, bool hasPieces);
 
 // Pixels of one of ink.unit; where that is metres, at a metre's distance. `pixelsOfOne`: what a metre covers
 // there; `pixelScale`: pixels of a knob pixel.

@@ -2,6 +2,7 @@
 
 #include "features/painting/fins/painting_fins.shared.h"
 #include "features/painting/painting_knobs.h"
+#include "shaders/painting_fins_distance_frag.h"
 #include "shaders/painting_fins_frag.h"
 #include "shaders/painting_fins_vert.h"
 
@@ -15,7 +16,7 @@ void Fins::declare(FrameBuilder& frame) {
   depth_ = frame.use(frame.get(kDepth), gpu::Use::depthTest);
 }
 
-void Fins::create(FrameBuilder& frame, VkFormat format) {
+void Fins::create(FrameBuilder& frame, const std::vector<VkFormat>& formats) {
   frame_ = &frame;
   uniforms_ = frame.uniform(sizeof(shared::FinsUniforms));
   layout_ =
@@ -24,9 +25,12 @@ void Fins::create(FrameBuilder& frame, VkFormat format) {
   set_.writeBuffer(0, shared::kFinsBlock, uniforms_.buffer, uniforms_.offset, uniforms_.size);
   GeometryStepDesc desc;
   desc.vertex = {shaders::painting_fins_vert};
-  desc.fragment = {shaders::painting_fins_frag};
+  if (formats.size() > 1)
+    desc.fragment = {shaders::painting_fins_distance_frag};
+  else
+    desc.fragment = {shaders::painting_fins_frag};
   desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor;
-  desc.colorFormats = {format};
+  desc.colorFormats = formats;
   desc.viewMask = frame.configuration().views().mask();
   desc.viewCount = frame.configuration().viewCount;
   desc.passLayout = &layout_;
@@ -34,9 +38,9 @@ void Fins::create(FrameBuilder& frame, VkFormat format) {
 }
 
 void Fins::draw(VkCommandBuffer commands, const gpu::GraphResources& resources,
-                const gpu::Target& paint) const {
+                std::span<const gpu::Target> targets) const {
   const gpu::Target depth{&resources.image(depth_), nullptr, {}, gpu::Target::Before::tested};
-  gpu::drawViews(commands, frame_->configuration().views(), {&paint, 1}, &depth,
+  gpu::drawViews(commands, frame_->configuration().views(), targets, &depth,
                  [&](uint32_t firstView) { step_.draw(commands, &set_, firstView); });
 }
 

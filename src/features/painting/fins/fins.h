@@ -10,10 +10,12 @@ class Fins {
  public:
   // Uses of the step that draws them.
   void declare(frame::FrameBuilder& frame);
-  void create(frame::FrameBuilder& frame, VkFormat format);
+  // Of the images that they are drawn into: paint, and where it counts how far away that is.
+  void create(frame::FrameBuilder& frame, const std::vector<VkFormat>& formats);
   void bind() { step_.bind(); }
   void update(const frame::FrameInput& input);
-  void draw(VkCommandBuffer commands, const gpu::GraphResources& resources, const gpu::Target& paint) const;
+  void draw(VkCommandBuffer commands, const gpu::GraphResources& resources,
+            std::span<const gpu::Target> targets) const;
 
  private:
   frame::FrameBuilder* frame_ = nullptr;

@@ -28,7 +28,7 @@ class Over : public Pass {
                                      .shader = {{shaders::painting_over_image_frag},
                                                 {shaders::painting_over_image_comp}},
                                      .inputs = {{shared::kPaintingOverPicture, frame.get(kPicture)},
-                                                {shared::kPaintingOverPaint, frame.get(kPaint), true},
+                                                {shared::kPaintingOverPaint, frame.get(kOverlay, Layer::paint), true},
                                                 {shared::kPaintingOverWarp, frame.get(tears ? kWarp : kLit)},
                                                 {shared::kPaintingOverTiles, frame.get(kTiles)}},
                                      .outputs = {frame.image(name(), {.format = kHalves})},

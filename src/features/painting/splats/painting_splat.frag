@@ -16,6 +16,9 @@ layout(location = 3) flat in vec2 inDepth;
 layout(location = 4) flat in int inBrush;
 
 layout(location = 0) out vec4 outPaint;
+#ifdef DISTANCE
+layout(location = 1) out vec4 outDistance;
+#endif
 
 void main() {
   BrushPlace p = BrushPlace(inPlace, inStroke.x, inStroke.y, inStroke.z, inStroke.w);
@@ -30,4 +33,7 @@ void main() {
   float alpha = covers * inColor.a;
   if (alpha <= 0.0) discard;
   outPaint = vec4(root * alpha, inBrush == kLight ? 0.25 * alpha : alpha);
+#ifdef DISTANCE
+  outDistance = vec4(inDepth.x / frame.sceneRadius, 1.0, 0.0, 1.0) * alpha;
+#endif
 }

@@ -7,7 +7,9 @@
 #include "frame/drawn_image.h"
 #include "gpu/dispatch.h"
 #include "gpu/prefix_sum.h"
+#include "passes/colorize/colorize_knobs.h"
 #include "shaders/painting_keys_comp.h"
+#include "shaders/painting_splat_distance_frag.h"
 #include "shaders/painting_splat_frag.h"
 #include "shaders/painting_splat_vert.h"
 #include "shading/geometry_constants.shared.h"
@@ -25,11 +27,13 @@ class Splats : public Pass {
   uint32_t variant(const scene::SceneData& scene, const look::LookData& look) const override {
     const bool isShown = drawnPaintings(scene, look) > 0;
     const bool takesLight = isShown && look.get<PaintingParams>().light > 0;
-    return 4 * uint32_t(isShown) + 2 * uint32_t(showsLayers(scene, look)) + uint32_t(takesLight);
+    return 8 * uint32_t(passes::changesOverlays(look, scene)) + 4 * uint32_t(isShown) +
+           2 * uint32_t(showsLayers(scene, look)) + uint32_t(takesLight);
   }
 
   void declare(FrameBuilder& frame, uint32_t variant) override {
     isShown_ = variant & 4, hasLayers_ = variant & 2, takesLight_ = variant & 1;
+    hasDistance_ = variant & 8 && (isShown_ || hasLayers_);
     configuration_ = frame.configuration();
     if (isShown_) {
       frame.step("painting-order", [this](VkCommandBuffer commands) { order(commands); });
@@ -45,23 +49,26 @@ class Splats : public Pass {
         depth_ = frame.use(frame.get(kDepth), gpu::Use::sampledByFragment);
         shadowMap_ = frame.use(frame.get(kShadowMap), gpu::Use::sampledByVertex);
       }
-      paint_.declare(frame, "painting", format());
+      declareImages(frame);
     }
     if (hasLayers_) {
       frame.step(name(), [this](VkCommandBuffer commands) { recordLayers(commands); });
       fins_.declare(frame);
-      if (hasSplatStep())
+      if (hasSplatStep()) {
         paint_.declareAgain(frame);
-      else
-        paint_.declare(frame, "painting", format());
+        if (hasDistance_) distance_.declareAgain(frame);
+      } else {
+        declareImages(frame);
+      }
     }
-    if (isShown_ || hasLayers_) frame.give(kPaint, paint_.image());
+    if (isShown_ || hasLayers_) frame.give(kOverlay, paint_.image(), Layer::paint);
+    if (hasDistance_) frame.give(kOverlayDistance, distance_.image(), Layer::paint);
     frame.offer(kAovs[0], {paint_.image()});
   }
 
   void create(FrameBuilder& frame) override {
     frame_ = &frame;
-    if (hasLayers_) fins_.create(frame, format());
+    if (hasLayers_) fins_.create(frame, formats());
     if (!isShown_) return;
     uniforms_ = frame.uniform(sizeof(shared::PaintingUniforms));
     constexpr VkShaderStageFlags kPlaces = VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_VERTEX_BIT;
@@ -88,12 +95,15 @@ class Splats : public Pass {
 
     gpu::GraphicsPipelineDesc desc;
     desc.vertex = {shaders::painting_splat_vert};
-    desc.fragment = {shaders::painting_splat_frag};
+    if (hasDistance_)
+      desc.fragment = {shaders::painting_splat_distance_frag};
+    else
+      desc.fragment = {shaders::painting_splat_frag};
     desc.blend = gpu::Blend::premultiplied;
     desc.constants.resize(size_t(shared::kPassId) + 1);
     desc.constants[size_t(shared::kViewCountId)] = configuration_.viewCount;
     desc.constants[size_t(shared::kPassId)] = takesLight_;
-    desc.colorFormats = {kHalves};
+    desc.colorFormats = formats();
     desc.viewMask = configuration_.views().mask();
     desc.sets = {frame.frameLayout().handle(), layout_.handle(), textureLayout_.handle()};
     desc.pushConstantBytes = 4;
@@ -151,19 +161,33 @@ class Splats : public Pass {
   bool hasSplatStep() const { return isShown_ || !hasLayers_; }
 
   void recordSplats(VkCommandBuffer commands) const {
-    const gpu::Target paint = paint_.target(*resources_);
-    gpu::drawViews(commands, configuration_.views(), {&paint, 1}, nullptr, [&](uint32_t firstView) {
-      if (isShown_) drawSplats(commands, firstView);
-    });
+    gpu::drawViews(commands, configuration_.views(), targets(gpu::Target::Before::cleared), nullptr,
+                   [&](uint32_t firstView) {
+                     if (isShown_) drawSplats(commands, firstView);
+                   });
   }
   void recordLayers(VkCommandBuffer commands) const {
     const gpu::Target::Before before =
         hasSplatStep() ? gpu::Target::Before::kept : gpu::Target::Before::cleared;
-    fins_.draw(commands, *resources_, paint_.target(*resources_, {}, before));
+    fins_.draw(commands, *resources_, targets(before));
   }
 
-  // Many thin splats add up; layers of paint are few, and bytes already.
-  VkFormat format() const { return isShown_ ? kHalves : kBytes; }
+  void declareImages(FrameBuilder& frame) {
+    paint_.declare(frame, "painting", formats()[0]);
+    if (hasDistance_) distance_.declare(frame, "distance of paint", formats()[1]);
+  }
+  std::vector<gpu::Target> targets(gpu::Target::Before before) const {
+    std::vector<gpu::Target> targets{paint_.target(*resources_, {}, before)};
+    if (hasDistance_) targets.push_back(distance_.target(*resources_, {}, before));
+    return targets;
+  }
+
+  // Of paint, and its distance. Many thin splats add up; layers of paint are few, and bytes already.
+  std::vector<VkFormat> formats() const {
+    std::vector<VkFormat> formats{isShown_ ? kHalves : kBytes};
+    if (hasDistance_) formats.push_back(kHalves);
+    return formats;
+  }
 
   void drawSplats(VkCommandBuffer commands, uint32_t firstView) const {
     drawPipeline_.bind(commands);
@@ -176,11 +200,11 @@ class Splats : public Pass {
 
   FrameBuilder* frame_ = nullptr;
   Configuration configuration_;
-  bool isShown_ = false, hasLayers_ = false, takesLight_ = false;
+  bool isShown_ = false, hasLayers_ = false, takesLight_ = false, hasDistance_ = false;
   Fins fins_;
   UniformSlice uniforms_;
   gpu::Handle order_, depth_, shadowMap_;
-  DrawnImage paint_;
+  DrawnImage paint_, distance_;
   const gpu::GraphResources* resources_ = nullptr;
   gpu::SetLayout layout_, textureLayout_;
   gpu::DescriptorSets set_, textures_;

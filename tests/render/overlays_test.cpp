@@ -1,0 +1,258 @@
+// Everything that is drawn passes through everything that acts on colours, at its own distance: surfaces,
+// sheets seen from both sides, strokes in space, layers of paint, and lines; also where they are laid over
+// the picture late.
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "tests/support/aov.h"
+#include "tests/support/palette_reference.h"
+#include "tests/support/render_test.h"
+
+namespace scumble {
+namespace {
+
+using namespace test;
+
+enum class Kind { surface, sheet, strokes, layers, lines };
+constexpr Kind kKinds[] = {Kind::surface, Kind::sheet, Kind::strokes, Kind::layers, Kind::lines};
+const char* name(Kind kind) {
+  const char* const names[] = {"surface", "sheet", "strokes", "layers of paint", "lines"};
+  return names[size_t(kind)];
+}
+
+constexpr int kWidth = 128, kHeight = 96;
+const glm::vec4 kGreen(0.1f, 0.6f, 0.2f, 1);
+
+class OverlaysTest : public RenderTest,
+                     public ::testing::WithParamInterface<std::tuple<Stereo, uint32_t, float>> {
+ protected:
+  static Stereo stereo() { return std::get<0>(GetParam()); }
+  static uint32_t samples() { return std::get<1>(GetParam()); }
+  // Metres of what the test calls one.
+  static float scale() { return std::get<2>(GetParam()); }
+  static std::string length(double one) { return std::to_string(one * double(scale())); }
+  static std::string place(double x, double y, double z) {
+    return length(x) + "," + length(y) + "," + length(z);
+  }
+
+  // A green thing of this kind around a place, and a wall of grey far behind it.
+  static Scene sceneOf(Kind kind, const glm::vec3& at = {0, 0, 0}) {
+    const float one = scale();
+    TestScene s;
+    s.add(gridMesh(one * glm::vec3(-40, -40, -12), {80 * one, 0, 0}, {0, 80 * one, 0}),
+          s.material(TestScene::unlit("Wall", {0.4f, 0.4f, 0.4f, 1})));
+    const TestMesh square =
+        gridMesh(one * (at + glm::vec3(-0.8f, -0.8f, 0)), {1.6f * one, 0, 0}, {0, 1.6f * one, 0});
+    Json material = TestScene::unlit("Thing", kGreen);
+    switch (kind) {
+      case Kind::surface:
+        s.add(square, s.material(material));
+        break;
+      case Kind::sheet: {
+        TestMesh turned = square;
+        std::reverse(turned.indices.begin(), turned.indices.end());
+        for (glm::vec3& normal : turned.normals) normal = -normal;
+        material["doubleSided"] = true;
+        s.add(turned, s.material(material));
+        break;
+      }
+      case Kind::strokes: {
+        std::vector<TestStroke> strokes;
+        for (int i = 0; i < 7; ++i) {
+          const float y = -0.75f + 0.25f * float(i);
+          strokes.push_back({{one * (at + glm::vec3(-0.8f, y, 0)), one * (at + glm::vec3(0.8f, y, 0))},
+                             0.2f * one,
+                             kGreen});
+        }
+        s.addStrokes(strokes);
+        break;
+      }
+      case Kind::layers:
+        material["alphaMode"] = "BLEND";
+        material["extras"]["scumble_paint"] = Json::object();
+        s.add(square, s.material(material));
+        break;
+      case Kind::lines:
+        // As grey as the wall.
+        s.add(boxMesh(one * (at + glm::vec3(-0.8f)), one * (at + glm::vec3(0.8f))),
+              s.material(TestScene::unlit("Thing", {0.4f, 0.4f, 0.4f, 1})));
+        break;
+    }
+    return s.load();
+  }
+  static Look lookOf(Kind kind, const Knobs& more = {}) {
+    Knobs knobs{{"warp.amount", "0"}, {"painting.variation", "0"}, {"painting.streaks", "0"}};
+    if (kind == Kind::lines)
+      knobs.insert(knobs.end(), {{"ink.shown", "on"},
+                                 {"ink.line.color", "#59C97C"},
+                                 {"ink.least", "36"},
+                                 {"ink.greatest", "36"},
+                                 {"ink.fade", "0"}});
+    knobs.insert(knobs.end(), more.begin(), more.end());
+    return quietLook(knobs);
+  }
+  static std::vector<View> views(const Scene& scene) {
+    return viewsFrom(scene, {{0, 0, 5 * scale()}, {0, 0, 0}, 40, 0, 0.06f * scale()}, kWidth, kHeight,
+                     stereo());
+  }
+  static Frame drawn(Kind kind, const Knobs& more = {}, const glm::vec3& at = {0, 0, 0}) {
+    const Scene scene = sceneOf(kind, at);
+    return draw(scene, lookOf(kind, more), views(scene), sized(kWidth, kHeight, {}, samples()));
+  }
+  size_t viewCount() const { return stereo() == Stereo::stereo ? 2 : 1; }
+
+  // Pixels that are as green as the thing is; wholly of it.
+  static std::vector<glm::ivec2> greenPixels(const Frame& frame, size_t view) {
+    std::vector<glm::ivec2> pixels;
+    const auto isGreen = [&](int x, int y) {
+      const glm::dvec4 color = texel(aov(frame, "", view), x, y);
+      return color.y > color.x + 0.15;
+    };
+    for (int y = 1; y < kHeight - 1; ++y)
+      for (int x = 1; x < kWidth - 1; ++x)
+        if (isGreen(x, y) && isGreen(x - 1, y) && isGreen(x + 1, y) && isGreen(x, y - 1) && isGreen(x, y + 1))
+          pixels.emplace_back(x, y);
+    return pixels;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Kinds, OverlaysTest,
+                         ::testing::Values(std::tuple{Stereo::mono, 1u, 1.0f},
+                                           std::tuple{Stereo::stereo, 4u, 1.0f},
+                                           std::tuple{Stereo::mono, 4u, 1e-3f},
+                                           std::tuple{Stereo::stereo, 1u, 1e4f}));
+
+// A colorizer of all that leaves nothing but red.
+TEST_P(OverlaysTest, everythingIsGraded) {
+  for (const Kind kind : kKinds) {
+    const Frame plain = drawn(kind), red = drawn(kind, {{"colorizers.A.volume.shape", "scene"},
+                                                        {"colorizers.A.grade.tint", "#FF0000"}});
+    for (size_t v = 0; v < viewCount(); ++v) {
+      EXPECT_GT(greenPixels(plain, v).size(), 150u) << name(kind);
+      double most = 0;
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x)
+          most = std::max({most, texel(aov(red, "", v), x, y).y, texel(aov(red, "", v), x, y).z});
+      EXPECT_LT(most, 0.02) << name(kind) << ", view " << v;
+    }
+  }
+}
+
+// Nothing is seen in fog that lets nothing through.
+TEST_P(OverlaysTest, nothingStandsOutInOpaqueFog) {
+  for (const Kind kind : kKinds) {
+    const Frame fog = drawn(kind, {{"colorizers.A.volume.shape", "scene"},
+                                   {"colorizers.A.volume.kind", "atmospheric"},
+                                   {"colorizers.A.volume.radius", length(0.1)},
+                                   {"colorizers.A.grade.tint", "#000000"},
+                                   {"colorizers.A.grade.bias", "0.3,0.4,0.5"}});
+    for (size_t v = 0; v < viewCount(); ++v) {
+      const glm::dvec4 first = texel(aov(fog, "", v), 0, 0);
+      EXPECT_GT(first.z, first.x);
+      double most = 0;
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x)
+          most = std::max(most, glm::length(texel(aov(fog, "", v), x, y) - first));
+      EXPECT_LT(most, 0.02) << name(kind) << ", view " << v;
+    }
+  }
+}
+
+// Fog as thick as it is to a surface that stands there: near the eye and far from it.
+TEST_P(OverlaysTest, fogCountsToWhereAThingStands) {
+  const Knobs fog{{"colorizers.A.volume.shape", "scene"},
+                  {"colorizers.A.volume.kind", "atmospheric"},
+                  {"colorizers.A.volume.radius", length(6)},
+                  {"colorizers.A.grade.tint", "#000000"},
+                  {"colorizers.A.grade.bias", "0.7,0.1,0.1"}};
+  double least = 1e9, most = 0;
+  for (const float z : {1.5f, 0.0f, -6.0f}) {
+    std::vector<glm::dvec3> meanOf;
+    for (const Kind kind : kKinds) {
+      const Frame plain = drawn(kind, {}, {0, 0, z}), fogged = drawn(kind, fog, {0, 0, z});
+      for (size_t v = 0; v < viewCount(); ++v) {
+        glm::dvec3 mean(0);
+        const auto pixels = greenPixels(plain, v);
+        ASSERT_GT(pixels.size(), 20u) << name(kind) << " at " << z;
+        for (const glm::ivec2& at : pixels)
+          mean += glm::dvec3(texel(aov(fogged, "", v), at.x, at.y)) / double(pixels.size());
+        meanOf.push_back(mean);
+        // The front of the box, whose outline the lines are, stands nearer by half of its depth.
+        EXPECT_LT(glm::length(mean - meanOf[0]), kind == Kind::lines ? 0.12 : 0.03)
+            << name(kind) << " at " << z << ", view " << v;
+      }
+    }
+    least = std::min(least, meanOf[0].x), most = std::max(most, meanOf[0].x);
+  }
+  EXPECT_GT(most - least, 0.15);
+}
+
+// Fog behind a thing leaves it as it is.
+TEST_P(OverlaysTest, fogBehindLeavesColoursAlone) {
+  const Knobs fog{{"colorizers.A.volume.shape", "box"},
+                  {"colorizers.A.volume.kind", "atmospheric"},
+                  {"colorizers.A.volume.center", place(0, 0, -6)},
+                  {"colorizers.A.volume.size", place(20, 20, 3)},
+                  {"colorizers.A.volume.density", "16"},
+                  {"colorizers.A.grade.tint", "#000000"},
+                  {"colorizers.A.grade.bias", "0.7,0.1,0.1"}};
+  for (const Kind kind : kKinds) {
+    const Frame plain = drawn(kind), fogged = drawn(kind, fog);
+    for (size_t v = 0; v < viewCount(); ++v) {
+      double most = 0;
+      for (const glm::ivec2& at : greenPixels(plain, v))
+        most = std::max(
+            most, glm::length(texel(aov(fogged, "", v), at.x, at.y) - texel(aov(plain, "", v), at.x, at.y)));
+      EXPECT_LT(most, 0.05) << name(kind) << ", view " << v;
+      EXPECT_GT(glm::length(texel(aov(fogged, "", v), 2, 2) - texel(aov(plain, "", v), 2, 2)), 0.2);
+    }
+  }
+}
+
+// Air, as far as it goes: what stands in it dissolves as a surface does.
+TEST_P(OverlaysTest, airLiesBeforeEverything) {
+  const Knobs air{{"background.air", "1"}, {"background.airStart", "-1"}, {"background.airEnd", "-0.2"}};
+  std::vector<glm::dvec3> meanOf;
+  for (const Kind kind : kKinds) {
+    const Frame plain = drawn(kind), aired = drawn(kind, air);
+    for (size_t v = 0; v < viewCount(); ++v) {
+      glm::dvec3 mean(0), before(0);
+      const auto pixels = greenPixels(plain, v);
+      for (const glm::ivec2& at : pixels) {
+        mean += glm::dvec3(texel(aov(aired, "", v), at.x, at.y)) / double(pixels.size());
+        before += glm::dvec3(texel(aov(plain, "", v), at.x, at.y)) / double(pixels.size());
+      }
+      meanOf.push_back(mean);
+      EXPECT_GT(glm::length(mean - before), 0.05) << name(kind);
+      EXPECT_LT(glm::length(mean - meanOf[0]), 0.05) << name(kind) << ", view " << v;
+    }
+  }
+}
+
+// But for edges, a limited palette has no other colours.
+TEST_P(OverlaysTest, aLimitedPaletteHasNoOtherColours) {
+  const char* const palette[] = {"#202020", "#808080", "#C8B040", "#E8E8E8"};
+  Knobs limited{{"limit.palette", "look"}, {"limit.colors", "4"}, {"limit.dither", "0"}};
+  for (size_t i = 0; i < std::size(palette); ++i)
+    limited.emplace_back("limit.color" + std::to_string(i + 1), palette[i]);
+  for (const Kind kind : kKinds) {
+    const Frame plain = drawn(kind), few = drawn(kind, limited);
+    for (size_t v = 0; v < viewCount(); ++v) {
+      const auto pixels = greenPixels(plain, v);
+      size_t others = 0;
+      for (const glm::ivec2& at : pixels) {
+        const glm::dvec3 got(texel(aov(few, "", v), at.x, at.y));
+        double nearest = 1e9;
+        for (const char* const hex : palette)
+          nearest = std::min(
+              nearest,
+              glm::length(got - glm::dvec3(referenceColor(uint32_t(std::strtoul(hex + 1, nullptr, 16))))));
+        others += nearest > 0.02;
+      }
+      EXPECT_LE(others, pixels.size() / 20) << name(kind) << ", view " << v;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace scumble
