@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """docs/papers.md names what there is: paths, knobs and their choices, tests, links, and all corrections to the papers.
+docs/through.md has something in every cell of its table, and says of each what it means.
 
     tests/papers_test.py [ROOT]      exit code 1 with a line for each name that is wrong
 
@@ -15,6 +16,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import docs_test as docs  # noqa: E402
 
 PAGE = "docs/papers.md"
+TABLE_PAGE = "docs/through.md"
 CELLS = ["mechanism", "code", "test", "deviation"]  # after the section, or the part of an unnumbered text
 CODE, TEST = 2, 3
 CORRECTIONS = range(1, 30)
@@ -101,13 +103,36 @@ def check_page(root):
     yield from docs.check_links(root, [page])
 
 
+def check_table_of_pairs(root):
+    """Letters of the table stand for tests below it, and numbers for reasons."""
+    page = root / TABLE_PAGE
+    text = page.read_text(encoding="utf-8")
+    tests = docs.Holders(root).tests
+    rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in text.splitlines() if line.startswith("| ")]
+    if len(rows) < 11:
+        yield f"{TABLE_PAGE}: the table has {len(rows)} rows"
+    used = {mark for row in rows[1:] for cell in row[1:] for mark in cell.split()}
+    letters = dict(re.findall(r"(?:^- |; )([a-z]2?): ([^;\n]*)", text, re.MULTILINE))
+    reasons = set(re.findall(r"^(\d+)\. It |^(\d+)\. ", text[text.index("\n- a:"):], re.MULTILINE))
+    known = set(letters) | {number for pair in reasons for number in pair if number}
+    yield from (f"{TABLE_PAGE}: row {row[0]} has an empty cell" for row in rows for cell in row[1:] if not cell)
+    yield from (f"{TABLE_PAGE}: nothing says what {mark} means" for mark in sorted(used - known))
+    yield from (f"{TABLE_PAGE}: no cell has {mark}" for mark in sorted(known - used))
+    for letter, line in letters.items():
+        named = [name for name in docs.SPAN.findall(line) if TEST_NAME.match(name)]
+        if not named:
+            yield f"{TABLE_PAGE}: {letter} names no test"
+        yield from (f"{TABLE_PAGE}: there is no test {name}" for name in named if name not in tests)
+    yield from docs.check_links(root, [page])
+
+
 def main():
     root = Path(sys.argv[1]).resolve() if len(sys.argv) > 1 else docs.ROOT
-    problems = list(check_page(root))
+    problems = list(check_page(root)) + list(check_table_of_pairs(root))
     for problem in problems:
         print(problem, file=sys.stderr)
     if not problems:
-        print("papers: every name of docs/papers.md is there")
+        print("papers: every name of docs/papers.md and docs/through.md is there")
     return 1 if problems else 0
 
 

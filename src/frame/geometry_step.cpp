@@ -26,7 +26,9 @@ void GeometryStep::specialise(uint32_t constant, std::vector<MaterialVariant> ma
 }
 
 bool GeometryStep::includes(const DrawState& state) const {
-  if (desc_.leavesBlended && state.alpha == AlphaMode::blend) return false;
+  const bool isBlended = state.alpha == AlphaMode::blend;
+  if (desc_.leavesBlended && isBlended) return false;
+  if (desc_.onlyBlended && (!isBlended || scene_->material(state.material).paint)) return false;
   const bool isOfCasters = desc_.what == GeometryStepDesc::What::casters;
   if (state.castsAlone && !isOfCasters) return false;
   if (desc_.onlyMaterial && state.material != *desc_.onlyMaterial) return false;
@@ -64,6 +66,8 @@ const gpu::Pipeline& GeometryStep::pipelineFor(const Variant& variant) {
   pipeline.colorFormats = desc_.colorFormats;
   pipeline.depthFormat = VK_FORMAT_D32_SFLOAT;
   pipeline.depthCompare = desc_.depthCompare;
+  pipeline.depthWrite = desc_.depthWrite;
+  pipeline.blend = desc_.blend;
   pipeline.samples = desc_.samples;
   pipeline.viewMask = desc_.viewMask;
   pipeline.pushConstantBytes = desc_.viewMask ? 4 : 0;

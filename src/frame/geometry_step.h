@@ -30,6 +30,10 @@ struct GeometryStepDesc {
   uint32_t constant = 0;  // the pass's own, to begin with
   // Blended surfaces are left to somebody else; else they are drawn like masked ones.
   bool leavesBlended = false;
+  // Nothing but blended surfaces that are no layers of paint.
+  bool onlyBlended = false;
+  gpu::Blend blend = gpu::Blend::none;
+  bool depthWrite = true;
   // Set 2, or null for none. Its first bindings are dynamic uniforms, one for each of `materialStrides`: the
   // step from one material's knobs to the next one's, in bytes.
   const gpu::SetLayout* passLayout = nullptr;

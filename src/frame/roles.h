@@ -30,6 +30,9 @@ inline constexpr Role kSunken{"sunken"};
 inline constexpr Role kTransparentOrder{"transparent order"};
 
 inline constexpr Role kShadowMap{"shadow map"};  // depth from the light in sigmoid-warped light space
+// What blended surfaces of less than half opacity hold back of the key light; only where a scene has blended
+// ones. R: 1 - the depth of the nearest one, as in the shadow map; G: the greatest opacity.
+inline constexpr Role kVeils{"veils"};
 // In tiles that are marked. R, G: warp vector in pixels (x right, y down); B: breakup marks, where the tile
 // is shaded; A: eye depth of the inflated surface, or 0.
 inline constexpr Role kWarp{"warp"};

@@ -96,8 +96,9 @@ void drawViews(VkCommandBuffer commands, const Views& views, std::span<const Tar
   vkCmdEndRendering(commands);
 }
 
-void drawOnce(VkCommandBuffer commands, const Target& depth, const std::function<void()>& draw) {
-  beginRendering(commands, 0, 0, {}, &depth);
+void drawOnce(VkCommandBuffer commands, std::span<const Target> colors, const Target* depth,
+              const std::function<void()>& draw) {
+  beginRendering(commands, 0, 0, colors, depth);
   draw();
   vkCmdEndRendering(commands);
 }

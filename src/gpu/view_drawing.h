@@ -38,6 +38,7 @@ void drawViews(VkCommandBuffer commands, const Views& views, std::span<const Tar
                const Target* depth, const std::function<void(uint32_t firstView)>& draw);
 
 // The same for what is drawn once a frame, whatever the views.
-void drawOnce(VkCommandBuffer commands, const Target& depth, const std::function<void()>& draw);
+void drawOnce(VkCommandBuffer commands, std::span<const Target> colors, const Target* depth,
+              const std::function<void()>& draw);
 
 }  // namespace scumble::gpu

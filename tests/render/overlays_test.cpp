@@ -1,12 +1,13 @@
 // Everything that is drawn passes through everything that acts on colours, at its own distance: surfaces,
-// sheets seen from both sides, strokes in space, layers of paint, and lines; also where they are laid over
-// the picture late.
+// sheets seen from both sides, blended surfaces, strokes in space, layers of paint, and lines; also where
+// they are laid over the picture late. And blended surfaces have a light and a shadow side, and a shadow.
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
 #include "tests/support/aov.h"
 #include "tests/support/palette_reference.h"
+#include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
 
 namespace scumble {
@@ -14,15 +15,18 @@ namespace {
 
 using namespace test;
 
-enum class Kind { surface, sheet, strokes, layers, lines };
-constexpr Kind kKinds[] = {Kind::surface, Kind::sheet, Kind::strokes, Kind::layers, Kind::lines};
+enum class Kind { surface, sheet, blended, strokes, layers, lines };
+constexpr Kind kKinds[] = {Kind::surface, Kind::sheet,  Kind::blended,
+                           Kind::strokes, Kind::layers, Kind::lines};
 const char* name(Kind kind) {
-  const char* const names[] = {"surface", "sheet", "strokes", "layers of paint", "lines"};
+  const char* const names[] = {"surface", "sheet", "blended surface", "strokes", "layers of paint", "lines"};
   return names[size_t(kind)];
 }
 
 constexpr int kWidth = 128, kHeight = 96;
 const glm::vec4 kGreen(0.1f, 0.6f, 0.2f, 1);
+// Of blended surfaces.
+constexpr float kOpacity = 0.4f;
 
 class OverlaysTest : public RenderTest,
                      public ::testing::WithParamInterface<std::tuple<Stereo, uint32_t, float>> {
@@ -57,6 +61,11 @@ class OverlaysTest : public RenderTest,
         s.add(turned, s.material(material));
         break;
       }
+      case Kind::blended:
+        material["alphaMode"] = "BLEND";
+        material["pbrMetallicRoughness"]["baseColorFactor"][3] = kOpacity;
+        s.add(square, s.material(material));
+        break;
       case Kind::strokes: {
         std::vector<TestStroke> strokes;
         for (int i = 0; i < 7; ++i) {
@@ -138,6 +147,66 @@ TEST_P(OverlaysTest, everythingIsGraded) {
   }
 }
 
+// Ground, sky and sea, with a box between them.
+TEST_P(OverlaysTest, groundSeaAndSkyAreGraded) {
+  if (scale() != 1) GTEST_SKIP() << "a sea has metres of its own";
+  TestScene s;
+  s.add(boxMesh({-0.8f, 0, -0.8f}, {0.8f, 1.6f, 0.8f}), s.material(TestScene::unlit("Box", kGreen)));
+  const Scene scene = s.load();
+  const auto from = viewsFrom(scene, {{0, 3, 6}, {0, 1, 0}, 50}, kWidth, kHeight, stereo());
+  const Knobs red{{"colorizers.A.volume.shape", "scene"}, {"colorizers.A.grade.tint", "#FF0000"}},
+      fog{{"colorizers.A.volume.shape", "scene"},
+          {"colorizers.A.volume.kind", "atmospheric"},
+          {"colorizers.A.volume.radius", "0.1"},
+          {"colorizers.A.grade.tint", "#000000"},
+          {"colorizers.A.grade.bias", "0.6,0,0"}};
+  for (const char* below : {"ground.mode", "ocean.mode"}) {
+    if (!hasKnob(below)) continue;
+    for (const Knobs& of : {red, fog}) {
+      Knobs knobs = of;
+      knobs.emplace_back(below, "on");
+      const Frame frame = draw(scene, quietLook(knobs), from, sized(kWidth, kHeight, {}, samples()));
+      for (size_t v = 0; v < viewCount(); ++v) {
+        double most = 0;
+        for (int y = 0; y < kHeight; ++y)
+          for (int x = 0; x < kWidth; ++x)
+            most = std::max({most, texel(aov(frame, "", v), x, y).y, texel(aov(frame, "", v), x, y).z});
+        EXPECT_LT(most, 0.02) << below << ", view " << v;
+      }
+    }
+  }
+}
+
+TEST_P(OverlaysTest, groundSeaAndSkyAreLimited) {
+  if (scale() != 1) GTEST_SKIP() << "a sea has metres of its own";
+  TestScene s;
+  s.add(boxMesh({-0.8f, 0, -0.8f}, {0.8f, 1.6f, 0.8f}), s.material(TestScene::unlit("Box", kGreen)));
+  const Scene scene = s.load();
+  const auto from = viewsFrom(scene, {{0, 3, 6}, {0, 1, 0}, 50}, kWidth, kHeight, stereo());
+  for (const char* below : {"ground.mode", "ocean.mode"}) {
+    if (!hasKnob(below)) continue;
+    const Frame frame = draw(scene,
+                             quietLook({{below, "on"},
+                                        {"limit.palette", "look"},
+                                        {"limit.colors", "2"},
+                                        {"limit.dither", "0"},
+                                        {"limit.color1", "#303030"},
+                                        {"limit.color2", "#D0D0D0"}}),
+                             from, sized(kWidth, kHeight, {}, samples()));
+    const double dark = referenceColor(0x303030).x, light = referenceColor(0xD0D0D0).x;
+    for (size_t v = 0; v < viewCount(); ++v) {
+      size_t others = 0;
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+          const glm::dvec4 color = texel(aov(frame, "", v), x, y);
+          others += std::min(std::abs(color.y - dark), std::abs(color.y - light)) > 0.02;
+        }
+      // Edges are mixtures of both.
+      EXPECT_LT(others, size_t(kWidth * kHeight / 6)) << below << ", view " << v;
+    }
+  }
+}
+
 // Nothing is seen in fog that lets nothing through.
 TEST_P(OverlaysTest, nothingStandsOutInOpaqueFog) {
   for (const Kind kind : kKinds) {
@@ -176,9 +245,17 @@ TEST_P(OverlaysTest, fogCountsToWhereAThingStands) {
         ASSERT_GT(pixels.size(), 20u) << name(kind) << " at " << z;
         for (const glm::ivec2& at : pixels)
           mean += glm::dvec3(texel(aov(fogged, "", v), at.x, at.y)) / double(pixels.size());
+        if (kind == Kind::blended) {
+          // Beside the thing there is nothing but the wall; blended colours are mixed as square roots.
+          const glm::dvec3 wall(texel(aov(fogged, "", v), 3, kHeight / 2));
+          mean = (glm::sqrt(mean) - double(1 - kOpacity) * glm::sqrt(wall)) / double(kOpacity);
+          mean *= mean;
+        }
         meanOf.push_back(mean);
         // The front of the box, whose outline the lines are, stands nearer by half of its depth.
-        EXPECT_LT(glm::length(mean - meanOf[0]), kind == Kind::lines ? 0.12 : 0.03)
+        EXPECT_LT(glm::length(mean - meanOf[0]), kind == Kind::lines     ? 0.12
+                                                 : kind == Kind::blended ? 0.05
+                                                                         : 0.03)
             << name(kind) << " at " << z << ", view " << v;
       }
     }
@@ -197,6 +274,7 @@ TEST_P(OverlaysTest, fogBehindLeavesColoursAlone) {
                   {"colorizers.A.grade.tint", "#000000"},
                   {"colorizers.A.grade.bias", "0.7,0.1,0.1"}};
   for (const Kind kind : kKinds) {
+    if (kind == Kind::blended) continue;  // what is behind shows through it
     const Frame plain = drawn(kind), fogged = drawn(kind, fog);
     for (size_t v = 0; v < viewCount(); ++v) {
       double most = 0;
@@ -209,11 +287,92 @@ TEST_P(OverlaysTest, fogBehindLeavesColoursAlone) {
   }
 }
 
+// What lies in fog is hidden by it, through a blended surface that stands before it, too; and that stays.
+TEST_P(OverlaysTest, blendedSurfacesStandBeforeFogAndInIt) {
+  const Knobs opaque{
+      {"colorizers.A.volume.shape", "box"},           {"colorizers.A.volume.kind", "atmospheric"},
+      {"colorizers.A.volume.size", place(60, 60, 3)}, {"colorizers.A.volume.density", "16"},
+      {"colorizers.A.grade.tint", "#000000"},         {"colorizers.A.grade.bias", "0.7,0.1,0.1"}};
+  const glm::dvec3 fog(0.7, 0.1, 0.1);
+  for (const bool isBefore : {true, false}) {
+    Knobs knobs = opaque;
+    knobs.emplace_back("colorizers.A.volume.center", place(0, 0, isBefore ? -6 : 0));
+    const Frame plain = drawn(Kind::blended), fogged = drawn(Kind::blended, knobs);
+    glm::dvec3 expected = fog;
+    if (isBefore) {
+      expected = double(kOpacity) * glm::sqrt(glm::dvec3(kGreen)) + double(1 - kOpacity) * glm::sqrt(fog);
+      expected *= expected;
+    }
+    for (size_t v = 0; v < viewCount(); ++v) {
+      const auto pixels = greenPixels(plain, v);
+      ASSERT_GT(pixels.size(), 150u);
+      double most = 0;
+      for (const glm::ivec2& at : pixels)
+        most = std::max(most, glm::length(glm::dvec3(texel(aov(fogged, "", v), at.x, at.y)) - expected));
+      EXPECT_LT(most, 0.06) << (isBefore ? "before" : "in") << ", view " << v;
+    }
+  }
+}
+
+// A box of glass: its sides differ as much as those of an opaque one do, as far as it is there; and what lies
+// behind it in the light is darker by as much.
+TEST_P(OverlaysTest, blendedThingsHaveASideInShadowAndAShadow) {
+  const float one = scale();
+  std::vector<View> from;
+  const auto drawnAs = [&](const glm::vec4& color) {
+    TestScene s;
+    Json box = TestScene::colored("Box", color);
+    if (color.a < 1) box["alphaMode"] = "BLEND";
+    s.add(boxMesh(one * glm::vec3(-0.6f, -0.2f, -0.6f), one * glm::vec3(0.6f, 1, 0.6f)), s.material(box));
+    s.add(gridMesh(one * glm::vec3(-12, -1, 12), {24 * one, 0, 0}, {0, 0, -24 * one}),
+          s.material(TestScene::colored("Floor", {0.5f, 0.5f, 0.5f, 1})));
+    s.light({-1, 1.2f, 0.4f});
+    const Scene scene = s.load();
+    from = viewsFrom(scene, {one * glm::vec3(3, 3, 6), one * glm::vec3(0.8f, 0, 0), 45, 0, 0.06f * one},
+                     kWidth, kHeight, stereo());
+    return draw(scene,
+                quietLook({{"warp.amount", "0"},
+                           {"shadow.innerGlow", "0"},
+                           {"shadow.indication", "0"},
+                           {"palette.planes", "0"}}),
+                from, sized(kWidth, kHeight, {}, samples()));
+  };
+  const Frame solid = drawnAs({0.6f, 0.3f, 0.1f, 1}), glass = drawnAs({0.6f, 0.3f, 0.1f, kOpacity}),
+              empty = drawnAs({0.6f, 0.3f, 0.1f, 0.001f});
+  for (size_t v = 0; v < viewCount(); ++v) {
+    const auto rootAt = [&](const Frame& frame, const glm::dvec3& at) {
+      const glm::ivec2 pixel(pixelOf(from[v], double(one) * at, kWidth, kHeight));
+      return glm::sqrt(glm::dvec3(texel(aov(frame, "", v), pixel.x, pixel.y)));
+    };
+    const auto colorAt = [&](const Frame& frame, const glm::dvec3& at) {
+      const glm::dvec3 root = rootAt(frame, at);
+      return root * root;
+    };
+    // Its top lies in light, and its right side in shadow.
+    const glm::dvec3 top(0.1, 1, 0.1), side(0.6, 0.5, 0.1);
+    for (const glm::dvec3& at : {top, side}) {
+      const glm::dvec3 own =
+          (rootAt(glass, at) - double(1 - kOpacity) * rootAt(empty, at)) / double(kOpacity);
+      EXPECT_LT(glm::length(own - rootAt(solid, at)), 0.25) << at.x << ", view " << v;
+    }
+    EXPECT_GT(glm::length(rootAt(solid, top) - rootAt(solid, side)), 0.15);
+    EXPECT_GT(glm::length(rootAt(glass, top) - rootAt(glass, side)), 0.05);
+    // On the floor, in the middle of the shadow and beside it.
+    const glm::dvec3 inside(1.4, -1, -0.45), outside(1.4, -1, 2.5);
+    const glm::dvec3 whole = colorAt(solid, outside) - colorAt(solid, inside),
+                     pale = colorAt(empty, inside) - colorAt(glass, inside);
+    EXPECT_GT(glm::length(whole), 0.1);
+    EXPECT_NEAR(glm::length(pale) / glm::length(whole), double(kOpacity), 0.08) << "view " << v;
+    EXPECT_LT(glm::length(colorAt(empty, outside) - colorAt(glass, outside)), 0.01);
+  }
+}
+
 // Air, as far as it goes: what stands in it dissolves as a surface does.
 TEST_P(OverlaysTest, airLiesBeforeEverything) {
   const Knobs air{{"background.air", "1"}, {"background.airStart", "-1"}, {"background.airEnd", "-0.2"}};
   std::vector<glm::dvec3> meanOf;
   for (const Kind kind : kKinds) {
+    if (kind == Kind::blended) continue;  // air counts to what shows through it
     const Frame plain = drawn(kind), aired = drawn(kind, air);
     for (size_t v = 0; v < viewCount(); ++v) {
       glm::dvec3 mean(0), before(0);

@@ -52,6 +52,7 @@ class Surface : public Pass {
     GeometryStep::use(frame);
     frame.use(frame.get(kSunken), gpu::Use::storageBufferReadByVertex);
     shadowMap_ = frame.use(frame.get(kShadowMap), gpu::Use::sampledByFragment);
+    if (frame.has(kVeils)) veils_ = frame.use(frame.get(kVeils), gpu::Use::sampledByFragment);
     for (size_t i = 0; i < prepainted_.size(); ++i) {
       const Role& role = i == 0 ? kPrepaintedLit : kPrepaintedShadowed;
       if (frame.has(role)) prepainted_[i] = frame.use(frame.get(role), gpu::Use::sampledByFragment);
@@ -97,7 +98,8 @@ class Surface : public Pass {
                               {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
                               {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
                               {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT},
-                              {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT}});
+                              {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_VERTEX_BIT},
+                              {kTexture, VK_SHADER_STAGE_FRAGMENT_BIT}});
     // One set for each material, since each may have a texture of its own.
     const size_t materials = frame.scene().materialCount();
     sets_ = gpu::DescriptorSets(frame.device(), layout_, uint32_t(materials));
@@ -142,9 +144,11 @@ class Surface : public Pass {
       sets_.rewriteTexture(m, shared::kSurfaceFirstDepth, orAny(firstDepth_), exact);
       for (uint32_t i = 0; i < prepainted_.size(); ++i)
         sets_.rewriteTexture(m, shared::kSurfacePrepaintedLit + i, orAny(prepainted_[i]), exact);
-      if (hasBlended_)
-        blendedSets_.rewriteTexture(m, shared::kSurfaceShadowMap, resources.image(shadowMap_).view(),
-                                    frame_->samplers().get(compare));
+      sets_.rewriteTexture(m, shared::kSurfaceVeils, orAny(veils_), exact);
+      if (!hasBlended_) continue;
+      blendedSets_.rewriteTexture(m, shared::kSurfaceShadowMap, resources.image(shadowMap_).view(),
+                                  frame_->samplers().get(compare));
+      blendedSets_.rewriteTexture(m, shared::kBlendedVeils, orAny(veils_), exact);
     }
     if (hasBlended_) blended_.bind();
     if (drawsApart_) blendedApart_.bind();
@@ -210,6 +214,7 @@ class Surface : public Pass {
     GeometryStep::use(frame);
     frame.use(frame.get(kTransparentOrder), gpu::Use::indexBuffer);
     frame.use(shadowMap_, gpu::Use::sampledByFragment);
+    if (veils_) frame.use(veils_, gpu::Use::sampledByFragment);
     testedDepth_ = frame.use(depth_.samples(), gpu::Use::depthTest);
     apart_[0].declare(frame, kBlended.name, kHalves, samples_);
     apart_[1].declare(frame, kBlendedDistance.name, kHalves, samples_);
@@ -224,6 +229,7 @@ class Surface : public Pass {
     blendedLayout_ = gpu::SetLayout(frame.device(), {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFragment},
                                                      {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kFragment},
                                                      {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kFragment},
+                                                     {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment},
                                                      {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment},
                                                      {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment},
                                                      {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment}});
@@ -247,7 +253,7 @@ class Surface : public Pass {
   }
 
   // kOptions in the shaders.
-  uint32_t constant(bool lights) const { return (isBehind_ ? 1 : 0) | (lights ? 2 : 0); }
+  uint32_t constant(bool lights) const { return (isBehind_ ? 1 : 0) | (lights ? 2 : 0) | (veils_ ? 8 : 0); }
 
   void record(VkCommandBuffer commands) const {
     std::array<gpu::Target, std::size(kAovs)> colors;
@@ -270,7 +276,7 @@ class Surface : public Pass {
 
   Layer layer_;
   bool isBehind_;
-  gpu::Handle shadowMap_, firstDepth_;
+  gpu::Handle shadowMap_, firstDepth_, veils_;
   std::array<gpu::Handle, 2> prepainted_;
   std::array<DrawnImage, std::size(kAovs)> colors_;
   DrawnImage depth_;

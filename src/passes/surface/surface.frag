@@ -18,7 +18,8 @@
 layout(constant_id = kAlphaModeId) const int kAlphaMode = 0;  // 0 opaque, 1 masked, 2 blended
 layout(constant_id = kVariedId) const int kVaried = 0;
 layout(constant_id = kTexturedId) const int kTextured = 0;
-layout(constant_id = kPassId) const int kOptions = 0;  // 1: only what lies behind the first surface; 2: there are lights
+// 1: only what lies behind the first surface; 2: there are lights; 8: there may be veils.
+layout(constant_id = kPassId) const int kOptions = 0;
 layout(constant_id = kColorSetsId) const int kSets = 0;     // sets of colours of its own: 1 for light, 2 for shadow
 // Of what the look paints.
 layout(constant_id = kFeaturesId) const int kFeatures = 0;
@@ -35,7 +36,10 @@ layout(set = 2, binding = kSurfaceKnobs, scalar) uniform ParamsBlock { SurfacePa
 #endif
 layout(set = 2, binding = kSurfaceLight, scalar) uniform LightKnobs { LightParams keyLight; };
 layout(set = 2, binding = kSurfaceShadowMap) uniform sampler2DArrayShadow shadowMap;
-#ifndef TRANSPARENT
+#ifdef TRANSPARENT
+layout(set = 2, binding = kBlendedVeils) uniform sampler2DArray veils;
+#else
+layout(set = 2, binding = kSurfaceVeils) uniform sampler2DArray veils;
 layout(set = 2, binding = kSurfaceFirstDepth) uniform sampler2DArray firstDepth;
 #endif
 
@@ -92,6 +96,17 @@ vec3 paint(vec3 over, vec3 root) {
   return mix(root, result, painted.amount);
 }
 #endif
+
+// Key light that blended surfaces hold back, 0 to 1: the mean of the four texels around, of those that lie nearer to the
+// light.
+float veilAt(vec3 lightSpace) {
+  const float kBias = 2.0 / 1024.0;  // what halves round, twice
+  vec2 texels = vec2(textureSize(veils, 0).xy), place = shadowMapUv(lightSpace.xy) * texels - 0.5, f = fract(place);
+  vec3 middle = vec3((floor(place) + 1.0) / texels, 0.0);
+  vec4 holds = textureGather(veils, middle, 1) * vec4(greaterThan(textureGather(veils, middle, 0), vec4(1.0 - lightSpace.z + kBias)));
+  vec2 rows = mix(holds.wx, holds.zy, f.x);
+  return mix(rows.x, rows.y, f.y);
+}
 
 #ifdef PREPAINTED
 layout(set = 2, binding = kSurfacePrepaintedLit) uniform sampler2DArray prepaintedLit;
@@ -204,6 +219,12 @@ void main() {
   // Blue: where the breakup map may act, which is where the surface is oblique to a light that reaches it.
   float oblique = clamp(1.0 - abs(turn) / params.indicationWidth, 0.0, 1.0) * reaches * params.indication;
   oblique *= 1.0 - material.unlit;
+
+  // The shadow of what lets light through is a paler colour and no shape of light, which is whole or not there.
+  if ((kOptions & 8) != 0) {
+    float held = veilAt(inLightSpace) * (1.0 - material.unlit);
+    lit = sqrt(mix(lit * lit, shadowed * shadowed, held));
+  }
 
   lens = clamp(lens * params.lens + params.glow, 0.0, 1.0);
   float whole = clamp(0.5 + 8.0 * (light - 0.5), 0.0, 1.0);  // where nothing blurs and thresholds it later
