@@ -46,9 +46,12 @@ PlacedEdge placed(DrawnEdge edge, uint first) {
   return result;
 }
 
-// Cosine of the angle by which the surface turns there.
+// Cosine of the angle by which the surface turns there. Areas of triangles of kilometres and of micrometres are squared, and
+// the product of two such squares would be none that floats hold.
 float bendOf(PlacedEdge edge) {
-  return dot(edge.left, edge.right) * inversesqrt(max(dot(edge.left, edge.left) * dot(edge.right, edge.right), 1e-37));
+  const float kLeast = 1e-37;
+  return dot(edge.left * inversesqrt(max(dot(edge.left, edge.left), kLeast)),
+             edge.right * inversesqrt(max(dot(edge.right, edge.right), kLeast)));
 }
 
 // How much of its width a crease has.

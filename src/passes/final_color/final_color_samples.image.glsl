@@ -35,6 +35,24 @@ layout(set = 1, binding = kFinalColorUngraded) uniform sampler2DArray ungraded;
 
 bool hasGlowColor() { return (kOptions & kFinalColorGlowColor) != 0; }
 
+// A sample's colour after grades, which are known of whole pixels: it changes as its pixel does, and is no other colour than
+// those that are graded around it, but for half of how far these are apart.
+vec3 gradedSample(vec4 color, ivec3 at) {
+  vec4 own = texelFetch(graded, at, 0), before = texelFetch(ungraded, at, 0);
+  if (own.rgb == before.rgb) return color.rgb;
+  vec3 straight = own.rgb / max(own.a, 1e-3), least = straight, most = straight;
+  ivec2 last = ivec2(frame.imageSize) - 1;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 beside = clamp(at.xy + ivec2((i & 1) * 2 - 1, (i >> 1) * 2 - 1), ivec2(0), last);
+    vec4 there = texelFetch(graded, ivec3(beside, at.z), 0);
+    vec3 other = there.a > 0.0 ? there.rgb / there.a : straight;
+    least = min(least, other);
+    most = max(most, other);
+  }
+  vec3 margin = 0.5 * (most - least), changed = color.rgb + own.rgb - before.rgb;
+  return clamp(changed, (least - margin) * color.a, (most + margin) * color.a);
+}
+
 vec4 torn(ivec2 pixel, int layer) {
   Places places = displacedSamples(displacement, kRipple, warp, inflated, depth, depthSamples, behindDepth, pixel, layer);
   vec4 sum = vec4(0.0);
@@ -43,7 +61,7 @@ vec4 torn(ivec2 pixel, int layer) {
     int number = sampleAt(places.at[i]);
     vec4 color = sampleColor(texelFetch(litSamples, at, number), at, number, places.depths[i]);
     color += skyAt(vec2(at.xy) + 0.5, layer) * (1.0 - color.a);
-    if ((kOptions & kFinalColorIsGraded) != 0) color += texelFetch(graded, at, 0) - texelFetch(ungraded, at, 0);
+    if ((kOptions & kFinalColorIsGraded) != 0) color.rgb = gradedSample(color, at);
     if (kRipple == kRippleLayered && places.isBehind[i]) color = texelFetch(behind, ivec3(pixel, layer), 0);
     sum += color / float(kPlaces);
   }

@@ -24,6 +24,9 @@ const float kInkSteepest = 8.0f;
 // What it is specialised to: edges are torn; ink is an overlay, with all lines.
 const int kInkOverTears = 1, kInkOverIsOverlay = 2;
 const int kInkOverPicture = 1, kInkOverStrokes = 2, kInkOverWarp = 3, kInkOverTiles = 4, kInkOverLight = 5,
-          kInkOverDepth = 6, kInkOverPieces = 7, kInkOverNearness = 8;
+          kInkOverDepth = 6, kInkOverPieces = 7;
+// Of the overlay.
+const int kInkOverlayStrokes = 1, kInkOverlayTiles = 2, kInkOverlayLight = 3, kInkOverlayDepth = 4,
+          kInkOverlayPieces = 5, kInkOverlayNearness = 6;
 SHARED_END
 #endif

@@ -77,6 +77,19 @@ class InkOver : public BothEyes {
 };
 INSTANTIATE_BOTH_EYES(InkOver);
 
+// A flat square of two triangles, of micrometres and of hundreds of kilometres: its diagonal is no crease.
+TEST_P(InkOver, flatFormsHaveNoCreasesAtAnySize) {
+  for (const float size : {1e-5f, 1e-3f, 1.0f, 1e4f, 3e5f}) {
+    TestScene s;
+    s.add(gridMesh(size * glm::vec3(-1, -1, 0), {2 * size, 0, 0}, {0, 2 * size, 0}), grey(s));
+    const Scene scene = s.load();
+    const auto views =
+        viewsFrom(scene, {{0, 0, 5 * size}, {0, 0, 0}, 40, 0, 0.1f * size}, kWidth, kHeight, GetParam());
+    const Frame frame = draw(scene, quietLook(only("creases")), views, sized(kWidth, kHeight));
+    for (size_t v = 0; v < viewCount(); ++v) EXPECT_EQ((Red{frame, views[v], v}.count()), 0u) << size;
+  }
+}
+
 // A block, and a beam that comes out of its front; of one primitive, or two things.
 TEST_P(InkOver, piecesThatMeetHaveALineThere) {
   const TestMesh block = boxMesh({-1, -1, -0.5f}, {1, 1, 0.5f}),

@@ -9,12 +9,12 @@
 layout(constant_id = 1) const bool kInMetres = false;  // widths of lines are
 layout(constant_id = 2) const int kLines = 0;           // bits of kinds, and kReach
 layout(set = 1, binding = 0, scalar) uniform Block { InkOverUniforms u; };
-layout(set = 1, binding = kInkOverStrokes) uniform sampler2DArray strokes;
-layout(set = 1, binding = kInkOverTiles) uniform sampler2DArray tiles;
-layout(set = 1, binding = kInkOverLight) uniform sampler2DArray light;
-layout(set = 1, binding = kInkOverDepth) uniform sampler2DArray depth;
-layout(set = 1, binding = kInkOverPieces) uniform sampler2DArray pieces;
-layout(set = 1, binding = kInkOverNearness) uniform sampler2DArray nearness;
+layout(set = 1, binding = kInkOverlayStrokes) uniform sampler2DArray strokes;
+layout(set = 1, binding = kInkOverlayTiles) uniform sampler2DArray tiles;
+layout(set = 1, binding = kInkOverlayLight) uniform sampler2DArray light;
+layout(set = 1, binding = kInkOverlayDepth) uniform sampler2DArray depth;
+layout(set = 1, binding = kInkOverlayPieces) uniform sampler2DArray pieces;
+layout(set = 1, binding = kInkOverlayNearness) uniform sampler2DArray nearness;
 #include "ink_found.glsl"
 
 const float kFarthest = 6e4;  // radii of the scene, which halves hold
