@@ -62,6 +62,8 @@ inline constexpr Role kGradedColors{"graded colors"};
 // The picture, where the colours of its pixels are means of single samples, those of kDepthSamples and
 // others.
 inline constexpr Role kSampledPicture{"sampled picture"};
+// R: how far the picture's paint reaches, 1 within it; only where it ends before the frame does.
+inline constexpr Role kPaintedExtent{"painted extent"};
 // The picture so far: each pass that works on it takes the present one and gives the next.
 inline constexpr Role kPicture{"picture"};
 

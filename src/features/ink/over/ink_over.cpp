@@ -28,6 +28,7 @@ class Over : public Pass {
 
   void declare(FrameBuilder& frame, uint32_t variant) override {
     if (!variant) return;
+    ends_ = frame.has(kPaintedExtent);
     tears_ = variant & 2, shadows_ = variant & 4, pieces_ = variant & 8;
     frame.give(
         kPicture,
@@ -39,9 +40,10 @@ class Over : public Pass {
                                          {shared::kInkOverTiles, frame.get(kTiles)},
                                          {shared::kInkOverLight, frame.get(shadows_ ? kLight : kLit), true},
                                          {shared::kInkOverDepth, frame.get(kDepth)},
-                                         {shared::kInkOverPieces, frame.get(pieces_ ? kPieces : kLit)}},
+                                         {shared::kInkOverPieces, frame.get(pieces_ ? kPieces : kLit)},
+                                         {shared::kInkOverExtent, frame.get(ends_ ? kPaintedExtent : kLit)}},
                               .outputs = {frame.image(name(), {.format = kHalves})},
-                              .fetches = 1 + 4 + 1 + 2 + (shadows_ ? 2 * 9 * 5u : 0) +
+                              .fetches = 1 + 4 + 1 + 2 + ends_ + (shadows_ ? 2 * 9 * 5u : 0) +
                                          (pieces_ ? 1 + 12 + kSquare * kSquare : 0),
                               .uniformBytes = sizeof(shared::InkOverUniforms)})[0]);
   }
@@ -65,14 +67,16 @@ class Over : public Pass {
     for (int kind = shared::kInkOverObjects; kind < shared::kInkOverKinds; ++kind)
       if (shown >> kind & 1) widest = std::max(widest, inMetres ? 1e9f : u.kinds[kind].radius + 0.5f);
     const uint32_t reach = pieces_ ? uint32_t(std::min(std::ceil(widest), float(shared::kInkOverReach))) : 0;
-    step_.setJobs({{{tears_, inMetres, shown | reach << shared::kInkOverKinds}, {}}});
+    const uint32_t options =
+        uint32_t(tears_) * shared::kInkOverTears | uint32_t(ends_) * shared::kInkOverEnds;
+    step_.setJobs({{{options, inMetres, shown | reach << shared::kInkOverKinds}, {}}});
     step_.update(u);
   }
 
  private:
   ImageStep step_;
   static constexpr uint32_t kSquare = 2 * shared::kInkOverReach + 1;
-  bool tears_ = false, shadows_ = false, pieces_ = false;
+  bool tears_ = false, ends_ = false, shadows_ = false, pieces_ = false;
 };
 
 }  // namespace

@@ -9,7 +9,8 @@
 #include "../ink_coverage.glsl"
 #include "ink_over.shared.h"
 
-layout(constant_id = 0) const bool kTears = false;
+layout(constant_id = 0) const int kOptions = 0;  // kInkOverTears ...
+const bool kTears = (kOptions & kInkOverTears) != 0, kEnds = (kOptions & kInkOverEnds) != 0;
 layout(constant_id = 1) const bool kInMetres = false;  // widths of lines are
 layout(constant_id = 2) const int kLines = 0;           // bits of kinds, and kReach
 const int kReach = kLines >> kInkOverKinds;  // pixels, for borders of pieces; 0: there are none
@@ -22,6 +23,7 @@ layout(set = 1, binding = kInkOverTiles) uniform sampler2DArray tiles;
 layout(set = 1, binding = kInkOverLight) uniform sampler2DArray light;
 layout(set = 1, binding = kInkOverDepth) uniform sampler2DArray depth;
 layout(set = 1, binding = kInkOverPieces) uniform sampler2DArray pieces;
+layout(set = 1, binding = kInkOverExtent) uniform sampler2DArray extent;
 
 // Light after its threshold, without the inner glow, and coverage. Plain tiles, which nobody has written, are all in light
 // or all in shadow; beside them nothing is read of theirs.
@@ -122,6 +124,7 @@ vec4 shade(ivec2 pixel, int layer) {
       if (isShown(kind)) ink = max(ink, inkOf(kind, coverageOf(radius, nearest[kind - kInkOverObjects])));
     }
   }
+  if (kEnds) ink *= texelFetch(extent, ivec3(pixel, layer), 0).r;
   if (ink.a > 0.0) {
     vec3 root = 1.0 - clamp(ink.rgb / ink.a, 0.0, 1.0);
     color = mix(color, vec4(root * root, 1.0), ink.a);
