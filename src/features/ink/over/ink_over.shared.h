@@ -22,8 +22,7 @@ const int kInkOverReach = 4;
 // Beyond such a slope two places are no longer on one surface, or touch.
 const float kInkSteepest = 8.0f;
 const int kInkOverPicture = 1, kInkOverStrokes = 2, kInkOverWarp = 3, kInkOverTiles = 4, kInkOverLight = 5,
-          kInkOverDepth = 6, kInkOverPieces = 7,
-          kInkOverExtent = 8;
+          kInkOverDepth = 6, kInkOverPieces = 7, kInkOverExtent = 8;
 // Bits of the shader's options.
 const int kInkOverTears = 1, kInkOverEnds = 2;  // lines are torn; they end where the painting does
 SHARED_END
