@@ -30,6 +30,7 @@ struct MeasureArguments {
   std::string plot;
   std::string lines;                  // an AOV
   std::vector<std::string> drawings;  // NAME=FILE.####.png
+  std::vector<int> steps;             // frames that poses stand
   JsonOption json;
   bool quiet = false;
 };
@@ -217,6 +218,41 @@ int runLines(const MeasureArguments& args, Renderer& renderer, const Scene& scen
   return given ? int(kDone) : fail(given.error());
 }
 
+int runSteps(const MeasureArguments& args, Renderer& renderer, const Scene& scene, const Look& look,
+             const MeasureOptions& options, const std::string& heading) {
+  std::optional<Progress> progress;
+  const Result<std::vector<StepMeasurements>> measured =
+      measureSteps(renderer, scene, look, args.steps, withProgress(options, progress, args.quiet));
+  progress.reset();
+  if (!measured) return fail(measured.error());
+  if (!args.json.isPrinted()) {
+    std::puts(heading.c_str());
+    std::puts(fmt::format("\n{:>6}{:>14}{:>12}{:>14}{:>14}{:>16}{:>18}", "stands", "a second", "ms",
+                          "jump, pixels", "far, pixels", "jump, degrees", "change a second")
+                  .c_str());
+    for (const StepMeasurements& of : *measured)
+      std::puts(fmt::format("{:6}{:14.1f}{:12.1f}{:14.2f}{:14.2f}{:16.3f}{:18.4f}", of.hold, 1 / of.stands,
+                            1000 * of.stands, of.jump, of.farJump, of.jumpDegrees, of.changes)
+                    .c_str());
+  }
+  nlohmann::json steps = nlohmann::json::array();
+  for (const StepMeasurements& of : *measured)
+    steps.push_back({{"hold", of.hold},
+                     {"stands", of.stands},
+                     {"jump", of.jump},
+                     {"farJump", of.farJump},
+                     {"jumpDegrees", of.jumpDegrees},
+                     {"farJumpDegrees", of.farJumpDegrees},
+                     {"moving", of.moving},
+                     {"changes", of.changes}});
+  const Status given = args.json.give({{"scene", args.scene.files},
+                                       {"device", renderer.gpu().name},
+                                       {"size", {options.width, options.height}},
+                                       {"samples", options.samples},
+                                       {"steps", steps}});
+  return given ? int(kDone) : fail(given.error());
+}
+
 int run(const MeasureArguments& args) {
   // Check everything that can be checked before anything is drawn.
   const Result<RenderOptions> picture = args.picture.renderOptions();
@@ -229,6 +265,8 @@ int run(const MeasureArguments& args) {
     return failUsage("a chart cannot go into '" + args.plot + "'", "name it like chart.png");
   if (!args.lines.empty() && (!args.plot.empty() || args.ipd))
     return failUsage("--lines goes with neither --plot nor --ipd", "give one of them");
+  if (!args.steps.empty() && (!args.lines.empty() || !args.plot.empty() || args.ipd))
+    return failUsage("--steps goes with none of --lines, --plot and --ipd", "give one of them");
   if (args.lines.empty() && !args.drawings.empty())
     return failUsage("--drawing goes with --lines", "give both");
   OutputFiles files(inputs);
@@ -260,6 +298,10 @@ int run(const MeasureArguments& args) {
   std::string names;
   for (const std::string& file : args.scene.files)
     names += (names.empty() ? "" : ", ") + std::filesystem::path(file).filename().string();
+  if (!args.steps.empty())
+    return runSteps(
+        args, **renderer, *scene, *look, options,
+        fmt::format("{}, {} x {}, {:g} s of its clips", names, options.width, options.height, kStepSeconds));
   if (!args.lines.empty())
     return runLines(args, **renderer, *scene, *look, options,
                     fmt::format("{}, {} x {}, {} sample{}, {} pictures {} degrees apart", names,
@@ -331,6 +373,11 @@ void addMeasure(CLI::App& program, int& exitCode) {
                    "NAME=FILE.####.png from 0000 on; repeatable (--json has the cameras)")
       ->type_name("NAME=FILE")
       ->allow_extra_args(false);
+  command
+      ->add_option("--steps", args->steps,
+                   "Measure instead how far poses jump that stand for so many frames at 24 a second: 1,2,3,4")
+      ->type_name("FRAMES")
+      ->delimiter(',');
   command->add_option("--plot", args->plot, "Also draw a chart")->type_name("FILE.png");
   command->add_flag("--quiet", args->quiet, "No warnings and no progress");
   command->footer("Example: scumble measure boat.glb --plot boat.png");

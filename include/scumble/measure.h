@@ -133,4 +133,24 @@ SCUMBLE_API Result<LineMeasurements> measureLines(Renderer& renderer, const Scen
 SCUMBLE_API Result<LineSteadiness> steadinessOf(const std::string& method, const std::vector<Image>& drawings,
                                                 double degreesAStep = kLineStep);
 
+// What a viewer sees of poses that stand: on ones, twos, threes ... of the grid of 24 frames a second.
+constexpr double kStepSeconds = 1;  // of the scene's clips, from time 0 on
+struct StepMeasurements {
+  int hold = 1;       // frames at 24 a second that a pose stands
+  double stands = 0;  // seconds
+  // How far what moves goes from one pose to the next: the mean, and what a twentieth of it goes beyond;
+  // pixels, and degrees of what is seen in the picture's middle.
+  double jump = 0, farJump = 0, jumpDegrees = 0, farJumpDegrees = 0;
+  double moving = 0;   // part of the picture that moves from one pose to the next
+  double changes = 0;  // by how much the picture's pixels change in a second, of 1
+};
+
+// One for each of `holds`, each as `animation.hold` of the look, with line boil on the same steps: what a
+// look says of nodes and materials by name wins. The camera stands. Uses the renderer as a call of render()
+// does. Fails as measure(), and with usage for holds below 1 or above 24, and where nothing moves.
+SCUMBLE_API Result<std::vector<StepMeasurements>> measureSteps(Renderer& renderer, const Scene& scene,
+                                                               const Look& look,
+                                                               const std::vector<int>& holds,
+                                                               const MeasureOptions& options = {});
+
 }  // namespace scumble

@@ -52,11 +52,24 @@ glm::vec2 patternShift(uint32_t seed) {
                    : glm::vec2(float(hash(seed) & 0xFFFF), float(hash(seed + 1) & 0xFFFF)) / 65536.0f;
 }
 
+namespace {
+
+enum Radial : uint8_t { kRadialOff, kRadialOn, kRadialAuto };
+
+uint32_t radialOptions(int radial, const shared::FrameUniforms& frame) {
+  if (radial == kRadialOff) return 0;
+  if (radial == kRadialOn) return shared::kRadial;
+  const float part = frame.views[0].orthographic > 0 ? 0 : shared::radialPart(frame.cyclopeanNdcToEyeRay);
+  return part <= 0 ? 0 : part < 1 ? shared::kRadial | shared::kRadialInPart : shared::kRadial;
+}
+
+}  // namespace
+
 uint32_t tangentOptions(const WarpMetaTextureParams& params, const shared::FrameUniforms& frame) {
   const bool isBetween = frame.worldToCyclopean != frame.views[0].worldToClip ||
                          frame.worldToCyclopean != frame.views[1].worldToClip;
   return (params.gradients == 1 ? shared::kFragmentGradients : 0) |
-         (params.cyclopean && isBetween ? shared::kCyclopean : 0) | (params.radial ? shared::kRadial : 0) |
+         (params.cyclopean && isBetween ? shared::kCyclopean : 0) | radialOptions(int(params.radial), frame) |
          (frame.eyeToSphere != glm::mat3(0.0f) ? shared::kByAngle : 0);
 }
 

@@ -75,6 +75,8 @@ inline constexpr Role kOverlay{"overlay"};
 // How far away an overlay's colours are, wherever something changes colours by that. R: along the view axis,
 // in radii of the scene, which halves hold at every scale, times G; G: coverage.
 inline constexpr Role kOverlayDistance{"overlay distance"};
+// R: how far the picture's paint reaches, 1 within it; only where it ends before the frame does.
+inline constexpr Role kPaintedExtent{"painted extent"};
 // The picture so far: each pass that works on it takes the present one and gives the next.
 inline constexpr Role kPicture{"picture"};
 

@@ -150,7 +150,9 @@ void Setup::bind() {
 }
 
 void Setup::update(const FrameInput& input, const std::vector<shared::PunctualLight>& lights) {
-  std::copy(lights.begin(), lights.end(), reinterpret_cast<shared::PunctualLight*>(lightSlice_.mapped));
+  auto* const held = reinterpret_cast<shared::PunctualLight*>(lightSlice_.mapped);
+  // Shaders go through all that the buffer holds: those that are hidden now have no strength.
+  std::fill(std::copy(lights.begin(), lights.end(), held), held + key_.lights, shared::PunctualLight{});
   frameSlice_.write(input.uniforms);
   for (Pass* const pass : needed_) pass->update(input);
 }

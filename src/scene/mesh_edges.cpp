@@ -63,8 +63,7 @@ std::vector<MeshEdge> edgesOf(const Primitive& primitive) {
   const auto add = [&](const HalfEdge& left, const HalfEdge* right) {
     MeshEdge edge{indices[left.corner], indices[nextCorner(left.corner)], indices[third(left)]};
     edge.beyond[0] = left.corner;  // until all are known
-    if (const auto& roundness = primitive.roundness; !roundness.empty())
-      edge.kinds |= kRoundnessKnown | (roundness[edge.a] + roundness[edge.b] > 1 ? uint32_t(kRound) : 0u);
+    if (!primitive.roundness.empty()) edge.kinds |= kRoundnessKnown;
     if (right) {
       edge.right = indices[third(*right)];
       edge.beyond[2] = right->corner;

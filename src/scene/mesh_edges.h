@@ -14,7 +14,6 @@ enum EdgeKind : uint32_t {
   kMaterialBorder = 1,  // its two triangles are of two primitives, which have materials of their own
   kColorBorder = 2,     // vertex colours differ across it
   kRoundnessKnown = 4,  // the primitive says how round it is
-  kRound = 8,           // round, if that is known
 };
 
 // Between two triangles that are wound alike, or at the end of one. Vertices are indices into a primitive's.

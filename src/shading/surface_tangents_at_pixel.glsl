@@ -30,7 +30,8 @@ void surfaceTangents(int options, vec3 tangentU, vec3 tangentV, vec3 point, vec2
       return;
     }
     // A scale that is divided by alpha is one that gradients times alpha choose, or tangents divided by it.
-    float alpha = 1.0 + dot(ray, ray) * (1.0 - VIEW_FIELD(orthographic, view));
+    float part = (options & kRadialInPart) != 0 ? radialPart(frame.cyclopeanNdcToEyeRay) : 1.0;
+    float alpha = 1.0 + part * dot(ray, ray) * (1.0 - VIEW_FIELD(orthographic, view));
     dSdu /= alpha;
     dSdv /= alpha;
   }

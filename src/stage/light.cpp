@@ -26,40 +26,46 @@ bool isPunctual(const scene::SceneData& scene, const scene::Node& node) {
   return node.light >= 0 && scene.lights[size_t(node.light)].kind != scene::LightKind::directional;
 }
 
-// The direction to a lamp that stands outside of what it lights, where a scene has no other one: its key
-// light.
-std::optional<glm::vec3> towardsOnlyLamp(const scene::SceneData& scene, const std::vector<glm::dmat4>& world,
-                                         const std::vector<bool>& shown) {
+// Place of a lamp that stands outside of what it lights, where a scene has no other one: its key light.
+std::optional<glm::vec3> onlyLamp(const scene::SceneData& scene, const std::vector<glm::dmat4>& world,
+                                  const std::vector<bool>& shown) {
   std::optional<glm::vec3> only;
   for (size_t n = 0; n < scene.nodes.size(); ++n) {
     if (!shown[n] || scene.nodes[n].light < 0) continue;
     if (only || !isPunctual(scene, scene.nodes[n]) ||
         !(scene.lights[size_t(scene.nodes[n].light)].intensity > 0))
       return std::nullopt;
-    only = glm::vec3(world[n][3]) - scene.bounds.center();
+    only = glm::vec3(world[n][3]);
   }
-  if (!only || scene.bounds.empty || !(glm::length(*only) > scene.bounds.radius())) return std::nullopt;
-  return glm::normalize(*only);
+  if (!only || scene.bounds.empty || !(glm::distance(*only, scene.bounds.center()) > scene.bounds.radius()))
+    return std::nullopt;
+  return only;
 }
 
 }  // namespace
 
-glm::vec3 keyLightDirection(const scene::SceneData& scene, const LightParams& params,
-                            const std::vector<glm::dmat4>& world, const std::vector<bool>& shown) {
+glm::vec4 keyLight(const scene::SceneData& scene, const LightParams& params,
+                   const std::vector<glm::dmat4>& world, const std::vector<bool>& shown) {
   if (params.source == 0) {
     for (size_t n = 0; n < scene.nodes.size(); ++n) {
       const int light = scene.nodes[n].light;
       if (light < 0 || !shown[n] || scene.lights[size_t(light)].kind != scene::LightKind::directional)
         continue;
       const glm::vec3 towards(world[n][2]);  // lights shine along -Z
-      if (glm::length(towards) > 1e-12f) return glm::normalize(towards);
+      if (glm::length(towards) > 1e-12f) return {glm::normalize(towards), 0};
     }
-    if (const std::optional<glm::vec3> towards = towardsOnlyLamp(scene, world, shown)) return *towards;
+    if (const std::optional<glm::vec3> lamp = onlyLamp(scene, world, shown)) return {*lamp, 1};
   }
   const float azimuth = zeroAzimuth(scene) + glm::radians(params.azimuth);
   const float elevation = glm::radians(params.elevation);
   return {std::sin(azimuth) * std::cos(elevation), std::sin(elevation),
-          std::cos(azimuth) * std::cos(elevation)};
+          std::cos(azimuth) * std::cos(elevation), 0};
+}
+
+glm::vec3 keyLightDirection(const scene::SceneData& scene, const LightParams& params,
+                            const std::vector<glm::dmat4>& world, const std::vector<bool>& shown) {
+  const glm::vec4 light = keyLight(scene, params, world, shown);
+  return light.w > 0 ? glm::normalize(glm::vec3(light) - scene.bounds.center()) : glm::vec3(light);
 }
 
 glm::vec2 keyLightAngles(const scene::SceneData& scene, const glm::vec3& towardsLight) {

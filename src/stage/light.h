@@ -15,8 +15,12 @@ namespace scumble::stage {
 #define PARAMS_TARGETS kScene
 #include "look/define_params.h"
 
-// Unit vector towards the key light, in the world. Depends on scene, look and time, not on the views.
+// The key light: xyz - w * p points from a place p of the world to it; w is 1 where it is a lamp, and 0 where
+// it is endlessly far away. Depends on scene, look and time, not on the views.
 // `world`, `shown`: of the nodes at the time; a light on one that is not shown does not shine.
+glm::vec4 keyLight(const scene::SceneData& scene, const LightParams& params,
+                   const std::vector<glm::dmat4>& world, const std::vector<bool>& shown);
+// Unit vector towards it from the middle of the scene.
 glm::vec3 keyLightDirection(const scene::SceneData& scene, const LightParams& params,
                             const std::vector<glm::dmat4>& world, const std::vector<bool>& shown);
 

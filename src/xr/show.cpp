@@ -36,6 +36,17 @@ std::string told(const glm::uvec2& size) {
   return std::to_string(size.x) + "x" + std::to_string(size.y);
 }
 
+// A head turns: marks are as large at the edge of what it sees as in the middle (paper 000, section 3.3),
+// however narrow a headset's view is, unless the look says otherwise.
+Look inHeadset(Look look) {
+  for (const Knob& knob : Look::knobs()) {
+    if (!knob.path.ends_with(".radial")) continue;
+    const Result<KnobValue> value = look.get(knob.path);
+    if (value && *value == KnobValue(std::string("auto"))) (void)look.set(knob.path, std::string("on"));
+  }
+  return look;
+}
+
 class Show {
  public:
   Show(Instance& instance, const ShowOptions& options)
@@ -49,7 +60,9 @@ class Show {
               if (options_.changed) options_.changed(line);
             }),
         follower_(options.spectator ? options.spectator->inertia : 0),
-        resolution_(options.resolution) {}
+        resolution_(options.resolution) {
+    for (auto& [name, look] : looks_) look = inHeadset(look);
+  }
 
   Result<ShowReport> run() {
     Result<std::unique_ptr<Renderer>> renderer = createRenderer(instance_.vulkan(), options_.renderer);

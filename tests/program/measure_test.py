@@ -10,7 +10,8 @@ import sys
 import unittest
 
 import program_test
-from program_test import NOT_WRITTEN, UNUSABLE, USAGE, Program, png
+from film_test import clip
+from program_test import NOT_WRITTEN, UNUSABLE, USAGE, Program, gltf, png
 
 SMALL = ["--size", "64x36", "--quiet"]
 MODES = ["metatexture", "object", "screen", "fractal"]
@@ -89,6 +90,26 @@ class Measure(Program):
                             (["--lines", "ink", "--drawing", "a"], "####")):
             self.assertIn(what, self.bad(USAGE, "measure", "box.gltf", *SMALL, *words))
         self.bad(UNUSABLE, "measure", "box.gltf", "--look", "ink", *SMALL, "--lines", "ink", "--drawing", "a=a.####.png")
+
+    def test_steps(self):
+        """Poses that stand twice as long jump about twice as far, and half as often."""
+        scene = json.loads(gltf(camera=True))
+        for key, items in clip(0, "Rise", (0, 2, 0), seconds=4).items():
+            scene.setdefault(key, []).extend(items)
+        (self.folder / "moving.gltf").write_text(json.dumps(scene))
+        report = json.loads(self.good("measure", "moving.gltf", *SMALL, "--samples", "1", "--steps", "1,2,4", "--validate", "--json"))
+        steps = report["steps"]
+        self.assertEqual([step["hold"] for step in steps], [1, 2, 4])
+        for before, after in zip(steps, steps[1:]):
+            self.assertAlmostEqual(after["jump"] / before["jump"], 2, delta=0.5)
+            self.assertAlmostEqual(after["stands"] / before["stands"], 2)
+        text = self.good("measure", "moving.gltf", *SMALL, "--steps", "3")
+        self.assertAlmostEqual(float(text.split()[-6]), 8, places=1)
+
+    def test_steps_that_cannot_be_measured(self):
+        for words, what in ((["--steps", "1"], "moves"), (["--steps", "0"], "0 frames"), (["--steps", "25"], "25 frames"),
+                            (["--steps", "1", "--lines", "ink"], "--lines"), (["--steps", "1", "--plot", "a.png"], "--plot")):
+            self.assertIn(what, self.bad(USAGE, "measure", "box.gltf", *SMALL, *words))
 
     def check_modes(self, modes):
         """Each mode fails where docs/measure.md says it does, and the others do not."""

@@ -123,7 +123,10 @@ const std::pair<std::string, Knobs> kNeeds[] = {
     {"watercolor.brush", {{"watercolor.turbulence", "4"}, {"watercolor.spacing", "400"}}},
     {"watercolor.edgeWidth", {{"watercolor.edges", "8"}, {"watercolor.bleeding", "1"}}},
     {"watercolor.generator", {{"watercolor.turbulence", "4"}, {"watercolor.spacing", "400"}}},
+    {"watercolor.lightDepth", {{"watercolor.relief", "4"}}},
+    {"watercolor.lightRange", {{"watercolor.relief", "4"}}},
     {"watercolor.margin", {{"watercolor.strength", "4"}}},
+    {"watercolor.normals", {{"watercolor.relief", "4"}}},
     {"watercolor.paperMotion", {{"watercolor.relief", "4"}, {"watercolor.granulation", "4"}}},
     {"volume.", {{"colorizers.A.grade.tint", "#40FF20"}}},
     {"volume.length", {{"colorizers.A.volume.shape", "capsule"}}},
@@ -151,11 +154,14 @@ const std::pair<std::string, Knobs> kNeeds[] = {
 // Values besides the ends, where the default is one of them or nothing.
 const std::map<std::string, std::string> kBetween = {{"camera.target", "Buoy"},
                                                      {"ocean.metatexture.contrast", "off"},
+                                                     {"ocean.metatexture.radial", "on"},
                                                      {"ocean.mode", "on"},
                                                      {"play.start", "0.3"},
+                                                     {"texture.metatexture.radial", "on"},
                                                      {"volume.node", "Buoy"},
                                                      {"volume.rotation", "30,40,50"},
                                                      {"warp.boil", "0.4"},
+                                                     {"warp.metatexture.radial", "on"},
                                                      {"water.every", "0.5"},
                                                      {"watercolor.paperMotion", "turn"},
                                                      {"water.node", "Buoy"}};
@@ -177,7 +183,8 @@ const std::map<std::string, std::string> kUnseen = {
     {"ink.ownOutlines", "no file here brings outlines; ink_test.cpp has one"},
     {"ocean.metatexture.orient",
      "seen along -z, strokes of the sea run across the foreshortening as they are"},
-    {"palette.planes", "a scene of many colours has none of it"}};
+    {"palette.planes", "a scene of many colours has none of it"},
+    {"warp.characterBoil", "no skeleton moves anything here; posed_warp_test.cpp has one that does"}};
 
 class KnobSweep : public BothEyes {};
 INSTANTIATE_BOTH_EYES(KnobSweep);

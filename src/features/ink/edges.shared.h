@@ -18,13 +18,15 @@ struct DrawnEdge {
 struct EdgeRing {
   uint beyondLeft[2];
   uint beyondRight[2];
-  uint widths;  // factors on the width of the material's own outline at a and b, as unorm2x16
-  uint seen;    // by part of the edge, of 32 from a on: 1 where a surface beside it is not cut away
+  // At a and b: factors on the width of the material's own outline; how round the form is, where that is
+  // known (kEdgeRoundnessKnown). As unorm4x8.
+  uint ends;
+  uint seen;  // by part of the edge, of 32 from a on: 1 where a surface beside it is not cut away
 };
 const uint kNoEdgeSide = 0xFFFFFFFFu;
 const uint kEdgeVertexMask = 0x0FFFFFFFu;
 const uint kEdgeMaterialBorder = 0x10000000u, kEdgeColorBorder = 0x20000000u,
-           kEdgeRoundnessKnown = 0x40000000u, kEdgeRound = 0x80000000u;
+           kEdgeRoundnessKnown = 0x40000000u;
 
 // A run of edges of one object. A number of an edge among all that are drawn is that of its chunk times
 // kEdgeChunk, and its place in it.

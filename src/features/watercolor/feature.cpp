@@ -35,7 +35,7 @@ class WatercolorFeature : public world::Feature {
 
 frame::FeatureParts makeFeature() {
   return {std::make_unique<WatercolorFeature>(),
-          {{"surface", makePigment}, {"final-color", makeWash}},
+          {{"surface", makePigment}, {"final-color", makeExtent}, {"final-color", makeWash}},
           {&WatercolorParams::block()},
           {}};
 }

@@ -15,6 +15,8 @@ inline constexpr const char* kName = "watercolor";
 inline constexpr frame::Role kPigment{"pigment"};
 
 std::unique_ptr<frame::Pass> makePigment();
+// Gives frame::kPaintedExtent.
+std::unique_ptr<frame::Pass> makeExtent();
 std::unique_ptr<frame::Pass> makeWash();
 
 }  // namespace scumble::watercolor

@@ -40,15 +40,18 @@ struct WashUniforms {
   float paperSize;  // pixels
   float relief, wobble, strength, edges, edgeWidth, granulation, dryBrush, bleeding, bare, bareFrom, margin,
       turbulence, hue, glazing;
-  vec2 paperAt[2];     // of each view, where the paper's origin lies, pixels
-  mat3 eyeToPaper;     // on a sphere: turns directions to that of the paper
-  vec3 paperLight[2];  // of each view, where the light is that falls on the paper: x, y from -1 to 1 over the
-                       // picture, z towards the viewer
+  float slopeStep;  // pixels, over which the relief's slope is taken
+  vec2 paperAt[2];  // of each view, where the paper's origin lies, pixels
+  mat3 eyeToPaper;  // on a sphere: turns directions to that of the paper
+  vec3 paperLight;  // where the light is that falls on the paper: x, y from -1 to 1 over the picture, z
+                    // towards the viewer
 };
-const float kPaperLightBefore = 3.0f, kPaperLightAbove = 1.5f;
 const int kWashPicture = 1, kWashDensity = 2, kWashPigment = 3, kWashLight = 4, kWashPaper = 5,
-          kWashBroad = 6;
+          kWashBroad = 6, kWashNormals = 7;
 const int kWashBlurred = 1;
+// The paper's slopes, for specialisation constant 0: of the relief, none, or of a normal map.
+const int kSlopesOfRelief = 0, kNoSlopes = 1, kSlopesOfNormals = 2;
+const int kExtentPaper = 1, kExtentBroad = 2;
 
 SHARED_END
 #endif

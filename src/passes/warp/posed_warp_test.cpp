@@ -417,5 +417,102 @@ TEST_P(PosedWarpTest, inflationInPercentOfThePicture) {
                  });
 }
 
+// (Paper 000, section 6.3: line boil keeps characters alive.) What a skeleton moves has another drawing
+// whenever its poses may be others; what none does, of the same material, stays to the bit.
+TEST_P(PosedWarpTest, charactersBoilOnTheirOwnSteps) {
+  AnimatedScene s;
+  const int grey = s.material(TestScene::colored("Grey", {0.5f, 0.5f, 0.5f, 1}));
+  AnimatedMesh bar = bendingBar(4);
+  bar.shape = stretchedUv(bar.shape);
+  std::vector<int> joints;
+  for (int k = 0; k < 4; ++k) joints.push_back(s.node({{"translation", {-1, 0, 0}}}));
+  const Json skin{{"name", "Sailor"},
+                  {"mesh", s.mesh(bar, grey)},
+                  {"skin", s.skin(joints, std::vector<glm::mat4>(4, glm::mat4(1.0f)))}};
+  s.node(skin);
+  s.node({{"name", "Mast"},
+          {"mesh", s.mesh(still(stretchedUv(boxMesh({0.6f, -1, -0.3f}, {1.4f, 1, 0.3f}))), grey)}});
+  const Scene scene = s.load();
+  const std::vector<View> seen = views(scene);
+  const auto warpAt = [&](int frame, const Knobs& knobs) {
+    Result<Frame> drawn = renderer().render(scene, quietLook(knobs), frame / 24.0, seen,
+                                            sized(kWidth, kHeight, {"warp", "id"}));
+    EXPECT_TRUE(drawn.ok());
+    return std::move(drawn).value();
+  };
+  // Parts of what is skinned, and of what is not, whose vectors differ.
+  const auto changed = [&](const Frame& a, const Frame& b, size_t v) {
+    std::map<double, std::pair<double, double>> counts;
+    for (int y = 0; y < kHeight; ++y)
+      for (int x = 0; x < kWidth; ++x) {
+        auto& [all, other] = counts[texel(aov(a, "id", v), x, y).x];
+        ++all, other += texel(aov(a, "warp", v), x, y) != texel(aov(b, "warp", v), x, y);
+      }
+    counts.erase(0);
+    std::vector<double> parts;
+    for (const auto& [id, count] : counts) parts.push_back(count.second / count.first);
+    return parts;
+  };
+  for (const int hold : {1, 2, 3, 4}) {
+    const Knobs alive{
+        {"warp.amount", "8"}, {"warp.characterBoil", "0.5"}, {"animation.hold", std::to_string(hold)}};
+    const Frame first = warpAt(0, alive), last = warpAt(hold - 1, alive), next = warpAt(hold, alive),
+                dead = warpAt(hold, {{"warp.amount", "8"}}),
+                all = warpAt(2, {{"warp.amount", "8"}, {"warp.boil", "0.5"}});
+    for (size_t v = 0; v < viewCount(); ++v) {
+      const std::vector<double> within = changed(first, last, v), then = changed(first, next, v),
+                                without = changed(first, dead, v), both = changed(first, all, v);
+      ASSERT_EQ(then.size(), 2u);
+      EXPECT_EQ(within, (std::vector<double>{0, 0})) << hold;
+      EXPECT_EQ(without, (std::vector<double>{0, 0})) << hold;
+      EXPECT_GT(std::max(then[0], then[1]), 0.9) << hold;
+      EXPECT_EQ(std::min(then[0], then[1]), 0) << hold;
+      EXPECT_GT(std::min(both[0], both[1]), 0.9) << hold;
+    }
+  }
+}
+
+// Each node boils on steps of its own.
+TEST_P(PosedWarpTest, nodesBoilOnTheirOwnSteps) {
+  AnimatedScene s;
+  const int grey = s.material(TestScene::colored("Grey", {0.5f, 0.5f, 0.5f, 1}));
+  const int box = s.mesh(still(stretchedUv(boxMesh({-0.5f, -0.8f, -0.3f}, {0.5f, 0.8f, 0.3f}))), grey);
+  const std::pair<const char*, int> nodes[] = {{"Sailor", 2}, {"Water", 3}, {"Rock", 0}};
+  for (int i = 0; i < 3; ++i)
+    s.node({{"name", nodes[i].first}, {"mesh", box}, {"translation", {1.4 * (i - 1), 0, 0}}});
+  const Scene scene = s.load();
+  const std::vector<View> seen = views(scene);
+  const auto at = [&](int frame) {
+    const Knobs knobs{{"warp.amount", "8"},
+                      {"nodes.Sailor.warp.boil", "0.5"},
+                      {"nodes.Sailor.warp.boilHold", "2"},
+                      {"nodes.Water.warp.boil", "0.5"},
+                      {"nodes.Water.warp.boilHold", "3"}};
+    Result<Frame> drawn = renderer().render(scene, quietLook(knobs), frame / 24.0, seen,
+                                            sized(kWidth, kHeight, {"warp", "id"}));
+    EXPECT_TRUE(drawn.ok());
+    return std::move(drawn).value();
+  };
+  Frame before = at(0);
+  for (int frame = 1; frame <= 6; ++frame) {
+    Frame now = at(frame);
+    for (size_t v = 0; v < viewCount(); ++v)
+      for (int i = 0; i < 3; ++i) {
+        size_t others = 0;
+        for (int y = -8; y <= 8; ++y) {
+          const glm::dvec2 place = pixelOf(seen[v], {1.4 * (i - 1), 0.05 * y, 0.3}, kWidth, kHeight);
+          others += texel(aov(before, "warp", v), int(place.x), int(place.y)) !=
+                    texel(aov(now, "warp", v), int(place.x), int(place.y));
+        }
+        const bool jumps = nodes[i].second > 0 && frame % nodes[i].second == 0;
+        EXPECT_EQ(others > 8, jumps) << nodes[i].first << ", frame " << frame;
+        if (!jumps) {
+          EXPECT_EQ(others, 0u) << nodes[i].first << ", frame " << frame;
+        }
+      }
+    before = std::move(now);
+  }
+}
+
 }  // namespace
 }  // namespace scumble::passes

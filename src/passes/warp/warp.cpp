@@ -16,6 +16,7 @@
 #include "shaders/warp_image_frag.h"
 #include "shaders/warp_surface_frag.h"
 #include "shaders/warp_surface_vert.h"
+#include "stage/animation_params.h"
 #include "stage/playing.h"
 
 namespace scumble::passes {
@@ -26,7 +27,7 @@ namespace {
 
 // Mirrors WarpMaterial in warp.glsl.
 struct WarpMaterial {
-  float amount, inflation, distance, setup;
+  float amount, inflation, distance, setup, characterSetup;
 };
 
 // Mirrors the block of warp.image.glsl.
@@ -93,18 +94,19 @@ class Warp : public Pass {
 
     const auto declareImage = [&](ImageStep& step, const std::string& image, uint32_t jobs) {
       return step.declare(
-          frame, {.name = name(),
-                  .shader = {{shaders::warp_image_frag}, {shaders::warp_image_comp}},
-                  .inputs = {{shared::kWarpPattern, pattern_.image()},
-                             {shared::kWarpKnobs, knobs_.image()},
-                             {shared::kWarpDepth, depth}},
-                  .textures = {shared::kWarpFieldExample, shared::kWarpFieldInverse,
-                               shared::kWarpMarksExample, shared::kWarpMarksInverse},
-                  .tiles = frame.get(kTiles),
-                  .outputs = {frame.image(image, {.format = kHalves})},
-                  .fetches = 3 + 8 * 4,
-                  .uniformBytes = sizeof(SetupUniforms),
-                  .maxJobs = jobs * uint32_t(std::max<size_t>(1, frame.scene().materialCount()))})[0];
+          frame,
+          {.name = name(),
+           .shader = {{shaders::warp_image_frag}, {shaders::warp_image_comp}},
+           .inputs = {{shared::kWarpPattern, pattern_.image()},
+                      {shared::kWarpKnobs, knobs_.image()},
+                      {shared::kWarpDepth, depth}},
+           .textures = {shared::kWarpFieldExample, shared::kWarpFieldInverse, shared::kWarpMarksExample,
+                        shared::kWarpMarksInverse},
+           .tiles = frame.get(kTiles),
+           .outputs = {frame.image(image, {.format = kHalves})},
+           .fetches = 3 + 8 * 4,
+           .uniformBytes = sizeof(SetupUniforms),
+           .maxJobs = jobs * kMostSetups * uint32_t(std::max<size_t>(1, frame.scene().materialCount()))})[0];
     };
     frame.give(kWarp, declareImage(image_, name(), kMostJobs));
     // The picture looks at what it would look at anyway.
@@ -149,10 +151,23 @@ class Warp : public Pass {
     for (size_t m = 0; m < input.scene.materialCount(); ++m) {
       const WarpParams params = input.knobs.of<WarpParams>(m);
       const auto metaParams = input.knobs.of<WarpMetaTextureParams>(m);
-      const WarpSetup setup = setupOf(input, m, params, metaParams);
-      size_t index = size_t(std::find(setups.begin(), setups.end(), setup) - setups.begin());
-      if (index == setups.size() && index < shared::kMostWarpSetups) setups.push_back(setup);
-      index = std::min(index, setups.size() - 1);
+      // Numbers of setups, from 1 on.
+      const auto numberOf = [&](const WarpSetup& setup) {
+        const auto at = std::find(setups.begin(), setups.end(), setup);
+        if (at != setups.end()) return float(at - setups.begin() + 1);
+        if (setups.size() < shared::kMostWarpSetups) setups.push_back(setup);
+        return float(setups.size());
+      };
+      const int posesStand = input.knobs.of<AnimationParams>(m).hold;
+      const WarpSetup setup =
+          setupOf(input, m, metaParams,
+                  boilOf(input, params.boil, params.boilHold > 0 ? params.boilHold : posesStand,
+                         params.boilDrawings));
+      const float number = numberOf(setup);
+      float characterNumber = number;
+      if (params.characterBoil > params.boil && !input.scene.data().skins.empty())
+        characterNumber = numberOf(setupOf(
+            input, m, metaParams, boilOf(input, params.characterBoil, posesStand, params.boilDrawings)));
       const float inflation = params.inflationUnit == 0
                                   ? params.inflation * pixelScale
                                   : params.inflation * 0.01f * input.uniforms.knobHeight;
@@ -163,7 +178,7 @@ class Warp : public Pass {
       const uint32_t options =
           (distance > 0 ? shared::kWarpFades : 0) | (setup.field.meta.mode == 0 ? shared::kWarpFollows : 0);
       variants.push_back({.tangents = tangentOptions(metaParams, input.uniforms), .options = options});
-      materials_.write(m, {params.amount * pixelScale, inflation, distance, float(index + 1)});
+      materials_.write(m, {params.amount * pixelScale, inflation, distance, number, characterNumber});
     }
     step_.specialise(0, std::move(variants));
 
@@ -197,16 +212,21 @@ class Warp : public Pass {
 
  private:
   static constexpr Aov kAovs[] = {{.name = "warp"}};
-  static constexpr uint32_t kMostJobs = 4;  // of a setup, counting what all have in common
+  static constexpr uint32_t kMostJobs = 4;    // of a setup, counting what all have in common
+  static constexpr uint32_t kMostSetups = 2;  // of a material: what a skeleton moves, and what none does
   static constexpr VkFormat kPatternFormat = VK_FORMAT_R32G32B32A32_UINT, kKnobsFormat = VK_FORMAT_R32_UINT;
 
-  WarpSetup setupOf(const FrameInput& input, size_t material, const WarpParams& params,
-                    const WarpMetaTextureParams& metaParams) const {
+  // How far the pattern lies aside in the drawing that line boil shows, in copies.
+  static glm::vec2 boilOf(const FrameInput& input, float boil, int hold, int drawings) {
+    const int drawing = boilDrawing(drawings, hold, input.time);
+    return drawing ? boil * patternShift(0x5EA0u + 2 * uint32_t(drawing)) : glm::vec2(0.0f);
+  }
+
+  WarpSetup setupOf(const FrameInput& input, size_t material, const WarpMetaTextureParams& metaParams,
+                    const glm::vec2& boil) const {
     const BreakupParams breakup = input.knobs.of<BreakupParams>(material);
     const auto breakupMeta = sameRows(input.knobs.of<BreakupMetaTextureParams>(material));
-    glm::vec2 shift = patternShift(input.seed);
-    if (const int drawing = boilDrawing(params, input.time))
-      shift += params.boil * patternShift(0x5EA0u + 2 * uint32_t(drawing));
+    const glm::vec2 shift = patternShift(input.seed) + boil;
     const float pixelScale = input.uniforms.pixelScale;
     WarpSetup setup{metaTextureUse(metaParams, 0b0011, input.look, *examples_, pixelScale, shift),
                     metaTextureUse(breakupMeta, 0b0100, input.look, *examples_, pixelScale, shift),
@@ -260,9 +280,10 @@ MarksUse marksUse(const stage::KnobTable& knobs) {
   return shadesByMarks(shadow) ? MarksUse::shaded : MarksUse::none;
 }
 
-int boilDrawing(const WarpParams& params, double time) {
-  const double drawing = std::round(stage::heldTime(time, params.boilHold) * 24 / params.boilHold);
-  return int(drawing - params.boilDrawings * std::floor(drawing / params.boilDrawings));
+int boilDrawing(int drawings, int hold, double time) {
+  hold = std::max(hold, 1);
+  const double drawing = std::round(stage::heldTime(time, hold) * 24 / hold);
+  return int(drawing - drawings * std::floor(drawing / drawings));
 }
 
 std::unique_ptr<Pass> makeWarp() {

@@ -3,6 +3,7 @@ struct WarpMaterial {
   float amount;     // pixels
   float inflation;  // pixels
   float distance;   // 1 / metre
-  float setup;      // number of the material's setup, from 1
+  // Numbers of the material's setups, from 1; the second one of what a skeleton moves.
+  float setup, characterSetup;
 };
 layout(set = 2, binding = 0, scalar) uniform WarpBlock { WarpMaterial warp; };

@@ -9,7 +9,7 @@ namespace scumble::passes {
 #define PARAMS_STRUCT WarpParams
 #define PARAMS_FILE "passes/warp/warp.params"
 #define PARAMS_PATH "warp"
-#define PARAMS_TARGETS kScene | kMaterials
+#define PARAMS_TARGETS kScene | kMaterials | kNodes
 #include "look/define_params.h"
 
 #define PARAMS_STRUCT BreakupParams
@@ -21,9 +21,10 @@ namespace scumble::passes {
 // The inflation in pixels of a picture.
 float inflationPixels(const WarpParams& params, float imageHeight);
 
-// The drawing that line boil shows at a time, from 0: it changes on the grid of 24 frames a second only,
-// however often the picture is drawn (FORMULAS 11).
-int boilDrawing(const WarpParams& params, double time);
+// The drawing that line boil shows at a time, from 0, where each stands for `hold` frames and `drawings` take
+// turns: it changes on the grid of 24 frames a second only, however often the picture is drawn (FORMULAS 11).
+// What is held for 0 frames has a drawing for each.
+int boilDrawing(int drawings, int hold, double time);
 
 // Whether anything may be torn.
 bool mayTear(const look::LookData& look);

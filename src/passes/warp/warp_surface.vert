@@ -50,6 +50,7 @@ void main() {
   outTangentU = tangentToClip(tangentClip, inDPdu);
   outTangentV = tangentToClip(tangentClip, inDPdv);
   if (kViewCount > 1) outPoint = pointInTangentView(kTangents, worldToClip, inPosition);
-  outCode = 4u * uint(warp.setup) + objects[gl_InstanceIndex].wraps;
+  ObjectData object = objects[gl_InstanceIndex];
+  outCode = 4u * uint(object.influences == 0u ? warp.setup : warp.characterSetup) + object.wraps;
   if (kAlphaMode != 0) outBaseUvAlpha = vec3(baseUv(inUv0, inUv1), inColor.a);
 }

@@ -424,6 +424,45 @@ TEST_P(WarpTest, radialAngle) {
   }
 }
 
+// (Paper 000, section 3.3.) What is left to itself compensates in wide views and not in narrow ones, and goes
+// from the one to the other without a jump; parallel projections have no angle.
+TEST_P(WarpTest, radialAngleFollowsTheView) {
+  const Scene scene = wall({30, 20}).load();
+  const auto drawn = [&](const char* radial, float across, bool isParallel) {
+    const float fov = float(glm::degrees(2 * std::atan(across * kHeight / kWidth)));
+    auto views = viewsFrom(scene, {{1, 0.5f, 5}, {1, 0.5f, 0}, fov, 0, 0.02f}, kWidth, kHeight, GetParam());
+    if (isParallel)
+      for (View& view : views) view = parallelView(4, float(kWidth) / kHeight);
+    return draw(scene, quietLook({{"warp.metatexture.radial", radial}, {"warp.metatexture.skew", "off"}}),
+                views, sized(kWidth, kHeight, {"metatexture", "warp"}));
+  };
+  // Exponent along u in a corner.
+  const auto exponent = [&](const char* radial, float across, size_t v) {
+    return texel(aov(drawn(radial, across, false), "metatexture", v), 2, 2).x;
+  };
+  const auto expectSameBytes = [&](float across, const char* as, bool isParallel) {
+    const Frame left = drawn("auto", across, isParallel), right = drawn(as, across, isParallel);
+    for (size_t v = 0; v < viewCount(); ++v)
+      EXPECT_TRUE(sameBytes(aov(left, "warp", v), aov(right, "warp", v))) << across << " as " << as;
+  };
+  expectSameBytes(0.4f, "off", false);
+  expectSameBytes(0.68f, "off", false);
+  expectSameBytes(1.02f, "on", false);
+  expectSameBytes(2, "on", false);
+  expectSameBytes(1, "off", true);
+  for (size_t v = 0; v < viewCount(); ++v) {
+    double before = 0;
+    for (float across = 0.7f; across < 1.01f; across += 0.05f) {
+      const double off = exponent("off", across, v), on = exponent("on", across, v),
+                   part = (off - exponent("auto", across, v)) / (off - on);
+      EXPECT_GE(part, before - 0.02) << across;
+      EXPECT_LT(part, before + 0.4) << across;
+      before = part;
+    }
+    EXPECT_GT(before, 0.98);
+  }
+}
+
 // FORMULAS 7: the exponents chosen at one surface point are the same in both eyes; and so are the vectors.
 TEST_F(WarpTest, bothEyesChooseTheSame) {
   TestScene s = wall({9, 4});
@@ -578,10 +617,11 @@ TEST_P(WarpTest, lineBoilOnTwos) {
   EXPECT_TRUE(sameBytes(first, drawnAt(6.0 / 24, "1"))) << "three drawings, then again";
   EXPECT_TRUE(sameBytes(first, drawnAt(2.0 / 24, "0")));
   // Every frame of a long film falls into its own drawing.
-  WarpParams params;
-  for (int frame = 0; frame < 100000; ++frame)
-    ASSERT_EQ(boilDrawing(params, frame / 24.0), frame / 2 % 4) << frame;
-  EXPECT_EQ(boilDrawing(params, -2.0 / 24), 3);
+  for (const int hold : {1, 2, 3, 4})
+    for (int frame = 0; frame < 30000; ++frame)
+      ASSERT_EQ(boilDrawing(4, hold, frame / 24.0), frame / hold % 4) << frame << ", held for " << hold;
+  EXPECT_EQ(boilDrawing(4, 2, -2.0 / 24), 3);
+  EXPECT_EQ(boilDrawing(4, 0, 5.0 / 24), boilDrawing(4, 1, 5.0 / 24));
 }
 
 // Materials with textures and knobs of their own are each evaluated with them: as if they were alone.

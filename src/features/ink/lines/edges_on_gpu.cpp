@@ -18,8 +18,7 @@ namespace {
 
 static_assert(scene::kMaterialBorder << 28 == shared::kEdgeMaterialBorder &&
               scene::kColorBorder << 28 == shared::kEdgeColorBorder &&
-              scene::kRoundnessKnown << 28 == shared::kEdgeRoundnessKnown &&
-              uint32_t(scene::kRound) << 28 == shared::kEdgeRound);
+              scene::kRoundnessKnown << 28 == shared::kEdgeRoundnessKnown);
 
 uint32_t moved(uint32_t vertex, uint32_t vertices) {
   return vertex == scene::MeshEdge::kNone ? shared::kNoEdgeSide : vertex + vertices;
@@ -29,13 +28,13 @@ shared::DrawnEdge drawn(const scene::MeshEdge& edge, uint32_t vertices) {
           moved(edge.right, vertices)};
 }
 
-// `widths`, `seen`: of each edge, or of none.
-shared::EdgeRing ringOf(const std::vector<scene::MeshEdge>& edges, const std::vector<uint32_t>& widths,
+// `ends`, `seen`: of each edge, or of none.
+shared::EdgeRing ringOf(const std::vector<scene::MeshEdge>& edges, const std::vector<uint32_t>& ends,
                         const std::vector<uint32_t>& seen, size_t e, uint32_t vertices) {
   const auto& beyond = edges[e].beyond;
   return {{moved(beyond[0], vertices), moved(beyond[1], vertices)},
           {moved(beyond[2], vertices), moved(beyond[3], vertices)},
-          widths.empty() ? ~0u : widths[e],
+          ends.empty() ? ~0u : ends[e],
           seen.empty() ? ~0u : seen[e]};
 }
 
@@ -84,12 +83,18 @@ uint32_t reversed(uint32_t seen) {
   return result;
 }
 
-std::vector<uint32_t> widthsOf(const scene::Primitive& primitive, const std::vector<scene::MeshEdge>& edges) {
-  std::vector<uint32_t> widths;
-  if (primitive.outlineWidths.empty()) return widths;
+// As shared::EdgeRing has them; none where the primitive says nothing of them.
+std::vector<uint32_t> endsOf(const scene::Primitive& primitive, const std::vector<scene::MeshEdge>& edges) {
+  std::vector<uint32_t> ends;
+  const std::vector<float>&widths = primitive.outlineWidths, &roundness = primitive.roundness;
+  if (widths.empty() && roundness.empty()) return ends;
+  const auto at = [](const std::vector<float>& values, uint32_t vertex) {
+    return values.empty() ? 1.0f : values[vertex];
+  };
   for (const scene::MeshEdge& edge : edges)
-    widths.push_back(glm::packUnorm2x16({primitive.outlineWidths[edge.a], primitive.outlineWidths[edge.b]}));
-  return widths;
+    ends.push_back(glm::packUnorm4x8(
+        {at(widths, edge.a), at(widths, edge.b), at(roundness, edge.a), at(roundness, edge.b)}));
+  return ends;
 }
 
 }  // namespace
@@ -130,7 +135,7 @@ void EdgesOnGpu::find(const scene::SceneData& scene, const std::vector<GeometryI
   std::vector<Found> found(missing.size());
   scene::parallelFor(missing.size(), scene::threadCount(0), [&](size_t i) {
     found[i].edges = inPatches(*missing[i], scene::edgesOf(*missing[i]));
-    found[i].widths = widthsOf(*missing[i], found[i].edges);
+    found[i].ends = endsOf(*missing[i], found[i].edges);
     found[i].bounds = boundsOf(*missing[i], found[i].edges);
   });
   for (size_t i = 0; i < missing.size(); ++i) edgesOf_[missing[i]] = std::move(found[i]);
@@ -200,7 +205,7 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
         if (!found.bounds.empty()) run->second.firstBounds = uint32_t(bounds.size());
         bounds.insert(bounds.end(), found.bounds.begin(), found.bounds.end());
         for (size_t e = 0; e < own.size(); ++e) {
-          edges.push_back(drawn(own[e], 0)), rings.push_back(ringOf(own, found.widths, found.seen, e, 0));
+          edges.push_back(drawn(own[e], 0)), rings.push_back(ringOf(own, found.ends, found.seen, e, 0));
           // Words of bounds stay as they are.
           if (isShared[e]) edges.back() = {};
         }
@@ -226,7 +231,7 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
         if (item.material != other.material) edge.a |= shared::kEdgeMaterialBorder;
         edges.push_back(edge);
         // To the right one, this edge goes the other way.
-        shared::EdgeRing ring = ringOf(found.edges, found.widths, found.seen, between.edge, firstLeft);
+        shared::EdgeRing ring = ringOf(found.edges, found.ends, found.seen, between.edge, firstLeft);
         ring.seen |= beyond.seen.empty() ? ~0u : reversed(beyond.seen[between.otherEdge]);
         for (int i = 0; i < 2; ++i) ring.beyondRight[i] = moved(right.beyond[i], firstRight);
         rings.push_back(ring);

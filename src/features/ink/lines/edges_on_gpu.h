@@ -39,7 +39,7 @@ class EdgesOnGpu {
  private:
   struct Found {
     std::vector<scene::MeshEdge> edges;
-    std::vector<uint32_t> widths;  // as shared::EdgeRing has them; empty or one an edge
+    std::vector<uint32_t> ends;  // as shared::EdgeRing has them; empty or one an edge
     std::vector<shared::EdgeBounds> bounds;
     std::vector<uint32_t> seen;  // as shared::EdgeRing has it; empty: all is
     // What that follows from.

@@ -13,6 +13,7 @@
 #include "shaders/ink_line_distance_frag.h"
 #include "shaders/ink_line_frag.h"
 #include "shaders/ink_line_vert.h"
+#include "stage/light.h"
 
 namespace scumble::ink {
 
@@ -35,6 +36,8 @@ shared::InkUniforms inkUniforms(const FrameInput& input) {
   const InkParams params = input.knobs.scene<InkParams>();
   shared::InkUniforms u{};
   u.least = params.least, u.greatest = params.greatest;
+  u.keyLight = keyLight(input.scene.data(), input.knobs.scene<LightParams>(), input.scene.motion().world(),
+                        input.scene.motion().shown());
   u.offset = params.offset;
   u.doubled = params.doubled, u.doubledWidth = params.doubledWidth;
   u.cosSmooth = std::cos(params.smoothAngle * kRadians);
@@ -67,6 +70,7 @@ uint32_t inkChoices(const FrameInput& input) {
          uint32_t(params.doubled != 0 && params.doubledWidth > 0) << shared::kInkDoubledBit |
          uint32_t(params.textureAmount > 0 ? int(params.texture) : shared::kInkPlain)
              << shared::kInkTextureBit |
+         uint32_t(input.uniforms.lightCount > 0) << shared::kInkLampsBit |
          shownBit<SilhouetteParams>(input.knobs, shared::kInkSilhouette) |
          shownBit<BoundaryParams>(input.knobs, shared::kInkBoundary) |
          shownBit<MaterialBorderParams>(input.knobs, shared::kInkMaterial) |

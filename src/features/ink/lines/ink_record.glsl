@@ -3,6 +3,7 @@
 #define SCUMBLE_INK_RECORD_GLSL
 #include "../fullness.shared.h"
 #include "../ink_edge.glsl"
+#include "../../../shading/punctual_lights.glsl"
 
 layout(set = 1, binding = kInkNumbers, scalar) readonly buffer Numbers { uint numbers[]; };
 layout(buffer_reference, buffer_reference_align = 4, scalar) readonly buffer Rings { EdgeRing at[]; };
@@ -17,9 +18,19 @@ struct End {
   vec3 normal;    // unit, the surface's
 };
 
+// Where light comes from at a place of the world, by all lights that there are: the key light counts 1, lamps as much as
+// they light; unit where they agree, and shorter where they come from both sides.
+vec3 lightAt(vec3 position) {
+  vec3 key = ink.keyLight.xyz - ink.keyLight.w * position;
+  vec3 light = mix(key, key * inversesqrt(max(dot(key, key), 1e-37)), ink.keyLight.w);
+  if (!kLamps) return light;
+  light += punctualLightVector(position);
+  return light / max(length(light), 1.0);
+}
+
 // From light that falls on a line: thin where it does, bold where it turns away (FORMULAS 24).
-float widthOf(vec3 normal) {
-  return mix(ink.greatest, ink.least, clamp(0.5 + 0.5 * dot(normal, frame.toLight), 0.0, 1.0));
+float widthOf(vec3 normal, vec3 light) {
+  return mix(ink.greatest, ink.least, clamp(0.5 + 0.5 * dot(normal, light), 0.0, 1.0));
 }
 
 vec3 normalOf(uint vertex) {
@@ -150,11 +161,12 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
   vec3 edgeNormal = wound * (edge.left * inversesqrt(max(dot(edge.left, edge.left), 1e-37)) +
                              edge.right * inversesqrt(max(dot(edge.right, edge.right), 1e-37)));
   edgeNormal *= inversesqrt(max(dot(edgeNormal, edgeNormal), 1e-37));
-  int weights = kWeights;
+  vec4 known = unpackUnorm4x8(ring.ends);
+  // How much the normals of vertices count, at both ends.
+  vec2 roundness = vec2(kWeights == kInkByVertex ? 1.0 : 0.0);
   if (kWeights == kInkHybrid) {
-    bool isRound = !edge.isOpen && bendOf(edge) > ink.cosSmooth;
-    if ((edge.known & kEdgeRoundnessKnown) != 0u) isRound = (edge.known & kEdgeRound) != 0u;
-    weights = isRound ? kInkByVertex : kInkByTangent;
+    roundness = vec2(!edge.isOpen && bendOf(edge) > ink.cosSmooth ? 1.0 : 0.0);
+    if ((edge.known & kEdgeRoundnessKnown) != 0u) roundness = known.zw;
   }
   InkKind style = ink.kinds[kind];
   vec2 ownWidths = vec2(1.0);
@@ -162,7 +174,7 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
     bool isRight = leftSide > rightSide;
     Turn turn = turnOf(edge, ring, first, isRight, first + (isRight ? drawn.right : drawn.left), wound, toEye, at,
                        thirdAt[isRight ? 1 : 0]);
-    ownWidths = line.outlineWidth * unpackUnorm2x16(ring.widths);
+    ownWidths = line.outlineWidth * known.xy;
     record.turn.x = turn.all;
     if (isKnown[isRight ? 1 : 0]) record.reach = turn.reach;
     // What is about to close becomes the inner line that it is besides, or nothing.
@@ -174,8 +186,7 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
   bool hasOwn = kind == kInkSilhouette && line.hasOutline != 0u;
   for (int i = 0; i < 2; ++i) {
     vec3 normal = edgeNormal;
-    if (weights == kInkByVertex) normal = ends[i].normal;
-    if (weights == kInkByTangent && kind == kInkSilhouette) {
+    if (kWeights != kInkByEdge && kind == kInkSilhouette) {
       // The normal of a smooth form is square to the view on its outline (paper 004, section 2.3).
       normal = cross(toEye, edge.b - edge.a);
       normal *= (dot(normal, edgeNormal) < 0.0 ? -1.0 : 1.0) * inversesqrt(max(dot(normal, normal), 1e-37));
@@ -184,7 +195,8 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
     float scale = frame.pixelScale;
     if (kUnit == kInkMetres) scale = pixelsOfOne / mix(ends[i].clip.w, 1.0, VIEW_FIELD(orthographic, view));
     if (kUnit == kInkDegrees) scale = radians(1.0) * pixelsOfOne;
-    float width = widthOf(normal) * scale;
+    vec3 light = lightAt(ends[i].position);
+    float width = mix(widthOf(normal, light), widthOf(ends[i].normal, light), roundness[i]) * scale;
     if (hasOwn) {
       width = ownWidths[i] * frame.knobHeight;
       if (line.outlineUnit == uint(kInkMetres))

@@ -25,6 +25,7 @@ class Over : public Pass {
   void declare(FrameBuilder& frame, uint32_t variant) override {
     if (!variant) return;
     tears_ = variant & 2;
+    ends_ = frame.has(kPaintedExtent);
     isOverlay_ = frame.has(kOverlay, Layer::lines);
     const bool shadows = !isOverlay_ && variant & 4;
     pieces_ = !isOverlay_ && variant & 8;
@@ -39,9 +40,10 @@ class Over : public Pass {
                                          {shared::kInkOverTiles, frame.get(kTiles)},
                                          {shared::kInkOverLight, frame.get(shadows ? kLight : kLit), true},
                                          {shared::kInkOverDepth, frame.get(kDepth)},
-                                         {shared::kInkOverPieces, frame.get(pieces_ ? kPieces : kLit)}},
+                                         {shared::kInkOverPieces, frame.get(pieces_ ? kPieces : kLit)},
+                                         {shared::kInkOverExtent, frame.get(ends_ ? kPaintedExtent : kLit)}},
                               .outputs = {frame.image(name(), {.format = kHalves})},
-                              .fetches = 1 + 4 + 1 + 2 + fetchesOfFoundLines(shadows, pieces_),
+                              .fetches = 1 + 4 + 1 + 2 + ends_ + fetchesOfFoundLines(shadows, pieces_),
                               .uniformBytes = sizeof(shared::InkOverUniforms)})[0]);
   }
   void create(FrameBuilder& frame) override { step_.create(frame); }
@@ -49,14 +51,15 @@ class Over : public Pass {
   void update(const FrameInput& input) override {
     const FoundLines found = foundLines(input, pieces_);
     const uint32_t options =
-        (tears_ ? shared::kInkOverTears : 0) | (isOverlay_ ? shared::kInkOverIsOverlay : 0);
+        (tears_ ? shared::kInkOverTears : 0) | (isOverlay_ ? shared::kInkOverIsOverlay : 0) |
+        (ends_ ? shared::kInkOverEnds : 0);
     step_.setJobs({{{options, found.inMetres, isOverlay_ ? 0 : found.lines}, {}}});
     step_.update(found.uniforms);
   }
 
  private:
   ImageStep step_;
-  bool tears_ = false, isOverlay_ = false, pieces_ = false;
+  bool tears_ = false, ends_ = false, isOverlay_ = false, pieces_ = false;
 };
 
 }  // namespace

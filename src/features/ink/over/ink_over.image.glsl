@@ -17,6 +17,7 @@ layout(set = 1, binding = kInkOverTiles) uniform sampler2DArray tiles;
 layout(set = 1, binding = kInkOverLight) uniform sampler2DArray light;
 layout(set = 1, binding = kInkOverDepth) uniform sampler2DArray depth;
 layout(set = 1, binding = kInkOverPieces) uniform sampler2DArray pieces;
+layout(set = 1, binding = kInkOverExtent) uniform sampler2DArray extent;
 #include "ink_found.glsl"
 
 vec4 shade(ivec2 pixel, int layer) {
@@ -34,6 +35,7 @@ vec4 shade(ivec2 pixel, int layer) {
   bool isOverlay = (kOptions & kInkOverIsOverlay) != 0;
   float metres = 0.0;
   if (!isOverlay) ink = withFoundLines(ink, pixel, place, layer, metres);
+  if ((kOptions & kInkOverEnds) != 0) ink *= texelFetch(extent, ivec3(pixel, layer), 0).r;
   if (ink.a > 0.0) {
     vec3 root = clamp(ink.rgb / ink.a, 0.0, 1.0);
     if (!isOverlay) root = 1.0 - root;

@@ -7,6 +7,7 @@
 #include "../watercolor.shared.h"
 #include "wash.glsl"
 
+layout(constant_id = 0) const int kSlopes = 0;  // kSlopesOfRelief ...
 layout(set = 1, binding = 0, scalar) uniform Block { WashUniforms u; };
 layout(set = 1, binding = kWashPicture) uniform sampler2DArray soFar;
 layout(set = 1, binding = kWashDensity) uniform sampler2DArray blurred;
@@ -14,18 +15,25 @@ layout(set = 1, binding = kWashPigment) uniform sampler2DArray pigment;
 layout(set = 1, binding = kWashLight) uniform sampler2DArray light;
 layout(set = 1, binding = kWashPaper) uniform sampler2D paper;
 layout(set = 1, binding = kWashBroad) uniform sampler2D broadly;  // the same, without what is fine
+layout(set = 1, binding = kWashNormals) uniform sampler2D normals;
+#include "paper.glsl"
 
-OnScreen placeOnPaper(vec2 place, vec2 beside, int layer) {
-  return onScreen(place, beside, u.paperAt[min(layer, 1)], vec2(u.paperSize), u.eyeToPaper, layer);
+// Heights to the right and below, against here.
+const float kReliefSlope = 6.0;  // of the paper's normal, where such a difference is 1
+vec2 slopeOf(OnScreen on, float height, vec2 own, int layer) {
+  if (kSlopes == kNoSlopes) return vec2(0.0);
+  if (kSlopes == kSlopesOfRelief)
+    return vec2(heightOf(placeOnPaper(own, vec2(u.slopeStep, 0.0), layer)), heightOf(placeOnPaper(own, vec2(0.0, u.slopeStep), layer))) - height;
+  vec3 normal = 2.0 * lookUp(normals, vec4(0.5, 0.5, 0.5, 0.0), on, 1.0, vec2(0.0)).rgb;
+  return vec2(-normal.x, normal.y) / (max(normal.z, 0.05) * kReliefSlope);
 }
-float heightOf(OnScreen on) { return lookUp(paper, vec4(0.5), on, 1.0, vec2(0.0)).r; }
 
 // Where the light on the paper comes from, seen from a place on it: x right, y down, z to the viewer.
 vec3 towardsLight(vec2 place, vec2 ndc, int layer) {
-  if (!kOnSphere) return u.paperLight[min(layer, 1)] - vec3(ndc, 0.0);
+  if (!kOnSphere) return u.paperLight - vec3(ndc, 0.0);
   // On a sphere from above: light that came from the scene's side would lie flat on it there, and opposite.
   vec2 side = upOnSphere(lookThrough(place, layer)) * vec2(1.0, -1.0);
-  return vec3(kPaperLightAbove * side * inversesqrt(max(dot(side, side), 1e-6)), kPaperLightBefore);
+  return vec3(0.5 * u.paperLight.z * side * inversesqrt(max(dot(side, side), 1e-6)), u.paperLight.z);
 }
 
 vec4 shade(ivec2 pixel, int layer) {
@@ -34,9 +42,7 @@ vec4 shade(ivec2 pixel, int layer) {
   vec2 inFrame = own - VIEW_FIELD(aside, layer);
   OnScreen on = placeOnPaper(own, vec2(0.0), layer);
   float height = heightOf(on);
-  vec2 slope = vec2(heightOf(placeOnPaper(own, vec2(1.25, 0.0), layer)), heightOf(placeOnPaper(own, vec2(0.0, 1.25), layer))) - height;
-  // A coarser part of the same relief, for what goes over larger stretches.
-  vec2 broad = vec2(lookUp(broadly, vec4(0.5), on, 0.11, vec2(0.0)).r, lookUp(broadly, vec4(0.5), on, 0.11, vec2(0.37, 0.61)).r);
+  vec2 slope = slopeOf(on, height, own, layer), broad = broadOf(on);
 
   // Edges of colour wobble with the relief (section 4.1).
   vec2 at = own + u.wobble * clamp(5.0 * slope + 2.5 * broad, -1.5, 1.5);
@@ -65,16 +71,13 @@ vec4 shade(ivec2 pixel, int layer) {
   wash *= max(1.0 - 2.2 * u.granulation * height * (0.4 + 0.6 * (1.0 - thin)), 0.0);
   wash *= 1.0 - u.dryBrush * thin * smoothstep(0.02, 0.2, height + 0.25 * brush.x - 0.1 * wet);
   // The painting runs out before the frame ends, in an edge of its own.
-  vec2 side = min(inFrame, frame.imageSize - inFrame) / frame.imageSize.y;
-  float margin = max(u.margin, 1e-6);
-  vec2 inner = max(vec2(3.2 * margin) - side, 0.0);
-  float beyond = 2.2 * margin - length(inner) + 0.9 * margin * (2.2 * broad.x + 0.8 * broad.y + 0.6 * height);
+  float margin = max(u.margin, 1e-6), beyond = withinMargin(inFrame, broad, height);
   float ends = smoothstep(0.0, 0.22 * margin, beyond);
   wash *= ends * (1.0 + 0.8 * u.edges * ends * (1.0 - smoothstep(0.0, 0.5 * margin, beyond)));
   vec3 result = u.white * exp(-u.strength * wash);
   // Light on the paper (section 4.2): as bright on the whole as without relief.
   vec3 towards = towardsLight(own, inFrame / frame.imageSize * 2.0 - 1.0, layer);
-  vec3 normal = normalize(vec3(-u.relief * 6.0 * slope, 1.0));
+  vec3 normal = normalize(vec3(-u.relief * kReliefSlope * slope, 1.0));
   result *= clamp(dot(normal, normalize(towards)) / max(normalize(towards).z, 0.2), 0.0, 1.35);
   return vec4(result, 1.0);
 }
