@@ -50,9 +50,9 @@ class Over : public Pass {
   void bind(const gpu::GraphResources& resources) override { step_.bind(resources); }
   void update(const FrameInput& input) override {
     const FoundLines found = foundLines(input, pieces_);
-    const uint32_t options =
-        (tears_ ? shared::kInkOverTears : 0) | (isOverlay_ ? shared::kInkOverIsOverlay : 0) |
-        (ends_ ? shared::kInkOverEnds : 0);
+    const uint32_t options = (tears_ ? shared::kInkOverTears : 0) |
+                             (isOverlay_ ? shared::kInkOverIsOverlay : 0) |
+                             (ends_ ? shared::kInkOverEnds : 0);
     step_.setJobs({{{options, found.inMetres, isOverlay_ ? 0 : found.lines}, {}}});
     step_.update(found.uniforms);
   }
