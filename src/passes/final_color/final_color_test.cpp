@@ -105,11 +105,12 @@ TEST_P(FinalColorTest, equalsItsReference) {
             e += glm::dvec4(2.5 * tint * std::sqrt(glow.x) * e.w, 0);
             glm::dvec4 g = texel(aov(frame, "", v), x, y);
             g *= glm::dvec4(g.w, g.w, g.w, 1);
-            // Vulkan asks for filter weights in steps of 1/256; half floats round by 2^-11 of up to 3.5.
+            // Vulkan asks for filter weights in steps of 1/256; half floats round by 2^-11 of up to 3.5, and
+            // what roots are taken of.
             bool fits = true;
             for (int c = 0; c < 4; ++c) {
               fits &= std::abs(g[c] - e[c]) <=
-                      2e-3 + (2 * spread[c] + 1.25 * glowSpread.x / std::sqrt(glow.x + 1e-4)) / 256;
+                      4e-3 + (2 * spread[c] + 1.25 * glowSpread.x / std::sqrt(glow.x + 1e-4)) / 256;
               difference.add(g[c], e[c]);
             }
             wrong += !fits;

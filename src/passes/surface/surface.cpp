@@ -151,9 +151,9 @@ class Surface : public Pass {
       SurfaceParams params = input.knobs.of<SurfaceParams>(m);
       params.simplify = mipBias(params.simplify, input.uniforms.pixelScale);
       const float roughness = input.scene.material(m).roughness;
-      params.highlight *= 1 - roughness;
+      params.highlight *= (1 - roughness) * (1 - roughness);  // what is rougher spreads what it mirrors
       // The tangent of the angle to the shape's edge.
-      params.highlightSize *= std::max(roughness * roughness, 0.05f);
+      params.highlightSize *= std::max(0.5f * roughness * roughness, 0.06f);
       params_.write(m, params);
       highlights |= params.highlight > 0;
       const TextureParams texture = input.knobs.of<TextureParams>(m);
