@@ -306,11 +306,11 @@ TEST_P(FinalColorTest, layeredShowsWhatLiesBehind) {
         for (int x = 0; x < kWidth; ++x) {
           if (texel(aov(with, "id", v), x, y).x != 2) continue;
           const glm::dvec4 a = texel(aov(with, "", v), x, y), b = texel(aov(without, "", v), x, y);
-          if (a.x > 0.2) continue;  // the ball's colour still stands
+          if (a.x > 0.1) continue;  // some of the ball's colour still stands
           ++torn;
           off += std::abs(a.y - b.y) > 0.1;
         }
-    EXPECT_GT(torn, 25u);
+    EXPECT_GT(torn, 15u);
     wrong[layered] = double(off) / double(torn);
   }
   EXPECT_GT(wrong[0], 0.2) << "stripes come along";
