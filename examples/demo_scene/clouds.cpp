@@ -16,7 +16,7 @@ Mesh makeCloud(const std::string& name, const std::vector<Lump>& lumps) {
   mesh.setMaterial(kCloud);
   std::vector<glm::vec3> ball;
   std::vector<glm::uvec3> faces;
-  icosphere(2, ball, faces);
+  icosphere(3, ball, faces);
   for (const Lump& lump : lumps) {
     std::vector<glm::vec3> points = ball;
     for (glm::vec3& p : points) {

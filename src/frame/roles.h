@@ -57,6 +57,8 @@ inline constexpr Role kDepthOfFacts{"depth of facts"};
 inline constexpr Role kPrepaintedLit{"prepainted lit"}, kPrepaintedShadowed{"prepainted shadowed"};
 // R, G, A: the shadow's, blurred, at a quarter of the size; B: eye depth. In tiles that are blurred.
 inline constexpr Role kBlur{"blur"};
+// R: the lens channel under coverage, spread as far as it glows; at a quarter of the size.
+inline constexpr Role kBloom{"bloom"};
 // R: light after threshold and inner glow; G: lens; B: the glow's part of it; A: coverage. Behind the first
 // surfaces: the shadow as it is. Not in plain tiles, unless there is a picture behind everything.
 inline constexpr Role kLight{"light"};

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "frame/metatexture.h"
+#include "passes/bloom/bloom.h"
 #include "passes/blur/blur.h"
 #include "passes/blur/blur_knobs.h"
 #include "passes/color/color.h"
@@ -160,6 +161,7 @@ PassList standardPassesAlone() {
   list.append(passes::makeTiles);
   list.append(passes::makeWarp);
   list.append(passes::makeBlur);
+  list.append(passes::makeBloom);
   list.append(passes::makeFinalShadow);
   for (const Layer layer : kLayers) list.append([=] { return passes::makeColor(layer); });
   for (const Layer layer : kLayers) list.append([=] { return passes::makeColorize(layer); });

@@ -111,6 +111,8 @@ const std::pair<std::string, Knobs> kNeeds[] = {
     {"shadow.stepSpacing", {{"shadow.steps", "3"}}},
     {"shadowed.overlay", {{"shadowed.overlayAmount", "1"}}},
     {"surface.glow", {{"final.bloom", "4"}}},
+    {"surface.highlight",
+     {{"final.bloom", "4"}, {"surface.highlight", "4"}, {"surface.highlightSize", "10"}}},
     {"surface.indication", {{"blur.radius", "128"}, {"shadow.indication", "1"}, {"breakup.amount", "4"}}},
     {"surface.lens", {{"final.bloom", "4"}}},
     {"texture.", {{"texture.amount", "1"}}},
@@ -139,6 +141,7 @@ const std::pair<std::string, Knobs> kNeeds[] = {
     {"warp.metatexture.skewLevels", {{"warp.metatexture.skew", "exact"}}},
     {"warp.metatexture.tiles", {{"warp.metatexture.mode", "object"}}},
     {"warp.boil", {{"warp.boil", "0.6"}}},
+    {"warp.least", {{"warp.distance", "10"}}},
     {"water.",
      {{"ocean.mode", "on"},
       {"ocean.grid", "8"},
@@ -217,6 +220,7 @@ TEST_P(KnobSweep, everyKnobAtItsEndsDrawsAndShows) {
   s.json()["nodes"].back()["name"] = "Buoy";
   s.clip("Drift", {0, 1, 2}, {{0, 0, 0}, {1, 0.4f, 0}, {0, 0, 0.5f}});
   s.json()["materials"].back()["extras"] = {{"scumble_shadowed", "#204080"}};
+  s.json()["materials"].back()["pbrMetallicRoughness"]["roughnessFactor"] = 0.4;
   s.json()["samplers"] = Json::array({{{"magFilter", 9729}, {"minFilter", 9987}}});  // with mip levels
   const Scene plain = s.load();
   // Strokes: crossing ones at one depth, a sunken one, one that is being painted; for knobs of theirs alone,

@@ -8,7 +8,6 @@
 #include "passes/blur/blur.shared.h"
 #include "passes/blur/blur_knobs.h"
 #include "passes/final_shadow/final_shadow_knobs.h"
-#include "passes/surface/surface_knobs.h"
 #include "shaders/blur_image_comp.h"
 #include "shaders/blur_image_frag.h"
 
@@ -110,9 +109,7 @@ class Blur : public Pass {
 
   void update(const FrameInput& input) override {
     const BlurParams params = input.knobs.scene<BlurParams>();
-    // Bloom takes blurred light from anywhere.
-    const bool everywhere = isAsked_ || mayGlow(input.look, input.scene.data()) ||
-                            !isPlainApartFromEdges(input.knobs.scene<FinalShadowParams>());
+    const bool everywhere = isAsked_ || !isPlainApartFromEdges(input.knobs.scene<FinalShadowParams>());
     const uint32_t flag = everywhere ? 0 : shared::kTileBlurred;
     const BlurPlan plan = planBlur(params.radius * input.uniforms.pixelScale);
     for (size_t i = 0; i < steps_.size(); ++i) {

@@ -17,7 +17,7 @@ layout(set = 1, binding = kFinalColorColor) uniform sampler2DArray color;
 layout(set = 1, binding = kFinalColorInflated) uniform sampler2DArray inflated;
 layout(set = 1, binding = kFinalColorWarp) uniform sampler2DArray warp;
 layout(set = 1, binding = kFinalColorDepth) uniform sampler2DArray depth;
-layout(set = 1, binding = kFinalColorBlurred) uniform sampler2DArray blurred;
+layout(set = 1, binding = kFinalColorBloom) uniform sampler2DArray glow;
 layout(set = 1, binding = kFinalColorBehind) uniform sampler2DArray behind;
 layout(set = 1, binding = kFinalColorBehindDepth) uniform sampler2DArray behindDepth;
 layout(set = 1, binding = kFinalColorLight) uniform sampler2DArray finalShadow;
@@ -54,8 +54,9 @@ vec4 shade(ivec2 pixel, int layer) {
       result += there / float(kPlaces);
     }
   }
+  // Roots, so that a small lamp has a glow as well.
   if ((kOptions & kFinalColorGlows) != 0)
-    result.rgb += u.bloom * textureLod(blurred, vec3(own / frame.imageSize, layer), 0.0).g * result.a;
+    result.rgb += u.bloom * sqrt(textureLod(glow, vec3(own / frame.imageSize, layer), 0.0).r) * result.a;
   return result;
 }
 

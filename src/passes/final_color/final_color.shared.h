@@ -6,7 +6,7 @@
 
 SHARED_BEGIN
 // Bindings of set 1.
-const int kFinalColorColor = 1, kFinalColorWarp = 2, kFinalColorDepth = 3, kFinalColorBlurred = 4,
+const int kFinalColorColor = 1, kFinalColorWarp = 2, kFinalColorDepth = 3, kFinalColorBloom = 4,
           kFinalColorBehind = 5, kFinalColorBehindDepth = 6, kFinalColorLight = 7, kFinalColorLit = 8,
           kFinalColorBehindLight = 9, kFinalColorBehindLit = 10, kFinalColorBackdrop = 11,
           kFinalColorTear = 12, kFinalColorInflated = 13;

@@ -19,7 +19,7 @@ layout(set = 1, binding = 0, scalar) uniform Block {
 layout(set = 1, binding = kFinalColorColor) uniform sampler2DArray depth;
 layout(set = 1, binding = kFinalColorWarp) uniform sampler2DArray warp;
 layout(set = 1, binding = kFinalColorDepth) uniform sampler2DMSArray depthSamples;
-layout(set = 1, binding = kFinalColorBlurred) uniform sampler2DArray blurred;
+layout(set = 1, binding = kFinalColorBloom) uniform sampler2DArray glow;
 layout(set = 1, binding = kFinalColorBehind) uniform sampler2DArray behind;
 layout(set = 1, binding = kFinalColorBehindDepth) uniform sampler2DArray behindDepth;
 layout(set = 1, binding = kFinalColorLight) uniform sampler2DArray finalShadow;
@@ -77,7 +77,7 @@ vec4 shade(ivec2 pixel, int layer) {
   else
     result = colorOf(pixel, layer, kPart);
   if ((kOptions & kFinalColorGlows) != 0)
-    result.rgb += bloom * textureLod(blurred, vec3((vec2(pixel) + 0.5) / frame.imageSize, layer), 0.0).g * result.a;
+    result.rgb += bloom * sqrt(textureLod(glow, vec3((vec2(pixel) + 0.5) / frame.imageSize, layer), 0.0).r) * result.a;
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include "passes/final_color/final_color_knobs.h"
 #include "tests/support/aov.h"
 #include "tests/support/displaced.h"
+#include "tests/support/glow_reference.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
 
@@ -28,14 +29,13 @@ TEST_P(FinalColorTest, equalsItsReference) {
     for (const bool transparent : {false, true}) {
       const Look look = quietLook({{"final.ripple", aware ? "depth-aware" : "paper"},
                                    {"final.bloom", "2.5"},
-                                   {"blur.radius", "80"},
                                    {"warp.amount", "40"},
                                    {"warp.inflation", "30"}});
-      RenderOptions options = sized(kWidth, kHeight, {"color", "warp", "depth", "blur"});
+      RenderOptions options = sized(kWidth, kHeight, {"color", "warp", "depth", "shadow"});
       options.transparent = transparent;
       const Frame frame = draw(scene, look, views, options);
       for (size_t v = 0; v < viewCount(); ++v) {
-        const Texels blur = quarterTexels(aov(frame, "blur", v));
+        const Texels glows = glowReference(aov(frame, "shadow", v), 4);
         Difference difference(1);
         size_t undecided = 0, kept = 0, moved = 0, wrong = 0;
         for (int y = 0; y < kHeight; ++y)
@@ -93,26 +93,24 @@ TEST_P(FinalColorTest, equalsItsReference) {
               spread = glm::max(glm::max(a, b), glm::max(c, d)) - glm::min(glm::min(a, b), glm::min(c, d));
               return glm::mix(glm::mix(a, b, f.x), glm::mix(c, d, f.x), f.y);
             };
-            glm::dvec4 spread(0.0), blurSpread, e(0.0);
+            glm::dvec4 spread(0.0), glowSpread, e(0.0);
             const Image& color = aov(frame, "color", v);
             for (const glm::dvec2& at : places) {
               glm::dvec4 ofPlace;
               e += 0.25 * bilinear([&](int i, int j) { return texel(color, i, j); }, at - 0.5, ofPlace);
               spread = glm::max(spread, ofPlace);
             }
-            const glm::dvec4 glow = bilinear(
-                [&](int i, int j) {
-                  const glm::dvec4 b = blur.clamped(i, j);
-                  return glm::dvec4(b.y * b.w, 0, 0, 0);
-                },
-                (glm::dvec2(x, y) + 0.5) / 4.0 - 0.5, blurSpread);
-            e += glm::dvec4(2.5 * tint * glow.x * e.w, 0);
+            const glm::dvec4 glow = bilinear([&](int i, int j) { return glows.clamped(i, j); },
+                                             (glm::dvec2(x, y) + 0.5) / 4.0 - 0.5, glowSpread);
+            e += glm::dvec4(2.5 * tint * std::sqrt(glow.x) * e.w, 0);
             glm::dvec4 g = texel(aov(frame, "", v), x, y);
             g *= glm::dvec4(g.w, g.w, g.w, 1);
-            // Vulkan asks for filter weights in steps of 1/256; half floats round by 2^-11 of up to 3.5.
+            // Vulkan asks for filter weights in steps of 1/256; half floats round by 2^-11 of up to 3.5, and
+            // what roots are taken of.
             bool fits = true;
             for (int c = 0; c < 4; ++c) {
-              fits &= std::abs(g[c] - e[c]) <= 2e-3 + (2 * spread[c] + 2.5 * blurSpread.x) / 256;
+              fits &= std::abs(g[c] - e[c]) <=
+                      4e-3 + (2 * spread[c] + 1.25 * glowSpread.x / std::sqrt(glow.x + 1e-4)) / 256;
               difference.add(g[c], e[c]);
             }
             wrong += !fits;
@@ -308,11 +306,11 @@ TEST_P(FinalColorTest, layeredShowsWhatLiesBehind) {
         for (int x = 0; x < kWidth; ++x) {
           if (texel(aov(with, "id", v), x, y).x != 2) continue;
           const glm::dvec4 a = texel(aov(with, "", v), x, y), b = texel(aov(without, "", v), x, y);
-          if (a.x > 0.2) continue;  // the ball's colour still stands
+          if (a.x > 0.1) continue;  // some of the ball's colour still stands
           ++torn;
           off += std::abs(a.y - b.y) > 0.1;
         }
-    EXPECT_GT(torn, 25u);
+    EXPECT_GT(torn, 15u);
     wrong[layered] = double(off) / double(torn);
   }
   EXPECT_GT(wrong[0], 0.2) << "stripes come along";

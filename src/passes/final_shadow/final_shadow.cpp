@@ -102,7 +102,6 @@ class FinalShadow : public Pass {
       uniforms.stepShares[i] = 1.0f / float(params.steps);
     }
     uniforms.darkestEdge = steps.darkest;
-    uniforms.brightestEdge = uniforms.stepThresholds[params.steps - 1];
     uniforms.glowReach = glowReach(params.glowWidth, steps.darkest);
     const BlurParams blur = input.knobs.scene<BlurParams>();
     uniforms.blurAmount = planBlur(blur.radius * input.uniforms.pixelScale).amount;

@@ -68,15 +68,17 @@ vec2 lightOf(Around around, vec2 own, float depth, vec4 warped, float width) {
   float dither = u.knobs.dither * (0.5 - warped.b) * float(warped.a > 0.0);
   float lit = dot(u.stepShares, smoothstep(u.stepThresholds - width, u.stepThresholds + width, vec4(light - dither)));
 
-  // Texture indication: where the breakup map is set, marks push the blurred light over the threshold in a few more
-  // steps, each a flat shape.
-  float push = light + own.y * warped.b * u.knobs.indication;
-  float pushed = 0.0;
+  // Texture indication: where the breakup map may act, marks break the transition up into more steps, each a flat shape, on
+  // both sides of the edge: where the map is high, dark ones in the light, and where it is low, light ones in the dark. The
+  // farther from the terminator, the stronger a mark must be.
+  float mark = float(warped.a > 0.0) * (2.0 * warped.b - 1.0), reach = own.y * u.knobs.indication;
+  vec2 marks = vec2(0.0);  // dark ones, light ones
   for (int i = 1; i <= kIndicationSteps; ++i) {
-    float level = u.brightestEdge + 0.9 * u.knobs.indication * float(i) / float(kIndicationSteps);
-    pushed += clamp(0.5 + (push - level) * 25.0, 0.0, 1.0);
+    float least = 1.0 - reach * float(i) / float(kIndicationSteps);
+    marks += clamp((vec2(mark, -mark) - least) * 12.0, 0.0, 1.0) / float(kIndicationSteps);
   }
-  if (own.y > 0.0) lit = max(lit, pushed * clamp(light * 6.0, 0.0, 1.0) / float(kIndicationSteps));
+  marks.y *= clamp(light * 6.0, 0.0, 1.0);
+  lit = clamp(lit, u.stepShares.x * marks.y, 1.0 - u.stepShares.x * marks.x);
 
   // Inner glow: the inverted blur, clamped, adds light to the interior of the dark, none at its edge.
   float inside = clamp((u.darkestEdge - light) / u.darkestEdge / u.glowReach, 0.0, 1.0);

@@ -27,10 +27,10 @@ struct FinalShadowUniforms {
   // Of each edge between light and shadow: the amount of light, and its share of the way (0 where there are
   // fewer edges).
   vec4 stepThresholds, stepShares;
-  float darkestEdge, brightestEdge;  // amounts of light
-  float glowReach;                   // how far below it the glow is full, as a part of it
-  float depthSharpness;              // as the blur's
-  float blurAmount;  // 1; less where the knob asks for less roundness than the blur can be small
+  float darkestEdge;     // amount of light
+  float glowReach;       // how far below it the glow is full, as a part of it
+  float depthSharpness;  // as the blur's
+  float blurAmount;      // 1; less where the knob asks for less roundness than the blur can be small
 };
 SHARED_END
 #endif

@@ -105,14 +105,14 @@ class FinalShadowTest : public BothEyes {
     double lit = 0;
     for (const double edge : edges) lit += smoothstep(edge - width, edge + width, dithered) / k.bands;
     // Indication.
-    if (own.z > 0) {
-      double pushed = 0;
-      for (int i = 1; i <= k.steps; ++i)
-        pushed += std::clamp(0.5 + 25 * (light + own.z * marks * k.indication - edges.back() -
-                                         0.9 * k.indication * i / k.steps),
-                             0.0, 1.0);
-      lit = std::max(lit, pushed * std::clamp(6 * light, 0.0, 1.0) / k.steps);
+    double dark = 0, bright = 0;
+    for (int i = 1; i <= k.steps; ++i) {
+      const double least = 1 - own.z * k.indication * i / k.steps, mark = 2 * marks - 1;
+      dark += std::clamp(12 * (mark - least), 0.0, 1.0) / k.steps;
+      bright += std::clamp(12 * (-mark - least), 0.0, 1.0) / k.steps;
     }
+    bright *= std::clamp(6 * light, 0.0, 1.0);
+    lit = std::min(std::max(lit, bright / k.bands), 1 - dark / k.bands);
     // Inner glow.
     const double inside = (1 - light / edges[0]) / reach;
     const double glow = (1 - lit) * k.innerGlow * std::clamp(inside, 0.0, 1.0);
@@ -337,6 +337,45 @@ TEST_P(FinalShadowTest, indicationActsOnlyWhereTheLightIsOblique) {
         EXPECT_FALSE(differs && std::abs(turn) > 0.302) << x << ", " << y << ", turned by " << turn;
       }
     EXPECT_GT(changed, 50u);
+  }
+}
+
+// Marks lie on both sides of the edge, the denser the nearer to it, and change enough of a form to be seen.
+TEST_P(FinalShadowTest, indicationBreaksTheTransitionUpOnBothSides) {
+  TestScene s;
+  s.add(sphereMesh({0, 0, 0}, 1, 96), s.material(TestScene::colored("Grey", {0.5f, 0.5f, 0.5f, 1})));
+  const glm::dvec3 toLight = glm::normalize(glm::dvec3(-0.9, 0.5, 0.2));
+  s.light(glm::vec3(toLight));
+  const Scene scene = s.load();
+  constexpr int kLargeWidth = 320, kLargeHeight = 240;
+  const auto views = viewsFrom(scene, {{0.3f, 0.5f, 3}}, kLargeWidth, kLargeHeight, GetParam());
+  Frame frames[2];
+  for (const int on : {0, 1}) {
+    Knobs k;
+    k.indication = on, k.radius = 9, k.innerGlow = 0;
+    frames[on] =
+        draw(scene, lookOf(k), views, sized(kLargeWidth, kLargeHeight, {"final-shadow", "normal", "id"}));
+  }
+  for (size_t v = 0; v < viewCount(); ++v) {
+    size_t all = 0, darker[3] = {}, lighter = 0, there[3] = {};
+    for (int y = 0; y < kLargeHeight; ++y)
+      for (int x = 0; x < kLargeWidth; ++x) {
+        if (texel(aov(frames[0], "id", v), x, y).x != 1) continue;
+        ++all;
+        const double turn = glm::dot(glm::dvec3(texel(aov(frames[0], "normal", v), x, y)), toLight) - 0.1;
+        const double change = texel(aov(frames[1], "final-shadow", v), x, y).x -
+                              texel(aov(frames[0], "final-shadow", v), x, y).x;
+        lighter += change > 0.1 && turn < 0;
+        // Thirds of how far they reach into the light.
+        if (turn < 0.02 || turn >= 0.35) continue;
+        const auto third = size_t(turn / 0.35 * 3);
+        darker[third] += change < -0.1, ++there[third];
+      }
+    EXPECT_GT(double(darker[0] + darker[1] + darker[2] + lighter), 0.02 * double(all));
+    EXPECT_GT(lighter, 20u);
+    const auto part = [&](size_t third) { return double(darker[third]) / double(there[third]); };
+    EXPECT_GT(part(0), 1.5 * part(1));
+    EXPECT_GT(part(1), 1.5 * part(2));
   }
 }
 

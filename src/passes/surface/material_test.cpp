@@ -218,9 +218,19 @@ TEST_P(MaterialTest, alphaAtItsCutoffAndWithoutOne) {
 // Blue of the shadow channels: as oblique as the light is, where it arrives, as much as the knob says.
 TEST_P(MaterialTest, marksActWhereLightArrivesObliquely) {
   TestScene s;
-  s.add(gridMesh({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}),
-        s.material(TestScene::colored("Floor", {0.5f, 0.5f, 0.5f, 1})));
-  s.add(boxMesh({-1.2f, 0, -0.6f}, {-0.8f, 0.5f, 0.6f}),
+  // A floor that is round, and a plane one in which marks have no place.
+  TestMesh floor = gridMesh({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, 48);
+  const float bend = glm::radians(20.0f);  // a metre
+  for (size_t i = 0; i < floor.positions.size(); ++i) {
+    const float angle = bend * floor.positions[i].x;
+    floor.normals[i] = {std::sin(angle), std::cos(angle), 0};
+    floor.positions[i].x = std::sin(angle) / bend;
+    floor.positions[i].y = (std::cos(angle) - 1) / bend;
+  }
+  s.add(floor, s.material(TestScene::colored("Floor", {0.5f, 0.5f, 0.5f, 1})));
+  s.add(gridMesh({-7.9f, 0, 2}, {6, 0, 0}, {0, 0, -4}),
+        s.material(TestScene::colored("Plane", {0.5f, 0.5f, 0.5f, 1})));
+  s.add(boxMesh({-1.2f, -0.4f, -0.6f}, {-0.8f, 0.3f, 0.6f}),
         s.material(TestScene::colored("Box", {0.5f, 0.5f, 0.5f, 1})));
   const glm::dvec3 toLight = glm::normalize(glm::dvec3(-1, 0.5, 0));
   s.light(glm::vec3(toLight));
@@ -231,29 +241,36 @@ TEST_P(MaterialTest, marksActWhereLightArrivesObliquely) {
                            quietLook({{"light.terminator", "0.1"},
                                       {"surface.indication", std::to_string(amount)},
                                       {"surface.indicationWidth", std::to_string(width)}}),
-                           views, sized(kWallWidth, kWallHeight, {"shadow", "id", "position"}));
-  const double wanted = amount * (1 - std::abs(toLight.y - 0.1) / width);
+                           views, sized(kWallWidth, kWallHeight, {"shadow", "id", "position", "normal"}));
   for (size_t v = 0; v < viewCount(); ++v) {
-    size_t reached = 0, kept = 0;
+    size_t reached = 0, kept = 0, plane = 0;
     for (int y = 0; y < kWallHeight; ++y)
       for (int x = 0; x < kWallWidth; ++x) {
+        if (texel(aov(frame, "id", v), x, y).x == 2) {
+          EXPECT_EQ(texel(aov(frame, "shadow", v), x, y).z, 0);
+          ++plane;
+        }
         if (texel(aov(frame, "id", v), x, y).x != 1) continue;
         // The box's shadow is a metre long; its edges may be either.
         const glm::dvec4 p = texel(aov(frame, "position", v), x, y),
                          got = texel(aov(frame, "shadow", v), x, y);
-        const bool isDark = p.x > -0.7 && p.x < 0.1 && std::abs(p.z) < 0.5;
-        const bool isLit = p.x > 0.4 || p.x < -1.3 || std::abs(p.z) > 0.75;
+        const bool isDark = p.x > -0.7 && p.x < -0.35 && std::abs(p.z) < 0.4;
+        const double lambert = glm::dot(glm::dvec3(texel(aov(frame, "normal", v), x, y)), toLight);
+        const double wanted = amount * (1 - std::abs(lambert - 0.1) / width);
+        const bool isLit =
+            (p.x > 0.4 || p.x < -1.4 || std::abs(p.z) > 0.8) && lambert > 0.15 && lambert < 0.65;
         if (isDark) {
           EXPECT_EQ(got.z, 0);
           ++kept;
         }
         if (isLit) {
-          EXPECT_NEAR(got.z, wanted, 0.51 * kRootStep + 1e-3);
+          EXPECT_NEAR(got.z, wanted, 0.51 * kRootStep + 3e-3);
           ++reached;
         }
       }
     EXPECT_GT(reached, 300u);
     EXPECT_GT(kept, 20u);
+    EXPECT_GT(plane, 20u);
   }
 }
 

@@ -112,7 +112,7 @@ class Surface : public Pass {
     GeometryStepDesc desc;
     desc.vertex = {shaders::surface_vert};
     desc.fragment = {shaders::surface_frag};
-    desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor;
+    desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor | kSmoothNormal;
     desc.paintedVertex = {shaders::surface_painted_vert};
     desc.paintedFragment = {shaders::surface_painted_frag};
     desc.prepaintedFragment = {shaders::surface_prepainted_frag};
@@ -122,7 +122,7 @@ class Surface : public Pass {
     desc.viewMask = configuration_.views().mask();
     desc.viewCount = configuration_.viewCount;
     desc.leavesBlended = hasBlended_;
-    desc.constant = constant(false);
+    desc.constant = constant(false, false);
     desc.passLayout = &layout_;
     desc.materialStrides = {params_.kStride, painted_.kStride};
     step_.create(frame, desc);
@@ -160,10 +160,16 @@ class Surface : public Pass {
     std::vector<MaterialVariant> variants;
     std::vector<std::tuple<const gpu::Image*, const gpu::Image*, VkSampler>> paintings;  // each once
     std::vector<uint32_t> paintingOf;
+    bool highlights = false;
     for (size_t m = 0; m < input.scene.materialCount(); ++m) {
       SurfaceParams params = input.knobs.of<SurfaceParams>(m);
       params.simplify = mipBias(params.simplify, input.uniforms.pixelScale);
+      const float roughness = input.scene.material(m).roughness;
+      params.highlight *= (1 - roughness) * (1 - roughness);  // what is rougher spreads what it mirrors
+      // The tangent of the angle to the shape's edge.
+      params.highlightSize *= std::max(0.5f * roughness * roughness, 0.06f);
       params_.write(m, params);
+      highlights |= params.highlight > 0;
       const TextureParams texture = input.knobs.of<TextureParams>(m);
       auto metaParams = sameRows(input.knobs.of<TextureMetaTextureParams>(m));
       // What is not painted needs no texture of its own.
@@ -196,7 +202,7 @@ class Surface : public Pass {
       paintingOf.push_back(uint32_t(known - paintings.begin()));
       if (known == paintings.end()) paintings.push_back(painting);
     }
-    const uint32_t constantNow = constant(input.uniforms.lightCount > 0);
+    const uint32_t constantNow = constant(input.uniforms.lightCount > 0, highlights);
     if (hasBlended_) blended_.update(constantNow, variants, paintingOf);
     if (drawsApart_) blendedApart_.update(constantNow, variants, paintingOf);
     step_.specialise(constantNow, std::move(variants));
@@ -253,7 +259,9 @@ class Surface : public Pass {
   }
 
   // kOptions in the shaders.
-  uint32_t constant(bool lights) const { return (isBehind_ ? 1 : 0) | (lights ? 2 : 0) | (veils_ ? 8 : 0); }
+  uint32_t constant(bool lights, bool highlights) const {
+    return (isBehind_ ? 1 : 0) | (lights ? 2 : 0) | (highlights ? 4 : 0) | (veils_ ? 8 : 0);
+  }
 
   void record(VkCommandBuffer commands) const {
     std::array<gpu::Target, std::size(kAovs)> colors;
@@ -308,7 +316,8 @@ float mipBias(float simplify, float pixelScale) {
 
 bool mayGlow(const look::LookData& look, const scene::SceneData& scene) {
   const auto sets = [](const look::Assignment& a) {
-    return a.block == &SurfaceParams::block() && std::string_view(a.row->name) == "glow";
+    const std::string_view name = a.row->name;
+    return a.block == &SurfaceParams::block() && (name == "glow" || name == "highlight");
   };
   return std::any_of(look.assignments.begin(), look.assignments.end(), sets) ||
          std::any_of(scene.materials.begin(), scene.materials.end(),

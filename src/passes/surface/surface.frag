@@ -18,7 +18,7 @@
 layout(constant_id = kAlphaModeId) const int kAlphaMode = 0;  // 0 opaque, 1 masked, 2 blended
 layout(constant_id = kVariedId) const int kVaried = 0;
 layout(constant_id = kTexturedId) const int kTextured = 0;
-// 1: only what lies behind the first surface; 2: there are lights; 8: there may be veils.
+// 1: only what lies behind the first surface; 2: there are lights; 4: highlights; 8: there may be veils.
 layout(constant_id = kPassId) const int kOptions = 0;
 layout(constant_id = kColorSetsId) const int kSets = 0;     // sets of colours of its own: 1 for light, 2 for shadow
 // Of what the look paints.
@@ -44,7 +44,7 @@ layout(set = 2, binding = kSurfaceFirstDepth) uniform sampler2DArray firstDepth;
 #endif
 
 layout(location = 0) in vec3 inLightSpace;
-layout(location = 1) in vec2 inFacing;
+layout(location = 1) in vec3 inFacing;
 layout(location = 2) in vec4 inColor;
 layout(location = 3) in vec4 inUvs;
 layout(location = 9) in vec3 inWorld;
@@ -113,10 +113,28 @@ layout(set = 2, binding = kSurfacePrepaintedLit) uniform sampler2DArray prepaint
 layout(set = 2, binding = kSurfacePrepaintedShadowed) uniform sampler2DArray prepaintedShadowed;
 #endif
 
+// How round a form is, for marks: by how much its Lambert term changes over a picture's height. Planes and what is nearly
+// one have no terminator; a form that is smaller than a twentieth of the picture has no room for marks.
+float roundness(vec2 slope) {
+  float change = length(slope) * frame.knobHeight;
+  return smoothstep(0.05, 0.4, change) * (1.0 - smoothstep(25.0, 60.0, change));
+}
+
+// Where a smooth surface mirrors the key light to the middle of all eyes: 0 or 1, but for the edge.
+float highlight(vec3 normal) {
+  float least = inversesqrt(1.0 + params.highlightSize * params.highlightSize);
+  float inside = dot(normal, normalize(frame.toLight + normalize(frame.viewer - inWorld))) - least;
+  return clamp(0.5 + inside / max(fwidth(inside), 1e-6), 0.0, 1.0) * params.highlight * (1.0 - material.unlit);
+}
+
 void main() {
+  vec2 slope = vec2(dFdx(inFacing.z), dFdy(inFacing.z));  // neighbours are needed, so before any is discarded
+  float mirrored = 0.0;
 #ifdef TRANSPARENT
   materialIndex = materialOf(inPart);
-  bool isFront = seesFront(inPart, gl_FrontFacing), isVaried = kVaried != 0 && (isVariedPart(inPart) || materialRows[materialIndex].varies != 0);
+  bool isFront = seesFront(inPart, gl_FrontFacing);
+  if ((kOptions & 4) != 0) mirrored = highlight(normalize(isFront ? inNormal : -inNormal));
+  bool isVaried = kVaried != 0 && (isVariedPart(inPart) || materialRows[materialIndex].varies != 0);
   ivec4 slots = materialRows[materialIndex].slots;
   bool hasShadowedSet = slots.w >= 0;
   SlotValues here = sampleSlots(ivec4(slots.x, -1, slots.zw), inUvs.xy, params.simplify);
@@ -124,13 +142,14 @@ void main() {
   if (isCulled(isFront)) discard;
 #else
   bool isFront = gl_FrontFacing;
+  if ((kOptions & 4) != 0) mirrored = highlight(normalize(isFront ? inNormal : -inNormal));
   const bool isVaried = kVaried != 0, hasShadowedSet = (kSets & 2) != 0;
   if (kBehind) {
     float first = texelFetch(firstDepth, ivec3(gl_FragCoord.xy, viewIndex()), 0).r;
     if (eyeDepth(gl_FragCoord.z, viewIndex()) < 1.005 * eyeDepth(first, viewIndex())) discard;
   }
 #endif
-  vec2 facing = isFront ? inFacing : -inFacing;
+  vec3 facing = isFront ? inFacing : -inFacing;
   float up = 0.5 + 0.5 * facing.y;
   // Planes of one colour in the light: those that face it, such as turn away, and those that face the sky.
   vec3 plane = mix(material.planeTurned, vec3(1.0), smoothstep(0.15, 0.6, facing.x));
@@ -216,9 +235,16 @@ void main() {
   // What a matte shows has its own light already; only what is cast on it is new.
   light = mix(light, frame.toLight.y > 0.0 ? reaches : 1.0, material.matte);
 
-  // Blue: where the breakup map may act, which is where the surface is oblique to a light that reaches it.
-  float oblique = clamp(1.0 - abs(turn) / params.indicationWidth, 0.0, 1.0) * reaches * params.indication;
+  // Blue: where the breakup map may act, which is beside the terminator of round forms. On the dark side it ends where the
+  // surface turns away from the light altogether, since it lies in its own shadow there.
+  float darkWidth = min(params.indicationWidth, max(keyLight.terminator, 1e-3));
+  float formTurn = facing.z - keyLight.terminator;
+  float away = formTurn / mix(params.indicationWidth, -darkWidth, float(formTurn < 0.0));
+  float oblique = clamp(1.0 - away, 0.0, 1.0) * reaches * params.indication * roundness(slope);
   oblique *= 1.0 - material.unlit;
+#ifdef PREPAINTED
+  oblique = 0.0;  // it has strokes of its own
+#endif
 
   // The shadow of what lets light through is a paler colour and no shape of light, which is whole or not there.
   if ((kOptions & 8) != 0) {
@@ -226,7 +252,7 @@ void main() {
     lit = sqrt(mix(lit * lit, shadowed * shadowed, held));
   }
 
-  lens = clamp(lens * params.lens + params.glow, 0.0, 1.0);
+  lens = clamp(lens * params.lens + mirrored * reaches + params.glow, 0.0, 1.0);
   float whole = clamp(0.5 + 8.0 * (light - 0.5), 0.0, 1.0);  // where nothing blurs and thresholds it later
 #ifdef TRANSPARENT
   // Light is one number a pixel. A surface that lets through what is behind it leaves that number to that, and its colours

@@ -15,7 +15,7 @@ layout(set = 2, binding = kSurfaceSunken, scalar) readonly buffer Sunken { float
 
 layout(constant_id = kVariedId) const int kVaried = 0;    // colours vary: vertex colours or textures
 layout(constant_id = kTexturedId) const int kTextured = 0;
-layout(constant_id = kPassId) const int kOptions = 0;  // 2: there are point and spot lights
+layout(constant_id = kPassId) const int kOptions = 0;  // 2: there are point and spot lights; 4: highlights
 
 #ifdef TRANSPARENT
 layout(location = 11) in uint inPart;
@@ -39,9 +39,11 @@ layout(location = 1) in vec2 inNormal;
 layout(location = 2) in vec2 inUv0;
 layout(location = 3) in vec2 inUv1;
 layout(location = 4) in vec4 inColor;
+layout(location = 6) in vec2 inSmoothNormal;
 
 layout(location = 0) out vec3 outLightSpace;  // the sigmoid's argument, and depth from the light
-layout(location = 1) out vec2 outFacing;      // towards the light, and upwards: cosines of the front side
+// Towards the light, and upwards: cosines of the front side; and towards the light as the form has it.
+layout(location = 1) out vec3 outFacing;
 layout(location = 2) out vec4 outColor;
 layout(location = 3) out vec4 outUvs;
 layout(location = 9) out vec3 outWorld;
@@ -76,8 +78,11 @@ void main() {
   p += mat3(frame.worldToLight) * normal * (lambert < 0.0 ? -lift : lift);
   outLightSpace = vec3(sigmoidArgument(p.xy), p.z - 0.5 * coarse / frame.lightToWorldScale.z);
 
-  outFacing = vec2(lambert, normal.y);
-  if ((kOptions & 2) != 0) {
+  // Facets of a round form count as that form; folds as deep as a box's do not.
+  vec3 smoothNormal = decodeNormal(inSmoothNormal);
+  vec3 form = mix(normal, smoothNormal, smoothstep(0.7, 0.85, dot(normal, smoothNormal)));
+  outFacing = vec3(lambert, normal.y, dot(normalize(form), frame.toLight));
+  if ((kOptions & 6) != 0) {
     outWorld = inPosition;
     outNormal = normal;
   }

@@ -48,7 +48,7 @@ TEST_P(SurfaceTest, lambertOfASphere) {
     const Frame frame = draw(scene, look, views, sized(kWidth, kHeight, {"shadow", "normal", "id"}));
     for (size_t v = 0; v < viewCount(); ++v) {
       // The term is interpolated over triangles of 4 degrees: off by up to 1 - cos(2 degrees) = 6e-4.
-      Difference light(0.5 * kByte + 1.5e-3 * sharpness), marks(0.5 * kByte + 1.5e-3 / width);
+      Difference light(0.5 * kByte + 1.5e-3 * sharpness), marks(0.5 * kByte + 1.5e-3 / std::min(width, 0.1));
       for (int y = 0; y < kHeight; ++y)
         for (int x = 0; x < kWidth; ++x) {
           if (texel(aov(frame, "id", v), x, y).x == 0) continue;
@@ -56,7 +56,20 @@ TEST_P(SurfaceTest, lambertOfASphere) {
               glm::dot(glm::dvec3(texel(aov(frame, "normal", v), x, y)), toLight) - terminator;
           const glm::dvec4 got = texel(aov(frame, "shadow", v), x, y);
           light.add(got.x, std::clamp(0.5 + turn * sharpness, 0.0, 1.0));
-          marks.add(got.z, std::clamp(1 - std::abs(turn) / width, 0.0, 1.0));
+          // Towards the silhouette, and where the term hardly changes, marks grow less.
+          const auto turnAt = [&](int dx, int dy) {
+            return glm::dot(glm::dvec3(texel(aov(frame, "normal", v), x + dx, y + dy)), toLight);
+          };
+          const double change =
+              kHeight * glm::length(glm::dvec2(turnAt(1, 0) - turnAt(-1, 0), turnAt(0, 1) - turnAt(0, -1))) /
+              2;
+          // On the dark side they reach to where no light does.
+          const double reach = turn < 0 ? std::min(width, std::max(terminator, 1e-3)) : width;
+          bool isInside = true;
+          for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}})
+            isInside &= texel(aov(frame, "id", v), x + dx, y + dy).x != 0;
+          if (isInside && change > 0.8 && change < 15 && std::abs(turn) > 0.01)
+            marks.add(got.z, std::clamp(1 - std::abs(turn) / reach, 0.0, 1.0));
           EXPECT_EQ(got.y, 0);
           EXPECT_EQ(got.w, 1);
         }

@@ -27,7 +27,7 @@ namespace {
 
 // Mirrors WarpMaterial in warp.glsl.
 struct WarpMaterial {
-  float amount, inflation, distance, setup, characterSetup;
+  float amount, least, inflation, distance, setup, characterSetup;
 };
 
 // Mirrors the block of warp.image.glsl.
@@ -178,7 +178,10 @@ class Warp : public Pass {
       const uint32_t options =
           (distance > 0 ? shared::kWarpFades : 0) | (setup.field.meta.mode == 0 ? shared::kWarpFollows : 0);
       variants.push_back({.tangents = tangentOptions(metaParams, input.uniforms), .options = options});
-      materials_.write(m, {params.amount * pixelScale, inflation, distance, number, characterNumber});
+      // What a feature quietens has no floor: a horizon is a clear line.
+      const float least = plan && plan->quietDistance > 0 ? 0 : std::min(params.least, params.amount);
+      materials_.write(
+          m, {params.amount * pixelScale, least * pixelScale, inflation, distance, number, characterNumber});
     }
     step_.specialise(0, std::move(variants));
 

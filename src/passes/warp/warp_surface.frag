@@ -35,11 +35,12 @@ void main() {
   if (kAlphaMode != 0 && isHole(inBaseUvAlpha.xy, inBaseUvAlpha.z, kAlphaMode)) discard;
   outPattern = uvec4(floatBitsToUint(inUvScale.xy), packBfloat(dSdu), packBfloat(dSdv));
   // Paper 000, eq. 26; FORMULAS 12: the distance has a scale.
-  float amount = warp.amount * inUvScale.z;
+  float amount = warp.amount;
   if ((kOptions & kWarpFades) != 0) {
     float far = warp.distance * eyeDepth(gl_FragCoord.z, viewIndex());
-    amount /= 1.0 + far * far;
+    amount = max(amount / (1.0 + far * far), warp.least);
   }
+  amount *= inUvScale.z;
   // Tangents are a vertex's, and smooth; the mapping is each triangle's own. Where it runs faster than they say, the
   // pattern is finer than it should be; it is shallower there by as much, so that no tear is steeper than others.
   if ((kOptions & kWarpFollows) != 0) {

@@ -342,9 +342,10 @@ TEST_P(WarpTest, nothingIsTornFartherThanTwice) {
 // Eq. 26: the amount falls with distance.
 TEST_F(WarpTest, farThingsAreTornLess) {
   const Scene scene = wall().load();
-  const auto spread = [&](float away, const char* distance) {
+  const auto spread = [&](float away, const char* distance, const char* least = "0") {
     Look look = lookOf(64, 256);
     EXPECT_TRUE(look.set("warp.distance", distance).ok());
+    EXPECT_TRUE(look.set("warp.least", least).ok());
     const Frame frame = draw(scene, look, viewsFrom(scene, {{0, 0, away}, {0, 0, 0}, 20}, kWidth, kHeight),
                              sized(kWidth, kHeight, {"warp"}));
     double most = 0;
@@ -355,6 +356,10 @@ TEST_F(WarpTest, farThingsAreTornLess) {
   };
   EXPECT_NEAR(spread(10, "0.2") / spread(10, "0"), 1 / (1 + 4.0), 0.02);
   EXPECT_NEAR(spread(5, "0.2") / spread(5, "0"), 1 / (1 + 1.0), 0.02);
+  // But never by less than they are to be torn at least, or by more than without.
+  EXPECT_NEAR(spread(10, "10", "16") / spread(10, "0"), 0.25, 0.02);
+  EXPECT_NEAR(spread(10, "0.2", "4") / spread(10, "0"), 1 / (1 + 4.0), 0.02);
+  EXPECT_EQ(spread(10, "10", "64"), spread(10, "0", "0"));
 }
 
 // FORMULAS 3 for the other choice: differences between pixels choose the same scales on a plane, to a
