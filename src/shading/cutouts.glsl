@@ -31,6 +31,7 @@ bool isCutOut(int view) {
   mat3 toWorld = transpose(mat3(VIEW_FIELD(worldToEye, view)));
   vec3 world = VIEW_FIELD(eye, view) + toWorld * vec3(across * mix(far, 1.0, parallel), -far);
   vec3 ray = toWorld * vec3(across * (1.0 - parallel), -1.0);
+  vec3 alongX = dFdx(world), alongY = dFdy(world);
   bool isCut = false;
   for (int index = 0; index < cutouts.count; ++index) {
     vec3 at = (CUT.toPoints * vec4(world, 1.0)).xyz, last = CUT.size - 1.0;
@@ -41,7 +42,11 @@ bool isCutOut(int view) {
       // left standing by the outer one. So nothing shows that is not exact. What is seen edge-on is left standing.
       vec3 way = mat3(CUT.toPoints) * ray;
       float enters = dot(way, within.xyz) * inversesqrt(max(dot(way, way) * dot(within.xyz, within.xyz), 1e-12));
-      isCut = isCut || within.w > kCutoutMargin / kCutoutReach * clamp(16.0 * enters + 0.3, -1.0, 1.0);
+      float margin = kCutoutMargin / kCutoutReach * clamp(16.0 * enters + 0.3, -1.0, 1.0);
+      // Samples of a pixel are up to half of it away from its middle, which decides for all of them.
+      mat3 toPoints = mat3(CUT.toPoints);
+      float halfPixel = 0.5 * (abs(dot(toPoints * alongX, within.xyz)) + abs(dot(toPoints * alongY, within.xyz)));
+      isCut = isCut || within.w > margin + min(halfPixel, 0.5) * min(enters, 0.0);
     }
   }
   return isCut;

@@ -303,6 +303,32 @@ TEST_P(Hulls, areWhatLooksAndScenesSay) {
   EXPECT_EQ(drawn, 0u) << "the inside itself";
 }
 
+// A skin's hull goes with the joint that moves it; each instance of a mesh is a hull of its own.
+TEST_P(Hulls, goWithJointsAndInstances) {
+  const std::vector<HullShape> two{doryShape(), doryShape()};
+  const BoatPose pose{6, 2, 40};
+  TestMesh mesh = meshOf(two[0]);
+  const std::vector<glm::vec3> places{kBerths[0], kBerths[3]};
+  TestScene instanced;
+  const int material = instanced.material(TestScene::colored("Wood", {0.5f, 0.4f, 0.3f, 1}));
+  instanced.addInstances(mesh, material, places, {{1, 0, 0, 0}, {1, 0, 0, 0}},
+                         {glm::vec3(1), glm::vec3(-1, 1, 1)});
+  TestScene skinned;
+  skinned.material(TestScene::colored("Wood", {0.5f, 0.4f, 0.3f, 1}));
+  mesh.joints.assign(mesh.positions.size(), glm::u8vec4(0));
+  mesh.weights.assign(mesh.positions.size(), glm::vec4(1, 0, 0, 0));
+  skinned.addSkinned(mesh, material, {pose.at(kBerths[0])}, {glm::mat4(1)});
+  const auto expectDry = [&](const Scene& scene, const std::vector<glm::mat4>& matrices, const char* what) {
+    const std::vector<HullShape> shapes(two.begin(), two.begin() + long(matrices.size()));
+    const Frame full = drawSea(scene, look({{"ocean.hulls", "off"}}));
+    EXPECT_GT(inside(scene, full, shapes, matrices, kSliver), 100u) << what;
+    EXPECT_EQ(inside(scene, drawSea(scene, look()), shapes, matrices, kSliver), 0u) << what;
+  };
+  expectDry(instanced.load(), {BoatPose().at(places[0]), BoatPose{0, 0, 0, 0, {-1, 1, 1}}.at(places[1])},
+            "instances");
+  expectDry(skinned.load(), {pose.at(kBerths[0])}, "a skin");
+}
+
 // Boats that were made elsewhere: seen from above, whatever of one can be seen without a sea hides no water.
 TEST_P(Hulls, keepTheSeaOutOfRealBoats) {
   NEEDS_FINE_RASTER();
