@@ -42,7 +42,7 @@ bool isCutOut(int view) {
       // left standing by the outer one. So nothing shows that is not exact. What is seen edge-on is left standing.
       vec3 way = mat3(CUT.toPoints) * ray;
       float enters = dot(way, within.xyz) * inversesqrt(max(dot(way, way) * dot(within.xyz, within.xyz), 1e-12));
-      float margin = kCutoutMargin / kCutoutReach * clamp(16.0 * enters + 0.3, -1.0, 1.0);
+      float margin = kCutoutMargin / kCutoutReach * clamp(4.0 * enters + 0.3, -1.0, 1.0);
       // Samples of a pixel are up to half of it away from its middle, which decides for all of them.
       mat3 toPoints = mat3(CUT.toPoints);
       float halfPixel = 0.5 * (abs(dot(toPoints * alongX, within.xyz)) + abs(dot(toPoints * alongY, within.xyz)));
