@@ -22,6 +22,8 @@ Setup::Setup(gpu::Device& device, gpu::Samplers& samplers, ExampleTextures& exam
   lightSlice_ = uniforms_.slice(key.lights * sizeof(shared::PunctualLight));
   frameLayout_ = gpu::SetLayout(device, {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_SHADER_STAGE_ALL},
                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_ALL},
+                                         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_ALL},
+                                         {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_ALL},
                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_SHADER_STAGE_ALL}});
   frameSet_ = gpu::DescriptorSets(device, frameLayout_);
   frameSet_.writeBuffer(0, 0, frameSlice_.buffer, frameSlice_.offset, frameSlice_.size);
@@ -139,6 +141,9 @@ void Setup::resize(glm::uvec2 size) {
 
 void Setup::bindScene() {
   frameSet_.writeBuffer(0, 1, scene_.motion().objects());
+  const auto [cutouts, points] = scene_.cutouts();
+  frameSet_.writeBuffer(0, 3, cutouts);
+  frameSet_.writeBuffer(0, 4, points);
   bind();
 }
 

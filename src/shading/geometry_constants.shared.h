@@ -4,7 +4,7 @@
 #include "shared_types.h"
 
 SHARED_BEGIN
-const int kAlphaModeId = 0;  // 0 opaque, 1 masked, 2 blended
+const int kAlphaModeId = 0;  // 0 opaque, 1 masked, 2 blended, kCut
 const int kVariedId = 1;     // vertex colours or textures vary the material's colour
 const int kTexturedId = 2;   // the scene's textures are read
 const int kViewCountId = 3;  // views that are drawn together; image steps have it as well
@@ -17,5 +17,7 @@ const int kGroupId = 9;      // of blended surfaces: which are drawn; -1: all ar
 const int kSlotsId = 10;     // of blended surfaces: textures that there are
 const int kFadesId = 11;     // of blended surfaces: some of them fade
 const int kGeometryConstants = 12;
+
+const int kCut = 3;  // opaque, with holes where volumes cut it (cutouts.glsl)
 SHARED_END
 #endif

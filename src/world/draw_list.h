@@ -13,7 +13,8 @@
 
 namespace scumble::world {
 
-enum class AlphaMode : uint8_t { opaque, mask, blend };
+// Cut: opaque, with holes where volumes cut it (FeatureMoment::cutouts).
+enum class AlphaMode : uint8_t { opaque, mask, blend, cut };
 
 // What draws of a bucket have in common, in the order in which buckets lie.
 struct DrawState {

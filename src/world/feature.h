@@ -25,6 +25,7 @@ struct GeometryItem;
 struct GeometryPlace;
 class FeaturePlan;
 class MadePrimitives;
+class SceneMotion;
 
 // A feature of one scene, at a moment, on the CPU and on the device.
 class FeatureMoment {
@@ -64,6 +65,14 @@ class FeatureMoment {
     return posed;
   }
   virtual void addUploads(std::vector<gpu::PerFrameBuffer*>&) {}
+  // After all objects are where the frame draws them.
+  virtual void posed(const SceneMotion& /*motion*/) {}
+  // What cuts holes into all that it draws: shared::Cutouts, and the words of their points. None: nothing
+  // does. Its place() tells where they are others.
+  struct CutoutBuffers {
+    VkBuffer cutouts, points;
+  };
+  virtual std::optional<CutoutBuffers> cutouts() const { return std::nullopt; }
   // Boxes of what casts shadows beside objects, world: what each reaches at any time.
   virtual void addCasters(std::vector<scene::Bounds>& /*boxes*/) const {}
 };
@@ -78,6 +87,8 @@ class FeaturePlan {
 
   // The scene's node whose own mesh it stands for, and is drawn instead of; -1: none.
   int replacedNode = -1;
+  // Nodes whose meshes say something to it, and are not drawn.
+  std::vector<int> hiddenNodes;
   // Without it there may be a ground; with it there is one where the look says so.
   bool replacesGround = false;
   // A pass of its own paints its surfaces, once a pixel (kPrepaintedLit, kPrepaintedShadowed). One feature of

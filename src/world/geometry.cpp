@@ -95,12 +95,15 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
   const std::vector<glm::dmat4> world = scene::worldMatrices(scene);
 
   // One item for each primitive of each node, and for each of its instances.
-  const std::vector<bool> shown = scene::everShownNodes(scene);
   const std::vector<glm::mat4> one{glm::mat4(1.0f)};
   std::vector<bool> isReplaced(scene.nodes.size(), false);
   for (const PlannedFeature& planned : options.features)
     if (planned.plan && planned.plan->replacedNode >= 0)
       isReplaced[size_t(planned.plan->replacedNode)] = true;
+  std::vector<bool> shown = scene::everShownNodes(scene);
+  for (const PlannedFeature& planned : options.features)
+    if (planned.plan)
+      for (const int node : planned.plan->hiddenNodes) shown[size_t(node)] = false;
   for (size_t n = 0; n < scene.nodes.size(); ++n) {
     const scene::Node& node = scene.nodes[n];
     if (node.mesh < 0 || isReplaced[n]) continue;

@@ -226,6 +226,7 @@ bool SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>
                           level.textureError, level.shadowError, level.longestEdge});
     draw.state.material = item.material;
     draw.state.alpha = alphaMode(material);
+    if (item.feature >= 0 && features_[size_t(item.feature)]->cutouts()) draw.state.alpha = AlphaMode::cut;
     draw.state.cullsBack = !material.doubleSided;
     draw.state.textured = material.baseColorTexture.image >= 0 || material.emissiveTexture.image >= 0;
     draw.state.varied = draw.state.textured || !primitive.colors.empty();
@@ -279,6 +280,13 @@ std::optional<SceneOnGpu::FeatureHere> SceneOnGpu::feature(const std::string& na
   return std::nullopt;
 }
 
+FeatureMoment::CutoutBuffers SceneOnGpu::cutouts() const {
+  for (const auto& feature : features_)
+    if (feature)
+      if (const auto buffers = feature->cutouts()) return *buffers;
+  return {motion_->objects(), motion_->objects()};
+}
+
 const FeaturePlan* SceneOnGpu::planOf(size_t material) const {
   for (size_t f = 0; f < featureMaterials_.size(); ++f)
     if (featureMaterials_[f] == int(material)) return options_.features[f].plan.get();
@@ -303,7 +311,10 @@ bool SceneOnGpu::followMotion(bool otherPlaces, const std::function<void()>& set
 void SceneOnGpu::pose(const look::LookData& look, const KnobTable& now, double time) {
   for (const auto& feature : features_)
     if (feature) feature->pose(look, now, time, nullptr);
-  if (!motion_->pose(*data_, now, time, features_) && arePlaced_) return;
+  const bool moves = motion_->pose(*data_, now, time, features_);
+  for (const auto& feature : features_)
+    if (feature) feature->posed(*motion_);
+  if (!moves && arePlaced_) return;
   arePlaced_ = true;
   draws_.place(motion_->bounds(), motion_->mirrored(), motion_->scales());
   casters_.clear();

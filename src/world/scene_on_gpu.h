@@ -93,6 +93,8 @@ class SceneOnGpu {
     const FeatureMoment *moment, *previous;  // previous: null before keepPrevious()
   };
   std::optional<FeatureHere> feature(const std::string& name) const;
+  // Of the feature that has some; any buffers where none does, which nobody reads then. One feature may.
+  FeatureMoment::CutoutBuffers cutouts() const;
   // The plan of the feature whose material it is; null: it is no feature's.
   const FeaturePlan* planOf(size_t material) const;
   const SceneColors& colors() const { return colors_; }

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "features/ocean/floating.h"
+
 namespace scumble::ocean {
 
 namespace {
@@ -9,7 +11,7 @@ namespace {
 using Json = nlohmann::json;
 using Problems = scene::ExtraRule::Problems;
 
-constexpr const char *kOceanKey = "scumble_ocean", *kFloatKey = "scumble_float";
+constexpr const char *kOceanKey = "scumble_ocean", *kFloatKey = "scumble_float", *kHullKey = "scumble_hull";
 
 // Modelling programs write 0 and 1 as well. Absent: it is neither.
 std::optional<bool> flagOf(const Json& json) {
@@ -42,6 +44,11 @@ Problems problemsOfFloats(const Json& json) {
   return problems;
 }
 
+std::optional<int> hullRole(const Json& json) {
+  if (const std::optional<bool> flag = flagOf(json)) return *flag ? kHullWhole : kHullOff;
+  return json == "inside" ? std::optional(kHullInside) : std::nullopt;
+}
+
 const Json* find(const scene::Node& node, const char* key) {
   const auto found = node.extras.find(key);
   return found == node.extras.end() ? nullptr : found->second.get();
@@ -69,12 +76,21 @@ std::optional<Floats> floatsOf(const scene::Node& node) {
   return Floats{size("length"), size("beam"), bow != json->end() && *bow == "z"};
 }
 
+std::optional<int> hullOf(const scene::Node& node) {
+  const Json* const json = find(node, kHullKey);
+  return json ? hullRole(*json) : std::nullopt;
+}
+
 std::vector<scene::ExtraRule> extraRules() {
   return {{kOceanKey,
            [](const Json& json) {
              return flagOf(json) ? Problems() : Problems{{"", "is ignored: it is neither true nor false"}};
            }},
-          {kFloatKey, problemsOfFloats}};
+          {kFloatKey, problemsOfFloats},
+          {kHullKey, [](const Json& json) {
+             return hullRole(json) ? Problems()
+                                   : Problems{{"", "is ignored: it is neither true, false nor \"inside\""}};
+           }}};
 }
 
 }  // namespace scumble::ocean

@@ -19,6 +19,9 @@ struct Floats {
 // None: it does not ride them.
 std::optional<Floats> floatsOf(const scene::Node& node);
 
+// How its mesh keeps the sea out, as FloatParams::hull; none: it does not say.
+std::optional<int> hullOf(const scene::Node& node);
+
 std::vector<scene::ExtraRule> extraRules();
 
 }  // namespace scumble::ocean

@@ -1,5 +1,6 @@
 #include "features/ocean/extras.h"
 
+#include "features/ocean/floating.h"
 #include "tests/support/loaded_test_gltf.h"
 
 namespace scumble::ocean {
@@ -61,6 +62,24 @@ TEST(OceanExtras, areReadAndWhatIsBrokenIsSaid) {
     ASSERT_EQ(scene.warnings().size(), 1u) << key;
     EXPECT_NE(scene.warnings()[0].find(std::string("nodes[0].extras.scumble_float.") + key),
               std::string::npos);
+  }
+}
+
+TEST(OceanExtras, sayHowAHullKeepsTheSeaOut) {
+  TestGltf g = quad();
+  const auto read = [&](const Json& value) {
+    g.json["nodes"][0]["extras"] = {{"scumble_hull", value}};
+    return loaded(g);
+  };
+  EXPECT_EQ(hullOf(read(true).data().nodes[0]), kHullWhole);
+  EXPECT_EQ(hullOf(read(0).data().nodes[0]), kHullOff);
+  EXPECT_EQ(hullOf(read("inside").data().nodes[0]), kHullInside);
+  EXPECT_FALSE(hullOf(loaded(quad()).data().nodes[0]));
+  for (const Json& broken : {Json("outside"), Json(2), Json(nullptr), Json::array(), Json::object()}) {
+    const Scene scene = read(broken);
+    EXPECT_FALSE(hullOf(scene.data().nodes[0])) << broken;
+    ASSERT_EQ(scene.warnings().size(), 1u) << broken;
+    EXPECT_NE(scene.warnings()[0].find("nodes[0].extras.scumble_hull"), std::string::npos);
   }
 }
 

@@ -14,6 +14,9 @@ namespace scumble::ocean {
 #define PARAMS_TARGETS look::kNodes
 #include "look/define_params.h"
 
+// FloatParams::hull.
+constexpr int kHullAuto = 0, kHullWhole = 1, kHullInside = 2, kHullOff = 3;
+
 struct FloatingNode {
   size_t node;
   FloatParams params;

@@ -52,8 +52,10 @@ OceanShape oceanShape(const scene::SceneData& scene, const look::LookData& look)
   const float half = std::max(0.5f * float(shape.tiles) * shape.tile - shape.cell(), 0.01f * shape.cell());
   shape.falseHorizon = std::min(params.falseHorizon, half);
   shape.horizon = std::max(params.horizon, 1.5f * shape.falseHorizon);
-  for (const Decoration& one : decorationsOf(scene, look, floatingNodes(scene, look, shape.node)))
+  const std::vector<FloatingNode> floating = floatingNodes(scene, look, shape.node);
+  for (const Decoration& one : decorationsOf(scene, look, floating))
     shape.decorations.push_back(one.params.kind);
+  if (params.hulls) shape.hulls = hullNodes(scene, look, floating, shape.node);
   return shape;
 }
 
@@ -132,6 +134,8 @@ scene::Primitive makeOceanDecoration(int kind) {
 
 OceanPlan::OceanPlan(OceanShape shape) : shape_(std::move(shape)) {
   replacedNode = shape_.node;
+  for (size_t n = 0; n < shape_.hulls.isInside.size(); ++n)
+    if (shape_.hulls.isInside[n]) hiddenNodes.push_back(int(n));
   replacesGround = true;
   isPrepainted = true;
   // The sea's horizon is a quiet line.
@@ -189,7 +193,8 @@ void OceanPlan::addItems(const GeometryItem& common, MadePrimitives& made, Geome
 }
 
 OceanWaves::OceanWaves(gpu::Device& device, const scene::SceneData& scene, const OceanShape& shape)
-    : scene_(&scene),
+    : device_(device),
+      scene_(&scene),
       shape_(shape),
       buffer_(
           device,
@@ -268,6 +273,38 @@ void OceanWaves::pose(const look::LookData& look, double time, const Travelled& 
     reach_ = glm::max(reach_, glm::abs(glm::vec3(d)));
   }
   reach_.y += header->sink + header->push;
+}
+
+void OceanWaves::find(const std::vector<GeometryItem>& items) {
+  // Waves of more than a tenth of a tile are of another sea than the tile's.
+  const Hulls::Sea sea{shape_.origin.y, 0.1f * shape_.tile, shape_.tile};
+  shape_.hulls.root.empty() ? hulls_.clear() : hulls_.find(*scene_, shape_.hulls, sea, items);
+}
+
+bool OceanWaves::place(gpu::Uploader& uploader, const std::vector<GeometryItem>&,
+                       const std::vector<GeometryPlace>&, const std::function<void()>& settle) {
+  if (!hulls_.place(uploader, settle)) return false;
+  if (!hulls_.isEmpty() && !cutouts_.handle())
+    cutouts_ = gpu::PerFrameBuffer(device_, sizeof(shared::Cutouts), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+  return true;
+}
+
+void OceanWaves::posed(const SceneMotion& motion) {
+  if (hulls_.isEmpty()) return;
+  hulls_.pose(
+      motion, [this](const glm::vec3& at) { return seaAt(at); }, *cutouts_.as<shared::Cutouts>());
+}
+
+std::optional<FeatureMoment::CutoutBuffers> OceanWaves::cutouts() const {
+  if (hulls_.isEmpty()) return std::nullopt;
+  return CutoutBuffers{cutouts_.handle(), hulls_.points().handle()};
+}
+
+float OceanWaves::seaAt(const glm::vec3& at) const {
+  const glm::dvec2 place = onField(at);
+  const float away = glm::length(glm::vec2(at.x - shape_.origin.x, at.z - shape_.origin.z));
+  const float whole = 1.0f - glm::smoothstep(shape_.fadeStart(), shape_.falseHorizon, away);
+  return shape_.origin.y + whole * ocean::heightAt(field_, place.x, place.y);
 }
 
 void OceanWaves::moveNodes(const scene::SceneData&, std::span<const glm::dmat4> world,

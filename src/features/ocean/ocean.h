@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "features/ocean/decorations.h"
+#include "features/ocean/hulls/hulls.h"
 #include "features/ocean/ocean.shared.h"
 #include "features/ocean/waves/surface.h"
 #include "world/geometry.h"
@@ -32,6 +33,7 @@ struct OceanShape {
   int grid = 80, tiles = 5;                             // vertices along a tile; tiles along a side
   float tile = 60, falseHorizon = 120, horizon = 1000;  // metres
   std::vector<int> decorations;                         // their kinds
+  HullNodes hulls;                                      // empty: none keeps the sea out
   bool operator==(const OceanShape&) const = default;
   // Metres from the middle to which waves are whole.
   float fadeStart() const { return 0.6f * falseHorizon; }
@@ -90,7 +92,15 @@ class OceanWaves : public FeatureMoment {
                  std::vector<std::optional<glm::mat4>>& moved) const override;
   Place placeOf(uint32_t kind) const override;
   scene::Bounds boundsOf(uint32_t kind, uint32_t detail, const scene::Bounds& posed) const override;
-  void addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) override { uploads.push_back(&buffer_); }
+  void addUploads(std::vector<gpu::PerFrameBuffer*>& uploads) override {
+    uploads.push_back(&buffer_);
+    if (cutouts_.handle()) uploads.push_back(&cutouts_);
+  }
+  void find(const std::vector<GeometryItem>& items) override;
+  bool place(gpu::Uploader& uploader, const std::vector<GeometryItem>& items,
+             const std::vector<GeometryPlace>& places, const std::function<void()>& settle) override;
+  void posed(const SceneMotion& motion) override;
+  std::optional<CutoutBuffers> cutouts() const override;
 
   // The waves at a time, in seconds; the look is one at that time. `travelled`: how far over the water the
   // scene is at any time.
@@ -102,6 +112,8 @@ class OceanWaves : public FeatureMoment {
   // From where something is on calm water to where it rides the waves. `world`: its matrix.
   glm::mat4 riding(const FloatParams& params, const glm::mat4& world) const;
   const ocean::WaveField& field() const { return field_; }
+  // Height of the sea as it is drawn, but for decorations, at a place of the world.
+  float seaAt(const glm::vec3& at) const;
   // Where on the field a place of the world is: metres, x and z.
   glm::dvec2 onField(const glm::vec3& at) const {
     return glm::dvec2(at.x - shape_.origin.x, at.z - shape_.origin.z) + travelled_;
@@ -117,6 +129,7 @@ class OceanWaves : public FeatureMoment {
     return glm::mod(metres / double(kWaterPerPattern), glm::dvec2(8192.0));
   }
 
+  gpu::Device& device_;
   const scene::SceneData* scene_;
   OceanShape shape_;
   std::optional<ocean::Waves> waves_;
@@ -128,7 +141,9 @@ class OceanWaves : public FeatureMoment {
   glm::vec3 reach_{0.0f};      // how far vertices may be from their place at rest, metres
   std::vector<FloatingNode> floating_;
   std::vector<shared::WaterDecoration> decorations_;
-  gpu::PerFrameBuffer buffer_;  // shared::OceanField, then grid * grid shared::OceanPoint
+  Hulls hulls_;
+  gpu::PerFrameBuffer cutouts_;  // shared::Cutouts; only with hulls
+  gpu::PerFrameBuffer buffer_;   // shared::OceanField, then grid * grid shared::OceanPoint
 };
 
 }  // namespace scumble::ocean

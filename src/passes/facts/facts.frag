@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "../../shading/cutouts.glsl"
 #include "../../shading/frame.glsl"
 #include "../../shading/material.glsl"
 #include "../../shading/metatexture.glsl"
@@ -35,7 +36,8 @@ layout(location = 7) out vec4 outId;
 void main() {
   vec2 metaU, metaV;
   surfaceTangents(kTangents, inMetaTangentU, inMetaTangentV, inMetaPoint, inUv, viewIndex(), metaU, metaV);
-  if (kAlphaMode != 0 && isHole(inBaseUvAlpha.xy, inBaseUvAlpha.z, kAlphaMode)) discard;
+  if (kAlphaMode == kCut ? isCutOut(viewIndex()) : kAlphaMode != 0 && isHole(inBaseUvAlpha.xy, inBaseUvAlpha.z, kAlphaMode))
+    discard;
   float w = 1.0 / gl_FragCoord.w;
   vec2 ndc = gl_FragCoord.xy / frame.imageSize * 2.0 - 1.0;
   vec2 gradU, gradV;

@@ -1,6 +1,7 @@
 #version 460
 // Objects' numbers, with the holes and the layers that the surface pass has.
 #extension GL_GOOGLE_include_directive : require
+#include "../../shading/cutouts.glsl"
 #include "../../shading/frame.glsl"
 #include "../../shading/material.glsl"
 #include "../../shading/view_index.glsl"
@@ -21,7 +22,8 @@ void main() {
     float first = texelFetch(firstDepth, ivec3(gl_FragCoord.xy, viewIndex()), 0).r;
     if (eyeDepth(gl_FragCoord.z, viewIndex()) < 1.005 * eyeDepth(first, viewIndex())) discard;
   }
-  if (kAlphaMode != 0) {
+  if (kAlphaMode == kCut && isCutOut(viewIndex())) discard;
+  if (kAlphaMode == 1 || kAlphaMode == 2) {
     float alpha = material.baseColor.a * inBaseUvAlpha.z * texture(baseTexture, inBaseUvAlpha.xy, matte.simplify).a;
     if (isHole(alpha, kAlphaMode)) discard;
   }

@@ -1,8 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#include "../../shading/cutouts.glsl"
 #include "../../shading/frame.glsl"
 #define TRANSPARENT_TEXTURES
 #include "../../shading/material.glsl"
+#include "../../shading/view_index.glsl"
 
 layout(constant_id = kAlphaModeId) const int kAlphaMode = 0;
 layout(constant_id = kTexturedId) const int kTextured = 0;
@@ -26,6 +28,7 @@ void main() {
   outColor = color;
 #else
   if (kTextured != 0) color *= texture(baseTexture, inUv);
+  if (kAlphaMode == kCut && isCutOut(viewIndex())) discard;
   if (kAlphaMode == 1 && color.a < material.alphaCutoff) discard;
   outColor = vec4(color.rgb, 1.0);
 #endif

@@ -2,6 +2,7 @@
 // The shadow channels and both colours of every surface in one geometry pass (FORMULAS 14): the colour pass then only
 // mixes.
 #extension GL_GOOGLE_include_directive : require
+#include "../../shading/cutouts.glsl"
 #include "../../shading/frame.glsl"
 #include "../../shading/color_map.glsl"
 #include "../../shading/light_space.glsl"
@@ -220,6 +221,7 @@ void main() {
     lens = dot(emissive, kLuminance);
   }
 #endif
+  if (kAlphaMode == kCut && isCutOut(viewIndex())) discard;
   if (kAlphaMode == 1 && alpha < material.alphaCutoff) discard;
   if (kAlphaMode != 2) alpha = 1.0;
 

@@ -7,6 +7,7 @@
 // Target 1: the amount in pixels, as a half in the low bits; in the high ones 4 times the number of the material's setup,
 //           plus how the mapping wraps (ObjectData). 0 where nothing is.
 #extension GL_GOOGLE_include_directive : require
+#include "../../shading/cutouts.glsl"
 #include "../../shading/frame.glsl"
 #include "../../shading/material.glsl"
 #include "../../shading/metatexture.glsl"
@@ -32,7 +33,8 @@ void main() {
   vec2 byX = dFdx(inUvScale.xy), byY = dFdy(inUvScale.xy);
   vec2 dSdu, dSdv;
   surfaceTangents(kTangents, inTangentU, inTangentV, inPoint, inUvScale.xy, viewIndex(), dSdu, dSdv);
-  if (kAlphaMode != 0 && isHole(inBaseUvAlpha.xy, inBaseUvAlpha.z, kAlphaMode)) discard;
+  if (kAlphaMode == kCut ? isCutOut(viewIndex()) : kAlphaMode != 0 && isHole(inBaseUvAlpha.xy, inBaseUvAlpha.z, kAlphaMode))
+    discard;
   outPattern = uvec4(floatBitsToUint(inUvScale.xy), packBfloat(dSdu), packBfloat(dSdv));
   // Paper 000, eq. 26; FORMULAS 12: the distance has a scale.
   float amount = warp.amount;

@@ -3,11 +3,13 @@
 // Target 1, two numbers each: height of the wave in reliefs and Jacobian, as halfs; x and z of the normal; cover of
 // foam by decorations, up to 2, and how far they suppress strokes; nothing.
 #extension GL_GOOGLE_include_directive : require
+#include "../../../shading/cutouts.glsl"
 #include "../../../shading/frame.glsl"
 #include "../../../shading/metatexture.glsl"
 #include "../../../shading/surface_tangents_at_pixel.glsl"
 #include "../../../shading/view_index.glsl"
 
+layout(constant_id = kAlphaModeId) const int kAlphaMode = 0;
 layout(constant_id = kPassId) const int kTangents = 0;  // options of surface_tangents.shared.h
 
 layout(location = 0) in vec2 inPatternUv;
@@ -22,6 +24,7 @@ layout(location = 1) out uvec4 outWave;
 void main() {
   vec2 dSdu, dSdv;
   surfaceTangents(kTangents, inTangentU, inTangentV, inPoint, inPatternUv, viewIndex(), dSdu, dSdv);
+  if (kAlphaMode == kCut && isCutOut(viewIndex())) discard;
   outPattern = uvec4(floatBitsToUint(inPatternUv), packBfloat(dSdu), packBfloat(dSdv));
   outWave = uvec4(packHalf2x16(inWave.xy), packSnorm2x16(inWave.zw),
                   packUnorm2x16(inDecorated * vec2(0.5, 1.0)), 0u);
