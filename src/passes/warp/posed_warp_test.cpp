@@ -477,7 +477,7 @@ TEST_P(PosedWarpTest, nodesBoilOnTheirOwnSteps) {
   AnimatedScene s;
   const int grey = s.material(TestScene::colored("Grey", {0.5f, 0.5f, 0.5f, 1}));
   const int box = s.mesh(still(stretchedUv(boxMesh({-0.5f, -0.8f, -0.3f}, {0.5f, 0.8f, 0.3f}))), grey);
-  const std::pair<const char*, int> nodes[] = {{"Sailor", 2}, {"Water", 3}, {"Rock", 0}};
+  const std::pair<const char*, int> nodes[] = {{"Sailor", 2}, {"Curtain", 3}, {"Rock", 0}};
   for (int i = 0; i < 3; ++i)
     s.node({{"name", nodes[i].first}, {"mesh", box}, {"translation", {1.4 * (i - 1), 0, 0}}});
   const Scene scene = s.load();
@@ -486,8 +486,8 @@ TEST_P(PosedWarpTest, nodesBoilOnTheirOwnSteps) {
     const Knobs knobs{{"warp.amount", "8"},
                       {"nodes.Sailor.warp.boil", "0.5"},
                       {"nodes.Sailor.warp.boilHold", "2"},
-                      {"nodes.Water.warp.boil", "0.5"},
-                      {"nodes.Water.warp.boilHold", "3"}};
+                      {"nodes.Curtain.warp.boil", "0.5"},
+                      {"nodes.Curtain.warp.boilHold", "3"}};
     Result<Frame> drawn = renderer().render(scene, quietLook(knobs), frame / 24.0, seen,
                                             sized(kWidth, kHeight, {"warp", "id"}));
     EXPECT_TRUE(drawn.ok());
