@@ -174,39 +174,5 @@ TEST_P(Paper, lightStandsWhereTheScenesDoes) {
   }
 }
 
-// A painting that runs out before the frame ends takes its lines along.
-TEST_P(Paper, linesEndWhereTheWashDoes) {
-  constexpr int kWidth = 160, kHeight = 120;
-  // Bars across the picture, whose edges are lines.
-  TestScene s;
-  const int board = s.material(TestScene::unlit("Board", {1, 1, 1, 1}));
-  for (float y = -0.9f; y < 1; y += 0.3f) s.add(gridMesh({-9, y, 0}, {18, 0, 0}, {0, 0.15f, 0}), board);
-  const Knobs drawn{{"ink.shown", "on"}, {"ink.least", "20"}, {"ink.greatest", "20"}, {"ink.fade", "0"}};
-  const auto inkOf = [&](const char* margin, bool isPainted) {
-    Knobs knobs = drawn;
-    knobs.push_back({"watercolor.margin", margin});
-    knobs.push_back({"watercolor.shown", isPainted ? "on" : "off"});
-    return paint(s, knobs, kWidth, kHeight);
-  };
-  const Frame with = inkOf("0.08", true), without = inkOf("0", true), plain = inkOf("0.08", false);
-  for (size_t v = 0; v < viewCount(); ++v) {
-    double beyond[3]{}, within[3]{};
-    const Frame* const frames[] = {&with, &without, &plain};
-    for (int i = 0; i < 3; ++i)
-      for (int y = 0; y < kHeight; ++y)
-        for (int x = 0; x < kWidth; ++x) {
-          const int side = std::min(std::min(x, kWidth - 1 - x), std::min(y, kHeight - 1 - y));
-          const double dark = 1 - texel(aov(*frames[i], "", v), x, y).x;
-          if (side < 2) beyond[i] += dark;
-          if (side > 0.35 * kHeight) within[i] += dark;
-        }
-    EXPECT_LT(beyond[0], 0.5);
-    EXPECT_GT(beyond[1], 20);
-    EXPECT_GT(beyond[2], 20);
-    EXPECT_GT(within[0], 100);
-    EXPECT_NEAR(within[0], within[1], 1);
-  }
-}
-
 }  // namespace
 }  // namespace scumble::watercolor
