@@ -61,9 +61,14 @@ void markStrips(const std::vector<PlacedColorizer>& colorizers, const glm::dmat4
 uint32_t fillUniforms(const frame::FrameInput& input, uint32_t viewCount,
                       shared::ColorizeUniforms& uniforms) {
   const shared::FrameUniforms& frame = input.uniforms;
-  const std::vector<PlacedColorizer> colorizers =
-      placeColorizers(input.look, input.scene.data(), input.scene.motion().worldAsDrawn(), frame);
-  const uint32_t width = uint32_t(frame.imageSize.x), height = uint32_t(frame.imageSize.y);
+  return fillUniforms(
+      placeColorizers(input.look, input.scene.data(), input.scene.motion().worldAsDrawn(), frame), frame,
+      viewCount, uint32_t(frame.imageSize.x), uint32_t(frame.imageSize.y), uniforms);
+}
+
+uint32_t fillUniforms(const std::vector<PlacedColorizer>& colorizers, const shared::FrameUniforms& frame,
+                      uint32_t viewCount, uint32_t width, uint32_t height,
+                      shared::ColorizeUniforms& uniforms) {
   assert(colorizers.size() <= size_t(shared::kMaxColorizers));
   uint32_t features = 0;
   for (size_t i = 0; i < colorizers.size(); ++i) {
