@@ -129,7 +129,8 @@ class Measure(Program):
                 self.assertTrue(contrast > 0.4 or contrast < 0.3, contrast)
         flatness = {name: mode["flatness"]["vectors"] for name, mode in modes.items()}
         self.assertEqual(min(flatness, key=flatness.get), "screen")
-        self.assertEqual(max(flatness, key=flatness.get), "fractal")
+        # Octaves that are summed show the largest of them.
+        self.assertGreater(flatness["fractal"], flatness["metatexture"])
 
     def test_the_table_names_everything(self):
         text = self.good("measure", "box.gltf", *SMALL, "--ipd", "0.2")

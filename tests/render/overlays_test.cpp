@@ -23,7 +23,6 @@ const char* name(Kind kind) {
   return names[size_t(kind)];
 }
 
-constexpr int kWidth = 128, kHeight = 96;
 const glm::vec4 kGreen(0.1f, 0.6f, 0.2f, 1);
 // Of blended surfaces.
 constexpr float kOpacity = 0.4f;
@@ -31,6 +30,8 @@ constexpr float kOpacity = 0.4f;
 class OverlaysTest : public RenderTest,
                      public ::testing::WithParamInterface<std::tuple<Stereo, uint32_t, float>> {
  protected:
+  static constexpr int kWidth = 128, kHeight = 96;
+
   static Stereo stereo() { return std::get<0>(GetParam()); }
   static uint32_t samples() { return std::get<1>(GetParam()); }
   // Metres of what the test calls one.

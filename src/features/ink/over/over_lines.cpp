@@ -44,7 +44,7 @@ FoundLines foundLines(const frame::FrameInput& input, bool hasPieces) {
   // Only as far as the widest line needs; in metres that depends on the distance.
   float widest = 0;
   for (int kind = shared::kInkOverObjects; kind < shared::kInkOverKinds; ++kind)
-    if (found.lines >> kind & 1)
+    if ((found.lines & 1u << kind) != 0)
       widest = std::max(widest, found.inMetres ? 1e9f : found.uniforms.kinds[kind].radius + 0.5f);
   const uint32_t reach = hasPieces ? uint32_t(std::min(std::ceil(widest), float(shared::kInkOverReach))) : 0;
   found.lines |= reach << shared::kInkOverKinds;
