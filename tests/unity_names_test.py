@@ -63,7 +63,8 @@ def names(text):
                 if match := DECLARATION.match(extra) or re.match(r"\s*(?P<named>k[A-Z]\w*)\s*(?:=|\{)", extra):
                     function = match.groupdict().get("function")
                     name = match.groupdict().get("named") or function and signature(extra, function)
-                    if name:
+                    # Aliases of one type are no two types.
+                    if name and not statement.lstrip().startswith("using"):
                         found.append((name, "unnamed" in inside, around()))
         elif levels[-1] == "enum" and inside <= {"named", "unnamed", "enum"}:
             for name in re.findall(r"(?:^|,)\s*(\w+)", statement):
@@ -111,6 +112,7 @@ def selfTest():
       Own both(const glm::vec2& at, std::pair<int, int> of = {1, 2}) { return {}; }
       struct Own { int inner = 0; };
       using b::kBorrowed;
+      using Also = Thing;
       const std::vector<std::string> kList{"a"};
       const glm::dvec3 kPlaces[] = {{1, 2, 3}};
       }  // namespace
@@ -141,15 +143,21 @@ def main():
                                       (["examples/henry_room"], ["examples/henry_room", "examples/mesh_kit"], False),
                                       (["examples/mesh_kit"], ["examples/mesh_kit"], False)):
         # Types and functions that are mistaken for others do not compile, or are ambiguous; constants do.
-        own, others, inSpace = (collections.defaultdict(set) for _ in range(3))
+        own, others, inSpace, shared = (collections.defaultdict(set) for _ in range(4))
         for folder in sources:
             for file in (root / folder).rglob("*.cpp"):
                 if file.name.endswith("_test.cpp") == isTests:
                     for name, isOwn, space in names(file.read_text()):
                         if re.match(r"k[A-Z]", name):
                             (own if isOwn else others)[name].add(str(file.relative_to(root)))
-                        if isOwn and re.match(r"k[A-Z]|(?!TEST|INSTANTIATE)\w+\(", name):
+                        if isOwn and re.match(r"k[A-Z]|(?!TEST|INSTANTIATE)\w+\(|[A-Z]\w*$", name):
                             inSpace[space, name].add(str(file.relative_to(root)))
+        # A type of a namespace that a header declares is ambiguous where a file before it has its own.
+        for folder in ("src", "include", "tests") if sources[0] == "src" else headers:
+            for file in (root / folder).rglob("*.h"):
+                for name, isOwn, space in names(file.read_text()):
+                    if not isOwn and space:
+                        shared[space, name].add(str(file.relative_to(root)))
         for folder in headers:
             for file in (root / folder).rglob("*.h"):
                 for name, _, _ in names(file.read_text()):
@@ -157,9 +165,9 @@ def main():
         for name in own.keys() & others.keys():
             if len(own[name] | others[name]) > 1:
                 report(name, own[name] | others[name])
-        for (space, name), files in inSpace.items():
-            if len(files) > 1:
-                report(f"{space}::{name}", files)
+        for key, files in inSpace.items():
+            if len(files | shared[key]) > 1:
+                report("::".join(key), files | shared[key])
     print(f"{failures} names of unnamed namespaces that others have too")
     return failures > 0
 

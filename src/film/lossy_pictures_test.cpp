@@ -36,7 +36,7 @@ double difference(const Image& read, const Image& image, bool overBlack) {
   return sum / (3.0 * image.width * image.height);
 }
 
-Image mustRead(const std::string& path) {
+Image mustReadPicture(const std::string& path) {
   const Result<Image> image = readPicture(path);
   EXPECT_TRUE(image.ok()) << image.error().message();
   return image.ok() ? image.value() : Image{};
@@ -54,11 +54,11 @@ TEST(LossyPictures, coloursComeBackAndQualityCounts) {
         return contentOf(path).size();
       };
       const size_t small = write(30);
-      const double coarse = difference(mustRead(path), image, false);
+      const double coarse = difference(mustReadPicture(path), image, false);
       const size_t large = write(95);
       EXPECT_GT(large, small);
-      EXPECT_LT(difference(mustRead(path), image, false), 0.02);
-      EXPECT_GT(coarse, difference(mustRead(path), image, false));
+      EXPECT_LT(difference(mustReadPicture(path), image, false), 0.02);
+      EXPECT_GT(coarse, difference(mustReadPicture(path), image, false));
       const std::string once = contentOf(path);
       write(95);
       EXPECT_EQ(contentOf(path), once);
@@ -70,13 +70,13 @@ TEST(LossyPictures, alphaIsOverBlackInAJpegAndKeptInAWebp) {
   const TestFolder folder;
   const Image image = picture(48, 32, true);
   ASSERT_TRUE(writeJpeg(folder.file("a.jpg"), image, 100).ok());
-  EXPECT_LT(difference(mustRead(folder.file("a.jpg")), image, true), 0.01);
+  EXPECT_LT(difference(mustReadPicture(folder.file("a.jpg")), image, true), 0.01);
   // 100 is lossless: the codes of a PNG, and what lies under alpha 0.
   ASSERT_TRUE(writeWebp(folder.file("a.webp"), image, 100).ok());
   ASSERT_TRUE(writePng(folder.file("a.png"), image).ok());
-  EXPECT_EQ(mustRead(folder.file("a.webp")).pixels, mustRead(folder.file("a.png")).pixels);
+  EXPECT_EQ(mustReadPicture(folder.file("a.webp")).pixels, mustReadPicture(folder.file("a.png")).pixels);
   ASSERT_TRUE(writeWebp(folder.file("a.webp"), image, 60).ok());
-  const Image lossy = mustRead(folder.file("a.webp"));
+  const Image lossy = mustReadPicture(folder.file("a.webp"));
   for (uint32_t x = 0; x < 48; x += 5) EXPECT_NEAR(lossy.at(x, 7, 3), image.at(x, 7, 3), 0.02f);
 }
 
