@@ -133,7 +133,8 @@ SCUMBLE_API Result<LineMeasurements> measureLines(Renderer& renderer, const Scen
 SCUMBLE_API Result<LineSteadiness> steadinessOf(const std::string& method, const std::vector<Image>& drawings,
                                                 double degreesAStep = kLineStep);
 
-// What a viewer sees of poses that stand: on ones, twos, threes ... of the grid of 24 frames a second.
+// Motion as a viewer sees it of poses that stand: on ones, twos, threes ... of the grid of 24 frames a
+// second.
 constexpr double kStepSeconds = 1;  // of the scene's clips, from time 0 on
 struct StepMeasurements {
   int hold = 1;       // frames at 24 a second that a pose stands

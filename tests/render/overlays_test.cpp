@@ -7,6 +7,7 @@
 
 #include "tests/support/aov.h"
 #include "tests/support/palette_reference.h"
+#include "tests/support/plain_wash.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
 
@@ -434,17 +435,8 @@ TEST_P(PaintingsMargin, linesEndWhereTheWashDoes) {
   for (float y = -0.9f; y < 1; y += 0.3f) s.add(gridMesh({-9, y, 0}, {18, 0, 0}, {0, 0.15f, 0}), board);
   const Scene scene = s.load();
   const auto views = viewsFrom(scene, {{0, 0, 5}, {0, 0, 0}, 22.6f, 0, 0.02f}, kAcross, kDown, GetParam());
-  Knobs drawn{{"ink.shown", "on"},
-              {"ink.least", "20"},
-              {"ink.greatest", "20"},
-              {"ink.fade", "0"},
-              {"warp.amount", "0"},
-              {"watercolor.white", "#FFFFFF"},
-              {"background.zenith", "#FFFFFF"},
-              {"background.horizon", "#FFFFFF"}};
-  for (const char* knob : {"relief", "wobble", "edges", "granulation", "dryBrush", "bleeding", "bare",
-                           "turbulence", "hue", "glazing"})
-    drawn.emplace_back(std::string("watercolor.") + knob, "0");
+  const Knobs drawn =
+      plainWash({{"ink.shown", "on"}, {"ink.least", "20"}, {"ink.greatest", "20"}, {"ink.fade", "0"}});
   const auto inkOf = [&](const char* margin, bool isPainted) {
     Knobs knobs = drawn;
     knobs.push_back({"watercolor.margin", margin});

@@ -8,6 +8,7 @@
 #include "scumble/image.h"
 #include "scumble/scene_editor.h"
 #include "tests/support/aov.h"
+#include "tests/support/plain_wash.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
 
@@ -15,20 +16,6 @@ namespace scumble::watercolor {
 namespace {
 
 using namespace test;
-
-// A watercolour that leaves everything as it is.
-Knobs plainWash(const Knobs& more = {}) {
-  Knobs knobs{{"watercolor.shown", "on"},        {"watercolor.white", "#FFFFFF"},
-              {"watercolor.relief", "0"},        {"watercolor.wobble", "0"},
-              {"watercolor.edges", "0"},         {"watercolor.granulation", "0"},
-              {"watercolor.dryBrush", "0"},      {"watercolor.bleeding", "0"},
-              {"watercolor.bare", "0"},          {"watercolor.margin", "0"},
-              {"watercolor.turbulence", "0"},    {"watercolor.hue", "0"},
-              {"watercolor.glazing", "0"},       {"warp.amount", "0"},
-              {"background.horizon", "#FFFFFF"}, {"background.zenith", "#FFFFFF"}};
-  knobs.insert(knobs.end(), more.begin(), more.end());
-  return knobs;
-}
 
 class Watercolor : public BothEyes {
  protected:

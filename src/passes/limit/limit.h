@@ -7,7 +7,7 @@
 namespace scumble::passes {
 
 std::unique_ptr<frame::Pass> makeLimit(frame::Layer layer);
-// Of an overlay (frame::kOverlays).
+// The same for an overlay (frame::kOverlays).
 std::unique_ptr<frame::Pass> makeLimitOverlay(frame::Layer layer);
 
 }  // namespace scumble::passes

@@ -19,10 +19,10 @@ const int kLimitColor = 1, kLimitWarp = 2, kLimitDepth = 3, kLimitStrokes = 4;
 const int kMendColor = 1, kMendLimited = 2;
 
 const int kMaxPaletteColors = 16;
-// Of overlays.
+// Binding and block for overlays.
 const int kLimitOverlay = 1;
 struct LimitOverlayUniforms {
-  float amount, lightness;          // the knobs
+  float amount, lightness;         // the knobs
   vec3 colors[kMaxPaletteColors];  // as LimitUniforms has them
 };
 

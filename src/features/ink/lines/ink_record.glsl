@@ -18,8 +18,8 @@ struct End {
   vec3 normal;    // unit, the surface's
 };
 
-// Where light comes from at a place of the world, by all lights that there are: the key light counts 1, lamps as much as
-// they light; unit where they agree, and shorter where they come from both sides.
+// Direction that light comes from at a place of the world, by all lights that there are: the key light counts 1, lamps as
+// much as they light; unit where they agree, and shorter where they come from both sides.
 vec3 lightAt(vec3 position) {
   vec3 key = ink.keyLight.xyz - ink.keyLight.w * position;
   vec3 light = mix(key, key * inversesqrt(max(dot(key, key), 1e-37)), ink.keyLight.w);

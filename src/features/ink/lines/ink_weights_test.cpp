@@ -1,4 +1,5 @@
-// What weights of lines follow: the key light, lamps near by, and how round a file says that a form is.
+// Weights of lines follow light and form: the key light, lamps near by, and how round a file says that a form
+// is.
 #include <cmath>
 #include <functional>
 #include <numbers>

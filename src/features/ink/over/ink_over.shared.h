@@ -21,12 +21,12 @@ struct InkOverUniforms {
 const int kInkOverReach = 4;
 // Beyond such a slope two places are no longer on one surface, or touch.
 const float kInkSteepest = 8.0f;
-// What it is specialised to: edges are torn; ink is an overlay, with all lines; lines end where the painting
-// does.
+// Options that it is specialised to: edges are torn; ink is an overlay, with all lines; lines end where the
+// painting does.
 const int kInkOverTears = 1, kInkOverIsOverlay = 2, kInkOverEnds = 4;
 const int kInkOverPicture = 1, kInkOverStrokes = 2, kInkOverWarp = 3, kInkOverTiles = 4, kInkOverLight = 5,
           kInkOverDepth = 6, kInkOverPieces = 7, kInkOverExtent = 8;
-// Of the overlay.
+// Bindings of the overlay.
 const int kInkOverlayStrokes = 1, kInkOverlayTiles = 2, kInkOverlayLight = 3, kInkOverlayDepth = 4,
           kInkOverlayPieces = 5, kInkOverlayNearness = 6;
 SHARED_END

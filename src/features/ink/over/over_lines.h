@@ -18,7 +18,7 @@ struct OverLine {
 // By kind, kInkOverShadows ...
 std::array<OverLine, shared::kInkOverKinds> overLines(const look::LookData& look);
 
-// What shaders find them by.
+// Inputs by which shaders find them.
 struct FoundLines {
   shared::InkOverUniforms uniforms;
   bool inMetres = false;

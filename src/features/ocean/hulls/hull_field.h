@@ -11,12 +11,12 @@
 
 namespace scumble::ocean {
 
-// How far it is inside, at the points of a grid. The zero between them lies on the mesh, however thin that
+// Depth inside of it, at the points of a grid. The zero between them lies on the mesh, however thin that
 // is.
 struct HullField {
   glm::ivec3 size{0};     // points; y is up
   glm::mat4 toPoints{1};  // from where the triangles are, to numbers of points
-  // Cells to the mesh, above 0 within: 127 are kHullReach.
+  // Cells to the mesh, above 0 within: 127 are kCutoutReach.
   std::vector<int8_t> within;
   float top = 0;               // the highest point of the inside, below its rim
   std::vector<glm::vec3> rim;  // numbers of points; some of those along it

@@ -6,6 +6,7 @@
 #include "base/test_folder.h"
 #include "scumble/image.h"
 #include "tests/support/aov.h"
+#include "tests/support/plain_wash.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
 
@@ -13,20 +14,6 @@ namespace scumble::watercolor {
 namespace {
 
 using namespace test;
-
-// A watercolour of a board that fills the picture, with nothing but its colour.
-Knobs barePaper(const Knobs& more = {}) {
-  Knobs knobs{{"watercolor.shown", "on"},       {"watercolor.white", "#FFFFFF"},
-              {"watercolor.relief", "0"},       {"watercolor.wobble", "0"},
-              {"watercolor.edges", "0"},        {"watercolor.granulation", "0"},
-              {"watercolor.dryBrush", "0"},     {"watercolor.bleeding", "0"},
-              {"watercolor.bare", "0"},         {"watercolor.margin", "0"},
-              {"watercolor.turbulence", "0"},   {"watercolor.hue", "0"},
-              {"watercolor.glazing", "0"},      {"warp.amount", "0"},
-              {"background.zenith", "#FFFFFF"}, {"background.horizon", "#FFFFFF"}};
-  knobs.insert(knobs.end(), more.begin(), more.end());
-  return knobs;
-}
 
 class Paper : public BothEyes {
  protected:
@@ -41,7 +28,7 @@ class Paper : public BothEyes {
     const Scene scene = s.load();
     views_ = viewsFrom(scene, {{0, 0, 5}, {0, 0, 0}, float(glm::degrees(2 * std::atan(0.2))), 0, 0.02f},
                        width, height, GetParam());
-    return draw(scene, quietLook(barePaper(knobs)), views_, sized(width, height));
+    return draw(scene, quietLook(plainWash(knobs)), views_, sized(width, height));
   }
   // Means of squares of pixels.
   static std::vector<double> reduced(const Image& image, uint32_t by) {
