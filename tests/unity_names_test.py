@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """A constant that a source file keeps to itself has a name of its own, and a function its own name or parameters.
+Namespaces of which a file names both without their prefix, by `using namespace`, have no type in common.
 
 ./check compiles a dozen sources together (CMake's unity build). There a constant of one file's unnamed namespace is
 seen by the files after it: where a header has the same name, it silently takes its place, and where a later file of the
@@ -101,6 +102,44 @@ def names(text):
     return found
 
 
+def drawn(text):
+    """Pairs of a namespace and another, all of whose names a `using namespace` brings into it."""
+    spaces, statement, found = [], "", set()
+    for token in re.split(r"([{};])", stripped(text)):
+        if token == "{":
+            named = re.search(r"\bnamespace\s+([\w:]+)\s*$", statement.strip())
+            spaces.append(named and named.group(1))
+        elif token == "}":
+            spaces = spaces[:-1]
+        elif match := re.match(r"\s*using\s+namespace\s+([\w:]+)\s*$", statement + " " if token == ";" else ""):
+            found.add(("::".join(space for space in spaces if space), match.group(1)))
+        statement = "" if token in ("{", "}", ";") else token
+    return found
+
+
+def ambiguous(declared, pairs):
+    """Types of two namespaces whose names one namespace has, as names with their places. `declared` has, of a namespace
+    and a name, the files."""
+    sees = collections.defaultdict(set)
+    for space, other in pairs:
+        # Relative to the namespaces around, from the inside out.
+        around = space.split("::") if space else []
+        for depth in range(len(around), -1, -1):
+            whole = "::".join([*around[:depth], other])
+            if any(key[0] == whole for key in declared):
+                sees[space].add(whole)
+                break
+    for space, others in sorted(sees.items()):
+        places = collections.defaultdict(list)
+        for one in sorted({space} | others):
+            for key, files in declared.items():
+                if key[0] == one and re.match(r"[A-Z]\w*$", key[1]):
+                    places[key[1]].append(f"{one}:: ({', '.join(sorted(files))})")
+        for name, of in sorted(places.items()):
+            if len(of) > 1:
+                yield name, of
+
+
 def selfTest():
     text = """
       namespace a {
@@ -123,6 +162,10 @@ def selfTest():
     want = {"Kind": False, "kFirst": False, "kSecond": False, "Thing": False, "kTrim": True, "kOther": True, "helper(int)": True, "both(const glm::vec2&, std::pair<int, int>)": True,
             "Own": True, "kList": True, "kPlaces": True, "open(int)": False}
     assert got == want, got
+    pairs = drawn("namespace a { namespace { using namespace b; } } namespace c { using namespace a::b; }")
+    assert pairs == {("a", "b"), ("c", "a::b")}, pairs
+    declared = {("a", "T"): {"1"}, ("a::b", "T"): {"2"}, ("c", "U"): {"3"}, ("c", "f()"): {"4"}, ("a::b", "f()"): {"5"}}
+    assert list(ambiguous(declared, pairs)) == [("T", ["a:: (1)", "a::b:: (2)"])]
 
 
 def main():
@@ -168,6 +211,19 @@ def main():
         for key, files in inSpace.items():
             if len(files | shared[key]) > 1:
                 report("::".join(key), files | shared[key])
+    # What headers declare meets wherever they are compiled together.
+    declared, pairs = collections.defaultdict(set), set()
+    for folder in ("src", "include", "apps", "tests", "python"):
+        for file in (root / folder).rglob("*.[hc]*"):
+            if file.suffix not in (".h", ".cpp"):
+                continue
+            text = file.read_text()
+            pairs |= drawn(text)
+            for name, isOwn, space in names(text) if file.suffix == ".h" else ():
+                if not isOwn and space:
+                    declared[space, name].add(str(file.relative_to(root)))
+    for name, of in ambiguous(declared, pairs):
+        report(name, of)
     print(f"{failures} names of unnamed namespaces that others have too")
     return failures > 0
 

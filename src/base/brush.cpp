@@ -16,7 +16,7 @@ int floorDivide(int a, int b) {
 }
 
 // How far bristles begin or end away from the lens: most a little, some run dry early. Never negative.
-int lagOf(const Stroke& stroke, int bristle, bool tail) {
+int lagOf(const BrushMark& stroke, int bristle, bool tail) {
   const uint32_t h = hash(stroke.seed + hash(uint32_t(bristle) * 2 + tail));
   const int little = int(h % uint32_t(stroke.halfLength / 5 + 2));
   return (h >> 16) % 6 == 0 ? little + int((h >> 20) % uint32_t(stroke.halfLength / 3 + 1)) : little;
@@ -66,7 +66,7 @@ Board below(const Board& board, BrushSize brush, uint8_t start, Pick pick) {
 
 }  // namespace
 
-StrokeShape::StrokeShape(const Stroke& stroke, int reach) {
+StrokeShape::StrokeShape(const BrushMark& stroke, int reach) {
   const int length = stroke.halfLength, thickness = stroke.halfThickness;
   halfWidth_ = reach * length;
   int spineMost = 0;

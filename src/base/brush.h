@@ -21,7 +21,7 @@ inline size_t boardIndex(int x, int y) {
 }
 
 // A lens that lies along u. Its edges are torn: each bristle begins and ends at a place of its own.
-struct Stroke {
+struct BrushMark {
   int x = 0, y = 0;  // centre
   int halfLength = 0, halfThickness = 0;
   int bow = 0;   // how far its ends lie below its middle; negative: above
@@ -33,7 +33,7 @@ struct Stroke {
 // ask.
 class StrokeShape {
  public:
-  explicit StrokeShape(const Stroke& stroke, int reach = 1);
+  explicit StrokeShape(const BrushMark& stroke, int reach = 1);
 
   // All samples inside of the border lie within these, and so do those that one may ask about.
   int halfWidth() const { return halfWidth_; }

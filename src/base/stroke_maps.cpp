@@ -39,7 +39,7 @@ class Places {
 
 // Tells each sample that lies within `reach` borders of the stroke: its index in the board, and its place.
 template <typename Each>
-void forSamplesIn(const Stroke& stroke, int reach, Each each) {
+void forSamplesIn(const BrushMark& stroke, int reach, Each each) {
   const StrokeShape shape(stroke, reach);
   for (int dy = -shape.halfHeight(); dy <= shape.halfHeight(); ++dy) {
     const size_t row = boardIndex(0, stroke.y + dy);
@@ -52,8 +52,8 @@ void forSamplesIn(const Stroke& stroke, int reach, Each each) {
   }
 }
 
-Stroke strokeAt(std::pair<int, int> place, int halfLength, int halfThickness, Dice& dice) {
-  Stroke stroke;
+BrushMark strokeAt(std::pair<int, int> place, int halfLength, int halfThickness, Dice& dice) {
+  BrushMark stroke;
   stroke.x = place.first, stroke.y = place.second;
   stroke.halfLength = halfLength, stroke.halfThickness = halfThickness;
   stroke.bow = dice.between(-halfThickness / 2, halfThickness / 2);
@@ -83,7 +83,7 @@ Board strokesOfTheSea(uint32_t seed) {
       const int length = dice.between(size.leastLength, size.mostLength) * kSamplesPerTexel;
       const int thickness =
           dice.between(size.leastThickness * kSamplesPerTexel, size.mostThickness * kSamplesPerTexel);
-      const Stroke stroke = strokeAt(places.next(), length, thickness, dice);
+      const BrushMark stroke = strokeAt(places.next(), length, thickness, dice);
       const int under = board[boardIndex(stroke.x, stroke.y)];
       int tone = under > 0 ? under - 1 : under + 1;
       for (const int other : {under - 2, under + 1, under + 2})
@@ -126,7 +126,7 @@ std::vector<int> farFromHoles(uint32_t seed) {
       const int left = column * kWidth + (row % 2) * kWidth / 2;
       const std::pair<int, int> place{dice.between(left, left + kWidth - 1), dice.between(top, bottom - 1)};
       const int length = dice.between(27, 96);
-      const Stroke hole = strokeAt(place, length, length * dice.between(18, 32) / 100, dice);
+      const BrushMark hole = strokeAt(place, length, length * dice.between(18, 32) / 100, dice);
       forSamplesIn(hole, kHoleReach, [&](size_t at, int distance) { far[at] = std::min(far[at], distance); });
     }
   return far;
@@ -139,7 +139,7 @@ std::vector<int> streaks(uint32_t seed) {
   Places places(seed);
   for (int i = 0; i < 26; ++i) {
     const int length = dice.between(36, 76) * kSamplesPerTexel;
-    const Stroke streak = strokeAt(places.next(), length, length * dice.between(14, 26) / 100, dice);
+    const BrushMark streak = strokeAt(places.next(), length, length * dice.between(14, 26) / 100, dice);
     const int most = dice.between(120, 256);
     forSamplesIn(streak, 1, [&](size_t at, int place) {
       strength[at] = std::max(strength[at], (StrokeShape::kBorder - place) * most / StrokeShape::kBorder);

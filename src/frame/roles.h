@@ -42,8 +42,8 @@ inline constexpr Role kShadow{"shadow"};
 // Square root of the linear colour in full light, and in shadow; A: coverage. Square roots need no more than
 // 8 bits, and cost drivers less than sRGB.
 inline constexpr Role kLit{"lit"}, kShadowed{"shadowed"};
-// Blended surfaces by themselves, and how far away they are: as kOverlay and kOverlayDistance. Only where there
-// are any, and something changes colours by their distance.
+// Blended surfaces by themselves, and how far away they are: as kOverlay and kOverlayDistance. Only where
+// there are any, and something changes colours by their distance.
 inline constexpr Role kBlended{"blended"}, kBlendedDistance{"blended distance"};
 // Samples of those and of the depth buffer, where a pixel has several; nothing is premultiplied there.
 inline constexpr Role kShadowSamples{"shadow samples"}, kLitSamples{"lit samples"},

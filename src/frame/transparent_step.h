@@ -13,8 +13,8 @@ namespace scumble::frame {
 
 class TransparentStep {
  public:
-  // Which blended surfaces: those that are no layers of paint (scene::PaintLayer), premultiplied; such layers,
-  // premultiplied and tested against depth of one sample a pixel; or both, with colours as they are.
+  // Which blended surfaces: those that are no layers of paint (scene::PaintLayer), premultiplied; such
+  // layers, premultiplied and tested against depth of one sample a pixel; or both, with colours as they are.
   enum class What : uint8_t { surfaces, paint, all };
   // Of the description count shaders and their inputs, formats, samples, views, and the layout of set 2, of
   // which nothing is dynamic.

@@ -67,7 +67,7 @@ TEST(SceneAssets, everyBadPictureEndsInATextureOrAStandIn) {
     const Result<Scene> scene = Scene::loadFromMemory(text.data(), text.size(), "wrapped.glb", "");
     ASSERT_TRUE(scene.ok()) << file << scene.error().message();
     ASSERT_EQ(scene->data().images.size(), 1u);
-    const Image& image = scene->data().images[0];
+    const TextureImage& image = scene->data().images[0];
     EXPECT_EQ(image.rgba.size(), size_t(image.width) * image.height * 4) << file;
     if (image.standIn) {
       ++standIns;
@@ -109,7 +109,7 @@ TEST(SceneAssets, encodingsAgree) {
 }
 
 TEST(ImageDecode, refusesWhatItCannotRead) {
-  Image image;
+  TextureImage image;
   std::string problem;
   EXPECT_FALSE(decodeImage({}, image, problem));
   EXPECT_FALSE(problem.empty());
@@ -123,7 +123,7 @@ TEST(ImageDecode, webp) {
   const auto file = kAssets / "gltf/compressed/test-lossy.webp";
   if (!std::filesystem::exists(file)) GTEST_SKIP() << "no " << file;
   const std::vector<uint8_t> bytes = bytesOf(file);
-  Image image;
+  TextureImage image;
   std::string problem;
   EXPECT_TRUE(decodeImage(bytes, image, problem)) << problem;
   EXPECT_GT(image.width, 0u);

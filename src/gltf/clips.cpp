@@ -62,7 +62,7 @@ void cleanKeys(Channel& channel, size_t perKey, const std::string& path, ImportW
 }
 
 void normalizeRotations(Channel& channel) {
-  const bool cubic = channel.interpolation == Interpolation::cubicSpline;
+  const bool cubic = channel.interpolation == ChannelInterpolation::cubicSpline;
   const size_t step = cubic ? 12 : 4, first = cubic ? 4 : 0;
   for (size_t i = first; i + 3 < channel.values.size(); i += step) {
     float* q = &channel.values[i];
@@ -222,9 +222,9 @@ Channel readChannel(const Import& import, const SceneData& scene, const JsonView
       samplers.at(static_cast<size_t>(json.requiredIndex("sampler", samplers.size(), "sampler")));
   const std::string interpolation = sampler.text("interpolation", "LINEAR");
   if (interpolation == "STEP" || channel.property == AnimatedProperty::visible)
-    channel.interpolation = Interpolation::step;
+    channel.interpolation = ChannelInterpolation::step;
   else if (interpolation == "CUBICSPLINE")
-    channel.interpolation = Interpolation::cubicSpline;
+    channel.interpolation = ChannelInterpolation::cubicSpline;
   else if (interpolation != "LINEAR")
     sampler.failAt("interpolation", "is not a known interpolation");
 
@@ -235,7 +235,7 @@ Channel readChannel(const Import& import, const SceneData& scene, const JsonView
   if (channel.times.empty()) sampler.failAt("input", "holds no times");
 
   // As many values as the keys ask for.
-  const size_t tangents = channel.interpolation == Interpolation::cubicSpline ? 3 : 1;
+  const size_t tangents = channel.interpolation == ChannelInterpolation::cubicSpline ? 3 : 1;
   const bool weights = channel.property == AnimatedProperty::weights && channel.weight < 0;
   const int shape = shapeOf(channel.property);
   if (output.columns != 1 || output.rows != shape)

@@ -203,7 +203,7 @@ TEST(GltfErrors, imagesOnTheNetwork) {
   const Result<Scene> scene = load(g.glb());
   ASSERT_TRUE(scene.ok()) << scene.error().message();
   ASSERT_EQ(scene->data().images.size(), 2u);
-  for (const Image& image : scene->data().images) EXPECT_TRUE(image.standIn);
+  for (const scene::TextureImage& image : scene->data().images) EXPECT_TRUE(image.standIn);
   ASSERT_EQ(scene->warnings().size(), 1u);
   EXPECT_NE(scene->warnings()[0].find("network"), std::string::npos);
 }

@@ -15,7 +15,7 @@ namespace {
 constexpr uint64_t kFreePixels = 64ull << 20, kPixelsPerByte = 1024;
 
 struct Task {
-  Image* image;
+  TextureImage* image;
   Bytes bytes;
   Buffers::Holder holder;
   std::string path, problem;
@@ -47,7 +47,7 @@ void findBytes(const Import& import, Task& task) {
 }
 
 // The visible pattern for what cannot be used: a checker of magenta and grey.
-void makeStandIn(Image& image) {
+void makeStandIn(TextureImage& image) {
   constexpr uint32_t kSide = 64, kCell = 8;
   image.width = image.height = kSide;
   image.standIn = true;

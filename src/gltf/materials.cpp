@@ -207,8 +207,8 @@ class MaterialReader {
                      1.0f);
   }
 
-  // Our number of the file's image; -1 stands for one that is missing. Image::name holds the file's number
-  // until readImages fills it in.
+  // Our number of the file's image; -1 stands for one that is missing. TextureImage::name holds the file's
+  // number until readImages fills it in.
   int imageNumber(int64_t fileImage) {
     const auto [entry, isNew] = imageMap_.emplace(fileImage, static_cast<int>(scene_.images.size()));
     if (isNew) scene_.images.emplace_back().own().name = std::to_string(fileImage);
@@ -341,7 +341,7 @@ void readOutlineWidths(const OutlineTextures& textures, SceneData& scene) {
       const auto found = textures.find(size_t(mesh->primitives[i].material));
       if (found == textures.end() || found->second.use.image < 0) continue;
       const auto& [use, channel] = found->second;
-      const Image& image = scene.images[size_t(use.image)];
+      const TextureImage& image = scene.images[size_t(use.image)];
       if (image.standIn) continue;
       Primitive& primitive = mesh.own().primitives[i];
       for (const glm::vec2& uv : coordinatesOf(primitive, use))

@@ -114,11 +114,11 @@ double clipTime(const PlayedClip& played, double duration, double time) {
 void sampleChannel(const Channel& channel, double time, double* out) {
   const Between at = findKeys(channel.times, time);
   const size_t n = size_t(channel.componentsPerKey);
-  const bool cubic = channel.interpolation == Interpolation::cubicSpline;
+  const bool cubic = channel.interpolation == ChannelInterpolation::cubicSpline;
   // Of a cubic key: in-tangent, value, out-tangent.
   const float* a = &channel.values[at.key * n * (cubic ? 3 : 1)];
   const bool rotates = channel.property == AnimatedProperty::rotation;
-  if (at.part <= 0 || channel.interpolation == Interpolation::step) {
+  if (at.part <= 0 || channel.interpolation == ChannelInterpolation::step) {
     std::copy_n(cubic ? a + n : a, n, out);
     return;
   }

@@ -17,8 +17,8 @@ namespace {
 
 using test::posedNodes;
 
-constexpr Interpolation kInterpolations[] = {Interpolation::linear, Interpolation::step,
-                                             Interpolation::cubicSpline};
+constexpr ChannelInterpolation kInterpolations[] = {ChannelInterpolation::linear, ChannelInterpolation::step,
+                                                    ChannelInterpolation::cubicSpline};
 constexpr AnimatedProperty kProperties[] = {AnimatedProperty::translation, AnimatedProperty::rotation,
                                             AnimatedProperty::scale, AnimatedProperty::weights};
 
@@ -27,11 +27,12 @@ int componentsOf(AnimatedProperty property) {
 }
 
 // Keys at uneven times; of a cubic one, tangents as large as values are.
-Channel randomChannel(AnimatedProperty property, Interpolation interpolation, uint32_t seed, int keys = 6) {
+Channel randomChannel(AnimatedProperty property, ChannelInterpolation interpolation, uint32_t seed,
+                      int keys = 6) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<float> number(-1, 1), step(0.01f, 0.9f);
   Channel channel{0, property, interpolation, {}, {}, componentsOf(property)};
-  const int parts = interpolation == Interpolation::cubicSpline ? 3 : 1;
+  const int parts = interpolation == ChannelInterpolation::cubicSpline ? 3 : 1;
   for (int k = 0; k < keys; ++k) {
     channel.times.push_back(k == 0 ? 0.25f : channel.times.back() + step(random));
     for (int part = 0; part < parts; ++part) {
@@ -65,7 +66,7 @@ void expectNear(const glm::dmat4& got, const glm::dmat4& expected, double tolera
 
 TEST(Animation, keysAgainstTheSpecification) {
   for (const AnimatedProperty property : kProperties)
-    for (const Interpolation interpolation : kInterpolations)
+    for (const ChannelInterpolation interpolation : kInterpolations)
       for (uint32_t seed = 0; seed < 8; ++seed) {
         const Channel channel = randomChannel(property, interpolation, seed);
         std::vector<double> times{-100, 0, 1e9};
@@ -86,11 +87,11 @@ TEST(Animation, keysAgainstTheSpecification) {
 
 TEST(Animation, keysStandAtTheirOwnTimesAndOutside) {
   for (const AnimatedProperty property : kProperties)
-    for (const Interpolation interpolation : kInterpolations) {
+    for (const ChannelInterpolation interpolation : kInterpolations) {
       const Channel channel = randomChannel(property, interpolation, 3);
       const size_t n = size_t(channel.componentsPerKey),
-                   stride = interpolation == Interpolation::cubicSpline ? 3 * n : n,
-                   first = interpolation == Interpolation::cubicSpline ? n : 0;
+                   stride = interpolation == ChannelInterpolation::cubicSpline ? 3 * n : n,
+                   first = interpolation == ChannelInterpolation::cubicSpline ? n : 0;
       const auto key = [&](size_t k) {
         const float* values = &channel.values[k * stride + first];
         return std::vector<double>(values, values + n);
@@ -100,7 +101,7 @@ TEST(Animation, keysStandAtTheirOwnTimesAndOutside) {
       EXPECT_EQ(sampled(channel, -1e6), key(0));
       EXPECT_EQ(sampled(channel, 1e6), key(channel.times.size() - 1));
       // A step stands until the very time of the next key.
-      if (interpolation != Interpolation::step) continue;
+      if (interpolation != ChannelInterpolation::step) continue;
       const double next = channel.times[2];
       EXPECT_EQ(sampled(channel, std::nextafter(next, 0)), key(1));
     }
@@ -108,7 +109,7 @@ TEST(Animation, keysStandAtTheirOwnTimesAndOutside) {
 
 TEST(Animation, aSingleKeyStandsForever) {
   for (const AnimatedProperty property : kProperties)
-    for (const Interpolation interpolation : kInterpolations) {
+    for (const ChannelInterpolation interpolation : kInterpolations) {
       const Channel channel = randomChannel(property, interpolation, 1, 1);
       for (const double time : {-3.0, 0.0, 0.25, 7.0})
         expectNear(sampled(channel, time), test::channelAt(channel, time), 0, "one key");
@@ -118,7 +119,8 @@ TEST(Animation, aSingleKeyStandsForever) {
 // All but steps are continuous, and rotations have unit length everywhere.
 TEST(Animation, curvesAreContinuous) {
   for (const AnimatedProperty property : kProperties)
-    for (const Interpolation interpolation : {Interpolation::linear, Interpolation::cubicSpline}) {
+    for (const ChannelInterpolation interpolation :
+         {ChannelInterpolation::linear, ChannelInterpolation::cubicSpline}) {
       const Channel channel = randomChannel(property, interpolation, 7);
       const double from = 0, to = double(channel.times.back()) + 0.2;
       constexpr int kSteps = 20000;
@@ -147,7 +149,7 @@ TEST(Animation, linearRotationsTakeTheShorterArcEvenly) {
     return std::vector<float>{0, 0, sign * std::sin(half), sign * std::cos(half)};
   };
   for (const float sign : {1.0f, -1.0f}) {
-    Channel channel{0, AnimatedProperty::rotation, Interpolation::linear, {0, 1}, about(10, 1), 4};
+    Channel channel{0, AnimatedProperty::rotation, ChannelInterpolation::linear, {0, 1}, about(10, 1), 4};
     for (const float x : about(60, sign)) channel.values.push_back(x);
     for (const float t : {0.1f, 0.25f, 0.5f, 0.8f}) {
       const std::vector<double> q = sampled(channel, double(t));
@@ -157,7 +159,7 @@ TEST(Animation, linearRotationsTakeTheShorterArcEvenly) {
   }
   // Equal keys and nearly equal ones divide by no zero.
   for (const float degrees : {10.0f, 10.0001f}) {
-    Channel channel{0, AnimatedProperty::rotation, Interpolation::linear, {0, 1}, about(10, 1), 4};
+    Channel channel{0, AnimatedProperty::rotation, ChannelInterpolation::linear, {0, 1}, about(10, 1), 4};
     for (const float x : about(degrees, 1)) channel.values.push_back(x);
     EXPECT_NEAR(sampled(channel, 0.5)[2], about(10, 1)[2], 1e-5f);
   }
@@ -165,7 +167,7 @@ TEST(Animation, linearRotationsTakeTheShorterArcEvenly) {
 
 TEST(Animation, cubicRotationsThatVanishKeepAKey) {
   // Opposite values: half way they cancel out.
-  Channel channel{0, AnimatedProperty::rotation, Interpolation::cubicSpline, {0, 1}, {}, 4};
+  Channel channel{0, AnimatedProperty::rotation, ChannelInterpolation::cubicSpline, {0, 1}, {}, 4};
   for (const float w : {1.0f, -1.0f})
     channel.values.insert(channel.values.end(), {0, 0, 0, 0, 0, 0, 0, w, 0, 0, 0, 0});
   EXPECT_EQ(sampled(channel, 0.5), (std::vector<double>{0, 0, 0, 1}));
@@ -249,7 +251,7 @@ void addChannel(SceneData& scene, size_t clip, int node, Channel channel) {
 }
 Channel constant(AnimatedProperty property, std::vector<float> value) {
   const int components = int(value.size());
-  return {0, property, Interpolation::linear, {0}, std::move(value), components};
+  return {0, property, ChannelInterpolation::linear, {0}, std::move(value), components};
 }
 
 TEST(Animation, aPoseWithoutClipsIsTheRestPose) {
@@ -287,7 +289,7 @@ TEST(Animation, clipsMixByTheirWeights) {
   addClip(scene), addClip(scene);
   for (size_t clip = 0; clip < 2; ++clip) {
     for (const AnimatedProperty property : {AnimatedProperty::translation, AnimatedProperty::scale})
-      addChannel(scene, clip, 1, randomChannel(property, Interpolation::linear, uint32_t(clip)));
+      addChannel(scene, clip, 1, randomChannel(property, ChannelInterpolation::linear, uint32_t(clip)));
     Channel weights =
         constant(AnimatedProperty::weights, clip ? std::vector<float>{2, 0} : std::vector<float>{-1, 1});
     addChannel(scene, clip, 2, weights);
@@ -367,8 +369,9 @@ TEST(Animation, nodesHaveTimesOfTheirOwn) {
   addClip(scene);
   for (int node = 0; node < 4; ++node)
     addChannel(scene, 0, node,
-               randomChannel(AnimatedProperty::translation, Interpolation::linear, uint32_t(node)));
-  addChannel(scene, 0, 2, {0, AnimatedProperty::weights, Interpolation::linear, {0, 2}, {0, 0, 2, 4}, 2});
+               randomChannel(AnimatedProperty::translation, ChannelInterpolation::linear, uint32_t(node)));
+  addChannel(scene, 0, 2,
+             {0, AnimatedProperty::weights, ChannelInterpolation::linear, {0, 2}, {0, 0, 2, 4}, 2});
   scene.clips[0].duration = 3;
   const PlayedClip played{0};
   const NodeTimes times{{0.3, 0.3, 1.1, 0.7}, {0.1, 0.1, 0.5, 0.1}};
@@ -465,8 +468,8 @@ TEST(Animation, boundsHoldWhatMoves) {
   addClip(scene);
   for (int node = 0; node < 4; ++node)
     for (const AnimatedProperty property : {kProperties[0], kProperties[1], kProperties[2]})
-      addChannel(scene, 0, node, randomChannel(property, Interpolation::linear, uint32_t(node)));
-  Channel weights = randomChannel(AnimatedProperty::weights, Interpolation::linear, 4);
+      addChannel(scene, 0, node, randomChannel(property, ChannelInterpolation::linear, uint32_t(node)));
+  Channel weights = randomChannel(AnimatedProperty::weights, ChannelInterpolation::linear, 4);
   weights.componentsPerKey = 2, weights.values.resize(12);
   addChannel(scene, 0, 2, weights);
   for (const bool skinned : {false, true}) {

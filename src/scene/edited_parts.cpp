@@ -113,7 +113,7 @@ bool isAffine(const glm::dmat4& m) {
   return isDrawable(m) && m[0][3] == 0 && m[1][3] == 0 && m[2][3] == 0 && m[3][3] == 1;
 }
 
-Image imageOf(const TextureDesc& texture) {
+TextureImage imageOf(const TextureDesc& texture) {
   const Check check("texture");
   check.require(texture.width >= 1 && texture.height >= 1 && texture.width <= kMaxImageSide &&
                     texture.height <= kMaxImageSide,
@@ -124,7 +124,7 @@ Image imageOf(const TextureDesc& texture) {
                 "there are " + std::to_string(texture.rgba.size()) + " bytes for " +
                     std::to_string(texture.width) + "x" + std::to_string(texture.height) + " pixels",
                 "give four a pixel");
-  Image image;
+  TextureImage image;
   image.name = texture.name;
   image.width = texture.width, image.height = texture.height;
   image.rgba.assign(texture.rgba.begin(), texture.rgba.end());

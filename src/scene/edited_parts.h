@@ -15,7 +15,7 @@ bool isIndex(T id, size_t count) {
 // Finite, and without a perspective.
 bool isAffine(const glm::dmat4& m);
 
-Image imageOf(const TextureDesc& texture);
+TextureImage imageOf(const TextureDesc& texture);
 // `scene`: has the textures and materials that are named.
 Material materialOf(const MaterialDesc& given, const SceneData& scene);
 MaterialDesc descOf(const Material& material);

@@ -21,7 +21,7 @@
 namespace scumble::scene {
 
 // One texture.
-struct Image : Pixels {
+struct TextureImage : Pixels {
   std::string name;
   bool standIn = false;  // true where the file could not be used and a visible pattern stands in
 };
@@ -257,14 +257,14 @@ struct Skin {
   std::vector<glm::mat4> inverseBindMatrices;  // one a joint
 };
 
-enum class Interpolation : uint8_t { linear, step, cubicSpline };
+enum class ChannelInterpolation : uint8_t { linear, step, cubicSpline };
 // `visible` has one number a key, which is above a half where the node is visible.
 enum class AnimatedProperty : uint8_t { translation, rotation, scale, weights, visible };
 
 struct Channel {
   int node = -1;
   AnimatedProperty property = AnimatedProperty::translation;
-  Interpolation interpolation = Interpolation::linear;
+  ChannelInterpolation interpolation = ChannelInterpolation::linear;
   std::vector<float> times;  // seconds, strictly increasing
   std::vector<float>
       values;  // componentsPerKey floats a key (three times as many for cubicSpline: in, value, out)
@@ -296,7 +296,7 @@ struct SceneData {
   uint64_t family = 0;
   bool keepsVertices = true;  // SceneOptions::keepsVertices
   bool facesBack = false;     // its front is towards -Z (VRM 0), and not +Z
-  std::vector<Shared<Image>> images;
+  std::vector<Shared<TextureImage>> images;
   std::vector<Material> materials;  // index 0 is glTF's default material
   std::vector<Shared<Mesh>> meshes;
   std::vector<std::vector<SeenPart>> seen;  // by mesh and primitive; findSeen() fills it

@@ -14,7 +14,7 @@ namespace {
 // The greatest alpha in any rectangle of an image: an image pyramid of maxima.
 class AlphaMaxima {
  public:
-  explicit AlphaMaxima(const Image& image) {
+  explicit AlphaMaxima(const TextureImage& image) {
     Level level{image.width, image.height, {}};
     level.alpha.resize(size_t(image.width) * image.height);
     for (size_t i = 0; i < level.alpha.size(); ++i) level.alpha[i] = image.rgba[4 * i + 3];
@@ -66,9 +66,9 @@ float leastAlpha(const Material& material) {
 }
 
 // Null where a material shows none.
-const Image* imageOf(const SceneData& scene, const TextureUse& use) {
+const TextureImage* imageOf(const SceneData& scene, const TextureUse& use) {
   if (use.image < 0) return nullptr;
-  const Image& image = scene.images[size_t(use.image)];
+  const TextureImage& image = scene.images[size_t(use.image)];
   return image.rgba.empty() ? nullptr : &image;
 }
 
@@ -83,7 +83,7 @@ class Finder {
     const float least = leastAlpha(material);
     if (least <= 0) return part;
     const TextureUse& use = material.baseColorTexture;
-    const Image* const image = imageOf(scene_, use);
+    const TextureImage* const image = imageOf(scene_, use);
     if (primitive.colors.empty() && !image) {
       part.isSeen = material.baseColor.a >= least;
       return part;

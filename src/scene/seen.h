@@ -36,7 +36,7 @@ class SurfaceAlpha {
  private:
   const Primitive& primitive_;
   const Material& material_;
-  const Image* image_ = nullptr;
+  const TextureImage* image_ = nullptr;
   const std::vector<glm::vec2>& uvs_;
   bool isWhole_ = true;
 };

@@ -28,7 +28,7 @@ const std::vector<glm::vec2>& coordinatesOf(const Primitive& primitive, const Te
   return use.uvSet == 1 && !primitive.uv1.empty() ? primitive.uv1 : primitive.uv0;
 }
 
-glm::dvec4 texelAt(const Image& image, const TextureUse& use, const glm::vec2& uv) {
+glm::dvec4 texelAt(const TextureImage& image, const TextureUse& use, const glm::vec2& uv) {
   const glm::vec3 at = use.transform * glm::vec3(uv, 1.0f);
   const auto index = [](double t, uint32_t size) { return std::min(size_t(t * size), size_t(size) - 1); };
   const size_t x = index(wrapped(at.x, use.sampler.wrapU), image.width),

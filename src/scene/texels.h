@@ -9,6 +9,6 @@ namespace scumble::scene {
 const std::vector<glm::vec2>& coordinatesOf(const Primitive& primitive, const TextureUse& use);
 
 // The texel there, as the file has it, 0 to 1: sRGB, which is close to a square root, and alpha.
-glm::dvec4 texelAt(const Image& image, const TextureUse& use, const glm::vec2& uv);
+glm::dvec4 texelAt(const TextureImage& image, const TextureUse& use, const glm::vec2& uv);
 
 }  // namespace scumble::scene

@@ -17,7 +17,7 @@ constexpr size_t kPoints = 128;
 }  // namespace
 
 SurfaceColors::Part SurfaceColors::partOf(const GeometryItem& item, const scene::Material& material,
-                                          const std::vector<Shared<scene::Image>>& images) {
+                                          const std::vector<Shared<scene::TextureImage>>& images) {
   Part part;
   // Paint has the colours of what it lies on.
   if (item.node == GeometryItem::kNoNode || !item.shown || material.paint) return part;
@@ -54,7 +54,7 @@ void SurfaceColors::sample(Part& part, const scene::Material& material) {
 }
 
 void SurfaceColors::look(const std::vector<GeometryItem>& items, const MaterialOf& materialOf,
-                         const std::vector<Shared<scene::Image>>& images) {
+                         const std::vector<Shared<scene::TextureImage>>& images) {
   parts_.resize(items.size());
   for (size_t i = 0; i < items.size(); ++i) {
     const scene::Material& material = materialOf(items[i].material);

@@ -21,7 +21,7 @@ class SurfaceColors {
   // Looks at some points of all that is shown, at rest. Reads vertices only of items that have another
   // primitive, stretch or picture than last time.
   void look(const std::vector<GeometryItem>& items, const MaterialOf& materialOf,
-            const std::vector<Shared<scene::Image>>& images);
+            const std::vector<Shared<scene::TextureImage>>& images);
   // Of what was looked at last, with the materials' present colours.
   SceneColors colors(const std::vector<GeometryItem>& items, const MaterialOf& materialOf);
 
@@ -29,7 +29,7 @@ class SurfaceColors {
   // An item's points: their colours without the material's factor.
   struct Part {
     const scene::Primitive* primitive = nullptr;
-    std::shared_ptr<const scene::Image> image;
+    std::shared_ptr<const scene::TextureImage> image;
     glm::mat3 linear{0.0f}, transform{0.0f};
     std::vector<ColorSample> samples;
     // Of these, with a factor; it has changed where that has.
@@ -37,7 +37,7 @@ class SurfaceColors {
     SceneColorSum sum;
   };
   static Part partOf(const GeometryItem& item, const scene::Material& material,
-                     const std::vector<Shared<scene::Image>>& images);
+                     const std::vector<Shared<scene::TextureImage>>& images);
   static void sample(Part& part, const scene::Material& material);
 
   std::vector<Part> parts_;  // by item

@@ -9,7 +9,7 @@ namespace {
 class SurfaceColorsTest : public ::testing::Test {
  protected:
   SurfaceColorsTest() {
-    scene::Image image;
+    scene::TextureImage image;
     image.width = 2, image.height = 1;
     image.rgba = {255, 0, 0, 255, 0, 255, 0, 255};
     images_.emplace_back(std::move(image));
@@ -40,7 +40,7 @@ class SurfaceColorsTest : public ::testing::Test {
 
   std::vector<std::unique_ptr<scene::Primitive>> primitives_;
   std::vector<scene::Material> materials_;
-  std::vector<Shared<scene::Image>> images_;
+  std::vector<Shared<scene::TextureImage>> images_;
   std::vector<GeometryItem> items_;
   SurfaceColors colors_;
 };
@@ -114,10 +114,10 @@ TEST_F(SurfaceColorsTest, whatComesBackRegularlyIsNotTakenForAll) {
 
 // Alpha counts where it is seen.
 TEST_F(SurfaceColorsTest, whatIsOpaqueCountsWhateverItsAlpha) {
-  scene::Image image;
+  scene::TextureImage image;
   image.width = 2, image.height = 1;
   image.rgba = {255, 0, 0, 0, 0, 255, 0, 255};
-  images_[0] = Shared<scene::Image>(std::move(image));
+  images_[0] = Shared<scene::TextureImage>(std::move(image));
   addQuad({1, 1}, {0, 0}, {1, 1}, true);
   expectNear(colors().meanRootRgb, {0.5f, 0.5f, 0});
   materials_[0].alphaMode = scene::AlphaMode::mask;

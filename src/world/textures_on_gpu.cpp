@@ -8,7 +8,7 @@
 
 namespace scumble::world {
 
-bool TexturesOnGpu::update(gpu::Uploader& uploader, const std::vector<Shared<scene::Image>>& images,
+bool TexturesOnGpu::update(gpu::Uploader& uploader, const std::vector<Shared<scene::TextureImage>>& images,
                            const std::function<void()>& settle) {
   if (!white_.handle()) {
     const std::byte white[4] = {std::byte(255), std::byte(255), std::byte(255), std::byte(255)};
@@ -17,12 +17,12 @@ bool TexturesOnGpu::update(gpu::Uploader& uploader, const std::vector<Shared<sce
   }
 
   // Which are new.
-  std::map<const scene::Image*, std::shared_ptr<const Texture>> had, now;
+  std::map<const scene::TextureImage*, std::shared_ptr<const Texture>> had, now;
   for (const auto& texture : textures_) had.emplace(texture->of.get(), texture);
-  std::vector<std::shared_ptr<const scene::Image>> fresh;
+  std::vector<std::shared_ptr<const scene::TextureImage>> fresh;
   bool changes = images.size() < textures_.size();
   for (size_t i = 0; i < images.size(); ++i) {
-    const scene::Image& image = *images[i];
+    const scene::TextureImage& image = *images[i];
     changes |= i < textures_.size() && textures_[i]->of.get() != &image;
     const auto [entry, isNew] = now.try_emplace(&image);
     if (!isNew) continue;
@@ -46,7 +46,7 @@ bool TexturesOnGpu::update(gpu::Uploader& uploader, const std::vector<Shared<sce
     mipmaps[i] = makeMipmaps(fresh[i]->rgba, fresh[i]->width, fresh[i]->height);
   });
   for (size_t i = 0; i < fresh.size(); ++i) {
-    const scene::Image& image = *fresh[i];
+    const scene::TextureImage& image = *fresh[i];
     std::vector<std::span<const std::byte>> levels{std::as_bytes(std::span(image.rgba))};
     for (const auto& level : mipmaps[i]) levels.push_back(std::as_bytes(std::span(level)));
     auto texture = std::make_shared<Texture>();
@@ -57,7 +57,7 @@ bool TexturesOnGpu::update(gpu::Uploader& uploader, const std::vector<Shared<sce
     now[fresh[i].get()] = std::move(texture);
     mipmaps[i].clear();
   }
-  for (const Shared<scene::Image>& image : images) textures_.push_back(now.at(&*image));
+  for (const Shared<scene::TextureImage>& image : images) textures_.push_back(now.at(&*image));
   return changes;
 }
 

@@ -18,7 +18,7 @@ class TexturesOnGpu {
   // Uploads images that are not there yet, and lets go of those that are in the list no more. Calls `settle`
   // before one goes that frames under way may read. True where an index now stands for another image. Throws
   // gpu::VulkanError when they do not fit.
-  bool update(gpu::Uploader& uploader, const std::vector<Shared<scene::Image>>& images,
+  bool update(gpu::Uploader& uploader, const std::vector<Shared<scene::TextureImage>>& images,
               const std::function<void()>& settle);
 
   // By their index in the scene; -1: white.
@@ -29,7 +29,7 @@ class TexturesOnGpu {
 
  private:
   struct Texture {
-    std::shared_ptr<const scene::Image> of;
+    std::shared_ptr<const scene::TextureImage> of;
     gpu::Image image;
     uint64_t bytes;
   };

@@ -92,7 +92,7 @@ void check(const SceneData& scene) {
     for (const Channel& channel : clip.channels) {
       require(channel.node >= 0 && inRange(channel.node, scene.nodes.size()), "channel node");
       const size_t perKey =
-          channel.componentsPerKey * (channel.interpolation == Interpolation::cubicSpline ? 3 : 1);
+          channel.componentsPerKey * (channel.interpolation == ChannelInterpolation::cubicSpline ? 3 : 1);
       require(!channel.times.empty() && channel.values.size() == channel.times.size() * perKey,
               "channel sizes");
       for (size_t i = 1; i < channel.times.size(); ++i)

@@ -8,7 +8,7 @@ namespace scumble::test {
 namespace {
 
 using scene::AnimatedProperty;
-using scene::Interpolation;
+using scene::ChannelInterpolation;
 
 using Numbers = std::vector<double>;
 
@@ -108,7 +108,7 @@ Vertex placed(const Vertex& vertex, const glm::dmat4& matrix) {
 
 std::vector<double> channelAt(const scene::Channel& channel, double seconds) {
   const size_t n = size_t(channel.componentsPerKey), count = channel.times.size();
-  const bool cubic = channel.interpolation == Interpolation::cubicSpline;
+  const bool cubic = channel.interpolation == ChannelInterpolation::cubicSpline;
   // `part`: of a cubic key, 0 the in-tangent, 1 the value, 2 the out-tangent.
   const auto at = [&](size_t key, size_t part) {
     const float* first = &channel.values[cubic ? (3 * key + part) * n : key * n];
@@ -116,7 +116,8 @@ std::vector<double> channelAt(const scene::Channel& channel, double seconds) {
   };
   size_t key = 0;
   while (key + 1 < count && double(channel.times[key + 1]) <= seconds) ++key;
-  if (seconds <= double(channel.times[0]) || key + 1 == count || channel.interpolation == Interpolation::step)
+  if (seconds <= double(channel.times[0]) || key + 1 == count ||
+      channel.interpolation == ChannelInterpolation::step)
     return at(key, 1);
   const double length = double(channel.times[key + 1]) - double(channel.times[key]),
                t = (seconds - double(channel.times[key])) / length;

@@ -30,18 +30,17 @@ std::unique_ptr<world::FeatureMoment> InkPlan::makeMoment(gpu::Device& device,
 }
 
 frame::FeatureParts makeFeature() {
-  return {
-      std::make_unique<InkFeature>(),
-      {{"surface", makeParts},
-       {"surface", makeLines},
-       {"final-shadow", makeOverlay},
-       {"final-color", makeOver, {"painting", "watercolor"}}},
-      {&InkParams::block(), &LineParams::block(), &SilhouetteParams::block(), &BoundaryParams::block(),
-       &MaterialBorderParams::block(), &CreaseParams::block(), &ColorBorderParams::block(),
-       &ShadowShapeParams::block(), &LightStepParams::block(), &ObjectBorderParams::block(),
-       &IntersectionParams::block(), &CutOutParams::block()},
-      {},
-      lineDrawing()};
+  return {std::make_unique<InkFeature>(),
+          {{"surface", makeParts},
+           {"surface", makeLines},
+           {"final-shadow", makeOverlay},
+           {"final-color", makeOver, {"painting", "watercolor"}}},
+          {&InkParams::block(), &LineParams::block(), &SilhouetteParams::block(), &BoundaryParams::block(),
+           &MaterialBorderParams::block(), &CreaseParams::block(), &ColorBorderParams::block(),
+           &ShadowShapeParams::block(), &LightStepParams::block(), &ObjectBorderParams::block(),
+           &IntersectionParams::block(), &CutOutParams::block()},
+          {},
+          lineDrawing()};
 }
 
 }  // namespace scumble::ink

@@ -29,7 +29,8 @@ inline constexpr const char *kLineTableAov = "ink-table", *kPiecesAov = "ink-pie
 std::unique_ptr<frame::Pass> makeParts();
 // Draws ink.
 std::unique_ptr<frame::Pass> makeLines();
-// Finds what follows from the picture, and puts it with that, where something changes the colours of overlays.
+// Finds what follows from the picture, and puts it with that, where something changes the colours of
+// overlays.
 std::unique_ptr<frame::Pass> makeOverlay();
 // Lays it over the picture.
 std::unique_ptr<frame::Pass> makeOver();

@@ -100,7 +100,7 @@ std::vector<uint32_t> endsOf(const scene::Primitive& primitive, const std::vecto
 }  // namespace
 
 bool EdgesOnGpu::Found::isSeenOf(const scene::Material& other,
-                                 const std::shared_ptr<const scene::Image>& otherImage) const {
+                                 const std::shared_ptr<const scene::TextureImage>& otherImage) const {
   return image == otherImage && material.alphaMode == other.alphaMode &&
          material.alphaCutoff == other.alphaCutoff && material.baseColor.a == other.baseColor.a &&
          material.baseColorTexture.uvSet == other.baseColorTexture.uvSet &&
@@ -112,7 +112,7 @@ bool EdgesOnGpu::Found::isSeenOf(const scene::Material& other,
 void EdgesOnGpu::findSeen(const scene::SceneData& scene, const scene::Primitive& primitive, Found& found) {
   const scene::Material& material = scene.materials[size_t(primitive.material)];
   const int image = material.baseColorTexture.image;
-  std::shared_ptr<const scene::Image> shown;
+  std::shared_ptr<const scene::TextureImage> shown;
   if (image >= 0) shown = scene.images[size_t(image)].keep();
   if (found.isSeenOf(material, shown)) return;
   std::vector<uint32_t> seen;

@@ -44,8 +44,9 @@ class EdgesOnGpu {
     std::vector<uint32_t> seen;  // as shared::EdgeRing has it; empty: all is
     // What that follows from.
     scene::Material material;
-    std::shared_ptr<const scene::Image> image;
-    bool isSeenOf(const scene::Material& other, const std::shared_ptr<const scene::Image>& otherImage) const;
+    std::shared_ptr<const scene::TextureImage> image;
+    bool isSeenOf(const scene::Material& other,
+                  const std::shared_ptr<const scene::TextureImage>& otherImage) const;
   };
   void findSeen(const scene::SceneData& scene, const scene::Primitive& primitive, Found& found);
 

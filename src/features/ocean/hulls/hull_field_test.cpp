@@ -126,8 +126,12 @@ TEST(HullField, fillsWhatAnArtistSays) {
       const glm::vec3 away = glm::abs(glm::vec3(x, y - 0.15f, 0)) - glm::vec3(2, 0.45f, 0.8f);
       const float outside = std::max(away.x, away.y);
       const double within = withinAt(*field, {x, y, 0});
-      if (outside < -0.01f) EXPECT_GT(within, -0.25) << x << " " << y;
-      if (outside > 0.08f) EXPECT_LT(within, 0) << x << " " << y;
+      if (outside < -0.01f) {
+        EXPECT_GT(within, -0.25) << x << " " << y;
+      }
+      if (outside > 0.08f) {
+        EXPECT_LT(within, 0) << x << " " << y;
+      }
     }
   EXPECT_FALSE(fillHull(hullTriangles(test::leakyShapes()[1]))) << "a tube";
 }

@@ -23,18 +23,19 @@ class Over : public Pass {
   void declare(FrameBuilder& frame, uint32_t variant) override {
     if (!variant) return;
     const bool tears = variant > 1;
-    frame.give(kPicture,
-               step_.declare(frame, {.name = name(),
-                                     .shader = {{shaders::painting_over_image_frag},
-                                                {shaders::painting_over_image_comp}},
-                                     .inputs = {{shared::kPaintingOverPicture, frame.get(kPicture)},
-                                                {shared::kPaintingOverPaint, frame.get(kOverlay, Layer::paint), true},
-                                                {shared::kPaintingOverWarp, frame.get(tears ? kWarp : kLit)},
-                                                {shared::kPaintingOverTiles, frame.get(kTiles)}},
-                                     .outputs = {frame.image(name(), {.format = kHalves})},
-                                     .fetches = 1 + 4 + 1 + 1,
-                                     .uniformBytes = sizeof(shared::PaintingOverUniforms),
-                                     .constants = {tears}})[0]);
+    frame.give(
+        kPicture,
+        step_.declare(frame,
+                      {.name = name(),
+                       .shader = {{shaders::painting_over_image_frag}, {shaders::painting_over_image_comp}},
+                       .inputs = {{shared::kPaintingOverPicture, frame.get(kPicture)},
+                                  {shared::kPaintingOverPaint, frame.get(kOverlay, Layer::paint), true},
+                                  {shared::kPaintingOverWarp, frame.get(tears ? kWarp : kLit)},
+                                  {shared::kPaintingOverTiles, frame.get(kTiles)}},
+                       .outputs = {frame.image(name(), {.format = kHalves})},
+                       .fetches = 1 + 4 + 1 + 1,
+                       .uniformBytes = sizeof(shared::PaintingOverUniforms),
+                       .constants = {tears}})[0]);
   }
   void create(FrameBuilder& frame) override { step_.create(frame); }
   void bind(const gpu::GraphResources& resources) override { step_.bind(resources); }
