@@ -133,7 +133,7 @@ void GeometryStep::draw(VkCommandBuffer commands, const gpu::DescriptorSets* pas
     }
     // What is seen casts a shadow, whichever of its sides the light meets.
     const bool cullsBack =
-        state.cullsBack && (desc_.what != GeometryStepDesc::What::casters || state.castsFronts);
+        state.cullsBack && (desc_.what != GeometryStepDesc::What::casters || state.isClosed);
     if (cull != int(cullsBack))
       vkCmdSetCullMode(commands, cullsBack ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_NONE), cull = cullsBack;
     if (front != int(state.mirrored))

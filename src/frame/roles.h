@@ -22,8 +22,7 @@ inline constexpr Role kVertices{"vertices"}, kPreviousVertices{"previous vertice
 
 // Which draws the views see: commands by bucket (world/draw_list.h).
 inline constexpr Role kDrawList{"draw list"};
-// How far each object lies inside of itself, as it is drawn: a number for each, metres.
-inline constexpr Role kSunken{"sunken"};
+inline constexpr Role kDrawnObjects{"drawn objects"};  // shared::DrawnObject for each
 
 // Indices of the triangles of blended surfaces, in the order in which they are composited; only where there
 // are any.

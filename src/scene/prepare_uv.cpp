@@ -204,16 +204,18 @@ namespace {
 // Whether every edge is gone along both ways equally often. What is summed is another random number for each
 // edge and its opposite for the way back: the sum is 0 where all of them cancel out, and nowhere else but by
 // chance (one in 2^64).
-bool closes(const Primitive& p) {
+bool closes(const Primitive& p, float scale) {
+  const PositionGrid grid(0.5f * scale);
   const auto mixed = [](uint64_t x) {
     x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u, x = (x ^ x >> 27) * 0x94d049bb133111ebu;
     return x ^ x >> 31;
   };
   // By place and not by vertex: seams open nothing. Adding 0 makes both zeros one.
   const auto placeOf = [&](uint32_t v) {
+    const glm::vec3 place = grid(p.positions[v]);
     uint64_t hash = 0;
     for (int c = 0; c < 3; ++c)
-      hash = mixed(hash + 0x9e3779b97f4a7c15u + std::bit_cast<uint32_t>(p.positions[v][c] + 0.0f));
+      hash = mixed(hash + 0x9e3779b97f4a7c15u + std::bit_cast<uint32_t>(place[c] + 0.0f));
     return hash;
   };
   std::vector<uint64_t> places(p.positions.size());
@@ -247,7 +249,7 @@ void finishPrimitive(Primitive& p, float radius, PatternCoordinates which, const
   makeTangents(p, scale, places);
   finishMorphTargets(p, [&](Primitive& morphed) { makeTangents(morphed, scale, places); });
   p.extent = extentOf(p);
-  p.isClosed = closes(p);
+  p.isClosed = closes(p, scale);
 }
 
 }  // namespace scumble::scene

@@ -21,6 +21,13 @@ struct DrawPlace {
   uint firstLevel, levels;  // of its levels of detail, from the finest on
   float scale;              // metres for each one of the mesh, at most
   uint textures;            // what they do there: kTexturesColor, kTexturesCut
+  uint isClosed;            // 1: its triangles close, so that from outside of it nobody sees a back
+};
+
+// An object as a frame draws it.
+struct DrawnObject {
+  float sunken;     // metres that it lies inside of itself at most, with the detail that it is drawn with
+  uint hidesBacks;  // 1: its front sides cover all of its back sides, for all eyes
 };
 
 // Fewer triangles than its command has; lengths in mesh space.

@@ -23,7 +23,7 @@ bool DrawList::update(gpu::Device& device, std::vector<Draw> draws,
     for (gpu::Buffer* const written : {&seen_, &torn_, &casters_})
       *written = gpu::Buffer(device, room_ * sizeof(shared::DrawCommand),
                              kUsage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, gpu::MemoryKind::device);
-    sunken_ = gpu::Buffer(device, roomForObjects_ * sizeof(float), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+    drawn_ = gpu::Buffer(device, roomForObjects_ * sizeof(shared::DrawnObject), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                           gpu::MemoryKind::device);
     levels_ = gpu::PerFrameBuffer(device, roomForLevels_ * sizeof(shared::DrawLevel),
                                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
@@ -67,7 +67,7 @@ void DrawList::sortIntoBuckets() {
     commands[commandOf_[d]] = {draw.indexCount, 1, draw.firstIndex, draw.vertexOffset, draw.object};
     shared::DrawPlace& place = places[commandOf_[d]];
     place.bucket = bucket, place.firstLevel = draw.firstLevel, place.levels = draw.levels;
-    place.textures = draw.textures;
+    place.textures = draw.textures, place.isClosed = draw.state.isClosed;
   }
 }
 

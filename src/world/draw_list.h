@@ -25,9 +25,9 @@ struct DrawState {
   bool varied = false;    // vertex colours or textures vary the material's colour
   bool textured = false;
   bool casts = true;  // shadows
-  // Only with the sides that face the light: of what is closed that is enough, and the others are turned
-  // away.
-  bool castsFronts = false;
+  // Opaque, and its triangles close around what is within. The sides that face the light cast all of its
+  // shadow, and from outside nobody sees a back.
+  bool isClosed = false;
   bool castsAlone = false;  // shadows, and is drawn by nobody else here: paint
   auto operator<=>(const DrawState&) const = default;
 };
@@ -75,11 +75,10 @@ class DrawList {
   VkBuffer seen() const { return seen_.handle(); }
   VkBuffer torn() const { return torn_.handle(); }
   VkBuffer casters() const { return casters_.handle(); }
-  // A float for each object: how far it lies inside of itself at most with the detail of seen(), metres.
-  VkBuffer sunken() const { return sunken_.handle(); }
+  VkBuffer drawn() const { return drawn_.handle(); }  // shared::DrawnObject for each object, of seen()
   uint64_t bytes() const {
     return commands_.size() + places_.size() + levels_.size() + seen_.size() + torn_.size() +
-           casters_.size() + sunken_.size();
+           casters_.size() + drawn_.size();
   }
   void addUploads(std::vector<gpu::PerFrameBuffer*>& uploads);
 
@@ -92,7 +91,7 @@ class DrawList {
   std::vector<uint8_t> mirrored_;    // by draw
   uint32_t statesVersion_ = 0, room_ = 0, roomForLevels_ = 0, roomForObjects_ = 0;
   gpu::PerFrameBuffer commands_, places_, levels_;
-  gpu::Buffer seen_, torn_, casters_, sunken_;
+  gpu::Buffer seen_, torn_, casters_, drawn_;
 };
 
 }  // namespace scumble::world

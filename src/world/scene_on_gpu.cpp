@@ -231,7 +231,7 @@ bool SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>
     draw.state.textured = material.baseColorTexture.image >= 0 || material.emissiveTexture.image >= 0;
     draw.state.varied = draw.state.textured || !primitive.colors.empty();
     draw.state.casts = item.casts;
-    draw.state.castsFronts = primitive.isClosed && draw.state.alpha == AlphaMode::opaque;
+    draw.state.isClosed = primitive.isClosed && draw.state.alpha == AlphaMode::opaque;
     draw.state.castsAlone = material.paint.has_value();
     if (draw.state.textured) draw.textures |= shared::kTexturesColor;
     if (draw.state.textured && draw.state.alpha != AlphaMode::opaque) draw.textures |= shared::kTexturesCut;

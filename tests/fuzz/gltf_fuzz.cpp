@@ -84,7 +84,7 @@ void check(const SceneData& scene) {
                 inRange(m.litTexture.image, scene.images.size()) &&
                 inRange(m.shadowedTexture.image, scene.images.size()),
             "images");
-  for (const Image& image : scene.images)
+  for (const TextureImage& image : scene.images)
     require(
         image.rgba.size() == size_t(image.width) * image.height * 4 && image.width > 0 && image.height > 0,
         "image");

@@ -20,7 +20,7 @@ layout(set = 1, binding = 5, scalar) writeonly buffer Seen { DrawCommand seen[];
 layout(set = 1, binding = 6, scalar) writeonly buffer Casters { DrawCommand casters[]; };
 layout(set = 1, binding = 7, scalar) readonly buffer Levels { DrawLevel levels[]; };
 layout(set = 1, binding = 8, scalar) writeonly buffer Torn { DrawCommand torn[]; };
-layout(set = 1, binding = 9, scalar) writeonly buffer Sunken { float sunken[]; };
+layout(set = 1, binding = 9, scalar) writeonly buffer Drawn { DrawnObject drawn[]; };
 
 // As stage/visibility.h has it.
 bool mayBeSeen(DrawPlace place, mat4 worldToClip) {
@@ -35,6 +35,12 @@ bool mayBeSeen(DrawPlace place, mat4 worldToClip) {
   for (int p = 0; p < 6; ++p)
     isOutside = isOutside || dot(planes[p].xyz, center) + planes[p].w + dot(abs(planes[p].xyz), halfSize) < 0.0;
   return !isOutside && !(place.low.x > place.high.x);
+}
+
+// Whether the place may lie inside what is in the box.
+bool encloses(DrawPlace place, vec3 at) {
+  vec3 reach = 0.01 * (place.high - place.low);
+  return all(greaterThan(at, place.low - reach)) && all(lessThan(at, place.high + reach));
 }
 
 // Pixels that a metre takes in a picture where the box is nearest to an eye, and that is nearer by `closer` metres.
@@ -100,7 +106,9 @@ void main() {
     float off;
     torn[i] = leveled(command, place, kLevelTorn, off);
     seen[i] = leveled(command, place, kLevelSeen, off);
-    sunken[command.firstInstance] = off;
+    bool hidesBacks = place.isClosed != 0u;
+    for (int v = 0; v < kViewCount; ++v) hidesBacks = hidesBacks && !encloses(place, frame.views[v].eye);
+    drawn[command.firstInstance] = DrawnObject(off, uint(hidesBacks));
     return;
   }
   DrawPlace place = places[i];

@@ -26,7 +26,7 @@ class Cull : public Pass {
     const gpu::Handle list = frame.graph().importBuffer(kDrawList.name);
     frame.step("cull", [this](VkCommandBuffer commands) { record(commands); });
     frame.give(kDrawList, frame.use(list, gpu::Use::storageBufferWrite));
-    frame.give(kSunken, frame.use(frame.graph().importBuffer(kSunken.name), gpu::Use::storageBufferWrite));
+    frame.give(kDrawnObjects, frame.use(frame.graph().importBuffer(kDrawnObjects.name), gpu::Use::storageBufferWrite));
   }
 
   void create(FrameBuilder& frame) override {
@@ -52,7 +52,7 @@ class Cull : public Pass {
     if (sort_.most() < list.room()) sort_ = gpu::RadixSort(frame_->device(), list.room());
     const VkBuffer buffers[] = {list.commands(),         list.places(), sort_.keys().handle(),
                                 sort_.values().handle(), list.seen(),   list.casters(),
-                                list.levels(),           list.torn(),   list.sunken()};
+                                list.levels(),           list.torn(),   list.drawn()};
     for (uint32_t i = 0; i < std::size(buffers); ++i) set_.writeBuffer(0, 1 + i, buffers[i]);
   }
 

@@ -1,6 +1,8 @@
 // What lies behind the first surface, where ripple is layered: its light is its own (docs/passes.md: one
 // sample, light without the blur).
 #include <cmath>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "passes/surface/surface_knobs.h"
 #include "tests/support/aov.h"
@@ -85,6 +87,81 @@ TEST_P(BehindTest, hasItsOwnLight) {
   EXPECT_GT(dark, 25 * viewCount());
   EXPECT_GT(between, 8 * viewCount());
   EXPECT_GT(cast, 10 * viewCount());
+}
+
+// A torus of `around` by `across` vertices, the middle of its tube 0.9 m from its own.
+TestMesh ring(uint32_t around, uint32_t across) {
+  TestMesh mesh;
+  for (uint32_t i = 0; i < around; ++i)
+    for (uint32_t k = 0; k < across; ++k) {
+      const float a = 2 * glm::pi<float>() * float(i) / float(around),
+                  b = 2 * glm::pi<float>() * float(k) / float(across);
+      const glm::vec3 out(std::cos(a), 0, std::sin(a)),
+          normal = std::cos(b) * out + glm::vec3(0, std::sin(b), 0);
+      mesh.positions.push_back(0.9f * out + 0.45f * normal);
+      mesh.normals.push_back(normal);
+      mesh.uvs.push_back({float(i) / float(around), float(k) / float(across)});
+      const auto at = [&](uint32_t x, uint32_t y) { return x % around * across + y % across; };
+      for (const uint32_t v :
+           {at(i, k), at(i, k + 1), at(i + 1, k + 1), at(i, k), at(i + 1, k + 1), at(i + 1, k)})
+        mesh.indices.push_back(v);
+    }
+  return mesh;
+}
+
+// Paper 000, 7.3: an edge that is torn inwards shows what lies behind the form, and never the form's own back
+// wall, which double-sided materials have. From within, that wall is what lies behind.
+TEST_P(BehindTest, tornEdgesShowNoBackOfTheirOwn) {
+  const TestMesh forms[] = {ring(48, 24), sphereMesh({}, 1, 48), boxMesh({-1, -1, -1}, {1, 1, 1})};
+  const Look look = quietLook({{"final.ripple", "layered"}, {"warp.amount", "48"}, {"warp.inflation", "30"}});
+  for (const TestMesh& form : forms)
+    for (const float mirror : {1.0f, -1.0f}) {
+      size_t holes[2] = {0, 0};
+      for (const bool isDoubleSided : {false, true}) {
+        TestScene s;
+        Json material = TestScene::colored("Form", {0.7f, 0.3f, 0.2f, 1});
+        material["doubleSided"] = isDoubleSided;
+        s.add(form, s.material(material), glm::scale(glm::mat4(1.0f), {mirror, 1, 1}));
+        s.light({-0.4f, 1, 0.5f});
+        const Scene scene = s.load();
+        const auto views =
+            viewsFrom(scene, {{1.2f, 2.6f, 3.4f}, {0, 0, 0}, 42}, kBehindWidth, kBehindHeight, GetParam());
+        RenderOptions options = sized(kBehindWidth, kBehindHeight, {"id"});
+        options.transparent = true;
+        const Frame frame = draw(scene, look, views, options);
+        for (size_t v = 0; v < viewCount(); ++v)
+          for (int y = 0; y < kBehindHeight; ++y)
+            for (int x = 0; x < kBehindWidth; ++x)
+              holes[isDoubleSided] +=
+                  texel(aov(frame, "id", v), x, y).x != 0 && texel(aov(frame, "", v), x, y).a < 0.5;
+      }
+      EXPECT_GT(holes[0], 40 * viewCount());
+      EXPECT_NEAR(double(holes[1]), double(holes[0]), 0.02 * double(holes[0])) << "form " << &form - forms << ", mirrored " << mirror;
+    }
+}
+
+TEST_P(BehindTest, tornEdgesShowTheRoomAround) {
+  TestScene s;
+  Json walls = TestScene::colored("Walls", {0.3f, 0.4f, 0.8f, 1});
+  walls["doubleSided"] = true;
+  s.add(boxMesh({-4, -4, -4}, {4, 4, 4}), s.material(walls));
+  s.add(sphereMesh({}, 1, 48), s.material(TestScene::colored("Ball", {0.8f, 0.3f, 0.2f, 1})));
+  s.light({-0.4f, 1, 0.5f});
+  const Scene scene = s.load();
+  const auto views =
+      viewsFrom(scene, {{0, 0.6f, 3.4f}, {0, 0, 0}, 42}, kBehindWidth, kBehindHeight, GetParam());
+  RenderOptions options = sized(kBehindWidth, kBehindHeight);
+  options.transparent = true;
+  const Frame frame = draw(scene,
+                           quietLook({{"final.ripple", "layered"},
+                                      {"warp.amount", "48"},
+                                      {"warp.inflation", "30"},
+                                      {"materials.Walls.warp.amount", "0"}}),
+                           views, options);
+  for (size_t v = 0; v < viewCount(); ++v)
+    for (int y = 0; y < kBehindHeight; ++y)
+      for (int x = 0; x < kBehindWidth; ++x)
+        ASSERT_GT(texel(aov(frame, "", v), x, y).a, 0.99) << x << " " << y;
 }
 
 }  // namespace

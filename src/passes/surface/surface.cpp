@@ -50,7 +50,7 @@ class Surface : public Pass {
     samples_ = isBehind_ ? 1 : configuration_.samples;
     frame.step(name(), [this](VkCommandBuffer commands) { record(commands); });
     GeometryStep::use(frame);
-    frame.use(frame.get(kSunken), gpu::Use::storageBufferReadByVertex);
+    frame.use(frame.get(kDrawnObjects), gpu::Use::storageBufferReadByVertex);
     shadowMap_ = frame.use(frame.get(kShadowMap), gpu::Use::sampledByFragment);
     if (frame.has(kVeils)) veils_ = frame.use(frame.get(kVeils), gpu::Use::sampledByFragment);
     for (size_t i = 0; i < prepainted_.size(); ++i) {
@@ -138,7 +138,7 @@ class Surface : public Pass {
     // colours.
     const auto orAny = [&](gpu::Handle image) { return resources.image(image ? image : shadowMap_).view(); };
     for (size_t m = 0; m < sets_.size(); ++m) {
-      sets_.writeBuffer(m, shared::kSurfaceSunken, frame_->scene().draws().sunken());
+      sets_.writeBuffer(m, shared::kSurfaceObjects, frame_->scene().draws().drawn());
       sets_.rewriteTexture(m, shared::kSurfaceShadowMap, resources.image(shadowMap_).view(),
                            frame_->samplers().get(compare));
       sets_.rewriteTexture(m, shared::kSurfaceFirstDepth, orAny(firstDepth_), exact);

@@ -42,6 +42,7 @@ layout(set = 2, binding = kBlendedVeils) uniform sampler2DArray veils;
 #else
 layout(set = 2, binding = kSurfaceVeils) uniform sampler2DArray veils;
 layout(set = 2, binding = kSurfaceFirstDepth) uniform sampler2DArray firstDepth;
+layout(location = 12) flat in uint inHidesBacks;
 #endif
 
 layout(location = 0) in vec3 inLightSpace;
@@ -146,6 +147,8 @@ void main() {
   if ((kOptions & 4) != 0) mirrored = highlight(normalize(isFront ? inNormal : -inNormal));
   const bool isVaried = kVaried != 0, hasShadowedSet = (kSets & 2) != 0;
   if (kBehind) {
+    // Where a form is torn away, what is inside of it goes with it.
+    if (!isFront && inHidesBacks != 0u) discard;
     float first = texelFetch(firstDepth, ivec3(gl_FragCoord.xy, viewIndex()), 0).r;
     if (eyeDepth(gl_FragCoord.z, viewIndex()) < 1.005 * eyeDepth(first, viewIndex())) discard;
   }

@@ -22,6 +22,6 @@ struct LightParams {
 // Bindings of set 2.
 const int kSurfaceKnobs = 0, kSurfacePainted = 1, kSurfaceLight = 2, kSurfaceShadowMap = 3,
           kSurfaceExample = 4, kSurfaceInverse = 5, kSurfaceFirstDepth = 6, kSurfacePrepaintedLit = 7,
-          kSurfacePrepaintedShadowed = 8, kSurfaceSunken = 9, kSurfaceVeils = 10, kBlendedVeils = 6;
+          kSurfacePrepaintedShadowed = 8, kSurfaceObjects = 9, kSurfaceVeils = 10, kBlendedVeils = 6;
 SHARED_END
 #endif

@@ -1,6 +1,7 @@
 #version 460
 // Everything that varies slowly over a triangle is computed here: fragments of small triangles are many.
 #extension GL_GOOGLE_include_directive : require
+#include "../../shading/draws.shared.h"
 #include "../../shading/frame.glsl"
 #include "../../shading/light_space.glsl"
 #include "../../shading/material.glsl"
@@ -10,12 +11,13 @@
 #include "surface.glsl"
 
 #ifndef TRANSPARENT
-layout(set = 2, binding = kSurfaceSunken, scalar) readonly buffer Sunken { float sunken[]; };  // metres, by object
+layout(set = 2, binding = kSurfaceObjects, scalar) readonly buffer Drawn { DrawnObject drawn[]; };
+layout(location = 12) flat out uint outHidesBacks;
 #endif
 
 layout(constant_id = kVariedId) const int kVaried = 0;    // colours vary: vertex colours or textures
 layout(constant_id = kTexturedId) const int kTextured = 0;
-layout(constant_id = kPassId) const int kOptions = 0;  // 2: there are point and spot lights; 4: highlights
+layout(constant_id = kPassId) const int kOptions = 0;  // 1: only what lies behind; 2: there are point and spot lights; 4: highlights
 
 #ifdef TRANSPARENT
 layout(location = 11) in uint inPart;
@@ -73,7 +75,7 @@ void main() {
   float coarse = max(texel.x, texel.y);
   float lift = 2.5 * coarse;
 #ifndef TRANSPARENT
-  lift += sunken[index];
+  lift += drawn[index].sunken;
 #endif
   p += mat3(frame.worldToLight) * normal * (lambert < 0.0 ? -lift : lift);
   outLightSpace = vec3(sigmoidArgument(p.xy), p.z - 0.5 * coarse / frame.lightToWorldScale.z);
@@ -86,6 +88,9 @@ void main() {
     outWorld = inPosition;
     outNormal = normal;
   }
+#ifndef TRANSPARENT
+  if ((kOptions & 1) != 0) outHidesBacks = drawn[index].hidesBacks;
+#endif
   if (kVaried != 0) outColor = inColor;
 #ifdef PAINTED
   mat4 tangentClip = tangentView(kTangents, worldToClip);
