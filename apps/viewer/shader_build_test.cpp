@@ -13,9 +13,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 TEST(VisibleShaderBuild, readsRulesOfMake) {
-  using Files = std::vector<std::string>;
-  EXPECT_EQ(dependenciesIn("out.h: a.glsl b/c.glsl\n"), (Files{"a.glsl", "b/c.glsl"}));
-  EXPECT_EQ(dependenciesIn("out.h: a\\ b.glsl \\\n  c.glsl"), (Files{"a b.glsl", "c.glsl"}));
+  EXPECT_EQ(dependenciesIn("out.h: a.glsl b/c.glsl\n"), (std::vector<std::string>{"a.glsl", "b/c.glsl"}));
+  EXPECT_EQ(dependenciesIn("out.h: a\\ b.glsl \\\n  c.glsl"),
+            (std::vector<std::string>{"a b.glsl", "c.glsl"}));
   EXPECT_TRUE(dependenciesIn("").empty());
   EXPECT_TRUE(dependenciesIn("out.h:").empty());
 }

@@ -23,6 +23,7 @@
 #include "passes/final_shadow/final_shadow_knobs.h"
 #include "passes/limit/limit.h"
 #include "passes/limit/limit_knobs.h"
+#include "passes/lost_edges/lost_edges.h"
 #include "passes/matte/matte.h"
 #include "passes/order/order.h"
 #include "passes/plain/plain.h"
@@ -171,6 +172,7 @@ PassList standardPassesAlone() {
     list.append([=] { return passes::makeLimitOverlay(layer); });
   }
   list.append(passes::makeFinalColor);
+  list.append(passes::makeLostEdges);
   list.append(passes::makeFacts);
   list.append(passes::makeMatte);
   return list;

@@ -135,6 +135,7 @@ struct MaterialData {
   vec3 emissiveUvRowU, emissiveUvRowV;
   uint baseUvSet, emissiveUvSet;
   float unlit;            // 1: always in full light
+  float blacks;           // colours of less luminance are in the light what they are in shadow
   vec3 tintDown, tintUp;  // square roots of factors on colours in shadow, for faces that look down and up
   vec3 planeSky, planeTurned;  // the same on colours in light, for planes that face the sky, or turn away
   float matte;                 // 1: not seen itself; what is behind everything takes its shadows

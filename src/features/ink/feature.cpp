@@ -34,7 +34,7 @@ frame::FeatureParts makeFeature() {
           {{"surface", makeParts},
            {"surface", makeLines},
            {"final-shadow", makeOverlay},
-           {"final-color", makeOver, {"painting", "watercolor"}}},
+           {"lost-edges", makeOver, {"painting", "watercolor"}}},
           {&InkParams::block(), &LineParams::block(), &SilhouetteParams::block(), &BoundaryParams::block(),
            &MaterialBorderParams::block(), &CreaseParams::block(), &ColorBorderParams::block(),
            &ShadowShapeParams::block(), &LightStepParams::block(), &ObjectBorderParams::block(),

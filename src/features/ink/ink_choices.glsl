@@ -10,6 +10,7 @@ const int kPlacement = kChoices >> kInkPlacementBit & 1;
 const bool kDoubled = (kChoices >> kInkDoubledBit & 1) != 0;
 const int kTexture = kChoices >> kInkTextureBit & 3;
 const bool kLamps = (kChoices >> kInkLampsBit & 1) != 0;  // point and spot lights count
+const bool kBreaks = (kChoices >> kInkBreaksBit & 1) != 0;
 const bool kCyclopean = (kChoices >> kInkCyclopeanBit & 1) != 0;
 bool isShown(int kind) { return (kChoices >> (kInkKindsBit + kind) & 1) != 0; }
 #endif

@@ -43,7 +43,7 @@ bool showsLayers(const scene::SceneData& scene, const look::LookData& look) {
 
 frame::FeatureParts makeFeature() {
   return {std::make_unique<PaintingFeature>(),
-          {{"order", makePoints}, {"surface", makeSplats}, {"final-color", makeOver, {"watercolor"}}},
+          {{"order", makePoints}, {"surface", makeSplats}, {"lost-edges", makeOver, {"watercolor"}}},
           {&PaintingParams::block()},
           {}};
 }

@@ -1,4 +1,6 @@
 // What the program knows of watercolours.
+#include <algorithm>
+
 #include "features/watercolor/pigment/anchors_on_gpu.h"
 #include "features/watercolor/watercolor.h"
 #include "features/watercolor/watercolor_knobs.h"
@@ -33,10 +35,19 @@ class WatercolorFeature : public world::Feature {
 
 }  // namespace
 
+bool mayColorStamps(const look::LookData& look) {
+  const auto colors = [](const look::Assignment& a) {
+    return a.block == &StampParams::block() && std::string_view(a.row->name) == "colorAmount" &&
+           !a.pattern.empty() && a.value.number > 0;
+  };
+  return look.get<StampParams>().colorAmount > 0 ||
+         std::any_of(look.assignments.begin(), look.assignments.end(), colors);
+}
+
 frame::FeatureParts makeFeature() {
   return {std::make_unique<WatercolorFeature>(),
-          {{"surface", makePigment}, {"final-color", makeExtent}, {"final-color", makeWash}},
-          {&WatercolorParams::block()},
+          {{"surface", makePigment}, {"lost-edges", makeExtent}, {"lost-edges", makeWash}},
+          {&WatercolorParams::block(), &StampParams::block()},
           {}};
 }
 

@@ -13,6 +13,8 @@ inline constexpr const char* kName = "watercolor";
 // At a quarter of the size. R: how much more pigment there is than elsewhere, G: how much warmer it is, both
 // around 1/2; B: how wet it is.
 inline constexpr frame::Role kPigment{"pigment"};
+// Colours that stamps have of their own, premultiplied, where any have.
+inline constexpr frame::Role kTints{"pigment tints"};
 
 std::unique_ptr<frame::Pass> makePigment();
 // Gives frame::kPaintedExtent.

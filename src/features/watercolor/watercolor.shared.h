@@ -27,10 +27,22 @@ struct PigmentUniforms {
   float size;      // of stamps, in spacings
   float backruns;  // part of stamps
   uint seed;
-  float byOpacity;  // 1: the brush's picture has transparency, which says where it paints; else 0
+  vec4 byOpacity;  // of each brush, 1: its picture has transparency, which says where it paints; else 0
+  uint brushes;    // of which stamps take any
+  float sizes;     // how far they differ in size
+  float turns;     // how far they are turned
 };
+// What stamps are like on a material.
+struct PigmentMaterial {
+  float strength, density;
+  uint brush;  // 0: any
+  vec3 color;
+  float colorAmount;
+};
+const int kPigmentBrushes = 4;
 const int kPigmentBlock = 0, kPigmentAnchors = 1, kPigmentObjects = 2, kPigmentVertices = 3,
-          kPigmentDepth = 4, kPigmentBrush = 5, kPigmentPlaces = 6;
+          kPigmentDepth = 4, kPigmentPlaces = 5, kPigmentMaterials = 6, kPigmentBrush = 7, kPigmentSecond = 8,
+          kPigmentThird = 9, kPigmentFourth = 10;
 
 // Pigment is laid down at a quarter of the size, since stamps are large and soft.
 const int kPigmentScale = 4;
@@ -46,8 +58,8 @@ struct WashUniforms {
   vec3 paperLight;  // where the light is that falls on the paper: x, y from -1 to 1 over the picture, z
                     // towards the viewer
 };
-const int kWashPicture = 1, kWashDensity = 2, kWashPigment = 3, kWashLight = 4, kWashPaper = 5,
-          kWashBroad = 6, kWashNormals = 7;
+const int kWashPicture = 1, kWashDensity = 2, kWashPigment = 3, kWashLight = 4, kWashTint = 5, kWashPaper = 6,
+          kWashBroad = 7, kWashNormals = 8;
 const int kWashBlurred = 1;
 // The paper's slopes, for specialisation constant 0: of the relief, none, or of a normal map.
 const int kSlopesOfRelief = 0, kNoSlopes = 1, kSlopesOfNormals = 2;

@@ -217,6 +217,7 @@ void main() {
       shadowed = mix(shadowed * tint, applyColorMap(material.ownShadowed, own), material.hasShadowedColor);
     else
       shadowed = mix(shadowed, own, material.hasShadowedColor) * tint;
+    lit = mix(lit, shadowed, blackness(dot(root * root, kLuminance), material.blacks));
     shadowed = mix(shadowed, lit, material.unlit);
     lit = min(lit * plane, vec3(1.0));
     lit = sqrt(lit * lit + emissive);
@@ -231,7 +232,7 @@ void main() {
   // Red: Lambert times cast shadow, steepened around the terminator. Outside the map there is nothing that could cast a
   // shadow, and its border is empty.
   float reaches = texture(shadowMap, vec4(shadowMapUv(inLightSpace.xy), 0.0, min(inLightSpace.z, 1.0)));
-  float turn = facing.x - keyLight.terminator;
+  float turn = mix(facing.x, facing.z, keyLight.roundness) - keyLight.terminator;
   float light = clamp(0.5 + turn * keyLight.terminatorSharpness, 0.0, 1.0) * reaches;
   if ((kOptions & 2) != 0)
     light = min(light + punctualLight(inWorld, normalize(isFront ? inNormal : -inNormal)), 1.0);

@@ -7,6 +7,7 @@
 #include "passes/blur/blur_knobs.h"
 #include "passes/color/color_knobs.h"
 #include "passes/colorize/colorize_knobs.h"
+#include "passes/final_color/final_color_knobs.h"
 #include "passes/limit/limit_knobs.h"
 #include "passes/tiles/tile_steps.shared.h"
 #include "passes/warp/warp_knobs.h"
@@ -104,7 +105,11 @@ class Tiles : public Pass {
 
     const float tear = farthestTear(input);
     const int shaded = tilesOf(blurReach(input.knobs.scene<BlurParams>().radius * pixelScale)),
-              torn = tilesOf(std::max(tear, input.inflation) + 1.5f), blurred = 2 * shaded;
+              torn = tilesOf(
+                  std::max({tear, input.inflation,
+                            tear > 0 ? lostReach(input.knobs.scene<FinalColorParams>(), pixelScale) : 0}) +
+                  1.5f),
+              blurred = 2 * shaded;
     const bool isNear = torn <= shared::kFarthestTile;
     const int wanted = (tear > 0 ? shared::kWantsTears : 0) |
                        (marksUse(input.knobs) != MarksUse::none ? shared::kWantsMarks : 0) |

@@ -37,8 +37,8 @@ float nearestOn(vec2 from, vec2 to, vec2 point) {
 
 // A line's coverage of a pixel. `nearest`: of the line as it is drawn; `spine`: of the edge, at `t`.
 float lineCoverage(float radius, vec2 pixel, vec2 nearest, vec2 spine, float t, int view) {
-  float plain = coverageOf(radius, distance(pixel, nearest));
-  if (kTexture == kInkPlain) return plain;
+  float away = distance(pixel, nearest), plain = coverageOf(radius, away);
+  if (kTexture == kInkPlain && !kBreaks) return plain;
   float parallel = VIEW_FIELD(orthographic, view);
   vec2 metres = vec2(eyeDepth(inRadii.z, view), eyeDepth(inRadii.w, view));
   vec2 nearness = mix(1.0 / metres, vec2(1.0), parallel);
@@ -46,11 +46,15 @@ float lineCoverage(float radius, vec2 pixel, vec2 nearest, vec2 spine, float t, 
   vec3 place = mix(inRestA * nearness.x, inRestB * nearness.y, t) * metresAway;
   vec2 off = (pixel - spine) * metresAway, along = inSpine.zw - inSpine.xy;
   vec3 beside = place + off.x * inAcross + off.y * inDown;
+  if (kBreaks) plain = coverageOf(max(radius, 0.5), away);
   // Beyond its ends a line goes straight on, as the next one does, which lies there as well.
   place += (inRestB - inRestA) * dot(pixel - spine, along) / max(dot(along, along), 1e-3);
+  float size = length(inAcross) * metresAway * ink.textureSize;
+  if (kBreaks) plain *= unbroken(place, size, radius);
+  if (kTexture == kInkPlain) return plain;
   // Inner lines have no sides that would stay where they are.
   float side = dot(pixel - nearest, inOutward.xy);
-  return plain * strokeCoverage(place, beside, length(inAcross) * metresAway * ink.textureSize, radius,
+  return plain * strokeCoverage(place, beside, size, radius,
                                 inOutward.z > 0.0 ? side : abs(side));
 }
 

@@ -70,6 +70,7 @@ uint32_t inkChoices(const FrameInput& input) {
          uint32_t(params.doubled != 0 && params.doubledWidth > 0) << shared::kInkDoubledBit |
          uint32_t(params.textureAmount > 0 ? int(params.texture) : shared::kInkPlain)
              << shared::kInkTextureBit |
+         uint32_t(params.breaks) << shared::kInkBreaksBit |
          uint32_t(input.uniforms.lightCount > 0) << shared::kInkLampsBit |
          shownBit<SilhouetteParams>(input.knobs, shared::kInkSilhouette) |
          shownBit<BoundaryParams>(input.knobs, shared::kInkBoundary) |

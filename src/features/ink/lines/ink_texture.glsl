@@ -35,6 +35,14 @@ float scaledNoise(vec3 place, float size, vec3 shift) {
   return mix(fine, coarse, part) * inversesqrt(part * part + (1.0 - part) * (1.0 - part));
 }
 
+// Whether a line that is too thin to be drawn whole is drawn here, 0 or 1 but for the ends of its gaps: as much of it as
+// its radius has of half a pixel.
+float unbroken(vec3 place, float size, float radius) {
+  float slow = scaledNoise(place, 0.75 * size, vec3(13.0, 2.0, 6.0));
+  float before = 1.0 / (1.0 + exp(-1.7 * slow));  // how much of the noise is less: from 0 to 1, evenly
+  return clamp((2.0 * radius - before) * 12.0 + 0.5, 0.0, 1.0) * step(1e-4, radius);
+}
+
 // How much of a line with that radius is left `side` of its middle, pixels. `place`: of the line, `beside`: of the pixel, both on
 // the surface at rest; `size`: of marks, there.
 float strokeCoverage(vec3 place, vec3 beside, float size, float radius, float side) {

@@ -105,5 +105,36 @@ TEST_P(InkTexture, amountAndSizeAreKnobs) {
   }
 }
 
+// Ink has no grey: of a line that is thinner than a pixel as much is drawn as it has of one, in strokes.
+TEST_P(InkTexture, thinLinesBreakAndAreNotPale) {
+  const auto thin = [&](const char* breaks, const glm::vec2& moved, float larger = 1) {
+    return lines(
+        "plain", 9, moved + glm::vec2(0, 0.5f * kPixel), larger,
+        {{"ink.least", "3"}, {"ink.greatest", "3"}, {"ink.placement", "centred"}, {"ink.breaks", breaks}});
+  };
+  const Texels pale = thin("off", {0, 0}), broken = thin("on", {0, 0});
+  double ink[2] = {0, 0};
+  int inked[2] = {0, 0}, grey[2] = {0, 0}, black = 0;
+  for (int y = 0; y < kDown; ++y)
+    for (int x = 40; x < kAcross - 40; ++x)
+      for (const int i : {0, 1}) {
+        const double coverage = (i == 0 ? pale : broken).clamped(x, y).w;
+        ink[i] += coverage, inked[i] += coverage > 0.05, grey[i] += coverage > 0.15 && coverage < 0.85;
+        black += i == 1 && coverage > 0.95;
+      }
+  EXPECT_GT(grey[0], 0.95 * inked[0]);
+  EXPECT_LT(grey[1], 0.25 * inked[1]);
+  EXPECT_NEAR(ink[1] / ink[0], 1, 0.25);
+  EXPECT_GT(black, 0.25 * inked[0]);
+  // Gaps lie on the surface, and not on edges or on the screen.
+  EXPECT_LT(difference(broken, thin("on", {16 * kPixel, 0}), 16), 0.05);
+  EXPECT_GT(difference(broken, broken, 16), 0.2);
+  // What is wide enough is as it was.
+  const Knobs wide{{"ink.least", "9"}, {"ink.greatest", "12"}};
+  Knobs breaking = wide;
+  breaking.emplace_back("ink.breaks", "on");
+  EXPECT_LT(difference(lines("plain", 9, {}, 1, wide), lines("plain", 9, {}, 1, breaking)), 1e-6);
+}
+
 }  // namespace
 }  // namespace scumble::ink

@@ -76,9 +76,6 @@ vec4 bordersAround(ivec2 pixel, int layer) {
 
 vec4 inkOf(int kind, float coverage) { return coverage * vec4(1.0 - u.kinds[kind].color, 1.0); }
 
-// Edges of light are about a pixel and a half wide: lines that are thinner than that are lighter instead.
-const float kThinnest = 0.75;
-
 // `place`: pixels, where it is taken from. `ink`: what strokes have there. `metres`: along the view axis, where found lines
 // have more of the pixel; else it stays.
 vec4 withFoundLines(vec4 ink, ivec2 pixel, vec2 place, int layer, inout float metres) {
@@ -88,16 +85,16 @@ vec4 withFoundLines(vec4 ink, ivec2 pixel, vec2 place, int layer, inout float me
   if ((isShown(kInkOverShadows) || isShown(kInkOverSteps)) && (flags & kTileShaded) != 0u)
     for (int kind = kInkOverShadows; kind <= kInkOverSteps; ++kind) {
       if (!isShown(kind)) continue;
-      float radius = u.kinds[kind].radius * scale;
-      vec2 lines = lightLines(place, max(radius, kThinnest), layer);
-      vec4 found = inkOf(kind, min(radius / kThinnest, 1.0) * lines[kind - kInkOverShadows]);
+      float radius = max(u.kinds[kind].radius * scale, u.least);
+      vec2 lines = lightLines(place, max(radius, kInkOverThinnest), layer);
+      vec4 found = inkOf(kind, min(radius / kInkOverThinnest, 1.0) * lines[kind - kInkOverShadows]);
       metres = found.a > ink.a ? seen : metres;
       ink = max(ink, found);
     }
   if (kReach > 0) {
     vec4 nearest = bordersAround(ivec2(floor(place)), layer);
     for (int kind = kInkOverObjects; kind <= kInkOverCutOuts; ++kind) {
-      float radius = min(u.kinds[kind].radius * scale, float(kReach));
+      float radius = min(max(u.kinds[kind].radius * scale, u.least), float(kReach));
       if (!isShown(kind)) continue;
       vec4 found = inkOf(kind, coverageOf(radius, nearest[kind - kInkOverObjects]));
       metres = found.a > ink.a ? nearest.w : metres;

@@ -15,8 +15,12 @@ struct InkOverKind {
 struct InkOverUniforms {
   float warp;   // how far the warp moves ink, against other edges
   float steps;  // of light
+  float least;  // half the width of lines, pixels, at least
   InkOverKind kinds[kInkOverKinds];
 };
+// Edges of light are about a pixel and a half wide: lines that are thinner than that are lighter instead, or
+// where lines break and are not paler (ink.breaks), as wide as that.
+const float kInkOverThinnest = 0.75f;
 // How far from a pixel borders of pieces are looked for, at most: half the greatest width of their lines.
 const int kInkOverReach = 4;
 // Beyond such a slope two places are no longer on one surface, or touch.

@@ -125,8 +125,8 @@ bool AnchorsOnGpu::update(gpu::Device& device, gpu::Uploader& uploader,
   for (size_t i = 0; i < items.size(); ++i) {
     const bool isShown = isPainted(items[i]);
     known.push_back({items[i].primitive, places[i].firstVertex,
-                     isShown ? spreads_.at(items[i].primitive).candidates : 0, seeds_[i], isShown,
-                     isSided_[i]});
+                     isShown ? spreads_.at(items[i].primitive).candidates : 0, seeds_[i], items[i].material,
+                     isShown, isSided_[i]});
   }
   if (anchors_.handle() && known == known_) return false;
   device.requireBindable(finalVertexCount(items, places) * sizeof(shared::VertexCore),
@@ -146,7 +146,7 @@ bool AnchorsOnGpu::update(gpu::Device& device, gpu::Uploader& uploader,
       for (const scene::SurfaceAnchor& a : spread.anchors)
         anchors.push_back({a.a, a.b, a.c, a.toB, a.toC, a.spacing, a.area, a.seed});
     objects.push_back({first->second, item.firstVertex, uint32_t(i), item.seed, uint32_t(item.isSided)});
-    painted_.push_back({uint32_t(i), &spread.anchors});
+    painted_.push_back({uint32_t(i), item.material, &spread.anchors});
   }
   settle();
   // What was there goes first.

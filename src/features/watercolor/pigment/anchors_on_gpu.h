@@ -25,7 +25,7 @@ class AnchorsOnGpu {
 
   // What is painted, in the order of PaintedObject in their buffer.
   struct Painted {
-    uint32_t object;
+    uint32_t object, material;
     const std::vector<scene::SurfaceAnchor>* anchors;  // the widest spacing first; until the next update()
   };
   const std::vector<Painted>& painted() const { return painted_; }
@@ -45,7 +45,7 @@ class AnchorsOnGpu {
   std::vector<bool> isSided_;    // by item
   struct Known {
     const scene::Primitive* primitive;
-    uint32_t firstVertex, anchors, seed;
+    uint32_t firstVertex, anchors, seed, material;
     bool shown, isSided;
     bool operator==(const Known&) const = default;
   };

@@ -1,5 +1,6 @@
 // Lays pigment down around anchors, each object's on that object.
 #include <algorithm>
+#include <cmath>
 
 #include "features/watercolor/pigment/anchors_on_gpu.h"
 #include "features/watercolor/watercolor.h"
@@ -9,6 +10,9 @@
 #include "shaders/pigment_places_frag.h"
 #include "shaders/pigment_places_vert.h"
 #include "shaders/pigment_stamp_cells_frag.h"
+#include "shaders/pigment_stamp_colored_cells_frag.h"
+#include "shaders/pigment_stamp_colored_frag.h"
+#include "shaders/pigment_stamp_colored_shapes_frag.h"
 #include "shaders/pigment_stamp_frag.h"
 #include "shaders/pigment_stamp_shapes_frag.h"
 #include "shaders/pigment_stamp_vert.h"
@@ -27,12 +31,14 @@ class Pigment : public Pass {
   const char* name() const override { return "pigment"; }
   std::span<const Aov> aovs() const override { return kAovs; }
   uint32_t variant(const scene::SceneData&, const look::LookData& look) const override {
-    return mayShow(look) ? 1 + uint32_t(look.get<WatercolorParams>().generator) : 0;
+    if (!mayShow(look)) return 0;
+    return 1 + uint32_t(look.get<WatercolorParams>().generator) + (mayColorStamps(look) ? kColored : 0);
   }
 
   void declare(FrameBuilder& frame, uint32_t variant) override {
     isShown_ = variant > 0;
-    generator_ = isShown_ ? variant - 1 : kStamps;
+    isColored_ = (variant & kColored) != 0;
+    generator_ = isShown_ ? (variant & ~kColored) - 1 : kStamps;
     configuration_ = frame.configuration();
     gpu::ImageShape shape{.overX = shared::kPigmentScale, .overY = shared::kPigmentScale};
     if (isShown_) {
@@ -51,6 +57,10 @@ class Pigment : public Pass {
     }
     shape.format = kBytes;
     image_ = frame.use(frame.image("pigment", shape), gpu::Use::colorTarget);
+    if (isColored_) {
+      tints_ = frame.use(frame.image(kTints.name, shape), gpu::Use::colorTarget);
+      frame.give(kTints, tints_);
+    }
     shape.format = kDepthFormat;
     if (generator_ == kCells) cells_ = frame.use(frame.image("pigment cells", shape), gpu::Use::depthTarget);
     frame.give(kPigment, image_);
@@ -63,31 +73,35 @@ class Pigment : public Pass {
     uniforms_ = frame.uniform(sizeof(shared::PigmentUniforms));
     constexpr VkShaderStageFlags kVertex = VK_SHADER_STAGE_VERTEX_BIT,
                                  kFragment = VK_SHADER_STAGE_FRAGMENT_BIT;
+    materials_ = frame.uniform(frame.scene().materialCount() * sizeof(shared::PigmentMaterial));
+    constexpr VkDescriptorType kBuffer = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                               kImage = VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
     layout_ = gpu::SetLayout(frame.device(), {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kVertex | kFragment},
-                                              {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
-                                              {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
-                                              {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kVertex},
-                                              {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kVertex},
-                                              {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment},
-                                              {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, kFragment}});
+                                              {kBuffer, kVertex},
+                                              {kBuffer, kVertex},
+                                              {kBuffer, kVertex},
+                                              {kImage, kVertex},
+                                              {kImage, kFragment},
+                                              {kBuffer, kVertex},
+                                              {kImage, kFragment},
+                                              {kImage, kFragment},
+                                              {kImage, kFragment},
+                                              {kImage, kFragment}});
     set_ = gpu::DescriptorSets(frame.device(), layout_);
     set_.writeBuffer(0, shared::kPigmentBlock, uniforms_.buffer, uniforms_.offset, uniforms_.size);
+    set_.writeBuffer(0, shared::kPigmentMaterials, materials_.buffer, materials_.offset, materials_.size);
     gpu::GraphicsPipelineDesc desc;
     desc.vertex = {shaders::pigment_stamp_vert};
+    desc.fragment = stampShader();
     if (generator_ == kCells) {
-      desc.fragment = {shaders::pigment_stamp_cells_frag};
       desc.depthFormat = kDepthFormat;
       desc.depthCompare = VK_COMPARE_OP_GREATER;
     } else {
-      if (generator_ == kShapes)
-        desc.fragment = {shaders::pigment_stamp_shapes_frag};
-      else
-        desc.fragment = {shaders::pigment_stamp_frag};
       desc.blend = gpu::Blend::over;
     }
     desc.constants.resize(size_t(shared::kViewCountId) + 1);
     desc.constants.back() = configuration_.viewCount;
-    desc.colorFormats = {kBytes};
+    desc.colorFormats.assign(isColored_ ? 2 : 1, kBytes);
     desc.viewMask = configuration_.views().mask();
     desc.sets = {frame.frameLayout().handle(), layout_.handle()};
     desc.pushConstantBytes = 4;
@@ -119,17 +133,31 @@ class Pigment : public Pass {
   void update(const FrameInput& input) override {
     if (!isShown_) return;
     const WatercolorParams params = input.knobs.scene<WatercolorParams>();
-    const ExampleTexture& brush = frame_->examples().get(input.look, params.brush);
     const float spacing = params.spacing * input.uniforms.pixelScale;
-    uniforms_.write(shared::PigmentUniforms{spacing, params.stampSize, params.backruns, input.seed,
-                                            float(brush.isClear)});
-    set_.writeTexture(0, shared::kPigmentBrush, brush.image.view(), frame_->samplers().get(kBrushSampler));
+    shared::PigmentUniforms uniforms{spacing, params.stampSize, params.backruns, input.seed};
+    const look::Picture brushes[] = {params.brush, params.brush2, params.brush3, params.brush4};
+    static_assert(std::size(brushes) == shared::kPigmentBrushes);
+    for (int i = 0; i < shared::kPigmentBrushes; ++i) {
+      const ExampleTexture& brush = frame_->examples().get(input.look, brushes[i]);
+      uniforms.byOpacity[i] = float(brush.isClear);
+      set_.writeTexture(0, uint32_t(shared::kPigmentBrush + i), brush.image.view(),
+                        frame_->samplers().get(kBrushSampler));
+    }
+    uniforms.brushes = uint32_t(params.brushes), uniforms.sizes = params.sizes, uniforms.turns = params.turns;
+    uniforms_.write(uniforms);
+    auto* const materials = reinterpret_cast<shared::PigmentMaterial*>(materials_.mapped);
+    for (size_t m = 0; m < input.scene.materialCount(); ++m) {
+      const StampParams stamps = input.knobs.of<StampParams>(m);
+      materials[m] = {stamps.strength, stamps.density, uint32_t(stamps.brush), stamps.color.linear,
+                      stamps.colorAmount};
+    }
     placesStep_.refresh();
     countAnchors(input, spacing);
   }
 
  private:
   static constexpr Aov kAovs[] = {{.name = "pigment"}};
+  static constexpr uint32_t kColored = 8;  // of variants, beside the generator's number from 1 on
   static constexpr VkFormat kPlaces = VK_FORMAT_R32G32_SFLOAT;
   static constexpr gpu::SamplerDesc kBrushSampler{
       VK_FILTER_LINEAR, VK_SAMPLER_ADDRESS_MODE_REPEAT, VK_SAMPLER_ADDRESS_MODE_REPEAT, true, false, 1};
@@ -159,8 +187,9 @@ class Pigment : public Pass {
       }
       // The vertex shader fades them in from 0.8 of this on; stretched triangles have wider ones.
       constexpr float kStretched = 3;
-      const float least =
-          0.8f * spacing * pixel / (kStretched * std::max(motion.scales()[painted.object], 1e-20f));
+      const StampParams stamps = input.knobs.of<StampParams>(painted.material);
+      const float least = 0.8f * spacing / std::sqrt(stamps.density) * pixel /
+                          (kStretched * std::max(motion.scales()[painted.object], 1e-20f));
       counts_.back() = uint32_t(
           std::partition_point(painted.anchors->begin(), painted.anchors->end(),
                                [&](const scene::SurfaceAnchor& anchor) { return anchor.spacing >= least; }) -
@@ -176,11 +205,12 @@ class Pigment : public Pass {
   }
 
   void record(VkCommandBuffer commands) const {
-    gpu::Target pigment{&resources_->image(image_), nullptr, {}};
-    pigment.clear.color = {{0.5f, 0.5f, 0.5f, 0.0f}};
+    std::vector<gpu::Target> targets{{&resources_->image(image_), nullptr, {}}};
+    targets[0].clear.color = {{0.5f, 0.5f, 0.5f, 0.0f}};
+    if (isColored_) targets.push_back({&resources_->image(tints_), nullptr, {}});
     gpu::Target cells;
     if (generator_ == kCells) cells = {&resources_->image(cells_), nullptr, {}};
-    gpu::drawViews(commands, configuration_.views(), {&pigment, 1}, generator_ == kCells ? &cells : nullptr,
+    gpu::drawViews(commands, configuration_.views(), targets, generator_ == kCells ? &cells : nullptr,
                    [&](uint32_t firstView) {
                      if (!isShown_ || counts_.empty()) return;
                      pipeline_.bind(commands);
@@ -192,12 +222,23 @@ class Pigment : public Pass {
                    });
   }
 
+  gpu::Shader stampShader() const {
+    if (generator_ == kCells)
+      return isColored_ ? gpu::Shader{shaders::pigment_stamp_colored_cells_frag}
+                        : gpu::Shader{shaders::pigment_stamp_cells_frag};
+    if (generator_ == kShapes)
+      return isColored_ ? gpu::Shader{shaders::pigment_stamp_colored_shapes_frag}
+                        : gpu::Shader{shaders::pigment_stamp_shapes_frag};
+    return isColored_ ? gpu::Shader{shaders::pigment_stamp_colored_frag}
+                      : gpu::Shader{shaders::pigment_stamp_frag};
+  }
+
   FrameBuilder* frame_ = nullptr;
   Configuration configuration_;
-  bool isShown_ = false;
+  bool isShown_ = false, isColored_ = false;
   uint32_t generator_ = kStamps;
-  UniformSlice uniforms_;
-  gpu::Handle depth_, image_, cells_, places_, placesDepth_;
+  UniformSlice uniforms_, materials_;
+  gpu::Handle depth_, image_, tints_, cells_, places_, placesDepth_;
   GeometryStep placesStep_;
   std::vector<uint32_t> counts_;  // of anchors that are drawn, by painted object
   const gpu::GraphResources* resources_ = nullptr;

@@ -9,12 +9,15 @@ layout(set = 1, binding = kPigmentBlock, scalar) uniform Block { PigmentUniforms
 layout(set = 1, binding = kPigmentAnchors, scalar) readonly buffer Anchors { DrawnAnchor anchors[]; };
 layout(set = 1, binding = kPigmentObjects, scalar) readonly buffer Objects { PaintedObject painted[]; };
 layout(set = 1, binding = kPigmentVertices, scalar) readonly buffer Vertices { VertexCore vertices[]; };
+layout(set = 1, binding = kPigmentMaterials, scalar) readonly buffer Materials { PigmentMaterial pigments[]; };
 layout(set = 1, binding = kPigmentDepth) uniform sampler2DArray depth;
 
 layout(location = 0) out vec2 outPlace;        // in the stamp, from -1 to 1
 layout(location = 1) flat out vec4 outStamp;   // eye depth, metres that it reaches, how much it counts, its turn
 layout(location = 2) flat out vec4 outChance;  // four numbers of its own, 0 to 1
 layout(location = 3) flat out float outObject;  // 1 + its id
+layout(location = 4) flat out uint outBrush;
+layout(location = 5) flat out vec4 outTint;  // colour, and how much of it
 
 uint mixed(uint x) {
   x = (x ^ (x >> 16)) * 0x7FEB352Du;
@@ -61,6 +64,8 @@ void main() {
   outPlace = vec2(0.0);
   outStamp = outChance = vec4(0.0);
   outObject = 0.0;
+  outBrush = 0u;
+  outTint = vec4(0.0);
   int corner = int(uint(gl_VertexIndex) % 6u);
   PaintedObject own = painted[gl_InstanceIndex];
   DrawnAnchor anchor = anchors[own.firstAnchor + uint(gl_VertexIndex) / 6u];
@@ -75,7 +80,8 @@ void main() {
   int view = viewIndex();
   float parallel = VIEW_FIELD(orthographic, view);  // mixed and not chosen by: no branch on a uniform
   float pixel = metresOfPixel(distance(frame.viewer, position), view);
-  float wanted = u.spacing * pixel;
+  PigmentMaterial pigment = pigments[objects[own.object].material];
+  float wanted = u.spacing * pixel * inversesqrt(pigment.density);
   float grown = smoothstep(0.8, 1.3, anchor.spacing * scale / wanted);
   if (grown <= 0.0) return;
   // It fades where the surface turns away, and is not seen from behind (FORMULAS 22; paper 004, section 3.4).
@@ -87,9 +93,12 @@ void main() {
   vec4 clip = VIEW_FIELD(worldToClip, view) * vec4(position, 1.0);
   if (clip.w <= 1e-6) return;
   vec2 at = (clip.xy / clip.w + 1.0) * 0.5 * frame.imageSize;
-  float radius = u.spacing * u.size * grown;
+  uint number = mixed(anchor.seed ^ mixed(own.seed + u.seed));
+  // Other numbers than those of what it lays down.
+  vec4 kind = chanceOf(mixed(number ^ 0x9E3779B9u));
+  float radius = u.spacing * u.size * grown * exp2((2.0 * kind.x - 1.0) * u.sizes);
   if (any(lessThan(at, vec2(-radius))) || any(greaterThan(at, frame.imageSize + radius))) return;
-  float counts = smoothstep(0.0, 0.45, facing);
+  float counts = smoothstep(0.0, 0.45, facing) * min(pigment.strength, 1.0);
   if (counts <= 0.0) return;
 
   vec3 inEye = (toEyeSpace * vec4(position, 1.0)).xyz, towards = mat3(toEyeSpace) * normal;
@@ -98,11 +107,15 @@ void main() {
   counts *= seenPart(at, radius, inEye, towards, pixel, view);
   if (counts <= 0.0) return;
 
-  vec4 chance = chanceOf(mixed(anchor.seed ^ mixed(own.seed + u.seed)));
+  vec4 chance = chanceOf(number);
   outChance = chance;
+  // More than whole stamps, and paler ones, differ more from what is around them.
+  outChance.xyz = 0.5 + (chance.xyz - 0.5) * max(pigment.strength, 1.0);
+  outBrush = pigment.brush > 0u ? pigment.brush - 1u : min(uint(kind.y * float(u.brushes)), u.brushes - 1u);
+  outTint = vec4(pigment.color, pigment.colorAmount * (0.4 + 0.6 * kind.z));
   outObject = float(objects[own.object].id) + 1.0;
   float turn = turnOnSphere(inEye);
-  outStamp = vec4(eyeDepth(clip.z / clip.w, view), radius * pixel, counts, 6.2831853 * chance.w - turn);
+  outStamp = vec4(eyeDepth(clip.z / clip.w, view), radius * pixel, counts, 6.2831853 * chance.w * u.turns - turn);
   bool isRight = corner == 1 || corner == 2 || corner == 4, isLow = corner == 2 || corner == 4 || corner == 5;
   outPlace = vec2(isRight ? 1.0 : -1.0, isLow ? 1.0 : -1.0);
   gl_Position = vec4((at + radius * outPlace) / (0.5 * frame.imageSize) - 1.0, 0.5, 1.0);

@@ -29,6 +29,7 @@ class Wash : public Pass {
 
   void declare(FrameBuilder& frame, uint32_t isShown) override {
     if (!isShown) return;
+    isTinted_ = frame.has(kTints);
     const gpu::Handle picture = frame.get(kPicture);
     constexpr gpu::ImageShape kQuarter{
         .format = kHalves, .overX = shared::kPigmentScale, .overY = shared::kPigmentScale};
@@ -58,7 +59,9 @@ class Wash : public Pass {
                               .inputs = {{shared::kWashPicture, picture, true},
                                          {shared::kWashDensity, blurred, true},
                                          {shared::kWashPigment, frame.get(kPigment), true},
-                                         {shared::kWashLight, frame.get(kShadow), true}},
+                                         {shared::kWashLight, frame.get(kShadow), true},
+                                         {shared::kWashTint,
+                                          frame.has(kTints) ? frame.get(kTints) : frame.get(kPigment), true}},
                               .textures = {shared::kWashPaper, shared::kWashBroad, shared::kWashNormals},
                               .outputs = {frame.image(name(), {.format = kHalves})},
                               .fetches = 4 * 4 + 5 * 4,
@@ -92,7 +95,7 @@ class Wash : public Pass {
     const bool hasNormals = p.normals.index < 0;
     const ExampleTexture& normals = hasNormals ? frame_->examples().get(input.look, p.normals) : paper;
     const int slopes = hasNormals ? shared::kSlopesOfNormals : p.normals.index;
-    wash_.setJobs({{{uint32_t(slopes)},
+    wash_.setJobs({{{uint32_t(slopes), uint32_t(isTinted_)},
                     {{shared::kWashPaper, &paper.image, paperSampler(paper, u.paperSize)},
                      {shared::kWashBroad, &paper.image, kBroadSampler},
                      {shared::kWashNormals, &normals.image, paperSampler(normals, u.paperSize)}}}});
@@ -100,6 +103,7 @@ class Wash : public Pass {
 
  private:
   FrameBuilder* frame_ = nullptr;
+  bool isTinted_ = false;
   ImageStep density_, blurX_, blurY_, wash_;
   ImageStep* const steps_[4] = {&density_, &blurX_, &blurY_, &wash_};
 };

@@ -8,11 +8,13 @@
 #include "wash.glsl"
 
 layout(constant_id = 0) const int kSlopes = 0;  // kSlopesOfRelief ...
+layout(constant_id = 1) const bool kTinted = false;  // stamps have colours of their own
 layout(set = 1, binding = 0, scalar) uniform Block { WashUniforms u; };
 layout(set = 1, binding = kWashPicture) uniform sampler2DArray soFar;
 layout(set = 1, binding = kWashDensity) uniform sampler2DArray blurred;
 layout(set = 1, binding = kWashPigment) uniform sampler2DArray pigment;
 layout(set = 1, binding = kWashLight) uniform sampler2DArray light;
+layout(set = 1, binding = kWashTint) uniform sampler2DArray tints;
 layout(set = 1, binding = kWashPaper) uniform sampler2D paper;
 layout(set = 1, binding = kWashBroad) uniform sampler2D broadly;  // the same, without what is fine
 layout(set = 1, binding = kWashNormals) uniform sampler2D normals;
@@ -59,6 +61,12 @@ vec4 shade(ivec2 pixel, int layer) {
   // What is dark is several washes, one over the other.
   float amount = dot(wash, vec3(1.0 / 3.0));
   wash *= 1.0 + u.glazing * smoothstep(0.35, 0.9, amount);
+  if (kTinted) {
+    // Another pigment, as much as there is of the wash's own.
+    vec4 tint = textureLod(tints, vec3(uv, layer), 0.0);
+    vec3 other = densityOf(tint.rgb / max(tint.a, 1e-3) * u.white, u.white);
+    wash = mix(wash, other * (dot(wash, vec3(1.0)) / max(dot(other, vec3(1.0)), 0.02)), tint.a);
+  }
   // More and less of it, warmer and cooler, as the brush had it. Hue wanders more than value.
   wash *= max(1.0 + u.turbulence * (brush.x + broad.y), 0.0);
   wash *= exp(u.hue * brush.y * vec3(-0.55, 0.05, 0.75));
