@@ -230,9 +230,9 @@ TEST_P(InsertedPass, anImagePassBetweenTwoOthers) {
 TEST_P(InsertedPass, aKnobIsOneRowAndOneUse) {
   const look::AddedBlock added(BrightenParams::block());
   const auto arrange = [](renderer::PassList& list) {
-    list.insertAfter("final-color", [] { return std::make_unique<Brighten>(); });
+    list.insertAfter("lost-edges", [] { return std::make_unique<Brighten>(); });
   };
-  const Frame plain = drawWith({});
+  const Frame plain = drawWith({}, {}, nullptr, Look());
   const auto expectTimes = [&](const Look& look, double time, float factor) {
     const Frame with = drawWith(arrange, {}, nullptr, look, time);
     for (size_t v = 0; v < viewCount(); ++v) {
@@ -244,7 +244,7 @@ TEST_P(InsertedPass, aKnobIsOneRowAndOneUse) {
     }
   };
   expectTimes(Look(), 0, 1);
-  Look look = lastOneLook();
+  Look look;
   ASSERT_TRUE(look.set("brighten.by", "1.75"));
   expectTimes(look, 0, 1.75f);
   const Result<Look> tracked =
