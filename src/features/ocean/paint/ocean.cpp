@@ -53,8 +53,8 @@ class Ocean : public Pass {
                              shared::kOceanNextBathicBinding, shared::kOceanNextSkyBinding},
                 .outputs = {frame.image("ocean-lit", {.format = kHalves}),
                             frame.image("ocean-shadowed", {.format = kHalves})},
-                // The example's eight copies, foam, and colours of water and sky.
-                .fetches = 3 + 8 * 4 + 3 * 4,
+                // The example's eight copies, turned two ways, foam, and colours of water and sky.
+                .fetches = 3 + 2 * 8 * 4 + 3 * 4,
                 .uniformBytes = sizeof(PaintUniforms)});
     frame.give(kPrepaintedLit, colors[0]);
     frame.give(kPrepaintedShadowed, colors[1]);
@@ -113,7 +113,8 @@ class Ocean : public Pass {
     const bool goesOver = p.next > 0;
     const gpu::SamplerDesc clamped;
     image_.setJobs(
-        {{{goesOver ? uint32_t(shared::kOceanNext) : 0u, use.meta.features()},
+        {{{(goesOver ? uint32_t(shared::kOceanNext) : 0u) | (p.follow ? uint32_t(shared::kOceanFollows) : 0u),
+           use.meta.features()},
           {{shared::kOceanExampleBinding, &use.image(), use.sampler()},
            {shared::kOceanInverseBinding, &use.inverse(), ExampleTextures::kInverseSampler},
            {shared::kOceanFoamBinding, &examples_->get(input.look, p.foamTexture).image, use.sampler()},

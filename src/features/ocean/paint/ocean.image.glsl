@@ -9,6 +9,7 @@
 
 layout(constant_id = 0) const int kNeeds = 0;
 layout(constant_id = 1) const int kFeatures = 0;  // MetaTexture.features
+const bool kFollows = (kNeeds & kOceanFollows) != 0;
 const bool kNext = (kNeeds & kOceanNext) != 0;
 layout(set = 1, binding = 0, scalar) uniform Block {
   MetaTexture metaOfLook;
@@ -54,6 +55,38 @@ vec3 worldAt(ivec2 pixel, float far, int layer) {
   return VIEW_FIELD(eye, layer) + inEye * mat3(VIEW_FIELD(worldToEye, layer));
 }
 
+// The water's pattern, turned about the vertical so that strokes run across the direction that they are seen in (paper 000,
+// section 3.5, whose exchange of axes has two directions and folds between them). It lies still in the world, in one of
+// four directions; between two of them both are blended.
+struct Turned {
+  vec2 uv;
+  MetaTextureChoice chosen;
+};
+const int kWays = 4;
+Turned turnedWay(MetaTexture meta, float way, uvec4 packed) {
+  float angle = way * (3.14159265 / float(kWays));
+  vec2 across = vec2(cos(angle), sin(angle)), uv = uintBitsToFloat(packed.xy);
+  vec2 dSdu = unpackBfloat(packed.z), dSdv = unpackBfloat(packed.w);
+  Turned turned;
+  turned.uv = vec2(dot(uv, across), across.x * uv.y - across.y * uv.x);
+  turned.chosen = metaTextureChoose(meta, across.x * dSdu + across.y * dSdv, across.x * dSdv - across.y * dSdu, 1.0);
+  return turned;
+}
+
+// The way that counts most where something is seen in that direction (world, x and z), the next one, and how much of the
+// whole that is: 0 but between two of them.
+vec3 waysAcross(vec2 direction) {
+  float way = mod(atan(direction.x, -direction.y) * (float(kWays) / 3.14159265), float(kWays));
+  float first = min(floor(way), float(kWays) - 1.0), second = mod(first + 1.0, float(kWays));
+  float part = smoothstep(0.3, 0.7, way - first);
+  return part < 0.5 ? vec3(first, second, part) : vec3(second, first, 1.0 - part);
+}
+
+// Two patterns of one mean, blended so that their deviation stays (FORMULAS 2).
+vec4 blended(vec4 a, vec4 b, vec4 mean, float part) {
+  return mean + (mix(a, b, part) - mean) * inversesqrt(part * part + (1.0 - part) * (1.0 - part));
+}
+
 void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
   ivec2 pixel = here.xy;
   int layer = here.z;
@@ -64,14 +97,24 @@ void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
   vec4 wave = vec4(unpackHalf2x16(water.x), unpackSnorm2x16(water.y));
   vec2 decorated = unpackUnorm2x16(water.z) * vec2(2.0, 1.0);
   vec2 uv = uintBitsToFloat(packed.xy);
-  MetaTextureChoice chosen = metaTextureChoose(meta, unpackBfloat(packed.z), unpackBfloat(packed.w), 1.0);
-  vec4 value = metaTextureSample(meta, chosen, example, uv, vec2(0.0), vec2(pixel) + 0.5);
-  if (metaTextureContrast(meta) == 2) value = metaTextureHistogram(inverse, value);
-
-  // Both eyes mirror the same sky: what is hand-cut must not rival.
+  // Both eyes mirror the same sky, and see strokes that run the same way: what is hand-cut must not rival.
   vec3 world = worldAt(pixel, far, layer);
   vec3 eye = kViewCount > 1 ? 0.5 * (frame.views[0].eye + frame.views[1].eye) : frame.views[0].eye;
   vec3 toEye = eye - world;
+  mat4 toEyeSpace = VIEW_FIELD(worldToEye, layer);
+  vec3 backwards = vec3(toEyeSpace[0][2], toEyeSpace[1][2], toEyeSpace[2][2]);
+  vec2 seenAlong = -mix(toEye, backwards, VIEW_FIELD(orthographic, layer)).xz;
+  vec3 ways = kFollows ? waysAcross(seenAlong) : vec3(0.0);
+  Turned most = turnedWay(meta, ways.x, packed), least;
+  vec4 value = metaTextureSample(meta, most.chosen, example, most.uv, vec2(0.0), vec2(pixel) + 0.5);
+  bool isBetween = kFollows && ways.z > 0.0;
+  for (bool mixes = isBetween; mixes; mixes = false) {
+    least = turnedWay(meta, ways.y, packed);
+    vec4 other = metaTextureSample(meta, least.chosen, example, least.uv, vec2(0.0), vec2(pixel) + 0.5);
+    value = blended(value, other, meta.mean, ways.z);
+  }
+  if (metaTextureContrast(meta) == 2) value = metaTextureHistogram(inverse, value);
+
   float distance = max(length(toEye), 1e-6);
   toEye /= distance;
   float nearness = 1.0 - smoothstep(0.5 * ocean.fadeEnd, 3.0 * ocean.fadeEnd, distance);
@@ -110,7 +153,11 @@ void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
   float cover = max(ocean.knobs.foam * 1.6 * drawn * (0.35 + 0.65 * upwind) * (1.0 - decorated.y) * faces, decorated.x);
   float foam = 0.0;
   for (bool isFoamy = cover > 1e-4; isFoamy; isFoamy = false) {
-    float hole = metaTextureSample(meta, chosen, foamMap, uv, vec2(0.0), vec2(pixel) + 0.5).r;
+    float hole = metaTextureSample(meta, most.chosen, foamMap, most.uv, vec2(0.0), vec2(pixel) + 0.5).r;
+    for (bool mixes = isBetween; mixes; mixes = false) {
+      float other = metaTextureSample(meta, least.chosen, foamMap, least.uv, vec2(0.0), vec2(pixel) + 0.5).r;
+      hole = mix(hole, other, ways.z);
+    }
     foam = clamp((cover - hole) * 40.0, 0.0, 1.0);
   }
   lit = mix(lit, ocean.foamLit, foam);

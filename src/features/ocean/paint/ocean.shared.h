@@ -20,7 +20,8 @@ const int kOceanPatternBinding = 1, kOceanWavesBinding = 2, kOceanDepthBinding =
           kOceanNextBathicBinding = 9, kOceanNextSkyBinding = 10;
 
 // What the image step is specialised to.
-const int kOceanNext = 1;  // colours go over into others
+const int kOceanNext = 1;     // colours go over into others
+const int kOceanFollows = 2;  // strokes run across the view
 
 // How the ocean is painted.
 struct OceanPaint {

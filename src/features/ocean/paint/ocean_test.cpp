@@ -78,6 +78,7 @@ class OceanPaintTest : public BothEyes {
               {"ocean.paint.lightDither", "0"},
               {"ocean.paint.lightWaves", "0"},
               {"ocean.paint.skyDither", "0"},
+              {"ocean.paint.follow", "off"},
               {"ocean.metatexture.contrast", "gaussian"},
               {"ocean.metatexture.cyclopean", "off"},
               {"ocean.metatexture.size", std::to_string(kStrokesSize)}};
