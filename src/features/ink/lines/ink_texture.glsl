@@ -38,7 +38,7 @@ float scaledNoise(vec3 place, float size, vec3 shift) {
 // Whether a line that is too thin to be drawn whole is drawn here, 0 or 1 but for the ends of its gaps: as much of it as
 // its radius has of half a pixel.
 float unbroken(vec3 place, float size, float radius) {
-  float slow = scaledNoise(place, 0.75 * size, vec3(13.0, 2.0, 6.0));
+  float slow = scaledNoise(place, 2.4 * size, vec3(13.0, 2.0, 6.0));
   float before = 1.0 / (1.0 + exp(-1.7 * slow));  // how much of the noise is less: from 0 to 1, evenly
   return clamp((2.0 * radius - before) * 12.0 + 0.5, 0.0, 1.0) * step(1e-4, radius);
 }
