@@ -157,6 +157,7 @@ shared::Backdrop backdropUniforms(const SceneOnGpu& scene, const KnobTable& knob
   b.minified = std::clamp(2.0f * (density - 1.0f), 0.0f, 1.0f);
   b.radius = params.simplify * frame.pixelScale;
   b.sectorLevel = std::max(0.0f, std::log2(0.8f * b.radius * density));
+  b.steps = float(params.steps);
   b.style = params.style;
   b.warp = params.warp;
   b.tear = knobs.scene<passes::WarpParams>().amount * frame.pixelScale;

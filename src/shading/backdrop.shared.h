@@ -11,6 +11,7 @@ const int kBackdropMinified = 2;
 const int kBackdropSimplified = 4;
 const int kBackdropMixed = 8;  // simplified by less than a pixel: as it is, in part
 const int kBackdropStyled = 16;
+const int kBackdropStepped = 128;  // in flat shapes
 const int kBackdropTornNear = 32;  // where something is near
 const int kBackdropTorn = 64;      // everywhere
 
@@ -19,6 +20,7 @@ struct Backdrop {
   float minified;                  // 0 to 1: how much finer than a pixel its texels are, up to half a pixel
   float radius;                    // pixels that are simplified into one area; 0: none
   float sectorLevel;               // the mip level that is read for a part of such an area
+  float steps;                     // of lightness, in which it is painted flat; 0: none
   float style;                     // how far its colours go through the palette rule
   int warp;                        // 0 none, 1 near, 2 everywhere
   float tear;                      // pixels: how far it is torn where it is torn everywhere

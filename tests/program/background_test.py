@@ -13,7 +13,7 @@ from program_test import NOT_WRITTEN, TINY, UNUSABLE, USAGE, Program, png
 from png import make_png  # noqa: E402
 
 QUIET = [*TINY, "--quiet"]
-PLAIN = ["--set", "background.style=0", "--set", "background.simplify=0", "--set", "ground.mode=off"]
+PLAIN = ["--set", "background.style=0", "--set", "background.simplify=0", "--set", "background.steps=0", "--set", "ground.mode=off"]
 AWAY = ["--eye", "0,0,50", "--target", "0,0,100"]  # the scene is behind the viewer
 
 

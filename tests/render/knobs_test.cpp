@@ -290,7 +290,8 @@ TEST_P(KnobSweep, everyKnobAtItsEndsDrawsAndShows) {
   };
   const auto looksFromCamera = [](const std::string& path) { return path.starts_with("camera."); };
   const auto needsPicture = [](const std::string& path) {
-    return path == "background.style" || path == "background.simplify" || path == "background.warp";
+    return path == "background.style" || path == "background.simplify" || path == "background.steps" ||
+           path == "background.warp";
   };
   draw(plain, Look(), "defaults", false, false);
   draw(painted, Look(), "defaults", false, false);

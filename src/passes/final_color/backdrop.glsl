@@ -35,6 +35,19 @@ vec3 pictureSimplified(vec2 uv, vec2 pixel) {
   return sum / weights;
 }
 
+// The nearest of steps, and the way to the next one in a twelfth of a step, so that edges are no stairs.
+vec3 stepped(vec3 value, vec3 steps) {
+  vec3 at = value * steps - 0.5, first = floor(at);
+  return (first + smoothstep(0.46, 0.54, at - first) + 0.5) / steps;
+}
+
+// Few colours: so many steps of lightness, and steps of hue and chroma a quarter as wide.
+vec3 pictureStepped(vec3 color) {
+  vec3 lab = oklabFromLinear(clamp(color, 0.0, 1.0));
+  float steps = u.backdrop.steps;
+  return clamp(linearFromOklab(stepped(lab + vec3(0.0, 0.5, 0.5), vec3(steps, 4.0 * steps + 1.0, 4.0 * steps + 1.0)) - vec3(0.0, 0.5, 0.5)), 0.0, 1.0);
+}
+
 // The pixel's place in the picture. `torn`: where the warp fetches this pixel's colour from.
 vec2 backdropPlace(ivec2 pixel, vec2 torn, int layer) {
   vec2 own = vec2(pixel) + 0.5;
@@ -90,6 +103,7 @@ vec4 overBackdrop(vec4 color, float matte, float distance, vec2 at, int layer) {
   else
     own = pictureAlone(uv, pixel);
   if ((kBackdrop & kBackdropMixed) != 0) own = mix(pictureAlone(uv, pixel), own, u.backdrop.radius);
+  if ((kBackdrop & kBackdropStepped) != 0) own = pictureStepped(own);
   vec3 inLight = own;
   float open = 1.0 - color.a;
   matte = min(matte * (1.0 - smoothstep(u.backdrop.matteNear, u.backdrop.matteFar, distance)), open);

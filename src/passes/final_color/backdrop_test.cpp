@@ -1,6 +1,7 @@
 // A picture behind everything, and the ground that shows only shadows, against the same in double precision.
 #include <cmath>
 
+#include "base/oklab.h"
 #include "tests/support/aov.h"
 #include "tests/support/palette_reference.h"
 #include "tests/support/render_test.h"
@@ -218,6 +219,41 @@ TEST_F(BackdropTest, eachFrameHasItsOwnPicture) {
   image->pixels.pop_back();
   bad.background = image;
   EXPECT_FALSE(renderer().render(scene, look, 0, views, bad));
+}
+
+// Paper 000, section 7.4: a background is made consistent with the style. Flat shapes of few colours, whose
+// edges stay.
+TEST_P(BackdropTest, isPaintedInFlatShapes) {
+  const Scene scene = ball();
+  const auto views = viewsFrom(scene, {{1, 3, 7}, {0, 0.6f, 0}, 50}, kWidth, kHeight, GetParam());
+  RenderOptions options = sized(kWidth, kHeight, {"id"});
+  options.background = picture(kWidth, kHeight, false);
+  const auto lightnessOf = [&](const char* steps) {
+    const Frame frame =
+        draw(scene, pictureLook({{"ground.mode", "off"}, {"warp.amount", "0"}, {"background.steps", steps}}),
+             views, options);
+    std::vector<double> lightness;
+    for (size_t v = 0; v < viewCount(); ++v)
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x)
+          if (texel(aov(frame, "id", v), x, y).x == 0)
+            lightness.push_back(oklabFromLinear(glm::dvec3(texel(aov(frame, "", v), x, y))).x);
+    return lightness;
+  };
+  const std::vector<double> own = lightnessOf("0");
+  for (const int steps : {3, 6, 12}) {
+    const std::vector<double> flat = lightnessOf(std::to_string(steps).c_str());
+    ASSERT_EQ(flat.size(), own.size());
+    size_t onStep = 0;
+    double farthest = 0;
+    for (size_t i = 0; i < flat.size(); ++i) {
+      const double at = flat[i] * steps - 0.5;
+      onStep += std::abs(at - std::round(at)) < 0.03;
+      farthest = std::max(farthest, std::abs(flat[i] - own[i]));
+    }
+    EXPECT_GT(double(onStep), 0.85 * double(flat.size())) << steps;
+    EXPECT_LT(farthest, 0.5 / steps + 0.02) << steps;
+  }
 }
 
 }  // namespace

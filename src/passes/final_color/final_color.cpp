@@ -25,8 +25,8 @@ uint32_t backdropFeatures(const BackdropInput* backdrop) {
   return shared::kBackdropIsThere | (b.minified > 0 ? shared::kBackdropMinified : 0) |
          (b.radius > 0 ? shared::kBackdropSimplified : 0) |
          (b.radius > 0 && b.radius < 1 ? shared::kBackdropMixed : 0) |
-         (b.style > 0 ? shared::kBackdropStyled : 0) | (b.warp == 1 ? shared::kBackdropTornNear : 0) |
-         (b.warp == 2 ? shared::kBackdropTorn : 0);
+         (b.style > 0 ? shared::kBackdropStyled : 0) | (b.steps > 0 ? shared::kBackdropStepped : 0) |
+         (b.warp == 1 ? shared::kBackdropTornNear : 0) | (b.warp == 2 ? shared::kBackdropTorn : 0);
 }
 
 class FinalColor : public Pass {

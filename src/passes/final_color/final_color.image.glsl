@@ -6,6 +6,7 @@
 #include "../../shading/color_map.glsl"
 #include "../../shading/displacement.glsl"
 #include "../../shading/luminance.shared.h"
+#include "../../shading/oklab.glsl"
 #include "final_color.shared.h"
 
 layout(constant_id = 0) const int kOptions = 3;   // kFinalColorGlows, kFinalColorTorn, kFinalColorMixes

@@ -1,4 +1,4 @@
-// What ink keeps black, and where its black areas end (docs/ink.md).
+// What stays black where paper lies over colours in the light, and where shadows end on facets of round forms.
 #include <cmath>
 
 #include "base/oklab.h"
