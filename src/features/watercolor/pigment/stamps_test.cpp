@@ -54,7 +54,7 @@ class Stamps : public BothEyes {
     for (int y = 4; y < kHeight - 4; ++y)
       for (int x = 4; x < kWidth - 4; ++x)
         if (std::abs(x - kWidth / 2) > 12)
-          sum[x > kWidth / 2] += texel(pigment, x, y).w / (kWidth * kHeight / 2);
+          sum[x > kWidth / 2] += texel(pigment, x, y).w / (0.5 * kWidth * kHeight);
     return sum;
   }
   std::string file(const char* name) { return folder_.file(name); }
