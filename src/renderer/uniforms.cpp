@@ -250,7 +250,8 @@ shared::MaterialData materialData(const SceneOnGpu& scene, size_t index, const K
   glm::vec3 dark(shadowed(base));
   if (hasOwnColor) dark = glm::mix(dark, data.shadowedColor, palette.ownShadow);
   data.blacks = palette.blacks * palette.blacks * palette.blacks;
-  constantLit = glm::mix(constantLit, dark, shared::blackness(glm::dot(glm::vec3(base), shared::kLuminance), data.blacks));
+  constantLit = glm::mix(constantLit, dark,
+                         shared::blackness(glm::dot(glm::vec3(base), shared::kLuminance), data.blacks));
   if (material.unlit) dark = constantLit;
   const glm::vec3 down = material.unlit ? glm::vec3(1.0f) : data.tintDown;
   const glm::vec3 up = material.unlit ? glm::vec3(1.0f) : data.tintUp;

@@ -23,8 +23,8 @@ bool DrawList::update(gpu::Device& device, std::vector<Draw> draws,
     for (gpu::Buffer* const written : {&seen_, &torn_, &casters_})
       *written = gpu::Buffer(device, room_ * sizeof(shared::DrawCommand),
                              kUsage | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, gpu::MemoryKind::device);
-    drawn_ = gpu::Buffer(device, roomForObjects_ * sizeof(shared::DrawnObject), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
-                          gpu::MemoryKind::device);
+    drawn_ = gpu::Buffer(device, roomForObjects_ * sizeof(shared::DrawnObject),
+                         VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryKind::device);
     levels_ = gpu::PerFrameBuffer(device, roomForLevels_ * sizeof(shared::DrawLevel),
                                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     places_ =

@@ -19,8 +19,7 @@ struct InkKind {
 // Choices of ink.params, which are bits of a specialisation constant (ink_choices.glsl): what a uniform
 // decides CPU drivers compile anew for each of its values.
 const int kInkUnitBit = 0, kInkWeightsBit = 2, kInkPlacementBit = 4, kInkCyclopeanBit = 5, kInkKindsBit = 6,
-          kInkDoubledBit = 16, kInkTextureBit = 17, kInkLampsBit = 19,
-          kInkBreaksBit = 20;
+          kInkDoubledBit = 16, kInkTextureBit = 17, kInkLampsBit = 19, kInkBreaksBit = 20;
 const int kInkPixels = 0, kInkMetres = 1, kInkDegrees = 2;
 const int kInkByEdge = 0, kInkByVertex = 1, kInkByTangent = 2, kInkHybrid = 3;
 const int kInkExterior = 0, kInkCentred = 1;

@@ -26,7 +26,8 @@ class Cull : public Pass {
     const gpu::Handle list = frame.graph().importBuffer(kDrawList.name);
     frame.step("cull", [this](VkCommandBuffer commands) { record(commands); });
     frame.give(kDrawList, frame.use(list, gpu::Use::storageBufferWrite));
-    frame.give(kDrawnObjects, frame.use(frame.graph().importBuffer(kDrawnObjects.name), gpu::Use::storageBufferWrite));
+    frame.give(kDrawnObjects,
+               frame.use(frame.graph().importBuffer(kDrawnObjects.name), gpu::Use::storageBufferWrite));
   }
 
   void create(FrameBuilder& frame) override {

@@ -136,7 +136,8 @@ TEST_P(BehindTest, tornEdgesShowNoBackOfTheirOwn) {
                   texel(aov(frame, "id", v), x, y).x != 0 && texel(aov(frame, "", v), x, y).a < 0.5;
       }
       EXPECT_GT(holes[0], 40 * viewCount());
-      EXPECT_NEAR(double(holes[1]), double(holes[0]), 0.02 * double(holes[0])) << "form " << &form - forms << ", mirrored " << mirror;
+      EXPECT_NEAR(double(holes[1]), double(holes[0]), 0.02 * double(holes[0]))
+          << "form " << &form - forms << ", mirrored " << mirror;
     }
 }
 

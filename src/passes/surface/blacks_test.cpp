@@ -1,4 +1,5 @@
-// What stays black where paper lies over colours in the light, and where shadows end on facets of round forms.
+// What stays black where paper lies over colours in the light, and where shadows end on facets of round
+// forms.
 #include <cmath>
 
 #include "base/oklab.h"

@@ -46,7 +46,9 @@ FoundLines foundLines(const frame::FrameInput& input, bool hasPieces) {
   float widest = 0;
   for (int kind = shared::kInkOverObjects; kind < shared::kInkOverKinds; ++kind)
     if ((found.lines & 1u << kind) != 0)
-      widest = std::max(widest, found.inMetres ? 1e9f : std::max(found.uniforms.kinds[kind].radius, found.uniforms.least) + 0.5f);
+      widest = std::max(
+          widest,
+          found.inMetres ? 1e9f : std::max(found.uniforms.kinds[kind].radius, found.uniforms.least) + 0.5f);
   const uint32_t reach = hasPieces ? uint32_t(std::min(std::ceil(widest), float(shared::kInkOverReach))) : 0;
   found.lines |= reach << shared::kInkOverKinds;
   return found;
