@@ -44,7 +44,7 @@ def signature(statement, name):
     return f"{name}({', '.join(types)})"
 
 
-def names(text):
+def names(text, aliases=False):
     """Triples of a name (of a function with the types of its parameters), whether it stands in an unnamed namespace, and
     the named namespaces around it; of namespaces' own declarations only."""
     levels = []  # of open braces: "named", "unnamed" (namespaces), "enum" or "other"
@@ -65,7 +65,7 @@ def names(text):
                     function = match.groupdict().get("function")
                     name = match.groupdict().get("named") or function and signature(extra, function)
                     # Aliases of one type are no two types.
-                    if name and not statement.lstrip().startswith("using"):
+                    if name and (aliases or not statement.lstrip().startswith("using")):
                         found.append((name, "unnamed" in inside, around()))
         elif levels[-1] == "enum" and inside <= {"named", "unnamed", "enum"}:
             for name in re.findall(r"(?:^|,)\s*(\w+)", statement):
@@ -117,16 +117,18 @@ def drawn(text):
     return found
 
 
-def ambiguous(declared, pairs):
+def ambiguous(declared, pairs, own=None, aliases=None):
     """Types of two namespaces whose names one namespace has, as names with their places. `declared` has, of a namespace
-    and a name, the files."""
+    and a name, the files; `own` the same of what source files keep to themselves, `aliases` of other
+    types' names, which may be there several times."""
+    own, aliases = own or {}, aliases or {}
     sees = collections.defaultdict(set)
     for space, other in pairs:
         # Relative to the namespaces around, from the inside out.
         around = space.split("::") if space else []
         for depth in range(len(around), -1, -1):
             whole = "::".join([*around[:depth], other])
-            if any(key[0] == whole for key in declared):
+            if any(key[0] == whole for key in (*declared, *aliases)):
                 sees[space].add(whole)
                 break
     for space, others in sorted(sees.items()):
@@ -136,8 +138,13 @@ def ambiguous(declared, pairs):
                 if key[0] == one and re.match(r"[A-Z]\w*$", key[1]):
                     places[key[1]].append(f"{one}:: ({', '.join(sorted(files))})")
         for name, of in sorted(places.items()):
+            of += [f"{space}:: ({file})" for file in sorted(own.get((space, name), ()))]
             if len(of) > 1:
                 yield name, of
+        for other in sorted(others):
+            for name in sorted(key[1] for key in aliases if key[0] == other and (space, key[1]) in own):
+                yield name, [f"{other}:: ({', '.join(sorted(aliases[other, name]))})",
+                             *(f"{space}:: ({file})" for file in sorted(own[space, name]))]
 
 
 def selfTest():
@@ -166,6 +173,7 @@ def selfTest():
     assert pairs == {("a", "b"), ("c", "a::b")}, pairs
     declared = {("a", "T"): {"1"}, ("a::b", "T"): {"2"}, ("c", "U"): {"3"}, ("c", "f()"): {"4"}, ("a::b", "f()"): {"5"}}
     assert list(ambiguous(declared, pairs)) == [("T", ["a:: (1)", "a::b:: (2)"])]
+    assert list(ambiguous({("a::b", "T"): {"2"}}, pairs, {("a", "T"): {"3"}})) == [("T", ["a::b:: (2)", "a:: (3)"])]
 
 
 def main():
@@ -212,17 +220,20 @@ def main():
             if len(files | shared[key]) > 1:
                 report("::".join(key), files | shared[key])
     # What headers declare meets wherever they are compiled together.
-    declared, pairs = collections.defaultdict(set), set()
+    declared, own, aliases, pairs = *(collections.defaultdict(set) for _ in range(3)), set()
     for folder in ("src", "include", "apps", "tests", "python"):
         for file in (root / folder).rglob("*.[hc]*"):
             if file.suffix not in (".h", ".cpp"):
                 continue
             text = file.read_text()
             pairs |= drawn(text)
-            for name, isOwn, space in names(text) if file.suffix == ".h" else ():
-                if not isOwn and space:
-                    declared[space, name].add(str(file.relative_to(root)))
-    for name, of in ambiguous(declared, pairs):
+            for name, isOwn, space in names(text):
+                if space and (isOwn or file.suffix == ".h"):
+                    (own if isOwn else declared)[space, name].add(str(file.relative_to(root)))
+            for name, isOwn, space in names(text, aliases=True) if file.suffix == ".h" else ():
+                if space and not isOwn and str(file.relative_to(root)) not in declared.get((space, name), ()):
+                    aliases[space, name].add(str(file.relative_to(root)))
+    for name, of in ambiguous(declared, pairs, own, aliases):
         report(name, of)
     print(f"{failures} names of unnamed namespaces that others have too")
     return failures > 0

@@ -63,7 +63,7 @@ std::shared_ptr<const scene::Painting> paintingOf(const Strokes& strokes, const 
 }
 
 // A mesh of the proxy as it stands at its first node.
-struct Stand {
+struct StandingPlace {
   size_t mesh;
   glm::mat4 place;
   std::unique_ptr<scene::NearestPlaces> nearest;
@@ -79,14 +79,14 @@ struct Stand {
 };
 
 void hangOn(Subjects& subjects, const scene::SceneData& proxy, Strokes strokes) {
-  std::vector<Stand> stands;
+  std::vector<StandingPlace> stands;
   const std::vector<glm::dmat4> world = scene::worldMatrices(proxy);
   std::vector<bool> isKnown(proxy.meshes.size());
   for (size_t n = 0; n < proxy.nodes.size(); ++n) {
     const int m = proxy.nodes[n].mesh;
     if (m < 0 || isKnown[size_t(m)]) continue;
     isKnown[size_t(m)] = true;
-    Stand stand{size_t(m), scene::restPlaceOf(proxy, world, n), nullptr, {}, {}};
+    StandingPlace stand{size_t(m), scene::restPlaceOf(proxy, world, n), nullptr, {}, {}};
     for (const scene::Primitive& p : subjects.meshes[size_t(m)]->primitives) stand.primitives.push_back(&p);
     stand.nearest = std::make_unique<scene::NearestPlaces>(stand.primitives);
     if (!stand.nearest->isEmpty() && std::abs(glm::determinant(glm::mat3(stand.place))) > 1e-30f)
@@ -95,16 +95,16 @@ void hangOn(Subjects& subjects, const scene::SceneData& proxy, Strokes strokes) 
   if (stands.empty()) return;
   for (auto& stroke : strokes) {
     const glm::vec3 middle = stroke.second[stroke.second.size() / 2].position;
-    Stand* best = &stands[0];
+    StandingPlace* best = &stands[0];
     if (stands.size() > 1) {
       float least = INFINITY;
-      for (Stand& stand : stands)
+      for (StandingPlace& stand : stands)
         if (const float distance = stand.distanceTo(middle); distance < least)
           least = distance, best = &stand;
     }
     best->strokes.push_back(std::move(stroke));
   }
-  for (Stand& stand : stands)
+  for (StandingPlace& stand : stands)
     if (!stand.strokes.empty())
       subjects.meshes[stand.mesh].own().painting = paintingOf(stand.strokes, glm::inverse(stand.place));
 }

@@ -25,9 +25,9 @@ class Dice {
 
 // Places that keep away from each other: the additive sequence of the plastic number (Roberts' R2), in 2^-32
 // of the board.
-class Places {
+class SpreadPlaces {
  public:
-  explicit Places(uint32_t seed) : x_(hash(seed)), y_(hash(seed + 1)) {}
+  explicit SpreadPlaces(uint32_t seed) : x_(hash(seed)), y_(hash(seed + 1)) {}
   std::pair<int, int> next() {
     x_ += 3242174889u, y_ += 2447445414u;
     return {int(uint64_t(x_) * kBoardSide >> 32), int(uint64_t(y_) * kBoardSide >> 32)};
@@ -77,7 +77,7 @@ Board strokesOfTheSea(uint32_t seed) {
   std::array<int, kTones> areas{};
   areas[kTones / 2] = kBoardSide * kBoardSide;
   Dice dice(seed);
-  Places places(seed);
+  SpreadPlaces places(seed);
   for (const Size& size : kSizes)
     for (int i = 0; i < size.count; ++i) {
       const int length = dice.between(size.leastLength, size.mostLength) * kSamplesPerTexel;
@@ -136,7 +136,7 @@ std::vector<int> farFromHoles(uint32_t seed) {
 std::vector<int> streaks(uint32_t seed) {
   std::vector<int> strength(size_t(kBoardSide) * kBoardSide, 0);
   Dice dice(seed);
-  Places places(seed);
+  SpreadPlaces places(seed);
   for (int i = 0; i < 26; ++i) {
     const int length = dice.between(36, 76) * kSamplesPerTexel;
     const BrushMark streak = strokeAt(places.next(), length, length * dice.between(14, 26) / 100, dice);

@@ -60,10 +60,10 @@ TEST(TileableNoise, gradientNoiseIsSmoothBoundedAndFollowsTheSeed) {
   EXPECT_EQ(gradientNoise(3, 5, 8, 8, 1), 0.0f);
 }
 
-struct Moments {
+struct FieldMoments {
   double mean = 0, deviation = 0;
 };
-Moments momentsOf(const std::vector<float>& field) {
+FieldMoments momentsOf(const std::vector<float>& field) {
   double sum = 0, squares = 0;
   for (const float f : field) sum += f, squares += double(f) * f;
   const double mean = sum / double(field.size());
@@ -74,7 +74,7 @@ TEST(TileableNoise, selfSimilarNoiseHasMeanNoughtAndDeviationOne) {
   for (const float stretch : {1.0f, 4.0f, 0.25f}) {
     const std::vector<float> field = selfSimilarNoise(64, 4, 4, 0.6f, 11, stretch);
     ASSERT_EQ(field.size(), 64u * 64);
-    const Moments moments = momentsOf(field);
+    const FieldMoments moments = momentsOf(field);
     EXPECT_NEAR(moments.mean, 0, 1e-6) << stretch;
     EXPECT_NEAR(moments.deviation, 1, 1e-5) << stretch;
   }

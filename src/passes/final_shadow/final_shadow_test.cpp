@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-struct Knobs {
+struct ShadowKnobs {
   double threshold = 0.5, softness = 1, innerGlow = 0.16, indication = 0.55;
   int steps = 2;
   double radius = 60, depthEdge = 0.03;
@@ -20,7 +20,7 @@ struct Knobs {
 };
 
 // Edges between light and shadow: around the threshold, nearer to each other where light or shadow would end.
-std::vector<double> edgesOf(const Knobs& k) {
+std::vector<double> edgesOf(const ShadowKnobs& k) {
   std::vector<double> edges;
   const double room = std::min(k.threshold - 0.02, 0.98 - k.threshold);
   for (int i = 0; i < k.bands; ++i) {
@@ -47,7 +47,7 @@ class FinalShadowTest : public BothEyes {
  protected:
   static constexpr int kWidth = 160, kHeight = 120;
 
-  static Look lookOf(const Knobs& k) {
+  static Look lookOf(const ShadowKnobs& k) {
     return quietLook({{"shadow.threshold", std::to_string(k.threshold)},
                       {"shadow.softness", std::to_string(k.softness)},
                       {"shadow.innerGlow", std::to_string(k.innerGlow)},
@@ -61,7 +61,7 @@ class FinalShadowTest : public BothEyes {
                       {"blur.depthEdge", std::to_string(k.depthEdge)}});
   }
 
-  static glm::dvec4 expected(const Knobs& k, const Frame& frame, const Texels& blur, double reach,
+  static glm::dvec4 expected(const ShadowKnobs& k, const Frame& frame, const Texels& blur, double reach,
                              size_t view, int x, int y) {
     const glm::dvec4 own = texel(aov(frame, "shadow", view), x, y);
     if (own.w == 0) return glm::dvec4(0.0);
@@ -124,17 +124,17 @@ INSTANTIATE_BOTH_EYES(FinalShadowTest);
 TEST_P(FinalShadowTest, equalsItsReference) {
   const Scene scene = stillLife().load();
   const auto views = viewsFrom(scene, {{2, 2.5f, 6}, {0, 0.8f, 0}}, kWidth, kHeight, GetParam());
-  Knobs soft;
+  ShadowKnobs soft;
   soft.threshold = 0.3, soft.softness = 12, soft.innerGlow = 0.8, soft.indication = 1, soft.steps = 5;
-  Knobs sharp;
+  ShadowKnobs sharp;
   sharp.radius = 4, sharp.indication = 0, sharp.depthEdge = 0;
-  Knobs dry;
+  ShadowKnobs dry;
   dry.dither = 0.6, dry.radius = 40;
-  Knobs bands;
+  ShadowKnobs bands;
   bands.bands = 3, bands.innerGlow = 0.7, bands.glowWidth = 0.4, bands.dither = 0.2;
-  Knobs crowded;
+  ShadowKnobs crowded;
   crowded.bands = 4, crowded.threshold = 0.3, crowded.spacing = 0.5, crowded.glowWidth = 0.8;
-  for (const Knobs& k : {Knobs(), soft, sharp, dry, bands, crowded}) {
+  for (const ShadowKnobs& k : {ShadowKnobs(), soft, sharp, dry, bands, crowded}) {
     const Frame frame = draw(scene, lookOf(k), views,
                              sized(kWidth, kHeight, {"shadow", "warp", "depth", "blur", "final-shadow"}));
     for (size_t v = 0; v < viewCount(); ++v) {
@@ -171,7 +171,7 @@ TEST_P(FinalShadowTest, partlyCoveredPixelsAreAsLitAsWholeOnes) {
   s.add(gridMesh({-1, -0.8f, 0}, {1.7f, 0.5f, 0}, {-0.4f, 1.3f, 0}), s.material(lamp));
   const Scene scene = s.load();
   const auto views = viewsFrom(scene, {{0, 0, 4}}, kWidth, kHeight, GetParam());
-  Knobs k;
+  ShadowKnobs k;
   k.radius = 0;
   const Frame frame = draw(scene, lookOf(k), views, sized(kWidth, kHeight, {"final-shadow"}, 4));
   for (size_t v = 0; v < viewCount(); ++v) {
@@ -197,7 +197,7 @@ TEST_F(FinalShadowTest, edgesAreAsWideAsAskedFor) {
   const Scene scene = s.load();
   for (const double radius : {100.0, 128.0})
     for (const double softness : {1.0, 4.0}) {
-      Knobs k;
+      ShadowKnobs k;
       k.radius = radius, k.softness = softness, k.innerGlow = 0, k.indication = 0;
       const Frame frame =
           draw(scene, lookOf(k), {parallelView(1, 4.0f / 3)}, sized(kWidth, kHeight, {"final-shadow"}));
@@ -220,7 +220,7 @@ TEST_P(FinalShadowTest, bandsAreFlatAndAsLargeAsTheirSharesOfTheLight) {
   const Scene scene = s.load();
   const auto views = viewsFrom(scene, {{0.3f, 0.5f, 3}}, kWidth, kHeight, GetParam());
   for (const int count : {1, 2, 3, 4}) {
-    Knobs k;
+    ShadowKnobs k;
     k.bands = count, k.radius = 0, k.innerGlow = 0, k.indication = 0;
     Look look = lookOf(k);
     ASSERT_TRUE(look.set("light.terminatorSharpness", "0.5"));
@@ -259,7 +259,7 @@ TEST_P(FinalShadowTest, theGlowStaysInsideTheDark) {
   const auto views = viewsFrom(scene, {{2, 2.5f, 6}, {0, 0.8f, 0}}, kWidth, kHeight, GetParam());
   for (const auto& [count, width, samples] :
        {std::tuple(1, 0.05, 1u), {1, 0.5, 1u}, {1, 1.0, 4u}, {3, 0.05, 4u}, {3, 0.5, 1u}, {3, 1.0, 1u}}) {
-    Knobs k;
+    ShadowKnobs k;
     k.bands = count, k.innerGlow = 0, k.glowWidth = width, k.indication = 0;
     const Frame without = draw(scene, lookOf(k), views, sized(kWidth, kHeight, {"final-shadow"}, samples));
     k.innerGlow = 1;
@@ -293,7 +293,7 @@ TEST_F(FinalShadowTest, severalEdgesAreAsContinuousAsOne) {
   const Scene scene = s.load();
   constexpr int kLarge = 480;
   for (const int count : {2, 3, 4}) {
-    Knobs k;
+    ShadowKnobs k;
     k.bands = count, k.radius = 128, k.softness = 2, k.innerGlow = 0, k.indication = 0;
     const Frame frame = draw(scene, lookOf(k), {parallelView(1, 1)}, sized(kLarge, kLarge, {"final-shadow"}));
     int between = 0;
@@ -317,7 +317,7 @@ TEST_P(FinalShadowTest, indicationActsOnlyWhereTheLightIsOblique) {
   const auto views = viewsFrom(scene, {{0.3f, 0.5f, 3}}, kWidth, kHeight, GetParam());
   Frame frames[2];
   for (const int on : {0, 1}) {
-    Knobs k;
+    ShadowKnobs k;
     k.indication = on, k.radius = 9;
     Look look = lookOf(k);
     ASSERT_TRUE(look.set("light.terminator", "0.1"));
@@ -351,7 +351,7 @@ TEST_P(FinalShadowTest, indicationBreaksTheTransitionUpOnBothSides) {
   const auto views = viewsFrom(scene, {{0.3f, 0.5f, 3}}, kLargeWidth, kLargeHeight, GetParam());
   Frame frames[2];
   for (const int on : {0, 1}) {
-    Knobs k;
+    ShadowKnobs k;
     k.indication = on, k.radius = 9, k.innerGlow = 0;
     frames[on] =
         draw(scene, lookOf(k), views, sized(kLargeWidth, kLargeHeight, {"final-shadow", "normal", "id"}));
@@ -382,7 +382,7 @@ TEST_P(FinalShadowTest, indicationBreaksTheTransitionUpOnBothSides) {
 TEST_P(FinalShadowTest, fragmentAndComputeAgree) {
   const Scene scene = stillLife().load();
   const auto views = viewsFrom(scene, {{2, 2.5f, 6}, {0, 0.8f, 0}}, kWidth, kHeight, GetParam());
-  Knobs k;
+  ShadowKnobs k;
   k.bands = 3, k.glowWidth = 0.5;
   Look look = lookOf(k);
   ASSERT_TRUE(look.set("shadow.glowColorAmount", "1"));

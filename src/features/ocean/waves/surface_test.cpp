@@ -35,18 +35,18 @@ WaveField fieldOf(int grid, double tile, Displace&& displace) {
   return field;
 }
 
-struct SurfaceTriangle {
+struct WaterTriangle {
   glm::dvec3 a, b, c;
 };
 
 // Nine tiles, as a renderer would draw them.
-std::vector<SurfaceTriangle> meshOf(const WaveField& field) {
+std::vector<WaterTriangle> meshOf(const WaveField& field) {
   const int n = field.grid;
   const auto corner = [&](int i, int j) {
     const glm::dvec4 d(field.displacement[size_t((j + n) % n * n + (i + n) % n)]);
     return glm::dvec3(i * field.tile / n + d.x, d.y, j * field.tile / n + d.z);
   };
-  std::vector<SurfaceTriangle> triangles;
+  std::vector<WaterTriangle> triangles;
   for (int j = -n; j < 2 * n; ++j)
     for (int i = -n; i < 2 * n; ++i) {
       triangles.push_back({corner(i, j), corner(i, j + 1), corner(i + 1, j + 1)});
@@ -61,10 +61,10 @@ struct HitBelow {
 };
 
 // A ray from above against every triangle (Moeller and Trumbore 1997).
-std::optional<HitBelow> castDown(const std::vector<SurfaceTriangle>& triangles, double x, double z) {
+std::optional<HitBelow> castDown(const std::vector<WaterTriangle>& triangles, double x, double z) {
   std::optional<HitBelow> best;
   const glm::dvec3 origin(x, 1000, z), down(0, -1, 0);
-  for (const SurfaceTriangle& t : triangles) {
+  for (const WaterTriangle& t : triangles) {
     const glm::dvec3 ab = t.b - t.a, ac = t.c - t.a, p = glm::cross(down, ac);
     const double determinant = glm::dot(ab, p);
     if (std::abs(determinant) < 1e-14) continue;
@@ -90,7 +90,7 @@ TEST(OceanSurface, isWhereARayMeetsTheMesh) {
     s.choppiness = choppiness;
     s.height = height;
     const WaveField field = fieldOf(s, 4);
-    const std::vector<SurfaceTriangle> mesh = meshOf(field);
+    const std::vector<WaterTriangle> mesh = meshOf(field);
     int otherNormal = 0;
     for (int i = 0; i < 500; ++i) {
       const auto number = [&] { return std::uniform_real_distribution<double>(0, 30)(random); };
