@@ -227,12 +227,12 @@ def main():
                 continue
             text = file.read_text()
             pairs |= drawn(text)
-            for name, isOwn, space in names(text):
-                if space and (isOwn or file.suffix == ".h"):
-                    (own if isOwn else declared)[space, name].add(str(file.relative_to(root)))
-            for name, isOwn, space in names(text, aliases=True) if file.suffix == ".h" else ():
-                if space and not isOwn and str(file.relative_to(root)) not in declared.get((space, name), ()):
-                    aliases[space, name].add(str(file.relative_to(root)))
+            types = set(names(text))
+            for found in names(text, aliases=True):
+                name, isOwn, space = found
+                kind = own if isOwn else declared if found in types else aliases
+                if space and (kind is own and found in types or kind is not own and file.suffix == ".h"):
+                    kind[space, name].add(str(file.relative_to(root)))
     for name, of in ambiguous(declared, pairs, own, aliases):
         report(name, of)
     print(f"{failures} names of unnamed namespaces that others have too")

@@ -2,13 +2,7 @@
 #ifndef SCUMBLE_PAINT_FADE_GLSL
 #define SCUMBLE_PAINT_FADE_GLSL
 #include "frame.glsl"
-
-// The way to the middle of all eyes, so that both see the same; in parallel projections everywhere alike.
-vec3 wayToViewer(vec3 position) {
-  mat4 toEyeSpace = frame.views[0].worldToEye;
-  return mix(frame.viewer - position, vec3(toEyeSpace[0][2], toEyeSpace[1][2], toEyeSpace[2][2]),
-             frame.views[0].orthographic);
-}
+#include "way_to_viewer.glsl"
 
 // The more it faces the viewer, the more there is. `fade`: where it begins to show and where all of it does; what does not
 // fade has numbers that give 1.

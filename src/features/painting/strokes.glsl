@@ -1,6 +1,7 @@
 // What all that places splats reads (set 1).
 #include "../../shading/distance_key.glsl"
 #include "../../shading/frame.glsl"
+#include "../../shading/way_to_viewer.glsl"
 #include "painting.shared.h"
 
 layout(set = 1, binding = kPaintingBlock, scalar) uniform Block { PaintingUniforms u; };
@@ -20,9 +21,7 @@ struct Sight {
   float away, sine;
 };
 Sight sightOf(vec3 position, vec3 along) {
-  mat4 toEyeSpace = frame.views[0].worldToEye;
-  vec3 toViewer = mix(frame.viewer - position, vec3(toEyeSpace[0][2], toEyeSpace[1][2], toEyeSpace[2][2]),
-                      frame.views[0].orthographic);
+  vec3 toViewer = wayToViewer(position);
   Sight sight;
   sight.away = length(toViewer);
   sight.way = toViewer / max(sight.away, 1e-30);

@@ -1,10 +1,9 @@
 // What the program knows of watercolours.
-#include <algorithm>
-
 #include "features/watercolor/pigment/anchors_on_gpu.h"
 #include "features/watercolor/watercolor.h"
 #include "features/watercolor/watercolor_knobs.h"
 #include "frame/feature_parts.h"
+#include "look/anywhere.h"
 
 namespace scumble::watercolor {
 
@@ -36,12 +35,7 @@ class WatercolorFeature : public world::Feature {
 }  // namespace
 
 bool mayColorStamps(const look::LookData& look) {
-  const auto colors = [](const look::Assignment& a) {
-    return a.block == &StampParams::block() && std::string_view(a.row->name) == "colorAmount" &&
-           !a.pattern.empty() && a.value.number > 0;
-  };
-  return look.get<StampParams>().colorAmount > 0 ||
-         std::any_of(look.assignments.begin(), look.assignments.end(), colors);
+  return look::mayBeAboveZero(look, &StampParams::colorAmount);
 }
 
 frame::FeatureParts makeFeature() {

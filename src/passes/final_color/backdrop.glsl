@@ -44,8 +44,9 @@ vec3 stepped(vec3 value, vec3 steps) {
 // Few colours: so many steps of lightness, and steps of hue and chroma a quarter as wide.
 vec3 pictureStepped(vec3 color) {
   vec3 lab = oklabFromLinear(clamp(color, 0.0, 1.0));
-  float steps = u.backdrop.steps;
-  return clamp(linearFromOklab(stepped(lab + vec3(0.0, 0.5, 0.5), vec3(steps, 4.0 * steps + 1.0, 4.0 * steps + 1.0)) - vec3(0.0, 0.5, 0.5)), 0.0, 1.0);
+  const vec3 kGrey = vec3(0.0, 0.5, 0.5);  // a step's middle lies there
+  vec3 steps = vec3(1.0, 4.0, 4.0) * u.backdrop.steps + 2.0 * kGrey;
+  return clamp(linearFromOklab(stepped(lab + kGrey, steps) - kGrey), 0.0, 1.0);
 }
 
 // The pixel's place in the picture. `torn`: where the warp fetches this pixel's colour from.

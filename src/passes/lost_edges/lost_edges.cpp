@@ -22,8 +22,7 @@ class LostEdges : public Pass {
   }
 
   void declare(FrameBuilder& frame, uint32_t isThere) override {
-    isThere_ = isThere != 0;
-    if (!isThere_) return;
+    if (!isThere) return;
     frame.give(
         kPicture,
         step_.declare(frame, {.name = name(),
@@ -36,15 +35,10 @@ class LostEdges : public Pass {
                               .uniformBytes = sizeof(shared::LostEdgesUniforms),
                               .maxJobs = 2})[0]);
   }
-  void create(FrameBuilder& frame) override {
-    if (isThere_) step_.create(frame);
-  }
-  void bind(const gpu::GraphResources& resources) override {
-    if (isThere_) step_.bind(resources);
-  }
+  void create(FrameBuilder& frame) override { step_.create(frame); }
+  void bind(const gpu::GraphResources& resources) override { step_.bind(resources); }
 
   void update(const FrameInput& input) override {
-    if (!isThere_) return;
     const FinalColorParams params = input.knobs.scene<FinalColorParams>();
     constexpr float kWholeTear = 2;  // pixels at 1080 lines
     const float scale = input.uniforms.pixelScale;
@@ -56,7 +50,6 @@ class LostEdges : public Pass {
   }
 
  private:
-  bool isThere_ = false;
   ImageStep step_;
 };
 

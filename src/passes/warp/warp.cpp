@@ -8,6 +8,7 @@
 #include "frame/image_step.h"
 #include "frame/material_params.h"
 #include "frame/metatexture.h"
+#include "look/anywhere.h"
 #include "passes/final_shadow/final_shadow_knobs.h"
 #include "passes/limit/limit_knobs.h"
 #include "passes/warp/warp.shared.h"
@@ -268,12 +269,7 @@ float inflationPixels(const WarpParams& params, float imageHeight) {
 }
 
 bool mayTear(const look::LookData& look) {
-  const auto tears = [](const look::Assignment& a) {
-    return a.block == &WarpParams::block() && std::string_view(a.row->name) == "amount" &&
-           !a.pattern.empty() && a.value.number > 0;
-  };
-  return look.get<WarpParams>().amount > 0 ||
-         std::any_of(look.assignments.begin(), look.assignments.end(), tears);
+  return look::mayBeAboveZero(look, &WarpParams::amount);
 }
 
 MarksUse marksUse(const stage::KnobTable& knobs) {

@@ -46,11 +46,10 @@ float lineCoverage(float radius, vec2 pixel, vec2 nearest, vec2 spine, float t, 
   vec3 place = mix(inRestA * nearness.x, inRestB * nearness.y, t) * metresAway;
   vec2 off = (pixel - spine) * metresAway, along = inSpine.zw - inSpine.xy;
   vec3 beside = place + off.x * inAcross + off.y * inDown;
-  if (kBreaks) plain = coverageOf(max(radius, 0.5), away);
   // Beyond its ends a line goes straight on, as the next one does, which lies there as well.
   place += (inRestB - inRestA) * dot(pixel - spine, along) / max(dot(along, along), 1e-3);
   float size = length(inAcross) * metresAway * ink.textureSize;
-  if (kBreaks) plain *= unbroken(place, size, radius);
+  if (kBreaks) plain = coverageOf(max(radius, 0.5), away) * unbroken(place, size, radius);
   if (kTexture == kInkPlain) return plain;
   // Inner lines have no sides that would stay where they are.
   float side = dot(pixel - nearest, inOutward.xy);

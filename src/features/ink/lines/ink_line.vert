@@ -13,7 +13,7 @@ layout(location = 2) flat out vec4 outRadii;
 layout(location = 3) flat out vec4 outColor;
 layout(location = 4) flat out vec3 outOutward;
 layout(location = 5) flat out vec4 outTurn;  // and reach
-// Of lines with a texture or gaps: both ends, and how far a pixel across and down leads at a metre's distance, in the object's space at rest.
+// For lines with a texture or gaps: both ends, and how far a pixel across and down leads at a metre's distance, in the object's space at rest.
 layout(location = 6) flat out vec3 outRestA;
 layout(location = 7) flat out vec3 outRestB;
 layout(location = 8) flat out vec3 outAcross;

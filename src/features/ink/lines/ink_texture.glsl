@@ -35,8 +35,8 @@ float scaledNoise(vec3 place, float size, vec3 shift) {
   return mix(fine, coarse, part) * inversesqrt(part * part + (1.0 - part) * (1.0 - part));
 }
 
-// Whether a line that is too thin to be drawn whole is drawn here, 0 or 1 but for the ends of its gaps: as much of it as
-// its radius has of half a pixel.
+// Share of a thin line that is drawn at a place, 0 or 1 but for the ends of its gaps: as much of its length as its radius
+// has of half a pixel.
 float unbroken(vec3 place, float size, float radius) {
   float slow = scaledNoise(place, 2.4 * size, vec3(13.0, 2.0, 6.0));
   float before = 1.0 / (1.0 + exp(-1.7 * slow));  // how much of the noise is less: from 0 to 1, evenly

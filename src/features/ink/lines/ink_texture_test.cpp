@@ -129,7 +129,7 @@ TEST_P(InkTexture, thinLinesBreakAndAreNotPale) {
   // Gaps lie on the surface, and not on edges or on the screen.
   EXPECT_LT(difference(broken, thin("on", {16 * kPixel, 0}), 16), 0.05);
   EXPECT_GT(difference(broken, broken, 16), 0.2);
-  // What is wide enough is as it was.
+  // A line that is wide enough is as it was.
   const Knobs wide{{"ink.least", "9"}, {"ink.greatest", "12"}};
   Knobs breaking = wide;
   breaking.emplace_back("ink.breaks", "on");

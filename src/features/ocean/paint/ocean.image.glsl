@@ -4,6 +4,7 @@
 #include "../../../shading/frame.glsl"
 #include "../../../shading/luminance.shared.h"
 #include "../../../shading/metatexture.glsl"
+#include "../../../shading/way_to_viewer.glsl"
 #include "../ocean.shared.h"
 #include "ocean.shared.h"
 
@@ -101,10 +102,7 @@ void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
   vec3 world = worldAt(pixel, far, layer);
   vec3 eye = kViewCount > 1 ? 0.5 * (frame.views[0].eye + frame.views[1].eye) : frame.views[0].eye;
   vec3 toEye = eye - world;
-  mat4 toEyeSpace = VIEW_FIELD(worldToEye, layer);
-  vec3 backwards = vec3(toEyeSpace[0][2], toEyeSpace[1][2], toEyeSpace[2][2]);
-  vec2 seenAlong = -mix(toEye, backwards, VIEW_FIELD(orthographic, layer)).xz;
-  vec3 ways = kFollows ? waysAcross(seenAlong) : vec3(0.0);
+  vec3 ways = kFollows ? waysAcross(-wayToViewer(world).xz) : vec3(0.0);
   Turned most = turnedWay(meta, ways.x, packed), least;
   vec4 value = metaTextureSample(meta, most.chosen, example, most.uv, vec2(0.0), vec2(pixel) + 0.5);
   bool isBetween = kFollows && ways.z > 0.0;

@@ -66,7 +66,7 @@ TEST_P(StrokesAcross, runAlongTheHorizonFromEverywhere) {
   }
   EXPECT_GT(least, 1.5);
   EXPECT_LT(most, 2.5 * least);
-  // Where two directions are blended the contrast is that of one.
+  // Two directions, blended, have the contrast of one.
   EXPECT_LT(deviationMost, 1.7 * deviationLeast);
   // Without it they run away from a viewer who looks along X.
   EXPECT_LT(runOf(aov(seen(scene, from(scene, glm::radians(90.0)), "off"), "lit", 0)).x, 0.75 * least);
@@ -81,7 +81,7 @@ TEST_P(StrokesAcross, aTurnOfTheHeadChangesNothing) {
     int count = 0;
     for (int y = kAcrossHeight * 2 / 3; y < kAcrossHeight - 8; y += 2)
       for (int x = 8; x < kAcrossWidth - 8; x += 2) {
-        // Where the same water is in the other picture: the eyes' middle stays, so that it is a turn alone in
+        // The same water in the other picture: the eyes' middle stays, so that it is a turn alone in
         // mono.
         const glm::vec2 ndc = (glm::vec2(x, y) + 0.5f) / glm::vec2(kAcrossWidth, kAcrossHeight) * 2.0f - 1.0f;
         const glm::mat4 toClip = ahead[0].eyeToClip * ahead[0].worldToEye;

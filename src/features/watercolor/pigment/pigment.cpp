@@ -135,22 +135,25 @@ class Pigment : public Pass {
     const WatercolorParams params = input.knobs.scene<WatercolorParams>();
     const float spacing = params.spacing * input.uniforms.pixelScale;
     shared::PigmentUniforms uniforms{spacing, params.stampSize, params.backruns, input.seed};
+    auto* const materials = reinterpret_cast<shared::PigmentMaterial*>(materials_.mapped);
+    int used = params.brushes;
+    for (size_t m = 0; m < input.scene.materialCount(); ++m) {
+      const StampParams stamps = input.knobs.of<StampParams>(m);
+      used = std::max(used, int(stamps.brush));
+      materials[m] = {stamps.strength, stamps.density, uint32_t(stamps.brush), stamps.color.linear,
+                      stamps.colorAmount};
+    }
+    // Those that nobody takes are not even loaded.
     const look::Picture brushes[] = {params.brush, params.brush2, params.brush3, params.brush4};
     static_assert(std::size(brushes) == shared::kPigmentBrushes);
     for (int i = 0; i < shared::kPigmentBrushes; ++i) {
-      const ExampleTexture& brush = frame_->examples().get(input.look, brushes[i]);
+      const ExampleTexture& brush = frame_->examples().get(input.look, brushes[i < used ? i : 0]);
       uniforms.byOpacity[i] = float(brush.isClear);
       set_.writeTexture(0, uint32_t(shared::kPigmentBrush + i), brush.image.view(),
                         frame_->samplers().get(kBrushSampler));
     }
     uniforms.brushes = uint32_t(params.brushes), uniforms.sizes = params.sizes, uniforms.turns = params.turns;
     uniforms_.write(uniforms);
-    auto* const materials = reinterpret_cast<shared::PigmentMaterial*>(materials_.mapped);
-    for (size_t m = 0; m < input.scene.materialCount(); ++m) {
-      const StampParams stamps = input.knobs.of<StampParams>(m);
-      materials[m] = {stamps.strength, stamps.density, uint32_t(stamps.brush), stamps.color.linear,
-                      stamps.colorAmount};
-    }
     placesStep_.refresh();
     countAnchors(input, spacing);
   }
@@ -223,14 +226,11 @@ class Pigment : public Pass {
   }
 
   gpu::Shader stampShader() const {
-    if (generator_ == kCells)
-      return isColored_ ? gpu::Shader{shaders::pigment_stamp_colored_cells_frag}
-                        : gpu::Shader{shaders::pigment_stamp_cells_frag};
-    if (generator_ == kShapes)
-      return isColored_ ? gpu::Shader{shaders::pigment_stamp_colored_shapes_frag}
-                        : gpu::Shader{shaders::pigment_stamp_shapes_frag};
-    return isColored_ ? gpu::Shader{shaders::pigment_stamp_colored_frag}
-                      : gpu::Shader{shaders::pigment_stamp_frag};
+    const gpu::Shader all[][2] = {
+        {{shaders::pigment_stamp_frag}, {shaders::pigment_stamp_colored_frag}},
+        {{shaders::pigment_stamp_shapes_frag}, {shaders::pigment_stamp_colored_shapes_frag}},
+        {{shaders::pigment_stamp_cells_frag}, {shaders::pigment_stamp_colored_cells_frag}}};
+    return all[generator_][isColored_];
   }
 
   FrameBuilder* frame_ = nullptr;

@@ -1,4 +1,4 @@
-// What stamps are like on a material (paper 004, section 3.3 and figure 11): brushes that are taken by
+// Stamps by material (paper 004, section 3.3 and figure 11): brushes that are taken by
 // chance, how strong and dense stamps are, and their colours.
 #include <cmath>
 #include <functional>
