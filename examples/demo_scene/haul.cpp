@@ -186,13 +186,15 @@ void poseLegs(Figure& figure) {
 Haul haulAt(float f) {
   Figure figure;
   figure.haul.hips = {0.0f, kUp.at(f), kForward.at(f)};
-  // The hips lead, the chest follows, the head comes last and keeps looking at the sail.
+  // The hips lead, the chest follows, the head comes last. He looks out past the sail to windward, so that
+  // the viewer sees his face at three quarters, while his chest twists below it.
   const float hips = kLean.at(f + 2.0f), chest = kLean.at(f - 1.0f), late = kLean.at(f - 4.0f);
   figure.pose(kHips, pitch(0.35f * hips) * yaw(0.2f * kTwist.at(f + 2.0f)));
   figure.pose(kSpine, pitch(0.35f * kLean.at(f)) * yaw(0.4f * kTwist.at(f)));
   figure.pose(kChest, pitch(0.30f * chest) * yaw(0.4f * kTwist.at(f - 1.0f)));
-  figure.pose(kNeck, pitch(-0.30f * late + 0.4f * kNod.at(f - 2.0f)) * yaw(-0.5f * kTwist.at(f - 3.0f)));
-  figure.pose(kHead, pitch(-0.25f * late + 0.6f * kNod.at(f - 3.0f)) * yaw(-12.0f));
+  figure.pose(kNeck,
+              pitch(-0.30f * late + 0.4f * kNod.at(f - 2.0f)) * yaw(10.0f - 0.8f * kTwist.at(f - 3.0f)));
+  figure.pose(kHead, pitch(-0.25f * late + 0.6f * kNod.at(f - 3.0f)) * yaw(18.0f));
   poseArms(figure, f);
   poseLegs(figure);
   return figure.haul;

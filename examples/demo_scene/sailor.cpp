@@ -128,24 +128,59 @@ void addLeg(MeshBuilder& mesh, int thigh) {
             {.shading = Shading::smooth});
 }
 
-// The neck is at the origin.
+// The neck is at the origin. In the picture the face is fifteen pixels high, smaller than the brush that
+// rounds shadow shapes, so the shadow under the peak is painted: a band of its own colour, wherever the sun
+// stands.
 void addFace(MeshBuilder& mesh) {
   mesh.setMaterial(kSkin);
   mesh.loft(rings({{-0.06f, 0.055f, 0.06f, -0.01f},
-                   {0.02f, 0.066f, 0.08f, 0.012f},
-                   {0.07f, 0.078f, 0.098f, 0.016f},
-                   {0.12f, 0.081f, 0.101f, 0.014f},
-                   {0.17f, 0.080f, 0.100f, 0.008f},
-                   {0.22f, 0.07f, 0.09f, 0.0f}},
+                   {0.02f, 0.070f, 0.085f, 0.012f},
+                   {0.060f, 0.088f, 0.104f, 0.014f},
+                   {0.096f, 0.094f, 0.110f, 0.014f},
+                   {0.108f, 0.082f, 0.096f, 0.012f}},
                   12, 0.92f),
             {.shading = Shading::smooth});
-  // A strong nose, ears, cheekbones given by the facets.
-  const glm::vec3 bridge = {0, 0.145f, 0.108f}, tip = {0, 0.088f, 0.158f}, left = {0.026f, 0.078f, 0.108f},
-                  right = {-0.026f, 0.078f, 0.108f};
-  mesh.triangle(bridge, tip, left);
-  mesh.triangle(bridge, right, tip);
-  mesh.triangle(left, tip, right);
-  for (float side : {-1.0f, 1.0f}) mesh.box({side * 0.086f, 0.105f, 0.0f}, {0.022f, 0.06f, 0.04f}, 0.8f);
+  for (float side : {-1.0f, 1.0f}) mesh.box({side * 0.094f, 0.105f, -0.005f}, {0.024f, 0.07f, 0.045f}, 0.8f);
+  // Temples, eye sockets and forehead, set back from the cheeks.
+  mesh.setMaterial(kSkinShade);
+  mesh.loft(rings({{0.100f, 0.083f, 0.099f, 0.012f},
+                   {0.145f, 0.082f, 0.097f, 0.012f},
+                   {0.165f, 0.088f, 0.107f, 0.012f},
+                   {0.250f, 0.080f, 0.100f, 0.006f}},
+                  12, 0.92f));
+}
+
+// Two dark marks, as a painter would set them: whites would be too small to see. The brows above are grey,
+// because white ones would cut the shadow under the peak in two. Both fall towards the temples.
+void addEyes(MeshBuilder& mesh) {
+  static constexpr glm::vec2 kLids[] = {{-0.024f, -0.003f}, {-0.012f, -0.017f}, {0.012f, -0.017f},
+                                        {0.024f, -0.003f},  {0.014f, 0.014f},   {-0.014f, 0.014f}};
+  static constexpr glm::vec2 kBrow[] = {
+      {-0.025f, 0.022f}, {0.025f, 0.022f}, {0.026f, 0.030f}, {0.0f, 0.037f}, {-0.026f, 0.030f}};
+  const glm::mat4 head = mesh.transform();
+  for (float side : {-1.0f, 1.0f}) {
+    const glm::mat4 socket =
+        glm::rotate(glm::translate(head, {side * 0.042f, 0.130f, 0.092f}), side * 0.55f, {0, 1, 0});
+    mesh.setTransform(glm::rotate(socket, side * -0.16f, {0, 0, 1}));
+    mesh.setMaterial(kEye);
+    mesh.extrude(kLids, -0.01f, 0.012f);
+    mesh.setMaterial(kBeardShade);
+    mesh.extrude(kBrow, -0.01f, 0.020f);
+  }
+  mesh.setTransform(head);
+}
+
+// Large and straight. Its left side and underside are painted dark, for the sun may stand straight before it.
+void addNose(MeshBuilder& mesh) {
+  const glm::vec3 root = {0, 0.160f, 0.104f}, tip = {0, 0.062f, 0.222f}, base = {0, 0.044f, 0.118f};
+  const glm::vec3 ridge = {0.018f, 0, 0}, wing = {0.042f, 0.006f, -0.004f};
+  const glm::vec3 left = base + wing, right = base + wing * glm::vec3(-1, 1, 1);
+  mesh.setMaterial(kSkin);
+  mesh.quad(root - ridge, tip - ridge, tip + ridge, root + ridge);
+  mesh.triangle(root - ridge, right, tip - ridge);
+  mesh.setMaterial(kSkinShade);
+  mesh.triangle(root + ridge, tip + ridge, left);
+  mesh.quad(left, tip + ridge, tip - ridge, right);
 }
 
 void addBeard(MeshBuilder& mesh) {
@@ -153,42 +188,38 @@ void addBeard(MeshBuilder& mesh) {
   mesh.loft(rings({{-0.175f, 0.018f, 0.02f, 0.115f},
                    {-0.13f, 0.052f, 0.052f, 0.105f},
                    {-0.065f, 0.084f, 0.085f, 0.075f},
-                   {0.0f, 0.096f, 0.104f, 0.048f},
-                   {0.022f, 0.094f, 0.104f, 0.034f},
-                   {0.046f, 0.088f, 0.090f, 0.034f},
-                   {0.056f, 0.080f, 0.062f, 0.04f}},
+                   {-0.02f, 0.094f, 0.104f, 0.050f},
+                   {0.006f, 0.094f, 0.104f, 0.034f},
+                   {0.022f, 0.088f, 0.086f, 0.030f},
+                   {0.032f, 0.080f, 0.058f, 0.03f}},
                   12, 0.95f),
             {.shading = Shading::smooth});
-  // Hair at the back of the head, below the cap; brows.
+  // A moustache that hangs over the beard.
+  mesh.tube({{-0.082f, -0.015f, 0.085f},
+             {-0.045f, 0.014f, 0.125f},
+             {0, 0.028f, 0.132f},
+             {0.045f, 0.014f, 0.125f},
+             {0.082f, -0.015f, 0.085f}},
+            {0.006f, 0.020f, 0.018f, 0.020f, 0.006f}, 7);
+  // Hair at the back of the head, below the cap.
   mesh.loft(rings({{0.0f, 0.072f, 0.06f, -0.035f},
-                   {0.04f, 0.086f, 0.075f, -0.032f},
-                   {0.12f, 0.089f, 0.082f, -0.03f},
-                   {0.18f, 0.086f, 0.078f, -0.026f}},
+                   {0.04f, 0.090f, 0.075f, -0.036f},
+                   {0.12f, 0.093f, 0.082f, -0.036f},
+                   {0.215f, 0.088f, 0.070f, -0.030f}},
                   12, 0.92f),
             {.shading = Shading::smooth});
-  for (float side : {-1.0f, 1.0f}) mesh.box({side * 0.038f, 0.142f, 0.108f}, {0.052f, 0.016f, 0.026f});
 }
 
-void addCap(MeshBuilder& mesh) {
-  mesh.setMaterial(kCap);
-  // Band, then a soft crown wider than the band, pulled down to the front.
-  mesh.loft(rings({{0.146f, 0.095f, 0.117f, 0.002f},
-                   {0.205f, 0.096f, 0.116f, 0.004f},
-                   {0.235f, 0.132f, 0.148f, 0.010f},
-                   {0.262f, 0.130f, 0.146f, 0.002f},
-                   {0.288f, 0.085f, 0.10f, -0.012f},
-                   {0.292f, 0.02f, 0.02f, -0.015f}},
-                  14, 0.95f),
-            {.shading = Shading::smooth});
-  // The peak: a bent plate in front of the band.
+// A bent plate in front of the band, long and low enough to shade the eyes.
+void addPeak(MeshBuilder& mesh) {
   Grid top(3, 9), bottom(3, 9);
   for (size_t c = 0; c < 9; ++c) {
-    const float angle = glm::mix(-1.05f, 1.05f, float(c) / 8.0f);
+    const float angle = glm::mix(-1.15f, 1.15f, float(c) / 8.0f);
     for (size_t r = 0; r < 3; ++r) {
       const float out = float(r) / 2.0f;
-      const float reach = 0.105f * out * std::pow(std::cos(angle * 0.9f), 0.7f);
+      const float reach = 0.115f * out * std::pow(std::cos(angle * 0.9f), 0.7f);
       const glm::vec3 p = {(0.092f + 0.5f * reach) * std::sin(angle),
-                           0.180f - 0.042f * out - 0.02f * (1 - std::cos(angle)),
+                           0.236f - 0.045f * out - 0.01f * (1 - std::cos(angle)),
                            0.006f + (0.112f + reach) * std::cos(angle)};
       top.at(r, c) = p;
       bottom.at(r, c) = p - glm::vec3(0, 0.014f, 0);
@@ -208,6 +239,20 @@ void addCap(MeshBuilder& mesh) {
   }
 }
 
+void addCap(MeshBuilder& mesh) {
+  mesh.setMaterial(kCap);
+  // Band, then a soft crown wider than the band, pulled down to the front.
+  mesh.loft(rings({{0.204f, 0.096f, 0.117f, 0.002f},
+                   {0.246f, 0.097f, 0.116f, 0.004f},
+                   {0.268f, 0.128f, 0.144f, 0.008f},
+                   {0.290f, 0.126f, 0.142f, 0.000f},
+                   {0.312f, 0.085f, 0.10f, -0.014f},
+                   {0.316f, 0.02f, 0.02f, -0.017f}},
+                  14, 0.95f),
+            {.shading = Shading::smooth});
+  addPeak(mesh);
+}
+
 Mesh makeSailor() {
   MeshBuilder mesh("Sailor");
   addCoat(mesh);
@@ -215,8 +260,10 @@ Mesh makeSailor() {
   addLeg(mesh, kThighRight);
   // Beard and cap are the head's. A head a little large reads better from afar.
   mesh.setBinding([](glm::vec3) { return boundTo(kHead); });
-  mesh.setTransform(glm::scale(glm::translate(glm::mat4(1.0f), bone(kHead)), glm::vec3(1.26f)));
+  mesh.setTransform(glm::scale(glm::translate(glm::mat4(1.0f), bone(kHead)), glm::vec3(1.5f)));
   addFace(mesh);
+  addEyes(mesh);
+  addNose(mesh);
   addBeard(mesh);
   addCap(mesh);
   return mesh.take();
