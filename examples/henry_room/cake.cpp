@@ -55,7 +55,7 @@ Mesh makeCake() {
 }
 
 glm::vec3 candleAt(int i) {
-  const float a = 2.0f * kPi * (float(i) + 0.57f) / 5.0f;
+  const float a = 2.0f * kPi * (float(i) + 0.57f) / float(kCandles);
   return {0.115f * std::cos(a), kCrown + 0.01f, 0.115f * std::sin(a)};
 }
 
@@ -76,19 +76,26 @@ float flicker(float time, int flame, float start) {
          0.2f * std::sin(phase(time, 2.0f) + 0.7f * shift);
 }
 
+glm::vec3 wickAt(int i) {
+  return candleAt(i) + glm::vec3(0, kCandle1 + 0.012f, 0);
+}
+
 }  // namespace
+
+glm::vec3 flameAt(int candle) {
+  return kCake + wickAt(candle) + glm::vec3(0, 0.06f, 0);
+}
 
 void addCake(Document& document, int parent) {
   const int cake = document.addMesh(makeCake(), parent, kCake);
   MeshBuilder candles("Candles");
   candles.setMaterial(kCandle);
-  for (int i = 0; i < 5; ++i)
+  for (int i = 0; i < kCandles; ++i)
     candles.tube({candleAt(i), candleAt(i) + glm::vec3(0, kCandle1, 0)}, {0.013f}, 8);
   document.addMesh(candles.take(), cake);
   std::vector<Channel>& channels = party(document).channels;
-  for (int i = 0; i < 5; ++i) {
-    const int flame = document.addMesh(makeFlame("Flame " + std::to_string(i + 1)), cake,
-                                       candleAt(i) + glm::vec3(0, kCandle1 + 0.012f, 0));
+  for (int i = 0; i < kCandles; ++i) {
+    const int flame = document.addMesh(makeFlame("Flame " + std::to_string(i + 1)), cake, wickAt(i));
     channels.push_back(scaleKeys(flame, onTwos(), [i](float time) {
       const float tall = 1.0f + 0.22f * flicker(time, i, 0.0f);
       return glm::vec3(1.0f / std::sqrt(tall), tall, 1.0f / std::sqrt(tall));

@@ -1,4 +1,5 @@
 // Henry: a small hedgehog on his chair, big eyes, party hat. He breathes and tilts his head.
+#include "mesh_kit/random.h"
 #include "parts.h"
 #include "timing.h"
 
@@ -10,38 +11,63 @@ using namespace meshkit;
 // His space: he looks along +Z, +Y is up, the seat is the origin.
 constexpr glm::vec3 kHead = {0.0f, 0.44f, 0.03f};
 
-// Spikes on the back of an egg: they point away from it and are swept back.
-void addSpikes(MeshBuilder& mesh, glm::vec3 center, glm::vec3 halfSize, int count, float length,
-               float front) {
-  // Points spread evenly over the sphere by the golden angle.
-  for (int i = 0; i < count; ++i) {
-    const float y = 1.0f - 2.0f * (float(i) + 0.5f) / float(count), angle = 2.3999632f * float(i);
-    const float r = std::sqrt(1.0f - y * y);
-    const glm::vec3 way = {r * std::cos(angle), y, r * std::sin(angle)};
-    if (way.z > front + 0.25f * std::max(way.y, 0.0f) || std::abs(way.y) > 0.75f) continue;
-    const glm::vec3 root = center + way * halfSize;
-    const glm::vec3 along = glm::normalize(way + glm::vec3(0, 0.12f, -0.55f));
-    const glm::vec3 side = glm::normalize(glm::cross(along, glm::vec3(0.3f, 1, 0.2f)));
-    const glm::vec3 other = glm::cross(along, side);
-    const float wide = 0.30f * length;
-    const std::vector<glm::vec3> foot = ellipseRing(root - 0.02f * along, side * wide, -other * wide, 5);
-    const glm::vec3 tip = root + along * length;
-    mesh.setMaterial(i % 4 == 0 ? kSpikeTip : kSpike);
-    for (size_t k = 0; k < foot.size(); ++k) {
-      const glm::vec3 a = foot[k], b = foot[(k + 1) % foot.size()];
-      const bool outwards = glm::dot(glm::cross(b - a, tip - a), 0.5f * (a + b) - root) > 0.0f;
-      outwards ? mesh.triangle(a, b, tip) : mesh.triangle(b, a, tip);
+// Quills in rows on the back of an egg.
+struct Coat {
+  glm::vec3 center, halfSize;
+  float face;          // degrees from +Z at which the first row stands
+  int rows, around;    // and quills in the longest row
+  float length;        // of the longest
+  float crown, belly;  // heights in the unit egg above and below which it is bare
+};
+
+// A quill: it leaves the skin, bends backwards and has a light tip.
+void addQuill(MeshBuilder& mesh, glm::vec3 root, glm::vec3 out, glm::vec3 back, float length) {
+  const glm::vec3 middle = root + 0.55f * length * glm::normalize(out + 0.5f * back);
+  const glm::vec3 tip = middle + 0.45f * length * glm::normalize(out + back);
+  const glm::vec3 along = glm::normalize(tip - root);
+  const glm::vec3 side = glm::normalize(glm::cross(along, glm::vec3(0.31f, 0.9f, 0.3f)));
+  auto ring = [&](glm::vec3 center, float radius) {
+    return ellipseRing(center, side * radius, glm::cross(along, side) * radius, 5);
+  };
+  const float wide = 0.09f * length;
+  const LoftOptions open{.shading = Shading::smooth, .capStart = false, .capEnd = false};
+  const auto neck = ring(middle, 0.82f * wide);
+  mesh.loft({ring(root - 0.1f * length * out, wide), neck}, open);
+  mesh.setMaterial(kSpikeTip);
+  mesh.loft({neck, ring(tip, 0.06f * wide)}, open);
+}
+
+// Rows like shingles: each stands in the gaps of the one before, and those behind are longer.
+void addQuills(MeshBuilder& mesh, const Coat& coat) {
+  Random random(11);
+  for (int row = 0; row < coat.rows; ++row) {
+    const float t = float(row) / float(coat.rows - 1);
+    const float slope = glm::radians(glm::mix(coat.face, 172.0f, t));
+    const int count = std::max(int(float(coat.around) * std::sin(slope)), 3);
+    for (int i = 0; i < count; ++i) {
+      const float turn =
+          2.0f * kPi * (float(i) + 0.5f * float(row % 2) + random.between(-0.2f, 0.2f)) / float(count);
+      const glm::vec3 way = {std::sin(slope) * std::sin(turn), std::sin(slope) * std::cos(turn),
+                             std::cos(slope)};
+      if (way.y > coat.crown || way.y < coat.belly) continue;
+      const glm::vec3 out = glm::normalize(way / coat.halfSize + 0.7f * random.direction());
+      const float length =
+          coat.length * glm::mix(0.62f, 1.0f, std::min(3.0f * t, 1.0f)) * random.between(0.88f, 1.1f);
+      mesh.setMaterial((row + i) % 3 == 0 ? kSpikeDark : kSpike);
+      // Those around the face lie flat, so that it stays clear.
+      addQuill(mesh, coat.center + way * coat.halfSize, out,
+               glm::mix(1.3f, 0.75f, std::min(2.0f * t, 1.0f)) * glm::vec3(0, 0.07f, -1.0f), length);
     }
   }
 }
 
 Mesh makeBody() {
   MeshBuilder mesh("Henry body");
-  mesh.setMaterial(kSpike);
+  mesh.setMaterial(kSpikeDark);
   addBall(mesh, {0, 0.21f, -0.035f}, {0.195f, 0.225f, 0.175f}, 3);
   mesh.setMaterial(kFur);
   addBall(mesh, {0, 0.20f, 0.03f}, {0.165f, 0.205f, 0.150f}, 3);
-  addSpikes(mesh, {0, 0.21f, -0.035f}, {0.19f, 0.22f, 0.17f}, 70, 0.12f, 0.05f);
+  addQuills(mesh, {{0, 0.21f, -0.035f}, {0.19f, 0.22f, 0.17f}, 62.0f, 11, 48, 0.13f, 0.90f, -0.80f});
   // Feet over the seat's edge; arms that reach for the table.
   mesh.setMaterial(kFurDark);
   for (float x : {-1.0f, 1.0f}) {
@@ -58,9 +84,11 @@ Mesh makeBody() {
 Mesh makeHead() {
   MeshBuilder mesh("Henry head");
   const glm::vec3 middle = {0, 0.18f, 0};
-  mesh.setMaterial(kSpike);
+  mesh.setMaterial(kSpikeDark);
   addBall(mesh, middle + glm::vec3(0, 0.02f, -0.045f), {0.225f, 0.205f, 0.185f}, 3);
-  addSpikes(mesh, middle + glm::vec3(0, 0.02f, -0.045f), {0.22f, 0.20f, 0.18f}, 95, 0.135f, 0.02f);
+  addQuills(
+      mesh,
+      {middle + glm::vec3(0, 0.02f, -0.045f), {0.22f, 0.20f, 0.18f}, 60.0f, 12, 54, 0.155f, 0.62f, -0.72f});
   mesh.setMaterial(kFur);
   addBall(mesh, middle + glm::vec3(0, -0.01f, 0.03f), {0.205f, 0.180f, 0.165f}, 3);
   // Snout, nose, ears.

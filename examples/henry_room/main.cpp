@@ -13,6 +13,7 @@ Document makeScene() {
   document.materials = palette();
   const int world = document.addNode({"World"});
   addRoom(document, world);
+  addShafts(document, world);
   addFloor(document, world);
   addKitchenDoor(document, world);
   addLeaves(document, world);
@@ -26,9 +27,7 @@ Document makeScene() {
   addDust(document, world);
   addParlour(document, world);
 
-  const float elevation = glm::radians(kSunElevation);
-  document.addSun(std::cos(elevation) * towards(kSunBearing) + glm::vec3(0, std::sin(elevation), 0),
-                  {1.0f, 0.88f, 0.66f}, 3.0f);
+  document.addSun(towardsSun(), {1.0f, 0.88f, 0.66f}, 3.0f);
   auto camera = [&](const char* name, float fov, glm::vec3 eye, glm::vec3 target) {
     document.addCamera({name, fov, 16.0f / 9.0f, 0.05f, 100.0f}, eye, target);
     // The thing that it looks at has the name alone.

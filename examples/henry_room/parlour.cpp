@@ -1,5 +1,5 @@
-// The back parlour behind the arch: its own small shell with a window, an armchair, a lamp and shelves, all
-// in paler colours that lie close together.
+// The back parlour behind the arch: its own small shell with a window, an armchair, a lamp and shelves. Its
+// colours are as strong as the room's; the look's mist takes it back.
 #include "parts.h"
 
 namespace henry {

@@ -19,6 +19,9 @@ constexpr glm::vec3 kHedgehog = {-0.56f, 0.0f, -1.50f};
 constexpr float kSeat = 0.46f;
 constexpr glm::vec3 kChairBack = {1.51f, 0.985f, -2.48f};  // of the chair by the arch, its back's top
 constexpr glm::vec3 kPresent = {2.08f, 0.0f, -1.05f};
+constexpr int kCandles = 5, kBalloons = 4;
+glm::vec3 flameAt(int candle);     // the middle of a flame, in the world
+glm::vec3 balloonAt(int balloon);  // the middle of a balloon at rest, in the world
 
 // Paints of a shell's parts.
 struct ShellPaint {
@@ -31,6 +34,9 @@ void addFloor(Document& document, int parent);
 // A window of bars and a ring, in its wall; its node is at the middle of the hole.
 void addWindow(Document& document, int parent, const std::string& name, const Shell& shell,
                const Opening& opening, const Oval& oval);
+// Bare nodes: the unit box of each is the light that falls through one half of a window. Looks hang
+// colorizers on them.
+void addShafts(Document& document, int parent);
 void addKitchenDoor(Document& document, int parent);
 void addLeaves(Document& document, int parent);
 void addShelf(Document& document, int parent);

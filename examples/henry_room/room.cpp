@@ -1,4 +1,4 @@
-// The room itself: shell, ribs, rails, floor, windows, the arch's trim and the kitchen door.
+// The room itself: shell, ribs, rails, floor, windows and their light, the arch's trim and the kitchen door.
 #include "mesh_kit/random.h"
 #include "parts.h"
 
@@ -117,6 +117,29 @@ void addWindow(Document& document, int parent, const std::string& name, const Sh
   const float middle = shell.radiusAt(oval.height - oval.halfHeight) + 0.10f;
   const glm::vec3 place = shell.center + middle * towards(opening.bearing()) + glm::vec3(0, oval.height, 0);
   document.addMesh(mesh.take(), parent, place, onWall(opening.bearing()));
+}
+
+void addShafts(Document& document, int parent) {
+  constexpr float kBar = 0.03f, kOutside = 0.3f,
+                  kBelowFloor = 0.3f;  // metres; the bar's half width, the ends
+  const float halfPane = 0.5f * (kWindow.halfWidth - kBar);
+  // The pane's own height at its middle, which is that of an ellipse halfway out.
+  const float halfHeight = 0.87f * kWindow.halfHeight;
+  int number = 1;
+  for (int column : kWindowColumns) {
+    const float bearing = float(column) * kColumnDegrees;
+    const glm::vec3 across = onWall(bearing) * glm::vec3(1, 0, 0);
+    const float slant = std::cos(glm::radians(bearing - kSunBearing));
+    for (float side : {-1.0f, 1.0f}) {
+      const glm::vec3 pane = room().at(bearing, kWindow.height) + side * (halfPane + kBar) * across;
+      const float inside = pane.y / towardsSun().y + kBelowFloor;
+      Node shaft{"Shaft " + std::to_string(number++), parent, pane, lookAlong(-towardsSun())};
+      shaft.translation -= 0.5f * (inside - kOutside) * towardsSun();
+      shaft.scale = {halfPane * slant, halfHeight * std::cos(glm::radians(kSunElevation)),
+                     0.5f * (inside + kOutside)};
+      document.addNode(std::move(shaft));
+    }
+  }
 }
 
 void addFloor(Document& document, int parent) {

@@ -21,6 +21,12 @@ inline glm::vec3 towards(float bearing) {
   return {std::cos(a), 0.0f, std::sin(a)};
 }
 
+// The direction to the sun.
+inline glm::vec3 towardsSun() {
+  const float elevation = glm::radians(kSunElevation);
+  return std::cos(elevation) * towards(kSunBearing) + glm::vec3(0, std::sin(elevation), 0);
+}
+
 // A hole straight through a shell. `inside` is told metres along the wall and above the floor.
 struct Opening {
   int column, halfColumns;    // the middle, and how many columns of the mesh it takes to both sides
