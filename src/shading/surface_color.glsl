@@ -5,16 +5,7 @@
 #define SCUMBLE_SURFACE_COLOR_GLSL
 #include "frame.glsl"
 #include "surface_color.shared.h"
-
-// `place`: pixels. Premultiplied.
-vec4 skyAt(vec2 place, int layer) {
-  vec4 toRay = VIEW_FIELD(ndcToEyeRay, layer);
-  vec2 ndc = place / frame.imageSize * 2.0 - 1.0;
-  vec3 ray = vec3((ndc * toRay.xy + toRay.zw) * (1.0 - VIEW_FIELD(orthographic, layer)), -1.0);
-  float sine = dot(VIEW_FIELD(upInEye, layer), ray) * inversesqrt(dot(ray, ray));  // of the elevation
-  float t = clamp(sine / colors.height, 0.0, 1.0);
-  return vec4(mix(colors.horizon, colors.zenith, t * t * (3.0 - 2.0 * t)), 1.0) * (1.0 - colors.transparent);
-}
+#include "sky.glsl"
 
 // A surface, premultiplied by its coverage. `glow`: the part of the light that is inner glow.
 vec4 surfaceColor(vec4 litRoot, vec4 shadowedRoot, float light, float glow) {

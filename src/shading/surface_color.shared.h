@@ -15,6 +15,10 @@ struct SurfaceColors {
   float air;               // how far distant things dissolve into the horizon
   float airStart, airEnd;  // metres along the view axis
   float transparent;       // 1: alpha 0 where nothing is
+  float skyTones;          // steps from the horizon's colour to the upper one; 0: the sky goes over evenly
+  float skyStrokes;        // how far strokes reach into other tones, tones
+  float skyStrokeSize;     // pixels
+  float skyEven;           // tones that the sky goes through in a radian, at most
   vec3 glowColor;          // of the inner glow
   float glowColorAmount;   // against the surface's colour in light
   float deepGlow;          // as the light has it, deep in the dark

@@ -88,7 +88,8 @@ Look quietLook(const Knobs& knobs) {
   Look look;
   Knobs all{{"ground.mode", "off"},      {"ground.strokes", "0"},   {"levels.error", "0"},
             {"background.mode", "look"}, {"background.air", "0"},   {"final.bloom", "0"},
-            {"final.lostEdges", "0"},    {"background.steps", "0"}, {"palette.planes", "0"}};
+            {"final.lostEdges", "0"},    {"background.steps", "0"}, {"palette.planes", "0"},
+            {"background.skyTones", "0"}};
   all.insert(all.end(), knobs.begin(), knobs.end());
   for (const auto& [path, value] : all)
     if (const Status set = look.set(path, value); !set) throw std::runtime_error(set.error().message());

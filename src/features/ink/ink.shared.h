@@ -19,7 +19,8 @@ struct InkKind {
 // Choices of ink.params, which are bits of a specialisation constant (ink_choices.glsl): what a uniform
 // decides CPU drivers compile anew for each of its values.
 const int kInkUnitBit = 0, kInkWeightsBit = 2, kInkPlacementBit = 4, kInkCyclopeanBit = 5, kInkKindsBit = 6,
-          kInkDoubledBit = 16, kInkTextureBit = 17, kInkLampsBit = 19, kInkBreaksBit = 20;
+          kInkDoubledBit = 16, kInkTextureBit = 17, kInkLampsBit = 19, kInkBreaksBit = 20, kInkHiddenBit = 21,
+          kInkCoversBit = 22;
 const int kInkPixels = 0, kInkMetres = 1, kInkDegrees = 2;
 const int kInkByEdge = 0, kInkByVertex = 1, kInkByTangent = 2, kInkHybrid = 3;
 const int kInkExterior = 0, kInkCentred = 1;
@@ -57,6 +58,7 @@ struct InkUniforms {
   float sinFadeAngle;
   float outer;                 // a factor
   float texture, textureSize;  // how much of it; pixels of one period
+  float hidden, hiddenDash;    // of lines that something hides: factor on the width; pixels of one dash
   vec2 depthAt;                // where in a pixel its depth is that of what is seen there
   InkKind kinds[kInkKinds];
 };
@@ -67,7 +69,7 @@ const int kInkBlock = 0, kInkChunks = 1, kInkWords = 2, kInkSums = 3, kInkNumber
 const int kInkBindings = 9;
 // Set 2 of what draws them. (What comes before that looks at no image: llvmpipe would compile it anew in each
 // frame.)
-const int kInkDepth = 0, kInkShadowed = 1;
+const int kInkDepth = 0, kInkShadowed = 1, kInkNearest = 2;  // the last one: of lines that cover others
 
 // What draws lines, as VkDrawIndirectCommand has it, and what makes their records, as
 // VkDispatchIndirectCommand has it.

@@ -416,7 +416,7 @@ TEST_P(Ink, linesDoNotShineThroughWalls) {
       }
 }
 
-// Where a line goes behind something it ends within some pixels, however that lies on the pixels.
+// Where a line goes behind something it ends within some pixels before that, however it lies on the pixels.
 TEST_P(Ink, linesEndSoftly) {
   for (const double left : {-0.02, 0.0, 0.01}) {
     const HalfHidden s(0.7, left);
@@ -430,8 +430,7 @@ TEST_P(Ink, linesEndSoftly) {
       };
       EXPECT_GT(at(-4), 0.95);
       EXPECT_NEAR(at(-1), 2 / 3.0, 0.1);
-      EXPECT_NEAR(at(1), 1 / 3.0, 0.1);
-      EXPECT_EQ(at(4), 0.0);
+      EXPECT_EQ(at(1), 0.0);
     }
   }
 }

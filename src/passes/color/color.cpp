@@ -38,6 +38,10 @@ shared::SurfaceColors surfaceColors(const FrameInput& input, Layer layer) {
   const glm::vec2 air = airDistances(params, input.uniforms);
   colors.airStart = air.x, colors.airEnd = air.y;
   colors.transparent = input.transparent;
+  colors.skyTones = float(params.skyTones);
+  colors.skyStrokes = params.skyStrokes;
+  colors.skyStrokeSize = params.skyStrokeSize * input.uniforms.pixelScale;
+  colors.skyEven = 1.5f * colors.skyTones / colors.height;
   const FinalShadowParams shadow = input.knobs.scene<FinalShadowParams>();
   colors.deepGlow = deepGlow(shadow);
   colors.glowColor = shadow.glowColor;

@@ -24,10 +24,20 @@ layout(location = 9) flat in vec3 inDown;
 layout(location = 10) flat in uint inSeen;
 layout(location = 11) flat in vec4 inSlopes;
 
+layout(location = 12) flat in uint inTurned;
+
+#ifdef COVER
+// Of the line alone, where it is whole, how near it is.
+#else
+layout(set = 2, binding = kInkNearest) uniform sampler2DArray nearestLine;
 layout(location = 0) out vec4 outInk;
 #ifdef DISTANCE
 layout(location = 1) out vec4 outNearness;
 #endif
+#endif
+
+// Lines that lie so many pixels apart, as what those measure there, cover each other; nearer ones meet at a corner.
+const float kInkApart = 1.5;
 
 // How far along a line is nearest, from 0 to 1.
 float nearestOn(vec2 from, vec2 to, vec2 point) {
@@ -35,15 +45,21 @@ float nearestOn(vec2 from, vec2 to, vec2 point) {
   return clamp(dot(point - from, along) / max(dot(along, along), 1e-12), 0.0, 1.0);
 }
 
+// A place on the edge in the object's space at rest, and how far away it is, metres; in a parallel projection 1.
+vec3 restAt(float t, int view, out float metresAway) {
+  float parallel = VIEW_FIELD(orthographic, view);
+  vec2 metres = vec2(eyeDepth(inRadii.z, view), eyeDepth(inRadii.w, view));
+  vec2 nearness = mix(1.0 / metres, vec2(1.0), parallel);
+  metresAway = 1.0 / mix(nearness.x, nearness.y, t);
+  return mix(inRestA * nearness.x, inRestB * nearness.y, t) * metresAway;
+}
+
 // A line's coverage of a pixel. `nearest`: of the line as it is drawn; `spine`: of the edge, at `t`.
 float lineCoverage(float radius, vec2 pixel, vec2 nearest, vec2 spine, float t, int view) {
   float away = distance(pixel, nearest), plain = coverageOf(radius, away);
   if (kTexture == kInkPlain && !kBreaks) return plain;
-  float parallel = VIEW_FIELD(orthographic, view);
-  vec2 metres = vec2(eyeDepth(inRadii.z, view), eyeDepth(inRadii.w, view));
-  vec2 nearness = mix(1.0 / metres, vec2(1.0), parallel);
-  float metresAway = 1.0 / mix(nearness.x, nearness.y, t);  // 1 in a parallel projection
-  vec3 place = mix(inRestA * nearness.x, inRestB * nearness.y, t) * metresAway;
+  float metresAway;
+  vec3 place = restAt(t, view, metresAway);
   vec2 off = (pixel - spine) * metresAway, along = inSpine.zw - inSpine.xy;
   vec3 beside = place + off.x * inAcross + off.y * inDown;
   // Beyond its ends a line goes straight on, as the next one does, which lies there as well.
@@ -57,15 +73,31 @@ float lineCoverage(float radius, vec2 pixel, vec2 nearest, vec2 spine, float t, 
                                 inOutward.z > 0.0 ? side : abs(side));
 }
 
+// The same of a line that something hides: dashes along the edge, which stay on it where it moves.
+float dashedCoverage(float radius, vec2 pixel, vec2 spine, float t, int view) {
+  float metresAway;
+  vec3 place = restAt(t, view, metresAway), along = inRestB - inRestA;
+  float way = dot(place, along) * inversesqrt(max(dot(along, along), 1e-37));
+  return coverageOf(radius, distance(pixel, spine)) * dashAt(way, length(inAcross) * metresAway * ink.hiddenDash, ink.hiddenDash);
+}
+
 void main() {
   int view = viewIndex();
   vec2 pixel = gl_FragCoord.xy;
   float t = nearestOn(inSpine.xy, inSpine.zw, pixel);
-  float radius = mix(inRadii.x, inRadii.y, t);
+  float whole = mix(inRadii.x, inRadii.y, t);
 
   vec2 outward = inOutward.xy;
   vec2 spine = mix(inSpine.xy, inSpine.zw, t);
-  radius *= meanFullnessAt(InkSpine(inSpine, inRadii.zw, outward, inSlopes, inTurn.xy, inTurn.zw, inOutward.z > 0.0, inSeen), t, radius, view);
+  InkSpine edge = InkSpine(inSpine, inRadii.zw, outward, inSlopes, inTurn.xy, inTurn.zw, inOutward.z > 0.0, inSeen);
+  LineSeen seen = lineSeenAt(edge, t, whole, view);
+  float radius = whole * seen.fullness, distance = eyeDepth(mix(inRadii.z, inRadii.w, t), view);
+  if (radius <= 0.0 && !kHidden) discard;
+  // A line makes room for what is nearer, so that it comes out from behind that little by little.
+  bool isOutside = kPlacement == kInkExterior && inOutward.z > 0.0;
+  InkCover beyond = coverTowards(edge, spine, outward, distance, view);
+  float reach = isOutside ? 2.0 * radius : radius;
+  radius *= spaceBeside(beyond, reach, whole, view) / max(reach, 1e-6);
 
   float moved = ink.offset * frame.pixelScale + (kPlacement == kInkExterior ? max(radius - inkOverlap(frame.pixelScale), 0.0) : 0.0);
   vec4 line = inSpine + inShift * moved;
@@ -76,7 +108,19 @@ void main() {
     nearest = mix(line.xy, line.zw, nearestOn(line.xy, line.zw, pixel));
     coverage = max(coverage, lineCoverage(radius * ink.doubledWidth, pixel, nearest, spine, t, view));
   }
+  InkCover towards = coverTowards(edge, spine, normalize(pixel - spine + 1e-3 * outward), distance, view);
+  coverage *= 1.0 - max(coveredAt(towards, pixel, whole, view), float(inTurned));
+#ifdef COVER
+  if (coverage < 0.5) discard;
+  gl_FragDepth = mix(inRadii.z, inRadii.w, t);
+#else
+  if (kHidden)
+    coverage = max(coverage, max(seen.hidden, float(inTurned)) * dashedCoverage(whole * ink.hidden, pixel, spine, t, view));
   if (coverage <= 0.0) discard;
+  if (kCovers) {
+    float nearer = distance - eyeDepth(texelFetch(nearestLine, ivec3(pixel, view), 0).r, view);
+    if (nearer > kInkApart * metresOfPixel(distance, view)) discard;
+  }
   vec3 color = inColor.rgb;
   if (inColor.a != 0.0) {
     vec2 inside = clamp(spine - 2.0 * outward, vec2(0.0), frame.imageSize - 1.0);
@@ -85,6 +129,7 @@ void main() {
   }
   outInk = coverage * vec4(1.0 - color, 1.0);
 #ifdef DISTANCE
-  outNearness = coverage * vec4(frame.sceneRadius / eyeDepth(mix(inRadii.z, inRadii.w, t), view), 1.0, 0.0, 1.0);
+  outNearness = coverage * vec4(frame.sceneRadius / distance, 1.0, 0.0, 1.0);
+#endif
 #endif
 }

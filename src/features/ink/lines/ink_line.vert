@@ -13,13 +13,14 @@ layout(location = 2) flat out vec4 outRadii;
 layout(location = 3) flat out vec4 outColor;
 layout(location = 4) flat out vec3 outOutward;
 layout(location = 5) flat out vec4 outTurn;  // and reach
-// For lines with a texture or gaps: both ends, and how far a pixel across and down leads at a metre's distance, in the object's space at rest.
+// For lines with a texture, gaps or dashes: both ends, and how far a pixel across and down leads at a metre's distance, in the object's space at rest.
 layout(location = 6) flat out vec3 outRestA;
 layout(location = 7) flat out vec3 outRestB;
 layout(location = 8) flat out vec3 outAcross;
 layout(location = 9) flat out vec3 outDown;
 layout(location = 10) flat out uint outSeen;
 layout(location = 11) flat out vec4 outSlopes;
+layout(location = 12) flat out uint outTurned;  // 1: its surface is seen from behind alone, where it is not drawn
 
 void findRest(uint number, int view, out vec3 a, out vec3 b, out vec3 across, out vec3 down) {
   EdgeChunk chunk = chunks[number / uint(kEdgeChunk)];
@@ -51,11 +52,12 @@ void main() {
   outSpine = record.spine, outShift = record.shift, outRadii = record.radii, outColor = record.color;
   outOutward = record.outward, outTurn = vec4(record.turn, record.reach);
   outSeen = record.seen, outSlopes = record.slopes;
+  outTurned = uint(record.kind & kInkTurned) / uint(kInkTurned);
   gl_Position = vec4(2.0, 2.0, 0.0, 1.0);  // outside
   if (record.kind == kInkNone) return;
 
   outRestA = outRestB = outAcross = outDown = vec3(0.0);
-  if (kTexture != kInkPlain || kBreaks) findRest(numbers[line], view, outRestA, outRestB, outAcross, outDown);
+  if (kTexture != kInkPlain || kBreaks || kHidden) findRest(numbers[line], view, outRestA, outRestB, outAcross, outDown);
 
   vec2 direction = record.spine.zw - record.spine.xy;
   float size = length(direction);

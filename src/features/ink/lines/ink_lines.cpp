@@ -10,6 +10,7 @@
 #include "frame/drawn_image.h"
 #include "frame/material_params.h"
 #include "passes/colorize/colorize_knobs.h"
+#include "shaders/ink_line_cover_frag.h"
 #include "shaders/ink_line_distance_frag.h"
 #include "shaders/ink_line_frag.h"
 #include "shaders/ink_line_vert.h"
@@ -48,6 +49,7 @@ shared::InkUniforms inkUniforms(const FrameInput& input) {
   u.outer = params.outer;
   u.texture = params.textureAmount;
   u.textureSize = params.textureSize * input.uniforms.pixelScale;
+  u.hidden = params.hidden, u.hiddenDash = params.hiddenDash * input.uniforms.pixelScale;
   u.kinds[shared::kInkSilhouette] = kindOf<SilhouetteParams>(input.knobs);
   u.kinds[shared::kInkBoundary] = kindOf<BoundaryParams>(input.knobs);
   u.kinds[shared::kInkMaterial] = kindOf<MaterialBorderParams>(input.knobs);
@@ -62,6 +64,25 @@ uint32_t shownBit(const KnobTable& knobs, int kind) {
   return uint32_t(p.shown && p.width > 0) << (shared::kInkKindsBit + kind);
 }
 
+template <class... Params>
+bool haveColors(const look::LookData& look) {
+  return ((look.get<Params>().shown && look.get<Params>().colorAmount > 0) || ...);
+}
+
+// Whether lines may have several colours, so that it is seen which of two lies over the other.
+bool mayHaveColors(const scene::SceneData& scene, const look::LookData& look) {
+  for (const look::Target target : {look::kMaterials, look::kNodes})
+    for (const char* row : {"color", "ownColor"})
+      if (look.setsAny(LineParams::block(), row, target)) return true;
+  if (look.get<LineParams>().ownColor > 0 ||
+      haveColors<SilhouetteParams, BoundaryParams, MaterialBorderParams, CreaseParams, ColorBorderParams>(
+          look))
+    return true;
+  return look.get<InkParams>().ownOutlines &&
+         std::any_of(scene.materials.begin(), scene.materials.end(),
+                     [](const scene::Material& material) { return material.outline.has_value(); });
+}
+
 uint32_t inkChoices(const FrameInput& input) {
   const InkParams params = input.knobs.scene<InkParams>();
   return uint32_t(params.unit) << shared::kInkUnitBit | uint32_t(params.weights) << shared::kInkWeightsBit |
@@ -71,6 +92,7 @@ uint32_t inkChoices(const FrameInput& input) {
          uint32_t(params.textureAmount > 0 ? int(params.texture) : shared::kInkPlain)
              << shared::kInkTextureBit |
          uint32_t(params.breaks) << shared::kInkBreaksBit |
+         uint32_t(params.hidden > 0) << shared::kInkHiddenBit |
          uint32_t(input.uniforms.lightCount > 0) << shared::kInkLampsBit |
          shownBit<SilhouetteParams>(input.knobs, shared::kInkSilhouette) |
          shownBit<BoundaryParams>(input.knobs, shared::kInkBoundary) |
@@ -84,12 +106,13 @@ class Lines : public Pass {
   const char* name() const override { return "ink"; }
   std::span<const Aov> aovs() const override { return kAovs; }
   uint32_t variant(const scene::SceneData& scene, const look::LookData& look) const override {
-    return uint32_t(mayShow(look)) + 2 * uint32_t(passes::changesOverlays(look, scene));
+    return uint32_t(mayShow(look)) + 2 * uint32_t(passes::changesOverlays(look, scene)) +
+           4 * uint32_t(mayHaveColors(scene, look));
   }
 
   void declare(FrameBuilder& frame, uint32_t variant) override {
     configuration_ = frame.configuration();
-    isShown_ = variant & 1, hasNearness_ = isShown_ && variant & 2;
+    isShown_ = variant & 1, hasNearness_ = isShown_ && variant & 2, covers_ = isShown_ && variant & 4;
     if (!isShown_) {
       // Whoever asks for it gets none.
       frame.step(name(), [this](VkCommandBuffer commands) { record(commands); });
@@ -110,11 +133,20 @@ class Lines : public Pass {
       frame.offer(kAovs[1], {table_.image()});
     }
 
+    const auto useLines = [&] {
+      frame.use(frame.get(kVertices), gpu::Use::storageBufferReadByVertex);
+      frame.use(numbers, gpu::Use::storageBufferReadByVertex);
+      frame.use(command, gpu::Use::indirectBuffer);
+      depth_ = frame.use(frame.get(kDepth), gpu::Use::sampledByFragment);
+    };
+    if (covers_) {
+      frame.step("ink-nearest", [this](VkCommandBuffer commands) { recordNearest(commands); });
+      useLines();
+      nearest_.declare(frame, "ink nearest", kDepthFormat);
+    }
     frame.step(name(), [this](VkCommandBuffer commands) { record(commands); });
-    frame.use(frame.get(kVertices), gpu::Use::storageBufferReadByVertex);
-    frame.use(numbers, gpu::Use::storageBufferReadByVertex);
-    frame.use(command, gpu::Use::indirectBuffer);
-    depth_ = frame.use(frame.get(kDepth), gpu::Use::sampledByFragment);
+    useLines();
+    if (covers_) frame.use(nearest_.image(), gpu::Use::sampledByFragment);
     shadowed_ = frame.use(frame.get(kShadowed), gpu::Use::sampledByFragment);
     strokes_.declare(frame, "ink", kBytes);
     frame.give(kStrokes, strokes_.image());
@@ -134,8 +166,9 @@ class Lines : public Pass {
     if (hasTable_) table_.create(frame, finder_);
     layout_ = gpu::SetLayout(frame.device(),
                              {{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT},
+                              {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT},
                               {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_SHADER_STAGE_FRAGMENT_BIT}});
-    set_ = gpu::DescriptorSets(frame.device(), layout_);
+    set_ = gpu::DescriptorSets(frame.device(), layout_, 2);
   }
 
   void bind(const gpu::GraphResources& resources) override {
@@ -144,8 +177,13 @@ class Lines : public Pass {
     finder_.bind();
     if (hasTable_) table_.bind(resources);
     const VkSampler exact = frame_->samplers().get({VK_FILTER_NEAREST});
-    set_.rewriteTexture(0, shared::kInkDepth, resources.image(depth_).view(), exact);
-    set_.rewriteTexture(0, shared::kInkShadowed, resources.image(shadowed_).view(), exact);
+    // Of the step that finds the nearest line, and of that which draws all of them.
+    for (size_t set = 0; set < set_.size(); ++set) {
+      const gpu::Handle nearest = covers_ && set == kDrawing ? nearest_.image() : depth_;
+      set_.rewriteTexture(set, shared::kInkDepth, resources.image(depth_).view(), exact);
+      set_.rewriteTexture(set, shared::kInkShadowed, resources.image(shadowed_).view(), exact);
+      set_.rewriteTexture(set, shared::kInkNearest, resources.image(nearest).view(), exact);
+    }
   }
 
   void update(const FrameInput& input) override {
@@ -155,10 +193,11 @@ class Lines : public Pass {
     // The first of several samples gives the depth, from where Vulkan's standard has it.
     uniforms.depthAt = configuration_.samples == 1 ? glm::vec2(0.5f) : glm::vec2(0.375f, 0.125f);
     uniforms_.write(uniforms);
-    choices_ = inkChoices(input);
+    choices_ = inkChoices(input) | uint32_t(covers_) << shared::kInkCoversBit;
     finder_.specialise(choices_);
     if (hasTable_) table_.specialise(choices_);
-    if (!pipelines_.contains(choices_)) pipelines_[choices_] = makePipeline(choices_);
+    if (!pipelines_.contains(choices_))
+      pipelines_[choices_] = {makePipeline(choices_), makeNearest(choices_)};
     auto* const lines = reinterpret_cast<shared::InkLine*>(lines_.mapped);
     const bool ownOutlines = input.knobs.scene<InkParams>().ownOutlines;
     for (size_t m = 0; m < input.scene.materialCount(); ++m) {
@@ -179,7 +218,7 @@ class Lines : public Pass {
  private:
   gpu::Pipeline makePipeline(uint32_t choices) const {
     gpu::GraphicsPipelineDesc desc;
-    desc.vertex = {shaders::ink_line_vert};
+    describe(desc, choices);
     desc.colorFormats = {kBytes};
     if (hasNearness_) {
       desc.fragment = {shaders::ink_line_distance_frag};
@@ -187,45 +226,71 @@ class Lines : public Pass {
     } else {
       desc.fragment = {shaders::ink_line_frag};
     }
-    desc.constants = finder_.constants(choices);
     desc.blend = gpu::Blend::greatest;
+    return gpu::Pipeline(frame_->device(), desc);
+  }
+  // How near the nearest line is.
+  gpu::Pipeline makeNearest(uint32_t choices) const {
+    if (!covers_) return {};
+    gpu::GraphicsPipelineDesc desc;
+    describe(desc, choices);
+    desc.fragment = {shaders::ink_line_cover_frag};
+    desc.depthFormat = kDepthFormat;
+    return gpu::Pipeline(frame_->device(), desc);
+  }
+  void describe(gpu::GraphicsPipelineDesc& desc, uint32_t choices) const {
+    desc.vertex = {shaders::ink_line_vert};
+    desc.constants = finder_.constants(choices);
     desc.viewMask = configuration_.views().mask();
     desc.sets = {frame_->frameLayout().handle(), finder_.layout().handle(), layout_.handle()};
     desc.pushConstantBytes = 4;
-    return gpu::Pipeline(frame_->device(), desc);
   }
 
   void record(VkCommandBuffer commands) const {
     std::vector<gpu::Target> targets{strokes_.target(*resources_)};
     if (hasNearness_) targets.push_back(nearness_.target(*resources_));
     gpu::drawViews(commands, configuration_.views(), targets, nullptr, [&](uint32_t firstView) {
-      if (!isShown_ || finder_.isEmpty()) return;
-      const gpu::Pipeline& pipeline = pipelines_.at(choices_);
-      pipeline.bind(commands);
-      pipeline.bindSet(commands, 0, frame_->frameSet());
-      pipeline.bindSet(commands, 1, finder_.set());
-      pipeline.bindSet(commands, 2, set_[0]);
-      pipeline.push(commands, firstView);
-      vkCmdDrawIndirect(commands, finder_.command(), 0, 1, 0);
+      if (isShown_ && !finder_.isEmpty())
+        draw(commands, pipelines_.at(choices_).lines, set_[kDrawing], firstView);
     });
+  }
+  void recordNearest(VkCommandBuffer commands) const {
+    const gpu::Target target = nearest_.target(*resources_);
+    gpu::drawViews(commands, configuration_.views(), {}, &target, [&](uint32_t firstView) {
+      if (!finder_.isEmpty()) draw(commands, pipelines_.at(choices_).nearest, set_[kFinding], firstView);
+    });
+  }
+  void draw(VkCommandBuffer commands, const gpu::Pipeline& pipeline, VkDescriptorSet images,
+            uint32_t firstView) const {
+    pipeline.bind(commands);
+    pipeline.bindSet(commands, 0, frame_->frameSet());
+    pipeline.bindSet(commands, 1, finder_.set());
+    pipeline.bindSet(commands, 2, images);
+    pipeline.push(commands, firstView);
+    vkCmdDrawIndirect(commands, finder_.command(), 0, 1, 0);
   }
 
   static constexpr Aov kAovs[] = {{.name = "ink"},
                                   {.name = kLineTableAov, .hasOwnSize = true, .isInternal = true}};
 
+  static constexpr size_t kFinding = 0, kDrawing = 1;  // of set_
+
   FrameBuilder* frame_ = nullptr;
-  bool isShown_ = false, hasTable_ = false, hasNearness_ = false;
+  bool isShown_ = false, hasTable_ = false, hasNearness_ = false, covers_ = false;
   Configuration configuration_;
   UniformSlice uniforms_, lines_;
   LineFinder finder_;
   LineTable table_;
   gpu::Handle depth_, shadowed_;
-  DrawnImage strokes_, nearness_;
+  DrawnImage strokes_, nearness_, nearest_;
   const gpu::GraphResources* resources_ = nullptr;
   gpu::SetLayout layout_;
   gpu::DescriptorSets set_;
   uint32_t choices_ = 0;
-  std::map<uint32_t, gpu::Pipeline> pipelines_;  // by choices
+  struct Pipelines {
+    gpu::Pipeline lines, nearest;
+  };
+  std::map<uint32_t, Pipelines> pipelines_;  // by choices
 };
 
 }  // namespace

@@ -92,7 +92,7 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
   int leftSide = sideOf(wound * edge.left, toEye), rightSide = edge.isOpen ? -1 : sideOf(wound * edge.right, toEye);
   bool isTurned = leftSide <= 0 && rightSide <= 0;
   isTurned = isTurned && line.isSingle != 0u;
-  if (isTurned && !keepsTurned) kind = kInkNone;
+  if (isTurned && !keepsTurned && !kHidden) kind = kInkNone;
 
   LineRecord record;
   record.spine = record.shift = record.radii = record.color = record.slopes = vec4(0.0);
@@ -147,9 +147,13 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
   for (int side = 0; side < (edge.isOpen ? 1 : 2); ++side) {
     vec2 towards = thirdAt[side] - at[0];
     float away = dot(towards, vec2(-direction.y, direction.x));
-    if (!isKnown[side] || abs(away) < 0.01 * size || size < 1e-3) continue;
     // Of a closed form's outline, one of them is turned away.
     if (kind == kInkSilhouette && (side == 0 ? leftSide : rightSide) < max(leftSide, rightSide)) continue;
+    if (!isKnown[side] || abs(away) < 0.01 * size || size < 1e-3) {
+      // What is seen nearly from its edge leads to whatever is before it.
+      if (kind == kInkSilhouette) record.slopes.xy = alongSlope - mix(100.0, -100.0, parallel) * linear[0] * across;
+      continue;
+    }
     float there = inkLinear(eyeDepth(thirdDepth[side], view), parallel);
     vec2 slope = alongSlope + (there - linear[0] - dot(alongSlope, towards)) / away * vec2(-direction.y, direction.x);
     bool isBefore = dot(towards, across) < 0.0;

@@ -7,33 +7,7 @@
 #ifndef SCUMBLE_INK_TEXTURE_GLSL
 #define SCUMBLE_INK_TEXTURE_GLSL
 
-// Of integers (Jarzynski and Olano 2020, "Hash functions for GPU rendering", pcg3d), from 0 to 1.
-vec3 hashOf(ivec3 cell) {
-  uvec3 v = uvec3(cell) * 1664525u + 1013904223u;
-  v.x += v.y * v.z, v.y += v.z * v.x, v.z += v.x * v.y;
-  v ^= v >> 16u;
-  v.x += v.y * v.z, v.y += v.z * v.x, v.z += v.x * v.y;
-  return vec3(v >> 8u) * (1.0 / 16777216.0);
-}
-
-// Value noise with a mean of 0 and a deviation of about 1.
-float noiseAt(vec3 place) {
-  vec3 cell = floor(place), t = place - cell;
-  t = t * t * t * (t * (t * 6.0 - 15.0) + 10.0);
-  ivec3 low = ivec3(cell);
-  float corners[8];
-  for (int i = 0; i < 8; ++i) corners[i] = hashOf(low + ivec3(i & 1, i >> 1 & 1, i >> 2)).x;
-  vec4 along = mix(vec4(corners[0], corners[2], corners[4], corners[6]), vec4(corners[1], corners[3], corners[5], corners[7]), t.x);
-  vec2 across = mix(along.xz, along.yw, t.y);
-  return (mix(across.x, across.y, t.z) - 0.5) * 5.6;
-}
-
-// The same with marks of `size` at any size: two octaves, blended so that their deviation stays (FORMULAS 2).
-float scaledNoise(vec3 place, float size, vec3 shift) {
-  float level = log2(max(size, 1e-20)), octave = floor(level), part = level - octave;
-  float fine = noiseAt(place * exp2(-octave) + shift), coarse = noiseAt(place * exp2(-octave - 1.0) + shift);
-  return mix(fine, coarse, part) * inversesqrt(part * part + (1.0 - part) * (1.0 - part));
-}
+#include "../../../shading/noise.glsl"
 
 // Share of a thin line that is drawn at a place, 0 or 1 but for the ends of its gaps: as much of its length as its radius
 // has of half a pixel.
@@ -41,6 +15,15 @@ float unbroken(vec3 place, float size, float radius) {
   float slow = scaledNoise(place, 2.4 * size, vec3(13.0, 2.0, 6.0));
   float before = 1.0 / (1.0 + exp(-1.7 * slow));  // how much of the noise is less: from 0 to 1, evenly
   return clamp((2.0 * radius - before) * 12.0 + 0.5, 0.0, 1.0) * step(1e-4, radius);
+}
+
+// Whether a dash is there, 0 or 1 but for a pixel at its ends. `way`: along the line; `size`: of a dash, there; `pixels`: the same
+// on the screen. Sizes are halves and doubles of each other, so that dashes stay on their line; between them they go over.
+float dashAt(float way, float size, float pixels) {
+  float level = log2(max(size, 1e-20)), octave = floor(level);
+  vec2 at = way * exp2(vec2(-1.0, -2.0) - octave), apart = abs(fract(at) - 0.5);
+  vec2 drawn = clamp((0.28 - apart) * pixels * vec2(2.0, 4.0) * exp2(octave - level) + 0.5, 0.0, 1.0);
+  return mix(drawn.x, drawn.y, smoothstep(0.35, 0.65, level - octave));
 }
 
 // How much of a line with that radius is left `side` of its middle, pixels. `place`: of the line, `beside`: of the pixel, both on
