@@ -54,6 +54,13 @@ py::dict toPython(const LineSteadiness& lines) {
                   "flickers"_a = lines.flickers);
 }
 
+py::dict toPython(const StepMeasurements& step) {
+  return py::dict("hold"_a = step.hold, "stands"_a = step.stands, "jump"_a = step.jump,
+                  "far_jump"_a = step.farJump, "jump_degrees"_a = step.jumpDegrees,
+                  "far_jump_degrees"_a = step.farJumpDegrees, "moving"_a = step.moving,
+                  "changes"_a = step.changes);
+}
+
 MeasureOptions toMeasureOptions(const py::dict& viewpoint, std::pair<uint32_t, uint32_t> size,
                                 uint32_t samples, uint32_t seed, std::optional<float> ipd) {
   return {.width = size.first,
@@ -101,6 +108,23 @@ void addMeasure(py::module_& module) {
         return result;
       },
       "renderer"_a, "scene"_a, "look"_a, "aov"_a, "viewpoint"_a, "size"_a, "samples"_a, "seed"_a,
+      "progress"_a);
+  module.def(
+      "_measure_steps",
+      [](SingleRenderer& single, const Scene& scene, const Look& look, const std::vector<int>& holds,
+         const py::dict& viewpoint, std::pair<uint32_t, uint32_t> size, uint32_t samples, uint32_t seed,
+         const py::object& progress) {
+        MeasureOptions options = toMeasureOptions(viewpoint, size, samples, seed, {});
+        const auto renderer = single.turn();
+        py::list all;
+        for (const StepMeasurements& step : runLong(progress, [&, scene, look](const Progress& part) {
+               options.progress = inSteps(part);
+               return measureSteps(*renderer, scene, look, holds, options);
+             }))
+          all.append(toPython(step));
+        return all;
+      },
+      "renderer"_a, "scene"_a, "look"_a, "holds"_a, "viewpoint"_a, "size"_a, "samples"_a, "seed"_a,
       "progress"_a);
   module.def(
       "_steadiness",

@@ -270,6 +270,13 @@ class Renderer:
         """How steady the lines of an AOV are while one walks around the scene: drawn, changes, flickers; and the views."""
         return _scumble._measure_lines(self._free(), scene, _look(look), aov, dict(viewpoint), size, samples, seed, progress)
 
+    def measure_steps(self, scene: Scene, look: LookLike = "age-of-sail", holds: Sequence[int] = (1, 2, 3, 4), *,
+                      size: tuple[int, int] = (960, 540), samples: int = 1, seed: int = 0, progress: Progress | None = None,
+                      **viewpoint: Any) -> list[dict[str, Any]]:
+        """How far poses jump that stand for so many frames at 24 a second, one for each of the holds, as `scumble measure --steps`
+        has it (docs/measure.md)."""
+        return _scumble._measure_steps(self._free(), scene, _look(look), list(holds), dict(viewpoint), size, samples, seed, progress)
+
     def graph(self) -> str:
         """The steps of the last frame, for Graphviz."""
         return self._renderer.graph()

@@ -22,6 +22,7 @@ void addVertexInput(gpu::GraphicsPipelineDesc& pipeline, uint32_t inputs) {
       {5, VK_FORMAT_R32_SFLOAT, offsetof(VertexTint, warpScale)},
       {6, VK_FORMAT_R32G32B32_SFLOAT, 0},
       {7, VK_FORMAT_R32_UINT, 0},
+      {8, VK_FORMAT_R8G8B8A8_UNORM, 0},
   };
   for (uint32_t location = 0; location < std::size(kAttributes); ++location)
     if (inputs >> location & 1) {
@@ -39,7 +40,8 @@ void bindVertices(VkCommandBuffer commands, const SceneOnGpu& scene) {
                               geometry.patternUv().handle(),
                               geometry.tint().handle(),
                               scene.previousPositions().handle(),
-                              scene.transparent().partOfVertex()};
+                              scene.transparent().partOfVertex(),
+                              scene.indirect().handle()};
   constexpr VkDeviceSize kUv = sizeof(glm::vec2);
   const VkDeviceSize strides[std::size(buffers)] = {sizeof(shared::VertexCore),
                                                     sizeof(shared::VertexFrame),
@@ -48,7 +50,8 @@ void bindVertices(VkCommandBuffer commands, const SceneOnGpu& scene) {
                                                     kUv,
                                                     geometry.tintStride(),
                                                     sizeof(glm::vec3),
-                                                    sizeof(uint32_t)};
+                                                    sizeof(uint32_t),
+                                                    scene.indirectStride()};
   const VkDeviceSize offsets[std::size(buffers)] = {};
   vkCmdBindVertexBuffers2(commands, 0, uint32_t(std::size(buffers)), buffers, offsets, nullptr, strides);
 }

@@ -21,6 +21,7 @@ enum VertexInput : uint32_t {
   kPatternUv = 1 << 8,
   kWarpScale = 1 << 9,
   kPreviousPosition = 1 << 10,  // a frame ago; only where the configuration has facts
+  kIndirect = 1 << 12,          // light that surfaces give each other: world/indirect_light.h
   kPart = 1 << 11,              // of blended surfaces: world/transparent_triangles.h
 };
 

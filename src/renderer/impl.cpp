@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "passes/shadow_map/shadow_map_knobs.h"
+#include "passes/surface/surface_knobs.h"
 #include "renderer/feature_list.h"
 #include "scene/seen.h"
 #include "scumble/nearest.h"
@@ -176,6 +177,8 @@ Status Renderer::Impl::begin(const Request& request) {
     knobs.evaluate(materials);
     for (size_t m = 0; m < materials.size(); ++m)
       geometry.casts.push_back(knobs.of<passes::ShadowMapParams>(m).cast);
+    const passes::IndirectParams indirect = knobs.scene<passes::IndirectParams>();
+    if (indirect.source == 0 && passes::mayTakeIndirect(look)) geometry.indirectReach = indirect.reach;
     geometry.clips = everPlayed(scene.data(), look);
     geometry.nodes = nodeSettings(scene.data(), now);
     std::vector<std::string> readBack = readBackOf(request);

@@ -46,19 +46,30 @@ namespace look {
 
 const std::vector<const ParamBlock*>& ownBlocks() {
   static const std::vector<const ParamBlock*> blocks = [] {
-    std::vector<const ParamBlock*> all{
-        &stage::LightParams::block(),       &passes::ShadowMapParams::block(),
-        &stage::PaletteParams::block(),     &stage::LitParams::block(),
-        &stage::ShadowedParams::block(),    &passes::SurfaceParams::block(),
-        &passes::BlurParams::block(),       &passes::FinalShadowParams::block(),
-        &passes::TextureParams::block(),    &frame::TextureMetaTextureParams::block(),
-        &passes::WarpParams::block(),       &frame::WarpMetaTextureParams::block(),
-        &passes::BreakupParams::block(),    &frame::BreakupMetaTextureParams::block(),
-        &passes::BackgroundParams::block(), &stage::GroundParams::block(),
-        &passes::VolumeParams::block(),     &passes::GradeParams::block(),
-        &passes::LimitParams::block(),      &passes::FinalColorParams::block(),
-        &passes::LevelsParams::block(),     &stage::AnimationParams::block(),
-        &stage::PlayParams::block()};
+    std::vector<const ParamBlock*> all{&stage::LightParams::block(),
+                                       &passes::ShadowMapParams::block(),
+                                       &stage::PaletteParams::block(),
+                                       &stage::LitParams::block(),
+                                       &stage::ShadowedParams::block(),
+                                       &passes::SurfaceParams::block(),
+                                       &passes::BlurParams::block(),
+                                       &passes::FinalShadowParams::block(),
+                                       &passes::IndirectParams::block(),
+                                       &passes::TextureParams::block(),
+                                       &frame::TextureMetaTextureParams::block(),
+                                       &passes::WarpParams::block(),
+                                       &frame::WarpMetaTextureParams::block(),
+                                       &passes::BreakupParams::block(),
+                                       &frame::BreakupMetaTextureParams::block(),
+                                       &passes::BackgroundParams::block(),
+                                       &stage::GroundParams::block(),
+                                       &passes::VolumeParams::block(),
+                                       &passes::GradeParams::block(),
+                                       &passes::LimitParams::block(),
+                                       &passes::FinalColorParams::block(),
+                                       &passes::LevelsParams::block(),
+                                       &stage::AnimationParams::block(),
+                                       &stage::PlayParams::block()};
     for (const frame::FeatureParts& parts : renderer::features())
       all.insert(all.end(), parts.blocks.begin(), parts.blocks.end());
     all.push_back(&stage::CameraParams::block());

@@ -52,6 +52,7 @@ TEST(PassList, structsStartWithTheirRowsDefaults) {
   expectRowsDefaults<passes::LimitParams>(seen);
   expectRowsDefaults<passes::LevelsParams>(seen);
   expectRowsDefaults<passes::TextureParams>(seen);
+  expectRowsDefaults<passes::IndirectParams>(seen);
   expectRowsDefaults<passes::BreakupParams>(seen);
   expectRowsDefaults<WarpMetaTextureParams>(seen);
   expectRowsDefaults<BreakupMetaTextureParams>(seen);

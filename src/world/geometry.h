@@ -22,6 +22,7 @@ struct GeometryOptions {
   bool groundStrokes = false;  // on it
   float shadowWarp = 0;        // strength of the shadow map's sigmoid, which long triangles cannot follow
   std::vector<bool> casts;     // by material: whether it casts shadows
+  float indirectReach = 0;     // scene radii: how far surfaces give each other light; 0: they do not
   std::vector<int> clips;      // those that play at any time: they tell what space the scene takes up
   NodeSettings nodes;
   std::vector<PlannedFeature> features;  // all that there are

@@ -9,6 +9,7 @@
 #include "scene/drop_vertices.h"
 #include "world/geometry.h"
 #include "world/ground.h"
+#include "world/indirect_light.h"
 
 namespace scumble::world {
 
@@ -78,7 +79,12 @@ SceneOnGpu::Changes SceneOnGpu::update(const scene::SceneData& scene, const Geom
   for (const auto& feature : features_)
     if (feature) feature->find(geometry.items);
   gpu::Uploader uploader(device_);
+  // Before vertices may go.
+  const std::vector<std::vector<glm::u8vec4>> indirect =
+      indirectLight(geometry.items, materialOf, scene.images,
+                    options.indirectReach * 0.5f * glm::length(bounds_.max - bounds_.min));
   const bool otherPlaces = geometry_.update(device_, uploader, geometry.items, settle);
+  placeIndirect(uploader, indirect, settle);
   const bool otherTextures = textures_.update(uploader, scene.images, settle);
   for (const auto& feature : features_)
     if (feature) changes.buffers |= feature->place(uploader, geometry.items, geometry_.places(), settle);
@@ -100,6 +106,21 @@ SceneOnGpu::Changes SceneOnGpu::update(const scene::SceneData& scene, const Geom
   made_.sweep();
   if (drops) dropVertices();
   return changes;
+}
+
+void SceneOnGpu::placeIndirect(gpu::Uploader& uploader, const std::vector<std::vector<glm::u8vec4>>& indirect,
+                               const std::function<void()>& settle) {
+  if (options_.indirectReach <= 0 && indirect_.size() == sizeof(glm::u8vec4)) return;
+  settle();
+  const uint64_t count = options_.indirectReach > 0 ? geometry_.vertexCount() : 1;
+  std::byte* target = nullptr;
+  indirect_ = {};
+  indirect_ = uploader.reserve(count * sizeof(glm::u8vec4), VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, &target);
+  auto* const vertices = reinterpret_cast<glm::u8vec4*>(target);
+  std::fill_n(vertices, count, glm::u8vec4(0));
+  if (options_.indirectReach <= 0) return;
+  for (size_t i = 0; i < indirect.size(); ++i)
+    std::copy(indirect[i].begin(), indirect[i].end(), vertices + geometry_.places()[i].firstVertex);
 }
 
 void SceneOnGpu::dropVertices() const {

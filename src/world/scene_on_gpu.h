@@ -124,6 +124,9 @@ class SceneOnGpu {
   void addUploads(std::vector<gpu::PerFrameBuffer*>& uploads);
 
   const GeometryOnGpu& geometry() const { return geometry_; }
+  // What indirectLight() has found, for each final vertex; the same nothing for all, where the stride is 0.
+  const gpu::Buffer& indirect() const { return indirect_; }
+  uint32_t indirectStride() const { return options_.indirectReach > 0 ? sizeof(glm::u8vec4) : 0; }
   // One vec3 a final vertex; of one vertex only before keepPrevious().
   const gpu::Buffer& previousPositions() const { return previousPositions_; }
   // The triangles of blended draws.
@@ -166,6 +169,8 @@ class SceneOnGpu {
   void separateMaterials(Geometry& geometry);
   // True where buffers have other names.
   bool listDraws(const Geometry& geometry, const std::function<void()>& settle);
+  void placeIndirect(gpu::Uploader& uploader, const std::vector<std::vector<glm::u8vec4>>& indirect,
+                     const std::function<void()>& settle);
   // True where buffers have other names.
   bool followFeatures(const std::function<void()>& settle);
   // True where the buffers have other names.
@@ -207,6 +212,7 @@ class SceneOnGpu {
   float longestCasterEdge_ = 0;
   GeometryOnGpu geometry_;
   TexturesOnGpu textures_;
+  gpu::Buffer indirect_;
   gpu::Buffer previousPositions_;
   std::vector<shared::ObjectData> objects_;  // without what moves
   std::vector<MovingObject> moving_;

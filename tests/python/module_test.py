@@ -428,6 +428,18 @@ class Numbers(unittest.TestCase):
             self.assertEqual((own["stereo"]["warp"], own["marks"]), (told["modes"][mode]["stereo"]["warp"], told["modes"][mode]["marks"]))
         self.assertGreater(len(measured["targets"]), 3)
 
+    def test_steps_are_the_programs(self):
+        steps = RENDERER.measure_steps(SCENE, holds=(1, 3), size=(96, 54))
+        program("measure", FOLDER / "demo.glb", "--size", "96x54", "--samples", "1", "--steps", "1,3", "--device", "cpu", "--json",
+                FOLDER / "steps.json")
+        told = json.loads((FOLDER / "steps.json").read_text())["steps"]
+        self.assertEqual([step["hold"] for step in steps], [1, 3])
+        for step, own in zip(steps, told):
+            self.assertAlmostEqual(step["jump"], own["jump"], 4)
+        self.assertGreater(steps[1]["jump"], 1.5 * steps[0]["jump"])
+        with self.assertRaises(scumble.UsageError):
+            RENDERER.measure_steps(SCENE, holds=(0,), size=(96, 54))
+
     def test_steadiness(self):
         page = np.ones((64, 64, 3), np.float32)
         drawings = []

@@ -121,11 +121,5 @@ SHARED_FUNCTION float inkFullness(InkPlace p, float sceneRadius, float fade, flo
   return (1.0f - hidden) * max(fullness, p.turn.y);
 }
 
-// How far outlines that lie outside of their form reach into it, pixels: two anti-aliased edges that only
-// touch would leave a light seam, and so would two that are torn apart. `pixelScale`: pixels of a knob pixel.
-SHARED_FUNCTION float inkOverlap(float pixelScale) {
-  return max(0.75f, 2.4f * pixelScale);
-}
-
 SHARED_END
 #endif

@@ -50,6 +50,7 @@ struct InkUniforms {
   float least, greatest;
   vec4 keyLight;  // stage::keyLight()
   float offset;   // pixels
+  float overlap;  // how far outlines that lie outside of their form reach into it, pixels
   float doubled;  // pixels
   float doubledWidth;
   float cosSmooth;
@@ -107,7 +108,7 @@ const int kLineTexels = 8, kLineTableWidth = 4096, kLineTableRows = 64;
 const int kLineTableRoom = kLineTableWidth * kLineTableRows;
 // Of that row: how many lines there are, also beyond the room; pixels of one knob pixel, scene's radius,
 // whether the view is a parallel projection.
-// Then: metres that a pixel covers at one metre; fade, outer, as InkUniforms has them.
+// Then: metres that a pixel covers at one metre; fade, outer, overlap, as InkUniforms has them.
 // Then: offset, doubled (pixels; 0: there is no second line), doubledWidth, placement.
 
 // Set 2 of what makes it.

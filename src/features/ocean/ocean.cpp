@@ -222,7 +222,7 @@ void OceanWaves::pose(const look::LookData& look, double time, const Travelled& 
   spectrum.height = double(params.height), spectrum.smallest = double(params.smallest);
   spectrum.seed = uint32_t(params.seed);
   if (!waves_ || waves_->spectrum() != spectrum) waves_.emplace(spectrum);
-  waves_->at(time, field_);
+  waves_->at(stage::heldTime(time, params.hold), field_);
   const float deviation = float(std::sqrt(waves_->variance()));
 
   // Where the mesh lies on the water, which slides through it.

@@ -286,6 +286,26 @@ TEST_P(OceanDrawn, repeatsAfterItsLoop) {
 }
 
 // The water's own motion: waves that are where they were, and water that slides below the scene.
+// Water on threes, at eight drawings a second, whatever the rate of frames; and what rides it.
+TEST_P(OceanDrawn, wavesStandAsLongAsTheyAreHeld) {
+  const Scene scene = harbour("Ocean").load();
+  const auto at = [&](double time, const char* hold) {
+    const Frame frame =
+        drawAt(scene, quietLook({{"ocean.hold", hold}}), time, viewsOf(scene, kFromAside), {"position"});
+    std::vector<std::vector<float>> all;
+    for (size_t v = 0; v < viewCount(); ++v) all.push_back(aov(frame, "position", v).pixels);
+    return all;
+  };
+  for (const double start : {0.0, 1.0, 7.25}) {
+    const auto first = at(start, "3");
+    EXPECT_EQ(first, at(start + 1 / 24.0, "3")) << start;
+    EXPECT_EQ(first, at(start + 2.9 / 24, "3")) << start;
+    EXPECT_NE(first, at(start + 3.1 / 24, "3")) << start;
+    EXPECT_NE(first, at(start + 1 / 24.0, "0")) << start;
+    EXPECT_EQ(first, at(start, "0")) << start;
+  }
+}
+
 TEST_P(OceanDrawn, waterMovesAndSlides) {
   NEEDS_FINE_RASTER();
   const Scene scene = harbour("Ocean").load();

@@ -112,7 +112,7 @@ class Surface : public Pass {
     GeometryStepDesc desc;
     desc.vertex = {shaders::surface_vert};
     desc.fragment = {shaders::surface_frag};
-    desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor | kSmoothNormal;
+    desc.inputs = kPosition | kNormal | kUv0 | kUv1 | kColor | kSmoothNormal | kIndirect;
     desc.paintedVertex = {shaders::surface_painted_vert};
     desc.paintedFragment = {shaders::surface_painted_frag};
     desc.prepaintedFragment = {shaders::surface_prepainted_frag};
@@ -157,6 +157,7 @@ class Surface : public Pass {
   void update(const FrameInput& input) override {
     light_.write(input.knobs.scene<LightParams>());
 
+    bool indirect = false;
     std::vector<MaterialVariant> variants;
     std::vector<std::tuple<const gpu::Image*, const gpu::Image*, VkSampler>> paintings;  // each once
     std::vector<uint32_t> paintingOf;
@@ -170,6 +171,7 @@ class Surface : public Pass {
       params.highlightSize *= std::max(0.5f * roughness * roughness, 0.06f);
       params_.write(m, params);
       highlights |= params.highlight > 0;
+      indirect |= params.occlusion > 0 || params.bounce > 0;
       const TextureParams texture = input.knobs.of<TextureParams>(m);
       auto metaParams = sameRows(input.knobs.of<TextureMetaTextureParams>(m));
       // What is not painted needs no texture of its own.
@@ -202,7 +204,12 @@ class Surface : public Pass {
       paintingOf.push_back(uint32_t(known - paintings.begin()));
       if (known == paintings.end()) paintings.push_back(painting);
     }
-    const uint32_t constantNow = constant(input.uniforms.lightCount > 0, highlights);
+    uint32_t constantNow = constant(input.uniforms.lightCount > 0, highlights);
+    if (indirect) {
+      const IndirectParams params = input.knobs.scene<IndirectParams>();
+      constantNow |= (params.source == 0 ? shared::kSurfaceIndirect : shared::kSurfaceIndirectColors) |
+                     uint32_t(params.steps) << shared::kSurfaceStepsBit;
+    }
     if (hasBlended_) blended_.update(constantNow, variants, paintingOf);
     if (drawsApart_) blendedApart_.update(constantNow, variants, paintingOf);
     step_.specialise(constantNow, std::move(variants));
@@ -314,12 +321,18 @@ float mipBias(float simplify, float pixelScale) {
   return std::max(simplify + std::log2(pixelScale), 0.0f);
 }
 
+static bool setsEither(const look::LookData& look, std::string_view first, std::string_view second) {
+  return std::any_of(look.assignments.begin(), look.assignments.end(), [&](const look::Assignment& a) {
+    return a.block == &SurfaceParams::block() && (a.row->name == first || a.row->name == second);
+  });
+}
+
+bool mayTakeIndirect(const look::LookData& look) {
+  return setsEither(look, "occlusion", "bounce");
+}
+
 bool mayGlow(const look::LookData& look, const scene::SceneData& scene) {
-  const auto sets = [](const look::Assignment& a) {
-    const std::string_view name = a.row->name;
-    return a.block == &SurfaceParams::block() && (name == "glow" || name == "highlight");
-  };
-  return std::any_of(look.assignments.begin(), look.assignments.end(), sets) ||
+  return setsEither(look, "glow", "highlight") ||
          std::any_of(scene.materials.begin(), scene.materials.end(),
                      [](const scene::Material& material) { return material.emissive != glm::vec3(0.0f); });
 }

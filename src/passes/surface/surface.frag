@@ -51,6 +51,7 @@ layout(location = 2) in vec4 inColor;
 layout(location = 3) in vec4 inUvs;
 layout(location = 9) in vec3 inWorld;
 layout(location = 10) in vec3 inNormal;
+layout(location = 13) in vec4 inIndirect;
 
 #ifdef APART
 layout(location = 0) out vec4 outColor;
@@ -129,9 +130,25 @@ float highlight(vec3 normal) {
   return clamp(0.5 + inside / max(fwidth(inside), 1e-6), 0.0, 1.0) * params.highlight * (1.0 - material.unlit);
 }
 
+// How near other surfaces are, in steps; and shadow there: in their hue, as light as it is, and deeper.
+const float kOpen = 0.06, kClosed = 0.5;  // shares of the half sphere between which steps are
+const float kDeepest = 0.4;
+float nearness() {
+  float steps = float(kOptions >> kSurfaceStepsBit), at = steps * clamp((inIndirect.a - kOpen) / (kClosed - kOpen), 0.0, 1.0);
+  float edge = clamp(0.7 * fwidth(at), 1e-4, 0.5), before = floor(at);
+  return (before + smoothstep(0.5 - edge, 0.5 + edge, at - before)) / steps;
+}
+vec3 besideOthers(vec3 shadowed, float near) {
+  float value = dot(shadowed * shadowed, kLuminance), theirs = dot(inIndirect.rgb * inIndirect.rgb, kLuminance);
+  vec3 hue = min(inIndirect.rgb * sqrt(value / max(theirs, 0.02)), vec3(1.0));
+  vec3 tinted = mix(shadowed, hue, 0.6 * near * params.bounce * (1.0 - material.unlit));
+  return tinted * (1.0 - kDeepest * near * params.occlusion * (1.0 - material.unlit));
+}
+
 void main() {
   vec2 slope = vec2(dFdx(inFacing.z), dFdy(inFacing.z));  // neighbours are needed, so before any is discarded
-  float mirrored = 0.0;
+  const bool hasIndirect = (kOptions & (kSurfaceIndirect | kSurfaceIndirectColors)) != 0;
+  float mirrored = 0.0, near = hasIndirect ? nearness() : 0.0;
 #ifdef TRANSPARENT
   materialIndex = materialOf(inPart);
   bool isFront = seesFront(inPart, gl_FrontFacing);
@@ -228,6 +245,8 @@ void main() {
   if (kAlphaMode == kCut && isCutOut(viewIndex())) discard;
   if (kAlphaMode == 1 && alpha < material.alphaCutoff) discard;
   if (kAlphaMode != 2) alpha = 1.0;
+
+  if (hasIndirect) shadowed = besideOthers(shadowed, near);
 
   // Red: Lambert times cast shadow, steepened around the terminator. Outside the map there is nothing that could cast a
   // shadow, and its border is empty.

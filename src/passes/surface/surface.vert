@@ -42,6 +42,7 @@ layout(location = 2) in vec2 inUv0;
 layout(location = 3) in vec2 inUv1;
 layout(location = 4) in vec4 inColor;
 layout(location = 6) in vec2 inSmoothNormal;
+layout(location = 12) in vec4 inIndirect;
 
 layout(location = 0) out vec3 outLightSpace;  // the sigmoid's argument, and depth from the light
 // Towards the light, and upwards: cosines of the front side; and towards the light as the form has it.
@@ -50,6 +51,7 @@ layout(location = 2) out vec4 outColor;
 layout(location = 3) out vec4 outUvs;
 layout(location = 9) out vec3 outWorld;
 layout(location = 10) out vec3 outNormal;
+layout(location = 13) out vec4 outIndirect;  // as indirectLight() has it
 
 void main() {
 #ifdef TRANSPARENT
@@ -92,6 +94,13 @@ void main() {
   if ((kOptions & 1) != 0) outHidesBacks = drawn[index].hidesBacks;
 #endif
   if (kVaried != 0) outColor = inColor;
+  if ((kOptions & kSurfaceIndirect) != 0) outIndirect = inIndirect;
+  if ((kOptions & kSurfaceIndirectColors) != 0) {
+    // White is all of the light.
+    float most = max(inColor.r, max(inColor.g, inColor.b));
+    outIndirect = vec4(sqrt(inColor.rgb / max(most, 1e-3)), 1.0 - sqrt(most));
+    if (kVaried != 0) outColor = vec4(1.0, 1.0, 1.0, inColor.a);
+  }
 #ifdef PAINTED
   mat4 tangentClip = tangentView(kTangents, worldToClip);
   outPatternUv = inPatternUv + objects[index].patternShift;

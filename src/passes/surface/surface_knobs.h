@@ -19,6 +19,16 @@ namespace scumble::passes {
 #define PARAMS_TARGETS kScene | kMaterials
 #include "look/define_params.h"
 
+// Light between surfaces.
+#define PARAMS_STRUCT IndirectParams
+#define PARAMS_FILE "passes/surface/indirect.params"
+#define PARAMS_PATH "indirect"
+#define PARAMS_TARGETS kScene
+#include "look/define_params.h"
+
+// Whether anything may take light from other surfaces at any time.
+bool mayTakeIndirect(const look::LookData& look);
+
 // surface.simplify in mip levels of a picture that is `pixelScale` times as high as 1080 lines: what is left
 // out has the same size in all of them.
 float mipBias(float simplify, float pixelScale);

@@ -164,7 +164,7 @@ struct TableLine {
 };
 
 struct Table {
-  float pixelScale, sceneRadius, parallel, metresOfPixel, fade, outer, offset, doubled, doubledWidth;
+  float pixelScale, sceneRadius, parallel, metresOfPixel, fade, outer, overlap, offset, doubled, doubledWidth;
   bool isExterior;
   std::vector<TableLine> lines;
   uint32_t leftOut = 0;
@@ -174,8 +174,17 @@ Table tableOf(const Image& image) {
   constexpr uint32_t kHeader = uint32_t(shared::kLineTableRows * shared::kLineTexels);
   const glm::vec4 first = texel(image, 0, kHeader), second = texel(image, 1, kHeader),
                   third = texel(image, 2, kHeader);
-  Table table{first.y,  first.z, first.w, second.x, second.y,
-              second.z, third.x, third.y, third.z,  int(third.w) == shared::kInkExterior,
+  Table table{first.y,
+              first.z,
+              first.w,
+              second.x,
+              second.y,
+              second.z,
+              second.w,
+              third.x,
+              third.y,
+              third.z,
+              int(third.w) == shared::kInkExterior,
               {}};
   const uint32_t count = uint32_t(first.x), room = uint32_t(shared::kLineTableRoom);
   table.leftOut = count - std::min(count, room);
@@ -303,9 +312,7 @@ class EdgeStrokes {
           const glm::vec2 at = spine + pixels * shift;
           return Place{{at.x, at.y, half}, isSeen};
         };
-        const float out = line.isOutline && table_.isExterior
-                              ? std::max(drawn - shared::inkOverlap(table_.pixelScale), 0.0f)
-                              : 0;
+        const float out = line.isOutline && table_.isExterior ? std::max(drawn - table_.overlap, 0.0f) : 0;
         places.push_back(place(moved + out, drawn));
         if (line.isOutline && table_.doubled != 0)
           doubled.push_back(

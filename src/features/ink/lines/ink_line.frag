@@ -99,7 +99,7 @@ void main() {
   float reach = isOutside ? 2.0 * radius : radius;
   radius *= spaceBeside(beyond, reach, whole, view) / max(reach, 1e-6);
 
-  float moved = ink.offset * frame.pixelScale + (kPlacement == kInkExterior ? max(radius - inkOverlap(frame.pixelScale), 0.0) : 0.0);
+  float moved = ink.offset * frame.pixelScale + (kPlacement == kInkExterior ? max(radius - ink.overlap, 0.0) : 0.0);
   vec4 line = inSpine + inShift * moved;
   vec2 nearest = mix(line.xy, line.zw, nearestOn(line.xy, line.zw, pixel));
   float coverage = lineCoverage(radius, pixel, nearest, spine, t, view);

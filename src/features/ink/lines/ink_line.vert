@@ -71,9 +71,8 @@ void main() {
   if (isOutline) {
     moved = abs(ink.offset) * frame.pixelScale;
     if (kPlacement == kInkExterior) {
-      float overlap = inkOverlap(frame.pixelScale);
-      moved += max(radius - overlap, 0.0);
-      inside = max(overlap, 0.5) + 1.0;
+      moved += max(radius - ink.overlap, 0.0);
+      inside = max(ink.overlap, 0.5) + 1.0;
     }
   }
   float reach = radius + moved + 1.0;

@@ -10,6 +10,7 @@
 #include "frame/drawn_image.h"
 #include "frame/material_params.h"
 #include "passes/colorize/colorize_knobs.h"
+#include "passes/warp/warp_knobs.h"
 #include "shaders/ink_line_cover_frag.h"
 #include "shaders/ink_line_distance_frag.h"
 #include "shaders/ink_line_frag.h"
@@ -33,6 +34,15 @@ shared::InkKind kindOf(const KnobTable& knobs) {
   return {p.width, glm::sqrt(p.color.linear), p.colorAmount};
 }
 
+// Two anti-aliased edges that only touch would leave a light seam, and more so two that are torn apart; what
+// is not torn is whole to within half a pixel.
+float overlap(const FrameInput& input) {
+  bool isTorn = false;
+  for (size_t m = 0; m < input.scene.materialCount(); ++m)
+    isTorn |= input.knobs.of<passes::WarpParams>(m).amount > 0;
+  return isTorn ? std::max(0.75f, 2.4f * input.uniforms.pixelScale) : 0.5f;
+}
+
 shared::InkUniforms inkUniforms(const FrameInput& input) {
   const InkParams params = input.knobs.scene<InkParams>();
   shared::InkUniforms u{};
@@ -40,6 +50,7 @@ shared::InkUniforms inkUniforms(const FrameInput& input) {
   u.keyLight = keyLight(input.scene.data(), input.knobs.scene<LightParams>(), input.scene.motion().world(),
                         input.scene.motion().shown());
   u.offset = params.offset;
+  u.overlap = overlap(input);
   u.doubled = params.doubled, u.doubledWidth = params.doubledWidth;
   u.cosSmooth = std::cos(params.smoothAngle * kRadians);
   u.cosCrease = std::cos(std::max(params.creaseAngle - kCreaseFade, 0.0f) * kRadians);

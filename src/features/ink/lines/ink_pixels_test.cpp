@@ -152,6 +152,30 @@ TEST_P(InkPixels, hiddenLinesAreDashedWhereTheyAreAskedFor) {
   expectSame(drawLines(barBehindPlate(0.45, 2), wideLines()), drawLines(barBehindPlate(0.45, 2), some));
 }
 
+// (Paper 004, section 2.2.) Outlines and borders of open sheets lie outside of what they are of, which loses
+// nothing but what softens its edge.
+TEST_P(InkPixels, outlinesAndBordersLieOutside) {
+  for (const bool isSheet : {true, false}) {
+    TestScene s;
+    const int material = s.material(TestScene::colored("Thing", {0.6f, 0.5f, 0.4f, 1}));
+    s.add(isSheet ? gridMesh({-0.5f, -0.4f, 0}, {1, 0, 0}, {0, 0.8f, 0}, 2)
+                  : boxMesh({-0.5f, -0.4f, -0.8f}, {0.5f, 0.4f, 0}),
+          material);
+    const Frame frame = drawLines(s.load(), wideLines({{"ink.placement", "exterior"},
+                                                       {"ink.boundaries.shown", "on"},
+                                                       {"ink.boundaries.width", "0.6"}}));
+    const double width = 2 * kHalfWidth * (isSheet ? 0.6 : 1);
+    for (size_t v = 0; v < viewCount(); ++v) {
+      const double shift = v == 0 ? 0 : -0.06 / kPixel, left = 0.5 * kSide - 0.5 / kPixel + shift;
+      double inside = 0, outside = 0;
+      for (int x = 0; x < kSide / 2; ++x)
+        (x + 0.5 > left ? inside : outside) += inkAt(frame, v, x, kSide / 2);
+      EXPECT_LT(inside, 0.6) << isSheet;
+      EXPECT_NEAR(outside, width - 0.5, 0.7) << isSheet;
+    }
+  }
+}
+
 // Dashes go along with what they are on: nine pixels farther they are the same ones.
 TEST_P(InkPixels, dashesStayOnTheirLine) {
   const auto drawnAt = [&](double shift) {

@@ -216,7 +216,9 @@ LineRecord recordOf(uint number, int view, bool keepsTurned) {
   // would else be drawn many times over.
   record.shift = vec4(0.0);
   record.caps = vec2(1.0);
-  bool isOutline = kind == kInkSilhouette;
+  // So does the border of an open sheet, which ends nowhere on a form.
+  if (kind == kInkBoundary) record.turn.y = 1.0;
+  bool isOutline = kind == kInkSilhouette || kind == kInkBoundary;
   if (isOutline) {
     vec2 shift[2];
     for (int i = 0; i < 2; ++i) {

@@ -99,7 +99,7 @@ InkCover coverTowards(InkSpine s, vec2 spine, vec2 direction, float distance, in
 // Whether that is so of a place in the direction, from 0 to 1; `radius`: of the line, pixels.
 float coveredAt(InkCover c, vec2 place, float radius, int view) {
   float away, far = riseAt(place, c.spine, c.distance, c.pixel, view, away);
-  float covered = smoothstep(0.5, 1.0, far / (2.0 * max(radius, 1.0)));
+  float covered = smoothstep(1.0, 2.0, far / (2.0 * max(radius, 1.0)));
   if (covered <= 0.0) return 0.0;
   float parallel = VIEW_FIELD(orthographic, view);
   // Within the pixel as well.

@@ -15,7 +15,7 @@ void main() {
     ivec3 header = ivec3(0, kLineTableRows * kLineTexels, view);
     float parallel = VIEW_FIELD(orthographic, view);
     imageStore(table, header, vec4(float(count), frame.pixelScale, frame.sceneRadius, parallel));
-    imageStore(table, header + ivec3(1, 0, 0), vec4(metresOfPixel(1.0, view), ink.fade, ink.outer, 0.0));
+    imageStore(table, header + ivec3(1, 0, 0), vec4(metresOfPixel(1.0, view), ink.fade, ink.outer, ink.overlap));
     imageStore(table, header + ivec3(2, 0, 0),
                vec4(ink.offset, kDoubled ? ink.doubled : 0.0, ink.doubledWidth, float(kPlacement)));
   }
