@@ -27,7 +27,7 @@ FIGURES = {}
 
 # Nothing but the material's own colours.
 PLAIN = {"ground.mode": "off", "palette.litTintAmount": 0, "palette.darkest": 0, "palette.lightest": 1, "final.bloom": 0,
-         "background.air": 0, "final.lostEdges": 0}
+         "background.air": 0, "final.lostEdges": 0, "background.skyTones": 0}
 CALM = {**PLAIN, "warp.amount": 0, "warp.inflation": 0}
 
 

@@ -111,7 +111,7 @@ void main() {
   InkCover towards = coverTowards(edge, spine, normalize(pixel - spine + 1e-3 * outward), distance, view);
   coverage *= 1.0 - max(coveredAt(towards, pixel, whole, view), float(inTurned));
 #ifdef COVER
-  if (coverage < 0.5) discard;
+  if (coverage < 0.999) discard;
   gl_FragDepth = mix(inRadii.z, inRadii.w, t);
 #else
   if (kHidden)
