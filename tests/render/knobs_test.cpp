@@ -197,6 +197,7 @@ const std::map<std::string, std::string> kUnseen = {
     {"ink.colors.colorAmount", "the same"},
     {"ink.colors.shown", "the same"},
     {"ink.colors.width", "the same"},
+    {"ink.fadeAngle", "no fold here is about to close; ink_test.cpp has one that is"},
     {"ink.materials.color", "no mesh here has two materials; ink_test.cpp draws one"},
     {"ink.materials.colorAmount", "the same"},
     {"ink.materials.shown", "the same"},
