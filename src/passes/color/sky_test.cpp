@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "tests/support/aov.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
 

@@ -3,6 +3,7 @@
 // hidden is dashed where that is asked for.
 #include <cmath>
 
+#include "tests/support/aov.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
 
