@@ -35,4 +35,10 @@ vec4 skyAt(vec2 place, int layer) {
     t = skyTone(t * colors.skyTones, ray * mat3(VIEW_FIELD(worldToEye, layer)), 2.0 * abs(toRay.y) / frame.imageSize.y, parallel) / colors.skyTones;
   return vec4(mix(colors.horizon, colors.zenith, t), 1.0) * (1.0 - colors.transparent);
 }
+
+// A premultiplied colour over the sky, which nobody asks for where that covers it.
+vec4 overSky(vec4 color, vec2 place, int layer) {
+  for (bool isOpen = color.a < 1.0; isOpen; isOpen = false) color += skyAt(place, layer) * (1.0 - color.a);
+  return color;
+}
 #endif

@@ -44,8 +44,8 @@ vec4 sampleColor(vec4 litRoot, ivec3 at, int number, float depthValue) {
 
 vec4 colorOf(ivec2 pixel, int layer, int part) {
   ivec3 at = ivec3(pixel, layer);
-  vec4 beyond = skyAt(vec2(pixel) + 0.5, layer);
-  if (part == kPartSky) return beyond;
+  vec2 place = vec2(pixel) + 0.5;
+  if (part == kPartSky) return skyAt(place, layer);
 #ifdef MULTISAMPLED
   // Where samples are of several surfaces, the mean of their colours is not the colour of their means. Loops that do not
   // run cost nothing.
@@ -61,7 +61,7 @@ vec4 colorOf(ivec2 pixel, int layer, int part) {
       for (int s = 1; s < 4; ++s) color += sampleColor(roots[s], at, s, texelFetch(depthSamples, at, s).r);
       color *= 0.25;
     }
-    return color + beyond * (1.0 - color.a);
+    return overSky(color, place, layer);
   }
 #endif
   vec4 litRoot = texelFetch(lit, at, 0);
@@ -72,6 +72,6 @@ vec4 colorOf(ivec2 pixel, int layer, int part) {
   vec4 color = surfaceColor(litRoot, shadowedRoot, shadow.r, shadow.b);
   if (part == kPartDark) return vec4(color.rgb, 1.0);
   color = inAir(color, texelFetch(depth, at, 0).r, layer);
-  return color + beyond * (1.0 - color.a);
+  return overSky(color, place, layer);
 }
 #endif

@@ -60,7 +60,7 @@ vec4 torn(ivec2 pixel, int layer) {
     ivec3 at = ivec3(places.at[i], layer);
     int number = sampleAt(places.at[i]);
     vec4 color = sampleColor(texelFetch(litSamples, at, number), at, number, places.depths[i]);
-    color += skyAt(vec2(at.xy) + 0.5, layer) * (1.0 - color.a);
+    color = overSky(color, vec2(at.xy) + 0.5, layer);
     if ((kOptions & kFinalColorIsGraded) != 0) color.rgb = gradedSample(color, at);
     if (kRipple == kRippleLayered && places.isBehind[i]) color = texelFetch(behind, ivec3(pixel, layer), 0);
     sum += color / float(kPlaces);
