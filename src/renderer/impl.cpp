@@ -178,7 +178,7 @@ Status Renderer::Impl::begin(const Request& request) {
     for (size_t m = 0; m < materials.size(); ++m)
       geometry.casts.push_back(knobs.of<passes::ShadowMapParams>(m).cast);
     const passes::IndirectParams indirect = knobs.scene<passes::IndirectParams>();
-    if (indirect.source == 0 && passes::mayTakeIndirect(look)) geometry.indirectReach = indirect.reach;
+    if (indirect.source == 0 && passes::mayTakeIndirect(now)) geometry.indirectReach = indirect.reach;
     geometry.clips = everPlayed(scene.data(), look);
     geometry.nodes = nodeSettings(scene.data(), now);
     std::vector<std::string> readBack = readBackOf(request);

@@ -177,6 +177,7 @@ std::vector<std::vector<glm::u8vec4>> indirectLight(
     const std::vector<GeometryItem>& items, const std::function<const scene::Material&(size_t)>& materialOf,
     const std::vector<Shared<scene::TextureImage>>& images, float reach) {
   std::vector<std::vector<glm::u8vec4>> all(items.size());
+  if (!(reach > 0)) return all;
   std::vector<const GeometryItem*> standing;
   size_t vertices = 1;
   for (const GeometryItem& item : items) {
@@ -184,7 +185,6 @@ std::vector<std::vector<glm::u8vec4>> indirectLight(
     vertices += item.primitive->positions.size();
     if (item.skin < 0) standing.push_back(&item);
   }
-  if (!(reach > 0)) return all;
   const Baking baking(materialOf, images, reach, std::clamp(kAllRays / vertices, kLeastRays, kRays));
   const Surroundings world(standing);
   for (size_t i = 0; i < items.size(); ++i) {

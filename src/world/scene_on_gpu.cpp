@@ -81,8 +81,7 @@ SceneOnGpu::Changes SceneOnGpu::update(const scene::SceneData& scene, const Geom
   gpu::Uploader uploader(device_);
   // Before vertices may go.
   const std::vector<std::vector<glm::u8vec4>> indirect =
-      indirectLight(geometry.items, materialOf, scene.images,
-                    options.indirectReach * 0.5f * glm::length(bounds_.max - bounds_.min));
+      indirectLight(geometry.items, materialOf, scene.images, options.indirectReach * bounds_.radius());
   const bool otherPlaces = geometry_.update(device_, uploader, geometry.items, settle);
   placeIndirect(uploader, indirect, settle);
   const bool otherTextures = textures_.update(uploader, scene.images, settle);

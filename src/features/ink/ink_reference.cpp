@@ -9,6 +9,21 @@
 
 namespace scumble::ink {
 
+test::Knobs linesOfWidth(const std::string& width, const test::Knobs& more) {
+  test::Knobs knobs{{"ink.shown", "on"},
+                    {"ink.least", width},
+                    {"ink.greatest", width},
+                    {"ink.placement", "centred"},
+                    {"ink.fade", "0"},
+                    {"ink.outer", "1"},
+                    {"warp.amount", "0"},
+                    {"ink.creases.shown", "off"},
+                    {"ink.materials.shown", "off"},
+                    {"ink.boundaries.shown", "off"}};
+  knobs.insert(knobs.end(), more.begin(), more.end());
+  return knobs;
+}
+
 using namespace test;
 
 bool ReferenceEdge::isSilhouette(const glm::dvec3& eye) const {

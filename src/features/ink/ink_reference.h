@@ -5,9 +5,14 @@
 #include <functional>
 
 #include "tests/support/aov.h"
+#include "tests/support/render_test.h"
 #include "tests/support/test_scene.h"
 
 namespace scumble::ink {
+
+// Nothing but lines of one width (pixels at 1080 lines), centred, whole at their ends and not torn; then the
+// given knobs.
+test::Knobs linesOfWidth(const std::string& width, const test::Knobs& more);
 
 struct ReferenceEdge {
   glm::dvec3 a, b;

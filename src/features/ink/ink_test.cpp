@@ -14,20 +14,8 @@ namespace {
 
 using namespace test;
 
-// Nothing but lines of one width, centred, whole at their ends and not torn.
 Knobs evenLines(const Knobs& more = {}) {
-  Knobs knobs{{"ink.shown", "on"},
-              {"ink.least", "27"},
-              {"ink.greatest", "27"},
-              {"ink.placement", "centred"},
-              {"ink.fade", "0"},
-              {"ink.outer", "1"},
-              {"warp.amount", "0"},
-              {"ink.creases.shown", "off"},
-              {"ink.materials.shown", "off"},
-              {"ink.boundaries.shown", "off"}};
-  knobs.insert(knobs.end(), more.begin(), more.end());
-  return knobs;
+  return linesOfWidth("27", more);
 }
 
 class Ink : public BothEyes {
@@ -416,7 +404,7 @@ TEST_P(Ink, linesDoNotShineThroughWalls) {
       }
 }
 
-// Where a line goes behind something it ends within some pixels before that, however it lies on the pixels.
+// A line that goes behind something ends within some pixels before that, however it lies on the pixels.
 TEST_P(Ink, linesEndSoftly) {
   for (const double left : {-0.02, 0.0, 0.01}) {
     const HalfHidden s(0.7, left);

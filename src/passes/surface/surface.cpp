@@ -9,6 +9,7 @@
 #include "frame/material_params.h"
 #include "frame/metatexture.h"
 #include "frame/transparent_step.h"
+#include "look/anywhere.h"
 #include "passes/colorize/colorize_knobs.h"
 #include "passes/surface/surface.shared.h"
 #include "shaders/surface_frag.h"
@@ -321,18 +322,17 @@ float mipBias(float simplify, float pixelScale) {
   return std::max(simplify + std::log2(pixelScale), 0.0f);
 }
 
-static bool setsEither(const look::LookData& look, std::string_view first, std::string_view second) {
-  return std::any_of(look.assignments.begin(), look.assignments.end(), [&](const look::Assignment& a) {
-    return a.block == &SurfaceParams::block() && (a.row->name == first || a.row->name == second);
-  });
-}
-
 bool mayTakeIndirect(const look::LookData& look) {
-  return setsEither(look, "occlusion", "bounce");
+  return look::mayBeAboveZero(look, &SurfaceParams::occlusion) ||
+         look::mayBeAboveZero(look, &SurfaceParams::bounce);
 }
 
 bool mayGlow(const look::LookData& look, const scene::SceneData& scene) {
-  return setsEither(look, "glow", "highlight") ||
+  const auto sets = [](const look::Assignment& a) {
+    const std::string_view name = a.row->name;
+    return a.block == &SurfaceParams::block() && (name == "glow" || name == "highlight");
+  };
+  return std::any_of(look.assignments.begin(), look.assignments.end(), sets) ||
          std::any_of(scene.materials.begin(), scene.materials.end(),
                      [](const scene::Material& material) { return material.emissive != glm::vec3(0.0f); });
 }

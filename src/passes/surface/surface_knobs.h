@@ -26,7 +26,7 @@ namespace scumble::passes {
 #define PARAMS_TARGETS kScene
 #include "look/define_params.h"
 
-// Whether anything may take light from other surfaces at any time.
+// Whether anything may take light from other surfaces, of a look at its time.
 bool mayTakeIndirect(const look::LookData& look);
 
 // surface.simplify in mip levels of a picture that is `pixelScale` times as high as 1080 lines: what is left

@@ -23,12 +23,10 @@ layout(location = 8) flat in vec3 inAcross;
 layout(location = 9) flat in vec3 inDown;
 layout(location = 10) flat in uint inSeen;
 layout(location = 11) flat in vec4 inSlopes;
-
 layout(location = 12) flat in uint inTurned;
 
-#ifdef COVER
-// Of the line alone, where it is whole, how near it is.
-#else
+// COVER: depth alone, of pixels that the line covers wholly.
+#ifndef COVER
 layout(set = 2, binding = kInkNearest) uniform sampler2DArray nearestLine;
 layout(location = 0) out vec4 outInk;
 #ifdef DISTANCE
@@ -108,8 +106,10 @@ void main() {
     nearest = mix(line.xy, line.zw, nearestOn(line.xy, line.zw, pixel));
     coverage = max(coverage, lineCoverage(radius * ink.doubledWidth, pixel, nearest, spine, t, view));
   }
-  InkCover towards = coverTowards(edge, spine, normalize(pixel - spine + 1e-3 * outward), distance, view);
-  coverage *= 1.0 - max(coveredAt(towards, pixel, whole, view), float(inTurned));
+  if (coverage > 0.0) {
+    InkCover towards = coverTowards(edge, spine, normalize(pixel - spine + 1e-3 * outward), distance, view);
+    coverage *= 1.0 - max(coveredAt(towards, pixel, whole, view), float(inTurned));
+  }
 #ifdef COVER
   if (coverage < 0.999) discard;
   gl_FragDepth = mix(inRadii.z, inRadii.w, t);

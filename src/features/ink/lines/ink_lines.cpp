@@ -9,6 +9,7 @@
 #include "features/ink/lines/line_table.h"
 #include "frame/drawn_image.h"
 #include "frame/material_params.h"
+#include "look/anywhere.h"
 #include "passes/colorize/colorize_knobs.h"
 #include "passes/warp/warp_knobs.h"
 #include "shaders/ink_line_cover_frag.h"
@@ -37,10 +38,7 @@ shared::InkKind kindOf(const KnobTable& knobs) {
 // Two anti-aliased edges that only touch would leave a light seam, and more so two that are torn apart; what
 // is not torn is whole to within half a pixel.
 float overlap(const FrameInput& input) {
-  bool isTorn = false;
-  for (size_t m = 0; m < input.scene.materialCount(); ++m)
-    isTorn |= input.knobs.of<passes::WarpParams>(m).amount > 0;
-  return isTorn ? std::max(0.75f, 2.4f * input.uniforms.pixelScale) : 0.5f;
+  return passes::mayTear(input.look) ? std::max(0.75f, 2.4f * input.uniforms.pixelScale) : 0.5f;
 }
 
 shared::InkUniforms inkUniforms(const FrameInput& input) {
@@ -80,12 +78,11 @@ bool haveColors(const look::LookData& look) {
   return ((look.get<Params>().shown && look.get<Params>().colorAmount > 0) || ...);
 }
 
-// Whether lines may have several colours, so that it is seen which of two lies over the other.
+// True for lines that may have several colours: it is seen then which of two lies over the other.
 bool mayHaveColors(const scene::SceneData& scene, const look::LookData& look) {
   for (const look::Target target : {look::kMaterials, look::kNodes})
-    for (const char* row : {"color", "ownColor"})
-      if (look.setsAny(LineParams::block(), row, target)) return true;
-  if (look.get<LineParams>().ownColor > 0 ||
+    if (look.setsAny(LineParams::block(), "color", target)) return true;
+  if (look::mayBeAboveZero(look, &LineParams::ownColor) ||
       haveColors<SilhouetteParams, BoundaryParams, MaterialBorderParams, CreaseParams, ColorBorderParams>(
           look))
     return true;
@@ -188,7 +185,7 @@ class Lines : public Pass {
     finder_.bind();
     if (hasTable_) table_.bind(resources);
     const VkSampler exact = frame_->samplers().get({VK_FILTER_NEAREST});
-    // Of the step that finds the nearest line, and of that which draws all of them.
+    // One set for the step that finds the nearest line, one for that which draws all of them.
     for (size_t set = 0; set < set_.size(); ++set) {
       const gpu::Handle nearest = covers_ && set == kDrawing ? nearest_.image() : depth_;
       set_.rewriteTexture(set, shared::kInkDepth, resources.image(depth_).view(), exact);

@@ -1,8 +1,9 @@
-// Lines pixel by pixel (paper 004, section 2.4): what is nearer covers as much of a line as it covers of the
-// picture, a line comes out from behind it little by little, nearer lines lie over farther ones, and what is
-// hidden is dashed where that is asked for.
+// Lines pixel by pixel (paper 004, section 2.4): a line makes room for what is nearer, and never lies on it;
+// it comes out from behind it little by little, nearer lines lie over farther ones, and what is hidden is
+// dashed where that is asked for.
 #include <cmath>
 
+#include "features/ink/ink_reference.h"
 #include "tests/support/aov.h"
 #include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
@@ -18,20 +19,7 @@ class InkPixels : public BothEyes {
   static constexpr double kHalfWidth = 5;                                       // pixels
   static constexpr double kHalfHeight = 1.2, kPixel = 2 * kHalfHeight / kSide;  // metres
 
-  static Knobs wideLines(const Knobs& more = {}) {
-    Knobs knobs{{"ink.shown", "on"},
-                {"ink.least", "90"},
-                {"ink.greatest", "90"},
-                {"ink.placement", "centred"},
-                {"ink.fade", "0"},
-                {"ink.outer", "1"},
-                {"warp.amount", "0"},
-                {"ink.creases.shown", "off"},
-                {"ink.materials.shown", "off"},
-                {"ink.boundaries.shown", "off"}};
-    knobs.insert(knobs.end(), more.begin(), more.end());
-    return knobs;
-  }
+  static Knobs wideLines(const Knobs& more = {}) { return linesOfWidth("90", more); }
 
   // A bar with an outline along y = 0, and before it a plate so far away that begins at a height.
   static Scene barBehindPlate(double gap, double from, double slope = 0) {
@@ -106,7 +94,7 @@ TEST_P(InkPixels, comeOutFromBehindLittleByLittle) {
   }
 }
 
-// Where lines of two colours cross there is the nearer one's, and not a mixture.
+// The crossing of two lines has the nearer one's colour, and no mixture.
 TEST_P(InkPixels, nearerLinesLieOverFartherOnes) {
   for (const bool isNearFirst : {true, false}) {
     TestScene s;
@@ -149,7 +137,7 @@ TEST_P(InkPixels, hiddenLinesAreDashedWhereTheyAreAskedFor) {
     EXPECT_GT(drawn, 35);
     EXPECT_GT(bare, 25);
   }
-  // What is seen has no dashes.
+  // Lines that are seen have no dashes.
   expectSame(drawLines(barBehindPlate(0.45, 2), wideLines()), drawLines(barBehindPlate(0.45, 2), some));
 }
 

@@ -75,9 +75,9 @@ float riseAt(vec2 place, vec2 spine, float distance, float pixel, int view, out 
 // What lies around a place on an edge in one direction: whether something covers a line there.
 //
 // What is no nearer than where the edge's own surface leads to is that, or what it goes over into. And what rises from the edge
-// towards the eye covers nothing of it: a round form before its outline at first more than later on,
-// the ground before a box evenly, a hollow's sides slowly at first. It is at the edge itself, or ends there; and of what stands
-// before the edge either is not so, or it is about as near everywhere.
+// towards the eye covers nothing of it: a round form before its outline at first more than later on, the ground before a box
+// evenly, a hollow's sides slowly at first. It is at the edge itself, or ends there; and of what stands before the edge either is
+// not so, or it is about as near everywhere.
 const float kNearPlace = 1.5, kFarPlace = 3.0;  // pixels from the edge, at least
 struct InkCover {
   vec2 spine, direction, slope;
