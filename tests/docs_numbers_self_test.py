@@ -86,8 +86,13 @@ class Numbers(unittest.TestCase):
             path.write_text(json.dumps(report))
             self.notices("henry-4.json", key)
             path.write_text(whole)
-        self.change(f"{RESULTS}/henry-4.json", "room.glb", "/tmp/room.glb")
-        self.notices("henry-4.json", "places")
+        # Alone, and within a command.
+        for before in ('"room.glb"', " room.glb"):
+            changed = before.replace("room", "/tmp/room")
+            with self.subTest(place=changed):
+                self.change(f"{RESULTS}/henry-4.json", before, changed)
+                self.notices("henry-4.json", "places")
+                self.change(f"{RESULTS}/henry-4.json", changed, before)
 
     def test_may_include(self):
         self.change("docs/frame.md", "stage, world.", "stage.")
