@@ -24,6 +24,7 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "support"))
+from gltf import Gltf  # noqa: E402
 from png import read_png  # noqa: E402
 
 DONE, OUR_FAULT, USAGE, UNUSABLE, NO_GPU = range(5)
@@ -35,7 +36,7 @@ UNORM, SRGB, BGRA_SRGB, HALF = 37, 43, 50, 97  # VkFormat
 # Headsets' marks are even by angles, however narrow their view is.
 RADIAL = [word for block in ("warp", "texture", "ocean") for word in ("--set", f"{block}.metatexture.radial=on")]
 AHEAD = [0, 0, 0, 0, 0, 0, 1]
-scumble = demo_scene = build = None
+scumble = demo_scene = small_scene = build = None
 shared = None  # a folder for what several tests read
 
 
@@ -87,8 +88,23 @@ def alike(a, b, levels=1):
     return sum(abs(x - y) <= levels for x, y in zip(a, b)) / len(a)
 
 
+def write_small_scene(path):
+    """Of the demo's size, with a ball that moves: a process that draws it takes a third of the time."""
+    scene = Gltf()
+    scene.floor(30, scene.material("Floor", (0.5, 0.6, 0.4, 1)))
+    scene.ball(1.8, scene.material("Ball", (0.8, 0.3, 0.1, 1)), rows=12, columns=24, translation=(0, 3, 0))
+    scene.lathe([(0, 5), (1.6, 3), (1.6, 0), (0, 0)], scene.material("Post", (0.2, 0.3, 0.6, 1)), columns=16, translation=(-4, 0, 2))
+    scene.torus(1.5, 0.5, scene.material("Ring", (0.9, 0.8, 0.3, 1)), rows=8, columns=24, translation=(4, 2, -2))
+    times, places = (0, 0.5, 1), ((0, 3, 0), (2.5, 4.5, 0), (0, 3, 0))
+    scene.json["animations"] = [{"name": "Swing", "channels": [{"sampler": 0, "target": {"node": 1, "path": "translation"}}],
+                                 "samplers": [{"input": scene.accessor(times, "SCALAR"), "output": scene.accessor(places, "VEC3")}]}]
+    scene.json["accessors"][-2].update(min=[times[0]], max=[times[-1]])
+    path.write_text(scene.text())
+
+
 class Xr(unittest.TestCase):
     def setUp(self):
+        self.scene, self.words = small_scene, []
         self.folder = Path(tempfile.mkdtemp(prefix="scumble xr "))
         self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
 
@@ -108,8 +124,8 @@ class Xr(unittest.TestCase):
         return ppm(self.record / f"frame-{frame:04d}-{eye}.ppm")
 
     def call(self, *words, frames=1, camera=CAMERA, **script):
-        return subprocess.run([scumble, "xr", demo_scene, *camera, "--samples", "1", "--validate", "--frames", str(frames), *([] if "--ready" in words else ["--ready", "0"]),
-                               *([] if "--resolution" in words else ["--resolution", "1"]), *words],
+        return subprocess.run([scumble, "xr", self.scene, *camera, "--samples", "1", "--validate", "--frames", str(frames), *([] if "--ready" in words else ["--ready", "0"]),
+                               *([] if "--resolution" in words else ["--resolution", "1"]), *self.words, *words],
                               env=self.environment(script), capture_output=True, text=True, timeout=200)
 
     def shown(self, *words, frames=1, **script):
@@ -134,7 +150,7 @@ class Xr(unittest.TestCase):
     def rendered(self, *words, camera=CAMERA):
         """What `scumble render` draws for both eyes."""
         out = self.folder / "rendered.png"
-        subprocess.run([scumble, "render", demo_scene, *camera, "--fov", str(math.degrees(2 * UP)), "--size", f"{SIZE[0]}x{SIZE[1]}",
+        subprocess.run([scumble, "render", self.scene, *camera, "--fov", str(math.degrees(2 * UP)), "--size", f"{SIZE[0]}x{SIZE[1]}",
                         "--samples", "1", "--stereo", "separate", "--ipd", "0.064", "-o", str(out), "--quiet", *RADIAL, *words],
                        check=True, env={**os.environ, "XDG_CACHE_HOME": str(shared / "cache")})
         pixels = []
@@ -147,6 +163,7 @@ class Xr(unittest.TestCase):
     # -- What is shown
 
     def test_a_headset_shows_what_render_draws(self):
+        self.scene = demo_scene
         frames = self.shown(frames=3, refreshRates=[60, 72, 90, 120])
         self.assertEqual([frame["frame"] for frame in frames], [0, 1, 2])
         self.assertEqual(self.report()["refreshRate"], 90)
@@ -179,7 +196,7 @@ class Xr(unittest.TestCase):
                 words = self.folder / "words.txt"
                 environment = {**self.environment({"hands": held, **script}), "XR_ENABLE_API_LAYERS": "XR_APILAYER_LUNARG_core_validation",
                                "XR_CORE_VALIDATION_EXPORT_TYPE": "text", "XR_CORE_VALIDATION_FILE_NAME": str(words)}
-                done = subprocess.run([scumble, "xr", demo_scene, *CAMERA, "--samples", "1", "--ready", "0", "--synthesis", "on", "--frames", "6"], env=environment,
+                done = subprocess.run([scumble, "xr", self.scene, *CAMERA, "--samples", "1", "--ready", "0", "--synthesis", "on", "--frames", "6"], env=environment,
                                       capture_output=True, text=True, timeout=100)
                 self.assertEqual(done.returncode, DONE, done.stderr)
                 self.assertIn("Core Validation", done.stdout + done.stderr, "the layer was not there")
@@ -394,6 +411,7 @@ class Xr(unittest.TestCase):
     HAND = [0.1, -0.1, -0.2, 0, 0, 0, 1]
 
     def test_a_wrist_changes_colours(self):
+        self.scene = demo_scene
         rolled = [0.1, 0.025, -0.2, 0, 0, -math.sin(math.radians(20)), math.cos(math.radians(20))]  # and half as high as doubles it
         hands = {"pause": [1], "point right": [0] + [1] * 7 + [0], "aim right": [self.HAND] * 4 + [rolled]}
         done = self.call(frames=10, hands=hands)
@@ -431,6 +449,7 @@ class Xr(unittest.TestCase):
         self.assertTrue(all("rays" not in frame for frame in self.report()["frames"]))
 
     def test_hands_place_things(self):
+        self.scene, self.words = demo_scene, ["--set", "ocean.mode=off"]  # which takes half of the time
         moved = [1.9, 0.9, -0.2, 0, 0, 0, 1]  # 1.8 m to the right, and 1 m up
         hands = {"pause": [1], "grab left": [0] + [1] * 8 + [0], "aim left": [self.HAND] * 5 + [moved]}
         done = self.call(frames=12, hands=hands)
@@ -598,7 +617,7 @@ class Xr(unittest.TestCase):
         for index, aside in ((0, 0), (2, 0.05)):
             eye = [9 + aside * self.RIGHT[0], 2.5, 14 + aside * self.RIGHT[2]]
             target = [aside * self.RIGHT[0], 2.5, aside * self.RIGHT[2]]
-            subprocess.run([scumble, "render", demo_scene, "--eye", ",".join(map(str, eye)), "--target", ",".join(map(str, target)), "--fov", "60",
+            subprocess.run([scumble, "render", self.scene, "--eye", ",".join(map(str, eye)), "--target", ",".join(map(str, target)), "--fov", "60",
                             "--size", "192x108", "--samples", "1", "--time", str(index / 72), "-o", str(out), "--quiet"], check=True)
             width, height, channels, rows = read_png(out)
             seen = b"".join(row[i:i + 3] for row in rows for i in range(0, len(row), channels))
@@ -608,16 +627,16 @@ class Xr(unittest.TestCase):
         counted = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=nb_read_frames,avg_frame_rate", "-of", "csv=p=0", str(film)],
                                  capture_output=True, text=True, check=True).stdout.strip()
         self.assertEqual(counted, "30/1,31")
-        for words, says in ((["-o", "film.png"], "no film"), (["-o", str(demo_scene)], "ends in none of"), (["--size", "1x1", "-o", "a.mp4"], "--size"),
+        for words, says in ((["-o", "film.png"], "no film"), (["-o", str(self.scene)], "ends in none of"), (["--size", "1x1", "-o", "a.mp4"], "--size"),
                             (["--fps", "0", "-o", "a.mp4"], "--fps"), (["--steady", "-1"], "--steady"), (["--ready", "nan"], "--ready")):
             with self.subTest(words=words):
                 self.bad(USAGE, *words, says=says)
         self.bad(5, "-o", "/no/such/folder/a.mp4", says="/no/such/folder")
-        done = subprocess.run([scumble, "xr", demo_scene, "--frames", "0", "--ready", "0", "-o", str(self.folder / "none.mp4")], env=self.environment({}),
+        done = subprocess.run([scumble, "xr", self.scene, "--frames", "0", "--ready", "0", "-o", str(self.folder / "none.mp4")], env=self.environment({}),
                               capture_output=True, text=True, timeout=100)
         self.assertEqual(done.returncode, 5, done.stderr)
         self.assertIn("no frame was seen", done.stderr)
-        done = subprocess.run([scumble, "xr", demo_scene, "--frames", "-1"], env=self.environment({}), capture_output=True, text=True, timeout=100)
+        done = subprocess.run([scumble, "xr", self.scene, "--frames", "-1"], env=self.environment({}), capture_output=True, text=True, timeout=100)
         self.assertEqual(done.returncode, USAGE, done.stderr)
         # What nobody saw is a second at most.
         self.shown("-o", str(film), "--size", "64x64", "--fps", "10", frames=3, period=20)
@@ -626,6 +645,7 @@ class Xr(unittest.TestCase):
         self.assertEqual(counted, "21")
 
     def test_looks_are_made_ready(self):
+        self.scene = demo_scene
         done = self.call("--ready", "600", "--look", "manga", frames=3, hands={"look": [0, 1, 1], "pause": [1]})
         self.assertEqual((done.returncode, self.report()["mistakes"]), (DONE, []), done.stderr)
         self.assertNotIn("are ready", done.stderr)
@@ -666,7 +686,7 @@ class Xr(unittest.TestCase):
     def test_a_session_that_is_lost_again_and_again_does_not_spin(self):
         for call in ("xrWaitFrame", "xrCreateSession"):
             with self.subTest(call=call):
-                process = subprocess.Popen([scumble, "xr", demo_scene, "--samples", "1", "--quiet"],
+                process = subprocess.Popen([scumble, "xr", self.scene, "--samples", "1", "--quiet"],
                                            env=self.environment({"fail": {call: -17}}), stderr=subprocess.PIPE, text=True)
                 time.sleep(4)
                 self.assertIsNone(process.poll())
@@ -683,7 +703,7 @@ class Xr(unittest.TestCase):
         self.assertEqual(self.report()["mistakes"], [])
 
     def test_a_keyboard_ends_it(self):
-        process = subprocess.Popen([scumble, "xr", demo_scene, "--samples", "1", "--validate", "--quiet"], env=self.environment({}),
+        process = subprocess.Popen([scumble, "xr", self.scene, "--samples", "1", "--validate", "--quiet"], env=self.environment({}),
                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         until = time.monotonic() + 60
         while not (self.record / "frame-0001-right.ppm").exists() and time.monotonic() < until:
@@ -768,4 +788,6 @@ if __name__ == "__main__":
         shared = Path(folder)
         demo_scene = shared / "demo.glb"
         subprocess.run([demo_program, demo_scene], check=True, capture_output=True)
+        small_scene = shared / "small.gltf"
+        write_small_scene(small_scene)
         unittest.main(argv=[sys.argv[0], *sys.argv[4:]])
