@@ -152,7 +152,8 @@ TEST_F(Panoramas, turningTheCameraTurnsThePicture) {
   panorama.knobHeight = 180;
   for (const PanoramaKind kind : {PanoramaKind::mono360, PanoramaKind::ods})
     for (const Look& look : looks) {
-      if (kind == PanoramaKind::ods && &look != &looks.front()) continue;
+      // Of two eyes the first look, which is the whole of what there is to know of one.
+      if ((kind == PanoramaKind::ods) != (&look == &looks.front())) continue;
       panorama.kind = kind;
       const RenderOptions options =
           optionsFor(kind, {"final-shadow", "color", "final-color", "warp"}, 2 * kRows);
