@@ -97,6 +97,9 @@ class FeaturePlan {
   // Metres at which its edges are torn half as much as near by, at most; 0: as the look has it.
   float quietDistance = 0;
 
+  // Of the scene's own meshes, by node and material: the kind of what the feature writes the vertices of
+  // instead of `deform`, from where they are before features move nodes; none: `deform` does.
+  virtual std::optional<uint32_t> kindOf(size_t /*node*/, size_t /*material*/) const { return std::nullopt; }
   // Adds what is drawn to `geometry`. `item` has all that its items have in common. Not asked of a feature
   // without a material.
   virtual void addItems(const GeometryItem& /*item*/, MadePrimitives& /*made*/,

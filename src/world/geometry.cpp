@@ -120,6 +120,10 @@ Geometry collectGeometry(const scene::SceneData& scene, const GeometryOptions& o
       item.extent = &scene::seenExtent(scene, node.mesh, p);
       item.shown = shown[n] && scene::seenOf(scene, node.mesh, p).isSeen;
       if (node.skin >= 0 && primitive.influences > 0) item.skin = node.skin;
+      for (size_t f = 0; f < options.features.size(); ++f)
+        if (const auto& plan = options.features[f].plan)
+          if (const std::optional<uint32_t> kind = plan->kindOf(n, item.material))
+            item.feature = int(f), item.kind = *kind, item.isWrittenByFeature = true;
       for (const glm::mat4& instance : node.instances.empty() || item.skin >= 0 ? one : node.instances) {
         item.instance = instance;
         item.model = scene::instanceToWorld(world[n], instance);

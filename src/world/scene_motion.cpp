@@ -234,6 +234,12 @@ bool SceneMotion::pose(const scene::SceneData& scene, const KnobTable& knobs, do
           model[3] += glm::vec4(place.offset, 0.0f);
           data.patternShift = place.patternShift;
         }
+        // What a feature writes, it moves by itself. Joints have moved already: their object takes it back.
+        const bool isMovedTwice = object.isWrittenByFeature && object.node != MovingObject::kNoNode;
+        if (isMovedTwice && object.skin >= 0)
+          model = glm::inverse(movedBy(size_t(scene.skins[size_t(object.skin)].joints.front())));
+        else if (isMovedTwice)
+          model = glm::inverse(movedBy(object.node)) * model;
         std::span<const glm::mat4> ownJoints;
         if (object.skin >= 0)
           ownJoints = {joints + data.firstJoint, scene.skins[size_t(object.skin)].joints.size()};

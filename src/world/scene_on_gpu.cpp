@@ -246,7 +246,9 @@ bool SceneOnGpu::listDraws(const Geometry& geometry, const std::function<void()>
                           level.textureError, level.shadowError, level.longestEdge});
     draw.state.material = item.material;
     draw.state.alpha = alphaMode(material);
-    if (item.feature >= 0 && features_[size_t(item.feature)]->cutouts()) draw.state.alpha = AlphaMode::cut;
+    if (item.feature >= 0 && draw.state.alpha == AlphaMode::opaque &&
+        features_[size_t(item.feature)]->cutouts())
+      draw.state.alpha = AlphaMode::cut;
     draw.state.cullsBack = !material.doubleSided;
     draw.state.textured = material.baseColorTexture.image >= 0 || material.emissiveTexture.image >= 0;
     draw.state.varied = draw.state.textured || !primitive.colors.empty();

@@ -111,7 +111,29 @@ def strokes():
     return g.text()
 
 
-SCENES = {"sphere": sphere, "alpha": alpha, "colours": colours, "lamps": lamps, "strokes": strokes}
+def wake():
+    """An artist's wake: two strips with teeth that lie on the waves behind a buoy, and a ring around it."""
+    g = Gltf()
+    buoy, foam = g.material("Buoy", (0.8, 0.2, 0.1, 1)), g.material("Wake", (0.95, 0.95, 0.9, 1), doubleSided=True)
+    g.ball(0.9, buoy, rows=16, columns=32, translation=(0, 0.3, 0))
+    up = (0, 1, 0)
+
+    def ring(u, v):
+        a, r = 2 * math.pi * u, 1.0 + (0.5 + 0.15 * math.sin(10 * math.pi * u)) * v
+        return (r * math.cos(a), 0.02, r * math.sin(a)), up
+
+    g.grid(2, 80, ring, foam)
+    for side in (-1, 1):
+        def strip(u, v, side=side):
+            width = (1 - u) * (0.9 + 0.35 * math.sin(30 * u))
+            return (1 + 9 * u, 0.02, side * (0.9 + 2.6 * u + width * (v - 0.5))), up
+
+        g.grid(4, 60, strip, foam)
+    g.camera(9, 4.5, 0.7)
+    return g.text()
+
+
+SCENES = {"sphere": sphere, "alpha": alpha, "colours": colours, "lamps": lamps, "strokes": strokes, "artists-wake": wake}
 
 
 def backdrop():

@@ -11,7 +11,8 @@ namespace {
 using Json = nlohmann::json;
 using Problems = scene::ExtraRule::Problems;
 
-constexpr const char *kOceanKey = "scumble_ocean", *kFloatKey = "scumble_float", *kHullKey = "scumble_hull";
+constexpr const char *kOceanKey = "scumble_ocean", *kFloatKey = "scumble_float", *kHullKey = "scumble_hull",
+                     *kWaterKey = "scumble_water";
 
 // Modelling programs write 0 and 1 as well. Absent: it is neither.
 std::optional<bool> flagOf(const Json& json) {
@@ -61,6 +62,11 @@ std::optional<bool> saysOcean(const scene::Node& node) {
   return json ? flagOf(*json) : std::nullopt;
 }
 
+std::optional<bool> saysWater(const scene::Node& node) {
+  const Json* const json = find(node, kWaterKey);
+  return json ? flagOf(*json) : std::nullopt;
+}
+
 std::optional<Floats> floatsOf(const scene::Node& node) {
   // Asked for in each frame: whatever else a hostile file has in there is not gone through.
   const Json* const json = find(node, kFloatKey);
@@ -82,10 +88,11 @@ std::optional<int> hullOf(const scene::Node& node) {
 }
 
 std::vector<scene::ExtraRule> extraRules() {
-  return {{kOceanKey,
-           [](const Json& json) {
-             return flagOf(json) ? Problems() : Problems{{"", "is ignored: it is neither true nor false"}};
-           }},
+  const auto flag = [](const Json& json) {
+    return flagOf(json) ? Problems() : Problems{{"", "is ignored: it is neither true nor false"}};
+  };
+  return {{kOceanKey, flag},
+          {kWaterKey, flag},
           {kFloatKey, problemsOfFloats},
           {kHullKey, [](const Json& json) {
              return hullRole(json) ? Problems()

@@ -22,6 +22,9 @@ std::optional<Floats> floatsOf(const scene::Node& node);
 // How its mesh keeps the sea out, as FloatParams::hull; none: it does not say.
 std::optional<int> hullOf(const scene::Node& node);
 
+// Whether its meshes lie on the water (features/ocean/draped.h); none: it does not say.
+std::optional<bool> saysWater(const scene::Node& node);
+
 std::vector<scene::ExtraRule> extraRules();
 
 }  // namespace scumble::ocean

@@ -30,7 +30,7 @@ frame::FeatureParts makeFeature() {
   return {std::make_unique<OceanFeature>(),
           {{"deform", makeOceanDeform}, {"shadow-map", makeOcean}},
           {&OceanParams::block(), &DecorationParams::block(), &OceanPaintParams::block(),
-           &OceanMetaTextureParams::block(), &FloatParams::block()},
+           &OceanMetaTextureParams::block(), &FloatParams::block(), &DrapeParams::block()},
           extraRules()};
 }
 

@@ -55,6 +55,7 @@ OceanShape oceanShape(const scene::SceneData& scene, const look::LookData& look)
   const std::vector<FloatingNode> floating = floatingNodes(scene, look, shape.node);
   for (const Decoration& one : decorationsOf(scene, look, floating))
     shape.decorations.push_back(one.params.kind);
+  shape.draped = drapedOf(scene, look);
   if (params.hulls) shape.hulls = hullNodes(scene, look, floating, shape.node);
   return shape;
 }
@@ -257,12 +258,20 @@ void OceanWaves::pose(const look::LookData& look, double time, const Travelled& 
       one.center += slid_;
       for (glm::vec4& point : one.points) point += glm::vec4(slid_, 0.0f, 0.0f);
     }
+    zones_ = now->zones_;
+    for (shared::WaterZone& zone : zones_) zone.center += slid_;
+    putZones();
   } else {
     decorations_ = placeDecorations(decorationsOf(*scene_, look, floating_), *scene_,
                                     playedClips(*scene_, look), time, shape_.origin, travelled);
   }
   header->decorationCount = int(decorations_.size());
   std::copy(decorations_.begin(), decorations_.end(), header->decorations);
+
+  drapes_.clear();
+  if (!draped_.isEmpty())
+    for (const scene::Material& material : scene_->materials)
+      drapes_.push_back(look.getFor<DrapeParams>(look::kMaterials, material.name));
 
   // The points.
   auto* points = reinterpret_cast<shared::OceanPoint*>(buffer_.contents() + sizeof(shared::OceanField));
@@ -279,6 +288,7 @@ void OceanWaves::find(const std::vector<GeometryItem>& items) {
   // Waves of more than a tenth of a tile are of another sea than the tile's.
   const Hulls::Sea sea{shape_.origin.y, 0.1f * shape_.tile, shape_.tile};
   shape_.hulls.root.empty() ? hulls_.clear() : hulls_.find(*scene_, shape_.hulls, sea, items);
+  draped_.find(items);
 }
 
 bool OceanWaves::place(gpu::Uploader& uploader, const std::vector<GeometryItem>&,
@@ -290,9 +300,18 @@ bool OceanWaves::place(gpu::Uploader& uploader, const std::vector<GeometryItem>&
 }
 
 void OceanWaves::posed(const SceneMotion& motion) {
+  zones_ = draped_.at(motion, drapes_, reach_, shape_.origin);
+  putZones();
   if (hulls_.isEmpty()) return;
   hulls_.pose(
       motion, [this](const glm::vec3& at) { return seaAt(at); }, *cutouts_.as<shared::Cutouts>());
+}
+
+void OceanWaves::putZones() {
+  if (zones_.empty()) return;
+  auto* const header = buffer_.as<shared::OceanField>();
+  header->zoneCount = int(zones_.size());
+  std::copy(zones_.begin(), zones_.end(), header->zones);
 }
 
 std::optional<FeatureMoment::CutoutBuffers> OceanWaves::cutouts() const {
@@ -318,13 +337,14 @@ FeatureMoment::Place OceanWaves::placeOf(uint32_t kind) const {
   if (kind == shared::kWaves)
     return {{-within_.x, 0.0f, -within_.y}, patternAt(travelled_ - glm::dvec2(within_))};
   if (kind == shared::kFlat) return {{slid_.x, 0.0f, slid_.y}, patternAt(travelled_)};
+  if (kind == shared::kDraped) return {};
   return {glm::vec3(0.0f), patternAt(travelled_)};
 }
 
 scene::Bounds OceanWaves::boundsOf(uint32_t kind, uint32_t detail, const scene::Bounds& posed) const {
   if (kind == shared::kDecoration) return decorationBounds(detail);
   scene::Bounds bounds = posed;
-  if (kind == shared::kWaves) bounds.min -= reach_, bounds.max += reach_;
+  if (kind == shared::kWaves || kind == shared::kDraped) bounds.min -= reach_, bounds.max += reach_;
   return bounds;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "features/ocean/decorations.h"
+#include "features/ocean/draped.h"
 #include "features/ocean/hulls/hulls.h"
 #include "features/ocean/ocean.shared.h"
 #include "features/ocean/waves/surface.h"
@@ -34,6 +35,7 @@ struct OceanShape {
   float tile = 60, falseHorizon = 120, horizon = 1000;  // metres
   std::vector<int> decorations;                         // their kinds
   HullNodes hulls;                                      // empty: none keeps the sea out
+  Draped draped;                                        // meshes of the scene
   bool operator==(const OceanShape&) const = default;
   // Metres from the middle to which waves are whole.
   float fadeStart() const { return 0.6f * falseHorizon; }
@@ -68,6 +70,9 @@ class OceanPlan : public FeaturePlan {
   const OceanShape& shape() const { return shape_; }
   bool equals(const FeaturePlan& other) const override {
     return shape_ == static_cast<const OceanPlan&>(other).shape_;
+  }
+  std::optional<uint32_t> kindOf(size_t node, size_t material) const override {
+    return shape_.draped.has(node, material) ? std::optional<uint32_t>(shared::kDraped) : std::nullopt;
   }
   void addItems(const GeometryItem& item, MadePrimitives& made, Geometry& geometry) const override;
   std::unique_ptr<FeatureMoment> makeMoment(gpu::Device& device,
@@ -122,6 +127,8 @@ class OceanWaves : public FeatureMoment {
   const gpu::PerFrameBuffer& buffer() const { return buffer_; }
 
  private:
+  // For shaders, which know of none otherwise.
+  void putZones();
   // Where a decoration's mesh is; empty where it draws nothing.
   scene::Bounds decorationBounds(size_t decoration) const;
   // Begins anew after a power of two, at which all scales of a pattern repeat: numbers stay fine.
@@ -141,6 +148,9 @@ class OceanWaves : public FeatureMoment {
   glm::vec3 reach_{0.0f};      // how far vertices may be from their place at rest, metres
   std::vector<FloatingNode> floating_;
   std::vector<shared::WaterDecoration> decorations_;
+  DrapedZones draped_;
+  std::vector<shared::WaterZone> zones_;
+  std::vector<DrapeParams> drapes_;  // by the scene's materials, in the pose
   Hulls hulls_;
   gpu::PerFrameBuffer cutouts_;  // shared::Cutouts; only with hulls
   gpu::PerFrameBuffer buffer_;   // shared::OceanField, then grid * grid shared::OceanPoint

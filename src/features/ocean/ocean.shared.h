@@ -6,8 +6,8 @@
 SHARED_BEGIN
 
 // ObjectData::kind: waves move it; flat water beyond them; a wake, ripples or a splash, of which
-// ObjectData::detail says which one in OceanField.
-const uint kWaves = 1, kFlat = 2, kDecoration = 3;
+// ObjectData::detail says which one in OceanField; a mesh of the scene that lies on the water.
+const uint kWaves = 1, kFlat = 2, kDecoration = 3, kDraped = 4;
 
 const float kWaterPerPattern = 10.0f;  // metres for one unit of pattern coordinates
 
@@ -38,6 +38,17 @@ struct WaterDecoration {
   vec4 points[kDecorationPoints];
 };
 
+// The water below a mesh of the scene that lies on it, as if it were calm: a rectangle, along x and z.
+const int kMaxZones = 64;
+const float kDrapedLift = 0.02f;  // metres by which such a mesh lies above the water
+struct WaterZone {
+  vec2 center;  // metres from the middle of calm water
+  vec2 along;   // direction of its first side
+  vec2 halves;  // of its sides, metres
+  float calm;   // how far strokes are suppressed, from 0 to 1
+  float room;   // factor on how far the mesh is pushed down
+};
+
 struct OceanField {
   ivec2 first;               // the grid point at which the mesh's corner point of the middle tile is
   ivec2 travelled;           // points by which the water has slid, from 0 to the grid
@@ -51,6 +62,8 @@ struct OceanField {
   float push;    // how far the mesh is pushed down below decorations, metres
   int decorationCount;
   WaterDecoration decorations[kMaxDecorations];
+  int zoneCount;
+  WaterZone zones[kMaxZones];
 };
 
 SHARED_END

@@ -39,6 +39,7 @@ struct Decorated {
   float cover;        // of foam, before it is eroded
   float calm;         // how far strokes are suppressed, from 0 to 1
   float outside;      // metres to the nearest place at which there is anything; below 0 there is
+  float room;         // how far the mesh is pushed down for meshes of the scene, in parts of the whole
 };
 
 // The decoration in question, where it lies: a copy would take all of its points along.
@@ -79,15 +80,17 @@ Decorated wakeAt(int index, vec2 place) {
   float fade = amount * begins * (1.0 - smoothstep(0.45, 1.0, age));
   float astern = smoothstep(0.75 * OF.hull, 1.05 * OF.hull, s);
   float churned = astern * (1.0 - smoothstep(0.25, 1.0, across / (0.9 * OF.halfBeam + 0.04 * max(s - OF.hull, 0.0))));
-  float beside = (1.0 - astern) * (1.0 - smoothstep(arm, arm + thickness, across));
+  // Along the hull, and less of it the further back: a wedge that ends as the arm leaves the stern.
+  float beside = (1.0 - smoothstep(0.2 * OF.hull, 1.5 * OF.hull, s)) * (1.0 - smoothstep(arm, arm + thickness, across));
 
   Decorated w;
   float lifts = onArm * (exp(-max(s, 0.0) / (1.2 * OF.hull)) + exp(-9.0 * s * s / (OF.hull * OF.hull)));
   w.displacement = vec3(0.0, fade * OF.height * OF.rise * (lifts - 0.3 * churned * exp(-4.0 * age)), 0.0);
   w.crest = fade * (0.9 * onArm + 0.3 * churned * exp(-2.0 * age));
-  w.cover = fade * OF.foam * max(max(1.15 * onArm * exp(-2.2 * age), 0.95 * churned * exp(-2.6 * age)), 0.8 * beside);
+  w.cover = fade * OF.foam * max(max(1.15 * onArm * exp(-2.2 * age), 0.95 * churned * exp(-2.6 * age)), 0.95 * beside);
   w.calm = amount * begins * (1.0 - smoothstep(0.6, 1.0, age)) * (1.0 - smoothstep(arm, full, across));
   w.outside = max(max(across - full, -0.4 * OF.halfBeam - s), s - OF.points[OF.count - 1].z);
+  w.room = 0.0;
   return w;
 }
 
@@ -105,7 +108,7 @@ float calmAt(float away, float front, float between, float age) {
 }
 
 Decorated ripplesAt(int index, vec2 place) {
-  Decorated w = Decorated(vec3(0.0), 0.0, 0.0, 0.0, 1e9);
+  Decorated w = Decorated(vec3(0.0), 0.0, 0.0, 0.0, 1e9, 0.0);
   float between = OF.radius / (2.0 * OF.crests + 1.0);
   for (int i = 0; i < OF.count; ++i) {
     vec4 from = OF.points[i];
@@ -122,7 +125,7 @@ Decorated ripplesAt(int index, vec2 place) {
 }
 
 Decorated splashAt(int index, vec2 place) {
-  Decorated w = Decorated(vec3(0.0), 0.0, 0.0, 0.0, 1e9);
+  Decorated w = Decorated(vec3(0.0), 0.0, 0.0, 0.0, 1e9, 0.0);
   float highest = 0.45 * OF.radius * OF.height;
   float falls = 2.0 * sqrt(2.0 * max(highest, 0.02 * OF.radius) / 9.81);  // seconds from the water to the water
   for (int i = 0; i < OF.count; ++i) {
@@ -157,7 +160,7 @@ Decorated splashAt(int index, vec2 place) {
 
 // What all decorations add at a place. Loops where one would write `if`, since CPU drivers execute both sides of those.
 Decorated decoratedAt(vec2 place) {
-  Decorated all = Decorated(vec3(0.0), 0.0, 0.0, 0.0, 1e9);
+  Decorated all = Decorated(vec3(0.0), 0.0, 0.0, 0.0, 1e9, 0.0);
   for (int index = 0; index < field.decorationCount; ++index) {
     bool isNear = OF.count > 0 && length(place - OF.center) <= OF.reach + 4.0 * field.cell;
     for (; isNear; isNear = false) {
@@ -173,12 +176,21 @@ Decorated decoratedAt(vec2 place) {
     }
   }
   all.cover = max(1.04 * all.cover - 0.04, 0.0);  // nothing where there is next to nothing
+  // Strokes go before a mesh of the scene begins; its water sinks within, so that none is missing beside it.
+  for (int i = 0; i < field.zoneCount; ++i) {
+    WaterZone zone = field.zones[i];
+    vec2 from = place - zone.center;
+    vec2 within = zone.halves - abs(vec2(dot(from, zone.along), dot(from, vec2(-zone.along.y, zone.along.x))));
+    float inside = min(within.x, within.y), least = min(zone.halves.x, zone.halves.y);
+    all.calm = max(all.calm, zone.calm * smoothstep(-min(least, field.cell), 0.0, inside));
+    all.room = max(all.room, zone.room * smoothstep(0.0, min(0.6 * least, 1.5 * field.cell), inside));
+  }
   return all;
 }
 
 // How far the ocean's own mesh is pushed down: whole wherever one of its triangles may reach below a decoration.
-float pushedDown(float outside) {
-  return field.push * (1.0 - smoothstep(1.5, 2.5, outside / field.cell));
+float pushedDown(Decorated here) {
+  return field.push * max(1.0 - smoothstep(1.5, 2.5, here.outside / field.cell), here.room);
 }
 
 // From a decoration's mesh to its place. Of a wake: how far along it, from 0 to 1, and across, from -1 to 1; of the

@@ -1,10 +1,11 @@
 #version 460
-// Final vertices of water that moves: the ocean's mesh lifted by waves, and decorations on it.
+// Final vertices of water that moves: the ocean's mesh lifted by waves, decorations on it, and meshes of the scene that
+// lie on it.
 #extension GL_GOOGLE_include_directive : require
 #include "../../../shading/deform.glsl"
 #include "../ocean.shared.h"
 
-// Which objects: kWaves or kDecoration. In one shader each would pay for the other, since CPU drivers execute both sides
+// Which objects: kWaves, kDecoration or kDraped. In one shader each would pay for the other, since CPU drivers execute both sides
 // of an `if`.
 layout(constant_id = 1) const uint kWater = 0;
 
@@ -31,7 +32,7 @@ void main() {
       float whole = wavesWhole(length(place));
       core.position += whole * point.displacement;
       core.position.y -= (1.0 - whole) * field.sink;
-      if (field.decorationCount > 0) core.position.y -= pushedDown(decoratedAt(place).outside);
+      if (field.decorationCount + field.zoneCount > 0) core.position.y -= pushedDown(decoratedAt(place));
       normal = smoothNormal = normalize(mix(vec3(0.0, 1.0, 0.0), point.normal, whole));
       vec2 slopes = -normal.xz / max(normal.y, 0.2);
       around.dPdu.y = around.dPdu.x * slopes.x;
@@ -55,6 +56,26 @@ void main() {
       around.dPdu = vec3(kWaterPerPattern, kWaterPerPattern * slopes.x, 0.0);
       around.dPdv = vec3(0.0, kWaterPerPattern * slopes.y, kWaterPerPattern);
       if (!kPositionsOnly) patternUvs[chunk.finalVertex + i] = place / kWaterPerPattern;
+    }
+    if (kWater == kDraped) {
+      // Where it is without features, and sheared up and down with the waves beneath it.
+      PosedVertex v = posedVertex(chunk, object, i);
+      if (object.influences > 0) v.position = (object.model * vec4(v.position, 1.0)).xyz;
+      vec2 place = v.position.xz - field.origin.xz;
+      float whole = wavesWhole(length(place));
+      OceanPoint point = wavesAt(place);
+      v.position += whole * point.displacement;
+      v.position.y += kDrapedLift - (1.0 - whole) * field.sink;
+      vec3 wave = mix(vec3(0.0, 1.0, 0.0), point.normal, whole);
+      vec2 slopes = -wave.xz / max(wave.y, 0.2);
+      v.normal = normalize(v.normal);
+      v.normal.xz -= slopes * v.normal.y;
+      v.smoothNormal = normalize(v.smoothNormal);
+      v.smoothNormal.xz -= slopes * v.smoothNormal.y;
+      v.dPdu.y += dot(v.dPdu.xz, slopes);
+      v.dPdv.y += dot(v.dPdv.xz, slopes);
+      writeVertex(chunk, i, v);
+      continue;
     }
     if (kPositionsOnly) {
       previousPosition[chunk.finalVertex + i] = core.position;

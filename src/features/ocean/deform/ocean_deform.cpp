@@ -19,7 +19,7 @@ class OceanDeform : public Pass {
     const auto deform = [&](const Role& role, const Moment& moment) {
       frame.step("ocean-deform", [this, &moment](VkCommandBuffer commands) {
         const int writer = frame_->scene().feature(kName)->index;
-        for (const DeformStep* const step : {&moment.waves, &moment.decorations})
+        for (const DeformStep* const step : {&moment.waves, &moment.decorations, &moment.draped})
           step->record(commands, writer, moment.set[0]);
       });
       frame.give(role, frame.use(frame.get(role), gpu::Use::storageBufferReadWrite));
@@ -46,7 +46,7 @@ class OceanDeform : public Pass {
   // Of one of the two poses.
   struct Moment {
     gpu::DescriptorSets set;
-    DeformStep waves, decorations;
+    DeformStep waves, decorations, draped;
 
     void create(FrameBuilder& frame, const gpu::SetLayout& layout, bool isPrevious) {
       set = gpu::DescriptorSets(frame.device(), layout);
@@ -54,10 +54,12 @@ class OceanDeform : public Pass {
       waves.create(frame, desc);
       desc.constants = {shared::kDecoration};
       decorations.create(frame, desc);
+      desc.constants = {shared::kDraped};
+      draped.create(frame, desc);
     }
     void bind(const FeatureMoment* moment) {
       set.writeBuffer(0, 0, static_cast<const OceanWaves*>(moment)->buffer().handle());
-      waves.bind(), decorations.bind();
+      waves.bind(), decorations.bind(), draped.bind();
     }
   };
 

@@ -136,6 +136,7 @@ void Hulls::find(const scene::SceneData& scene, const HullNodes& nodes, const Se
     const GeometryItem& item = items[i];
     if (item.node == GeometryItem::kNoNode || nodes.root[item.node] < 0 || item.primitive->isPaint) continue;
     if (!item.shown && !nodes.isInside[item.node]) continue;
+    if (item.isWrittenByFeature) continue;  // lies on the water
     const int root = nodes.root[item.node];
     groups[{root, nodes.isWhole[size_t(root)] ? 0 : item.instanceOfNode}].push_back(i);
   }

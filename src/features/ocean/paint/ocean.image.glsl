@@ -88,6 +88,9 @@ vec4 blended(vec4 a, vec4 b, vec4 mean, float part) {
   return mean + (mix(a, b, part) - mean) * inversesqrt(part * part + (1.0 - part) * (1.0 - part));
 }
 
+// How much of the pattern tears the foam of wakes, ripples and splashes, where there is little of it and much.
+const float kTornLittle = 0.15, kTornMuch = 0.55;
+
 void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
   ivec2 pixel = here.xy;
   int layer = here.z;
@@ -156,6 +159,8 @@ void paint(ivec3 here, float far, out vec3 lit, out vec3 shadowed) {
       float other = metaTextureSample(meta, least.chosen, foamMap, least.uv, vec2(0.0), vec2(pixel) + 0.5).r;
       hole = mix(hole, other, ways.z);
     }
+    // What decorations leave hangs together: torn at its edges, and gone where there is little, not left in pieces.
+    hole = mix(hole, mix(0.5, hole, mix(kTornLittle, kTornMuch, smoothstep(0.4, 0.8, cover))), step(cover, decorated.x));
     foam = clamp((cover - hole) * 40.0, 0.0, 1.0);
   }
   lit = mix(lit, ocean.foamLit, foam);

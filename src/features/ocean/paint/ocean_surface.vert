@@ -45,7 +45,7 @@ void main() {
   outWave = vec4(whole * point.displacement.y / field.relief,
                  mix(1.0, point.jacobian, whole), decodeNormal(inNormal).xz);
   outDecorated = vec2(0.0);
-  if (field.decorationCount > 0) {
+  if (field.decorationCount + field.zoneCount > 0) {
     Decorated here = decoratedAt(place);
     // Without strokes, colours that go over by the waves' height would be an airbrush's.
     outWave.x = (1.0 - here.calm) * outWave.x + here.crest;
