@@ -299,7 +299,7 @@ TEST_P(KnobSweep, everyKnobAtItsEndsDrawsAndShows) {
   const auto looksFromCamera = [](const std::string& path) { return path.starts_with("camera."); };
   const auto needsPicture = [](const std::string& path) {
     return path == "background.style" || path == "background.simplify" || path == "background.steps" ||
-           path == "background.warp";
+           path == "background.warp" || path == "limit.backdrop";
   };
   draw(plain, Look(), "defaults", false, false);
   draw(painted, Look(), "defaults", false, false);

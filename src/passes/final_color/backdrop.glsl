@@ -49,6 +49,16 @@ vec3 pictureStepped(vec3 color) {
   return clamp(linearFromOklab(stepped(lab + kGrey, steps) - kGrey), 0.0, 1.0);
 }
 
+// In the colours of a palette.
+const int kColors = kMaxBackdropColors;
+#define PALETTE u.backdrop.palette
+#include "../../shading/nearest_color.glsl"
+vec3 pictureLimited(vec3 color) {
+  vec3 weights = vec3(u.backdrop.lightness, 1.0, 1.0), lab = weights * oklabFromLinear(clamp(color, 0.0, 1.0));
+  vec3 limited = mix(lab, nearestColorSoftly(lab), u.backdrop.limited) / weights;
+  return clamp(linearFromOklab(limited), 0.0, 1.0);
+}
+
 // The pixel's place in the picture. `torn`: where the warp fetches this pixel's colour from.
 vec2 backdropPlace(ivec2 pixel, vec2 torn, int layer) {
   vec2 own = vec2(pixel) + 0.5;
@@ -113,13 +123,15 @@ vec4 overBackdrop(vec4 color, float matte, float distance, vec2 at, int layer) {
     vec3 styled = applyColorMap(u.backdrop.lit, root);
     inLight = mix(own, styled * styled, u.backdrop.style);
   }
-  color.rgb += inLight * (open - matte);
+  vec3 shown = inLight * (open - matte);
   if (matte > 0.0) {
     vec3 plain = applyColorMap(u.backdrop.shadowed, root), styled = applyColorMap(u.backdrop.litShadowed, root);
     vec3 dark = mix(plain * plain, styled * styled, u.backdrop.style) * u.backdrop.shadowTint;
     // The polynomial makes the very darkest colours lighter than they are.
     dark *= min(1.0, 0.75 * dot(inLight, kLuminance) / max(dot(dark, kLuminance), 1e-4));
-    color.rgb += dark * matte;
+    shown += dark * matte;
   }
+  if ((kBackdrop & kBackdropLimited) != 0) shown = open * pictureLimited(shown / max(open, 1e-4));
+  color.rgb += shown;
   return vec4(color.rgb, 1.0);
 }

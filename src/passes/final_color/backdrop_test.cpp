@@ -1,7 +1,9 @@
 // A picture behind everything, and the ground that shows only shadows, against the same in double precision.
+#include <algorithm>
 #include <cmath>
 
 #include "base/oklab.h"
+#include "passes/limit/limit_knobs.h"
 #include "tests/support/aov.h"
 #include "tests/support/palette_reference.h"
 #include "tests/support/render_test.h"
@@ -253,6 +255,62 @@ TEST_P(BackdropTest, isPaintedInFlatShapes) {
     }
     EXPECT_GT(double(onStep), 0.85 * double(flat.size())) << steps;
     EXPECT_LT(farthest, 0.5 / steps + 0.02) << steps;
+  }
+}
+
+// In the palette that the rest of the picture has, in light and in the ground's shadow; `limit.backdrop`
+// takes it back.
+TEST_P(BackdropTest, isLimitedToThePalette) {
+  const Scene scene = ball();
+  const auto views = viewsFrom(scene, {{1, 3, 7}, {0, 0.6f, 0}, 50}, kWidth, kHeight, GetParam());
+  RenderOptions options = sized(kWidth, kHeight, {"id"});
+  options.background = picture(kWidth, kHeight, false);
+  const auto toLinear = [](uint32_t code) {
+    glm::dvec3 linear;
+    for (int c = 0; c < 3; ++c) {
+      const double s = double(code >> (16 - 8 * c) & 255) / 255;
+      linear[c] = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+    }
+    return linear;
+  };
+  std::vector<glm::dvec3> palette;
+  for (const uint32_t code : builtInPalette(kFirstBuiltIn + 1)) palette.push_back(toLinear(code));
+  const Knobs limited{{"limit.palette", "dusk"}, {"warp.amount", "0"}};
+  const auto drawn = [&](Knobs knobs, const Knobs& more) {
+    knobs.insert(knobs.end(), more.begin(), more.end());
+    return draw(scene, pictureLook(knobs), views, options);
+  };
+  for (const char* ground : {"on", "off"}) {
+    const Frame all = drawn(limited, {{"ground.mode", ground}}),
+                none = drawn(limited, {{"ground.mode", ground}, {"limit.backdrop", "0"}}),
+                plain = drawn({{"warp.amount", "0"}}, {{"ground.mode", ground}});
+    for (size_t v = 0; v < viewCount(); ++v) {
+      size_t count = 0, inPalette = 0, before = 0, same = 0;
+      std::vector<bool> used(palette.size());
+      for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+          if (texel(aov(all, "id", v), x, y).x != 0) continue;
+          ++count;
+          const auto nearest = [&](const Frame& frame) {
+            double least = 1e9;
+            for (size_t i = 0; i < palette.size(); ++i) {
+              const double away = glm::distance(glm::dvec3(texel(aov(frame, "", v), x, y)), palette[i]);
+              least = std::min(least, away);
+              if (&frame == &all && away < 0.004) used[i] = true;
+            }
+            return least < 0.004;
+          };
+          inPalette += nearest(all), before += nearest(none);
+          same += texel(aov(none, "", v), x, y) == texel(aov(plain, "", v), x, y);
+        }
+      EXPECT_GT(count, 3000u);
+      EXPECT_GT(double(inPalette), 0.8 * double(count)) << ground;
+      EXPECT_LT(double(before), 0.3 * double(count)) << ground;
+      EXPECT_GE(std::count(used.begin(), used.end(), true), 2) << ground;
+      if (std::string(ground) == "off") {
+        EXPECT_EQ(same, count);
+      }
+    }
   }
 }
 

@@ -5,6 +5,7 @@
 #include "passes/color/color_knobs.h"
 #include "passes/final_color/final_color.shared.h"
 #include "passes/final_color/final_color_knobs.h"
+#include "passes/limit/limit_knobs.h"
 #include "passes/surface/surface_knobs.h"
 #include "passes/warp/warp_knobs.h"
 #include "shaders/final_color_image_comp.h"
@@ -19,14 +20,13 @@ using namespace frame;
 namespace {
 
 // What the shader decides by.
-uint32_t backdropFeatures(const BackdropInput* backdrop) {
-  if (!backdrop) return 0;
-  const shared::Backdrop& b = backdrop->uniforms;
+uint32_t backdropFeatures(const shared::Backdrop& b) {
   return shared::kBackdropIsThere | (b.minified > 0 ? shared::kBackdropMinified : 0) |
          (b.radius > 0 ? shared::kBackdropSimplified : 0) |
          (b.radius > 0 && b.radius < 1 ? shared::kBackdropMixed : 0) |
          (b.style > 0 ? shared::kBackdropStyled : 0) | (b.steps > 0 ? shared::kBackdropStepped : 0) |
-         (b.warp == 1 ? shared::kBackdropTornNear : 0) | (b.warp == 2 ? shared::kBackdropTorn : 0);
+         (b.limited > 0 ? shared::kBackdropLimited : 0) | (b.warp == 1 ? shared::kBackdropTornNear : 0) |
+         (b.warp == 2 ? shared::kBackdropTorn : 0);
 }
 
 class FinalColor : public Pass {
@@ -168,6 +168,10 @@ class FinalColor : public Pass {
       uniforms.backdrop.tearSize = {width, width * float(example.height) / float(example.width)};
       uniforms.backdrop.tearShift = patternShift(input.seed);
       picture = input.backdrop->image;
+      const LimitParams limit = input.knobs.scene<LimitParams>();
+      uniforms.backdrop.lightness = limit.lightness;
+      const bool isLimited = writePalette(limit, uniforms.backdrop.palette) > 0;
+      uniforms.backdrop.limited = isLimited ? limit.amount * limit.backdrop : 0.0f;
     }
     const uint32_t ripple = uint32_t(params.ripple);
     const uint32_t glows = variant_ & kBlooms ? shared::kFinalColorGlows : 0;
@@ -175,7 +179,7 @@ class FinalColor : public Pass {
     const std::vector<ImageStep::Texture> textures{
         {shared::kFinalColorBackdrop, picture, onSphere_ ? kSphereSampler : kPictureSampler},
         {shared::kFinalColorTear, &example.image, ExampleTextures::kSampler}};
-    const uint32_t backdrop = backdropFeatures(input.backdrop);
+    const uint32_t backdrop = input.backdrop ? backdropFeatures(uniforms.backdrop) : 0;
     std::vector<ImageStep::Job> jobs{{{glows, ripple, backdrop}, textures}};
     if (variant_ & kTears) {
       jobs[0].where = {shared::kTileTorn, 0};

@@ -15,7 +15,8 @@ layout(set = 1, binding = kLimitWarp) uniform sampler2DArray warp;
 layout(set = 1, binding = kLimitDepth) uniform sampler2DArray depth;
 layout(set = 1, binding = kLimitStrokes) uniform sampler2D strokes;
 
-#include "nearest_color.glsl"
+#define PALETTE u.colors
+#include "../../shading/nearest_color.glsl"
 
 // Half of the most that an edge may be wide, of the way from one colour to another.
 const float kWidest = 0.1;

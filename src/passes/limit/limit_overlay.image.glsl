@@ -9,7 +9,8 @@ layout(constant_id = 0) const int kColors = 16;         // the palette's, rounde
 layout(constant_id = 1) const bool kIsOpaque = false;  // paint: it covers or it does not, or mixtures would show
 layout(set = 1, binding = 0, scalar) uniform Block { LimitOverlayUniforms u; };
 layout(set = 1, binding = kLimitOverlay) uniform sampler2DArray overlay;
-#include "nearest_color.glsl"
+#define PALETTE u.colors
+#include "../../shading/nearest_color.glsl"
 
 // Steepness of the coverage of opaque paint, around a half: edges stay about as wide as a pixel.
 const float kSteepness = 4.0;
