@@ -131,6 +131,7 @@ TEST(LookMaterials, knobsAreRefusedWhereTheyDoNotHold) {
       const char* reason = row.block->targets & look::kScene         ? "for the whole scene"
                            : row.block->targets & look::kColorizers  ? "for colorizers"
                            : row.block->targets & look::kDecorations ? "for decorations"
+                           : row.block->targets & look::kMaterials   ? "for materials"
                            : row.block->targets & look::kNodes       ? "for nodes"
                                                                      : "for clips";
       EXPECT_NE(status.error().message().find(reason), std::string::npos) << status.error().message();

@@ -17,6 +17,7 @@ TEST(OceanFeature, structsStartWithTheirRowsDefaults) {
   test::expectRowsDefaults<OceanPaintParams>(seen);
   test::expectRowsDefaults<OceanMetaTextureParams>(seen);
   test::expectRowsDefaults<FloatParams>(seen);
+  test::expectRowsDefaults<DrapeParams>(seen);
   const frame::FeatureParts parts = makeFeature();
   EXPECT_EQ(std::set(parts.blocks.begin(), parts.blocks.end()), seen);
 }
