@@ -81,9 +81,13 @@ TEST_F(ServeMemory, writesWithinASpanAndNowhereElse) {
   expected.replace(10, 3, "abc"), expected[23] = 'z';
   EXPECT_EQ(contentOf(path()), expected);
   const std::string much(40, 'y');
-  for (const auto& [at, size] :
-       {std::pair<uint64_t, uint64_t>{0, 17}, {1, 16}, {15, 2}, {16, 1}, {17, 0}, {~uint64_t(0), 2}})
-    EXPECT_NE(refusal([&] { memory.write(range, at, much.data(), size); }), "") << at << ", " << size;
+  struct Span {
+    uint64_t at, size;
+  };
+  for (const Span& span :
+       {Span{0, 17}, Span{1, 16}, Span{15, 2}, Span{16, 1}, Span{17, 0}, Span{~uint64_t(0), 2}})
+    EXPECT_NE(refusal([&] { memory.write(range, span.at, much.data(), span.size); }), "")
+        << span.at << ", " << span.size;
   EXPECT_EQ(contentOf(path()), expected) << "or longer";
 }
 
