@@ -55,7 +55,7 @@ TEST_F(ServeMemory, spansLieWithinWhatIsShared) {
     const auto range = [&] { memory.rangeOf(span(c.offset, c.count), "here", 4); };
     EXPECT_EQ(refusal(range).empty(), c.lies) << c.offset << ", " << c.count;
   }
-  // What lies beyond all numbers of bytes is refused as a number.
+  // Offsets beyond all numbers of bytes are refused as numbers.
   for (const uint64_t much : {kMost + 1, uint64_t(1) << 60})
     EXPECT_NE(refusal([&] { memory.rangeOf(span(much, 1), "here", 4); }), "") << much;
   EXPECT_NE(refusal([&] { memory.rangeOf(span(0, kMost), "here", 4); }), "");
@@ -65,7 +65,7 @@ TEST_F(ServeMemory, readsWhatLiesThere) {
   putContent(path(), "0123456789abcdef" + std::string(kFile - 16, 'x'));
   const std::vector<uint8_t> got = memory.read<uint8_t>(span(10, 4), "here");
   EXPECT_EQ(std::string(got.begin(), got.end()), "abcd");
-  // Of so many as were asked for, where the reference does not say.
+  // Where the reference gives no count, the caller does.
   EXPECT_EQ(memory.read<uint8_t>({{"memory", "m"}}, "here", 3).size(), 3u);
   EXPECT_EQ(refusal([&] {
               memory.read<uint8_t>({{"memory", "other"}}, "here", 3);

@@ -64,7 +64,7 @@ TEST(ServeMembers, areTakenAndRefusedAtTheirBounds) {
     };
     for (const json& value : c.taken) EXPECT_EQ(refusal({{"x", value}}), "") << c.what << " " << value;
     for (const json& value : c.refused) EXPECT_EQ(refusal({{"x", value}}), "at.x") << c.what << " " << value;
-    // What is not there, or null, is so to all that may be left out.
+    // A member that is missing, or null, is so to all that may be left out.
     const bool isNeeded = std::string(c.what).starts_with("needed");
     for (const json& request : {json::object(), json{{"x", nullptr}}})
       EXPECT_EQ(refusal(request), isNeeded ? "at.x" : "") << c.what;

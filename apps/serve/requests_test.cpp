@@ -31,7 +31,7 @@ class ServeRequests : public ::testing::Test {
     in.to = -1;
     requests.read(in.from);
   }
-  // What has been answered since the last time, a line each; there must be some.
+  // Answers since the last time, a line each; there must be some.
   std::vector<json> answered() {
     char bytes[1 << 16];
     const ssize_t got = ::read(out.from, bytes, sizeof bytes);

@@ -20,8 +20,8 @@ namespace scumble::ocean {
 #define PARAMS_TARGETS look::kMaterials
 #include "look/define_params.h"
 
-// What of a scene lies on the water: what the look says of a material, else what the scene says of a node,
-// else what the material is called.
+// Meshes of a scene that lie on the water: as the look says of a material, else what the scene says of a
+// node, else what the material is called.
 struct Draped {
   enum class Role : uint8_t { byNode, byName, on, off };
   std::vector<Role> materials;

@@ -58,7 +58,7 @@ void main() {
       if (!kPositionsOnly) patternUvs[chunk.finalVertex + i] = place / kWaterPerPattern;
     }
     if (kWater == kDraped) {
-      // Where it is without features, and sheared up and down with the waves beneath it.
+      // Its place without features, sheared up and down with the waves beneath it.
       PosedVertex v = posedVertex(chunk, object, i);
       if (object.influences > 0) v.position = (object.model * vec4(v.position, 1.0)).xyz;
       vec2 place = v.position.xz - field.origin.xz;
