@@ -2,6 +2,7 @@
 #ifndef SCUMBLE_BACKDROP_SHARED_H
 #define SCUMBLE_BACKDROP_SHARED_H
 #include "frame.shared.h"
+#include "palette.shared.h"
 #include "shared_types.h"
 
 SHARED_BEGIN
@@ -16,7 +17,6 @@ const int kBackdropLimited = 256;  // in the colours of a palette
 const int kBackdropTornNear = 32;  // where something is near
 const int kBackdropTorn = 64;      // everywhere
 
-const int kMaxBackdropColors = 16;
 struct Backdrop {
   vec2 scale;                      // texture coordinates per part of the frame, from the middle of both
   float minified;                  // 0 to 1: how much finer than a pixel its texels are, up to half a pixel
@@ -35,7 +35,7 @@ struct Backdrop {
   ColorMap lit;                    // the palette rule in light
   ColorMap shadowed, litShadowed;  // in shadow, for its own colours, and for those that went through the rule
   float lightness;                 // that palette: OKLab with L multiplied by this; the last one repeated
-  vec3 palette[kMaxBackdropColors];
+  vec3 palette[kMaxPaletteColors];
 };
 SHARED_END
 #endif

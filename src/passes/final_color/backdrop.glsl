@@ -50,7 +50,7 @@ vec3 pictureStepped(vec3 color) {
 }
 
 // In the colours of a palette.
-const int kColors = kMaxBackdropColors;
+const int kColors = kMaxPaletteColors;
 #define PALETTE u.backdrop.palette
 #include "../../shading/nearest_color.glsl"
 vec3 pictureLimited(vec3 color) {

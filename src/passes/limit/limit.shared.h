@@ -1,5 +1,6 @@
 #ifndef SCUMBLE_LIMIT_SHARED_H
 #define SCUMBLE_LIMIT_SHARED_H
+#include "../../shading/palette.shared.h"
 #include "../../shading/shared_types.h"
 #ifdef __cplusplus
 #include "passes/limit/limit_knobs.h"
@@ -18,7 +19,6 @@ struct LimitParams {
 const int kLimitColor = 1, kLimitWarp = 2, kLimitDepth = 3, kLimitStrokes = 4;
 const int kMendColor = 1, kMendLimited = 2;
 
-const int kMaxPaletteColors = 16;
 // Binding and block for overlays.
 const int kLimitOverlay = 1;
 struct LimitOverlayUniforms {
