@@ -260,7 +260,8 @@ void OceanWaves::pose(const look::LookData& look, double time, const Travelled& 
     }
     zones_ = now->zones_;
     for (shared::WaterZone& zone : zones_) zone.center += slid_;
-    putZones();
+    basins_ = now->basins_;
+    putAround();
   } else {
     decorations_ = placeDecorations(decorationsOf(*scene_, look, floating_), *scene_,
                                     playedClips(*scene_, look), time, shape_.origin, travelled);
@@ -276,8 +277,10 @@ void OceanWaves::pose(const look::LookData& look, double time, const Travelled& 
   // The points.
   auto* points = reinterpret_cast<shared::OceanPoint*>(buffer_.contents() + sizeof(shared::OceanField));
   reach_ = glm::vec3(0.0f);
+  highest_ = 0;
   for (size_t i = 0; i < field_.displacement.size(); ++i) {
     const glm::vec4& d = field_.displacement[i];
+    highest_ = std::max(highest_, d.y);
     points[i] = {glm::vec3(d), d.w, field_.normals[i]};
     reach_ = glm::max(reach_, glm::abs(glm::vec3(d)));
   }
@@ -301,17 +304,23 @@ bool OceanWaves::place(gpu::Uploader& uploader, const std::vector<GeometryItem>&
 
 void OceanWaves::posed(const SceneMotion& motion) {
   zones_ = draped_.at(motion, drapes_, reach_, shape_.origin);
-  putZones();
-  if (hulls_.isEmpty()) return;
-  hulls_.pose(
-      motion, [this](const glm::vec3& at) { return seaAt(at); }, *cutouts_.as<shared::Cutouts>());
+  basins_.clear();
+  if (!hulls_.isEmpty()) {
+    // A cell's diagonal, as far as waves draw it out.
+    const float triangle = 1.5f * shape_.cell() + std::min(std::hypot(reach_.x, reach_.z), shape_.cell());
+    const Hulls::Waves waves{shape_.origin, highest_, -reach_.y, triangle,
+                             [this](const glm::vec3& at) { return seaAt(at); }};
+    hulls_.pose(motion, waves, *cutouts_.as<shared::Cutouts>(), basins_);
+  }
+  putAround();
 }
 
-void OceanWaves::putZones() {
-  if (zones_.empty()) return;
+void OceanWaves::putAround() {
   auto* const header = buffer_.as<shared::OceanField>();
   header->zoneCount = int(zones_.size());
   std::copy(zones_.begin(), zones_.end(), header->zones);
+  header->basinCount = int(basins_.size());
+  std::copy(basins_.begin(), basins_.end(), header->basins);
 }
 
 std::optional<FeatureMoment::CutoutBuffers> OceanWaves::cutouts() const {

@@ -127,8 +127,8 @@ class OceanWaves : public FeatureMoment {
   const gpu::PerFrameBuffer& buffer() const { return buffer_; }
 
  private:
-  // For shaders, which know of none otherwise.
-  void putZones();
+  // What there is around objects, for shaders, which know of none otherwise.
+  void putAround();
   // Where a decoration's mesh is; empty where it draws nothing.
   scene::Bounds decorationBounds(size_t decoration) const;
   // Begins anew after a power of two, at which all scales of a pattern repeat: numbers stay fine.
@@ -150,6 +150,8 @@ class OceanWaves : public FeatureMoment {
   std::vector<shared::WaterDecoration> decorations_;
   DrapedZones draped_;
   std::vector<shared::WaterZone> zones_;
+  std::vector<shared::WaterBasin> basins_;
+  float highest_ = 0;                // wave above calm water, metres
   std::vector<DrapeParams> drapes_;  // by the scene's materials, in the pose
   Hulls hulls_;
   gpu::PerFrameBuffer cutouts_;  // shared::Cutouts; only with hulls

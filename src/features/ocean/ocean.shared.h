@@ -49,6 +49,20 @@ struct WaterZone {
   float room;   // factor on how far the mesh is pushed down
 };
 
+// The water around a hull is no higher than its rim, and rises from there: what is cut out of it within
+// (hulls/hulls.h) would else have no side where it ends (paper 000, section 6.2: the base mesh is pushed down
+// around the boat).
+const int kMaxBasins = 16, kBasinPoints = 24;
+const float kBasinSlope = 0.7f;
+struct WaterBasin {
+  int count;     // of points
+  float margin;  // metres around a point of the rim within which water is no higher than that
+  float most;    // metres that water is taken down at most
+  vec2 center;  // a circle around all that is taken down: metres from the middle of calm water, along x and z
+  float reach;  // its radius, metres
+  vec3 rim[kBasinPoints];  // metres from the middle of calm water
+};
+
 struct OceanField {
   ivec2 first;               // the grid point at which the mesh's corner point of the middle tile is
   ivec2 travelled;           // points by which the water has slid, from 0 to the grid
@@ -64,6 +78,8 @@ struct OceanField {
   WaterDecoration decorations[kMaxDecorations];
   int zoneCount;
   WaterZone zones[kMaxZones];
+  int basinCount;
+  WaterBasin basins[kMaxBasins];
 };
 
 SHARED_END

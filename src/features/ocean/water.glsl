@@ -193,6 +193,23 @@ float pushedDown(Decorated here) {
   return field.push * max(1.0 - smoothstep(1.5, 2.5, here.outside / field.cell), here.room);
 }
 
+// How far hulls take water down whose surface is there: metres from the middle of calm water.
+float takenDown(vec3 surface) {
+  float down = 0.0;
+  for (int index = 0; index < field.basinCount; ++index) {
+    bool isNear = length(surface.xz - field.basins[index].center) < field.basins[index].reach;
+    for (; isNear; isNear = false) {
+      float limit = 1e9;
+      for (int i = 0; i < field.basins[index].count; ++i) {
+        vec3 rim = field.basins[index].rim[i];
+        limit = min(limit, rim.y + kBasinSlope * max(length(surface.xz - rim.xz) - field.basins[index].margin, 0.0));
+      }
+      down = max(down, clamp(surface.y - limit, 0.0, field.basins[index].most));
+    }
+  }
+  return down;
+}
+
 // From a decoration's mesh to its place. Of a wake: how far along it, from 0 to 1, and across, from -1 to 1; of the
 // others the same in polar coordinates, outward and around. The outer part of the mesh lies where nothing is drawn.
 vec2 decorationPlace(int index, vec2 local) {

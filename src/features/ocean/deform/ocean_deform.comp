@@ -32,6 +32,7 @@ void main() {
       float whole = wavesWhole(length(place));
       core.position += whole * point.displacement;
       core.position.y -= (1.0 - whole) * field.sink;
+      core.position.y -= takenDown(core.position - field.origin);
       if (field.decorationCount + field.zoneCount > 0) core.position.y -= pushedDown(decoratedAt(place));
       normal = smoothNormal = normalize(mix(vec3(0.0, 1.0, 0.0), point.normal, whole));
       vec2 slopes = -normal.xz / max(normal.y, 0.2);
@@ -44,8 +45,10 @@ void main() {
       float whole = wavesWhole(length(place));
       OceanPoint point = wavesAt(place);
       Decorated here = decoratedAt(place);
-      core.position = field.origin + vec3(place.x, 0.0, place.y) + whole * point.displacement + here.displacement;
-      core.position.y -= (1.0 - whole) * field.sink;
+      vec3 surface = vec3(place.x, 0.0, place.y) + whole * point.displacement;
+      surface.y -= (1.0 - whole) * field.sink;
+      surface.y -= takenDown(surface);
+      core.position = field.origin + surface + here.displacement;
       const float kStep = 0.03;  // metres
       vec3 alongX = vec3(kStep, 0.0, 0.0) + decoratedAt(place + vec2(kStep, 0.0)).displacement - here.displacement;
       vec3 alongZ = vec3(0.0, 0.0, kStep) + decoratedAt(place + vec2(0.0, kStep)).displacement - here.displacement;
@@ -64,8 +67,10 @@ void main() {
       vec2 place = v.position.xz - field.origin.xz;
       float whole = wavesWhole(length(place));
       OceanPoint point = wavesAt(place);
+      float sinks = (1.0 - whole) * field.sink;
+      vec3 surface = vec3(place.x, -sinks, place.y) + whole * point.displacement;
       v.position += whole * point.displacement;
-      v.position.y += kDrapedLift - (1.0 - whole) * field.sink;
+      v.position.y += kDrapedLift - sinks - takenDown(surface);
       vec3 wave = mix(vec3(0.0, 1.0, 0.0), point.normal, whole);
       vec2 slopes = -wave.xz / max(wave.y, 0.2);
       v.normal = normalize(v.normal);

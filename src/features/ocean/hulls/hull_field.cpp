@@ -41,6 +41,20 @@ glm::mat4 turnOf(std::span<const Triangle> triangles) {
   return best;
 }
 
+// Some of these points, each the farthest one from all before it: so many of the first ones as one likes lie
+// all over them.
+std::vector<glm::vec3> spread(const std::vector<glm::vec3>& points, size_t most) {
+  std::vector<glm::vec3> chosen;
+  std::vector<float> away(points.size(), std::numeric_limits<float>::infinity());
+  for (size_t next = 0; chosen.size() < std::min(most, points.size());) {
+    chosen.push_back(points[next]);
+    for (size_t i = 0; i < points.size(); ++i)
+      away[i] = std::min(away[i], glm::distance(points[i], chosen.back()));
+    next = size_t(std::max_element(away.begin(), away.end()) - away.begin());
+  }
+  return chosen;
+}
+
 class Vessel {
  public:
   Vessel(std::span<const Triangle> triangles, const glm::vec3& least, const glm::vec3& most, int budget)
@@ -271,8 +285,7 @@ HullField Vessel::field(const glm::mat4& turn, bool isOpen) {
         if (topAt(x, z) >= 0 &&
             std::min({topAt(x - 1, z), topAt(x + 1, z), topAt(x, z - 1), topAt(x, z + 1)}) < 0)
           rim.emplace_back(x, topAt(x, z), z);
-    const size_t step = rim.size() / kMostOfRim + 1;
-    for (size_t i = 0; i < rim.size(); i += step) field.rim.push_back(rim[i]);
+    field.rim = spread(rim, kMostOfRim);
   }
   for (const float distance : distances)
     field.within.push_back(int8_t(std::lround(127.0f * distance / shared::kCutoutReach)));

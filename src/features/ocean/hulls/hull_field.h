@@ -18,8 +18,9 @@ struct HullField {
   glm::mat4 toPoints{1};  // from where the triangles are, to numbers of points
   // Cells to the mesh, above 0 within: 127 are kCutoutReach.
   std::vector<int8_t> within;
-  float top = 0;               // the highest point of the inside, below its rim
-  std::vector<glm::vec3> rim;  // numbers of points; some of those along it
+  float top = 0;  // the highest point of the inside, below its rim
+  // Numbers of points; some of those along it, the first few of which lie all around it as well.
+  std::vector<glm::vec3> rim;
 
   int8_t at(const glm::ivec3& point) const {
     return within[(size_t(point.y) * size_t(size.z) + size_t(point.z)) * size_t(size.x) + size_t(point.x)];

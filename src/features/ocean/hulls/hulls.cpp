@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <limits>
+#include <optional>
+#include <span>
 
 #include "features/ocean/extras.h"
 #include "scene/parallel.h"
@@ -46,6 +49,36 @@ glm::mat4 uprightOf(const glm::mat4& rest) {
   const glm::vec3 axis(-up.z, 0, up.x);
   if (glm::length(axis) > 1e-6f) turn = glm::rotate(turn, std::acos(std::min(up.y, 1.0f)), axis);
   return turn * glm::translate(glm::mat4(1.0f), -glm::vec3(rest[3]));
+}
+
+// None where no wave is as high as its rim. `most`: how far it may take water down, metres.
+std::optional<shared::WaterBasin> basinAround(std::span<const glm::vec3> rim, float most,
+                                              const Hulls::Waves& waves) {
+  if (rim.empty() || !(most > 0)) return std::nullopt;
+  shared::WaterBasin basin{};
+  basin.count = int(std::min(rim.size(), size_t(shared::kBasinPoints)));
+  basin.most = most;
+  const auto flat = [](const glm::vec3& at) { return glm::vec2(at.x, at.z); };
+  float lowest = rim[0].y, apart = 0;
+  glm::vec2 least(flat(rim[0])), greatest(least);
+  for (const glm::vec3& point : rim) {
+    float nearest = std::numeric_limits<float>::infinity();
+    for (int i = 0; i < basin.count; ++i)
+      nearest = std::min(nearest, glm::distance(flat(point), flat(rim[size_t(i)])));
+    apart = std::max(apart, nearest);
+    lowest = std::min(lowest, point.y);
+    least = glm::min(least, flat(point)), greatest = glm::max(greatest, flat(point));
+  }
+  if (!(waves.highest > lowest)) return std::nullopt;
+  for (int i = 0; i < basin.count; ++i) {
+    basin.rim[i] = rim[size_t(i)];
+    basin.rim[i].y = std::max(basin.rim[i].y, waves.lowest);
+  }
+  basin.margin = waves.triangle + apart;
+  basin.center = 0.5f * (least + greatest);
+  basin.reach = 0.5f * glm::distance(least, greatest) + basin.margin +
+                (waves.highest - std::max(lowest, waves.lowest)) / shared::kBasinSlope;
+  return basin;
 }
 
 bool canInvert(const glm::mat4& matrix) {
@@ -226,9 +259,10 @@ bool Hulls::place(gpu::Uploader& uploader, const std::function<void()>& settle) 
   return true;
 }
 
-void Hulls::pose(const SceneMotion& motion, const std::function<float(const glm::vec3&)>& seaAt,
-                 shared::Cutouts& cutouts) const {
+void Hulls::pose(const SceneMotion& motion, const Waves& waves, shared::Cutouts& cutouts,
+                 std::vector<shared::WaterBasin>& basins) const {
   cutouts.count = 0;
+  basins.clear();
   for (const Hull& hull : hulls_) {
     const glm::mat4 now = hull.joint >= 0 ? motion.joints(hull.item)[hull.joint] : motion.model(hull.item);
     if (!canInvert(now)) continue;
@@ -238,13 +272,15 @@ void Hulls::pose(const SceneMotion& motion, const std::function<float(const glm:
 
     // How far its rim stands out of the sea at most. Below it is sunk, and the sea closes over it.
     float standsOut = field.rim.empty() ? 1.0f : -1e30f;
+    std::vector<glm::vec3> rim;
     for (const glm::vec3& point : field.rim) {
       const glm::vec3 at = toWorld * glm::dvec4(point, 1.0);
-      standsOut = std::max(standsOut, at.y - seaAt(at));
+      standsOut = std::max(standsOut, at.y - waves.heightAt(at));
+      rim.push_back(at - waves.origin);
     }
     if (!(standsOut > 0)) continue;
-    // Waves that are higher than the rim elsewhere end above it, as if they stood against a wall: not where
-    // it lies on its side.
+    // Waves that are higher than the rim elsewhere are taken down to it, and end above it where that is not
+    // enough: not where it lies on its side.
     constexpr float kWall = 8;
     const glm::vec3 up = toWorld[1];
     const float cell = glm::length(up);
@@ -255,6 +291,7 @@ void Hulls::pose(const SceneMotion& motion, const std::function<float(const glm:
     cutout.size = field.size;
     cutout.ceiling = field.top + 1.0f + kWall * upright * standsOut / cell;
     cutout.first = hull.first;
+    if (const auto basin = basinAround(rim, kWall * upright * standsOut, waves)) basins.push_back(*basin);
   }
 }
 

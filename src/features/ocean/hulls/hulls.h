@@ -8,6 +8,7 @@
 
 #include "features/ocean/floating.h"
 #include "features/ocean/hulls/hull_field.h"
+#include "features/ocean/ocean.shared.h"
 #include "gpu/frames_in_flight.h"
 #include "shading/cutouts.shared.h"
 #include "world/geometry.h"
@@ -49,9 +50,18 @@ class Hulls {
   bool isEmpty() const { return hulls_.empty(); }
   const gpu::Buffer& points() const { return points_; }
 
-  // Where they are now. `seaAt`: height of the sea at a place of the world.
-  void pose(const world::SceneMotion& motion, const std::function<float(const glm::vec3&)>& seaAt,
-            shared::Cutouts& cutouts) const;
+  // The waves around them: the middle of calm water, the highest and the lowest that water may be above that,
+  // and metres from a point of the ocean's mesh to the farthest one of the same triangle. `heightAt`: the
+  // sea's, at a place of the world.
+  struct Waves {
+    glm::vec3 origin;
+    float highest, lowest, triangle;
+    std::function<float(const glm::vec3&)> heightAt;
+  };
+  // Where they are now: what they cut out of the sea, and how the sea lies around them, for those that a wave
+  // may reach over.
+  void pose(const world::SceneMotion& motion, const Waves& waves, shared::Cutouts& cutouts,
+            std::vector<shared::WaterBasin>& basins) const;
 
  private:
   // A mesh of a hull, at rest; where it is drawn, from the place of the first one.

@@ -101,11 +101,21 @@ class Hulls : public BothEyes {
   }
   static Frame drawSea(const Scene& scene, const Look& look, const Stand& stand = {{1, 15, 4}, {0, 0, 0}, 50},
                        double time = 1.5) {
-    Result<Frame> frame =
-        renderer().render(scene, look, time, viewsFrom(scene, stand, kHullWidth, kHullHeight, GetParam()),
-                          sized(kHullWidth, kHullHeight, {"position", "id", "shadow"}));
+    return drawSea(scene, look, viewsFrom(scene, stand, kHullWidth, kHullHeight, GetParam()), time);
+  }
+  static Frame drawSea(const Scene& scene, const Look& look, const std::vector<View>& views, double time) {
+    Result<Frame> frame = renderer().render(scene, look, time, views,
+                                            sized(kHullWidth, kHullHeight, {"position", "id", "shadow"}));
     if (!frame) throw std::runtime_error(frame.error().message());
     return std::move(frame).value();
+  }
+  // The same places by a parallel projection.
+  static std::vector<View> parallelFrom(const Scene& scene, const Stand& stand) {
+    std::vector<View> views = viewsFrom(scene, stand, kHullWidth, kHullHeight, GetParam());
+    const float half = glm::distance(stand.eye, stand.target) * std::tan(glm::radians(0.5f * stand.fov));
+    for (View& view : views)
+      view.eyeToClip = orthographicProjection(half, float(kHullWidth) / kHullHeight, 0.1f, 100);
+    return views;
   }
   static int oceanOf(const Scene& scene) { return int(scene.data().nodes.size()) + 2; }
   // Visits places of the sea that are seen: view, and where in the world.
@@ -168,7 +178,8 @@ TEST_P(Hulls, keepTheSeaOut) {
       lost += !isIn && texel(aov(dry, "id", v), x, y) != texel(aov(full, "id", v), x, y);
       holes += isBelowRim && texel(aov(dry, "id", v), x, y).x == 0;
     });
-    EXPECT_EQ(lost, 0u) << what;
+    // But where it lies lower beside a rim that it would else reach over.
+    EXPECT_LE(lost, 4 * viewCount()) << what;
   }
   std::cout << "sea in four boats: " << before
             << " pixels in seven poses without hulls, none with them; seen "
@@ -225,6 +236,56 @@ TEST_P(Hulls, keepTheSeaOutInAStorm) {
     }
   }
   EXPECT_GT(before, 1000u);
+}
+
+// Waves may stand higher than a rim that is not above them, and are cut out of what is within it: nothing is
+// seen between the rim and where they end, from nowhere around.
+TEST_P(Hulls, nothingIsSeenBelowWavesBesideARim) {
+  NOT_WITH_SANITIZERS();
+  NEEDS_FINE_RASTER();
+  const std::vector<HullShape> shapes = vesselShapes();
+  size_t sea = 0, holes = 0;
+  for (const char* speed : {"0", "3"}) {
+    const Look storm = look({{"ocean.wind", "12"}, {"ocean.speed", speed}, {"ocean.heading", "90"}}),
+               full = look({{"ocean.wind", "12"},
+                            {"ocean.speed", speed},
+                            {"ocean.heading", "90"},
+                            {"ocean.hulls", "off"}});
+    for (const BoatPose& pose : {BoatPose{}, BoatPose{10, 0, 40, -0.15f}, BoatPose{0, 5, 200, 0.1f}}) {
+      const Scene scene = fleet(shapes, pose).load();
+      for (const Stand& stand : {Stand{{1, 15, 4}, {0, 0, 0}, 50}, Stand{{-9, 6, 9}, {0, 0, 0}, 50}})
+        for (const double time : {0.3, 1.1, 2.6}) {
+          const Frame dry = drawSea(scene, storm, stand, time), wet = drawSea(scene, full, stand, time);
+          forSea(scene, wet, [&](size_t v, int x, int y, const glm::dvec3&) {
+            ++sea;
+            holes += texel(aov(dry, "id", v), x, y).x == 0;
+          });
+        }
+    }
+  }
+  EXPECT_GT(sea, 100000u);
+  // But for single pixels at edges, a twentieth of what there was before the sea lay lower around a rim.
+  EXPECT_LE(holes, sea / 10000);
+}
+
+// As by perspective, by a parallel projection.
+TEST_P(Hulls, keepTheSeaOutOfParallelViews) {
+  NEEDS_FINE_RASTER();
+  const std::vector<HullShape> shapes = vesselShapes();
+  const Look off = look({{"ocean.hulls", "off"}}), on = look();
+  for (const BoatPose& pose : {kBoatPoses[0], kBoatPoses[3], kBoatPoses[7], kBoatPoses[12]}) {
+    const Scene scene = fleet(shapes, pose).load();
+    std::vector<glm::mat4> matrices;
+    for (size_t i = 0; i < shapes.size(); ++i) matrices.push_back(pose.at(kBerths[i]));
+    for (const Stand& stand : {Stand{{1, 15, 4}, {0, 0, 0}, 50}, Stand{{-9, 8, 9}, {0, 0, 0}, 50}}) {
+      const std::vector<View> views = parallelFrom(scene, stand);
+      // Pixels are as large everywhere as in the middle of the other view.
+      const float sliver = 0.1f;
+      EXPECT_GT(inside(scene, drawSea(scene, off, views, 1.5), shapes, matrices, sliver), 100u * viewCount());
+      EXPECT_EQ(inside(scene, drawSea(scene, on, views, 1.5), shapes, matrices, sliver), 0u)
+          << "heel " << pose.heel << ", pitch " << pose.pitch << ", yaw " << pose.yaw;
+    }
+  }
 }
 
 // Its rim below the water all around, a boat is sunk, and the sea closes over it.
