@@ -1,8 +1,10 @@
 // The colour of a pixel, or of one of its samples: lit and shadowed colours mixed by the final shadow, in the air, over the
 // sky. Whoever includes it has a SurfaceColors `colors` and the images `finalShadow`, `lit`, `shadowed` and `depth`; with
-// MULTISAMPLED also `sampleLight`, `litSamples`, `shadowedSamples` and `depthSamples`, and hasGlowColor().
+// MULTISAMPLED also `sampleLight`, `litSamples`, `shadowedSamples` and `depthSamples`, and hasGlowColor(). kHasBlended says
+// whether there are blended surfaces in air, which then are in the images `blended` and `blendedDistance`.
 #ifndef SCUMBLE_SURFACE_COLOR_GLSL
 #define SCUMBLE_SURFACE_COLOR_GLSL
+#include "blended_parts.glsl"
 #include "frame.glsl"
 #include "surface_color.shared.h"
 #include "sky.glsl"
@@ -23,11 +25,27 @@ vec4 surfaceColor(vec4 litRoot, vec4 shadowedRoot, float light, float glow) {
   return vec4(color, 1.0) * coverage;
 }
 
-// Where nothing has a depth, what is there is blended and lies somewhere before the sky: it is as if near.
-vec4 inAir(vec4 color, float depthValue, int layer) {
-  float distance = eyeDepth(depthValue, layer);
-  float part = depthValue > 0.0 ? colors.air * smoothstep(colors.airStart, colors.airEnd, distance) : 0.0;
-  return vec4(mix(color.rgb, colors.horizon * color.a, part), color.a);
+float airBefore(float distance) {
+  return colors.air * smoothstep(colors.airStart, colors.airEnd, distance);
+}
+
+// A surface, premultiplied, dissolved in the air before it; of blended ones and what shows through them each by itself.
+// Where nothing has a depth there are blended ones alone.
+vec4 inAir(vec4 color, float depthValue, ivec3 at) {
+  float part = depthValue > 0.0 ? airBefore(eyeDepth(depthValue, at.z)) : 0.0;
+  vec4 dissolved = vec4(mix(color.rgb, colors.horizon * color.a, part), color.a);
+  if (kHasBlended) {
+    vec4 front = texelFetch(blended, at, 0);
+    float near = airBefore(blendedDistanceOf(texelFetch(blendedDistance, at, 0)));
+    for (bool isThrough = front.a > 0.0 && near + part > 0.0; isThrough; isThrough = false) {
+      vec3 root = sqrt(color.rgb / max(color.a, 1e-6));
+      BlendedParts parts = blendedParts(root, color.a, front.rgb / max(front.a, 1e-6), front.a);
+      parts.before = sqrt(mix(parts.before * parts.before, colors.horizon, near));
+      parts.behind = sqrt(mix(parts.behind * parts.behind, colors.horizon, part));
+      dissolved.rgb = mixedColor(parts) * color.a;
+    }
+  }
+  return dissolved;
 }
 
 #ifdef MULTISAMPLED
@@ -38,7 +56,7 @@ vec4 sampleColor(vec4 litRoot, ivec3 at, int number, float depthValue) {
   float light = texelFetch(sampleLight, at, 0)[number];
   // Of the samples' light the pixel's glow is a part as well.
   float glow = hasGlowColor() ? min(texelFetch(finalShadow, at, 0).b, light) : 0.0;
-  return inAir(surfaceColor(litRoot, texelFetch(shadowedSamples, at, number), light, glow), depthValue, at.z);
+  return inAir(surfaceColor(litRoot, texelFetch(shadowedSamples, at, number), light, glow), depthValue, at);
 }
 #endif
 
@@ -71,7 +89,7 @@ vec4 colorOf(ivec2 pixel, int layer, int part) {
   if (part != kPartDark) shadow = texelFetch(finalShadow, at, 0);
   vec4 color = surfaceColor(litRoot, shadowedRoot, shadow.r, shadow.b);
   if (part == kPartDark) return vec4(color.rgb, 1.0);
-  color = inAir(color, texelFetch(depth, at, 0).r, layer);
+  color = inAir(color, texelFetch(depth, at, 0).r, at);
   return overSky(color, place, layer);
 }
 #endif

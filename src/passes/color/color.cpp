@@ -78,21 +78,25 @@ class Color : public Pass {
   std::span<const Aov> aovs() const override { return kAovs; }
 
   void declare(FrameBuilder& frame, uint32_t) override {
-    ImageStepDesc desc{.name = name(),
-                       .shader = {{shaders::color_image_frag}, {shaders::color_image_comp}},
-                       .inputs = {{shared::kColorLight, frame.get(kLight, layer_)},
-                                  {shared::kColorLit, frame.get(kLit, layer_)},
-                                  {shared::kColorShadowed, frame.get(kShadowed, layer_)},
-                                  {shared::kColorDepth, frame.get(kDepth, layer_)}},
-                       .tiles = frame.get(kTiles),
-                       .outputs = {frame.image(name(), {.format = kHalves})},
-                       .fetches = 4,
-                       .uniformBytes = sizeof(shared::SurfaceColors),
-                       .maxJobs = 5};
+    hasBlended_ = layer_ == Layer::first && frame.has(kBlended);
+    ImageStepDesc desc{
+        .name = name(),
+        .shader = {{shaders::color_image_frag}, {shaders::color_image_comp}},
+        .inputs = {{shared::kColorLight, frame.get(kLight, layer_)},
+                   {shared::kColorLit, frame.get(kLit, layer_)},
+                   {shared::kColorShadowed, frame.get(kShadowed, layer_)},
+                   {shared::kColorDepth, frame.get(kDepth, layer_)},
+                   {shared::kColorBlended, frame.get(hasBlended_ ? kBlended : kLit)},
+                   {shared::kColorBlendedDistance, frame.get(hasBlended_ ? kBlendedDistance : kLit)}},
+        .tiles = frame.get(kTiles),
+        .outputs = {frame.image(name(), {.format = kHalves})},
+        .fetches = hasBlended_ ? 6u : 4u,
+        .uniformBytes = sizeof(shared::SurfaceColors),
+        .maxJobs = 5};
     hasSamples_ = layer_ == Layer::first && frame.configuration().samples > 1;
     if (hasSamples_) {
       desc.shader = {{shaders::color_samples_image_frag}, {shaders::color_samples_image_comp}};
-      desc.fetches = 1 + 4 * 4;
+      desc.fetches = 1 + 4 * (hasBlended_ ? 6 : 4);
       const std::pair<int, const Role*> samples[] = {{shared::kColorSampleLight, &kSampleLight},
                                                      {shared::kColorLitSamples, &kLitSamples},
                                                      {shared::kColorShadowedSamples, &kShadowedSamples},
@@ -110,11 +114,11 @@ class Color : public Pass {
 
   void update(const FrameInput& input) override {
     const shared::SurfaceColors colors = surfaceColors(input, layer_);
-    std::vector<ImageStep::Job> jobs{{{shared::kPartAll}, {}}};
+    std::vector<ImageStep::Job> jobs{{{shared::kPartAll, 0}, {}}};
     if (layer_ == Layer::first) {
       jobs.clear();
       for (const auto& [part, where] : colorParts(input, hasSamples_))
-        jobs.push_back({{uint32_t(part)}, {}, where});
+        jobs.push_back({{uint32_t(part), hasBlended_}, {}, where});
     }
     step_.setJobs(jobs);
     for (size_t job = 0; job < jobs.size(); ++job) step_.update(colors, job);
@@ -124,7 +128,7 @@ class Color : public Pass {
   static constexpr Aov kAovs[] = {{.name = "color", .isColor = true, .premultiplied = 3}};
 
   Layer layer_;
-  bool hasSamples_ = false;
+  bool hasSamples_ = false, hasBlended_ = false;
   ImageStep step_;
 };
 

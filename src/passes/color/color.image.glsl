@@ -6,11 +6,14 @@
 #include "color.shared.h"
 
 layout(constant_id = 0) const int kPart = 0;  // kPartAll ...
+layout(constant_id = 1) const bool kHasBlended = false;
 layout(set = 1, binding = 0, scalar) uniform Block { SurfaceColors colors; };
 layout(set = 1, binding = kColorLight) uniform sampler2DArray finalShadow;
 layout(set = 1, binding = kColorLit) uniform sampler2DArray lit;
 layout(set = 1, binding = kColorShadowed) uniform sampler2DArray shadowed;
 layout(set = 1, binding = kColorDepth) uniform sampler2DArray depth;
+layout(set = 1, binding = kColorBlended) uniform sampler2DArray blended;
+layout(set = 1, binding = kColorBlendedDistance) uniform sampler2DArray blendedDistance;
 #ifdef MULTISAMPLED
 layout(set = 1, binding = kColorSampleLight) uniform sampler2DArray sampleLight;
 layout(set = 1, binding = kColorLitSamples) uniform sampler2DMSArray litSamples;

@@ -227,29 +227,43 @@ TEST_F(ColorTest, skyOfAParallelProjection) {
     }
 }
 
-// What is blended over an empty sky has no depth; it does not dissolve into the horizon as if it were as far.
-TEST_P(ColorTest, panesBeforeTheSkyAreNotInTheAir) {
-  const auto drawn = [&](const char* alphaMode, const char* air) {
+// What is blended dissolves into the horizon at its own distance, also where nothing lies behind it.
+TEST_P(ColorTest, panesAreInTheAirBeforeThem) {
+  constexpr float kOpacity = 0.6f;
+  const auto drawn = [&](const char* alphaMode, const char* air, bool isNear, uint32_t samples) {
     TestScene s;
-    nlohmann::json pane = TestScene::colored("Pane", {0.8f, 0.1f, 0.1f, 0.6f});
+    nlohmann::json pane = TestScene::unlit("Pane", {0.8f, 0.1f, 0.1f, kOpacity});
     pane["alphaMode"] = alphaMode;
     s.add(gridMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), s.material(pane));
-    // The air begins at the scene's centre, before the pane.
-    s.add(gridMesh({2, -1, 4}, {1, 0, 0}, {0, 2, 0}), s.material(TestScene::colored("Near", glm::vec4(1))));
+    // The air begins at the scene's centre: before the pane, or behind it.
+    s.add(gridMesh({2, -1, isNear ? -40 : 4}, {1, 0, 0}, {0, 2, 0}),
+          s.material(TestScene::colored("Other", glm::vec4(1))));
     const Scene scene = s.load();
-    return draw(
-        scene,
-        quietLook({{"background.air", air}, {"background.airStart", "0"}, {"background.airEnd", "0.5"}}),
-        viewsFrom(scene, {{0, 0, 9}}, kWidth, kHeight, GetParam()), sized(kWidth, kHeight, {"color"}));
-  };
-  const auto middles = [](const Frame& frame) {
+    const Frame frame =
+        draw(scene,
+             quietLook({{"background.air", air}, {"background.airStart", "0"}, {"background.airEnd", "0.5"}}),
+             viewsFrom(scene, {{0, 0, 9}}, kWidth, kHeight, GetParam()),
+             sized(kWidth, kHeight, {"color"}, samples));
     std::vector<glm::dvec4> colors;
     for (size_t v = 0; v < viewCount(); ++v)
       colors.push_back(texel(aov(frame, "color", v), kWidth / 2, kHeight / 2));
     return colors;
   };
-  EXPECT_EQ(middles(drawn("BLEND", "1")), middles(drawn("BLEND", "0")));
-  EXPECT_NE(middles(drawn("OPAQUE", "1")), middles(drawn("OPAQUE", "0")));
+  for (const uint32_t samples : {1u, 4u}) {
+    EXPECT_EQ(drawn("BLEND", "1", true, samples), drawn("BLEND", "0", true, samples));
+    const auto clear = drawn("BLEND", "0", false, samples), through = drawn("BLEND", "1", false, samples),
+               opaqueClear = drawn("OPAQUE", "0", false, samples),
+               opaque = drawn("OPAQUE", "1", false, samples);
+    for (size_t v = 0; v < viewCount(); ++v)
+      for (int c = 0; c < 3; ++c) {
+        // Of the sky as much as without air.
+        const double sky = (clear[v][c] - kOpacity * opaqueClear[v][c]);
+        EXPECT_NEAR(through[v][c], kOpacity * opaque[v][c] + sky, 0.01) << samples << " samples";
+        if (c == 1) {
+          EXPECT_GT(through[v][c] - clear[v][c], 0.1);
+        }
+      }
+  }
 }
 
 // The automatic background goes by the mean of the scene's colours over its surface, as their square roots.

@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 #extension GL_KHR_shader_subgroup_quad : require
+#include "../../shading/blended_parts.glsl"
 #include "../../shading/frame.glsl"
 #include "../../shading/luminance.shared.h"
 #include "colorize.shared.h"
@@ -147,7 +148,7 @@ vec3 colorizedAt(vec3 straight, float distance, ivec2 pixel, int layer) {
   return after;
 }
 
-#ifdef OVERLAY
+#if defined(OVERLAY) || defined(BLENDED)
 vec3 inAir(vec3 straight, float distance) {
   return mix(straight, u.air.horizon, u.air.amount * smoothstep(u.air.start, u.air.end, distance));
 }
@@ -156,17 +157,15 @@ vec3 inAir(vec3 straight, float distance) {
 #ifdef BLENDED
 // A picture of blended surfaces before others, which were mixed as square roots: each part at its own distance.
 vec3 colorizedThrough(vec3 straight, float coverage, float distance, ivec2 pixel, int layer) {
-  vec4 front = texelFetch(blended, ivec3(pixel, layer), 0), there = texelFetch(blendedDistance, ivec3(pixel, layer), 0);
-  float share = clamp(front.a / max(coverage, 1e-6), 0.0, 1.0), opaque = smoothstep(0.5, 1.0, share);
-  vec3 root = sqrt(straight), before = front.rgb / max(front.a, 1e-6);
-  // What is opaque has its colour in the picture alone.
-  before = mix(before, root, opaque);
-  vec3 behind = mix(max(root - share * before, 0.0) / max(1.0 - share, 1e-3), root, opaque);
-  vec3 after = colorizedAt(behind * behind, distance, pixel, layer);
-  vec3 near = colorizedAt(before * before, there.r / max(there.g, 1e-6) * frame.sceneRadius, pixel, layer);
-  vec3 mixed = mix(sqrt(after), sqrt(near), share);
-  bool isSame = after == behind * behind && near == before * before;
-  return isSame ? straight : mixed * mixed;
+  vec4 front = texelFetch(blended, ivec3(pixel, layer), 0);
+  float there = blendedDistanceOf(texelFetch(blendedDistance, ivec3(pixel, layer), 0));
+  // By itself it is not in the air yet, as it is in the picture.
+  vec3 own = front.rgb / max(front.a, 1e-6);
+  BlendedParts parts = blendedParts(sqrt(straight), coverage, sqrt(inAir(own * own, there)), front.a);
+  vec3 behind = parts.behind * parts.behind, before = parts.before * parts.before;
+  vec3 after = colorizedAt(behind, distance, pixel, layer), near = colorizedAt(before, there, pixel, layer);
+  bool isSame = after == behind && near == before;
+  return isSame ? straight : mixedColor(BlendedParts(parts.share, sqrt(near), sqrt(after)));
 }
 #endif
 
@@ -175,7 +174,7 @@ vec4 shade(ivec2 pixel, int layer) {
   // Colours are premultiplied by their coverage; where all is covered, this changes nothing.
   vec3 straight = whole.rgb / max(whole.a, 1e-6);
 #ifdef OVERLAY
-  float distance = far.r / max(far.g, 1e-6) * frame.sceneRadius;
+  float distance = blendedDistanceOf(far);
   straight *= straight;
   vec3 after = colorizedAt(inAir(straight, distance), distance, pixel, layer);
   bvec3 same = equal(after, straight);

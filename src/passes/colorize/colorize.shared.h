@@ -7,7 +7,8 @@ SHARED_BEGIN
 // Bindings of set 1.
 const int kColorizeColor = 1, kColorizeDepth = 2, kColorizeBlended = 3, kColorizeBlendedDistance = 4;
 
-// The air between the viewer and an overlay (background.air): of surfaces `color` has it.
+// The air before overlays (background.air), and before blended surfaces by themselves: of the picture `color`
+// has it.
 struct ColorizeAir {
   vec3 horizon;
   float amount;      // 0 to 1

@@ -1,6 +1,5 @@
 // Grades an overlay of the picture as `colorize` grades surfaces, at its own distance.
 #include "frame/image_step.h"
-#include "passes/color/color_knobs.h"
 #include "passes/colorize/colorize.h"
 #include "passes/colorize/colorize_knobs.h"
 #include "passes/colorize/strips.h"
@@ -39,8 +38,6 @@ class ColorizeOverlay : public Pass {
   void update(const FrameInput& input) override {
     shared::ColorizeUniforms uniforms{};
     const uint32_t features = fillUniforms(input, viewCount_, uniforms);
-    const shared::SurfaceColors colors = surfaceColors(input, Layer::first);
-    uniforms.air = {colors.horizon, colors.air, colors.airStart, colors.airEnd};
     step_.setJobs({{{features}, {}}});
     step_.update(uniforms);
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "passes/color/color_knobs.h"
+
 namespace scumble::passes {
 
 namespace {
@@ -61,6 +63,8 @@ void markStrips(const std::vector<PlacedColorizer>& colorizers, const glm::dmat4
 uint32_t fillUniforms(const frame::FrameInput& input, uint32_t viewCount,
                       shared::ColorizeUniforms& uniforms) {
   const shared::FrameUniforms& frame = input.uniforms;
+  const shared::SurfaceColors colors = surfaceColors(input, frame::Layer::first);
+  uniforms.air = {colors.horizon, colors.air, colors.airStart, colors.airEnd};
   return fillUniforms(
       placeColorizers(input.look, input.scene.data(), input.scene.motion().worldAsDrawn(), frame), frame,
       viewCount, uint32_t(frame.imageSize.x), uint32_t(frame.imageSize.y), uniforms);

@@ -22,7 +22,7 @@ void markStrips(const std::vector<PlacedColorizer>& colorizers, const glm::dmat4
 uint32_t fillUniforms(const std::vector<PlacedColorizer>& colorizers, const shared::FrameUniforms& frame,
                       uint32_t viewCount, uint32_t width, uint32_t height,
                       shared::ColorizeUniforms& uniforms);
-// The same for the look's colorizers, where they are in the frame.
+// The same for the look's colorizers, where they are in the frame; and the air.
 uint32_t fillUniforms(const frame::FrameInput& input, uint32_t viewCount, shared::ColorizeUniforms& uniforms);
 
 }  // namespace scumble::passes

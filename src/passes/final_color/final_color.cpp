@@ -76,6 +76,7 @@ class FinalColor : public Pass {
   // Of single samples.
   gpu::Handle declareSampled(FrameBuilder& frame) {
     using namespace shared;
+    hasBlended_ = frame.has(kBlended);
     return step_.declare(
         frame,
         {.name = name(),
@@ -94,12 +95,14 @@ class FinalColor : public Pass {
                     {kFinalColorLitSamples, frame.get(kLitSamples)},
                     {kFinalColorShadowedSamples, frame.get(kShadowedSamples)},
                     {kFinalColorGraded, frame.get(isGraded_ ? kGradedColors : kLit)},
-                    {kFinalColorUngraded, frame.get(isGraded_ ? kSurfaceColors : kLit)}},
+                    {kFinalColorUngraded, frame.get(isGraded_ ? kSurfaceColors : kLit)},
+                    {kFinalColorBlended, frame.get(hasBlended_ ? kBlended : kLit)},
+                    {kFinalColorBlendedDistance, frame.get(hasBlended_ ? kBlendedDistance : kLit)}},
          .tiles = frame.get(kTiles),
          .outputs = {frame.image(name(), {.format = kHalves})},
          // Of a pixel: the inflated surface and depths around it, the warp; of each place: two depths, both
          // colours, light.
-         .fetches = 8 + 8 + 17 + 4 * 5,
+         .fetches = 8 + 8 + 17 + 4 * (hasBlended_ ? 7u : 5u),
          .uniformBytes = sizeof(SampledColorUniforms),
          .maxJobs = 6})[0];
   }
@@ -109,7 +112,8 @@ class FinalColor : public Pass {
     const shared::SurfaceColors colors = surfaceColors(input, Layer::first);
     const uint32_t glows = (variant_ & kBlooms ? shared::kFinalColorGlows : 0) |
                            (colors.glowColorAmount > 0 ? shared::kFinalColorGlowColor : 0) |
-                           (isGraded_ ? shared::kFinalColorIsGraded : 0);
+                           (isGraded_ ? shared::kFinalColorIsGraded : 0) |
+                           (hasBlended_ ? shared::kFinalColorHasBlended : 0);
     const uint32_t ripple = uint32_t(params.ripple);
     const uint32_t torn = variant_ & kTears ? shared::kTileTorn : 0;
     std::vector<ImageStep::Job> jobs;
@@ -199,7 +203,7 @@ class FinalColor : public Pass {
   static constexpr Aov kAovs[] = {{.name = "final-color", .isColor = true, .premultiplied = 3}};
 
   uint32_t variant_ = 0, samples_ = 1;
-  bool isSampled_ = false, isGraded_ = false, onSphere_ = false;
+  bool isSampled_ = false, isGraded_ = false, hasBlended_ = false, onSphere_ = false;
   ImageStep step_;
   ExampleTextures* examples_ = nullptr;
 };

@@ -13,14 +13,16 @@ const int kFinalColorColor = 1, kFinalColorWarp = 2, kFinalColorDepth = 3, kFina
 // Of colours that are made here: in the place of the colours, the resolved depth; in that of the depth, its
 // samples; and in those of the pictures' and others:
 const int kFinalColorShadowed = 9, kFinalColorSampleLight = 10, kFinalColorLitSamples = 11,
-          kFinalColorShadowedSamples = 12, kFinalColorGraded = 14, kFinalColorUngraded = 15;
+          kFinalColorShadowedSamples = 12, kFinalColorGraded = 14, kFinalColorUngraded = 15,
+          kFinalColorBlended = 16, kFinalColorBlendedDistance = 17;
 
 // Specialisation constant 0.
-const int kFinalColorGlows = 1;      // anything in the scene acts on the lens
-const int kFinalColorTorn = 2;       // else each pixel keeps its own colour
-const int kFinalColorMixes = 4;      // a pixel's colour is that of several samples
-const int kFinalColorGlowColor = 8;  // the inner glow has a colour of its own
-const int kFinalColorIsGraded = 16;  // colours of surfaces have been changed since
+const int kFinalColorGlows = 1;        // anything in the scene acts on the lens
+const int kFinalColorTorn = 2;         // else each pixel keeps its own colour
+const int kFinalColorMixes = 4;        // a pixel's colour is that of several samples
+const int kFinalColorGlowColor = 8;    // the inner glow has a colour of its own
+const int kFinalColorIsGraded = 16;    // colours of surfaces have been changed since
+const int kFinalColorHasBlended = 32;  // there are blended surfaces in air
 
 struct FinalColorUniforms {
   vec3 bloom;  // colour times amount

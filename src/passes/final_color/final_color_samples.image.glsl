@@ -11,6 +11,7 @@
 layout(constant_id = 0) const int kOptions = 3;  // kFinalColorGlows ...
 layout(constant_id = 1) const int kRipple = 0;   // of displacement.shared.h; layered: there is what lies behind
 layout(constant_id = 2) const int kPart = 0;     // of surface_color.shared.h, where nothing is torn
+const bool kHasBlended = (kOptions & kFinalColorHasBlended) != 0;
 layout(set = 1, binding = 0, scalar) uniform Block {
   vec3 bloom;
   Displacement displacement;
@@ -31,6 +32,8 @@ layout(set = 1, binding = kFinalColorLitSamples) uniform sampler2DMSArray litSam
 layout(set = 1, binding = kFinalColorShadowedSamples) uniform sampler2DMSArray shadowedSamples;
 layout(set = 1, binding = kFinalColorGraded) uniform sampler2DArray graded;
 layout(set = 1, binding = kFinalColorUngraded) uniform sampler2DArray ungraded;
+layout(set = 1, binding = kFinalColorBlended) uniform sampler2DArray blended;
+layout(set = 1, binding = kFinalColorBlendedDistance) uniform sampler2DArray blendedDistance;
 #include "../../shading/surface_color.glsl"
 
 bool hasGlowColor() { return (kOptions & kFinalColorGlowColor) != 0; }
