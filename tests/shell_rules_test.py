@@ -54,6 +54,23 @@ class ShellRules(unittest.TestCase):
                       "# sort | head", "list | while read -r each; do echo; done", "list | awk '{ sum += $1 } END { print sum }'"):
             self.assertEqual(faults(right), [], right)
 
+    def test_scripts_say_what_they_are_for(self):
+        def run(*words):
+            return subprocess.run([str(ROOT / words[0]), *words[1:]], capture_output=True, text=True, check=False, timeout=60)
+        for name in ("demo", "package", "check"):
+            for option in ("-h", "--help"):
+                done = run(name, option)
+                self.assertEqual((done.returncode, done.stderr), (0, ""), name)
+                self.assertGreater(len(done.stdout), 60, name)
+                self.assertNotIn("#", done.stdout)
+            for wrong in ("--frobnicate", "everything"):
+                done = run(name, wrong)
+                self.assertEqual((done.returncode, done.stdout), (1, ""), f"{name} {wrong}")
+                self.assertIn(wrong, done.stderr)
+                self.assertIn(f"./{name} --", done.stderr)
+        self.assertEqual(run("check", "--until").returncode, 1)
+        self.assertIn("unit-tests", run("check", "--list").stdout.split())
+
     def test_the_rule_is_true(self):
         def code(pipe):
             return subprocess.run(["bash", "-o", "pipefail", "-c", pipe], stdout=subprocess.DEVNULL, check=False).returncode
