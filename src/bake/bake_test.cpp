@@ -279,6 +279,39 @@ TEST(BakeCapture, whatIsHigherLiesOnTopAndOfEqualsTheLater) {
   EXPECT_GT(seen({stroke(0.3f, blue), stroke(0.3f, red)}).r, 0.9f);
 }
 
+// A stroke that is seen along itself is as many splats upon each other as its length has, of which those
+// count that a sine of 0.15 leaves: no more than lie over each other elsewhere by as much.
+TEST(BakeCapture, strokesThatStandUpAreNoDenserThanTheyAreDrawn) {
+  const float opacity = 0.5f, radius = 0.12f, length = 1.5f;
+  const auto seen = [&](const glm::vec3& direction) {
+    BakeOptions options;
+    const Baked baked(painted(gridMesh({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, 2),
+                              {{{{0.2f, 0.02f, 0.12f}, glm::vec3(0.2f, 0.02f, 0.12f) + length * direction},
+                                radius,
+                                {1, 0, 0, opacity}}}),
+                      0.01f, options);
+    for (size_t t = 0; t < baked.proxy.triangles.size(); ++t) {
+      const ProxyTriangle& triangle = baked.proxy.triangles[t];
+      glm::vec3 middle(0);
+      for (int c = 0; c < 3; ++c) middle += baked.proxy.places[triangle.places[c]] / 3.0f;
+      if (middle.x > 0 && middle.z > 0)
+        return std::pair(
+            baked.coatAt(t, glm::vec3(0.2f, 0, 0.12f) + 0.25f * glm::vec3(direction.x, 0, direction.z)),
+            options.spacing);
+    }
+    return std::pair(glm::vec4(0), 0.0f);
+  };
+  const auto [lying, spacing] = seen({1, 0, 0});
+  EXPECT_NEAR(lying.a, opacity, 0.04);
+  // Two radii of it are as opaque as the stroke; of one that stands, a splat counts in 1 / 0.15 of its
+  // length.
+  const float between = spacing / 0.15f;  // radii
+  const float expected = 1 - std::pow(1 - opacity, 0.5f * spacing * (length / radius / between));
+  const float standing = seen({0, 1, 0}).first.a;
+  EXPECT_NEAR(standing, expected, 0.12);
+  EXPECT_LT(standing, 0.8f * (1 - std::pow(1 - opacity, 0.5f * length / radius)));
+}
+
 // A blade that stands on an edge is in its fin, where it stands and as high.
 TEST(BakeCapture, finsShowWhatStandsOnThem) {
   const Baked baked(painted(gridMesh({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, 2),
@@ -349,6 +382,18 @@ TEST(BakeAtlas, tilesNeitherOverlapNorBleed) {
           EXPECT_GT(texel[i % 2 ? 0 : 2], 250) << level;
           EXPECT_LT(texel[i % 2 ? 2 : 0], 5) << level;
         }
+  // Up to the grid a tile's border goes on, so that no level has anything else beside it.
+  const auto upToGrid = [](uint32_t texels) { return (texels + kAtlasGrid - 1) / kAtlasGrid * kAtlasGrid; };
+  for (size_t i = 0; i < tiles.size(); ++i)
+    for (uint32_t y = 0; y < upToGrid(sizes[i].y); ++y)
+      for (uint32_t x = 0; x < upToGrid(sizes[i].x); ++x) {
+        if (x < sizes[i].x && y < sizes[i].y) continue;
+        const auto texelAt = [&](uint32_t column, uint32_t row) {
+          return &atlas.rgba[4 * (size_t(packing->at[i].y + row) * atlas.width + packing->at[i].x + column)];
+        };
+        const uint8_t* const border = texelAt(std::min(x, sizes[i].x - 1), std::min(y, sizes[i].y - 1));
+        EXPECT_TRUE(std::equal(border, border + 4, texelAt(x, y))) << i << ": " << x << ", " << y;
+      }
   // It is a picture.
   EXPECT_GT(pngOf(atlas).size(), 100u);
 }

@@ -62,6 +62,34 @@ TEST_F(FilmReaderTest, timesFindTheirPictures) {
   }
 }
 
+// Times count from a film's first picture on, whatever its file says: recorders and broadcasts begin
+// anywhere, and cut films where they were cut.
+TEST_F(FilmReaderTest, filmsBeginAtTheirFirstPicture) {
+  write(24);
+  for (const char* name : {"late.mkv", "late.ts", "late.mov"}) {
+    const std::string late = folder_.file(name);
+    ASSERT_EQ(system(("ffmpeg -v quiet -y -i '" + folder_.file("film.mp4") +
+                      "' -c copy -output_ts_offset 7.25 '" + late + "'")
+                         .c_str()),
+              0);
+    const double begins = std::atof(
+        outputOf("ffprobe -v error -select_streams v:0 -show_entries packet=pts_time -of csv=p=0 '" + late +
+                 "' | sed -n 1p")
+            .c_str());
+    auto reader = FilmReader::open(late);
+    ASSERT_TRUE(reader) << reader.error().problem;
+    if (std::string(name) != "late.mov") {
+      EXPECT_GT(begins, 7) << name << " begins late";
+    }
+    EXPECT_NEAR((*reader)->lastTime(), (kFrames - 1) / 24.0, 2e-3) << name;
+    for (const int i : {0, 1, 7, kFrames - 1}) {
+      const auto picture = (*reader)->at((i + 0.5) / 24);
+      ASSERT_TRUE(picture) << picture.error().problem;
+      EXPECT_EQ(frameOf(**picture), i) << name;
+    }
+  }
+}
+
 // VP8 has packets that are never shown, with the time of the next picture.
 TEST_F(FilmReaderTest, packetsThatAreNotShownAreNoPictures) {
   write(25);

@@ -2,6 +2,7 @@
 #include "scene/levels.h"
 
 #include <gtest/gtest.h>
+#include <meshoptimizer.h>
 
 #include <algorithm>
 #include <cmath>
@@ -95,6 +96,29 @@ TEST(DetailLevels, ofASphereSayHowFarTheyLieInside) {
   // Nor are they said to be many times worse than they are.
   EXPECT_LT(p.levels[0].error, 0.02f);
   EXPECT_LT(p.levels[1].error, 0.1f);
+}
+
+// Each level is made of the one before it, and strays from that: what it strays from the mesh may be the sum.
+TEST(DetailLevels, errorsAddUp) {
+  Primitive p = sphere(128);
+  for (glm::vec3& at : p.positions) at *= 1 + 0.05f * std::sin(9 * at.x) * std::sin(7 * at.y + 2 * at.z);
+  makeLevels(p);
+  ASSERT_GE(p.levels.size(), 3u);
+  const float scale = meshopt_simplifyScale(&p.positions[0].x, p.positions.size(), sizeof(glm::vec3));
+  std::vector<uint32_t> before = p.indices;
+  float sum = 0, last = 0;
+  for (const DetailLevel& level : p.levels) {
+    std::vector<uint32_t> now(before.size());
+    float error = 0;
+    meshopt_simplify(now.data(), before.data(), before.size(), &p.positions[0].x, p.positions.size(),
+                     sizeof(glm::vec3), level.indexCount, 1.0f, meshopt_SimplifyLockBorder, &error);
+    if (error > 0.1f) break;  // a shape that hardly is one any more
+    sum += last = error * scale;
+    EXPECT_GE(level.shadowError, 0.9f * sum) << level.indexCount;
+    EXPECT_GE(level.error, 0.9f * sum) << level.indexCount;
+    before = indicesOf(p, level);
+  }
+  EXPECT_GT(sum, 1.2f * last) << "the sum says more than its last part";
 }
 
 // Another primitive may go on where one has an open border: no vertex of that may go.

@@ -28,6 +28,10 @@ bool areUnlike(const glm::u8vec4& a, const glm::u8vec4& b) {
   return std::max({apart(a.r, b.r), apart(a.g, b.g), apart(a.b, b.b)}) >= kLeastBorder;
 }
 
+glm::u8vec4 colorOf(const Primitive& primitive, uint32_t vertex) {
+  return primitive.colors.empty() ? glm::u8vec4(255) : primitive.colors[vertex];
+}
+
 }  // namespace
 
 std::vector<MeshEdge> edgesOf(const Primitive& primitive) {
@@ -155,7 +159,14 @@ std::vector<SharedEdge> sharedEdges(std::span<const Primitive* const> primitives
             one->primitive == other->primitive)
           continue;
         isTaken[size_t(one - group)] = isTaken[size_t(other - group)] = true;
-        shared.push_back({one->primitive, other->primitive, one->edge, other->edge});
+        // To the other one, the edge goes the other way.
+        const Primitive &left = *primitives[one->primitive], &right = *primitives[other->primitive];
+        const MeshEdge &edge = (*edges[one->primitive])[one->edge],
+                       &back = (*edges[other->primitive])[other->edge];
+        const bool isColorBorder = areUnlike(colorOf(left, edge.a), colorOf(right, back.b)) &&
+                                   areUnlike(colorOf(left, edge.b), colorOf(right, back.a));
+        shared.push_back({one->primitive, other->primitive, one->edge, other->edge,
+                          isColorBorder ? uint32_t(kColorBorder) : 0u});
       }
     group = end;
   }

@@ -38,6 +38,7 @@ std::vector<MeshEdge> edgesOf(const Primitive& primitive);
 struct SharedEdge {
   uint32_t primitive = 0, otherPrimitive = 0;  // which ones
   uint32_t edge = 0, otherEdge = 0;            // of their edges, both without a right side
+  uint32_t kinds = 0;                          // EdgeKind that both are together
 };
 // `edges`: edgesOf() each of `primitives`, which lie in one space. Each edge is shared once at most.
 std::vector<SharedEdge> sharedEdges(std::span<const Primitive* const> primitives,

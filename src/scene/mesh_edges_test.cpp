@@ -205,6 +205,35 @@ TEST(MeshEdges, goOnFromOnePrimitiveToAnother) {
   }
 }
 
+// Colours differ from one primitive to the other as they do within one; what has none is white.
+TEST(MeshEdges, knowWhereColorsOfPrimitivesDiffer) {
+  const std::vector<glm::vec3> points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, -1, 0}};
+  Primitive above = meshOf(points, {{0, 1, 2}}, true), below = meshOf(points, {{1, 0, 3}}, true);
+  const auto between = [&] {
+    const std::vector<MeshEdge> edgesOfAbove = edgesOf(above), edgesOfBelow = edgesOf(below);
+    const Primitive* const primitives[] = {&above, &below};
+    const std::vector<MeshEdge>* const edges[] = {&edgesOfAbove, &edgesOfBelow};
+    const std::vector<SharedEdge> shared = sharedEdges(primitives, edges);
+    EXPECT_EQ(shared.size(), 1u);
+    return shared.at(0).kinds;
+  };
+  EXPECT_EQ(between(), 0u) << "neither has any";
+  above.colors.assign(3, glm::u8vec4(255));
+  EXPECT_EQ(between(), 0u);
+  above.colors.assign(3, glm::u8vec4(200, 100, 50, 255));
+  EXPECT_EQ(between(), uint32_t(kColorBorder));
+  below.colors = above.colors;
+  EXPECT_EQ(between(), 0u);
+  // A gradient along the edge: each end agrees with its own place, whichever way the other one goes.
+  above.colors = {glm::u8vec4(0), glm::u8vec4(255), glm::u8vec4(9)};
+  below.colors = {glm::u8vec4(255), glm::u8vec4(0), glm::u8vec4(9)};
+  EXPECT_EQ(between(), 0u);
+  below.colors[0].r = 20;
+  EXPECT_EQ(between(), 0u) << "they agree at one end";
+  below.colors[1].r = 200;
+  EXPECT_EQ(between(), uint32_t(kColorBorder));
+}
+
 // A million triangles take less than a second; islands are no worse. Measured against a yardstick of sorting,
 // since machines are noisy.
 TEST(MeshEdges, aMillionTrianglesAreQuick) {

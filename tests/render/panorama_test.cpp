@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "base/srgb.h"
+#include "base/test_folder.h"
 #include "panorama/tiling.h"
 #include "tests/support/aov.h"
+#include "tests/support/plain_wash.h"
 #include "tests/support/render_test.h"
 #include "tests/support/sanitized.h"
 
@@ -278,6 +280,85 @@ TEST_F(Panoramas, motionIsByThePanoramasPixels) {
   EXPECT_LE(along.beyondPart(), 0.01) << along.text();
   EXPECT_LE(down.beyondPart(), 0.01) << down.text();
   EXPECT_GT(along.most + down.most + 1, 1);
+}
+
+// The way across the seam is the short one.
+TEST_F(Panoramas, motionGoesAcrossTheSeam) {
+  NOT_WITH_SANITIZERS();
+  const Scene scene = room();
+  for (const float side : {0.5f, -0.5f}) {
+    RenderOptions options = optionsFor(PanoramaKind::mono360, {"position", "motion"});
+    const View now = cameraAt(scene, 0);
+    View before = now;
+    before.worldToEye[3] += glm::vec4(side, 0, 0, 0);
+    options.previousViews = {before};
+    const Frame frame = paint(scene, quietLook(), now, {PanoramaKind::mono360}, options);
+    const Image &position = aov(frame, "position"), &motion = aov(frame, "motion");
+    size_t across = 0;
+    Difference along(0.05);
+    for (uint32_t y = kRows * 3 / 8; y < kRows * 5 / 8; ++y)
+      for (const uint32_t x : {0u, 1u, 2u, position.width - 3, position.width - 2, position.width - 1}) {
+        const glm::dvec3 point(texel(position, int(x), int(y)));
+        const auto columnOf = [&](const glm::dvec3& eye) {
+          const glm::dvec3 d = point - eye;
+          return position.width / double(kTurn) * std::atan2(d.x, -d.z);
+        };
+        const double way = columnOf(kEye) - columnOf(glm::dvec3(kEye) - glm::dvec3(side, 0, 0));
+        const double turns = std::round(way / position.width);
+        across += turns != 0;
+        along.add(motion.at(x, y, 0), way - position.width * turns);
+      }
+    EXPECT_GT(across, kRows / 4) << "places that were on the other side of it";
+    EXPECT_LE(along.most, 0.3) << along.text();
+  }
+}
+
+// A watercolour's stamps stand upright all around, also where the frame that draws them looks up or down.
+TEST_F(Panoramas, stampsStandUpright) {
+  NOT_WITH_SANITIZERS();
+  if (!hasKnob("watercolor.turns")) GTEST_SKIP() << "built without watercolours";
+  TestScene s;
+  // Seen from within.
+  TestMesh dome = sphereMesh(kEye, 4, 64);
+  std::reverse(dome.indices.begin(), dome.indices.end());
+  for (glm::vec3& normal : dome.normals) normal = -normal;
+  s.add(dome, s.material(TestScene::unlit("Dome", {0.3f, 0.5f, 0.7f, 1})));
+  const Scene scene = s.load();
+  const TestFolder folder;
+  constexpr int kSide = 64;
+  Image bar{kSide, kSide, {"R", "G", "B", "A"}, {}};
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x)
+      for (int c = 0; c < 4; ++c) bar.pixels.push_back(c == 3 || (x >= 24 && x < 40) ? 1.0f : 0.0f);
+  ASSERT_TRUE(writePng(folder.file("bar.png"), bar).ok());
+  const Look look = quietLook(plainWash({{"watercolor.generator", "shapes"},
+                                         {"watercolor.brush", folder.file("bar.png")},
+                                         {"watercolor.turns", "0"},
+                                         {"watercolor.spacing", "120"},
+                                         {"watercolor.stampSize", "0.4"},
+                                         {"watercolor.backruns", "0"}}));
+  const Frame frame = paint(scene, look, cameraAt(scene, 0.4f), {PanoramaKind::mono360},
+                            optionsFor(PanoramaKind::mono360, {"pigment"}, 512));
+  const Image& pigment = aov(frame, "pigment");
+  for (const double above : {62.0, -62.0})
+    for (int sector = 0; sector < 8; ++sector) {
+      double across = 0, up = 0;
+      for (uint32_t y = 1; y + 1 < pigment.height; ++y) {
+        const double latitude = 90 - 180 * (y + 0.5) / pigment.height;
+        if (std::abs(latitude - above) > 13) continue;
+        const double narrow = std::cos(glm::radians(latitude));
+        for (uint32_t x = 0; x < pigment.width / 8; ++x) {
+          const uint32_t at = uint32_t(sector) * pigment.width / 8 + x, last = pigment.width - 1;
+          const double right = texel(pigment, int(at == last ? 0 : at + 1), int(y)).w,
+                       left = texel(pigment, int(at == 0 ? last : at - 1), int(y)).w;
+          const double below = texel(pigment, int(at), int(y) + 1).w,
+                       over = texel(pigment, int(at), int(y) - 1).w;
+          across += std::pow((right - left) / narrow, 2), up += std::pow(below - over, 2);
+        }
+      }
+      EXPECT_GT(across, 2 * up) << "latitude " << above << ", sector " << sector;
+      EXPECT_GT(up, 1);
+    }
 }
 
 // A picture behind everything goes all around.

@@ -213,6 +213,63 @@ TEST_P(Ink, creasesComeByTheirAngle) {
   }
 }
 
+// A line that no other one goes on from has round ends.
+TEST_P(Ink, linesHaveRoundEnds) {
+  TestMesh roof;
+  append(roof, gridMesh({-0.6f, -0.7f, -0.6f}, {1.2f, 0, 0}, {0, 0.7f, 0.6f}), {1, 1, 1, 1});
+  append(roof, gridMesh({-0.6f, 0, 0}, {1.2f, 0, 0}, {0, 0.7f, -0.6f}), {1, 1, 1, 1});
+  for (const bool isTurned : {false, true}) {
+    const glm::mat4 turned = glm::rotate(glm::mat4(1.0f), isTurned ? 1.2f : 0.0f, {0, 0, 1});
+    expectLines(oneThing(roof, turned),
+                linesOfWidth("162", {{"ink.silhouettes.shown", "off"},
+                                     {"ink.creases.shown", "on"},
+                                     {"ink.creases.width", "1"}}),
+                {{0.2f, 0.1f, 5}}, [](const ReferenceEdge& edge, const glm::dvec3&) {
+                  return edge.isOpen || edge.angle() < 50 ? 0 : 6 * kRadius;
+                });
+  }
+}
+
+// An edge of several kinds is the first of them: a border of materials, a crease where it is wholly one, a
+// border of colours, a crease that is about to be one.
+TEST_P(Ink, edgesOfSeveralKindsAreTheFirst) {
+  const auto widthAt = [&](double angle, bool hasColors, bool hasMaterials) {
+    const float side = float(glm::radians(angle / 2));
+    const glm::vec3 down(0, -std::cos(side), -std::sin(side)), up(0, std::cos(side), -std::sin(side));
+    TestScene s;
+    const glm::vec4 red(1, 0.2f, 0.2f, 1), blue(0.2f, 0.2f, 1, 1);
+    TestMesh below, above;
+    append(below, gridMesh(2.0f * down - glm::vec3(2, 0, 0), {4, 0, 0}, -2.0f * down), red);
+    append(above, gridMesh({-2, 0, 0}, {4, 0, 0}, 2.0f * up), hasColors ? blue : red);
+    const int first = s.material(TestScene::colored("First", {1, 1, 1, 1}));
+    const int second = s.material(TestScene::colored("Second", {0.9f, 1, 1, 1}));
+    s.add(below, first);
+    s.add(above, hasMaterials ? second : first);
+    Json& json = s.json();
+    json["meshes"][0]["primitives"].push_back(json["meshes"][1]["primitives"][0]);
+    json["scenes"][0]["nodes"].erase(1);
+    const Scene scene = s.load();
+    const auto views = viewsFrom(scene, {{0, 0, 6}, {0, 0, 0}, 40, 0, 0.1f}, kWidth, kHeight, GetParam());
+    const Frame frame = drawLines(scene,
+                                  evenLines({{"ink.creaseAngle", "40"},
+                                             {"ink.creases.shown", "on"},
+                                             {"ink.creases.width", "1"},
+                                             {"ink.colors.shown", "on"},
+                                             {"ink.colors.width", "0.6"},
+                                             {"ink.materials.shown", "on"},
+                                             {"ink.materials.width", "1.5"}}),
+                                  views);
+    return inkAcross(frame, viewCount() - 1, pixelOf(views[viewCount() - 1], {0, 0, 0}, kWidth, kHeight));
+  };
+  for (const double angle : {10.0, 38.0, 42.0, 46.0, 60.0}) {
+    EXPECT_NEAR(widthAt(angle, true, true), 1.5, 0.05) << angle;
+    EXPECT_NEAR(widthAt(angle, false, true), 1.5, 0.05) << angle;
+    EXPECT_NEAR(widthAt(angle, true, false), angle > 44 ? 1 : 0.6, 0.05) << angle;
+  }
+  EXPECT_EQ(widthAt(10, false, false), 0);
+  EXPECT_NEAR(widthAt(60, false, false), 1, 0.05);
+}
+
 TEST_P(Ink, openSurfacesEndInLines) {
   const Knobs knobs = evenLines(
       {{"ink.boundaries.shown", "on"}, {"ink.boundaries.width", "1"}, {"ink.silhouettes.shown", "off"}});

@@ -195,6 +195,49 @@ TEST_P(OrderTest, panesOfEveryKindOverEachOther) {
   }
 }
 
+// What counts of a triangle is its middle, whichever corner its list begins with: of two long ones that lead
+// away from the eye, one has it behind a small one between their ends, one before that.
+TEST_P(OrderTest, trianglesCountByTheirMiddles) {
+  const glm::vec4 longColor(0.9f, 0.2f, 0.1f, 0.5f), smallColor(0.1f, 0.3f, 0.9f, 0.5f);
+  for (const bool isBehind : {true, false})
+    for (uint32_t first = 0; first < 3; ++first) {
+      // In the plane x = z / 8 nearly, seen from its side; one end alone lies on the other side of the small
+      // one.
+      const float near = 2, far = -2;
+      TestMesh leads, square = gridMesh({-0.4f, -0.4f, 0}, {0.8f, 0, 0}, {0, 0.8f, 0}, 1);
+      leads.positions =
+          isBehind ? std::vector<glm::vec3>{{0.1f, 0.02f, near}, {-1.2f, -1.2f, far}, {1.4f, -1.2f, far}}
+                   : std::vector<glm::vec3>{{0.1f, 0.02f, far}, {-0.5f, -0.6f, near}, {0.6f, -0.6f, near}};
+      leads.normals.assign(3, {0, 0, 1});
+      leads.uvs.assign(3, {0, 0});
+      for (uint32_t i = 0; i < 3; ++i) leads.indices.push_back((first + i) % 3);
+      TestScene s;
+      s.add(leads, s.material(blended(TestScene::unlit("Long", longColor))));
+      s.add(square, s.material(blended(TestScene::unlit("Small", smallColor))));
+      const Scene scene = s.load();
+      const auto views = viewsFrom(scene, {{0, 0, 6}}, kWidth, kHeight, GetParam());
+      const Frame frame =
+          draw(scene, quietLook({{"light.shadowWarp", "0"}}), views, sized(kWidth, kHeight, {"lit"}));
+      Composite both;
+      for (const bool isLong : {isBehind, !isBehind}) {
+        const glm::dvec4 color(isLong ? longColor : smallColor);
+        both.over(glm::sqrt(glm::dvec3(color)), color.a);
+      }
+      size_t covered = 0;
+      Difference rgb(3 * kByte), coverage(3 * kByte);
+      for (size_t v = 0; v < viewCount(); ++v)
+        for (int y = 0; y < kHeight; ++y)
+          for (int x = 0; x < kWidth; ++x) {
+            const glm::dvec4 there = texel(aov(frame, "lit", v), x, y);
+            if (there.w < 0.7) continue;  // both
+            ++covered;
+            expectComposite(there, both, rgb, coverage);
+          }
+      EXPECT_GT(covered, 40 * viewCount());
+      EXPECT_LT(rgb.beyondPart(), 0.01) << isBehind << ", from corner " << first << ": " << rgb.text();
+    }
+}
+
 // More textures than a shader has take several draws.
 TEST_P(OrderTest, manyTextures) {
   constexpr int kPanes = 30;

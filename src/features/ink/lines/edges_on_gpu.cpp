@@ -228,6 +228,7 @@ bool EdgesOnGpu::update(gpu::Device& device, gpu::Uploader& uploader, const std:
                        firstRight = places[group[between.otherPrimitive]].firstVertex;
         shared::DrawnEdge edge = drawn(left, firstLeft);
         edge.right = right.left + firstRight;
+        edge.a |= between.kinds << 28;
         if (item.material != other.material) edge.a |= shared::kEdgeMaterialBorder;
         edges.push_back(edge);
         // To the right one, this edge goes the other way.
