@@ -232,6 +232,8 @@ TEST(MeshEdges, knowWhereColorsOfPrimitivesDiffer) {
   EXPECT_EQ(between(), 0u) << "they agree at one end";
   below.colors[1].r = 200;
   EXPECT_EQ(between(), uint32_t(kColorBorder));
+  below.colors[0].r = 255;
+  EXPECT_EQ(between(), 0u) << "they agree at the other end";
 }
 
 // A million triangles take less than a second; islands are no worse. Measured against a yardstick of sorting,

@@ -59,12 +59,12 @@ struct Frames {
 
 class Memory : public ::testing::TestWithParam<Stereo> {
  protected:
-  // Megabytes by which 40 frames grow, after those that make and warm everything: a shader a frame would
-  // be 40.
+  // Megabytes by which 24 frames grow, after those that make and warm everything: a shader a frame would
+  // be 24.
   static double growth(const Frames& frames) {
-    frames(0, 10);
+    frames(0, 8);
     const double before = residentMegabytes();
-    frames(10, 50);
+    frames(8, 32);
     return residentMegabytes() - before;
   }
   static std::unique_ptr<Renderer> made(ImagePassKind kind = ImagePassKind::automatic) {

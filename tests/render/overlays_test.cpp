@@ -405,6 +405,33 @@ TEST_P(OverlaysTest, airLiesBeforeEverything) {
   }
 }
 
+// A blended surface is graded as it is in the air before it, and what shows through it as that is in its own:
+// where the one becomes black, all of the other is left.
+TEST_P(OverlaysTest, blendedSurfacesAreGradedInTheirAir) {
+  const Knobs air{{"background.air", "0.7"}, {"background.airStart", "0"}, {"background.airEnd", "0.15"}};
+  Knobs graded = air;
+  graded.insert(graded.end(), {{"colorizers.A.volume.shape", "box"},
+                               {"colorizers.A.volume.size", place(20, 20, 3)},
+                               {"colorizers.A.volume.density", "16"},
+                               {"colorizers.A.grade.tint", "#000000"}});
+  const Frame plain = drawn(Kind::blended), aired = drawn(Kind::blended, air),
+              black = drawn(Kind::blended, graded);
+  for (size_t v = 0; v < viewCount(); ++v) {
+    const auto pixels = greenPixels(plain, v);
+    ASSERT_GT(pixels.size(), 100u);
+    Difference rgb(0.01);
+    double changes = 0;
+    for (const glm::ivec2& at : pixels) {
+      const glm::dvec3 root = (1 - double(kOpacity)) * glm::sqrt(glm::dvec3(texel(aov(aired, "", v), 3, 3)));
+      for (int c = 0; c < 3; ++c) rgb.add(texel(aov(black, "", v), at.x, at.y)[c], root[c] * root[c]);
+      changes = std::max(
+          changes, glm::length(texel(aov(aired, "", v), at.x, at.y) - texel(aov(plain, "", v), at.x, at.y)));
+    }
+    EXPECT_GT(changes, 0.05) << "there is air before it";
+    EXPECT_LT(rgb.beyondPart(), 0.02) << "view " << v << ": " << rgb.text();
+  }
+}
+
 // But for edges, a limited palette has no other colours.
 TEST_P(OverlaysTest, aLimitedPaletteHasNoOtherColours) {
   const char* const palette[] = {"#202020", "#808080", "#C8B040", "#E8E8E8"};

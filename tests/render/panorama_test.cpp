@@ -313,7 +313,8 @@ TEST_F(Panoramas, motionGoesAcrossTheSeam) {
   }
 }
 
-// A watercolour's stamps stand upright all around, also where the frame that draws them looks up or down.
+// A watercolour's stamps stand upright on the sphere, whichever part of it a frame shows: one that looks at
+// the zenith has them lead there from all around.
 TEST_F(Panoramas, stampsStandUpright) {
   NOT_WITH_SANITIZERS();
   if (!hasKnob("watercolor.turns")) GTEST_SKIP() << "built without watercolours";
@@ -337,27 +338,38 @@ TEST_F(Panoramas, stampsStandUpright) {
                                          {"watercolor.spacing", "120"},
                                          {"watercolor.stampSize", "0.4"},
                                          {"watercolor.backruns", "0"}}));
-  const Frame frame = paint(scene, look, cameraAt(scene, 0.4f), {PanoramaKind::mono360},
-                            optionsFor(PanoramaKind::mono360, {"pigment"}, 512));
-  const Image& pigment = aov(frame, "pigment");
-  for (const double above : {62.0, -62.0})
-    for (int sector = 0; sector < 8; ++sector) {
-      double across = 0, up = 0;
-      for (uint32_t y = 1; y + 1 < pigment.height; ++y) {
-        const double latitude = 90 - 180 * (y + 0.5) / pigment.height;
-        if (std::abs(latitude - above) > 13) continue;
-        const double narrow = std::cos(glm::radians(latitude));
-        for (uint32_t x = 0; x < pigment.width / 8; ++x) {
-          const uint32_t at = uint32_t(sector) * pigment.width / 8 + x, last = pigment.width - 1;
-          const double right = texel(pigment, int(at == last ? 0 : at + 1), int(y)).w,
-                       left = texel(pigment, int(at == 0 ? last : at - 1), int(y)).w;
-          const double below = texel(pigment, int(at), int(y) + 1).w,
-                       over = texel(pigment, int(at), int(y) - 1).w;
-          across += std::pow((right - left) / narrow, 2), up += std::pow(below - over, 2);
+  constexpr int kSize = 512;
+  for (const bool isUp : {true, false})
+    for (const bool isOnSphere : {true, false}) {
+      std::vector<View> views =
+          viewsFrom(scene, {kEye, kEye + glm::vec3(0, isUp ? 1 : -1, 1e-3f), 80}, kSize, kSize);
+      RenderOptions options = sized(kSize, kSize, {"pigment"});
+      if (isOnSphere)
+        options.sphere = SpherePart{glm::transpose(glm::mat3(views[0].worldToEye)), glm::radians(80.0f)};
+      const Frame frame = draw(scene, look, views, options);
+      const Image& pigment = aov(frame, "pigment");
+      const glm::dvec2 pole = pixelOf(views[0], kEye + glm::vec3(0, isUp ? 2 : -2, 0), kSize, kSize);
+      // How much it changes towards the zenith and beside that, in eight parts around it.
+      double along[8]{}, beside[8]{};
+      for (int y = 8; y < kSize - 8; ++y)
+        for (int x = 8; x < kSize - 8; ++x) {
+          const glm::dvec2 from = glm::dvec2(x + 0.5, y + 0.5) - pole;
+          if (glm::length(from) < 60 || glm::length(from) > 230) continue;
+          const glm::dvec2 change(texel(pigment, x + 1, y).w - texel(pigment, x - 1, y).w,
+                                  texel(pigment, x, y + 1).w - texel(pigment, x, y - 1).w);
+          const int part = int((std::atan2(from.y, from.x) / double(kTurn) + 1.0625) * 8) % 8;
+          const double towards = glm::dot(change, glm::normalize(from));
+          along[part] += towards * towards, beside[part] += glm::dot(change, change) - towards * towards;
         }
+      const int across[] = {0, 4};  // to the sides of the frame
+      for (int part = 0; part < 8 && isOnSphere; ++part) {
+        EXPECT_GT(along[part], 1);
+        EXPECT_GT(beside[part], 1.5 * along[part]) << (isUp ? "zenith" : "nadir") << ", part " << part;
       }
-      EXPECT_GT(across, 2 * up) << "latitude " << above << ", sector " << sector;
-      EXPECT_GT(up, 1);
+      for (const int part : across)
+        if (!isOnSphere) {
+          EXPECT_LT(beside[part], along[part]) << "upright in the frame, which is no part of a sphere";
+        }
     }
 }
 

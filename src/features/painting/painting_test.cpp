@@ -249,6 +249,27 @@ TEST_P(Paintings, mirroredMeshesMirrorThem) {
     EXPECT_LT(glm::distance(middle(frame, v), pixelOf(views[v], {-1.4, 0.4, 0.1})), 0.3);
 }
 
+// What is wound against its own normals carries paint where it was painted: beyond each of its sides.
+TEST_P(Paintings, carriersMayBeWoundAgainstTheirNormals) {
+  for (const glm::vec2& side : {glm::vec2(1.4f, 0.3f), glm::vec2(0.3f, 1.4f), glm::vec2(-1.4f, -0.3f)}) {
+    const glm::vec3 place(side, 0.1f);
+    const TestStroke beyond{
+        {place - glm::vec3(0.05f, 0, 0), place + glm::vec3(0.05f, 0, 0)}, 0.1f, {1, 0, 0, 1}};
+    TestMesh sheet = gridMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 2);
+    std::reverse(sheet.indices.begin(), sheet.indices.end());
+    TestScene s;
+    Json both = TestScene::colored("Sheet", {0.5f, 0.5f, 0.5f, 1});
+    both["doubleSided"] = true;
+    s.add(sheet, s.material(both));
+    s.paint({beyond});
+    const Scene scene = s.load();
+    const auto views = viewsFrom(scene, {{0, 0, 6}}, kWidth, kHeight, GetParam());
+    const Frame frame = drawn(scene, views);
+    for (size_t v = 0; v < viewCount(); ++v)
+      EXPECT_LT(glm::distance(middle(frame, v), pixelOf(views[v], place)), 0.3) << side.x << ", " << side.y;
+  }
+}
+
 // Hairs of no width to speak of, however long, have so many splats and no more.
 TEST_P(Paintings, hairsCostNoMoreThanTheyMay) {
   TestScene s;

@@ -270,6 +270,7 @@ TEST_P(Hulls, nothingIsSeenBelowWavesBesideARim) {
 
 // As by perspective, by a parallel projection.
 TEST_P(Hulls, keepTheSeaOutOfParallelViews) {
+  NOT_WITH_SANITIZERS();
   NEEDS_FINE_RASTER();
   const std::vector<HullShape> shapes = vesselShapes();
   const Look off = look({{"ocean.hulls", "off"}}), on = look();

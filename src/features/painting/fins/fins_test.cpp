@@ -2,6 +2,7 @@
 // seen and nothing else.
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "tests/support/aov.h"
 #include "tests/support/render_test.h"
@@ -114,6 +115,40 @@ TEST_P(PaintedFins, allObjectsAreInOneOrder) {
       for (int c = 0; c < 4; ++c) EXPECT_NEAR(got[c], expected[c], 0.02) << c;
     }
   }
+}
+
+// A coat is seen from its front alone, wherever a mirror turns that, by perspective and without it.
+TEST_P(PaintedFins, coatsAreSeenFromTheirFront) {
+  const auto coveredFrom = [&](const glm::vec3& scale, float side, bool isParallel) {
+    TestScene s;
+    Json coat = paintMaterial("Coat", {0.9f, 0.1f, 0.1f, 1}, Json::object());
+    coat["doubleSided"] = false;
+    s.add(gridMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 2), s.material(coat),
+          glm::scale(glm::mat4(1.0f), scale));
+    const Scene scene = s.load();
+    std::vector<View> views = viewsFrom(scene, {{0.4f, 0.3f, 5 * side}}, kAcross, kDown, GetParam());
+    for (View& view : views)
+      if (isParallel) view.eyeToClip = orthographicProjection(1.6f, float(kAcross) / kDown, 0.1f, 20);
+    const Frame frame = drawn(scene, views);
+    double least = 1, most = 0;
+    for (size_t v = 0; v < viewCount(); ++v) {
+      const double there = texel(aov(frame, "painting", v), kAcross / 2, kDown / 2).w;
+      least = std::min(least, there), most = std::max(most, there);
+    }
+    EXPECT_NEAR(least, most, 0.01) << "both eyes see the same";
+    return most;
+  };
+  for (const bool isParallel : {false, true})
+    for (const glm::vec3& scale :
+         {glm::vec3(1), glm::vec3(-1, 1, 1), glm::vec3(1, -1, 1), glm::vec3(1, 1, -1), glm::vec3(-1, -1, 1),
+          glm::vec3(-1, -1, -1), glm::vec3(-0.5f, 2, 1)})
+      for (const float side : {1.0f, -1.0f}) {
+        // Its normal is +z, which a mirror along that turns.
+        const bool isFront = side * scale.z > 0;
+        EXPECT_NEAR(coveredFrom(scale, side, isParallel), isFront ? 1 : 0, 0.01)
+            << scale.x << ", " << scale.y << ", " << scale.z << " from " << side
+            << (isParallel ? ", parallel" : "");
+      }
 }
 
 // Paint over a ball: hidden behind it, seen before it; it casts shadows, and what else there is of the ball
