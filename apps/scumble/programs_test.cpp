@@ -22,8 +22,8 @@ TEST(Programs, wordsComeThroughAShell) {
   for (const std::string& word : words) call.push_back(word), expected += "<" + word + ">";
   EXPECT_EQ(outputOf(call).value(), expected);
   // What needs no quotes has none, so that lines can be read.
-  EXPECT_EQ(shellWords({"scumble", "render", "--set", "ink.shown=on", "/a/b_c-1.glb", "a b"}),
-            "scumble render --set ink.shown=on /a/b_c-1.glb 'a b'");
+  EXPECT_EQ(shellWords({"scumble", "render", "--set", "warp.amount=0", "/a/b_c-1.glb", "a b"}),
+            "scumble render --set warp.amount=0 /a/b_c-1.glb 'a b'");
 }
 
 TEST(Programs, failuresHaveANameAndACode) {
