@@ -8,6 +8,7 @@
 #include "panorama/tiling.h"
 #include "tests/support/aov.h"
 #include "tests/support/plain_wash.h"
+#include "tests/support/ray_cast.h"
 #include "tests/support/render_test.h"
 #include "tests/support/sanitized.h"
 
