@@ -58,7 +58,7 @@ TEST(OutputFormats, qualitiesHaveBounds) {
   }
 }
 
-// What follows --json is its file, but for what is an option or the next input.
+// A word that follows --json is its file, but for options and the next input.
 TEST(JsonOption, knowsItsFileFromWhatFollows) {
   for (const char* word : {"report.json", "report", "a/b.txt", "x.JSON"})
     EXPECT_TRUE(JsonOption::isFile(word)) << word;

@@ -21,7 +21,7 @@ TEST(Programs, wordsComeThroughAShell) {
   std::string expected;
   for (const std::string& word : words) call.push_back(word), expected += "<" + word + ">";
   EXPECT_EQ(outputOf(call).value(), expected);
-  // What needs no quotes has none, so that lines can be read.
+  // Plain words have no quotes, so that lines can be read.
   EXPECT_EQ(shellWords({"scumble", "render", "--set", "warp.amount=0", "/a/b_c-1.glb", "a b"}),
             "scumble render --set warp.amount=0 /a/b_c-1.glb 'a b'");
 }

@@ -5,7 +5,6 @@
 #include <stdlib.h>
 
 #include <fstream>
-#include <sstream>
 
 #include "base/test_folder.h"
 #include "programs.h"
@@ -79,7 +78,6 @@ TEST_F(SlurmJobTest, tasksDivideTheFrames) {
     unsetenv("SLURM_RESTART_COUNT");
     remove(folder_.file("calls").c_str());
     for (int task = 0; task < tasks; ++task) EXPECT_EQ(runTask(job, task), 0);
-    std::string expected;
     const std::vector<std::string> called = calls();
     ASSERT_EQ(called.size(), size_t(tasks));
     for (int task = 0; task < tasks; ++task) {

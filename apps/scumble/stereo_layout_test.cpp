@@ -62,7 +62,7 @@ TEST(StereoLayouts, eyesLieWhereTheirNameSays) {
     EXPECT_EQ(eyeAt("crossed", isFact, false), 2);
     EXPECT_EQ(eyeAt("crossed", isFact, true), 1);
   }
-  // What is no colour has none that glasses tell apart.
+  // Facts have no colours that glasses tell apart.
   const Image facts = (*stereoLayoutOf("anaglyph"))->arrangeFacts(picture(1), picture(2));
   EXPECT_EQ(facts.width, 4u);
 }

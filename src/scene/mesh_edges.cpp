@@ -32,6 +32,13 @@ glm::u8vec4 colorOf(const Primitive& primitive, uint32_t vertex) {
   return primitive.colors.empty() ? glm::u8vec4(255) : primitive.colors[vertex];
 }
 
+// Whether colours differ at both ends of an edge that goes from a to b, and in the other primitive from c to
+// d.
+bool isColorBorder(const Primitive& left, uint32_t a, uint32_t b, const Primitive& right, uint32_t c,
+                   uint32_t d) {
+  return areUnlike(colorOf(left, a), colorOf(right, d)) && areUnlike(colorOf(left, b), colorOf(right, c));
+}
+
 }  // namespace
 
 std::vector<MeshEdge> edgesOf(const Primitive& primitive) {
@@ -72,9 +79,8 @@ std::vector<MeshEdge> edgesOf(const Primitive& primitive) {
       edge.right = indices[third(*right)];
       edge.beyond[2] = right->corner;
       across[left.corner] = edge.right, across[right->corner] = edge.left;
-      const auto& colors = primitive.colors;
-      if (!colors.empty() && areUnlike(colors[edge.a], colors[indices[nextCorner(right->corner)]]) &&
-          areUnlike(colors[edge.b], colors[indices[right->corner]]))
+      if (isColorBorder(primitive, edge.a, edge.b, primitive, indices[right->corner],
+                        indices[nextCorner(right->corner)]))
         edge.kinds |= kColorBorder;
     }
     edges.push_back(edge);
@@ -159,14 +165,12 @@ std::vector<SharedEdge> sharedEdges(std::span<const Primitive* const> primitives
             one->primitive == other->primitive)
           continue;
         isTaken[size_t(one - group)] = isTaken[size_t(other - group)] = true;
-        // To the other one, the edge goes the other way.
         const Primitive &left = *primitives[one->primitive], &right = *primitives[other->primitive];
         const MeshEdge &edge = (*edges[one->primitive])[one->edge],
                        &back = (*edges[other->primitive])[other->edge];
-        const bool isColorBorder = areUnlike(colorOf(left, edge.a), colorOf(right, back.b)) &&
-                                   areUnlike(colorOf(left, edge.b), colorOf(right, back.a));
+        const bool isBorder = isColorBorder(left, edge.a, edge.b, right, back.a, back.b);
         shared.push_back({one->primitive, other->primitive, one->edge, other->edge,
-                          isColorBorder ? uint32_t(kColorBorder) : 0u});
+                          isBorder ? uint32_t(kColorBorder) : 0u});
       }
     group = end;
   }

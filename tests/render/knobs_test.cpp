@@ -263,11 +263,9 @@ TEST_P(KnobSweep, everyKnobAtItsEndsDrawsAndShows) {
   const std::vector<std::string> aovs{"warp", "shadow",       "lit",   "shadowed",
                                       "blur", "final-shadow", "color", "colorize"};
   const auto draw = [&](const Scene& scene, const Look& look, const std::string& what, bool camera,
-                        bool behind) {
+                        bool behind, Stereo eyes) {
     std::vector<float> seen;
     Viewpoint viewpoint;
-    // What says how two eyes go together has two to show it with.
-    const Stereo eyes = what.find("cyclopean =") != std::string::npos ? Stereo::stereo : GetParam();
     const std::vector<View> views =
         camera ? makeViews(scene, viewpoint, float(kWidth) / kHeight, eyes, stand.ipd, look, kTime).value()
                : viewsFrom(plain, stand, kWidth, kHeight, eyes);
@@ -296,12 +294,16 @@ TEST_P(KnobSweep, everyKnobAtItsEndsDrawsAndShows) {
     EXPECT_TRUE(set.ok()) << knob.path << " = " << value << ": " << set.error().message();
   };
   const auto looksFromCamera = [](const std::string& path) { return path.starts_with("camera."); };
+  // Knobs that say how two eyes go together have two to show it with.
+  const auto eyesFor = [](const std::string& path) {
+    return path.ends_with("cyclopean") ? Stereo::stereo : GetParam();
+  };
   const auto needsPicture = [](const std::string& path) {
     return path == "background.style" || path == "background.simplify" || path == "background.steps" ||
            path == "background.warp" || path == "limit.backdrop";
   };
-  draw(plain, Look(), "defaults", false, false);
-  draw(painted, Look(), "defaults", false, false);
+  draw(plain, Look(), "defaults", false, false, GetParam());
+  draw(painted, Look(), "defaults", false, false, GetParam());
   EXPECT_GT(Look::knobs().size(), 150u);
   if (kSanitized || viewCount() == 2) {
     // What can go wrong there is memory, and what shows for one eye shows for two: all knobs of a group are
@@ -310,7 +312,7 @@ TEST_P(KnobSweep, everyKnobAtItsEndsDrawsAndShows) {
     for (const Knob& knob : Look::knobs())
       setWithNeeds(groups[knob.path.substr(0, knob.path.find('.') + 1)], knob, knob.max);
     for (const auto& [group, look] : groups)
-      draw(painted, look, group, looksFromCamera(group), group == "background.");
+      draw(painted, look, group, looksFromCamera(group), group == "background.", GetParam());
   } else {
     std::set<std::string> unseen;
     for (const Knob& knob : Look::knobs()) {
@@ -327,7 +329,7 @@ TEST_P(KnobSweep, everyKnobAtItsEndsDrawsAndShows) {
         setWithNeeds(look, knob, values[i]);
         const Scene& scene = knob.path.starts_with("painting.") ? painted : plain;
         drawn.push_back(draw(scene, look, knob.path + " = " + values[i], looksFromCamera(knob.path),
-                             needsPicture(knob.path)));
+                             needsPicture(knob.path), eyesFor(knob.path)));
       }
       if (drawn.size() == 3 && drawn[0] == drawn[2]) unseen.insert(knob.path);
     }
@@ -342,7 +344,7 @@ TEST_P(KnobSweep, everyKnobAtItsEndsDrawsAndShows) {
     Look look;
     for (const Knob& knob : Look::knobs())
       ASSERT_TRUE(look.set(settingPath(knob), most ? knob.max : knob.min).ok());
-    draw(painted, look, most ? "all at their most" : "all at their least", false, false);
+    draw(painted, look, most ? "all at their most" : "all at their least", false, false, GetParam());
   }
 }
 

@@ -127,7 +127,7 @@ class OceanWaves : public FeatureMoment {
   const gpu::PerFrameBuffer& buffer() const { return buffer_; }
 
  private:
-  // What there is around objects, for shaders, which know of none otherwise.
+  // Gives shaders the zones and basins, of which they know otherwise none.
   void putAround();
   // Where a decoration's mesh is; empty where it draws nothing.
   scene::Bounds decorationBounds(size_t decoration) const;

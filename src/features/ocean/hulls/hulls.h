@@ -58,8 +58,8 @@ class Hulls {
     float highest, lowest, triangle;
     std::function<float(const glm::vec3&)> heightAt;
   };
-  // Where they are now: what they cut out of the sea, and how the sea lies around them, for those that a wave
-  // may reach over.
+  // Finds, for where they are now, what they cut out of the sea, and how the sea lies around them, for those
+  // that a wave may reach over.
   void pose(const world::SceneMotion& motion, const Waves& waves, shared::Cutouts& cutouts,
             std::vector<shared::WaterBasin>& basins) const;
 
